@@ -1,0 +1,26 @@
+//! The vocabulary of turnpath and the traits of its five stages: ordinary Rust, no ABI, no files.
+//!
+//! Lengths are in mm, angles in rad, times in s. θ is the C axis' angle, ρ the distance from the
+//! spindle axis, z points to the tool, material lies below. N = θ/2π counts revolutions.
+
+mod dual;
+mod error;
+mod lanes;
+mod laws;
+mod param;
+mod part;
+mod piecewise;
+mod scalar;
+mod surface;
+mod taylor;
+
+pub use dual::Dual;
+pub use error::{Result, StrategyError};
+pub use lanes::Lanes;
+pub use laws::{SpindleLaw, SpiralLaw, per_radian};
+pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Slot, Strategy, StrategyInfo};
+pub use part::{DEG, Direction, Job, NM, Part, RadialRange, Tolerance, Tool, UM};
+pub use piecewise::{Piece, PiecewisePolynomial};
+pub use scalar::{Mask, Scalar};
+pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
+pub use taylor::{ORDER, Series, Taylor};

@@ -1,0 +1,86 @@
+//! What is cut, with what, how exactly, and in which direction.
+
+use crate::SpindleLaw;
+
+/// A degree in rad.
+pub const DEG: f64 = std::f64::consts::PI / 180.0;
+/// A micrometre in mm.
+pub const UM: f64 = 1e-3;
+/// A nanometre in mm.
+pub const NM: f64 = 1e-6;
+
+/// The part: a disc around the spindle axis, with or without a hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    /// Radius of the aperture, mm.
+    pub aperture_radius: f64,
+    /// Radius of the hole, mm; 0 without one.
+    pub inner_radius: f64,
+}
+
+/// The tool: a round nose in the XZ plane, zero rake.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tool {
+    /// Nose radius R, mm.
+    pub nose_radius: f64,
+    /// Included angle of the edge, rad: contact reaches half of it to either side.
+    pub included_angle: Option<f64>,
+    /// Clearance angle below the edge, rad: the largest slope along the cut.
+    pub clearance_angle: Option<f64>,
+}
+
+impl Tool {
+    /// How far the contact can lie from the centre's X, mm: R·sin(half the included angle).
+    pub fn reach(&self) -> f64 {
+        match self.included_angle {
+            Some(angle) if angle < std::f64::consts::PI => {
+                self.nose_radius * libm::sin(0.5 * angle)
+            }
+            _ => self.nose_radius,
+        }
+    }
+}
+
+/// What the path must keep to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Largest |played − true| tool centre along z, mm.
+    pub interpolation: f64,
+    /// Largest cusp along the profile's normal in the XZ plane, mm.
+    pub residual: f64,
+}
+
+/// A range of the radial parameter ρ, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RadialRange {
+    /// Smallest ρ.
+    pub inner: f64,
+    /// Largest ρ.
+    pub outer: f64,
+}
+
+/// Which way the tool feeds. C increases with time either way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From the rim to the centre.
+    Inward,
+    /// From the centre to the rim.
+    Outward,
+}
+
+/// All that a strategy may know of the job besides the locus.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Job {
+    /// What is cut.
+    pub part: Part,
+    /// With what.
+    pub tool: Tool,
+    /// How exactly.
+    pub tolerance: Tolerance,
+    /// The range of ρ that the path runs over, overrun included.
+    pub range: RadialRange,
+    /// Which way it feeds.
+    pub direction: Direction,
+    /// How fast the spindle turns.
+    pub spindle: SpindleLaw,
+}

@@ -1,0 +1,138 @@
+//! Piecewise polynomials of degree 5 in the count of revolutions, with their knots.
+
+use crate::Series;
+
+/// One polynomial: Σ c_i (n − start)^i from `start` to the next piece's start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Where it begins, in revolutions.
+    pub start: f64,
+    /// Coefficients in local n − start, lowest first.
+    pub coefficients: [f64; 6],
+}
+
+impl Piece {
+    /// Value and derivatives divided by factorials, up to the 4th, at `n`.
+    fn series(&self, n: f64) -> Series {
+        let s = n - self.start;
+        let mut shifted = self.coefficients;
+        for low in 0..5 {
+            for i in (low..5).rev() {
+                shifted[i] += s * shifted[i + 1];
+            }
+        }
+        [shifted[0], shifted[1], shifted[2], shifted[3], shifted[4]]
+    }
+
+    fn value(&self, n: f64) -> f64 {
+        let s = n - self.start;
+        self.coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c)
+    }
+}
+
+/// A function of N in pieces, from 0 to [`PiecewisePolynomial::end`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PiecewisePolynomial {
+    pieces: Vec<Piece>,
+    end: f64,
+}
+
+impl PiecewisePolynomial {
+    /// No piece yet: it begins and ends at 0.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// From pieces in order and the end of the last one.
+    pub fn from_pieces(pieces: Vec<Piece>, end: f64) -> Self {
+        Self { pieces, end }
+    }
+
+    /// Appends a piece of the given length; coefficients in local n, lowest first.
+    pub fn push(&mut self, length: f64, coefficients: [f64; 6]) {
+        self.pieces.push(Piece { start: self.end, coefficients });
+        self.end += length;
+    }
+
+    /// Where the last piece ends, in revolutions.
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// The pieces in order.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// The inner knots within (from, to): where two pieces join.
+    pub fn knots(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
+        let first = self.pieces.partition_point(|piece| piece.start <= from).max(1);
+        let rest = self.pieces.get(first..).unwrap_or_default();
+        rest.iter().map(|piece| piece.start).take_while(move |start| *start < to)
+    }
+
+    /// The value at `n`; the outer pieces go on beyond the ends. NaN without pieces.
+    pub fn value(&self, n: f64) -> f64 {
+        self.piece_after(n).map_or(f64::NAN, |piece| piece.value(n))
+    }
+
+    /// The series in N at `n`; at a knot that of the piece that begins there.
+    pub fn series(&self, n: f64) -> Series {
+        self.piece_after(n).map_or([f64::NAN; 5], |piece| piece.series(n))
+    }
+
+    /// The series in N at `n`; at a knot that of the piece that ends there.
+    pub fn series_before(&self, n: f64) -> Series {
+        let next = self.pieces.partition_point(|piece| piece.start < n);
+        let piece = self.pieces.get(next.saturating_sub(1));
+        piece.map_or([f64::NAN; 5], |piece| piece.series(n))
+    }
+
+    /// The rate at `n`; at a knot the mean of both sides.
+    pub fn rate(&self, n: f64) -> f64 {
+        let after = self.series(n)[1];
+        let before = self.series_before(n)[1];
+        if after == before { after } else { 0.5 * (after + before) }
+    }
+
+    fn piece_after(&self, n: f64) -> Option<&Piece> {
+        let next = self.pieces.partition_point(|piece| piece.start <= n);
+        self.pieces.get(next.saturating_sub(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two_pieces() -> PiecewisePolynomial {
+        let mut law = PiecewisePolynomial::new();
+        law.push(2.0, [1.0, 0.5, 0.0, 0.0, 0.0, 1.0]);
+        law.push(1.0, [34.0, -1.0, 0.25, 0.0, 0.0, 0.0]);
+        law
+    }
+
+    #[test]
+    fn series_is_that_of_the_expanded_polynomial() {
+        let s = two_pieces().series(1.0);
+        assert_eq!(s, [2.5, 5.5, 10.0, 10.0, 5.0]);
+    }
+
+    #[test]
+    fn a_knot_belongs_to_the_piece_that_begins_there() {
+        let law = two_pieces();
+        assert_eq!(law.value(2.0), 34.0);
+        assert_eq!(law.series(2.0)[1], -1.0);
+        assert_eq!(law.series_before(2.0)[1], 80.5);
+        assert_eq!(law.rate(2.0), 39.75);
+        assert_eq!(law.knots(0.0, 3.0).collect::<Vec<_>>(), [2.0]);
+        assert_eq!(law.knots(2.0, 3.0).count(), 0);
+        assert_eq!(law.end(), 3.0);
+    }
+
+    #[test]
+    fn without_pieces_there_is_no_value() {
+        assert!(PiecewisePolynomial::new().value(0.0).is_nan());
+        assert_eq!(PiecewisePolynomial::new().knots(0.0, 1.0).count(), 0);
+    }
+}

@@ -1,0 +1,161 @@
+//! The number that a surface formula is written in.
+//!
+//! A formula written once over [`Scalar`] gives its value (`f64`), many values at a time
+//! ([`Lanes`](crate::Lanes)), its gradient ([`Dual`](crate::Dual)), its derivatives along a curve
+//! ([`Taylor`](crate::Taylor)), and the derivatives of its gradient (`Taylor<Dual<f64>>`).
+//!
+//! All elementary functions end in the crate `libm`, never in the standard library: the latter's
+//! results depend on the CPU, and the same recipe must give the same bytes everywhere.
+
+use std::fmt::Debug;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// The answer of a comparison: one truth value, or one a lane.
+pub trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// Whether it holds in every lane.
+    fn all(self) -> bool;
+    /// Whether it holds in some lane.
+    fn any(self) -> bool;
+}
+
+impl Mask for bool {
+    fn all(self) -> bool {
+        self
+    }
+
+    fn any(self) -> bool {
+        self
+    }
+}
+
+/// A number type with the arithmetic and the elementary functions that surfaces need.
+///
+/// Comparisons look at the value alone, never at derivatives. A formula chooses with
+/// [`Scalar::select`] instead of `if`, because lanes may differ.
+///
+/// ```
+/// use turnpath_core::{Dual, Scalar};
+/// fn sag<S: Scalar>(x: S, y: S) -> S {
+///     x.squared() * 0.1 + (y * 2.0).sin()
+/// }
+/// assert_eq!(sag(1.0, 0.0), 0.1);
+/// let z = sag(Dual::variable_x(1.0), Dual::variable_y(0.0));
+/// assert_eq!((z.value, z.dx, z.dy), (0.1, 0.2, 2.0));
+/// ```
+pub trait Scalar:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+    /// What a comparison gives.
+    type Mask: Mask;
+
+    /// A constant: no derivatives, the same in all lanes.
+    fn constant(value: f64) -> Self;
+    /// `self < other`, by value.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask holds, `no` elsewhere.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// 1 / self.
+    fn recip(self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// eˣ.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// Tangent.
+    fn tan(self) -> Self;
+    /// Arc sine.
+    fn asin(self) -> Self;
+    /// Arc cosine.
+    fn acos(self) -> Self;
+    /// Arc tangent.
+    fn atan(self) -> Self;
+    /// The angle of the point (x, self), −π to π.
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine and cosine.
+    fn sinh_cosh(self) -> (Self, Self);
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// A real power of a positive number.
+    fn powf(self, exponent: f64) -> Self;
+
+    /// An integer power, by squaring; exact derivatives at zero too.
+    fn powi(self, exponent: i32) -> Self {
+        let mut left = exponent.unsigned_abs();
+        let mut square = self;
+        let mut power = Self::constant(1.0);
+        while left > 0 {
+            if left & 1 == 1 {
+                power = power * square;
+            }
+            left >>= 1;
+            if left > 0 {
+                square = square * square;
+            }
+        }
+        if exponent < 0 { power.recip() } else { power }
+    }
+
+    /// self · self.
+    fn squared(self) -> Self {
+        self * self
+    }
+
+    /// Sine.
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    /// Cosine.
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self {
+        self.sinh_cosh().0
+    }
+
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self {
+        self.sinh_cosh().1
+    }
+
+    /// sqrt(self² + other²); like `sqrt`, without derivatives at the origin.
+    fn hypot(self, other: Self) -> Self {
+        (self.squared() + other.squared()).sqrt()
+    }
+
+    /// Absolute value; at zero the derivatives are those of `self`.
+    fn abs(self) -> Self {
+        Self::select(self.less(Self::constant(0.0)), -self, self)
+    }
+
+    /// The smaller one, by value.
+    fn min(self, other: Self) -> Self {
+        Self::select(other.less(self), other, self)
+    }
+
+    /// The larger one, by value.
+    fn max(self, other: Self) -> Self {
+        Self::select(self.less(other), other, self)
+    }
+}
