@@ -54,6 +54,14 @@ impl PiecewisePolynomial {
         self.end += length;
     }
 
+    /// The pieces that touch [from, to], and the same end: what a block needs to know.
+    pub fn window(&self, from: f64, to: f64) -> Self {
+        let first = self.pieces.partition_point(|piece| piece.start < from).saturating_sub(1);
+        let last = self.pieces.partition_point(|piece| piece.start <= to);
+        let pieces = self.pieces.get(first..last).unwrap_or_default().to_vec();
+        Self { pieces, end: self.end }
+    }
+
     /// Where the last piece ends, in revolutions.
     pub fn end(&self) -> f64 {
         self.end
@@ -128,6 +136,14 @@ mod tests {
         assert_eq!(law.knots(0.0, 3.0).collect::<Vec<_>>(), [2.0]);
         assert_eq!(law.knots(2.0, 3.0).count(), 0);
         assert_eq!(law.end(), 3.0);
+    }
+
+    #[test]
+    fn a_window_answers_as_the_whole() {
+        let (law, part) = (two_pieces(), two_pieces().window(2.5, 3.0));
+        assert_eq!(part.pieces().len(), 1);
+        assert_eq!(part.value(2.75), law.value(2.75));
+        assert_eq!(two_pieces().window(2.0, 2.5).rate(2.0), law.rate(2.0));
     }
 
     #[test]
