@@ -159,3 +159,72 @@ pub trait Scalar:
         Self::select(self.less(other), other, self)
     }
 }
+
+/// On `libm`, the square root apart, which is exact everywhere.
+impl Scalar for f64 {
+    type Mask = bool;
+
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
+
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    fn exp(self) -> Self {
+        libm::exp(self)
+    }
+
+    fn ln(self) -> Self {
+        libm::log(self)
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+
+    fn tan(self) -> Self {
+        libm::tan(self)
+    }
+
+    fn asin(self) -> Self {
+        libm::asin(self)
+    }
+
+    fn acos(self) -> Self {
+        libm::acos(self)
+    }
+
+    fn atan(self) -> Self {
+        libm::atan(self)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
+
+    fn sinh_cosh(self) -> (Self, Self) {
+        (libm::sinh(self), libm::cosh(self))
+    }
+
+    fn tanh(self) -> Self {
+        libm::tanh(self)
+    }
+
+    fn powf(self, exponent: f64) -> Self {
+        libm::pow(self, exponent)
+    }
+}

@@ -1,6 +1,6 @@
 //! Surface models: the formula that an author writes, and the batches that the rest uses.
 
-use crate::{Dual, Lanes, Result, Scalar, Series, Taylor};
+use crate::{Dual, Lanes, Result, Scalar, Series, StrategyError, Taylor};
 
 /// A surface z = f(x, y), written once for every number type. Lengths in mm, z towards the tool.
 ///
@@ -45,4 +45,137 @@ pub trait SurfaceModel: Send + Sync {
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()>;
     /// The series of z alone along the curves (x(t), y(t)).
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()>;
+}
+
+/// How many points go through a formula together: enough to fill the vector registers, few
+/// enough that intermediate results stay in them.
+const WIDTH: usize = 8;
+
+impl<T: Surface> SurfaceModel for T {
+    fn sag(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
+        same_lengths(x.len(), &[y.len(), z.len()])?;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
+            *z = Surface::sag(self, Lanes(*x), Lanes(*y)).0;
+        }
+        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
+            *z = Surface::sag(self, *x, *y);
+        }
+        Ok(())
+    }
+
+    fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
+        let Gradients { z, zx, zy } = out;
+        same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        let (zxs, zx_rest) = zx.as_chunks_mut::<WIDTH>();
+        let (zys, zy_rest) = zy.as_chunks_mut::<WIDTH>();
+        for ((((x, y), z), zx), zy) in xs.iter().zip(ys).zip(zs).zip(zxs).zip(zys) {
+            let sag = sag_and_slopes(self, Lanes(*x), Lanes(*y));
+            (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
+        }
+        for ((((x, y), z), zx), zy) in x_rest
+            .iter()
+            .zip(y_rest)
+            .zip(z_rest)
+            .zip(zx_rest)
+            .zip(zy_rest)
+        {
+            let sag = sag_and_slopes(self, *x, *y);
+            (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
+        }
+        Ok(())
+    }
+
+    fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
+        let GradientSeries { z, zx, zy } = out;
+        same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
+        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
+            let mut along_x = Taylor::<Dual<f64>>::from_series(*x);
+            let mut along_y = Taylor::<Dual<f64>>::from_series(*y);
+            along_x.0[0].dx = 1.0;
+            along_y.0[0].dy = 1.0;
+            let sag = Surface::sag(self, along_x, along_y).0;
+            *z = sag.map(|c| c.value);
+            *zx = sag.map(|c| c.dx);
+            *zy = sag.map(|c| c.dy);
+        }
+        Ok(())
+    }
+
+    fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
+        same_lengths(x.len(), &[y.len(), z.len()])?;
+        for ((x, y), z) in x.iter().zip(y).zip(z) {
+            *z = Surface::sag(self, Taylor(*x), Taylor(*y)).0;
+        }
+        Ok(())
+    }
+}
+
+fn sag_and_slopes<T: Surface + ?Sized, S: Scalar>(surface: &T, x: S, y: S) -> Dual<S> {
+    surface.sag(Dual::variable_x(x), Dual::variable_y(y))
+}
+
+fn same_lengths(points: usize, others: &[usize]) -> Result<()> {
+    match others.iter().find(|length| **length != points) {
+        None => Ok(()),
+        Some(length) => Err(StrategyError::failed(format!(
+            "a batch of {points} points came with a slice of length {length}"
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Ripple;
+
+    impl Surface for Ripple {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            (x * 3.0).sin() * y.squared() + x
+        }
+    }
+
+    #[test]
+    fn any_length_of_batch_gives_what_single_points_give() {
+        let x: Vec<f64> = (0..19).map(|i| 0.1 * f64::from(i)).collect();
+        let y: Vec<f64> = x.iter().map(|x| 1.0 - x).collect();
+        for length in 0..x.len() {
+            let mut z = vec![0.0; length];
+            SurfaceModel::sag(&Ripple, &x[..length], &y[..length], &mut z).unwrap();
+            for i in 0..length {
+                assert_eq!(z[i].to_bits(), Surface::sag(&Ripple, x[i], y[i]).to_bits());
+            }
+        }
+    }
+
+    #[test]
+    fn gradient_is_the_closed_form() {
+        let (x, y) = ([0.25; 9], [2.0; 9]);
+        let (mut z, mut zx, mut zy) = ([0.0; 9], [0.0; 9], [0.0; 9]);
+        let out = Gradients {
+            z: &mut z,
+            zx: &mut zx,
+            zy: &mut zy,
+        };
+        Ripple.gradient(&x, &y, out).unwrap();
+        let (sin, cos) = Scalar::sin_cos(0.75);
+        assert_eq!(z, [4.0 * sin + 0.25; 9]);
+        assert_eq!(zx, [12.0 * cos + 1.0; 9]);
+        assert_eq!(zy, [4.0 * sin; 9]);
+    }
+
+    #[test]
+    fn slices_of_unequal_length_are_an_error() {
+        let error = SurfaceModel::sag(&Ripple, &[1.0; 3], &[1.0; 2], &mut [0.0; 3]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "a batch of 3 points came with a slice of length 2"
+        );
+    }
 }

@@ -1,1 +1,286 @@
-//! placeholder
+//! Truncated power series of order 4, and how the elementary functions act on them.
+//!
+//! The recurrences are the usual ones of automatic differentiation (Griewank and Walther,
+//! *Evaluating Derivatives*, 2nd ed., 2008, §13.2): each function f with f' = g·a' gives its
+//! coefficients one after the other, exactly up to rounding.
+
+use std::array::from_fn;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::Scalar;
+use crate::dual::one_minus_square;
+
+/// The order of all series: that of the derivative which bounds the error of a cubic segment.
+pub const ORDER: usize = 4;
+
+/// Coefficients c_k of Σ c_k t^k, k = 0 to [`ORDER`]; the k-th derivative is k!·c_k.
+pub type Series = [f64; ORDER + 1];
+
+/// 1/k, for the recurrences; the first is never used.
+const OVER: [f64; ORDER + 1] = [0.0, 1.0, 0.5, 1.0 / 3.0, 0.25];
+
+/// A series Σ c_k t^k, truncated after order 4, over any other number type.
+///
+/// ```
+/// use turnpath_core::{Scalar, Taylor};
+/// let t = Taylor([0.0, 1.0, 0.0, 0.0, 0.0]);
+/// assert_eq!(t.exp().0, [1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0]);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Taylor<T>(pub [T; ORDER + 1]);
+
+impl<T: Scalar> Taylor<T> {
+    /// A series of plain numbers.
+    #[inline(always)]
+    pub fn from_series(series: Series) -> Self {
+        Self(series.map(T::constant))
+    }
+
+    /// The coefficients k·c_k: those of t·d/dt.
+    #[inline(always)]
+    fn weighted(&self) -> [T; ORDER + 1] {
+        from_fn(|k| self.0[k] * k as f64)
+    }
+
+    /// The series with this constant term whose derivative is `slope` times that of `self`.
+    #[inline(always)]
+    fn integrate(self, value: T, slope: Self) -> Self {
+        let inner = self.weighted();
+        let mut out = [value; ORDER + 1];
+        for k in 1..=ORDER {
+            out[k] = convolve(&inner, &slope.0, 1, k) * OVER[k];
+        }
+        Self(out)
+    }
+
+    /// The two functions with s' = c·a', c' = sign·s·a'.
+    #[inline(always)]
+    fn coupled(self, start: (T, T), sign: f64) -> (Self, Self) {
+        let inner = self.weighted();
+        let (mut s, mut c) = ([start.0; ORDER + 1], [start.1; ORDER + 1]);
+        for k in 1..=ORDER {
+            s[k] = convolve(&inner, &c, 1, k) * OVER[k];
+            c[k] = convolve(&inner, &s, 1, k) * (sign * OVER[k]);
+        }
+        (Self(s), Self(c))
+    }
+
+    /// The function with f' = (w₀ + sign·(f² − f₀²))·a', where w₀ is its slope at the start.
+    #[inline(always)]
+    fn riccati(self, start: T, slope: T, sign: f64) -> Self {
+        let inner = self.weighted();
+        let (mut f, mut w) = ([start; ORDER + 1], [slope; ORDER + 1]);
+        for k in 1..=ORDER {
+            f[k] = convolve(&inner, &w, 1, k) * OVER[k];
+            w[k] = convolve(&f, &f, 0, k) * sign;
+        }
+        Self(f)
+    }
+}
+
+/// Σ a_j·b_{k−j} for j from `first` to `k`.
+#[inline(always)]
+fn convolve<T: Scalar>(a: &[T; ORDER + 1], b: &[T; ORDER + 1], first: usize, k: usize) -> T {
+    let mut sum = a[first] * b[k - first];
+    for j in first + 1..=k {
+        sum = sum + a[j] * b[k - j];
+    }
+    sum
+}
+
+impl<T: Scalar> Add for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
+impl<T: Scalar> Sub for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(from_fn(|k| self.0[k] - other.0[k]))
+    }
+}
+
+impl<T: Scalar> Mul for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(from_fn(|k| convolve(&self.0, &other.0, 0, k)))
+    }
+}
+
+impl<T: Scalar> Div for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let scale = other.0[0].recip();
+        let mut out = [self.0[0] / other.0[0]; ORDER + 1];
+        for k in 1..=ORDER {
+            out[k] = (self.0[k] - convolve(&other.0, &out, 1, k)) * scale;
+        }
+        Self(out)
+    }
+}
+
+impl<T: Scalar> Neg for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(T::neg))
+    }
+}
+
+impl<T: Scalar> Add<f64> for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(mut self, other: f64) -> Self {
+        self.0[0] = self.0[0] + other;
+        self
+    }
+}
+
+impl<T: Scalar> Sub<f64> for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(mut self, other: f64) -> Self {
+        self.0[0] = self.0[0] - other;
+        self
+    }
+}
+
+impl<T: Scalar> Mul<f64> for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        Self(self.0.map(|c| c * other))
+    }
+}
+
+impl<T: Scalar> Div<f64> for Taylor<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: f64) -> Self {
+        Self(self.0.map(|c| c / other))
+    }
+}
+
+impl<T: Scalar> Scalar for Taylor<T> {
+    type Mask = T::Mask;
+
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        let mut out = [T::constant(0.0); ORDER + 1];
+        out[0] = T::constant(value);
+        Self(out)
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> T::Mask {
+        self.0[0].less(other.0[0])
+    }
+
+    #[inline(always)]
+    fn select(mask: T::Mask, yes: Self, no: Self) -> Self {
+        Self(from_fn(|k| T::select(mask, yes.0[k], no.0[k])))
+    }
+
+    #[inline(always)]
+    fn recip(self) -> Self {
+        let value = self.0[0].recip();
+        let mut out = [value; ORDER + 1];
+        for k in 1..=ORDER {
+            out[k] = -convolve(&self.0, &out, 1, k) * value;
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let value = self.0[0].sqrt();
+        let half = value.recip() * 0.5;
+        let mut out = [value; ORDER + 1];
+        out[1] = self.0[1] * half;
+        for k in 2..=ORDER {
+            let mut rest = self.0[k];
+            for j in 1..k {
+                rest = rest - out[j] * out[k - j];
+            }
+            out[k] = rest * half;
+        }
+        Self(out)
+    }
+
+    fn exp(self) -> Self {
+        let inner = self.weighted();
+        let mut out = [self.0[0].exp(); ORDER + 1];
+        for k in 1..=ORDER {
+            out[k] = convolve(&inner, &out, 1, k) * OVER[k];
+        }
+        Self(out)
+    }
+
+    fn ln(self) -> Self {
+        self.integrate(self.0[0].ln(), self.recip())
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        self.coupled(self.0[0].sin_cos(), -1.0)
+    }
+
+    fn tan(self) -> Self {
+        let value = self.0[0].tan();
+        self.riccati(value, value.squared() + 1.0, 1.0)
+    }
+
+    fn asin(self) -> Self {
+        self.integrate(self.0[0].asin(), one_minus_square(self).sqrt().recip())
+    }
+
+    fn acos(self) -> Self {
+        self.integrate(self.0[0].acos(), -one_minus_square(self).sqrt().recip())
+    }
+
+    fn atan(self) -> Self {
+        self.integrate(self.0[0].atan(), (self.squared() + 1.0).recip())
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        let scale = (self.squared() + x.squared()).recip();
+        let (dy, dx) = (self.weighted(), x.weighted());
+        let turn = Self(from_fn(|k| {
+            convolve(&dy, &x.0, 0, k) - convolve(&dx, &self.0, 0, k)
+        }));
+        let mut out = (turn * scale).0;
+        out[0] = self.0[0].atan2(x.0[0]);
+        for k in 1..=ORDER {
+            out[k] = out[k] * OVER[k];
+        }
+        Self(out)
+    }
+
+    fn sinh_cosh(self) -> (Self, Self) {
+        self.coupled(self.0[0].sinh_cosh(), 1.0)
+    }
+
+    fn tanh(self) -> Self {
+        let slope = self.0[0].cosh().recip().squared();
+        self.riccati(self.0[0].tanh(), slope, -1.0)
+    }
+
+    fn powf(self, exponent: f64) -> Self {
+        let scale = self.0[0].recip();
+        let mut out = [self.0[0].powf(exponent); ORDER + 1];
+        for k in 1..=ORDER {
+            let mut sum = T::constant(0.0);
+            for j in 1..=k {
+                let weight = exponent * j as f64 - (k - j) as f64;
+                sum = sum + self.0[j] * out[k - j] * weight;
+            }
+            out[k] = sum * scale * OVER[k];
+        }
+        Self(out)
+    }
+}
