@@ -17,7 +17,17 @@ pub const LADDER: usize = 7;
 /// Weights of t⁻⁴ʰ … t⁴ʰ for the coefficients c_1 … c_4, without their power of h: the central
 /// differences of highest order on 9 points, each over k!.
 const WEIGHTS: [[f64; STENCIL]; 4] = [
-    [1.0 / 280.0, -4.0 / 105.0, 0.2, -0.8, 0.0, 0.8, -0.2, 4.0 / 105.0, -1.0 / 280.0],
+    [
+        1.0 / 280.0,
+        -4.0 / 105.0,
+        0.2,
+        -0.8,
+        0.0,
+        0.8,
+        -0.2,
+        4.0 / 105.0,
+        -1.0 / 280.0,
+    ],
     [
         -1.0 / 1120.0,
         4.0 / 315.0,
@@ -106,14 +116,16 @@ mod tests {
     fn fitted_series_of_a_sine_are_those_of_the_closed_form() {
         let (middle, theta, rho) = (0.7f64, [0.7, 1.0, 0.0, 0.0, 0.0], [2.0, 0.0, 0.0, 0.0, 0.0]);
         let steps = steps(&theta, &rho, 1.0);
-        let values = steps.map(|h| {
-            std::array::from_fn(|j| Scalar::sin(2.0 * (middle + (j as f64 - 4.0) * h)))
-        });
+        let values = steps
+            .map(|h| std::array::from_fn(|j| Scalar::sin(2.0 * (middle + (j as f64 - 4.0) * h))));
         let fitted = fit(&steps, &values);
         let (s, c) = Scalar::sin_cos(2.0 * middle);
         let exact = [s, 2.0 * c, -2.0 * s, -4.0 / 3.0 * c, 2.0 / 3.0 * s];
         for (order, allowed) in [(1, 1e-12), (2, 1e-11), (3, 1e-9), (4, 1e-8)] {
-            assert!((fitted[order] - exact[order]).abs() < allowed, "c_{order}: {fitted:?}");
+            assert!(
+                (fitted[order] - exact[order]).abs() < allowed,
+                "c_{order}: {fitted:?}"
+            );
         }
     }
 }

@@ -77,7 +77,11 @@ pub enum Conflict {
 impl Interference {
     /// The largest nose radius that fits, mm; infinite on a part without hollows.
     pub fn largest_nose_radius(&self) -> f64 {
-        if self.curvature.value > 0.0 { self.curvature.value.recip() } else { f64::INFINITY }
+        if self.curvature.value > 0.0 {
+            self.curvature.value.recip()
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// In which ways the tool does not fit; empty where it does.
@@ -85,15 +89,30 @@ impl Interference {
         let mut found = Vec::new();
         if tool.nose_radius * self.curvature.value >= 1.0 {
             let largest = self.largest_nose_radius();
-            found.push(Conflict::NoseRadius { largest, at: self.curvature.place() });
+            found.push(Conflict::NoseRadius {
+                largest,
+                at: self.curvature.place(),
+            });
         }
-        if tool.included_angle.is_some_and(|angle| self.contact_angle.value > 0.5 * angle) {
+        if tool
+            .included_angle
+            .is_some_and(|angle| self.contact_angle.value > 0.5 * angle)
+        {
             let least = 2.0 * self.contact_angle.value;
-            found.push(Conflict::IncludedAngle { least, at: self.contact_angle.place() });
+            found.push(Conflict::IncludedAngle {
+                least,
+                at: self.contact_angle.place(),
+            });
         }
-        if tool.clearance_angle.is_some_and(|angle| self.cut_angle.value > angle) {
+        if tool
+            .clearance_angle
+            .is_some_and(|angle| self.cut_angle.value > angle)
+        {
             let least = self.cut_angle.value;
-            found.push(Conflict::Clearance { least, at: self.cut_angle.place() });
+            found.push(Conflict::Clearance {
+                least,
+                at: self.cut_angle.place(),
+            });
         }
         found
     }
@@ -115,14 +134,22 @@ pub fn check(cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
             }
         }
     }
-    let mut closed_in = [Extreme { value: 0.0, theta: 0.0, rho: region.inner }; 3];
+    let mut closed_in = [Extreme {
+        value: 0.0,
+        theta: 0.0,
+        rho: region.inner,
+    }; 3];
     for (which, best) in best.into_iter().enumerate() {
         if let Some(best) = best {
             closed_in[which] = grid.close_in(cut, which, best)?;
         }
     }
     let [curvature, contact_angle, cut_angle] = closed_in;
-    Ok(Interference { curvature, contact_angle, cut_angle })
+    Ok(Interference {
+        curvature,
+        contact_angle,
+        cut_angle,
+    })
 }
 
 struct Grid {
@@ -134,14 +161,20 @@ struct Grid {
 impl Grid {
     fn new(region: RadialRange) -> Self {
         let rho_step = (region.outer - region.inner) / RADII as f64;
-        Self { region, theta_step: TAU / ANGLES as f64, rho_step }
+        Self {
+            region,
+            theta_step: TAU / ANGLES as f64,
+            rho_step,
+        }
     }
 
     /// The grid as one batch a radius.
     fn rows(&self) -> impl Iterator<Item = Vec<(f64, f64)>> + '_ {
         (0..=RADII).map(|i| {
             let rho = self.region.inner + i as f64 * self.rho_step;
-            (0..ANGLES).map(|j| (j as f64 * self.theta_step, rho)).collect()
+            (0..ANGLES)
+                .map(|j| (j as f64 * self.theta_step, rho))
+                .collect()
         })
     }
 
@@ -160,7 +193,11 @@ impl Grid {
             let before = best.value;
             for (theta, rho, measures) in measure(cut, &around)? {
                 if measures[which] > best.value {
-                    best = Extreme { value: measures[which], theta, rho };
+                    best = Extreme {
+                        value: measures[which],
+                        theta,
+                        rho,
+                    };
                 }
             }
             if best.value == before {
@@ -191,7 +228,11 @@ fn measure(cut: Cut<'_>, places: &[(f64, f64)]) -> Result<Vec<(f64, f64, [f64; 3
     let along = slopes_along_cut(cut, places)?;
     let mut measured = Vec::with_capacity(places.len());
     for (((theta, rho), profile), along) in places.iter().zip(&profiles).zip(&along) {
-        let values = [profile.curvature(), steepness(profile.slope), steepness(*along)];
+        let values = [
+            profile.curvature(),
+            steepness(profile.slope),
+            steepness(*along),
+        ];
         if values.iter().any(|value| !value.is_finite()) {
             return Err(no_height(*theta, *rho));
         }
@@ -202,22 +243,54 @@ fn measure(cut: Cut<'_>, places: &[(f64, f64)]) -> Result<Vec<(f64, f64, [f64; 3
 
 fn steepness(slope: f64) -> f64 {
     let angle = Scalar::atan(slope.abs());
-    if slope.is_infinite() { FRAC_PI_2 } else { angle }
+    if slope.is_infinite() {
+        FRAC_PI_2
+    } else {
+        angle
+    }
 }
 
 /// g_θ/ρ at each (θ, ρ): the gradient's part across the radius, which the centre has too.
 fn slopes_along_cut(cut: Cut<'_>, places: &[(f64, f64)]) -> Result<Vec<f64>> {
-    let turned: Vec<(f64, f64)> = places.iter().map(|place| Scalar::sin_cos(place.0)).collect();
-    let x: Vec<f64> = places.iter().zip(&turned).map(|(place, (_, c))| place.1 * c).collect();
-    let y: Vec<f64> = places.iter().zip(&turned).map(|(place, (s, _))| place.1 * s).collect();
+    let turned: Vec<(f64, f64)> = places
+        .iter()
+        .map(|place| Scalar::sin_cos(place.0))
+        .collect();
+    let x: Vec<f64> = places
+        .iter()
+        .zip(&turned)
+        .map(|(place, (_, c))| place.1 * c)
+        .collect();
+    let y: Vec<f64> = places
+        .iter()
+        .zip(&turned)
+        .map(|(place, (s, _))| place.1 * s)
+        .collect();
     let mut z = vec![0.0; places.len()];
     let (mut zx, mut zy) = (z.clone(), z.clone());
-    cut.surface.gradient(&x, &y, Gradients { z: &mut z, zx: &mut zx, zy: &mut zy })?;
-    Ok(turned.iter().zip(zx.iter().zip(&zy)).map(|((s, c), (zx, zy))| zy * c - zx * s).collect())
+    cut.surface.gradient(
+        &x,
+        &y,
+        Gradients {
+            z: &mut z,
+            zx: &mut zx,
+            zy: &mut zy,
+        },
+    )?;
+    Ok(turned
+        .iter()
+        .zip(zx.iter().zip(&zy))
+        .map(|((s, c), (zx, zy))| zy * c - zx * s)
+        .collect())
 }
 
 fn no_height(theta: f64, rho: f64) -> StrategyError {
-    let at = Extreme { value: 0.0, theta, rho }.place();
+    let at = Extreme {
+        value: 0.0,
+        theta,
+        rho,
+    }
+    .place();
     let place = format!("x = {:.4} mm, y = {:.4} mm", at.x, at.y);
     StrategyError::failed(format!(
         "the surface has no height, slope or curvature at {place}; choose a smaller aperture"

@@ -65,7 +65,11 @@ impl CentreBuffers {
 
     /// The room, to be written to.
     pub fn as_centres(&mut self) -> Centres<'_> {
-        Centres { x: &mut self.x, z: &mut self.z, foot: &mut self.foot }
+        Centres {
+            x: &mut self.x,
+            z: &mut self.z,
+            foot: &mut self.foot,
+        }
     }
 }
 
@@ -84,19 +88,21 @@ impl ToolLocus {
         compensator: Arc<dyn Compensator>,
         tool: Tool,
     ) -> Self {
-        Self { surface, compensator, tool }
+        Self {
+            surface,
+            compensator,
+            tool,
+        }
     }
 
     fn cut(&self) -> Cut<'_> {
-        Cut { surface: self.surface.as_ref(), tool: &self.tool }
+        Cut {
+            surface: self.surface.as_ref(),
+            tool: &self.tool,
+        }
     }
 
-    fn fitted_series(
-        &self,
-        theta: &[Series],
-        rho: &[Series],
-        out: CentreSeries<'_>,
-    ) -> Result<()> {
+    fn fitted_series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
         let mut room = CentreBuffers::default();
         let places = fit::STENCIL * fit::LADDER;
         room.resize(places);
@@ -118,14 +124,23 @@ impl ToolLocus {
     /// Rates from the series along θ and along ρ.
     fn rates_from_series(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
         let along = |values: &[f64], rate: f64| -> Vec<Series> {
-            values.iter().map(|value| [*value, rate, 0.0, 0.0, 0.0]).collect()
+            values
+                .iter()
+                .map(|value| [*value, rate, 0.0, 0.0, 0.0])
+                .collect()
         };
         let blank = vec![[0.0; 5]; theta.len()];
         let (mut x_turned, mut z_turned) = (blank.clone(), blank.clone());
-        let turned = CentreSeries { x: &mut x_turned, z: &mut z_turned };
+        let turned = CentreSeries {
+            x: &mut x_turned,
+            z: &mut z_turned,
+        };
         self.series(&along(theta, 1.0), &along(rho, 0.0), turned)?;
         let (mut x_moved, mut z_moved) = (blank.clone(), blank);
-        let moved = CentreSeries { x: &mut x_moved, z: &mut z_moved };
+        let moved = CentreSeries {
+            x: &mut x_moved,
+            z: &mut z_moved,
+        };
         self.series(&along(theta, 0.0), &along(rho, 1.0), moved)?;
         for i in 0..theta.len() {
             let slope = z_moved[i][1] / x_moved[i][1];
@@ -156,7 +171,10 @@ impl Locus for ToolLocus {
     }
 
     fn series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
-        let exact = CentreSeries { x: &mut *out.x, z: &mut *out.z };
+        let exact = CentreSeries {
+            x: &mut *out.x,
+            z: &mut *out.z,
+        };
         match self.compensator.exact_series(self.cut(), theta, rho, exact) {
             Some(answer) => answer,
             None => self.fitted_series(theta, rho, out),
@@ -242,7 +260,11 @@ pub fn profile_at(
     out: &mut [Profile],
 ) -> Result<()> {
     let count = theta.len();
-    let (mut x, mut y, mut z) = (vec![[0.0; 5]; count], vec![[0.0; 5]; count], vec![[0.0; 5]; count]);
+    let (mut x, mut y, mut z) = (
+        vec![[0.0; 5]; count],
+        vec![[0.0; 5]; count],
+        vec![[0.0; 5]; count],
+    );
     for i in 0..count {
         let (s, c) = Scalar::sin_cos(theta[i]);
         x[i] = [rho[i] * c, c, 0.0, 0.0, 0.0];
@@ -250,7 +272,11 @@ pub fn profile_at(
     }
     surface.height_series(&x, &y, &mut z)?;
     for (profile, z) in out.iter_mut().zip(&z) {
-        *profile = Profile { height: z[0], slope: z[1], second: 2.0 * z[2] };
+        *profile = Profile {
+            height: z[0],
+            slope: z[1],
+            second: 2.0 * z[2],
+        };
     }
     Ok(())
 }

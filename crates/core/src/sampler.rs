@@ -45,7 +45,8 @@ impl Path<'_> {
     pub fn series_at(&self, n: &[f64], x: &mut [Series], z: &mut [Series]) -> Result<()> {
         let theta: Vec<Series> = n.iter().map(|n| [angle(*n), 1.0, 0.0, 0.0, 0.0]).collect();
         let rho: Vec<Series> = n.iter().map(|n| per_radian(self.law.series(*n))).collect();
-        self.locus.series(&theta, &rho, crate::CentreSeries { x, z })
+        self.locus
+            .series(&theta, &rho, crate::CentreSeries { x, z })
     }
 }
 
@@ -95,7 +96,11 @@ impl Turn {
         let usable = (1.0..=MOST_STEPS).contains(&whole);
         let first = if usable { start } else { f64::NAN };
         let length = end - start;
-        let count = if usable { (length * whole - NODE_SLACK).ceil().max(1.0) } else { 1.0 };
+        let count = if usable {
+            (length * whole - NODE_SLACK).ceil().max(1.0)
+        } else {
+            1.0
+        };
         (0..count as u64).map(move |i| first + i as f64 / whole)
     }
 }
@@ -135,14 +140,28 @@ mod tests {
 
     #[test]
     fn turns_cover_the_block_once() {
-        let turns: Vec<Turn> = Revolutions { start: 64.0, end: 66.25 }.turns().collect();
+        let turns: Vec<Turn> = Revolutions {
+            start: 64.0,
+            end: 66.25,
+        }
+        .turns()
+        .collect();
         assert_eq!(turns.len(), 3);
-        assert_eq!(turns[2], Turn { start: 66.0, end: 66.25 });
+        assert_eq!(
+            turns[2],
+            Turn {
+                start: 66.0,
+                end: 66.25
+            }
+        );
     }
 
     #[test]
     fn a_full_turn_has_as_many_nodes_as_steps() {
-        let turn = Turn { start: 3.0, end: 4.0 };
+        let turn = Turn {
+            start: 3.0,
+            end: 4.0,
+        };
         let nodes: Vec<f64> = turn.subdivide(60.0).collect();
         assert_eq!(nodes.len(), 60);
         assert_eq!(nodes[0], 3.0);
@@ -151,7 +170,10 @@ mod tests {
 
     #[test]
     fn a_part_of_a_turn_keeps_the_step() {
-        let turn = Turn { start: 3.0, end: 3.25 };
+        let turn = Turn {
+            start: 3.0,
+            end: 3.25,
+        };
         let nodes: Vec<f64> = turn.subdivide(60.0).collect();
         assert_eq!(nodes.len(), 15);
         assert_eq!(nodes[1], 3.0 + 1.0 / 60.0);
@@ -159,7 +181,10 @@ mod tests {
 
     #[test]
     fn steps_that_are_no_number_give_a_node_that_is_none() {
-        let turn = Turn { start: 3.0, end: 4.0 };
+        let turn = Turn {
+            start: 3.0,
+            end: 4.0,
+        };
         for steps in [f64::NAN, 0.0, -4.0, f64::INFINITY] {
             assert!(turn.subdivide(steps).all(f64::is_nan));
         }

@@ -34,7 +34,9 @@ pub struct ControlPoint {
 impl ControlPoint {
     /// Whether every number is one.
     pub fn is_finite(&self) -> bool {
-        [self.t, self.c, self.x, self.z, self.vc, self.vx, self.vz].iter().all(|v| v.is_finite())
+        [self.t, self.c, self.x, self.z, self.vc, self.vx, self.vz]
+            .iter()
+            .all(|v| v.is_finite())
     }
 }
 
@@ -99,7 +101,9 @@ impl PathBlock {
 
     /// The segments between neighbouring points.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
-        self.points().zip(self.points().skip(1)).map(|(from, to)| Segment::between(&from, &to))
+        self.points()
+            .zip(self.points().skip(1))
+            .map(|(from, to)| Segment::between(&from, &to))
     }
 }
 

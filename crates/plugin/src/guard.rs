@@ -63,7 +63,10 @@ mod tests {
     fn a_panic_becomes_an_error_that_says_where() {
         let answer: Result<()> = guarded(|| panic!("no such radius"));
         let text = answer.unwrap_err().to_string();
-        assert!(text.contains("no such radius") && text.contains("guard.rs:"), "{text}");
+        assert!(
+            text.contains("no such radius") && text.contains("guard.rs:"),
+            "{text}"
+        );
     }
 
     #[test]

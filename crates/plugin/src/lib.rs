@@ -34,10 +34,12 @@
 
 mod abi;
 mod guard;
+mod offer;
 mod registration;
 
 pub use guard::guarded;
-pub use registration::{Build, Registration, linked};
+pub use offer::{Offer, linked};
+pub use registration::{Build, Registration};
 
 /// Everything that a strategy's author needs.
 pub mod prelude {
@@ -56,7 +58,8 @@ pub mod prelude {
 /// For the host: how a library's plugin is opened.
 #[doc(hidden)]
 pub mod loading {
-    pub use crate::abi::root::{BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX, open};
+    pub use crate::abi::root::{BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX};
+    pub use crate::offer::open;
 }
 
 /// For the macros: what their expansion names.

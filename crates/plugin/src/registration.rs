@@ -52,13 +52,16 @@ macro_rules! registrar {
             crate_name: &'static str,
             crate_version: &'static str,
         ) -> Self {
-            fn build<T: Strategy + $bound + 'static>(
-                params: &Params,
-            ) -> Result<Box<dyn $object>> {
+            fn build<T: Strategy + $bound + 'static>(params: &Params) -> Result<Box<dyn $object>> {
                 Ok(Box::new(T::new(params)?))
             }
             let build = Build::$slot(build::<T>);
-            Self { crate_name, crate_version, info: info::<T>(Slot::$slot), build }
+            Self {
+                crate_name,
+                crate_version,
+                info: info::<T>(Slot::$slot),
+                build,
+            }
         }
     };
 }
@@ -67,15 +70,18 @@ impl Registration {
     registrar!(surfaces, Surface, Surface, SurfaceModel, "surface model");
     registrar!(feeds, Feed, FeedStrategy, FeedStrategy, "feed strategy");
     registrar!(samplers, Sampler, Sampler, Sampler, "sampler");
-    registrar!(compensators, Compensator, Compensator, Compensator, "compensator");
-    registrar!(velocities, Velocity, VelocitySolver, VelocitySolver, "velocity solver");
-}
-
-/// The strategies that are linked into this program or library, sorted by slot and name.
-///
-/// A plugin crate that nothing names is dropped by the linker: `use turnpath_surfaces as _;`.
-pub fn linked() -> Vec<Registration> {
-    let mut all: Vec<Registration> = inventory::iter::<Registration>().copied().collect();
-    all.sort_by_key(|one| (one.info.slot, one.info.name, one.crate_name));
-    all
+    registrar!(
+        compensators,
+        Compensator,
+        Compensator,
+        Compensator,
+        "compensator"
+    );
+    registrar!(
+        velocities,
+        Velocity,
+        VelocitySolver,
+        VelocitySolver,
+        "velocity solver"
+    );
 }
