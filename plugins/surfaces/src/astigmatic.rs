@@ -1,0 +1,30 @@
+//! The astigmatic surface z = k ρ² sin 2θ.
+
+use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+
+/// z = k ρ² sin 2θ = 2k·x·y: a saddle with k·ρ² above and below its tangent plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Astigmatic {
+    twice_k: f64,
+}
+
+impl Strategy for Astigmatic {
+    const NAME: &'static str = "astigmatic";
+    const SUMMARY: &'static str = "a saddle, z = k ρ² sin 2θ";
+    const PARAMS: &'static [Param] = &[Param::per_length(
+        "k",
+        "height over the square of the radius, along the ridge",
+    )];
+
+    fn new(params: &Params) -> Result<Self> {
+        Ok(Self {
+            twice_k: 2.0 * params.per_mm("k"),
+        })
+    }
+}
+
+impl Surface for Astigmatic {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        x * y * self.twice_k
+    }
+}

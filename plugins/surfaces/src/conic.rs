@@ -1,0 +1,41 @@
+//! The conicoid of revolution: sphere, ellipsoid, paraboloid, hyperboloid.
+
+use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+
+/// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)), c = 1/radius, K the conic number.
+///
+/// K = 0 is a sphere, −1 a paraboloid. Where the conicoid does not reach, z is NaN.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conic {
+    curvature: f64,
+    /// (1 + K)c².
+    bend: f64,
+}
+
+impl Strategy for Conic {
+    const NAME: &'static str = "conic";
+    const SUMMARY: &'static str = "a conicoid of revolution: sphere, ellipsoid, paraboloid, …";
+    const SOURCE: &'static str = "ISO 10110-12, the conic section without aspheric terms";
+    const PARAMS: &'static [Param] = &[
+        Param::length(
+            "radius",
+            "radius of curvature at the vertex; positive: concave",
+        )
+        .nonzero(),
+        Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        let curvature = params.length_mm("radius").recip();
+        let bend = (1.0 + params.number("conic")) * curvature * curvature;
+        Ok(Self { curvature, bend })
+    }
+}
+
+impl Surface for Conic {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let square = x.squared() + y.squared();
+        let root = (-(square * self.bend) + 1.0).sqrt();
+        square * self.curvature / (root + 1.0)
+    }
+}

@@ -1,0 +1,15 @@
+//! The surface models of turnpath: one formula a file, written once for every number type.
+
+mod astigmatic;
+mod conic;
+mod off_axis_paraboloid;
+mod sinusoidal_array;
+mod toric;
+mod xy_polynomial;
+
+pub use astigmatic::Astigmatic;
+pub use conic::Conic;
+pub use off_axis_paraboloid::OffAxisParaboloid;
+pub use sinusoidal_array::SinusoidalArray;
+pub use toric::Toric;
+pub use xy_polynomial::XyPolynomial;

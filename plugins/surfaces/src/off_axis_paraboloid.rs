@@ -1,0 +1,61 @@
+//! The segment of a paraboloid away from its axis, in the frame of the segment's own normal.
+
+use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+
+/// A paraboloid's segment, turned so that its middle lies flat at the origin.
+///
+/// The parent has radius R_v at its vertex, and the segment's middle lies x₀ from the parent's
+/// axis, on the side of positive x. With α = atan(x₀/R_v), c = cos α, s = sin α,
+/// B = R_v/c + s·c·x and q = c²x² + y²: z = q / (B ± sqrt(B² − s²q)), + for R_v > 0 (concave),
+/// − for R_v < 0 (convex). Where the paraboloid has no point above (x, y), z is NaN.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OffAxisParaboloid {
+    /// R_v / cos α.
+    slant_radius: f64,
+    /// sin α · cos α.
+    sin_cos: f64,
+    /// sin² α.
+    sin_squared: f64,
+    /// cos² α.
+    cos_squared: f64,
+    /// The sign of R_v.
+    sign: f64,
+}
+
+impl Strategy for OffAxisParaboloid {
+    const NAME: &'static str = "off-axis-paraboloid";
+    const SUMMARY: &'static str = "a paraboloid's segment off its axis, laid flat at its middle";
+    const PARAMS: &'static [Param] = &[
+        Param::length(
+            "vertex_radius",
+            "radius at the parent's vertex; positive: concave",
+        )
+        .nonzero(),
+        Param::length(
+            "off_axis_distance",
+            "from the parent's axis to the middle of the segment",
+        ),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        let vertex_radius = params.length_mm("vertex_radius");
+        let distance = params.length_mm("off_axis_distance");
+        let slant_radius = Scalar::hypot(vertex_radius, distance).copysign(vertex_radius);
+        let (sin, cos) = (distance / slant_radius, vertex_radius / slant_radius);
+        Ok(Self {
+            slant_radius,
+            sin_cos: sin * cos,
+            sin_squared: sin * sin,
+            cos_squared: cos * cos,
+            sign: vertex_radius.signum(),
+        })
+    }
+}
+
+impl Surface for OffAxisParaboloid {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let b = x * self.sin_cos + self.slant_radius;
+        let q = x.squared() * self.cos_squared + y.squared();
+        q / (b + (b.squared() - q * self.sin_squared).sqrt() * self.sign)
+    }
+}

@@ -1,0 +1,67 @@
+//! The torus: a base arc turned about an axis.
+
+use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+
+/// z = R − sqrt((R − a + sqrt(a² − y²))² − x²): the base arc of radius a in the YZ plane, turned
+/// about an axis parallel to Y at the distance R.
+///
+/// R is the radius of curvature along x, a that along y; each positive where concave. Evaluated
+/// without cancellation: with u = y²/a / (1 + sqrt(1 − y²/a²)) the height of the base arc,
+/// z = (2u + (x² − u²)/R) / (1 + sqrt((1 − u/R)² − x²/R²)). Beyond the base arc, and where it
+/// has reached the axis, z is NaN.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Toric {
+    /// 1/R.
+    curvature: f64,
+    /// 1/a.
+    base_curvature: f64,
+}
+
+impl Strategy for Toric {
+    const NAME: &'static str = "toric";
+    const SUMMARY: &'static str = "a torus: a base arc along y, turned about an axis parallel to y";
+    const PARAMS: &'static [Param] = &[
+        Param::length(
+            "radius_rotation",
+            "radius of curvature along x; positive: concave",
+        )
+        .nonzero(),
+        Param::length(
+            "radius_base",
+            "radius of curvature along y; positive: concave",
+        )
+        .nonzero(),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        Ok(Self {
+            curvature: params.length_mm("radius_rotation").recip(),
+            base_curvature: params.length_mm("radius_base").recip(),
+        })
+    }
+}
+
+impl Toric {
+    /// The height u of the base arc at y.
+    fn base_arc<S: Scalar>(&self, y: S) -> S {
+        let slope = y * self.base_curvature;
+        y * slope / (cosine(slope) + 1.0)
+    }
+}
+
+impl Surface for Toric {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let u = self.base_arc(y);
+        let to_axis = -(u * self.curvature) + 1.0;
+        let across = x * self.curvature;
+        let below_root = (to_axis - across) * (to_axis + across);
+        let beyond_axis = to_axis.less(S::constant(0.0));
+        let root = S::select(beyond_axis, S::constant(-1.0), below_root).sqrt();
+        (u * (to_axis + 1.0) + x * across) / (root + 1.0)
+    }
+}
+
+/// sqrt(1 − sine²), without cancellation near 1.
+fn cosine<S: Scalar>(sine: S) -> S {
+    ((-sine + 1.0) * (sine + 1.0)).sqrt()
+}
