@@ -3,6 +3,7 @@
 //! Lengths are in mm, angles in rad, times in s. θ is the C axis' angle, ρ the distance from the
 //! spindle axis, z points to the tool, material lies below. N = θ/2π counts revolutions.
 
+mod decimal;
 mod dual;
 mod error;
 mod lanes;
@@ -10,9 +11,11 @@ mod laws;
 mod param;
 mod part;
 mod piecewise;
+mod quantity;
 mod scalar;
 mod surface;
 mod taylor;
+mod units;
 
 pub use dual::Dual;
 pub use error::{Result, StrategyError};
@@ -21,6 +24,7 @@ pub use laws::{SpindleLaw, SpiralLaw, per_radian};
 pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Slot, Strategy, StrategyInfo};
 pub use part::{DEG, Direction, Job, NM, Part, RadialRange, Tolerance, Tool, UM};
 pub use piecewise::{Piece, PiecewisePolynomial};
+pub use quantity::{Quantity, QuantityError};
 pub use scalar::{Mask, Scalar};
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
