@@ -4,6 +4,7 @@
 //! spindle axis, z points to the tool, material lies below. N = θ/2π counts revolutions.
 
 mod compensator;
+mod decimal;
 mod dual;
 mod error;
 mod feed;
@@ -15,11 +16,13 @@ pub mod locus;
 mod param;
 mod part;
 mod piecewise;
+mod quantity;
 mod sampler;
 mod scalar;
 mod surface;
 mod taylor;
 pub mod toolpath;
+mod units;
 mod velocity;
 
 pub use compensator::{CentreSeries, Centres, Compensator, Cut, Radial, Rates};
@@ -32,6 +35,7 @@ pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Slot, Strategy, StrategyInfo};
 pub use part::{DEG, Direction, Job, NM, Part, RadialRange, Tolerance, Tool, UM};
 pub use piecewise::{Piece, PiecewisePolynomial};
+pub use quantity::{Quantity, QuantityError};
 pub use sampler::{Dependence, Path, Revolutions, Sampler, Turn, angle};
 pub use scalar::{Mask, Scalar};
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
