@@ -1,5 +1,7 @@
 //! Every surface against mpmath (tests/reference/surfaces.py): height, slopes, and their series.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
 use serde_json::Value;
 use turnpath_core::{
     GradientSeries, Gradients, ParamDefault, ParamValue, Params, Series, Strategy, SurfaceModel,

@@ -1,5 +1,7 @@
 //! Surfaces against plain geometry, outside their domain, and with bad parameters.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
 use turnpath_core::{
     Gradients, ParamValue, Params, Strategy, StrategyError, Surface, SurfaceModel,
 };
