@@ -35,6 +35,9 @@ impl StrategyError {
         name: impl Into<Cow<'static, str>>,
         message: impl Into<Cow<'static, str>>,
     ) -> Self {
-        Self::Parameter { name: name.into(), message: message.into() }
+        Self::Parameter {
+            name: name.into(),
+            message: message.into(),
+        }
     }
 }

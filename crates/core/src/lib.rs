@@ -3,24 +3,41 @@
 //! Lengths are in mm, angles in rad, times in s. θ is the C axis' angle, ρ the distance from the
 //! spindle axis, z points to the tool, material lies below. N = θ/2π counts revolutions.
 
+mod compensator;
+mod decimal;
 mod dual;
 mod error;
+mod feed;
+pub mod fit;
+pub mod interference;
 mod lanes;
 mod laws;
+pub mod locus;
 mod param;
 mod part;
 mod piecewise;
+mod quantity;
+mod sampler;
 mod scalar;
 mod surface;
 mod taylor;
+pub mod toolpath;
+mod units;
+mod velocity;
 
+pub use compensator::{CentreSeries, Centres, Compensator, Cut, Radial, Rates};
 pub use dual::Dual;
 pub use error::{Result, StrategyError};
+pub use feed::{FeedPlan, FeedStrategy, Onward, Setup, Stretch};
 pub use lanes::Lanes;
 pub use laws::{SpindleLaw, SpiralLaw, per_radian};
+pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Slot, Strategy, StrategyInfo};
 pub use part::{DEG, Direction, Job, NM, Part, RadialRange, Tolerance, Tool, UM};
 pub use piecewise::{Piece, PiecewisePolynomial};
+pub use quantity::{Quantity, QuantityError};
+pub use sampler::{Dependence, Path, Revolutions, Sampler, Turn, angle};
 pub use scalar::{Mask, Scalar};
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
+pub use velocity::{Nodes, Velocities, VelocitySolver};

@@ -203,7 +203,11 @@ impl Param {
 
     /// Whether a number, in inner units, lies in the declared range.
     pub fn admits(&self, value: f64) -> bool {
-        let above = if self.above_min { value > self.min } else { value >= self.min };
+        let above = if self.above_min {
+            value > self.min
+        } else {
+            value >= self.min
+        };
         value.is_finite() && above && value <= self.max && !(self.nonzero && value == 0.0)
     }
 }
@@ -300,13 +304,16 @@ impl Params {
     }
 
     fn declared_number(&self, name: &str) -> f64 {
-        self.given(name).unwrap_or_else(|| undeclared(name, "number"))
+        self.given(name)
+            .unwrap_or_else(|| undeclared(name, "number"))
     }
 }
 
 #[allow(clippy::panic)]
 fn undeclared(name: &str, kind: &str) -> ! {
-    panic!("the strategy asks for a {kind} `{name}` that it does not declare as one, or that is optional")
+    panic!(
+        "the strategy asks for a {kind} `{name}` that it does not declare as one, or that is optional"
+    )
 }
 
 /// What every strategy says of itself, and how it is made.
@@ -346,8 +353,13 @@ pub enum Slot {
 
 impl Slot {
     /// All slots, in the order of the pipeline.
-    pub const ALL: [Slot; 5] =
-        [Slot::Surface, Slot::Feed, Slot::Sampler, Slot::Compensator, Slot::Velocity];
+    pub const ALL: [Slot; 5] = [
+        Slot::Surface,
+        Slot::Feed,
+        Slot::Sampler,
+        Slot::Compensator,
+        Slot::Velocity,
+    ];
 
     /// The slot's table in a recipe, and its name on the command line.
     pub const fn key(self) -> &'static str {

@@ -26,7 +26,10 @@ impl Piece {
 
     fn value(&self, n: f64) -> f64 {
         let s = n - self.start;
-        self.coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c)
+        self.coefficients
+            .iter()
+            .rev()
+            .fold(0.0, |sum, c| sum * s + c)
     }
 }
 
@@ -50,8 +53,25 @@ impl PiecewisePolynomial {
 
     /// Appends a piece of the given length; coefficients in local n, lowest first.
     pub fn push(&mut self, length: f64, coefficients: [f64; 6]) {
-        self.pieces.push(Piece { start: self.end, coefficients });
+        self.pieces.push(Piece {
+            start: self.end,
+            coefficients,
+        });
         self.end += length;
+    }
+
+    /// The pieces that touch [from, to], and the same end: what a block needs to know.
+    pub fn window(&self, from: f64, to: f64) -> Self {
+        let first = self
+            .pieces
+            .partition_point(|piece| piece.start < from)
+            .saturating_sub(1);
+        let last = self.pieces.partition_point(|piece| piece.start <= to);
+        let pieces = self.pieces.get(first..last).unwrap_or_default().to_vec();
+        Self {
+            pieces,
+            end: self.end,
+        }
     }
 
     /// Where the last piece ends, in revolutions.
@@ -66,9 +86,14 @@ impl PiecewisePolynomial {
 
     /// The inner knots within (from, to): where two pieces join.
     pub fn knots(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
-        let first = self.pieces.partition_point(|piece| piece.start <= from).max(1);
+        let first = self
+            .pieces
+            .partition_point(|piece| piece.start <= from)
+            .max(1);
         let rest = self.pieces.get(first..).unwrap_or_default();
-        rest.iter().map(|piece| piece.start).take_while(move |start| *start < to)
+        rest.iter()
+            .map(|piece| piece.start)
+            .take_while(move |start| *start < to)
     }
 
     /// The value at `n`; the outer pieces go on beyond the ends. NaN without pieces.
@@ -78,7 +103,8 @@ impl PiecewisePolynomial {
 
     /// The series in N at `n`; at a knot that of the piece that begins there.
     pub fn series(&self, n: f64) -> Series {
-        self.piece_after(n).map_or([f64::NAN; 5], |piece| piece.series(n))
+        self.piece_after(n)
+            .map_or([f64::NAN; 5], |piece| piece.series(n))
     }
 
     /// The series in N at `n`; at a knot that of the piece that ends there.
@@ -92,7 +118,11 @@ impl PiecewisePolynomial {
     pub fn rate(&self, n: f64) -> f64 {
         let after = self.series(n)[1];
         let before = self.series_before(n)[1];
-        if after == before { after } else { 0.5 * (after + before) }
+        if after == before {
+            after
+        } else {
+            0.5 * (after + before)
+        }
     }
 
     fn piece_after(&self, n: f64) -> Option<&Piece> {
@@ -128,6 +158,14 @@ mod tests {
         assert_eq!(law.knots(0.0, 3.0).collect::<Vec<_>>(), [2.0]);
         assert_eq!(law.knots(2.0, 3.0).count(), 0);
         assert_eq!(law.end(), 3.0);
+    }
+
+    #[test]
+    fn a_window_answers_as_the_whole() {
+        let (law, part) = (two_pieces(), two_pieces().window(2.5, 3.0));
+        assert_eq!(part.pieces().len(), 1);
+        assert_eq!(part.value(2.75), law.value(2.75));
+        assert_eq!(two_pieces().window(2.0, 2.5).rate(2.0), law.rate(2.0));
     }
 
     #[test]

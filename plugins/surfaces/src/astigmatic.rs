@@ -1,6 +1,6 @@
 //! The astigmatic surface z = k ρ² sin 2θ.
 
-use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+use turnpath_plugin::prelude::*;
 
 /// z = k ρ² sin 2θ = 2k·x·y: a saddle with k·ρ² above and below its tangent plane.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! The conicoid of revolution: sphere, ellipsoid, paraboloid, hyperboloid.
 
-use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+use turnpath_plugin::prelude::*;
 
 /// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)), c = 1/radius, K the conic number.
 ///

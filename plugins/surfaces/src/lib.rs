@@ -13,3 +13,12 @@ pub use off_axis_paraboloid::OffAxisParaboloid;
 pub use sinusoidal_array::SinusoidalArray;
 pub use toric::Toric;
 pub use xy_polynomial::XyPolynomial;
+
+turnpath_plugin::export!(surfaces: [
+    Astigmatic,
+    Conic,
+    OffAxisParaboloid,
+    SinusoidalArray,
+    Toric,
+    XyPolynomial,
+]);

@@ -1,6 +1,6 @@
 //! The segment of a paraboloid away from its axis, in the frame of the segment's own normal.
 
-use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+use turnpath_plugin::prelude::*;
 
 /// A paraboloid's segment, turned so that its middle lies flat at the origin.
 ///

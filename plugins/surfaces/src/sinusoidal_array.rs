@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Param, Params, Result, Scalar, Strategy, StrategyError, Surface};
+use turnpath_plugin::prelude::*;
 
 /// Waves along x and y.
 ///

@@ -1,6 +1,6 @@
 //! The torus: a base arc turned about an axis.
 
-use turnpath_core::{Param, Params, Result, Scalar, Strategy, Surface};
+use turnpath_plugin::prelude::*;
 
 /// z = R − sqrt((R − a + sqrt(a² − y²))² − x²): the base arc of radius a in the YZ plane, turned
 /// about an axis parallel to Y at the distance R.

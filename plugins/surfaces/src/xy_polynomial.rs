@@ -1,6 +1,6 @@
 //! The polynomial in x and y.
 
-use turnpath_core::{Param, Params, Result, Scalar, Strategy, StrategyError, Surface};
+use turnpath_plugin::prelude::*;
 
 /// Largest power of x or y: far beyond what optics use, and small enough for dense coefficients.
 const LARGEST_POWER: usize = 40;

@@ -1,0 +1,102 @@
+//! The compensator: from a place on the part to the place of the tool's nose centre.
+
+use crate::interference::{self, Interference};
+use crate::{RadialRange, Result, Series, SurfaceModel, Tool};
+
+/// What the radial parameter ρ of a compensator is. It decides the feed that holds the residual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Radial {
+    /// ρ is the radius of the contact: neighbouring contacts lie one feed apart.
+    Contact,
+    /// ρ is the tool centre's X: contacts lie further apart than centres on concave parts.
+    Centre,
+}
+
+/// What a compensator works on.
+#[derive(Clone, Copy)]
+pub struct Cut<'a> {
+    /// The surface to be cut.
+    pub surface: &'a dyn SurfaceModel,
+    /// The tool.
+    pub tool: &'a Tool,
+}
+
+/// Where [`Compensator::centre`] writes; as many places as points.
+#[derive(Debug)]
+pub struct Centres<'a> {
+    /// X of the nose centre, mm.
+    pub x: &'a mut [f64],
+    /// Z of the nose centre, mm.
+    pub z: &'a mut [f64],
+    /// Radius of the contact, mm; negative beyond the spindle axis.
+    pub foot: &'a mut [f64],
+}
+
+/// Where [`Compensator::exact_series`] writes: the nose centre along each curve.
+#[derive(Debug)]
+pub struct CentreSeries<'a> {
+    /// X(t).
+    pub x: &'a mut [Series],
+    /// Z(t).
+    pub z: &'a mut [Series],
+}
+
+/// Where [`Compensator::exact_rates`] writes: how the nose centre moves.
+#[derive(Debug)]
+pub struct Rates<'a> {
+    /// ∂X/∂θ at constant ρ, mm/rad.
+    pub x_theta: &'a mut [f64],
+    /// ∂X/∂ρ at constant θ.
+    pub x_rho: &'a mut [f64],
+    /// ∂Z/∂θ at constant X, mm/rad.
+    pub z_theta: &'a mut [f64],
+    /// ∂Z/∂X at constant θ.
+    pub z_x: &'a mut [f64],
+}
+
+/// Places the nose centre for a C angle θ and a radial parameter ρ.
+///
+/// Only [`centre`](Compensator::centre) is needed. What a compensator does not give exactly the
+/// host fits numerically (see [`fit`](crate::fit)). All slices of one call have the same length.
+pub trait Compensator: Send + Sync {
+    /// What ρ is.
+    fn radial(&self) -> Radial;
+
+    /// Whether the nose radius is compensated; if not, the path is that of a point.
+    fn compensates_nose(&self) -> bool {
+        true
+    }
+
+    /// The nose centre and the contact for each (θ, ρ); NaN where there is none.
+    fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()>;
+
+    /// The exact order-4 series of the nose centre along the curves (θ(t), ρ(t)); `None` where
+    /// the compensator has none.
+    fn exact_series(
+        &self,
+        cut: Cut<'_>,
+        theta: &[Series],
+        rho: &[Series],
+        out: CentreSeries<'_>,
+    ) -> Option<Result<()>> {
+        let _ = (cut, theta, rho, out);
+        None
+    }
+
+    /// The exact partial rates of the nose centre; `None` where the compensator has none.
+    fn exact_rates(
+        &self,
+        cut: Cut<'_>,
+        theta: &[f64],
+        rho: &[f64],
+        out: Rates<'_>,
+    ) -> Option<Result<()>> {
+        let _ = (cut, theta, rho, out);
+        None
+    }
+
+    /// Looks for places within `region` (radii of contact) that the tool cannot cut.
+    fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
+        interference::check(cut, region)
+    }
+}

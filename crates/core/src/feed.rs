@@ -1,0 +1,45 @@
+//! The feed strategy: the spiral law, block by block.
+
+use crate::{Job, Locus, Result};
+
+/// The job and the locus, before there is a law.
+#[derive(Clone, Copy)]
+pub struct Setup<'a> {
+    /// Part, tool, tolerance, range of ρ, direction, spindle.
+    pub job: &'a Job,
+    /// Where the nose centre goes.
+    pub locus: &'a dyn Locus,
+}
+
+/// Whether a law goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Onward {
+    /// There is more to come.
+    More,
+    /// The law has reached its end.
+    Done,
+}
+
+/// Plans how far the tool feeds against revolutions.
+pub trait FeedStrategy: Send + Sync {
+    /// Prepares the law: whatever must be known of the whole part before its first piece.
+    fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>>;
+}
+
+/// One piece of a law in the making.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// How many revolutions it covers.
+    pub length: f64,
+    /// Coefficients of ρ in mm against the revolutions since its start, lowest first.
+    pub coefficients: [f64; 6],
+}
+
+/// A law in the making: a state of one's own, asked for the next pieces until it is done.
+pub trait FeedPlan: Send {
+    /// Appends at least one piece; about a revolution's worth or more is a good measure.
+    ///
+    /// The law begins at N = 0 at the rim (inward) or at the inner end (outward). The host checks
+    /// that every turn lies beyond the last.
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward>;
+}

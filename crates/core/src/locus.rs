@@ -1,0 +1,282 @@
+//! The tool locus: where the nose centre goes for a C angle and a radial parameter.
+
+use std::sync::Arc;
+
+use crate::{
+    CentreSeries, Centres, Compensator, Cut, Radial, Rates, Result, Scalar, Series, SurfaceModel,
+    Tool, fit,
+};
+
+/// The largest feed is this part of the nose radius, however concave the part is: where Rκ comes
+/// near 1 the held feed would grow without bound, and its formula stops being true.
+pub const LARGEST_FEED: f64 = 0.1;
+
+/// The locus as strategies see it, and through it the bare surface. Batches; all slices of one
+/// call have the same length.
+pub trait Locus: Send + Sync {
+    /// The bare surface.
+    fn surface(&self) -> &dyn SurfaceModel;
+
+    /// What the radial parameter ρ is.
+    fn radial(&self) -> Radial;
+
+    /// The nose centre and the contact for each (θ, ρ).
+    fn centre(&self, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()>;
+
+    /// The order-4 series of the nose centre along the curves (θ(t), ρ(t)).
+    fn series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()>;
+
+    /// The partial rates of the nose centre at each (θ, ρ).
+    fn rates(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()>;
+
+    /// The feed dρ/dN, mm, that leaves cusps of height `residual` (mm) at each (θ, ρ):
+    /// sqrt(8Rε/(1 − Rκ))/w where ρ is the contact's radius and sqrt(8Rε(1 − Rκ))/w where it is
+    /// the centre's X, with κ and w at the contact, and never above R/10.
+    ///
+    /// `radial` overrides what ρ is taken for.
+    fn held_feed(
+        &self,
+        residual: f64,
+        radial: Radial,
+        theta: &[f64],
+        rho: &[f64],
+        feed: &mut [f64],
+    ) -> Result<()>;
+}
+
+/// Room for the answer of [`Locus::centre`].
+#[derive(Debug, Default, Clone)]
+pub struct CentreBuffers {
+    /// X of the nose centre, mm.
+    pub x: Vec<f64>,
+    /// Z of the nose centre, mm.
+    pub z: Vec<f64>,
+    /// Radius of the contact, mm.
+    pub foot: Vec<f64>,
+}
+
+impl CentreBuffers {
+    /// Makes room for `count` points.
+    pub fn resize(&mut self, count: usize) {
+        for places in [&mut self.x, &mut self.z, &mut self.foot] {
+            places.resize(count, f64::NAN);
+        }
+    }
+
+    /// The room, to be written to.
+    pub fn as_centres(&mut self) -> Centres<'_> {
+        Centres {
+            x: &mut self.x,
+            z: &mut self.z,
+            foot: &mut self.foot,
+        }
+    }
+}
+
+/// Surface, compensator and tool put together.
+#[derive(Clone)]
+pub struct ToolLocus {
+    surface: Arc<dyn SurfaceModel>,
+    compensator: Arc<dyn Compensator>,
+    tool: Tool,
+}
+
+impl ToolLocus {
+    /// The locus of `tool` on `surface` as `compensator` places it.
+    pub fn new(
+        surface: Arc<dyn SurfaceModel>,
+        compensator: Arc<dyn Compensator>,
+        tool: Tool,
+    ) -> Self {
+        Self {
+            surface,
+            compensator,
+            tool,
+        }
+    }
+
+    fn cut(&self) -> Cut<'_> {
+        Cut {
+            surface: self.surface.as_ref(),
+            tool: &self.tool,
+        }
+    }
+
+    fn fitted_series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
+        let mut room = CentreBuffers::default();
+        let places = fit::STENCIL * fit::LADDER;
+        room.resize(places);
+        let (mut at_theta, mut at_rho) = (vec![0.0; places], vec![0.0; places]);
+        for (i, (theta, rho)) in theta.iter().zip(rho).enumerate() {
+            let steps = fit::steps(theta, rho, self.tool.nose_radius);
+            for place in 0..places {
+                let t = steps[place / fit::STENCIL] * ((place % fit::STENCIL) as f64 - 4.0);
+                at_theta[place] = fit::evaluate(theta, t);
+                at_rho[place] = fit::evaluate(rho, t);
+            }
+            self.centre(&at_theta, &at_rho, room.as_centres())?;
+            out.x[i] = fit::fit(&steps, &by_step(&room.x));
+            out.z[i] = fit::fit(&steps, &by_step(&room.z));
+        }
+        Ok(())
+    }
+
+    /// Rates from the series along θ and along ρ.
+    fn rates_from_series(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
+        let along = |values: &[f64], rate: f64| -> Vec<Series> {
+            values
+                .iter()
+                .map(|value| [*value, rate, 0.0, 0.0, 0.0])
+                .collect()
+        };
+        let blank = vec![[0.0; 5]; theta.len()];
+        let (mut x_turned, mut z_turned) = (blank.clone(), blank.clone());
+        let turned = CentreSeries {
+            x: &mut x_turned,
+            z: &mut z_turned,
+        };
+        self.series(&along(theta, 1.0), &along(rho, 0.0), turned)?;
+        let (mut x_moved, mut z_moved) = (blank.clone(), blank);
+        let moved = CentreSeries {
+            x: &mut x_moved,
+            z: &mut z_moved,
+        };
+        self.series(&along(theta, 0.0), &along(rho, 1.0), moved)?;
+        for i in 0..theta.len() {
+            let slope = z_moved[i][1] / x_moved[i][1];
+            out.x_theta[i] = x_turned[i][1];
+            out.x_rho[i] = x_moved[i][1];
+            out.z_x[i] = slope;
+            out.z_theta[i] = z_turned[i][1] - slope * x_turned[i][1];
+        }
+        Ok(())
+    }
+}
+
+fn by_step(values: &[f64]) -> [[f64; fit::STENCIL]; fit::LADDER] {
+    std::array::from_fn(|step| std::array::from_fn(|j| values[step * fit::STENCIL + j]))
+}
+
+impl Locus for ToolLocus {
+    fn surface(&self) -> &dyn SurfaceModel {
+        self.surface.as_ref()
+    }
+
+    fn radial(&self) -> Radial {
+        self.compensator.radial()
+    }
+
+    fn centre(&self, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
+        self.compensator.centre(self.cut(), theta, rho, out)
+    }
+
+    fn series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
+        let exact = CentreSeries {
+            x: &mut *out.x,
+            z: &mut *out.z,
+        };
+        match self.compensator.exact_series(self.cut(), theta, rho, exact) {
+            Some(answer) => answer,
+            None => self.fitted_series(theta, rho, out),
+        }
+    }
+
+    fn rates(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
+        let exact = Rates {
+            x_theta: &mut *out.x_theta,
+            x_rho: &mut *out.x_rho,
+            z_theta: &mut *out.z_theta,
+            z_x: &mut *out.z_x,
+        };
+        match self.compensator.exact_rates(self.cut(), theta, rho, exact) {
+            Some(answer) => answer,
+            None => self.rates_from_series(theta, rho, out),
+        }
+    }
+
+    fn held_feed(
+        &self,
+        residual: f64,
+        radial: Radial,
+        theta: &[f64],
+        rho: &[f64],
+        feed: &mut [f64],
+    ) -> Result<()> {
+        let mut room = CentreBuffers::default();
+        room.resize(theta.len());
+        self.centre(theta, rho, room.as_centres())?;
+        let mut profile = vec![Profile::default(); theta.len()];
+        profile_at(self.surface.as_ref(), theta, &room.foot, &mut profile)?;
+        for (feed, profile) in feed.iter_mut().zip(&profile) {
+            *feed = profile.held_feed(residual, radial, self.tool.nose_radius);
+        }
+        Ok(())
+    }
+}
+
+/// The radial profile z = g(θ, ρ) at one place.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Profile {
+    /// g, mm.
+    pub height: f64,
+    /// g_ρ.
+    pub slope: f64,
+    /// g_ρρ, 1/mm.
+    pub second: f64,
+}
+
+impl Profile {
+    /// w = sqrt(1 + g_ρ²).
+    pub fn stretch(&self) -> f64 {
+        (1.0 + self.slope * self.slope).sqrt()
+    }
+
+    /// κ = g_ρρ/w³, 1/mm; positive where the tool sees a hollow.
+    pub fn curvature(&self) -> f64 {
+        let w = self.stretch();
+        self.second / (w * w * w)
+    }
+
+    /// See [`Locus::held_feed`].
+    pub fn held_feed(&self, residual: f64, radial: Radial, nose_radius: f64) -> f64 {
+        let gap = 1.0 - nose_radius * self.curvature();
+        let cap = LARGEST_FEED * nose_radius;
+        if gap <= 0.0 {
+            return cap;
+        }
+        let squared = match radial {
+            Radial::Contact => 8.0 * nose_radius * residual / gap,
+            Radial::Centre => 8.0 * nose_radius * residual * gap,
+        };
+        (squared.sqrt() / self.stretch()).min(cap)
+    }
+}
+
+/// The radial profiles through each (θ, ρ), with the second derivative.
+pub fn profile_at(
+    surface: &dyn SurfaceModel,
+    theta: &[f64],
+    rho: &[f64],
+    out: &mut [Profile],
+) -> Result<()> {
+    let count = theta.len();
+    let (mut x, mut y, mut z) = (
+        vec![[0.0; 5]; count],
+        vec![[0.0; 5]; count],
+        vec![[0.0; 5]; count],
+    );
+    for i in 0..count {
+        let (s, c) = Scalar::sin_cos(theta[i]);
+        x[i] = [rho[i] * c, c, 0.0, 0.0, 0.0];
+        y[i] = [rho[i] * s, s, 0.0, 0.0, 0.0];
+    }
+    surface.height_series(&x, &y, &mut z)?;
+    for (profile, z) in out.iter_mut().zip(&z) {
+        *profile = Profile {
+            height: z[0],
+            slope: z[1],
+            second: 2.0 * z[2],
+        };
+    }
+    Ok(())
+}

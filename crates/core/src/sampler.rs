@@ -1,0 +1,192 @@
+//! The sampler: where the control points lie along the spiral.
+
+use crate::locus::{CentreBuffers, Locus};
+use crate::{Job, Result, Series, SpiralLaw, per_radian};
+use std::f64::consts::TAU;
+
+/// How a strategy's answer for one block depends on the rest of the path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dependence {
+    /// On the block alone.
+    Local,
+    /// On so many nodes before and after it too.
+    Overlap(usize),
+    /// On all before it: blocks are done in order, with a small state handed on.
+    Sequential,
+}
+
+/// The path that is to be sampled: job, locus and spiral law.
+#[derive(Clone, Copy)]
+pub struct Path<'a> {
+    /// Part, tool, tolerance, range of ρ, direction, spindle.
+    pub job: &'a Job,
+    /// Where the nose centre goes.
+    pub locus: &'a dyn Locus,
+    /// ρ = ℓ(N).
+    pub law: &'a SpiralLaw,
+}
+
+impl Path<'_> {
+    /// ρ after `n` revolutions, mm.
+    pub fn radius_at(&self, n: f64) -> f64 {
+        self.law.value(n)
+    }
+
+    /// The nose centre and the contact after each of `n` revolutions.
+    pub fn centres_at(&self, n: &[f64], out: &mut CentreBuffers) -> Result<()> {
+        let theta: Vec<f64> = n.iter().map(|n| angle(*n)).collect();
+        let rho: Vec<f64> = n.iter().map(|n| self.law.value(*n)).collect();
+        out.resize(n.len());
+        self.locus.centre(&theta, &rho, out.as_centres())
+    }
+
+    /// The order-4 series in θ of the nose centre's (X, Z) along the true spiral, at each of `n`
+    /// revolutions; at a knot of the law those of the piece that begins there.
+    pub fn series_at(&self, n: &[f64], x: &mut [Series], z: &mut [Series]) -> Result<()> {
+        let theta: Vec<Series> = n.iter().map(|n| [angle(*n), 1.0, 0.0, 0.0, 0.0]).collect();
+        let rho: Vec<Series> = n.iter().map(|n| per_radian(self.law.series(*n))).collect();
+        self.locus
+            .series(&theta, &rho, crate::CentreSeries { x, z })
+    }
+}
+
+/// θ after `n` revolutions, reduced to one turn before it is scaled: large N keep their digits.
+pub fn angle(n: f64) -> f64 {
+    TAU * (n - n.floor())
+}
+
+/// A block: a range of revolutions, whole ones but for the path's last.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Revolutions {
+    /// First revolution, included.
+    pub start: f64,
+    /// Where the block ends, not included.
+    pub end: f64,
+}
+
+impl Revolutions {
+    /// The revolutions of the block one by one; the path's last may be a part of one.
+    pub fn turns(&self) -> impl Iterator<Item = Turn> + use<> {
+        let Revolutions { start, end } = *self;
+        let count = (end - start).ceil().max(0.0) as usize;
+        (0..count).map(move |i| Turn {
+            start: start + i as f64,
+            end: (start + (i + 1) as f64).min(end),
+        })
+    }
+}
+
+/// One revolution, or the part of it that belongs to the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// Where it starts, in revolutions.
+    pub start: f64,
+    /// Where it ends, in revolutions.
+    pub end: f64,
+}
+
+impl Turn {
+    /// Nodes from the turn's start at 1/`steps` of a revolution each, up to its end (excluded).
+    ///
+    /// `steps` is rounded up to a whole number. One that is not a number, or not at least 1,
+    /// gives a node that the host refuses.
+    pub fn subdivide(&self, steps: f64) -> impl Iterator<Item = f64> + use<> {
+        let Turn { start, end } = *self;
+        let whole = steps.ceil();
+        let usable = (1.0..=MOST_STEPS).contains(&whole);
+        let first = if usable { start } else { f64::NAN };
+        let length = end - start;
+        let count = if usable {
+            (length * whole - NODE_SLACK).ceil().max(1.0)
+        } else {
+            1.0
+        };
+        (0..count as u64).map(move |i| first + i as f64 / whole)
+    }
+}
+
+/// Most nodes on a revolution that [`Turn::subdivide`] gives: beyond, a mistake is likelier.
+const MOST_STEPS: f64 = 1e7;
+/// A node closer to the turn's end than this part of a step is left out: it would be the end.
+const NODE_SLACK: f64 = 1e-9;
+
+/// Places the control points along the spiral.
+pub trait Sampler: Send + Sync {
+    /// Appends the nodes of `block`, in revolutions, increasing, from block.start (included) to
+    /// block.end (excluded). The host adds the path's first and last point.
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()>;
+
+    /// How a block depends on the others; `Local` unless it says otherwise.
+    fn dependence(&self) -> Dependence {
+        Dependence::Local
+    }
+
+    /// The same for a `Sequential` sampler: `state` is what the block before left, empty at first.
+    fn place_onward(
+        &self,
+        path: &Path<'_>,
+        block: Revolutions,
+        state: &mut Vec<f64>,
+        nodes: &mut Vec<f64>,
+    ) -> Result<()> {
+        let _ = state;
+        self.place(path, block, nodes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_cover_the_block_once() {
+        let turns: Vec<Turn> = Revolutions {
+            start: 64.0,
+            end: 66.25,
+        }
+        .turns()
+        .collect();
+        assert_eq!(turns.len(), 3);
+        assert_eq!(
+            turns[2],
+            Turn {
+                start: 66.0,
+                end: 66.25
+            }
+        );
+    }
+
+    #[test]
+    fn a_full_turn_has_as_many_nodes_as_steps() {
+        let turn = Turn {
+            start: 3.0,
+            end: 4.0,
+        };
+        let nodes: Vec<f64> = turn.subdivide(60.0).collect();
+        assert_eq!(nodes.len(), 60);
+        assert_eq!(nodes[0], 3.0);
+        assert!(nodes[59] < 4.0);
+    }
+
+    #[test]
+    fn a_part_of_a_turn_keeps_the_step() {
+        let turn = Turn {
+            start: 3.0,
+            end: 3.25,
+        };
+        let nodes: Vec<f64> = turn.subdivide(60.0).collect();
+        assert_eq!(nodes.len(), 15);
+        assert_eq!(nodes[1], 3.0 + 1.0 / 60.0);
+    }
+
+    #[test]
+    fn steps_that_are_no_number_give_a_node_that_is_none() {
+        let turn = Turn {
+            start: 3.0,
+            end: 4.0,
+        };
+        for steps in [f64::NAN, 0.0, -4.0, f64::INFINITY] {
+            assert!(turn.subdivide(steps).all(f64::is_nan));
+        }
+    }
+}

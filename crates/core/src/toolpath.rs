@@ -1,0 +1,191 @@
+//! The tool path: control points in blocks, and the cubics that the controller plays between them.
+
+/// What a part of the path is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Section {
+    /// From rest to the part.
+    LeadIn = 0,
+    /// On the part.
+    Cutting = 1,
+    /// From the part to rest.
+    LeadOut = 2,
+}
+
+/// One control point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ControlPoint {
+    /// Time, s.
+    pub t: f64,
+    /// C angle, unwrapped, rad.
+    pub c: f64,
+    /// X of the nose centre, mm.
+    pub x: f64,
+    /// Z of the nose centre, mm.
+    pub z: f64,
+    /// dC/dt, rad/s.
+    pub vc: f64,
+    /// dX/dt, mm/s.
+    pub vx: f64,
+    /// dZ/dt, mm/s.
+    pub vz: f64,
+}
+
+impl ControlPoint {
+    /// Whether every number is one.
+    pub fn is_finite(&self) -> bool {
+        [self.t, self.c, self.x, self.z, self.vc, self.vx, self.vz]
+            .iter()
+            .all(|v| v.is_finite())
+    }
+}
+
+/// Neighbouring control points of one section, a column for each quantity.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PathBlock {
+    /// Time, s.
+    pub t: Vec<f64>,
+    /// C angle, unwrapped, rad.
+    pub c: Vec<f64>,
+    /// X of the nose centre, mm.
+    pub x: Vec<f64>,
+    /// Z of the nose centre, mm.
+    pub z: Vec<f64>,
+    /// dC/dt, rad/s.
+    pub vc: Vec<f64>,
+    /// dX/dt, mm/s.
+    pub vx: Vec<f64>,
+    /// dZ/dt, mm/s.
+    pub vz: Vec<f64>,
+}
+
+impl PathBlock {
+    /// How many control points there are.
+    pub fn len(&self) -> usize {
+        self.t.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.t.is_empty()
+    }
+
+    /// Appends a control point.
+    pub fn push(&mut self, point: ControlPoint) {
+        self.t.push(point.t);
+        self.c.push(point.c);
+        self.x.push(point.x);
+        self.z.push(point.z);
+        self.vc.push(point.vc);
+        self.vx.push(point.vx);
+        self.vz.push(point.vz);
+    }
+
+    /// The control point at `index`, if there is one.
+    pub fn get(&self, index: usize) -> Option<ControlPoint> {
+        Some(ControlPoint {
+            t: *self.t.get(index)?,
+            c: *self.c.get(index)?,
+            x: *self.x.get(index)?,
+            z: *self.z.get(index)?,
+            vc: *self.vc.get(index)?,
+            vx: *self.vx.get(index)?,
+            vz: *self.vz.get(index)?,
+        })
+    }
+
+    /// All control points in order.
+    pub fn points(&self) -> impl Iterator<Item = ControlPoint> + '_ {
+        (0..self.len()).filter_map(|index| self.get(index))
+    }
+
+    /// The segments between neighbouring points.
+    pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
+        self.points()
+            .zip(self.points().skip(1))
+            .map(|(from, to)| Segment::between(&from, &to))
+    }
+}
+
+/// A cubic on s = 0 … 1 in Σ a_i s^i.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cubic(pub [f64; 4]);
+
+impl Cubic {
+    /// The cubic Hermite through (p0, v0) and (p1, v1) that takes `duration`.
+    pub fn hermite(p0: f64, v0: f64, p1: f64, v1: f64, duration: f64) -> Self {
+        let (rise, m0, m1) = (p1 - p0, v0 * duration, v1 * duration);
+        Self([p0, m0, 3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise])
+    }
+
+    /// Its value at `s`.
+    pub fn value(&self, s: f64) -> f64 {
+        let [a, b, c, d] = self.0;
+        a + s * (b + s * (c + s * d))
+    }
+
+    /// Its derivative in s.
+    pub fn slope(&self, s: f64) -> f64 {
+        let [_, b, c, d] = self.0;
+        b + s * (2.0 * c + s * 3.0 * d)
+    }
+
+    /// Its second derivative in s.
+    pub fn bend(&self, s: f64) -> f64 {
+        let [_, _, c, d] = self.0;
+        2.0 * c + 6.0 * s * d
+    }
+
+    /// Its third derivative in s.
+    pub fn jerk(&self) -> f64 {
+        6.0 * self.0[3]
+    }
+}
+
+/// What the controller plays between two control points: a cubic per axis in s = 0 … 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// When it begins, s.
+    pub start: f64,
+    /// How long it takes, s.
+    pub duration: f64,
+    /// C, rad.
+    pub c: Cubic,
+    /// X, mm.
+    pub x: Cubic,
+    /// Z, mm.
+    pub z: Cubic,
+}
+
+impl Segment {
+    /// The PVT move from one control point to the next.
+    pub fn between(from: &ControlPoint, to: &ControlPoint) -> Self {
+        let duration = to.t - from.t;
+        Self {
+            start: from.t,
+            duration,
+            c: Cubic::hermite(from.c, from.vc, to.c, to.vc, duration),
+            x: Cubic::hermite(from.x, from.vx, to.x, to.vx, duration),
+            z: Cubic::hermite(from.z, from.vz, to.z, to.vz, duration),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hermite_gives_back_the_cubic_it_was_made_from() {
+        let p = |t: f64| 2.0 + t * (-1.0 + t * (0.5 + t * 3.0));
+        let v = |t: f64| -1.0 + t * (1.0 + t * 9.0);
+        let cubic = Cubic::hermite(p(0.25), v(0.25), p(0.75), v(0.75), 0.5);
+        for i in 0..=10 {
+            let s = f64::from(i) / 10.0;
+            let t = 0.25 + 0.5 * s;
+            assert!((cubic.value(s) - p(t)).abs() < 1e-14);
+            assert!((cubic.slope(s) - 0.5 * v(t)).abs() < 1e-14);
+        }
+        assert!((cubic.jerk() - 18.0 * 0.125).abs() < 1e-13);
+    }
+}

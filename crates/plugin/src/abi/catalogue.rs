@@ -1,0 +1,204 @@
+//! The list of a library's strategies, as it crosses the boundary.
+
+use abi_stable::StableAbi;
+use abi_stable::std_types::{RStr, RVec};
+use turnpath_core::{Param, ParamDefault, ParamKind, Slot, StrategyInfo};
+
+use crate::Registration;
+
+/// One strategy: texts live as long as the library, which is never unloaded.
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiStrategy {
+    crate_name: RStr<'static>,
+    crate_version: RStr<'static>,
+    slot: u8,
+    name: RStr<'static>,
+    summary: RStr<'static>,
+    source: RStr<'static>,
+    params: RVec<AbiParam>,
+}
+
+#[repr(u8)]
+#[derive(StableAbi)]
+pub enum AbiKind {
+    Length,
+    Angle,
+    PerLength,
+    Feed,
+    Number,
+    Count,
+    Flag,
+    Choice(RVec<RStr<'static>>),
+    Rows(u64),
+}
+
+#[repr(u8)]
+#[derive(StableAbi)]
+pub enum AbiDefault {
+    Required,
+    Absent,
+    Number(f64),
+    Flag(bool),
+    Text(RStr<'static>),
+}
+
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiParam {
+    name: RStr<'static>,
+    help: RStr<'static>,
+    kind: AbiKind,
+    default: AbiDefault,
+    min: f64,
+    max: f64,
+    above_min: bool,
+    nonzero: bool,
+}
+
+impl From<&Registration> for AbiStrategy {
+    fn from(registration: &Registration) -> Self {
+        let Registration {
+            crate_name,
+            crate_version,
+            info,
+            ..
+        } = *registration;
+        Self {
+            crate_name: crate_name.into(),
+            crate_version: crate_version.into(),
+            slot: info.slot as u8,
+            name: info.name.into(),
+            summary: info.summary.into(),
+            source: info.source.into(),
+            params: info.params.iter().map(AbiParam::from).collect(),
+        }
+    }
+}
+
+impl From<&Param> for AbiParam {
+    fn from(param: &Param) -> Self {
+        Self {
+            name: param.name.into(),
+            help: param.help.into(),
+            kind: param.kind.into(),
+            default: param.default.into(),
+            min: param.min,
+            max: param.max,
+            above_min: param.above_min,
+            nonzero: param.nonzero,
+        }
+    }
+}
+
+impl From<ParamKind> for AbiKind {
+    fn from(kind: ParamKind) -> Self {
+        match kind {
+            ParamKind::Length => Self::Length,
+            ParamKind::Angle => Self::Angle,
+            ParamKind::PerLength => Self::PerLength,
+            ParamKind::Feed => Self::Feed,
+            ParamKind::Number => Self::Number,
+            ParamKind::Count => Self::Count,
+            ParamKind::Flag => Self::Flag,
+            ParamKind::Choice(words) => {
+                Self::Choice(words.iter().map(|word| RStr::from(*word)).collect())
+            }
+            ParamKind::Rows(columns) => Self::Rows(columns as u64),
+        }
+    }
+}
+
+impl From<ParamDefault> for AbiDefault {
+    fn from(default: ParamDefault) -> Self {
+        match default {
+            ParamDefault::Required => Self::Required,
+            ParamDefault::Absent => Self::Absent,
+            ParamDefault::Number(value) => Self::Number(value),
+            ParamDefault::Flag(value) => Self::Flag(value),
+            ParamDefault::Text(word) => Self::Text(word.into()),
+        }
+    }
+}
+
+/// A strategy of a catalogue, on the host's side.
+#[derive(Debug, Clone, Copy)]
+pub struct Listed {
+    /// The crate that registered it.
+    pub crate_name: &'static str,
+    /// The crate's version.
+    pub crate_version: &'static str,
+    /// Name, summary, source, parameters.
+    pub info: StrategyInfo,
+}
+
+impl AbiStrategy {
+    /// The strategy on the host's side; `None` for a slot that this host does not know.
+    ///
+    /// Lists of parameters are kept for good, like the library whose texts they point to.
+    pub fn receive(self) -> Option<Listed> {
+        let slot = Slot::ALL
+            .into_iter()
+            .find(|slot| *slot as u8 == self.slot)?;
+        let params: Vec<Param> = self.params.into_iter().map(AbiParam::receive).collect();
+        let info = StrategyInfo {
+            slot,
+            name: self.name.as_str(),
+            summary: self.summary.as_str(),
+            source: self.source.as_str(),
+            params: params.leak(),
+        };
+        let (crate_name, crate_version) = (self.crate_name.as_str(), self.crate_version.as_str());
+        Some(Listed {
+            crate_name,
+            crate_version,
+            info,
+        })
+    }
+}
+
+impl AbiParam {
+    fn receive(self) -> Param {
+        Param {
+            name: self.name.as_str(),
+            help: self.help.as_str(),
+            kind: self.kind.receive(),
+            default: self.default.receive(),
+            min: self.min,
+            max: self.max,
+            above_min: self.above_min,
+            nonzero: self.nonzero,
+        }
+    }
+}
+
+impl AbiKind {
+    fn receive(self) -> ParamKind {
+        match self {
+            Self::Length => ParamKind::Length,
+            Self::Angle => ParamKind::Angle,
+            Self::PerLength => ParamKind::PerLength,
+            Self::Feed => ParamKind::Feed,
+            Self::Number => ParamKind::Number,
+            Self::Count => ParamKind::Count,
+            Self::Flag => ParamKind::Flag,
+            Self::Choice(words) => {
+                let words: Vec<&'static str> = words.iter().map(|word| word.as_str()).collect();
+                ParamKind::Choice(words.leak())
+            }
+            Self::Rows(columns) => ParamKind::Rows(usize::try_from(columns).unwrap_or(usize::MAX)),
+        }
+    }
+}
+
+impl AbiDefault {
+    fn receive(self) -> ParamDefault {
+        match self {
+            Self::Required => ParamDefault::Required,
+            Self::Absent => ParamDefault::Absent,
+            Self::Number(value) => ParamDefault::Number(value),
+            Self::Flag(value) => ParamDefault::Flag(value),
+            Self::Text(word) => ParamDefault::Text(word.as_str()),
+        }
+    }
+}

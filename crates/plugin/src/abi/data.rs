@@ -1,0 +1,273 @@
+//! Plain values that cross the boundary, and their way there and back.
+
+use abi_stable::StableAbi;
+use abi_stable::std_types::{ROption, RResult, RString, RVec};
+use turnpath_core::{
+    Direction, Job, ParamValue, Params, Part, Piece, PiecewisePolynomial, RadialRange, Result,
+    SpindleLaw, StrategyError, Tolerance, Tool,
+};
+
+use crate::guarded;
+
+/// What a call across the boundary gives.
+pub type Answer<T> = RResult<T, AbiError>;
+
+/// Runs code on its own side of the boundary: no panic crosses.
+pub fn answer<T>(run: impl FnOnce() -> Result<T>) -> Answer<T> {
+    guarded(run).map_err(AbiError::from).into()
+}
+
+/// The answer as the core's traits give it.
+pub fn result<T>(answer: Answer<T>) -> Result<T> {
+    answer.into_result().map_err(StrategyError::from)
+}
+
+#[repr(u8)]
+#[derive(StableAbi, Clone, Copy)]
+pub enum AbiErrorKind {
+    Failed,
+    Parameter,
+    Panicked,
+}
+
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiError {
+    kind: AbiErrorKind,
+    parameter: RString,
+    message: RString,
+}
+
+impl From<StrategyError> for AbiError {
+    fn from(error: StrategyError) -> Self {
+        let (kind, parameter, message) = match error {
+            StrategyError::Failed(message) => (AbiErrorKind::Failed, "".into(), message),
+            StrategyError::Parameter { name, message } => (AbiErrorKind::Parameter, name, message),
+            StrategyError::Panicked(message) => (AbiErrorKind::Panicked, "".into(), message),
+        };
+        let (parameter, message) = (parameter.into_owned().into(), message.into_owned().into());
+        Self {
+            kind,
+            parameter,
+            message,
+        }
+    }
+}
+
+impl From<AbiError> for StrategyError {
+    fn from(error: AbiError) -> Self {
+        let message = error.message.into_string().into();
+        match error.kind {
+            AbiErrorKind::Failed => Self::Failed(message),
+            AbiErrorKind::Panicked => Self::Panicked(message),
+            AbiErrorKind::Parameter => Self::Parameter {
+                name: error.parameter.into_string().into(),
+                message,
+            },
+        }
+    }
+}
+
+#[repr(u8)]
+#[derive(StableAbi)]
+pub enum AbiValue {
+    Number(f64),
+    Flag(bool),
+    Text(RString),
+    Rows(RVec<RVec<f64>>),
+}
+
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiArgument {
+    name: RString,
+    value: AbiValue,
+}
+
+/// Parameters on their way to a plugin.
+pub fn arguments(params: &Params) -> RVec<AbiArgument> {
+    let value = |value: &ParamValue| match value {
+        ParamValue::Number(number) => AbiValue::Number(*number),
+        ParamValue::Flag(flag) => AbiValue::Flag(*flag),
+        ParamValue::Text(text) => AbiValue::Text(text.as_str().into()),
+        ParamValue::Rows(rows) => {
+            AbiValue::Rows(rows.iter().map(|row| RVec::from(row.clone())).collect())
+        }
+    };
+    params
+        .iter()
+        .map(|(name, v)| AbiArgument {
+            name: name.into(),
+            value: value(v),
+        })
+        .collect()
+}
+
+/// Parameters as they arrive in a plugin.
+pub fn params(arguments: RVec<AbiArgument>) -> Params {
+    let mut params = Params::new();
+    for AbiArgument { name, value } in arguments {
+        let value = match value {
+            AbiValue::Number(number) => ParamValue::Number(number),
+            AbiValue::Flag(flag) => ParamValue::Flag(flag),
+            AbiValue::Text(text) => ParamValue::Text(text.into_string()),
+            AbiValue::Rows(rows) => {
+                ParamValue::Rows(rows.into_iter().map(RVec::into_vec).collect())
+            }
+        };
+        params.set(name.into_string(), value);
+    }
+    params
+}
+
+#[repr(C)]
+#[derive(StableAbi, Clone, Copy)]
+pub struct AbiTool {
+    nose_radius: f64,
+    included_angle: ROption<f64>,
+    clearance_angle: ROption<f64>,
+}
+
+impl From<&Tool> for AbiTool {
+    fn from(tool: &Tool) -> Self {
+        Self {
+            nose_radius: tool.nose_radius,
+            included_angle: tool.included_angle.into(),
+            clearance_angle: tool.clearance_angle.into(),
+        }
+    }
+}
+
+impl From<AbiTool> for Tool {
+    fn from(tool: AbiTool) -> Self {
+        Self {
+            nose_radius: tool.nose_radius,
+            included_angle: tool.included_angle.into(),
+            clearance_angle: tool.clearance_angle.into(),
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(StableAbi, Clone, Copy)]
+pub struct AbiRange {
+    inner: f64,
+    outer: f64,
+}
+
+impl From<RadialRange> for AbiRange {
+    fn from(range: RadialRange) -> Self {
+        Self {
+            inner: range.inner,
+            outer: range.outer,
+        }
+    }
+}
+
+impl From<AbiRange> for RadialRange {
+    fn from(range: AbiRange) -> Self {
+        Self {
+            inner: range.inner,
+            outer: range.outer,
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(StableAbi, Clone, Copy)]
+pub struct AbiPiece {
+    start: f64,
+    coefficients: [f64; 6],
+}
+
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiLaw {
+    pieces: RVec<AbiPiece>,
+    end: f64,
+}
+
+impl From<&PiecewisePolynomial> for AbiLaw {
+    fn from(law: &PiecewisePolynomial) -> Self {
+        let piece = |p: &Piece| AbiPiece {
+            start: p.start,
+            coefficients: p.coefficients,
+        };
+        Self {
+            pieces: law.pieces().iter().map(piece).collect(),
+            end: law.end(),
+        }
+    }
+}
+
+impl From<&AbiLaw> for PiecewisePolynomial {
+    fn from(law: &AbiLaw) -> Self {
+        let piece = |p: &AbiPiece| Piece {
+            start: p.start,
+            coefficients: p.coefficients,
+        };
+        Self::from_pieces(law.pieces.iter().map(piece).collect(), law.end)
+    }
+}
+
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiJob {
+    aperture_radius: f64,
+    inner_radius: f64,
+    tool: AbiTool,
+    interpolation: f64,
+    residual: f64,
+    range: AbiRange,
+    inward: bool,
+    spindle: AbiLaw,
+}
+
+impl From<&Job> for AbiJob {
+    fn from(job: &Job) -> Self {
+        Self {
+            aperture_radius: job.part.aperture_radius,
+            inner_radius: job.part.inner_radius,
+            tool: (&job.tool).into(),
+            interpolation: job.tolerance.interpolation,
+            residual: job.tolerance.residual,
+            range: job.range.into(),
+            inward: job.direction == Direction::Inward,
+            spindle: job.spindle.as_time().into(),
+        }
+    }
+}
+
+impl From<&AbiJob> for Job {
+    fn from(job: &AbiJob) -> Self {
+        let part = Part {
+            aperture_radius: job.aperture_radius,
+            inner_radius: job.inner_radius,
+        };
+        Self {
+            part,
+            tool: job.tool.into(),
+            tolerance: Tolerance {
+                interpolation: job.interpolation,
+                residual: job.residual,
+            },
+            range: job.range.into(),
+            direction: if job.inward {
+                Direction::Inward
+            } else {
+                Direction::Outward
+            },
+            spindle: SpindleLaw::from_time((&job.spindle).into()),
+        }
+    }
+}
+
+/// Whether all slices of a call have one length; a plugin may count on it, a host must check it.
+pub fn same_length(lengths: &[usize]) -> Result<()> {
+    match lengths.split_first() {
+        Some((first, rest)) if rest.iter().any(|length| length != first) => Err(
+            StrategyError::failed("the slices of a call differ in length"),
+        ),
+        _ => Ok(()),
+    }
+}

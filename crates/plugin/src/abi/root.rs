@@ -1,0 +1,266 @@
+//! What a plugin library exports, and how it is opened.
+
+use std::sync::OnceLock;
+
+use abi_stable::StableAbi;
+use abi_stable::library::{
+    AbiHeaderRef, CheckTypeLayout, LibHeader, LibraryError, RootModule, RootModuleResult,
+};
+use abi_stable::prefix_type::PrefixTypeTrait;
+use abi_stable::sabi_trait::TD_Opaque;
+use abi_stable::sabi_types::VersionStrings;
+use abi_stable::std_types::{RStr, RString, RVec};
+use turnpath_core::{Params, Result, Slot, StrategyError};
+
+use super::catalogue::{AbiStrategy, Listed};
+use super::compensator::{AbiCompensator_TO, OutgoingCompensator, OwnedCompensator};
+use super::data::{AbiArgument, Answer, answer, params};
+use super::feed::{AbiFeed_TO, OutgoingFeed, OwnedFeed};
+use super::sampler::{AbiSampler_TO, OutgoingSampler, OwnedSampler};
+use super::surface::{AbiSurface_TO, Outgoing, OwnedSurface};
+use super::velocity::{AbiVelocity_TO, OutgoingVelocity, OwnedVelocity};
+use crate::{Build, Registration};
+
+/// Which strategy to make, and from what.
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiOrder {
+    pub crate_name: RString,
+    pub name: RString,
+    pub arguments: RVec<AbiArgument>,
+}
+
+/// A library's functions: the catalogue, and one maker for each slot.
+#[repr(C)]
+#[derive(StableAbi)]
+#[sabi(kind(Prefix(prefix_ref = RootRef)))]
+pub struct Root {
+    pub catalogue: extern "C" fn() -> RVec<AbiStrategy>,
+    pub surface: extern "C" fn(AbiOrder) -> Answer<OwnedSurface>,
+    pub feed: extern "C" fn(AbiOrder) -> Answer<OwnedFeed>,
+    pub sampler: extern "C" fn(AbiOrder) -> Answer<OwnedSampler>,
+    pub compensator: extern "C" fn(AbiOrder) -> Answer<OwnedCompensator>,
+    #[sabi(last_prefix_field)]
+    pub velocity: extern "C" fn(AbiOrder) -> Answer<OwnedVelocity>,
+}
+
+impl RootModule for RootRef {
+    abi_stable::declare_root_module_statics! {RootRef}
+    const BASE_NAME: &'static str = "turnpath_plugin";
+    const NAME: &'static str = "turnpath_plugin";
+    const VERSION_STRINGS: VersionStrings = VersionStrings::new(env!("CARGO_PKG_VERSION"));
+}
+
+/// This program's or library's own root.
+pub fn own_root() -> RootRef {
+    static ROOT: OnceLock<RootRef> = OnceLock::new();
+    *ROOT.get_or_init(|| {
+        Root {
+            catalogue,
+            surface,
+            feed,
+            sampler,
+            compensator,
+            velocity,
+        }
+        .leak_into_prefix()
+    })
+}
+
+extern "C" fn catalogue() -> RVec<AbiStrategy> {
+    registrations().iter().map(AbiStrategy::from).collect()
+}
+
+/// The registrations linked in here, in one order whatever the linker did.
+fn registrations() -> Vec<Registration> {
+    let mut all: Vec<Registration> = inventory::iter::<Registration>().copied().collect();
+    all.sort_by_key(|one| (one.info.slot, one.info.name, one.crate_name));
+    all
+}
+
+/// Finds what was ordered and makes it.
+fn make<T>(
+    slot: Slot,
+    order: AbiOrder,
+    with: impl FnOnce(Build, &Params) -> Option<Result<T>>,
+) -> Answer<T> {
+    answer(|| {
+        let AbiOrder {
+            crate_name,
+            name,
+            arguments,
+        } = order;
+        let ordered = |one: &Registration| {
+            one.info.slot == slot && one.info.name == name && one.crate_name == crate_name
+        };
+        registrations()
+            .iter()
+            .find(|one| ordered(one))
+            .and_then(|one| with(one.build, &params(arguments)))
+            .unwrap_or_else(|| {
+                Err(StrategyError::failed(format!(
+                    "there is no {} `{name}` here",
+                    slot.noun()
+                )))
+            })
+    })
+}
+
+macro_rules! maker {
+    ($function:ident, $slot:ident, $owned:ident, $object:ident, $outgoing:ident) => {
+        extern "C" fn $function(order: AbiOrder) -> Answer<$owned> {
+            make(Slot::$slot, order, |build, params| match build {
+                Build::$slot(build) => {
+                    Some(build(params).map(|made| $object::from_value($outgoing(made), TD_Opaque)))
+                }
+                _ => None,
+            })
+        }
+    };
+}
+
+maker!(surface, Surface, OwnedSurface, AbiSurface_TO, Outgoing);
+maker!(feed, Feed, OwnedFeed, AbiFeed_TO, OutgoingFeed);
+maker!(
+    sampler,
+    Sampler,
+    OwnedSampler,
+    AbiSampler_TO,
+    OutgoingSampler
+);
+maker!(
+    compensator,
+    Compensator,
+    OwnedCompensator,
+    AbiCompensator_TO,
+    OutgoingCompensator
+);
+maker!(
+    velocity,
+    Velocity,
+    OwnedVelocity,
+    AbiVelocity_TO,
+    OutgoingVelocity
+);
+
+/// The strategies behind a root, as the host knows them.
+pub fn listed(root: RootRef) -> Vec<Listed> {
+    root.catalogue()()
+        .into_iter()
+        .filter_map(AbiStrategy::receive)
+        .collect()
+}
+
+/// The version of what crosses the boundary: that of this crate.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BoundaryVersion {
+    /// Changes that break.
+    pub major: u32,
+    /// Below 1.0, changes that break too.
+    pub minor: u32,
+    /// Changes that do not.
+    pub patch: u32,
+}
+
+impl std::fmt::Display for BoundaryVersion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}.{}.{}", self.major, self.minor, self.patch)
+    }
+}
+
+/// The version of this build's boundary.
+pub const BOUNDARY_VERSION: BoundaryVersion = BoundaryVersion {
+    major: digits(env!("CARGO_PKG_VERSION_MAJOR")),
+    minor: digits(env!("CARGO_PKG_VERSION_MINOR")),
+    patch: digits(env!("CARGO_PKG_VERSION_PATCH")),
+};
+
+const fn digits(text: &str) -> u32 {
+    let (bytes, mut value, mut i) = (text.as_bytes(), 0, 0);
+    while i < bytes.len() {
+        value = value * 10 + (bytes[i] - b'0') as u32;
+        i += 1;
+    }
+    value
+}
+
+/// What the exported symbol's name begins with; the crate's name follows.
+pub const SYMBOL_PREFIX: &str = "turnpath_plugin_root__";
+/// What the exported static begins with.
+const MAGIC: [u8; 16] = *b"turnpath plugin\0";
+
+/// The beginning of [`PluginEntry`]. It never changes, in any version, so that a host can tell
+/// another version before it looks at anything whose layout may differ.
+#[repr(C)]
+#[derive(Clone, Copy)]
+struct EntryHead {
+    magic: [u8; 16],
+    version: BoundaryVersion,
+}
+
+/// The one static that a plugin library exports.
+#[repr(C)]
+pub struct PluginEntry {
+    head: EntryHead,
+    crate_name: RStr<'static>,
+    header: LibHeader,
+}
+
+/// The entry of the crate with this name; for [`export!`](crate::export).
+pub const fn plugin_entry(crate_name: &'static str) -> PluginEntry {
+    // SAFETY: `constructor` gives a `PrefixRef` that was a `RootRef`.
+    let header =
+        unsafe { LibHeader::from_constructor::<RootRef>(constructor, CheckTypeLayout::Yes) };
+    PluginEntry {
+        head: EntryHead {
+            magic: MAGIC,
+            version: BOUNDARY_VERSION,
+        },
+        crate_name: RStr::from_str(crate_name),
+        header,
+    }
+}
+
+extern "C" fn constructor() -> RootModuleResult {
+    abi_stable::library::__call_root_module_loader(own_root)
+}
+
+/// Why a library's entry could not be opened.
+#[derive(Debug)]
+pub enum OpenError {
+    /// What the symbol points to is no plugin entry.
+    NotAPlugin,
+    /// The plugin was built against another version of the boundary.
+    Version(BoundaryVersion),
+    /// Same version, another layout: another compiler target or a changed boundary crate. The
+    /// text is abi_stable's, hundreds of lines long.
+    Layout(String),
+}
+
+/// Opens the entry that a library exports, and lists the strategies of its own crate.
+///
+/// # Safety
+/// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`], in a library that
+/// stays loaded for the rest of the program.
+pub unsafe fn open(entry: *const u8) -> std::result::Result<(RootRef, Vec<Listed>), OpenError> {
+    // SAFETY: every version of a plugin entry begins with a head; the symbol's name vouches for it.
+    let head = unsafe { entry.cast::<EntryHead>().read_unaligned() };
+    if head.magic != MAGIC {
+        return Err(OpenError::NotAPlugin);
+    }
+    let compatible = (head.version.major, head.version.minor)
+        == (BOUNDARY_VERSION.major, BOUNDARY_VERSION.minor);
+    if !compatible {
+        return Err(OpenError::Version(head.version));
+    }
+    // SAFETY: magic and version say that this is a `PluginEntry`, in a library that stays.
+    let entry = unsafe { &*entry.cast::<PluginEntry>() };
+    // SAFETY: an `AbiHeaderRef` is the address of the header with which a `LibHeader` begins.
+    let header: AbiHeaderRef = unsafe { std::mem::transmute(&raw const entry.header) };
+    let layout = |error: LibraryError| OpenError::Layout(error.to_string());
+    let library = header.upgrade().map_err(layout)?;
+    let root = library.init_root_module::<RootRef>().map_err(layout)?;
+    let own = |one: &Listed| one.crate_name == entry.crate_name.as_str();
+    Ok((root, listed(root).into_iter().filter(own).collect()))
+}

@@ -1,0 +1,190 @@
+//! Samplers across the boundary.
+
+use abi_stable::StableAbi;
+use abi_stable::sabi_trait;
+use abi_stable::std_types::{RBox, RVec};
+use turnpath_core::{Dependence, Path, Result, Revolutions, Sampler, Setup, SpiralLaw};
+
+use super::data::{AbiLaw, Answer, answer, result};
+use super::feed::{AbiSetup, lend_setup};
+
+/// How a strategy depends on its neighbours; `overlap` counts only for `kind` 1.
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiDependence {
+    kind: u8,
+    overlap: u64,
+}
+
+impl From<Dependence> for AbiDependence {
+    fn from(dependence: Dependence) -> Self {
+        match dependence {
+            Dependence::Local => Self {
+                kind: 0,
+                overlap: 0,
+            },
+            Dependence::Overlap(nodes) => Self {
+                kind: 1,
+                overlap: nodes as u64,
+            },
+            Dependence::Sequential => Self {
+                kind: 2,
+                overlap: 0,
+            },
+        }
+    }
+}
+
+impl From<AbiDependence> for Dependence {
+    fn from(dependence: AbiDependence) -> Self {
+        match dependence.kind {
+            0 => Self::Local,
+            1 => Self::Overlap(usize::try_from(dependence.overlap).unwrap_or(usize::MAX)),
+            _ => Self::Sequential,
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiPath<'a> {
+    setup: AbiSetup<'a>,
+    law: AbiLaw,
+    start: f64,
+    end: f64,
+}
+
+fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'_>) -> T) -> T {
+    let Revolutions { start, end } = block;
+    lend_setup(
+        Setup {
+            job: path.job,
+            locus: path.locus,
+        },
+        |setup| {
+            call(AbiPath {
+                setup,
+                law: path.law.into(),
+                start,
+                end,
+            })
+        },
+    )
+}
+
+impl AbiPath<'_> {
+    fn receive<T>(self, call: impl FnOnce(&Path<'_>, Revolutions) -> T) -> T {
+        let block = Revolutions {
+            start: self.start,
+            end: self.end,
+        };
+        let law = SpiralLaw::from(&self.law);
+        self.setup.receive(|Setup { job, locus }| {
+            call(
+                &Path {
+                    job,
+                    locus,
+                    law: &law,
+                },
+                block,
+            )
+        })
+    }
+}
+
+#[sabi_trait]
+pub trait AbiSampler: Send + Sync {
+    fn dependence(&self) -> Answer<AbiDependence>;
+    fn place(&self, path: AbiPath<'_>, nodes: &mut RVec<f64>) -> Answer<()>;
+    #[sabi(last_prefix_field)]
+    fn place_onward(
+        &self,
+        path: AbiPath<'_>,
+        state: &mut RVec<f64>,
+        nodes: &mut RVec<f64>,
+    ) -> Answer<()>;
+}
+
+/// A sampler that its plugin made.
+pub type OwnedSampler = AbiSampler_TO<'static, RBox<()>>;
+
+/// The author's sampler, on its way out.
+pub struct OutgoingSampler(pub Box<dyn Sampler>);
+
+impl AbiSampler for OutgoingSampler {
+    fn dependence(&self) -> Answer<AbiDependence> {
+        answer(|| Ok(self.0.dependence().into()))
+    }
+
+    fn place(&self, path: AbiPath<'_>, nodes: &mut RVec<f64>) -> Answer<()> {
+        answer(|| {
+            let mut placed = Vec::new();
+            path.receive(|path, block| self.0.place(path, block, &mut placed))?;
+            nodes.extend(placed);
+            Ok(())
+        })
+    }
+
+    fn place_onward(
+        &self,
+        path: AbiPath<'_>,
+        state: &mut RVec<f64>,
+        nodes: &mut RVec<f64>,
+    ) -> Answer<()> {
+        answer(|| {
+            let (mut kept, mut placed) = (state.to_vec(), Vec::new());
+            path.receive(|path, block| self.0.place_onward(path, block, &mut kept, &mut placed))?;
+            *state = kept.into();
+            nodes.extend(placed);
+            Ok(())
+        })
+    }
+}
+
+/// A plugin's sampler, as the core's. The dependence is asked once, when the plugin is loaded.
+pub struct IncomingSampler {
+    sampler: OwnedSampler,
+    dependence: Dependence,
+}
+
+impl IncomingSampler {
+    /// Asks the sampler how it depends on its neighbours, and unwraps it.
+    pub fn new(sampler: OwnedSampler) -> Result<Self> {
+        let dependence = result(sampler.dependence())?.into();
+        Ok(Self {
+            sampler,
+            dependence,
+        })
+    }
+}
+
+impl Sampler for IncomingSampler {
+    fn dependence(&self) -> Dependence {
+        self.dependence
+    }
+
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+        let mut placed = RVec::new();
+        result(lend_path(path, block, |path| {
+            self.sampler.place(path, &mut placed)
+        }))?;
+        nodes.extend(placed);
+        Ok(())
+    }
+
+    fn place_onward(
+        &self,
+        path: &Path<'_>,
+        block: Revolutions,
+        state: &mut Vec<f64>,
+        nodes: &mut Vec<f64>,
+    ) -> Result<()> {
+        let (mut kept, mut placed) = (RVec::from(std::mem::take(state)), RVec::new());
+        let answer = lend_path(path, block, |path| {
+            self.sampler.place_onward(path, &mut kept, &mut placed)
+        });
+        *state = kept.into();
+        nodes.extend(placed);
+        result(answer)
+    }
+}

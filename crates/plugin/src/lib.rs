@@ -1,0 +1,105 @@
+//! The only crate that a turnpath plugin depends on: the prelude, the parameters and [`export!`].
+//!
+//! A strategy is an ordinary type with [`Strategy`](prelude::Strategy) and the trait of its slot:
+//!
+//! ```
+//! use turnpath_plugin::prelude::*;
+//!
+//! /// The same count of nodes on every revolution.
+//! struct Even(f64);
+//!
+//! impl Strategy for Even {
+//!     const NAME: &'static str = "even";
+//!     const SUMMARY: &'static str = "the same count of nodes on every revolution";
+//!     const PARAMS: &'static [Param] = &[Param::count("nodes", "nodes a revolution").min(3.0)];
+//!     fn new(p: &Params) -> Result<Self> {
+//!         Ok(Self(p.count("nodes")))
+//!     }
+//! }
+//!
+//! impl Sampler for Even {
+//!     fn place(&self, _: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+//!         nodes.extend(block.turns().flat_map(|turn| turn.subdivide(self.0)));
+//!         Ok(())
+//!     }
+//! }
+//!
+//! turnpath_plugin::export!(samplers: [Even]);
+//! # fn main() {}
+//! ```
+//!
+//! With `crate-type = ["cdylib"]` that is a plugin; with `"rlib"` beside it the same crate links
+//! into a program. The crate's version is the boundary's version: a program loads plugins that
+//! were built against the same one.
+
+mod abi;
+mod guard;
+mod offer;
+mod registration;
+
+pub use guard::guarded;
+pub use offer::{Offer, linked};
+pub use registration::{Build, Registration};
+
+/// Everything that a strategy's author needs.
+pub mod prelude {
+    pub use std::f64::consts::{PI, TAU};
+    pub use turnpath_core::interference::{self, Interference};
+    pub use turnpath_core::{
+        CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence, Direction, Dual,
+        FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus, Mask, NM, Nodes,
+        Onward, Param, Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates,
+        Result, Revolutions, Sampler, Scalar, Series, Setup, SpindleLaw, SpiralLaw, Strategy,
+        StrategyError, Stretch, Surface, SurfaceModel, Taylor, Tolerance, Tool, Turn, UM,
+        Velocities, VelocitySolver, angle, per_radian,
+    };
+}
+
+/// For the host: how a library's plugin is opened.
+#[doc(hidden)]
+pub mod loading {
+    pub use crate::abi::root::{BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX};
+    pub use crate::offer::open;
+}
+
+/// For the macros: what their expansion names.
+#[doc(hidden)]
+pub mod macros {
+    pub use crate::abi::root::{PluginEntry, plugin_entry};
+    pub use inventory;
+}
+
+/// Makes strategies known: to the program that the crate is linked into, and to the host that
+/// loads it as a library.
+///
+/// ```text
+/// turnpath_plugin::export!(feeds: [MyFeed], samplers: [MySampler, MyOther]);
+/// ```
+///
+/// Slots: `surfaces`, `feeds`, `samplers`, `compensators`, `velocities`. Once a crate. A plugin
+/// must unwind on panic: `panic = "abort"` in its profile would end the whole program, so it is
+/// refused here.
+#[macro_export]
+macro_rules! export {
+    ($($slot:ident : [$($strategy:ty),+ $(,)?]),+ $(,)?) => {
+        $($(
+            $crate::macros::inventory::submit! {
+                $crate::Registration::$slot::<$strategy>(
+                    env!("CARGO_CRATE_NAME"),
+                    env!("CARGO_PKG_VERSION"),
+                )
+            }
+        )+)+
+
+        const _: () = {
+            #[cfg(panic = "abort")]
+            compile_error!(
+                "a turnpath plugin must unwind on panic: remove `panic = \"abort\"` from its profile"
+            );
+
+            #[unsafe(export_name = concat!("turnpath_plugin_root__", env!("CARGO_CRATE_NAME")))]
+            pub static TURNPATH_PLUGIN: $crate::macros::PluginEntry =
+                $crate::macros::plugin_entry(env!("CARGO_CRATE_NAME"));
+        };
+    };
+}

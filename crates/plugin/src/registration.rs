@@ -1,0 +1,87 @@
+//! What a plugin crate says of its strategies, and how each one is made.
+
+use turnpath_core::{
+    Compensator, FeedStrategy, Params, Result, Sampler, Slot, Strategy, StrategyInfo, Surface,
+    SurfaceModel, VelocitySolver,
+};
+
+/// How a strategy of each slot is made from its parameters.
+#[derive(Debug, Clone, Copy)]
+pub enum Build {
+    /// A surface model.
+    Surface(fn(&Params) -> Result<Box<dyn SurfaceModel>>),
+    /// A feed strategy.
+    Feed(fn(&Params) -> Result<Box<dyn FeedStrategy>>),
+    /// A sampler.
+    Sampler(fn(&Params) -> Result<Box<dyn Sampler>>),
+    /// A compensator.
+    Compensator(fn(&Params) -> Result<Box<dyn Compensator>>),
+    /// A velocity solver.
+    Velocity(fn(&Params) -> Result<Box<dyn VelocitySolver>>),
+}
+
+/// One strategy of one plugin crate.
+#[derive(Debug, Clone, Copy)]
+pub struct Registration {
+    /// The crate that registered it; a library may hold other plugins' code too.
+    pub crate_name: &'static str,
+    /// The crate's version.
+    pub crate_version: &'static str,
+    /// Name, summary, source and parameters.
+    pub info: StrategyInfo,
+    /// How it is made.
+    pub build: Build,
+}
+
+inventory::collect!(Registration);
+
+const fn info<T: Strategy>(slot: Slot) -> StrategyInfo {
+    StrategyInfo {
+        slot,
+        name: T::NAME,
+        summary: T::SUMMARY,
+        source: T::SOURCE,
+        params: T::PARAMS,
+    }
+}
+
+macro_rules! registrar {
+    ($name:ident, $slot:ident, $bound:ident, $object:ident, $what:literal) => {
+        #[doc = concat!("Registers a ", $what, "; used by [`export!`](crate::export).")]
+        pub const fn $name<T: Strategy + $bound + 'static>(
+            crate_name: &'static str,
+            crate_version: &'static str,
+        ) -> Self {
+            fn build<T: Strategy + $bound + 'static>(params: &Params) -> Result<Box<dyn $object>> {
+                Ok(Box::new(T::new(params)?))
+            }
+            let build = Build::$slot(build::<T>);
+            Self {
+                crate_name,
+                crate_version,
+                info: info::<T>(Slot::$slot),
+                build,
+            }
+        }
+    };
+}
+
+impl Registration {
+    registrar!(surfaces, Surface, Surface, SurfaceModel, "surface model");
+    registrar!(feeds, Feed, FeedStrategy, FeedStrategy, "feed strategy");
+    registrar!(samplers, Sampler, Sampler, Sampler, "sampler");
+    registrar!(
+        compensators,
+        Compensator,
+        Compensator,
+        Compensator,
+        "compensator"
+    );
+    registrar!(
+        velocities,
+        Velocity,
+        VelocitySolver,
+        VelocitySolver,
+        "velocity solver"
+    );
+}

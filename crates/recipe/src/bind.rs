@@ -1,0 +1,188 @@
+//! Checks the parameters that a recipe gives a strategy against the strategy's declarations.
+
+use turnpath_core::{
+    Param, ParamDefault, ParamKind, ParamValue, Params, Quantity, Slot, StrategyInfo,
+};
+
+use crate::choice::Choice;
+use crate::declared::{example, range, shown};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::document::{Entry, Node};
+use crate::recipe::Recipe;
+use crate::suggest::{did_you_mean, listed, quoted};
+use crate::value;
+
+impl Recipe {
+    /// The parameters of the strategy chosen for a slot, checked against its declarations:
+    /// defaults filled in, optional ones absent.
+    pub fn bind(&self, slot: Slot, info: &StrategyInfo) -> Result<Params, Diagnostics> {
+        self.choice(slot).bind(info)
+    }
+
+    /// The message that no strategy of the chosen name is known.
+    pub fn unknown_strategy(&self, slot: Slot, known: &[&str]) -> Diagnostic {
+        self.choice(slot).unknown(known)
+    }
+}
+
+impl Choice {
+    /// The parameters, checked against the declarations of the strategy.
+    pub fn bind(&self, info: &StrategyInfo) -> Result<Params, Diagnostics> {
+        let mut found: Vec<Diagnostic> = self
+            .params
+            .iter()
+            .filter_map(|entry| self.unknown_param(entry, info))
+            .collect();
+        let mut params = Params::new();
+        for param in info.params {
+            match self.value_of(param) {
+                Ok(Some(value)) => params.set(param.name, value),
+                Ok(None) => {}
+                Err(diagnostic) => found.push(diagnostic),
+            }
+        }
+        Diagnostics::unless_any(Some(params), found)
+    }
+
+    /// The message that no strategy of this name is known.
+    pub fn unknown(&self, known: &[&str]) -> Diagnostic {
+        let noun = self.slot.noun();
+        let mut sorted = known.to_vec();
+        sorted.sort_unstable();
+        let title = format!("no {noun} named {}", quoted(self.name()));
+        let diagnostic = Diagnostic::new(self.name.place.clone(), title)
+            .label(format!("unknown {noun}"))
+            .helps(did_you_mean(self.name(), &sorted));
+        if sorted.is_empty() {
+            diagnostic.help(format!("no {noun} was found at all; give --plugin-dir DIR"))
+        } else {
+            diagnostic.help(format!("known: {}", listed(&sorted)))
+        }
+    }
+
+    fn unknown_param(&self, entry: &Entry, info: &StrategyInfo) -> Option<Diagnostic> {
+        if info.params.iter().any(|param| param.name == entry.key) {
+            return None;
+        }
+        let names: Vec<&str> = info.params.iter().map(|param| param.name).collect();
+        let noun = self.slot.noun();
+        let title = format!(
+            "the {noun} `{}` has no parameter {}",
+            info.name,
+            quoted(&entry.key)
+        );
+        let list = if names.is_empty() {
+            format!("`{}` has no parameters", info.name)
+        } else {
+            format!("parameters of `{}`: {}", info.name, listed(&names))
+        };
+        let diagnostic = Diagnostic::new(entry.place.clone(), title)
+            .label("unknown parameter")
+            .helps(did_you_mean(&entry.key, &names))
+            .help(list);
+        Some(diagnostic.helps(self.left_over(entry)))
+    }
+
+    /// A key of the file that a `--set` of `use` left behind.
+    fn left_over(&self, entry: &Entry) -> Option<String> {
+        let chosen_later = self.name.place.source().rank > entry.place.source().rank;
+        chosen_later.then(|| {
+            format!(
+                "`--set {slot}.use` keeps the table's other keys; to replace the whole table: \
+                 --set '{slot}={{ use = \"{name}\" }}'",
+                slot = self.slot,
+                name = self.name()
+            )
+        })
+    }
+
+    fn value_of(&self, param: &Param) -> Result<Option<ParamValue>, Diagnostic> {
+        match self.param(param.name) {
+            Some(entry) => read(param, &entry.node).map(Some),
+            None => match param.default {
+                ParamDefault::Number(value) => Ok(Some(ParamValue::Number(value))),
+                ParamDefault::Flag(flag) => Ok(Some(ParamValue::Flag(flag))),
+                ParamDefault::Text(word) => Ok(Some(ParamValue::Text(word.to_owned()))),
+                ParamDefault::Absent => Ok(None),
+                ParamDefault::Required => Err(self.missing(param)),
+            },
+        }
+    }
+
+    fn missing(&self, param: &Param) -> Diagnostic {
+        let title = format!(
+            "the {} `{}` needs `{}`",
+            self.slot.noun(),
+            self.name(),
+            param.name
+        );
+        Diagnostic::new(self.name.place.clone(), title)
+            .label(format!("`{}` is missing: {}", param.name, param.help))
+            .help(format!(
+                "add to [{}] a line such as: {} = {}",
+                self.slot,
+                param.name,
+                example(param)
+            ))
+    }
+}
+
+/// A parameter's value as written, of the declared kind and in the declared range.
+fn read(param: &Param, node: &Node) -> Result<ParamValue, Diagnostic> {
+    let key = param.name;
+    match param.kind {
+        ParamKind::Flag => Ok(ParamValue::Flag(value::flag(key, node)?)),
+        ParamKind::Choice(words) => Ok(ParamValue::Text(value::word(key, node, words)?.to_owned())),
+        ParamKind::Rows(columns) => Ok(ParamValue::Rows(rows(key, node, columns)?)),
+        kind => {
+            let number = match Quantity::of(kind) {
+                Some(quantity) => value::quantity(key, node, quantity)?,
+                None => value::number(key, node)?,
+            };
+            whole_if_count(param, node, number)?;
+            in_range(param, node, number)?;
+            Ok(ParamValue::Number(number))
+        }
+    }
+}
+
+fn whole_if_count(param: &Param, node: &Node, number: f64) -> Result<(), Diagnostic> {
+    /// Above this, doubles skip whole numbers.
+    const LARGEST_COUNT: f64 = 9_007_199_254_740_992.0;
+    if param.kind != ParamKind::Count || (number.floor() == number && number <= LARGEST_COUNT) {
+        return Ok(());
+    }
+    let title = format!("`{}` must be a whole number", param.name);
+    Err(Diagnostic::new(node.place.clone(), title)
+        .label("a count belongs here")
+        .help(format!("for example: {} = {}", param.name, example(param))))
+}
+
+fn in_range(param: &Param, node: &Node, number: f64) -> Result<(), Diagnostic> {
+    if param.admits(number) {
+        return Ok(());
+    }
+    let title = format!("`{}` must be {}", param.name, range(param));
+    Err(Diagnostic::new(node.place.clone(), title)
+        .label(format!("this is {}", shown(param.kind, number)))
+        .help(format!("`{}`: {}", param.name, param.help)))
+}
+
+fn rows(key: &str, node: &Node, columns: usize) -> Result<Vec<Vec<f64>>, Diagnostic> {
+    value::items(key, node)?
+        .iter()
+        .map(|item| row(key, item, columns))
+        .collect()
+}
+
+fn row(key: &str, node: &Node, columns: usize) -> Result<Vec<f64>, Diagnostic> {
+    let wanted = format!("a list of rows of {columns} numbers");
+    let items = value::items(key, node).map_err(|_| value::wrong_type(key, node, &wanted))?;
+    if items.len() != columns {
+        let title = format!("a row of `{key}` must have {columns} numbers");
+        return Err(
+            Diagnostic::new(node.place.clone(), title).label(format!("this has {}", items.len()))
+        );
+    }
+    items.iter().map(|item| value::number(key, item)).collect()
+}

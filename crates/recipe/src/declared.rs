@@ -1,0 +1,118 @@
+//! Declarations of parameters in words: ranges and examples, for messages.
+
+use turnpath_core::{Param, ParamDefault, ParamKind, Quantity};
+
+/// A value in inner units as a recipe would say it.
+pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
+    match Quantity::of(kind) {
+        Some(quantity) => quantity.format(value),
+        None => value.to_string(),
+    }
+}
+
+/// The declared range: "above 0 mm and at most 5 mm", "at least 3", "not zero".
+pub(crate) fn range(param: &Param) -> String {
+    let limit = |value: f64| shown(param.kind, value);
+    let mut parts = Vec::new();
+    if param.min > f64::NEG_INFINITY {
+        let word = if param.above_min { "above" } else { "at least" };
+        parts.push(format!("{word} {}", limit(param.min)));
+    }
+    if param.max < f64::INFINITY {
+        parts.push(format!("at most {}", limit(param.max)));
+    }
+    if param.nonzero {
+        parts.push("not zero".to_owned());
+    }
+    if parts.is_empty() {
+        "a finite number".to_owned()
+    } else {
+        parts.join(" and ")
+    }
+}
+
+/// A value that the declaration admits, as it would stand in a recipe.
+pub(crate) fn example(param: &Param) -> String {
+    match (param.kind, param.default) {
+        (ParamKind::Flag, ParamDefault::Flag(flag)) => flag.to_string(),
+        (ParamKind::Flag, _) => "true".to_owned(),
+        (ParamKind::Choice(_), ParamDefault::Text(word)) => format!("\"{word}\""),
+        (ParamKind::Choice(words), _) => format!("\"{}\"", words.first().unwrap_or(&"")),
+        (ParamKind::Rows(columns), _) => example_rows(columns),
+        (_, ParamDefault::Number(value)) => written(param.kind, value),
+        _ => written(param.kind, example_number(param)),
+    }
+}
+
+fn written(kind: ParamKind, value: f64) -> String {
+    match Quantity::of(kind) {
+        Some(quantity) => format!("\"{}\"", quantity.format(value)),
+        None => value.to_string(),
+    }
+}
+
+fn example_rows(columns: usize) -> String {
+    let row: Vec<&str> = (0..columns)
+        .map(|column| if column == 0 { "2" } else { "0" })
+        .collect();
+    format!("[[{}]]", row.join(", "))
+}
+
+/// The usual value of the kind, or one of another size that is in range.
+fn example_number(param: &Param) -> f64 {
+    let usual = match (param.kind, Quantity::of(param.kind)) {
+        (ParamKind::Count, _) => 36.0,
+        (_, Some(quantity)) => quantity.parse(quantity.example()).unwrap_or(1.0),
+        _ => 0.5,
+    };
+    let sizes = [1.0, 0.1, 10.0, 0.01, 100.0, 1e-3, 1e3, 1e-6, 1e6];
+    let tried = sizes.iter().flat_map(|size| [usual * size, -usual * size]);
+    let limits = [param.min, param.max];
+    let whole = |value: &f64| param.kind != ParamKind::Count || value.floor() == *value;
+    tried
+        .chain(limits)
+        .find(|value| whole(value) && param.admits(*value))
+        .unwrap_or(usual)
+}
+
+#[cfg(test)]
+mod tests {
+    use turnpath_core::DEG;
+
+    use super::*;
+
+    #[test]
+    fn ranges_are_said_in_readable_units() {
+        let step = Param::angle("max_step", "").positive().max(180.0 * DEG);
+        assert_eq!(range(&step), "above 0 deg and at most 180 deg");
+        assert_eq!(range(&Param::count("at_least", "").min(3.0)), "at least 3");
+        assert_eq!(range(&Param::length("radius", "").nonzero()), "not zero");
+    }
+
+    #[test]
+    fn examples_are_in_range() {
+        assert_eq!(
+            example(&Param::length("spacing", "").positive()),
+            "\"5 mm\""
+        );
+        assert_eq!(
+            example(&Param::length("spacing", "").positive().max(0.1)),
+            "\"50 um\""
+        );
+        assert_eq!(
+            example(&Param::feed("feed", "").positive()),
+            "\"10 um/rev\""
+        );
+        assert_eq!(example(&Param::count("at_least", "").min(50.0)), "360");
+        assert_eq!(example(&Param::number("conic", "").max(-0.75)), "-5");
+        assert_eq!(example(&Param::rows("terms", 3, "")), "[[2, 0, 0]]");
+        assert_eq!(
+            example(&Param::angle("max_step", "").default(45.0 * DEG)),
+            "\"45 deg\""
+        );
+        assert_eq!(
+            example(&Param::choice("form", &["sum", "product"], "")),
+            "\"sum\""
+        );
+    }
+}

@@ -1,0 +1,65 @@
+//! Reads recipes: TOML with units, checked, every value with its place for later messages.
+//!
+//! [`Recipe::load`] reads a file and the `--set` arguments, [`Recipe::bind`] checks the parameters
+//! of a strategy against its declarations. Nothing here loads a plugin or knows a strategy.
+//!
+//! ```
+//! use turnpath_core::Slot;
+//! use turnpath_recipe::Recipe;
+//!
+//! let text = r#"
+//! format = 1
+//! [part]
+//! aperture = "5 mm"
+//! [surface]
+//! use = "astigmatic"
+//! k = "0.08 /mm"
+//! [tool]
+//! nose_radius = "1 mm"
+//! [tolerance]
+//! interpolation = "100 nm"
+//! residual = "100 nm"
+//! [spindle]
+//! speed = "500 rpm"
+//! [path]
+//! overrun = "none"
+//! lead = false
+//! [feed]
+//! use = "constant"
+//! feed = "10 um/rev"
+//! [sampler]
+//! use = "equal-angle"
+//! step = "6 deg"
+//! [compensator]
+//! use = "z-direction"
+//! [velocity]
+//! use = "triangle-rotary"
+//! "#;
+//! let recipe = Recipe::parse(text, "mirror.toml", &["tool.nose_radius=0.5 mm".into()])?;
+//! assert_eq!(recipe.tool.nose_radius, 0.5);
+//! assert_eq!(recipe.choice(Slot::Feed).name(), "constant");
+//!
+//! let wrong = Recipe::parse(&text.replace("5 mm", "5 ms"), "mirror.toml", &[]).unwrap_err();
+//! assert!(wrong.render(false).contains("is a time"));
+//! # Ok::<(), turnpath_recipe::RecipeError>(())
+//! ```
+
+mod bind;
+mod choice;
+mod declared;
+mod diagnostic;
+mod document;
+mod place;
+mod read;
+mod recipe;
+mod set;
+mod suggest;
+mod tables;
+mod value;
+
+pub use choice::Choice;
+pub use diagnostic::{Diagnostic, Diagnostics};
+pub use document::{Entry, Node, Table, Value};
+pub use place::{Located, Place, Source};
+pub use recipe::{FileProblem, Recipe, RecipeError};
+pub use tables::{DataFormat, Interference, Output, Overrun, ZReference};

@@ -1,0 +1,29 @@
+//! The tables of a recipe that are not a strategy's: their keys, and how each is read.
+
+mod cutting;
+mod output;
+mod path;
+mod top;
+mod work;
+
+pub use output::{DataFormat, Output, ZReference};
+pub use path::Overrun;
+pub use work::Interference;
+
+pub(crate) use cutting::{spindle, tolerance};
+pub(crate) use output::{machine, output};
+pub(crate) use path::path;
+pub(crate) use top::{format_is_one, top};
+pub(crate) use work::{part, tool};
+
+/// The tables with fixed keys.
+pub(crate) const SCHEMA: &[(&str, &[&str])] = &[
+    ("part", work::PART_KEYS),
+    ("tool", work::TOOL_KEYS),
+    ("tolerance", cutting::TOLERANCE_KEYS),
+    ("spindle", cutting::SPINDLE_KEYS),
+    ("path", path::KEYS),
+    ("output", output::KEYS),
+    ("machine", &["preset"]),
+    ("ablation", &["mode"]),
+];

@@ -1,0 +1,93 @@
+//! `[part]` and `[tool]`: what is cut, and with what.
+
+use std::f64::consts::PI;
+
+use turnpath_core::{Part, Quantity, Tool};
+
+use crate::diagnostic::Diagnostic;
+use crate::read::{Bound, NOT_NEGATIVE, POSITIVE, Section};
+
+pub(super) const PART_KEYS: &[&str] = &["aperture", "inner"];
+pub(super) const TOOL_KEYS: &[&str] = &[
+    "nose_radius",
+    "included_angle",
+    "clearance_angle",
+    "interference",
+];
+
+const INCLUDED: Bound = Bound {
+    holds: |angle| angle > 0.0 && angle <= PI,
+    words: "above zero and at most 180 deg",
+};
+const CLEARANCE: Bound = Bound {
+    holds: |angle| angle > 0.0 && angle < 0.5 * PI,
+    words: "between 0 and 90 deg",
+};
+
+/// What happens where the nose does not fit into the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interference {
+    /// The recipe is refused.
+    Refuse,
+}
+
+/// `[tool]`.
+pub(crate) struct ToolTable {
+    pub(crate) tool: Tool,
+    pub(crate) interference: Interference,
+}
+
+/// Reads `[part]`.
+pub(crate) fn part(section: &mut Section<'_>) -> Option<Part> {
+    if section.table.is_none() {
+        section.missing_table("aperture = \"5 mm\"");
+        return None;
+    }
+    section.only(PART_KEYS);
+    let aperture = section.required_quantity("aperture", Quantity::Length, POSITIVE, "5 mm");
+    let inner = section.quantity("inner", Quantity::Length, NOT_NEGATIVE);
+    let (aperture, hole) = (aperture?, inner.as_ref().map_or(0.0, |inner| inner.value));
+    if let Some(inner) = inner.filter(|inner| inner.value >= aperture.value) {
+        let whole = Quantity::Length.format(aperture.value);
+        let diagnostic = Diagnostic::new(inner.place, "the hole is not smaller than the aperture")
+            .label(format!("must be below {whole}"))
+            .help("`inner` is the diameter of the hole, `aperture` that of the part");
+        section.complain(diagnostic);
+        return None;
+    }
+    Some(Part {
+        aperture_radius: 0.5 * aperture.value,
+        inner_radius: 0.5 * hole,
+    })
+}
+
+/// Reads `[tool]`.
+pub(crate) fn tool(section: &mut Section<'_>) -> Option<ToolTable> {
+    if section.table.is_none() {
+        section.missing_table("nose_radius = \"1 mm\"");
+        return None;
+    }
+    section.only(TOOL_KEYS);
+    let radius = section.required_quantity("nose_radius", Quantity::Length, POSITIVE, "1 mm");
+    let included = section.quantity("included_angle", Quantity::Angle, INCLUDED);
+    let clearance = section.quantity("clearance_angle", Quantity::Angle, CLEARANCE);
+    let interference = interference(section);
+    let tool = Tool {
+        nose_radius: radius?.value,
+        included_angle: included.map(|angle| angle.value),
+        clearance_angle: clearance.map(|angle| angle.value),
+    };
+    Some(ToolTable { tool, interference })
+}
+
+fn interference(section: &mut Section<'_>) -> Interference {
+    let word = section.word("interference", &["refuse", "cut-what-fits"]);
+    if let Some(word) = word.filter(|word| word.value == "cut-what-fits") {
+        let title = "`interference = \"cut-what-fits\"` is not made by this version yet";
+        let diagnostic = Diagnostic::new(word.place, title)
+            .label("not yet")
+            .help("write interference = \"refuse\", or leave the line out");
+        section.complain(diagnostic);
+    }
+    Interference::Refuse
+}
