@@ -1,109 +1,165 @@
-"""Reference surfaces for playback.py: textbook formulas, and the recipe's quantities they need.
+"""Writes surfaces.json: every surface, its slopes and their order-4 series, by mpmath.
 
-Each model takes the recipe's [surface] table and returns z(x, y) in mm for real or complex
-arrays, so that slopes can be had by a complex step. Shares no code with turnpath.
+Each surface is its textbook formula, not the rearranged one of the program; the off-axis
+paraboloid is its parent, turned, and met by Newton's iteration. Derivatives are mpmath's
+numerical ones, made twice, at 150 and 200 digits, which must agree to 50.
+
+A case: z(t), zx(t), zy(t) along the curve x(t), y(t), all as Taylor coefficients 0 to 4. The
+inputs are exact doubles; their first coefficients are also points for value and gradient.
+
+Run: python surfaces.py > surfaces.json
 """
 
-import math
-import re
+import json
 
-import numpy as np
+import mpmath
+from mpmath import cos, mpf, pi, sin, sqrt
 
-LENGTH_MM = {"nm": 1e-6, "um": 1e-3, "µm": 1e-3, "μm": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1e3,
-             "in": 25.4}
-ANGLE_RAD = {"deg": math.pi / 180, "°": math.pi / 180, "rad": 1.0, "mrad": 1e-3,
-             "arcmin": math.pi / 10_800, "arcsec": math.pi / 648_000}
-PER_LENGTH = {prefix + unit: 1 / mm for unit, mm in LENGTH_MM.items() for prefix in ("/", "1/")}
-REQUIRED = object()
+ORDER = 4
+DIGITS = (150, 200)
+AGREED = mpf(10) ** -50
 
-
-def quantity(table, key, units, default=REQUIRED):
-    """The value of `key`, such as "0.08 /mm", in mm, rad or 1/mm; `default` where it is missing."""
-    if key not in table and default is not REQUIRED:
-        return default
-    if key not in table:
-        raise SystemExit(f"the recipe lacks `{key}`")
-    match = re.fullmatch(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(\S+)\s*", str(table[key]))
-    if not match or match[2] not in units:
-        raise SystemExit(f"`{key} = {table[key]!r}`: expected a number and one of {list(units)}")
-    return float(match[1]) * units[match[2]]
+# Shapes of the curves: coefficients 1 to 4 of x(t) and y(t), times the stride of the surface.
+SHAPES = [
+    ([0.75, -0.25, 0.125, 0.0625], [-0.5, 0.375, -0.0625, 0.03125]),
+    ([-0.3125, 0.5, 0.1875, -0.25], [0.875, 0.125, -0.375, 0.09375]),
+]
+# Places, in units of the size of the surface.
+PLACES = [
+    (0.0, 0.0), (0.37109375, -0.69140625), (-0.8203125, 0.22265625), (0.53515625, 0.97265625),
+    (-0.28515625, -0.44140625),
+]
 
 
-def astigmatic(table):
-    """z = k rho^2 sin 2theta = 2 k x y."""
-    k = quantity(table, "k", PER_LENGTH)
-    return lambda x, y: 2 * k * x * y
+def astigmatic(p, x, y):
+    """k rho^2 sin 2 theta."""
+    rho_squared = x * x + y * y
+    if rho_squared == 0:
+        return mpf(0)
+    return p["k"] * rho_squared * (2 * x * y / rho_squared)
 
 
-def conic(table):
-    """Conic of revolution; positive radius: concave."""
-    curvature = 1 / quantity(table, "radius", LENGTH_MM)
-    constant = float(table.get("conic", 0.0))
-
-    def sag(x, y):
-        q = x * x + y * y
-        return curvature * q / (1 + np.sqrt(1 - (1 + constant) * curvature**2 * q))
-
-    return sag
+def conic(p, x, y):
+    c, rho_squared = 1 / p["radius"], x * x + y * y
+    return c * rho_squared / (1 + sqrt(1 - (1 + p["conic"]) * c * c * rho_squared))
 
 
-def xy_polynomial(table):
-    """Sum of c x^i y^j, c in mm^(1-i-j)."""
-    terms = [(int(i), int(j), float(c)) for i, j, c in table["terms"]]
-    return lambda x, y: sum((c * x**i * y**j for i, j, c in terms), 0 * x)
+def xy_polynomial(p, x, y):
+    return sum(c * x ** int(i) * y ** int(j) for i, j, c in p["terms"])
 
 
-def toric(table):
-    """z = R - sqrt((R - a + sqrt(a^2 - y^2))^2 - x^2): base arc a, turned at radius R."""
-    rotation = quantity(table, "radius_rotation", LENGTH_MM)
-    base = quantity(table, "radius_base", LENGTH_MM)
-
-    def sag(x, y):
-        arc = rotation - base + np.sqrt(base**2 - y * y)
-        return rotation - np.sqrt(arc * arc - x * x)
-
-    return sag
+def toric(p, x, y):
+    """R - sqrt((R - a + sqrt(a^2 - y^2))^2 - x^2); a negative radius takes the other root."""
+    big, small = p["radius_rotation"], p["radius_base"]
+    arc = big - small + mpmath.sign(small) * sqrt(small * small - y * y)
+    return big - mpmath.sign(big) * sqrt(arc * arc - x * x)
 
 
-def sinusoidal_array(table):
-    """sum: A_x cos(2 pi f_x x) + A_y cos(2 pi f_y y); product: A sin(2 pi f_x x) sin(2 pi f_y y).
-
-    The product has one amplitude: A = amplitude_x, and amplitude_y must not differ from it.
-    """
-    amplitude_x = quantity(table, "amplitude_x", LENGTH_MM)
-    amplitude_y = quantity(table, "amplitude_y", LENGTH_MM, amplitude_x)
-    k_x = 2 * math.pi * quantity(table, "frequency_x", PER_LENGTH)
-    k_y = 2 * math.pi * quantity(table, "frequency_y", PER_LENGTH)
-    if table["form"] == "sum":
-        return lambda x, y: amplitude_x * np.cos(k_x * x) + amplitude_y * np.cos(k_y * y)
-    if table["form"] != "product" or amplitude_x != amplitude_y:
-        raise SystemExit("sinusoidal-array: form is sum or product, the latter of one amplitude")
-    return lambda x, y: amplitude_x * np.sin(k_x * x) * np.sin(k_y * y)
+def sinusoidal_array(p, x, y):
+    amplitude_y = p.get("amplitude_y", p["amplitude_x"])
+    frequency_y = p.get("frequency_y", p["frequency_x"])
+    u, v = 2 * pi * p["frequency_x"] * x, 2 * pi * frequency_y * y
+    if p["form"] == "product":
+        return p["amplitude_x"] * sin(u) * sin(v)
+    return p["amplitude_x"] * cos(u) + amplitude_y * cos(v)
 
 
-def off_axis_paraboloid(table):
-    """The parent z = r^2 / 2R_v, seen from the tangent frame of its point at r = x0.
-
-    Local x points away from the parent's axis. A local point (x, y, z) has the parent's
-    coordinates (x0 + c x - s z, y, x0^2/2R_v + s x + c z); Newton puts it on the parent.
-    """
-    vertex_radius = quantity(table, "vertex_radius", LENGTH_MM)
-    offset = quantity(table, "off_axis_distance", LENGTH_MM)
-    tilt = math.atan2(offset, vertex_radius)
-    c, s = math.cos(tilt), math.sin(tilt)
-    height = offset**2 / (2 * vertex_radius)
-
-    def sag(x, y):
-        z = 0 * (x + y)
-        for _ in range(5):
-            u = offset + c * x - s * z
-            miss = height + s * x + c * z - (u * u + y * y) / (2 * vertex_radius)
-            z = z - miss / (c + s * u / vertex_radius)
-        return z
-
-    return sag
+def off_axis_paraboloid(p, x, y):
+    """The point of the parent Z = (X^2 + Y^2)/(2 R_v) on the segment's normal above (x, y)."""
+    radius, distance = p["vertex_radius"], p["off_axis_distance"]
+    c = 1 / sqrt(1 + (distance / radius) ** 2)
+    s = c * distance / radius
+    height = distance**2 / (2 * radius)
+    z = mpf(0)
+    for _ in range(60):
+        across, up = distance + c * x - s * z, height + s * x + c * z
+        miss = up - (across**2 + y * y) / (2 * radius)
+        step = miss / (c + s * across / radius)
+        z -= step
+        if abs(step) <= mpf(10) ** (4 - mpmath.mp.dps):
+            return z
+    raise ArithmeticError("Newton's iteration does not settle")
 
 
-SURFACES = {"astigmatic": astigmatic, "conic": conic, "xy-polynomial": xy_polynomial,
-            "toric": toric, "sinusoidal-array": sinusoidal_array,
-            "off-axis-paraboloid": off_axis_paraboloid}
+# Name, formula, size and stride in mm, parameters.
+SURFACES = [
+    ("astigmatic", astigmatic, 2.5, 2.5, {"k": 0.08}),
+    ("astigmatic", astigmatic, 25.0, 25.0, {"k": -3.84e-6}),
+    ("conic", conic, 5.0, 5.0, {"radius": 12.5, "conic": 0.0}),
+    ("conic", conic, 10.0, 10.0, {"radius": -40.0, "conic": -1.3}),
+    ("conic", conic, 3.0, 3.0, {"radius": 8.0, "conic": 0.7}),
+    ("conic", conic, 100.0, 100.0, {"radius": 915.0, "conic": -1.0}),
+    ("xy-polynomial", xy_polynomial, 4.0, 4.0, {"terms": [
+        [0, 0, 0.01], [1, 0, -0.002], [2, 0, 0.013], [1, 1, -0.02], [0, 2, 0.031],
+        [3, 1, 1e-4], [0, 5, -3e-6], [6, 2, 1e-7]]}),
+    ("xy-polynomial", xy_polynomial, 4.0, 4.0, {"terms": [[3, 0, 0.002], [0, 4, -0.001]]}),
+    ("toric", toric, 10.0, 10.0, {"radius_rotation": 40.0, "radius_base": 25.0}),
+    ("toric", toric, 10.0, 10.0, {"radius_rotation": -40.0, "radius_base": 25.0}),
+    ("toric", toric, 10.0, 10.0, {"radius_rotation": 30.0, "radius_base": -55.0}),
+    ("toric", toric, 10.0, 10.0, {"radius_rotation": -33.0, "radius_base": -21.0}),
+    ("sinusoidal-array", sinusoidal_array, 5.0, 0.5, {
+        "amplitude_x": 0.005, "amplitude_y": 0.005, "frequency_x": 0.4, "frequency_y": 0.4,
+        "form": "sum"}),
+    ("sinusoidal-array", sinusoidal_array, 5.0, 0.5, {
+        "amplitude_x": 0.01, "amplitude_y": 0.004, "frequency_x": 0.7, "frequency_y": -0.3,
+        "form": "sum"}),
+    ("sinusoidal-array", sinusoidal_array, 10.0, 0.25, {
+        "amplitude_x": 0.05, "frequency_x": 1.0, "form": "product"}),
+    ("off-axis-paraboloid", off_axis_paraboloid, 106.5, 106.5, {
+        "vertex_radius": 915.0, "off_axis_distance": 915.0}),
+    ("off-axis-paraboloid", off_axis_paraboloid, 20.0, 20.0, {
+        "vertex_radius": -120.0, "off_axis_distance": 45.0}),
+    ("off-axis-paraboloid", off_axis_paraboloid, 20.0, 20.0, {
+        "vertex_radius": 200.0, "off_axis_distance": -80.0}),
+    ("off-axis-paraboloid", off_axis_paraboloid, 20.0, 20.0, {
+        "vertex_radius": 75.0, "off_axis_distance": 0.0}),
+]
+
+
+def exact(value):
+    """A parameter with its doubles made exact."""
+    if isinstance(value, list):
+        return [exact(v) for v in value]
+    return value if isinstance(value, str) else mpf(value)
+
+
+def expand(formula, params, x, y, digits):
+    """The series of z, zx, zy along the curve, at a working precision."""
+    with mpmath.workdps(digits):
+        p = {name: exact(value) for name, value in params.items()}
+
+        def along(t, dx, dy):
+            return formula(p, mpmath.polyval(x[::-1], t) + dx, mpmath.polyval(y[::-1], t) + dy)
+
+        def series(order_x, order_y):
+            return [
+                mpmath.diff(along, (0, 0, 0), (k, order_x, order_y)) / mpmath.factorial(k)
+                for k in range(ORDER + 1)
+            ]
+
+        return [series(0, 0), series(1, 0), series(0, 1)]
+
+
+def doubles(series):
+    """As doubles; what vanishes to the agreed digits is zero."""
+    return [float(c) if abs(c) > AGREED else 0.0 for c in series]
+
+
+def cases():
+    for name, formula, size, stride, params in SURFACES:
+        for place_x, place_y in PLACES:
+            for shape_x, shape_y in SHAPES:
+                x = [size * place_x, *(stride * c for c in shape_x)]
+                y = [size * place_y, *(stride * c for c in shape_y)]
+                rough, fine = (
+                    expand(formula, params, [mpf(c) for c in x], [mpf(c) for c in y], digits)
+                    for digits in DIGITS
+                )
+                for a, b in zip(sum(rough, []), sum(fine, [])):
+                    assert abs(a - b) <= AGREED * max(1, abs(b)), (name, params, x, y)
+                z, zx, zy = (doubles(series) for series in fine)
+                yield {"surface": name, "params": params, "x": x, "y": y,
+                       "z": z, "zx": zx, "zy": zy}
+
+
+print("[\n" + ",\n".join(json.dumps(case) for case in cases()) + "\n]")

@@ -25,13 +25,24 @@ impl<T: ?Sized> Link<T> {
     /// An error of this strategy; `place` says while doing what.
     pub fn failed(&self, place: impl Into<String>, error: StrategyError) -> PipelineError {
         let (slot, name, plugin) = (self.slot, self.name.clone(), self.plugin.clone());
-        PipelineError::Strategy { slot, name, plugin, place: place.into(), error }
+        PipelineError::Strategy {
+            slot,
+            name,
+            plugin,
+            place: place.into(),
+            error,
+        }
     }
 
     /// A complaint about an answer that this strategy gave.
     pub fn bad_answer(&self, what: impl Into<String>) -> PipelineError {
         let (slot, name, plugin) = (self.slot, self.name.clone(), self.plugin.clone());
-        PipelineError::BadAnswer { slot, name, plugin, what: what.into() }
+        PipelineError::BadAnswer {
+            slot,
+            name,
+            plugin,
+            what: what.into(),
+        }
     }
 }
 

@@ -51,7 +51,11 @@ fn check(law: &SpiralLaw, direction: Direction) -> std::result::Result<(), Strin
     if law.pieces().is_empty() {
         return Err("a law without pieces".to_owned());
     }
-    let outward = if direction == Direction::Outward { 1.0 } else { -1.0 };
+    let outward = if direction == Direction::Outward {
+        1.0
+    } else {
+        -1.0
+    };
     let step = 1.0 / CHECKED_ANGLES as f64;
     let mut ring: Vec<f64> = Vec::with_capacity(CHECKED_ANGLES);
     let count = (law.end() / step).floor() as u64;

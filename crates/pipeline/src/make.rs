@@ -5,9 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{ControlPoint, PathBlock};
-use turnpath_core::{
-    CentreBuffers, Dependence, Locus, Nodes, Rates, Velocities, VelocitySolver, angle,
-};
+use turnpath_core::{CentreBuffers, Dependence, Locus, Nodes, Rates, Velocities, angle};
 
 use crate::Result;
 use crate::plan::{CLOSEST_NODES, Plan};
@@ -48,12 +46,30 @@ struct Columns {
 
 impl Columns {
     fn each(&self) -> [&Vec<f64>; 8] {
-        let Self { t, c, x, z, c_rate, x_rate, z_theta, z_x } = self;
+        let Self {
+            t,
+            c,
+            x,
+            z,
+            c_rate,
+            x_rate,
+            z_theta,
+            z_x,
+        } = self;
         [t, c, x, z, c_rate, x_rate, z_theta, z_x]
     }
 
     fn each_mut(&mut self) -> [&mut Vec<f64>; 8] {
-        let Self { t, c, x, z, c_rate, x_rate, z_theta, z_x } = self;
+        let Self {
+            t,
+            c,
+            x,
+            z,
+            c_rate,
+            x_rate,
+            z_theta,
+            z_x,
+        } = self;
         [t, c, x, z, c_rate, x_rate, z_theta, z_x]
     }
 
@@ -118,14 +134,20 @@ fn place_around(
     while first > 0 && before < overlap.max(1) {
         first -= 1;
         let mut found = place(plan, first..first + 1, depths)?;
-        before += found.iter().map(|placed| placed.columns.len()).sum::<usize>();
+        before += found
+            .iter()
+            .map(|placed| placed.columns.len())
+            .sum::<usize>();
         found.append(&mut blocks);
         blocks = found;
     }
     let mut after = 0;
     while last < plan.blocks() && after < overlap + 1 {
         let found = place(plan, last..last + 1, depths)?;
-        after += found.iter().map(|placed| placed.columns.len()).sum::<usize>();
+        after += found
+            .iter()
+            .map(|placed| placed.columns.len())
+            .sum::<usize>();
         blocks.extend(found);
         last += 1;
     }
@@ -135,10 +157,14 @@ fn place_around(
 /// Samples, subdivides and places the nodes of each block.
 fn place(plan: &Plan<'_>, range: Range<usize>, depths: &[Depths]) -> Result<Vec<Placed>> {
     let sampled_to = (range.end + 1).min(plan.blocks());
-    let raw: Vec<Vec<f64>> =
-        (range.start..sampled_to).into_par_iter().map(|index| plan.sample(index)).collect::<Result<_>>()?;
+    let raw: Vec<Vec<f64>> = (range.start..sampled_to)
+        .into_par_iter()
+        .map(|index| plan.sample(index))
+        .collect::<Result<_>>()?;
     let end_of = |index: usize| {
-        let next = raw.get(index + 1 - range.start).and_then(|nodes| nodes.first());
+        let next = raw
+            .get(index + 1 - range.start)
+            .and_then(|nodes| nodes.first());
         next.copied().unwrap_or(plan.law.end())
     };
     range
@@ -159,7 +185,11 @@ fn place_block(
     end: f64,
     depths: &[u8],
 ) -> Result<Placed> {
-    let too_late = sampled.iter().rev().take_while(|node| end - **node < CLOSEST_NODES).count();
+    let too_late = sampled
+        .iter()
+        .rev()
+        .take_while(|node| end - **node < CLOSEST_NODES)
+        .count();
     let sampled = &sampled[..sampled.len() - too_late.min(sampled.len())];
     let (mut n, mut owner) = (Vec::new(), Vec::new());
     for (i, from) in sampled.iter().enumerate() {
@@ -176,7 +206,11 @@ fn place_block(
         owner.push(sampled.len() as u32);
         count += 1;
     }
-    Ok(Placed { columns: locate(plan, &n)?, owner, sampled: count })
+    Ok(Placed {
+        columns: locate(plan, &n)?,
+        owner,
+        sampled: count,
+    })
 }
 
 /// Puts nodes on the locus.
@@ -203,7 +237,9 @@ fn locate(plan: &Plan<'_>, n: &[f64]) -> Result<Columns> {
         z_theta: &mut z_theta,
         z_x: &mut z_x,
     };
-    locus.rates(&theta, &rho, rates).map_err(|error| compensator.failed(place(), error))?;
+    locus
+        .rates(&theta, &rho, rates)
+        .map_err(|error| compensator.failed(place(), error))?;
     let c_rate: Vec<f64> = n.iter().map(|n| job.spindle.speed_at(*n)).collect();
     let x_rate = (0..n.len())
         .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
@@ -239,29 +275,96 @@ fn solve(
     overlap: usize,
     state: Option<&mut Vec<f64>>,
 ) -> Result<Made> {
-    let Some(block) = row.get(index) else {
-        return Ok(Made { points: PathBlock::default(), owner: Vec::new(), sampled: 0 });
-    };
-    let lead = if state.is_some() { 1 } else { overlap };
-    let mut columns = Columns::default();
-    let before = gather_before(row, index, lead, &mut columns);
-    columns.append(&block.columns, 0..block.columns.len());
-    gather_after(row, index, if state.is_some() { 0 } else { overlap + 1 }, &mut columns);
-    let mut velocities = PathBlock::default();
-    for column in [&mut velocities.vc, &mut velocities.vx, &mut velocities.vz] {
-        column.resize(columns.len(), f64::NAN);
-    }
-    let link = &plan.chain.velocity;
+    let (columns, own) = row.gather(index, overlap);
+    let (mut c, mut x, mut z) = (columns.unset(), columns.unset(), columns.unset());
+    let nodes = columns.nodes(own.start == 0 && index == 0, plan.is_last(index));
     let out = Velocities {
-        c: &mut velocities.vc,
-        x: &mut velocities.vx,
-        z: &mut velocities.vz,
+        c: &mut c,
+        x: &mut x,
+        z: &mut z,
     };
-    let nodes = columns.nodes(index == 0 || before == 0, plan.is_last(index));
+    let link = &plan.chain.velocity;
     let answer = match state {
         Some(state) => link.strategy.solve_onward(nodes, state, out),
         None => link.strategy.solve(nodes, out),
     };
-    answer.map_err(|error| link.failed(format!("at {:.6} s", columns.t[before]), error))?;
-    todo!()
+    let start = columns.t.get(own.start).copied().unwrap_or_default();
+    answer.map_err(|error| link.failed(format!("from {start:.6} s on"), error))?;
+    let mut points = PathBlock::default();
+    // One more than its own: the joint with the next block.
+    for k in own.start..(own.end + 1).min(columns.len()) {
+        let point = columns.point(k, c[k], x[k], z[k]);
+        if !point.is_finite() {
+            let what = format!("the velocity at {:.6} s is no number: {point:?}", point.t);
+            return Err(link.bad_answer(what));
+        }
+        points.push(point);
+    }
+    let (owner, sampled) = row.get(index).map_or((Vec::new(), 0), |block| {
+        (block.owner.clone(), block.sampled)
+    });
+    Ok(Made {
+        points,
+        owner,
+        sampled,
+    })
+}
+
+impl Row {
+    /// The nodes of a block between `overlap` ones of its neighbours, the joint with the next
+    /// block besides; and where its own are.
+    fn gather(&self, index: usize, overlap: usize) -> (Columns, Range<usize>) {
+        let at = index - self.first;
+        let mut columns = Columns::default();
+        let lengths: Vec<usize> = self
+            .blocks
+            .iter()
+            .map(|block| block.columns.len())
+            .collect();
+        let behind: usize = lengths[..at].iter().sum();
+        let mut skip = behind.saturating_sub(overlap);
+        let mut wanted = behind - skip + lengths[at] + overlap + 1;
+        let own_start = behind - skip;
+        for (block, length) in self.blocks.iter().zip(&lengths) {
+            let from = skip.min(*length);
+            let to = (from + wanted).min(*length);
+            columns.append(&block.columns, from..to);
+            skip -= from;
+            wanted -= to - from;
+        }
+        (columns, own_start..own_start + lengths[at])
+    }
+}
+
+impl Columns {
+    fn unset(&self) -> Vec<f64> {
+        vec![f64::NAN; self.len()]
+    }
+
+    fn nodes(&self, at_start: bool, at_block_end: bool) -> Nodes<'_> {
+        Nodes {
+            t: &self.t,
+            c: &self.c,
+            x: &self.x,
+            z: &self.z,
+            c_rate: &self.c_rate,
+            x_rate: &self.x_rate,
+            z_theta: &self.z_theta,
+            z_x: &self.z_x,
+            at_start,
+            at_end: at_block_end,
+        }
+    }
+
+    fn point(&self, k: usize, vc: f64, vx: f64, vz: f64) -> ControlPoint {
+        ControlPoint {
+            t: self.t[k],
+            c: self.c[k],
+            x: self.x[k],
+            z: self.z[k],
+            vc,
+            vx,
+            vz,
+        }
+    }
 }

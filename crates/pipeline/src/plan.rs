@@ -27,7 +27,12 @@ impl<'a> Plan<'a> {
     /// Plans the law; runs a sequential sampler once through to learn its states.
     pub fn new(chain: &'a Chain, prepared: &'a Prepared) -> Result<Self> {
         let law = crate::law::plan(chain, &prepared.job, &prepared.locus)?;
-        let mut plan = Self { chain, prepared, law, sampler_states: Vec::new() };
+        let mut plan = Self {
+            chain,
+            prepared,
+            law,
+            sampler_states: Vec::new(),
+        };
         if chain.sampler.strategy.dependence() == Dependence::Sequential {
             let mut state = Vec::new();
             for index in 0..plan.blocks() {
@@ -46,7 +51,10 @@ impl<'a> Plan<'a> {
     /// The revolutions of a block.
     pub fn revolutions(&self, index: usize) -> Revolutions {
         let start = index as f64 * BLOCK;
-        Revolutions { start, end: (start + BLOCK).min(self.law.end()) }
+        Revolutions {
+            start,
+            end: (start + BLOCK).min(self.law.end()),
+        }
     }
 
     /// Whether it is the path's last block.
@@ -64,16 +72,21 @@ impl<'a> Plan<'a> {
         let (sampler, block) = (&self.chain.sampler, self.revolutions(index));
         let window = self.law.window(block.start - 1.0, block.end + 1.0);
         let Prepared { job, locus, .. } = self.prepared;
-        let path = Path { job, locus, law: &window };
+        let path = Path {
+            job,
+            locus,
+            law: &window,
+        };
         let mut nodes = Vec::new();
         let answer = match sampler.strategy.dependence() {
-            Dependence::Sequential => {
-                sampler.strategy.place_onward(&path, block, state, &mut nodes)
-            }
+            Dependence::Sequential => sampler
+                .strategy
+                .place_onward(&path, block, state, &mut nodes),
             _ => sampler.strategy.place(&path, block, &mut nodes),
         };
         answer.map_err(|error| sampler.failed(place_of(block), error))?;
-        self.check(index, &nodes).map_err(|what| sampler.bad_answer(what))?;
+        self.check(index, &nodes)
+            .map_err(|what| sampler.bad_answer(what))?;
         if index == 0 && nodes.first() != Some(&0.0) {
             nodes.insert(0, 0.0);
         }
@@ -92,10 +105,14 @@ impl<'a> Plan<'a> {
                 return Err(format!("node {i} is {node}, {place}"));
             }
             if !(block.start..block.end).contains(node) {
-                return Err(format!("node {i} at {node} lies outside the block, {place}"));
+                return Err(format!(
+                    "node {i} at {node} lies outside the block, {place}"
+                ));
             }
             if let Some(last) = last.filter(|last| node - last < CLOSEST_NODES) {
-                return Err(format!("node {i} at {node} does not lie beyond {last}, {place}"));
+                return Err(format!(
+                    "node {i} at {node} does not lie beyond {last}, {place}"
+                ));
             }
             last = Some(*node);
         }

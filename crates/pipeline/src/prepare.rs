@@ -40,10 +40,23 @@ pub fn prepare(
     direction: Direction,
     spindle: SpindleLaw,
 ) -> Result<Prepared> {
-    let range = RadialRange { inner: part.inner_radius, outer: part.aperture_radius };
-    let job = Job { part, tool, tolerance, range, direction, spindle };
-    let locus =
-        ToolLocus::new(chain.surface.strategy.clone(), chain.compensator.strategy.clone(), tool);
+    let range = RadialRange {
+        inner: part.inner_radius,
+        outer: part.aperture_radius,
+    };
+    let job = Job {
+        part,
+        tool,
+        tolerance,
+        range,
+        direction,
+        spindle,
+    };
+    let locus = ToolLocus::new(
+        chain.surface.strategy.clone(),
+        chain.compensator.strategy.clone(),
+        tool,
+    );
     look_for_numbers(chain, &job)?;
     refuse_conflicts(chain, &tool, range)?;
     let contact = contact_range(chain, &locus, range)?;
@@ -55,7 +68,12 @@ pub fn prepare(
         compensates_nose: chain.compensator.strategy.compensates_nose(),
     };
     let touch = FirstTouch::new(subject, range.outer).map_err(PipelineError::Measure)?;
-    Ok(Prepared { job, locus, interference, touch })
+    Ok(Prepared {
+        job,
+        locus,
+        interference,
+        touch,
+    })
 }
 
 /// A surface that has no height anywhere on a ring of the part is a plugin's fault, not the
@@ -79,24 +97,34 @@ fn turn(eighths: usize) -> (f64, f64) {
 }
 
 fn refuse_conflicts(chain: &Chain, tool: &Tool, region: RadialRange) -> Result<Interference> {
-    let cut = Cut { surface: chain.surface.strategy.as_ref(), tool };
-    let found = chain.compensator.strategy.interference(cut, region).map_err(|error| {
-        match error {
+    let cut = Cut {
+        surface: chain.surface.strategy.as_ref(),
+        tool,
+    };
+    let found = chain
+        .compensator
+        .strategy
+        .interference(cut, region)
+        .map_err(|error| match error {
             StrategyError::Failed(_) => PipelineError::NoSurface(error),
             other => chain.compensator.failed("in the interference check", other),
-        }
-    })?;
+        })?;
     let conflicts = found.conflicts(tool);
     if conflicts.is_empty() {
         return Ok(found);
     }
-    Err(PipelineError::Gouge { conflicts, interference: found })
+    Err(PipelineError::Gouge {
+        conflicts,
+        interference: found,
+    })
 }
 
 /// The radii of contact while ρ runs over `range`: where ρ is the centre's X, contact reaches
 /// beyond it on slopes.
 fn contact_range(chain: &Chain, locus: &ToolLocus, range: RadialRange) -> Result<RadialRange> {
-    let theta: Vec<f64> = (0..RIM_ANGLES).map(|i| TAU * i as f64 / RIM_ANGLES as f64).collect();
+    let theta: Vec<f64> = (0..RIM_ANGLES)
+        .map(|i| TAU * i as f64 / RIM_ANGLES as f64)
+        .collect();
     let mut contact = range;
     for rho in [range.inner, range.outer] {
         let mut room = CentreBuffers::default();

@@ -20,7 +20,11 @@ pub struct AxisMotion {
 impl AxisMotion {
     /// Root of the mean square of the acceleration over time.
     pub fn rms_acceleration(&self) -> f64 {
-        if self.time > 0.0 { (self.square / self.time).sqrt() } else { 0.0 }
+        if self.time > 0.0 {
+            (self.square / self.time).sqrt()
+        } else {
+            0.0
+        }
     }
 
     fn see(&mut self, cubic: &Cubic, duration: f64) {
@@ -32,8 +36,9 @@ impl AxisMotion {
         }
         let (once, twice) = (duration.recip(), (duration * duration).recip());
         self.max_velocity = self.max_velocity.max(fastest * once);
-        self.max_acceleration =
-            self.max_acceleration.max(first.abs().max(last.abs()) * twice);
+        self.max_acceleration = self
+            .max_acceleration
+            .max(first.abs().max(last.abs()) * twice);
         self.max_jerk = self.max_jerk.max(cubic.jerk().abs() * twice * once);
         let mean_square = (first * first + first * last + last * last) / 3.0;
         self.square += mean_square * twice * twice * duration;

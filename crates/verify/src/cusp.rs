@@ -25,7 +25,11 @@ mod tests {
     #[test]
     fn on_a_flat_part_the_cusp_is_that_of_the_closed_form() {
         let (radius, feed) = (1.0, 0.02);
-        let cusp = between(Point::new(1.0, radius), Point::new(1.0 + feed, radius), radius);
+        let cusp = between(
+            Point::new(1.0, radius),
+            Point::new(1.0 + feed, radius),
+            radius,
+        );
         let height = radius - (radius * radius - 0.25 * feed * feed).sqrt();
         let cusp = cusp.unwrap();
         assert!((cusp.y - height).abs() < 1e-15);

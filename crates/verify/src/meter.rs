@@ -43,7 +43,11 @@ pub struct Meter {
 impl Meter {
     /// Nothing measured yet.
     pub fn new(touch: FirstTouch) -> Self {
-        Self { touch, figures: PathFigures::default(), passes: Passes::default() }
+        Self {
+            touch,
+            figures: PathFigures::default(),
+            passes: Passes::default(),
+        }
     }
 
     /// Finds first touches as this meter does.
@@ -53,7 +57,10 @@ impl Meter {
 
     /// Measures the segments between neighbouring points; can run in parallel.
     pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<Measured> {
-        let mut measured = Measured { axes: AxesMotion::of(points), ..Measured::default() };
+        let mut measured = Measured {
+            axes: AxesMotion::of(points),
+            ..Measured::default()
+        };
         measured.playback = play_back(touch, points, &mut measured.per_segment)?;
         measured.passes = Passes::of(touch, points)?;
         measured.residual = measured.passes.residual(touch)?;

@@ -31,12 +31,20 @@ pub struct PlaybackFigures {
 impl PlaybackFigures {
     /// Largest |played − true|, mm; infinite where there was no number.
     pub fn max(&self) -> f64 {
-        if self.broken { f64::INFINITY } else { self.extreme.abs() }
+        if self.broken {
+            f64::INFINITY
+        } else {
+            self.extreme.abs()
+        }
     }
 
     /// Root of the mean square over time, mm.
     pub fn rms(&self) -> f64 {
-        if self.time > 0.0 { (self.square / self.time).sqrt() } else { 0.0 }
+        if self.time > 0.0 {
+            (self.square / self.time).sqrt()
+        } else {
+            0.0
+        }
     }
 
     fn see(&mut self, error: f64, weight: f64, c: f64, x: f64) {
@@ -78,7 +86,11 @@ pub fn play_back(
             for k in i * INSTANTS..(i + 1) * INSTANTS {
                 let error = room.z[k] - room.touches[k].z;
                 figures.see(error, weight, room.c[k], room.x[k]);
-                largest = if error.is_nan() { f64::INFINITY } else { largest.max(error.abs()) };
+                largest = if error.is_nan() {
+                    f64::INFINITY
+                } else {
+                    largest.max(error.abs())
+                };
             }
             per_segment.push(largest);
         }

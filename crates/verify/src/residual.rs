@@ -87,12 +87,21 @@ impl Passes {
                 false => tangent_centre(touch, radius),
             },
         };
-        Ok(Self { first, passes: x.iter().copied().zip(&touches).map(pass).collect() })
+        Ok(Self {
+            first,
+            passes: x.iter().copied().zip(&touches).map(pass).collect(),
+        })
     }
 
     /// The residual between these passes and one another.
     pub fn residual(&self, touch: &FirstTouch) -> Result<ResidualFigures> {
-        residual_between(touch, &self.passes, &self.passes, self.first, SECTIONS as usize)
+        residual_between(
+            touch,
+            &self.passes,
+            &self.passes,
+            self.first,
+            SECTIONS as usize,
+        )
     }
 
     /// Takes on the passes that follow: gives the residual between the last revolution so far and
@@ -177,8 +186,12 @@ fn residual_between(
         let on_part =
             (subject.part.inner_radius..=subject.part.aperture_radius).contains(&foot.abs());
         if on_part {
-            let here =
-                ResidualFigures { max: height, at_theta: *theta, at_rho: foot, cusps: 1 };
+            let here = ResidualFigures {
+                max: height,
+                at_theta: *theta,
+                at_rho: foot,
+                cusps: 1,
+            };
             figures.append(&here);
         }
     }
@@ -197,9 +210,25 @@ fn heights(
     let blank = vec![0.0; cusps.len()];
     let (mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank);
     for _ in 0..FOOT_STEPS {
-        let x: Vec<f64> = feet.iter().zip(&turned).map(|(foot, (_, c))| foot * c).collect();
-        let y: Vec<f64> = feet.iter().zip(&turned).map(|(foot, (s, _))| foot * s).collect();
-        surface.gradient(&x, &y, Gradients { z: &mut z, zx: &mut zx, zy: &mut zy })?;
+        let x: Vec<f64> = feet
+            .iter()
+            .zip(&turned)
+            .map(|(foot, (_, c))| foot * c)
+            .collect();
+        let y: Vec<f64> = feet
+            .iter()
+            .zip(&turned)
+            .map(|(foot, (s, _))| foot * s)
+            .collect();
+        surface.gradient(
+            &x,
+            &y,
+            Gradients {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            },
+        )?;
         for i in 0..cusps.len() {
             let (s, c) = turned[i];
             let slope = zx[i] * c + zy[i] * s;

@@ -70,7 +70,11 @@ impl FirstTouch {
         if !self.subject.compensates_nose {
             profile.at_all(x)?;
             for (i, touch) in out.iter_mut().enumerate() {
-                *touch = Touch { z: profile.height[i], foot: x[i], slope: profile.slope[i] };
+                *touch = Touch {
+                    z: profile.height[i],
+                    foot: x[i],
+                    slope: profile.slope[i],
+                };
             }
             return Ok(());
         }
@@ -78,7 +82,13 @@ impl FirstTouch {
             true => Bracket::of_reach(&self.subject.tool, x),
             false => self.scanned(&mut profile, x)?,
         };
-        close_in(&mut profile, self.subject.tool.nose_radius, x, &mut brackets, out)
+        close_in(
+            &mut profile,
+            self.subject.tool.nose_radius,
+            x,
+            &mut brackets,
+            out,
+        )
     }
 
     /// Brackets around the highest of [`SCAN`] places in the reach.
@@ -117,7 +127,13 @@ struct Bracket {
 impl Bracket {
     fn of_reach(tool: &Tool, x: &[f64]) -> Vec<Self> {
         let reach = tool.reach();
-        x.iter().map(|x| Self { low: x - reach, high: x + reach, start: *x }).collect()
+        x.iter()
+            .map(|x| Self {
+                low: x - reach,
+                high: x + reach,
+                start: *x,
+            })
+            .collect()
     }
 }
 
@@ -140,7 +156,11 @@ fn close_in(
     let mut open: Vec<Search> = brackets
         .iter()
         .enumerate()
-        .map(|(index, bracket)| Search { index, at: bracket.start, before: None })
+        .map(|(index, bracket)| Search {
+            index,
+            at: bracket.start,
+            before: None,
+        })
         .collect();
     for _ in 0..MOST_STEPS {
         if open.is_empty() {
@@ -153,7 +173,11 @@ fn close_in(
             let (index, offset) = (search.index, search.at - x[search.index]);
             let lift = (radius * radius - offset * offset).max(0.0).sqrt();
             let slope = profile.slope[i];
-            out[index] = Touch { z: profile.height[i] + lift, foot: search.at, slope };
+            out[index] = Touch {
+                z: profile.height[i] + lift,
+                foot: search.at,
+                slope,
+            };
             let fall = slope * lift - offset;
             let next = search.next(fall, slope, radius, x[index], &mut brackets[index]);
             if (next - search.at).abs() > FOOT_TOLERANCE * radius {
@@ -207,7 +231,16 @@ impl<'a> Profiles<'a> {
         let turned = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
         let empty = Vec::new;
         let (x, y, zx, zy) = (empty(), empty(), empty(), empty());
-        Self { surface, turned, x, y, zx, zy, height: empty(), slope: empty() }
+        Self {
+            surface,
+            turned,
+            x,
+            y,
+            zx,
+            zy,
+            height: empty(),
+            slope: empty(),
+        }
     }
 
     /// Height and slope at one radius for each angle.
@@ -225,10 +258,19 @@ impl<'a> Profiles<'a> {
             self.y.push(rho * s);
         }
         let count = self.x.len();
-        for places in [&mut self.height, &mut self.slope, &mut self.zx, &mut self.zy] {
+        for places in [
+            &mut self.height,
+            &mut self.slope,
+            &mut self.zx,
+            &mut self.zy,
+        ] {
             places.resize(count, 0.0);
         }
-        let out = Gradients { z: &mut self.height, zx: &mut self.zx, zy: &mut self.zy };
+        let out = Gradients {
+            z: &mut self.height,
+            zx: &mut self.zx,
+            zy: &mut self.zy,
+        };
         self.surface.gradient(&self.x, &self.y, out)?;
         for (i, (index, _)) in places.enumerate() {
             let (s, c) = self.turned[index];
@@ -243,8 +285,9 @@ fn largest_curvature(surface: &dyn SurfaceModel, reach: f64) -> Result<Option<f6
     let (angles, radii) = LOOK;
     let mut largest = f64::NEG_INFINITY;
     let mut profiles = vec![turnpath_core::locus::Profile::default(); angles];
-    let theta: Vec<f64> =
-        (0..angles).map(|i| std::f64::consts::PI * i as f64 / angles as f64).collect();
+    let theta: Vec<f64> = (0..angles)
+        .map(|i| std::f64::consts::PI * i as f64 / angles as f64)
+        .collect();
     for i in 0..=radii {
         let rho = vec![reach * (2.0 * i as f64 / radii as f64 - 1.0); angles];
         turnpath_core::locus::profile_at(surface, &theta, &rho, &mut profiles)?;
