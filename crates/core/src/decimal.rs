@@ -72,10 +72,10 @@ impl Decimal {
         text.parse().unwrap_or(f64::NAN)
     }
 
-    /// A double to 12 significant digits.
-    pub(crate) fn rounded(value: f64) -> Self {
+    /// A double to 12 significant digits; none if it is not finite.
+    pub(crate) fn rounded(value: f64) -> Option<Self> {
         let text = format!("{value:.*e}", WRITTEN_DIGITS - 1);
-        Self::take(&text).map_or_else(Self::zero, |(decimal, _)| decimal.trimmed())
+        Self::take(&text).map(|(decimal, _)| decimal.trimmed())
     }
 
     fn zero() -> Self {
@@ -199,7 +199,7 @@ mod tests {
             (1.25e20, "1.25e20"),
             (0.1 + 0.2, "0.3"),
         ] {
-            assert_eq!(Decimal::rounded(value).to_string(), text);
+            assert_eq!(Decimal::rounded(value).unwrap().to_string(), text);
         }
     }
 }

@@ -190,7 +190,10 @@ impl Quantity {
     pub fn format(self, value: f64) -> String {
         let symbol = self.unit_for(value.abs());
         let scale = find_unit(symbol, self).map_or(Scale::Shift(0), |unit| unit.scale);
-        format!("{} {symbol}", scale.undo(value))
+        match scale.undo(value) {
+            Some(number) => format!("{number} {symbol}"),
+            None => format!("{} {symbol}", f64::INFINITY.copysign(value)),
+        }
     }
 
     fn unit_for(self, size: f64) -> &'static str {
@@ -365,6 +368,7 @@ mod tests {
         assert_eq!(Quantity::PerLength.format(0.08), "0.08 /mm");
         assert_eq!(Quantity::Feed.format(0.01), "10 um/rev");
         assert_eq!(Quantity::Length.format(1e-30), "1e-24 nm");
+        assert_eq!(Quantity::Length.format(f64::INFINITY), "inf m");
     }
 
     #[test]

@@ -16,8 +16,11 @@ pub const ORDER: usize = 4;
 /// Coefficients c_k of Σ c_k t^k, k = 0 to [`ORDER`]; the k-th derivative is k!·c_k.
 pub type Series = [f64; ORDER + 1];
 
+/// How many coefficients a series has.
+const COUNT: usize = ORDER + 1;
+
 /// 1/k, for the recurrences; the first is never used.
-const OVER: [f64; ORDER + 1] = [0.0, 1.0, 0.5, 1.0 / 3.0, 0.25];
+const OVER: [f64; COUNT] = [0.0, 1.0, 0.5, 1.0 / 3.0, 0.25];
 
 /// A series Σ c_k t^k, truncated after order 4, over any other number type.
 ///
@@ -38,7 +41,7 @@ impl<T: Scalar> Taylor<T> {
 
     /// The coefficients k·c_k: those of t·d/dt.
     #[inline(always)]
-    fn weighted(&self) -> [T; ORDER + 1] {
+    fn weighted(&self) -> [T; COUNT] {
         from_fn(|k| self.0[k] * k as f64)
     }
 
@@ -46,8 +49,8 @@ impl<T: Scalar> Taylor<T> {
     #[inline(always)]
     fn integrate(self, value: T, slope: Self) -> Self {
         let inner = self.weighted();
-        let mut out = [value; ORDER + 1];
-        for k in 1..=ORDER {
+        let mut out = [value; COUNT];
+        for k in 1..COUNT {
             out[k] = convolve(&inner, &slope.0, 1, k) * OVER[k];
         }
         Self(out)
@@ -57,8 +60,8 @@ impl<T: Scalar> Taylor<T> {
     #[inline(always)]
     fn coupled(self, start: (T, T), sign: f64) -> (Self, Self) {
         let inner = self.weighted();
-        let (mut s, mut c) = ([start.0; ORDER + 1], [start.1; ORDER + 1]);
-        for k in 1..=ORDER {
+        let (mut s, mut c) = ([start.0; COUNT], [start.1; COUNT]);
+        for k in 1..COUNT {
             s[k] = convolve(&inner, &c, 1, k) * OVER[k];
             c[k] = convolve(&inner, &s, 1, k) * (sign * OVER[k]);
         }
@@ -69,8 +72,8 @@ impl<T: Scalar> Taylor<T> {
     #[inline(always)]
     fn riccati(self, start: T, slope: T, sign: f64) -> Self {
         let inner = self.weighted();
-        let (mut f, mut w) = ([start; ORDER + 1], [slope; ORDER + 1]);
-        for k in 1..=ORDER {
+        let (mut f, mut w) = ([start; COUNT], [slope; COUNT]);
+        for k in 1..COUNT {
             f[k] = convolve(&inner, &w, 1, k) * OVER[k];
             w[k] = convolve(&f, &f, 0, k) * sign;
         }
@@ -80,9 +83,9 @@ impl<T: Scalar> Taylor<T> {
 
 /// Σ a_j·b_{k−j} for j from `first` to `k`.
 #[inline(always)]
-fn convolve<T: Scalar>(a: &[T; ORDER + 1], b: &[T; ORDER + 1], first: usize, k: usize) -> T {
+fn convolve<T: Scalar>(a: &[T; COUNT], b: &[T; COUNT], first: usize, k: usize) -> T {
     let mut sum = a[first] * b[k - first];
-    for j in first + 1..=k {
+    for j in first + 1..k + 1 {
         sum = sum + a[j] * b[k - j];
     }
     sum
@@ -117,8 +120,8 @@ impl<T: Scalar> Div for Taylor<T> {
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let scale = other.0[0].recip();
-        let mut out = [self.0[0] / other.0[0]; ORDER + 1];
-        for k in 1..=ORDER {
+        let mut out = [self.0[0] / other.0[0]; COUNT];
+        for k in 1..COUNT {
             out[k] = (self.0[k] - convolve(&other.0, &out, 1, k)) * scale;
         }
         Self(out)
@@ -172,7 +175,7 @@ impl<T: Scalar> Scalar for Taylor<T> {
 
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        let mut out = [T::constant(0.0); ORDER + 1];
+        let mut out = [T::constant(0.0); COUNT];
         out[0] = T::constant(value);
         Self(out)
     }
@@ -190,8 +193,8 @@ impl<T: Scalar> Scalar for Taylor<T> {
     #[inline(always)]
     fn recip(self) -> Self {
         let value = self.0[0].recip();
-        let mut out = [value; ORDER + 1];
-        for k in 1..=ORDER {
+        let mut out = [value; COUNT];
+        for k in 1..COUNT {
             out[k] = -convolve(&self.0, &out, 1, k) * value;
         }
         Self(out)
@@ -201,9 +204,9 @@ impl<T: Scalar> Scalar for Taylor<T> {
     fn sqrt(self) -> Self {
         let value = self.0[0].sqrt();
         let half = value.recip() * 0.5;
-        let mut out = [value; ORDER + 1];
+        let mut out = [value; COUNT];
         out[1] = self.0[1] * half;
-        for k in 2..=ORDER {
+        for k in 2..COUNT {
             let mut rest = self.0[k];
             for j in 1..k {
                 rest = rest - out[j] * out[k - j];
@@ -215,8 +218,8 @@ impl<T: Scalar> Scalar for Taylor<T> {
 
     fn exp(self) -> Self {
         let inner = self.weighted();
-        let mut out = [self.0[0].exp(); ORDER + 1];
-        for k in 1..=ORDER {
+        let mut out = [self.0[0].exp(); COUNT];
+        for k in 1..COUNT {
             out[k] = convolve(&inner, &out, 1, k) * OVER[k];
         }
         Self(out)
@@ -255,7 +258,7 @@ impl<T: Scalar> Scalar for Taylor<T> {
         }));
         let mut out = (turn * scale).0;
         out[0] = self.0[0].atan2(x.0[0]);
-        for k in 1..=ORDER {
+        for k in 1..COUNT {
             out[k] = out[k] * OVER[k];
         }
         Self(out)
@@ -272,10 +275,10 @@ impl<T: Scalar> Scalar for Taylor<T> {
 
     fn powf(self, exponent: f64) -> Self {
         let scale = self.0[0].recip();
-        let mut out = [self.0[0].powf(exponent); ORDER + 1];
-        for k in 1..=ORDER {
+        let mut out = [self.0[0].powf(exponent); COUNT];
+        for k in 1..COUNT {
             let mut sum = T::constant(0.0);
-            for j in 1..=k {
+            for j in 1..k + 1 {
                 let weight = exponent * j as f64 - (k - j) as f64;
                 sum = sum + self.0[j] * out[k - j] * weight;
             }

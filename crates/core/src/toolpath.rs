@@ -81,6 +81,22 @@ impl PathBlock {
         self.vz.push(point.vz);
     }
 
+    /// Keeps the first `count` points.
+    pub fn truncate(&mut self, count: usize) {
+        let Self {
+            t,
+            c,
+            x,
+            z,
+            vc,
+            vx,
+            vz,
+        } = self;
+        for column in [t, c, x, z, vc, vx, vz] {
+            column.truncate(count);
+        }
+    }
+
     /// The control point at `index`, if there is one.
     pub fn get(&self, index: usize) -> Option<ControlPoint> {
         Some(ControlPoint {

@@ -28,10 +28,10 @@ impl Scale {
         }
     }
 
-    /// A value in inner units as a number in this unit.
-    pub(crate) fn undo(self, value: f64) -> Decimal {
+    /// A value in inner units as a number in this unit; none if it is not finite.
+    pub(crate) fn undo(self, value: f64) -> Option<Decimal> {
         match self {
-            Self::Shift(places) => Decimal::rounded(value).shifted(-places),
+            Self::Shift(places) => Some(Decimal::rounded(value)?.shifted(-places)),
             Self::Inches => Decimal::rounded(value / 25.4),
             Self::PerInch => Decimal::rounded(value * 25.4),
             Self::Factor(over, under) => Decimal::rounded(value * under / over),

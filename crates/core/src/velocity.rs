@@ -21,6 +21,10 @@ pub struct Nodes<'a> {
     pub z_theta: &'a [f64],
     /// ∂Z/∂X at constant θ.
     pub z_x: &'a [f64],
+    /// Whether the first node is the path's first, not just the first one handed over.
+    pub at_start: bool,
+    /// Whether the last node is the path's last, not just the last one handed over.
+    pub at_end: bool,
 }
 
 impl Nodes<'_> {
@@ -60,8 +64,9 @@ pub trait VelocitySolver: Send + Sync {
     /// The velocities at all nodes handed over.
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()>;
 
-    /// The same for a `Sequential` solver. The nodes begin with the last one of the block before
-    /// (but for the path's first block); `state` is what that block left, empty at first.
+    /// The same for a `Sequential` solver. The nodes end with the next block's first one (but for
+    /// the path's last block), which the next call gets again; `state` is what the call for the
+    /// block before left, empty at first.
     fn solve_onward(
         &self,
         nodes: Nodes<'_>,

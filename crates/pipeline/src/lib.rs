@@ -1,1 +1,23 @@
-//! x
+//! Chains the five stages: law, nodes, locus, velocities; refines, measures, hands blocks on.
+//!
+//! A path is made in blocks of [`BLOCK`] revolutions, whatever the threads: a block's bytes
+//! depend on the job alone. [`prepare`] checks tool against part and settles the range of ρ,
+//! [`run`] makes the path and gives it to a [`Sink`] in order.
+
+mod chain;
+mod error;
+mod law;
+mod make;
+mod plan;
+mod prepare;
+mod progress;
+mod refine;
+mod run;
+
+pub use chain::{Chain, Link};
+pub use error::{PipelineError, Result};
+pub use plan::BLOCK;
+pub use prepare::{Prepared, prepare};
+pub use progress::{Progress, Quiet, Stage};
+pub use refine::{AIM, MOST_ROUNDS, SMALLEST_SEGMENT};
+pub use run::{Expected, Outcome, Sink, expect, run};

@@ -9,7 +9,7 @@ use crate::declared::{example, range, shown};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Entry, Node};
 use crate::recipe::Recipe;
-use crate::suggest::{did_you_mean, listed, quoted};
+use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
 use crate::value;
 
 impl Recipe {
@@ -35,7 +35,7 @@ impl Choice {
             .collect();
         let mut params = Params::new();
         for param in info.params {
-            match self.value_of(param) {
+            match self.value_of(param, info) {
                 Ok(Some(value)) => params.set(param.name, value),
                 Ok(None) => {}
                 Err(diagnostic) => found.push(diagnostic),
@@ -96,7 +96,18 @@ impl Choice {
         })
     }
 
-    fn value_of(&self, param: &Param) -> Result<Option<ParamValue>, Diagnostic> {
+    /// Whether an unknown key, which has its own message, is nearly this parameter's.
+    fn misspells(&self, param: &Param, info: &StrategyInfo) -> bool {
+        let declared = |key: &str| info.params.iter().any(|other| other.name == key);
+        let mut unknown = self.params.iter().filter(|entry| !declared(&entry.key));
+        unknown.any(|entry| is_misspelt(&entry.key, param.name))
+    }
+
+    fn value_of(
+        &self,
+        param: &Param,
+        info: &StrategyInfo,
+    ) -> Result<Option<ParamValue>, Diagnostic> {
         match self.param(param.name) {
             Some(entry) => read(param, &entry.node).map(Some),
             None => match param.default {
@@ -104,6 +115,7 @@ impl Choice {
                 ParamDefault::Flag(flag) => Ok(Some(ParamValue::Flag(flag))),
                 ParamDefault::Text(word) => Ok(Some(ParamValue::Text(word.to_owned()))),
                 ParamDefault::Absent => Ok(None),
+                ParamDefault::Required if self.misspells(param, info) => Ok(None),
                 ParamDefault::Required => Err(self.missing(param)),
             },
         }

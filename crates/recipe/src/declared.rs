@@ -10,7 +10,7 @@ pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
     }
 }
 
-/// The declared range: "above 0 mm and at most 5 mm", "at least 3", "not zero".
+/// The declared range: "above 0 mm and at most 5 mm", "at least 3", "different from zero".
 pub(crate) fn range(param: &Param) -> String {
     let limit = |value: f64| shown(param.kind, value);
     let mut parts = Vec::new();
@@ -22,7 +22,7 @@ pub(crate) fn range(param: &Param) -> String {
         parts.push(format!("at most {}", limit(param.max)));
     }
     if param.nonzero {
-        parts.push("not zero".to_owned());
+        parts.push("different from zero".to_owned());
     }
     if parts.is_empty() {
         "a finite number".to_owned()
@@ -86,7 +86,10 @@ mod tests {
         let step = Param::angle("max_step", "").positive().max(180.0 * DEG);
         assert_eq!(range(&step), "above 0 deg and at most 180 deg");
         assert_eq!(range(&Param::count("at_least", "").min(3.0)), "at least 3");
-        assert_eq!(range(&Param::length("radius", "").nonzero()), "not zero");
+        assert_eq!(
+            range(&Param::length("radius", "").nonzero()),
+            "different from zero"
+        );
     }
 
     #[test]

@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::place::{Place, Source};
+use crate::suggest::is_misspelt;
 
 /// A value in the tree.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +75,15 @@ impl Table {
     /// The entry under a key.
     pub fn get(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.key == key)
+    }
+
+    /// Whether the key is there, or one that is not known and nearly the same.
+    ///
+    /// The unknown key has its own message, so that the right one need not be missed too.
+    pub(crate) fn has_like(&self, key: &str) -> bool {
+        self.entries
+            .iter()
+            .any(|entry| entry.key == key || is_misspelt(&entry.key, key))
     }
 
     pub(crate) fn get_mut(&mut self, key: &str) -> Option<&mut Entry> {

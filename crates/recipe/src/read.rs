@@ -17,6 +17,8 @@ pub(crate) struct Section<'a> {
     pub(crate) table: Option<&'a Table>,
     /// Its header; the recipe as a whole if there is none.
     pub(crate) place: Place,
+    /// Whether there is no such table, but an unknown one of nearly its name.
+    pub(crate) misspelt: bool,
     /// What was found wrong.
     pub(crate) found: &'a mut Vec<Diagnostic>,
 }
@@ -33,10 +35,12 @@ pub(crate) struct Sections<'a> {
 impl Sections<'_> {
     /// The keys above the first table.
     pub(crate) fn top(&mut self) -> Section<'_> {
+        let place = self.whole.clone();
         Section {
             name: "",
             table: Some(self.root),
-            place: self.whole.clone(),
+            place,
+            misspelt: false,
             found: self.found,
         }
     }
@@ -49,10 +53,12 @@ impl Sections<'_> {
             Some(Value::Table(table)) => Some(table),
             _ => None,
         };
+        let misspelt = entry.is_none() && self.root.has_like(name);
         Section {
             name,
             table,
             place,
+            misspelt,
             found: self.found,
         }
     }
@@ -94,15 +100,6 @@ impl<'a> Section<'a> {
         self.found.push(diagnostic);
     }
 
-    /// The name of a key in messages: `tool.nose_radius`.
-    pub(crate) fn full(&self, key: &str) -> String {
-        if self.name.is_empty() {
-            key.to_owned()
-        } else {
-            format!("{}.{key}", self.name)
-        }
-    }
-
     fn keep<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
         result.map_err(|diagnostic| self.complain(diagnostic)).ok()
     }
@@ -131,8 +128,8 @@ impl<'a> Section<'a> {
         if (bound.holds)(read.value) {
             return Some(read);
         }
-        let title = format!("`{}` must be {}", self.full(key), bound.words);
-        let label = format!("this is {}", kind.format(read.value));
+        let title = format!("`{key}` must be {}", bound.words);
+        let label = format!("not {}", bound.words);
         self.complain(Diagnostic::new(read.place, title).label(label));
         None
     }
@@ -145,7 +142,8 @@ impl<'a> Section<'a> {
         bound: Bound,
         example: &str,
     ) -> Option<Located<f64>> {
-        if self.table.is_some() && self.node(key).is_none() {
+        let there = self.table.is_none_or(|table| table.has_like(key));
+        if !there {
             self.missing(key, &format!("\"{example}\""));
         }
         self.quantity(key, kind, bound)
@@ -199,7 +197,7 @@ impl<'a> Section<'a> {
 
     /// Complains that the whole table is missing; `example` is a line that it would hold.
     pub(crate) fn missing_table(&mut self, example: &str) {
-        if self.is_something_else() {
+        if self.is_something_else() || self.misspelt {
             return;
         }
         let title = format!("the recipe lacks the table [{}]", self.name);

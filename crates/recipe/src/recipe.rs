@@ -179,6 +179,15 @@ impl Recipe {
         stem(&self.path)
     }
 
+    /// The name as that of one folder: separators and control characters become hyphens.
+    pub fn folder_name(&self) -> String {
+        let name: String = self.name.trim().chars().map(folder_char).collect();
+        match name.strip_prefix('.') {
+            Some(rest) => format!("-{rest}"),
+            None => name,
+        }
+    }
+
     /// A file that the recipe names, relative to it.
     pub fn resolve(&self, file: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(file)
@@ -193,6 +202,15 @@ impl Recipe {
         help: impl IntoIterator<Item = String>,
     ) -> Diagnostic {
         Diagnostic::new(place, title).label(label).helps(help)
+    }
+}
+
+/// A character that a folder's name may have on every system.
+fn folder_char(c: char) -> char {
+    if c.is_control() || "/\\:*?\"<>|".contains(c) {
+        '-'
+    } else {
+        c
     }
 }
 

@@ -13,6 +13,11 @@ pub(crate) fn closest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .map(|(_, name)| name)
 }
 
+/// Whether a written key is close to the right one.
+pub(crate) fn is_misspelt(written: &str, right: &str) -> bool {
+    closest(written, &[right]).is_some()
+}
+
 /// "did you mean `this`?", if a known word is close.
 pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
     closest(word, known).map(|name| format!("did you mean `{name}`?"))

@@ -22,26 +22,33 @@ fn setting(key: &str, wanted: Quantity) -> String {
     format!("{key} = \"{}\"", wanted.example())
 }
 
+/// The number with each of the usual units.
+fn with_units(number: &str, wanted: Quantity) -> String {
+    let choices: Vec<String> = wanted
+        .units()
+        .take(3)
+        .map(|unit| format!("\"{number} {unit}\""))
+        .collect();
+    format!(
+        "write the number with its unit, in quotes: {}",
+        choices.join(" or ")
+    )
+}
+
 fn bare_number(key: &str, node: &Node, number: f64, wanted: Quantity) -> Diagnostic {
-    let unit = wanted.units().next().unwrap_or("");
     let title = format!("`{key}` has no unit");
     let label = format!("{} needs one", wanted.noun());
     Diagnostic::new(node.place.clone(), title)
         .label(label)
-        .help(format!(
-            "write it with its unit, in quotes: {key} = \"{number} {unit}\""
-        ))
+        .help(with_units(&number.to_string(), wanted))
 }
 
 fn unit_error(key: &str, node: &Node, error: QuantityError) -> Diagnostic {
     let message = |title: String| Diagnostic::new(node.place.clone(), title);
     match error {
-        QuantityError::NoUnit { text, wanted } => {
-            let unit = wanted.units().next().unwrap_or("");
-            message(format!("`{key}` has no unit"))
-                .label(format!("{} needs one", wanted.noun()))
-                .help(format!("write it with its unit: {key} = \"{text} {unit}\""))
-        }
+        QuantityError::NoUnit { text, wanted } => message(format!("`{key}` has no unit"))
+            .label(format!("{} needs one", wanted.noun()))
+            .help(with_units(&text, wanted)),
         QuantityError::OtherKind {
             text,
             found,
@@ -89,6 +96,9 @@ pub(crate) fn number(key: &str, node: &Node) -> Result<f64, Diagnostic> {
         Value::Text(text) if text.trim().parse::<f64>().is_ok() => {
             let fixed = format!("write it without quotes: {key} = {}", text.trim());
             Err(wrong_type(key, node, "a pure number").help(fixed))
+        }
+        Value::Text(text) if text.trim_start().starts_with(|c: char| c.is_ascii_digit()) => {
+            Err(wrong_type(key, node, "a pure number").help("it has no unit, and needs no quotes"))
         }
         _ => Err(wrong_type(key, node, "a pure number")),
     }

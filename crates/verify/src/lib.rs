@@ -1,1 +1,21 @@
-//! x
+//! Measures what a tool path cuts, apart from whatever made the path.
+//!
+//! The true tool position is found here, by the first touch of the nose on the surface; a
+//! compensator is never asked. A path comes in stretches of neighbouring control points
+//! ([`Meter::measure`], in parallel), whose measures are put together in order
+//! ([`Meter::append`]): the figures do not depend on how many threads there were.
+
+mod axes;
+mod cusp;
+mod meter;
+mod playback;
+mod residual;
+mod subject;
+mod touch;
+
+pub use axes::{AxesMotion, AxisMotion};
+pub use meter::{Measured, Meter, PathFigures};
+pub use playback::{INSTANTS, PlaybackFigures};
+pub use residual::{ResidualFigures, SECTIONS};
+pub use subject::Subject;
+pub use touch::FirstTouch;

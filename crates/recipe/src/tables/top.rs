@@ -58,7 +58,7 @@ pub(crate) fn format_is_one(section: &mut Section<'_>) -> bool {
             false
         }
         Err(diagnostic) => {
-            section.complain(diagnostic.help("write: format = 1"));
+            section.complain(diagnostic);
             false
         }
     }

@@ -1,0 +1,370 @@
+//! From nodes to control points: subdivided, placed on the locus, given velocities.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use rayon::prelude::*;
+use turnpath_core::toolpath::{ControlPoint, PathBlock};
+use turnpath_core::{CentreBuffers, Dependence, Locus, Nodes, Rates, Velocities, angle};
+
+use crate::Result;
+use crate::plan::{CLOSEST_NODES, Plan};
+
+/// How often each sampler segment of a block is halved; an empty list: not at all.
+pub type Depths = Vec<u8>;
+
+/// The control points of a block, and the next block's first one, where its last segment ends.
+pub struct Made {
+    /// The points, the joint with the next block included.
+    pub points: PathBlock,
+    /// Which sampler segment each point's segment is a part of.
+    pub owner: Vec<u32>,
+    /// How many nodes the sampler had placed, the path's last point included.
+    pub sampled: usize,
+}
+
+/// Nodes of a block with their places on the locus.
+#[derive(Default)]
+struct Placed {
+    owner: Vec<u32>,
+    sampled: usize,
+    columns: Columns,
+}
+
+/// What a velocity solver gets, a column for each quantity.
+#[derive(Default)]
+struct Columns {
+    t: Vec<f64>,
+    c: Vec<f64>,
+    x: Vec<f64>,
+    z: Vec<f64>,
+    c_rate: Vec<f64>,
+    x_rate: Vec<f64>,
+    z_theta: Vec<f64>,
+    z_x: Vec<f64>,
+}
+
+impl Columns {
+    fn each(&self) -> [&Vec<f64>; 8] {
+        let Self {
+            t,
+            c,
+            x,
+            z,
+            c_rate,
+            x_rate,
+            z_theta,
+            z_x,
+        } = self;
+        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
+    }
+
+    fn each_mut(&mut self) -> [&mut Vec<f64>; 8] {
+        let Self {
+            t,
+            c,
+            x,
+            z,
+            c_rate,
+            x_rate,
+            z_theta,
+            z_x,
+        } = self;
+        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
+    }
+
+    fn append(&mut self, other: &Self, range: Range<usize>) {
+        for (own, other) in self.each_mut().into_iter().zip(other.each()) {
+            own.extend_from_slice(&other[range.clone()]);
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.t.len()
+    }
+}
+
+/// Makes the blocks of `range`, in parallel, with as many of their neighbours' nodes as the
+/// velocity solver asks for.
+pub fn make(
+    plan: &Plan<'_>,
+    range: Range<usize>,
+    depths: &[Depths],
+    solver_state: Option<&mut Vec<f64>>,
+) -> Result<Vec<Made>> {
+    let overlap = match plan.chain.velocity.strategy.dependence() {
+        Dependence::Overlap(nodes) => nodes,
+        Dependence::Local | Dependence::Sequential => 0,
+    };
+    let around = place_around(plan, range.clone(), overlap, depths)?;
+    match solver_state {
+        Some(state) => range
+            .map(|index| solve(plan, &around, index, overlap, Some(&mut *state)))
+            .collect(),
+        None => range
+            .into_par_iter()
+            .map(|index| solve(plan, &around, index, overlap, None))
+            .collect(),
+    }
+}
+
+/// Blocks in a row with their nodes placed, from number `first` on.
+struct Row {
+    first: usize,
+    blocks: Vec<Placed>,
+}
+
+impl Row {
+    fn get(&self, index: usize) -> Option<&Placed> {
+        self.blocks.get(index.checked_sub(self.first)?)
+    }
+}
+
+/// Places the nodes of `range` and of neighbours on both sides that hold `overlap` nodes, the
+/// next block's first one at least.
+fn place_around(
+    plan: &Plan<'_>,
+    range: Range<usize>,
+    overlap: usize,
+    depths: &[Depths],
+) -> Result<Row> {
+    let (mut first, mut last) = (range.start, range.end);
+    let mut blocks = place(plan, first..last, depths)?;
+    let mut before = 0;
+    while first > 0 && before < overlap.max(1) {
+        first -= 1;
+        let mut found = place(plan, first..first + 1, depths)?;
+        before += found
+            .iter()
+            .map(|placed| placed.columns.len())
+            .sum::<usize>();
+        found.append(&mut blocks);
+        blocks = found;
+    }
+    let mut after = 0;
+    while last < plan.blocks() && after < overlap + 1 {
+        let found = place(plan, last..last + 1, depths)?;
+        after += found
+            .iter()
+            .map(|placed| placed.columns.len())
+            .sum::<usize>();
+        blocks.extend(found);
+        last += 1;
+    }
+    Ok(Row { first, blocks })
+}
+
+/// Samples, subdivides and places the nodes of each block.
+fn place(plan: &Plan<'_>, range: Range<usize>, depths: &[Depths]) -> Result<Vec<Placed>> {
+    let sampled_to = (range.end + 1).min(plan.blocks());
+    let raw: Vec<Vec<f64>> = (range.start..sampled_to)
+        .into_par_iter()
+        .map(|index| plan.sample(index))
+        .collect::<Result<_>>()?;
+    let end_of = |index: usize| {
+        let next = raw
+            .get(index + 1 - range.start)
+            .and_then(|nodes| nodes.first());
+        next.copied().unwrap_or(plan.law.end())
+    };
+    range
+        .clone()
+        .into_par_iter()
+        .map(|index| {
+            let nodes = &raw[index - range.start];
+            let halved = depths.get(index).map_or(&[][..], Vec::as_slice);
+            place_block(plan, index, nodes, end_of(index), halved)
+        })
+        .collect()
+}
+
+fn place_block(
+    plan: &Plan<'_>,
+    index: usize,
+    sampled: &[f64],
+    end: f64,
+    depths: &[u8],
+) -> Result<Placed> {
+    let too_late = sampled
+        .iter()
+        .rev()
+        .take_while(|node| end - **node < CLOSEST_NODES)
+        .count();
+    let sampled = &sampled[..sampled.len() - too_late.min(sampled.len())];
+    let (mut n, mut owner) = (Vec::new(), Vec::new());
+    for (i, from) in sampled.iter().enumerate() {
+        let to = sampled.get(i + 1).copied().unwrap_or(end);
+        let parts = 1u32 << depths.get(i).copied().unwrap_or(0);
+        for part in 0..parts {
+            n.push(from + (to - from) * f64::from(part) / f64::from(parts));
+            owner.push(i as u32);
+        }
+    }
+    let mut count = sampled.len();
+    if plan.is_last(index) {
+        n.push(end);
+        owner.push(sampled.len() as u32);
+        count += 1;
+    }
+    Ok(Placed {
+        columns: locate(plan, &n)?,
+        owner,
+        sampled: count,
+    })
+}
+
+/// Puts nodes on the locus.
+fn locate(plan: &Plan<'_>, n: &[f64]) -> Result<Columns> {
+    let (job, compensator) = (&plan.prepared.job, &plan.chain.compensator);
+    let place = || match (n.first(), n.last()) {
+        (Some(first), Some(last)) => format!("in revolutions {first:.3} to {last:.3}"),
+        _ => String::new(),
+    };
+    let theta: Vec<f64> = n.iter().map(|n| angle(*n)).collect();
+    let rho: Vec<f64> = n.iter().map(|n| plan.law.value(*n)).collect();
+    let mut centres = CentreBuffers::default();
+    centres.resize(n.len());
+    let locus = &plan.prepared.locus;
+    locus
+        .centre(&theta, &rho, centres.as_centres())
+        .map_err(|error| compensator.failed(place(), error))?;
+    let blank = vec![f64::NAN; n.len()];
+    let (mut x_theta, mut x_rho) = (blank.clone(), blank.clone());
+    let (mut z_theta, mut z_x) = (blank.clone(), blank);
+    let rates = Rates {
+        x_theta: &mut x_theta,
+        x_rho: &mut x_rho,
+        z_theta: &mut z_theta,
+        z_x: &mut z_x,
+    };
+    locus
+        .rates(&theta, &rho, rates)
+        .map_err(|error| compensator.failed(place(), error))?;
+    let c_rate: Vec<f64> = n.iter().map(|n| job.spindle.speed_at(*n)).collect();
+    let x_rate = (0..n.len())
+        .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
+        .collect();
+    let columns = Columns {
+        t: n.iter().map(|n| job.spindle.time_at(*n)).collect(),
+        c: n.iter().map(|n| TAU * n).collect(),
+        x: centres.x,
+        z: centres.z,
+        c_rate,
+        x_rate,
+        z_theta,
+        z_x,
+    };
+    for (i, n) in n.iter().enumerate() {
+        if columns.each().iter().any(|column| !column[i].is_finite()) {
+            let what = format!(
+                "no number for the tool centre at C = {:.3} deg, ρ = {} mm",
+                360.0 * n,
+                rho[i]
+            );
+            return Err(compensator.bad_answer(what));
+        }
+    }
+    Ok(columns)
+}
+
+/// Gives the points of a block their velocities.
+fn solve(
+    plan: &Plan<'_>,
+    row: &Row,
+    index: usize,
+    overlap: usize,
+    state: Option<&mut Vec<f64>>,
+) -> Result<Made> {
+    let (columns, own) = row.gather(index, overlap);
+    let (mut c, mut x, mut z) = (columns.unset(), columns.unset(), columns.unset());
+    let nodes = columns.nodes(own.start == 0 && index == 0, plan.is_last(index));
+    let out = Velocities {
+        c: &mut c,
+        x: &mut x,
+        z: &mut z,
+    };
+    let link = &plan.chain.velocity;
+    let answer = match state {
+        Some(state) => link.strategy.solve_onward(nodes, state, out),
+        None => link.strategy.solve(nodes, out),
+    };
+    let start = columns.t.get(own.start).copied().unwrap_or_default();
+    answer.map_err(|error| link.failed(format!("from {start:.6} s on"), error))?;
+    let mut points = PathBlock::default();
+    // One more than its own: the joint with the next block.
+    for k in own.start..(own.end + 1).min(columns.len()) {
+        let point = columns.point(k, c[k], x[k], z[k]);
+        if !point.is_finite() {
+            let what = format!("the velocity at {:.6} s is no number: {point:?}", point.t);
+            return Err(link.bad_answer(what));
+        }
+        points.push(point);
+    }
+    let (owner, sampled) = row.get(index).map_or((Vec::new(), 0), |block| {
+        (block.owner.clone(), block.sampled)
+    });
+    Ok(Made {
+        points,
+        owner,
+        sampled,
+    })
+}
+
+impl Row {
+    /// The nodes of a block between `overlap` ones of its neighbours, the joint with the next
+    /// block besides; and where its own are.
+    fn gather(&self, index: usize, overlap: usize) -> (Columns, Range<usize>) {
+        let at = index - self.first;
+        let mut columns = Columns::default();
+        let lengths: Vec<usize> = self
+            .blocks
+            .iter()
+            .map(|block| block.columns.len())
+            .collect();
+        let behind: usize = lengths[..at].iter().sum();
+        let mut skip = behind.saturating_sub(overlap);
+        let mut wanted = behind - skip + lengths[at] + overlap + 1;
+        let own_start = behind - skip;
+        for (block, length) in self.blocks.iter().zip(&lengths) {
+            let from = skip.min(*length);
+            let to = (from + wanted).min(*length);
+            columns.append(&block.columns, from..to);
+            skip -= from;
+            wanted -= to - from;
+        }
+        (columns, own_start..own_start + lengths[at])
+    }
+}
+
+impl Columns {
+    fn unset(&self) -> Vec<f64> {
+        vec![f64::NAN; self.len()]
+    }
+
+    fn nodes(&self, at_start: bool, at_block_end: bool) -> Nodes<'_> {
+        Nodes {
+            t: &self.t,
+            c: &self.c,
+            x: &self.x,
+            z: &self.z,
+            c_rate: &self.c_rate,
+            x_rate: &self.x_rate,
+            z_theta: &self.z_theta,
+            z_x: &self.z_x,
+            at_start,
+            at_end: at_block_end,
+        }
+    }
+
+    fn point(&self, k: usize, vc: f64, vx: f64, vz: f64) -> ControlPoint {
+        ControlPoint {
+            t: self.t[k],
+            c: self.c[k],
+            x: self.x[k],
+            z: self.z[k],
+            vc,
+            vx,
+            vz,
+        }
+    }
+}

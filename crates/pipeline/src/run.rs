@@ -1,0 +1,139 @@
+//! The whole run: law, refinement, then every block made, measured and handed on in order.
+
+use rayon::prelude::*;
+use turnpath_core::toolpath::{PathBlock, Section};
+use turnpath_verify::{Measured, Meter, PathFigures};
+
+use crate::make::{Depths, make};
+use crate::plan::Plan;
+use crate::progress::{Progress, Stage};
+use crate::refine::{first_state, refine, runs};
+use crate::{Chain, PipelineError, Prepared, Result};
+
+/// Blocks that are made at a time: enough for every thread, and few enough that a batch of large
+/// blocks (half a million nodes each) stays within some hundred megabytes.
+const LARGE_BATCH: usize = 64;
+/// Control points that a batch should not exceed much.
+const BATCH_POINTS: f64 = 1e6;
+/// Blocks that are looked at to expect the count of points.
+const LOOKED_AT: usize = 8;
+
+/// Takes the path as it is made.
+pub trait Sink {
+    /// The next control points, in order.
+    fn take(&mut self, section: Section, points: &PathBlock) -> std::io::Result<()>;
+}
+
+/// What a run gave.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Control points of the cutting section.
+    pub control_points: u64,
+    /// Of these, added by refinement.
+    pub added_by_refine: u64,
+    /// Revolutions of the cutting section.
+    pub revolutions: f64,
+    /// Time of the cutting section, s.
+    pub cutting_time: f64,
+    /// What the path as played would cut.
+    pub figures: PathFigures,
+}
+
+/// What a run will give, without making it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expected {
+    /// Revolutions.
+    pub revolutions: f64,
+    /// Time, s.
+    pub cutting_time: f64,
+    /// Points that the sampler will place, from a few blocks.
+    pub control_points: f64,
+}
+
+/// Makes, measures and hands on the path.
+pub fn run(
+    chain: &Chain,
+    prepared: &Prepared,
+    refined: bool,
+    sink: &mut dyn Sink,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
+    progress.begin(Stage::Law, 1);
+    let plan = Plan::new(chain, prepared)?;
+    let batch = batch_size(&plan)?;
+    let depths = match refined {
+        true => refine(&plan, batch, progress)?,
+        false => Vec::new(),
+    };
+    write(&plan, batch, &depths, sink, progress)
+}
+
+fn write(
+    plan: &Plan<'_>,
+    batch: usize,
+    depths: &[Depths],
+    sink: &mut dyn Sink,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
+    let touch = &plan.prepared.touch;
+    let mut meter = Meter::new(touch.clone());
+    let (mut made_points, mut sampled) = (0, 0);
+    let mut state = first_state(plan);
+    let blocks: Vec<usize> = (0..plan.blocks()).collect();
+    progress.begin(Stage::Write, blocks.len() as u64);
+    for range in runs(&blocks, batch) {
+        let made = make(plan, range.clone(), depths, state.as_mut())?;
+        let measured: Vec<Measured> = made
+            .par_iter()
+            .map(|made| Meter::measure(touch, &made.points).map_err(PipelineError::Measure))
+            .collect::<Result<_>>()?;
+        for (made, measured) in made.into_iter().zip(measured) {
+            meter.append(&measured).map_err(PipelineError::Measure)?;
+            let own = made.owner.len();
+            made_points += own as u64;
+            sampled += made.sampled as u64;
+            let mut points = made.points;
+            points.truncate(own);
+            sink.take(Section::Cutting, &points)
+                .map_err(PipelineError::Sink)?;
+        }
+        progress.advance(range.len() as u64);
+    }
+    let revolutions = plan.law.end();
+    Ok(Outcome {
+        control_points: made_points,
+        added_by_refine: made_points - sampled,
+        revolutions,
+        cutting_time: plan.prepared.job.spindle.time_at(revolutions),
+        figures: meter.figures().clone(),
+    })
+}
+
+/// What the chain's law and sampler will give.
+pub fn expect(chain: &Chain, prepared: &Prepared) -> Result<Expected> {
+    let plan = Plan::new(chain, prepared)?;
+    let revolutions = plan.law.end();
+    Ok(Expected {
+        revolutions,
+        cutting_time: plan.prepared.job.spindle.time_at(revolutions),
+        control_points: nodes_per_revolution(&plan)? * revolutions + 1.0,
+    })
+}
+
+fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
+    let every = plan.blocks().div_ceil(LOOKED_AT).max(1);
+    let (mut nodes, mut revolutions) = (0.0, 0.0);
+    for index in (0..plan.blocks()).step_by(every) {
+        let block = plan.revolutions(index);
+        nodes += plan.sample(index)?.len() as f64;
+        revolutions += block.end - block.start;
+    }
+    Ok(nodes / revolutions)
+}
+
+/// How many blocks to make at a time; it changes memory and speed, never the path.
+fn batch_size(plan: &Plan<'_>) -> Result<usize> {
+    let per_block = nodes_per_revolution(plan)? * crate::BLOCK;
+    let fitting = (BATCH_POINTS / per_block.max(1.0)) as usize;
+    Ok(fitting.clamp(rayon::current_num_threads().max(1), LARGE_BATCH))
+}

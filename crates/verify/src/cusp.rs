@@ -1,0 +1,43 @@
+//! The cusp that two neighbouring passes of a round nose leave between them.
+
+use nalgebra::Vector2;
+
+/// A point of a radial section: (ρ, z), mm.
+pub type Point = Vector2<f64>;
+
+/// The lower intersection of two circles of radius `radius`; `None` where they do not meet.
+pub fn between(first: Point, second: Point, radius: f64) -> Option<Point> {
+    let apart = second - first;
+    let half = 0.5 * apart.norm();
+    if half == 0.0 || half > radius {
+        return None;
+    }
+    let across = Vector2::new(-apart.y, apart.x) / (2.0 * half);
+    let down = if across.y > 0.0 { -across } else { across };
+    let depth = (radius * radius - half * half).sqrt();
+    Some(0.5 * (first + second) + depth * down)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_a_flat_part_the_cusp_is_that_of_the_closed_form() {
+        let (radius, feed) = (1.0, 0.02);
+        let cusp = between(
+            Point::new(1.0, radius),
+            Point::new(1.0 + feed, radius),
+            radius,
+        );
+        let height = radius - (radius * radius - 0.25 * feed * feed).sqrt();
+        let cusp = cusp.unwrap();
+        assert!((cusp.y - height).abs() < 1e-15);
+        assert!((cusp.x - 1.01).abs() < 1e-15);
+    }
+
+    #[test]
+    fn circles_that_do_not_meet_leave_no_cusp() {
+        assert!(between(Point::new(0.0, 1.0), Point::new(2.5, 1.0), 1.0).is_none());
+    }
+}

@@ -1,0 +1,92 @@
+//! The meter: a path in stretches, measured apart and put together in order.
+
+use turnpath_core::Result;
+use turnpath_core::toolpath::PathBlock;
+
+use crate::axes::AxesMotion;
+use crate::playback::{PlaybackFigures, play_back};
+use crate::residual::{Passes, ResidualFigures};
+use crate::touch::FirstTouch;
+
+/// The measure of one stretch.
+#[derive(Debug, Clone, Default)]
+pub struct Measured {
+    /// Interpolation error.
+    pub playback: PlaybackFigures,
+    /// Largest |error| of each segment, mm.
+    pub per_segment: Vec<f64>,
+    /// Residual within the stretch.
+    pub residual: ResidualFigures,
+    /// Motion of the axes.
+    pub axes: AxesMotion,
+    passes: Passes,
+}
+
+/// The measure of a whole path.
+#[derive(Debug, Clone, Default)]
+pub struct PathFigures {
+    /// Interpolation error.
+    pub playback: PlaybackFigures,
+    /// Residual.
+    pub residual: ResidualFigures,
+    /// Motion of the axes.
+    pub axes: AxesMotion,
+}
+
+/// Measures a path against its subject.
+pub struct Meter {
+    touch: FirstTouch,
+    figures: PathFigures,
+    passes: Passes,
+}
+
+impl Meter {
+    /// Nothing measured yet.
+    pub fn new(touch: FirstTouch) -> Self {
+        Self {
+            touch,
+            figures: PathFigures::default(),
+            passes: Passes::default(),
+        }
+    }
+
+    /// Finds first touches as this meter does.
+    pub fn touch(&self) -> &FirstTouch {
+        &self.touch
+    }
+
+    /// Measures the segments between neighbouring points; can run in parallel.
+    pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<Measured> {
+        let mut measured = Measured {
+            axes: AxesMotion::of(points),
+            ..Measured::default()
+        };
+        measured.playback = play_back(touch, points, &mut measured.per_segment)?;
+        measured.passes = Passes::of(touch, points)?;
+        measured.residual = measured.passes.residual(touch)?;
+        Ok(measured)
+    }
+
+    /// Only the largest |error| of each segment, for refinement.
+    pub fn segment_errors(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
+        let mut errors = Vec::new();
+        play_back(touch, points, &mut errors)?;
+        Ok(errors)
+    }
+
+    /// Puts the path's next stretch behind what has been measured. It begins with the control
+    /// point with which the one before ended.
+    pub fn append(&mut self, next: &Measured) -> Result<()> {
+        self.figures.playback.append(&next.playback);
+        self.figures.axes.append(&next.axes);
+        self.figures.residual.append(&next.residual);
+        let seam = self.passes.follow(&self.touch, &next.passes)?;
+        self.figures.residual.append(&seam);
+        Ok(())
+    }
+
+    /// The figures so far.
+    pub fn figures(&self) -> &PathFigures {
+        &self.figures
+    }
+}

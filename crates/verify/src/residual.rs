@@ -1,0 +1,242 @@
+//! The residual: cusps between neighbouring passes along radial sections.
+//!
+//! The tool centres are at the played X with their true Z, so the figure is the spiral's own and
+//! does not mix with the interpolation error. The innermost turn is left out: the pair of passes
+//! that would close it lies on both sides of the axis.
+
+use std::f64::consts::TAU;
+
+use turnpath_core::toolpath::{PathBlock, Segment};
+use turnpath_core::{Gradients, Result, Scalar, SurfaceModel};
+
+use crate::cusp::{self, Point};
+use crate::touch::{FirstTouch, Touch};
+
+/// Radial sections of a revolution: one every degree, so that harmonics of the surface up to the
+/// 30th or so are seen at their worst to within a few hundredths.
+pub const SECTIONS: i64 = 360;
+/// Steps from a cusp to the nearest place of the profile: each leaves (height × curvature) of the
+/// distance, which is 1e-4 or less.
+const FOOT_STEPS: usize = 5;
+/// Steps of Newton's method for the instant at which C passes a section. C is nearly linear.
+const CROSSING_STEPS: usize = 8;
+
+/// The residual of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ResidualFigures {
+    /// Highest cusp along the profile's normal, mm; infinite where passes do not meet.
+    pub max: f64,
+    /// Angle of its section, rad.
+    pub at_theta: f64,
+    /// Its radius, mm.
+    pub at_rho: f64,
+    /// How many cusps were looked at.
+    pub cusps: u64,
+}
+
+impl ResidualFigures {
+    /// Puts the figures of the path's next stretch behind these.
+    pub fn append(&mut self, next: &Self) {
+        self.cusps += next.cusps;
+        if next.max > self.max {
+            (self.max, self.at_theta, self.at_rho) = (next.max, next.at_theta, next.at_rho);
+        }
+    }
+}
+
+/// Where the tool stood when C passed one section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Pass {
+    x: f64,
+    centre: Point,
+}
+
+/// Passes of successive sections: pass i is that of section number `first` + i, counted from
+/// C = 0 on, [`SECTIONS`] a revolution.
+#[derive(Debug, Clone, Default)]
+pub struct Passes {
+    first: i64,
+    passes: Vec<Pass>,
+}
+
+impl Passes {
+    /// The passes of a stretch of control points, its last point excluded.
+    pub fn of(touch: &FirstTouch, points: &PathBlock) -> Result<Self> {
+        let width = TAU / SECTIONS as f64;
+        let (mut numbers, mut x) = (Vec::new(), Vec::new());
+        for (segment, c) in points.segments().zip(points.c.windows(2)) {
+            let (from, to) = (c[0] / width, c[1] / width);
+            let mut number = from.ceil();
+            while number < to {
+                let instant = crossing(&segment, number * width);
+                numbers.push(number as i64);
+                x.push(segment.x.value(instant));
+                number += 1.0;
+            }
+        }
+        let first = numbers.first().copied().unwrap_or_default();
+        let theta: Vec<f64> = numbers.iter().map(|number| angle_of(*number)).collect();
+        let mut touches = Vec::new();
+        touch.find(&theta, &x, &mut touches)?;
+        let subject = touch.subject();
+        let radius = subject.tool.nose_radius;
+        let pass = |(x, touch): (f64, &Touch)| Pass {
+            x,
+            centre: match subject.compensates_nose {
+                true => Point::new(x, touch.z),
+                false => tangent_centre(touch, radius),
+            },
+        };
+        Ok(Self {
+            first,
+            passes: x.iter().copied().zip(&touches).map(pass).collect(),
+        })
+    }
+
+    /// The residual between these passes and one another.
+    pub fn residual(&self, touch: &FirstTouch) -> Result<ResidualFigures> {
+        residual_between(
+            touch,
+            &self.passes,
+            &self.passes,
+            self.first,
+            SECTIONS as usize,
+        )
+    }
+
+    /// Takes on the passes that follow: gives the residual between the last revolution so far and
+    /// the first of `next`, and keeps what the next call needs.
+    pub fn follow(&mut self, touch: &FirstTouch, next: &Passes) -> Result<ResidualFigures> {
+        let kept = self.passes.len();
+        let turn = SECTIONS as usize;
+        self.passes.extend_from_slice(&next.passes);
+        if kept == 0 {
+            self.first = next.first;
+        }
+        let start = kept.saturating_sub(turn);
+        let seam = &self.passes[start..(kept + turn).min(self.passes.len())];
+        let earlier = &self.passes[start..kept];
+        let figures = residual_between(touch, earlier, seam, self.first + start as i64, turn)?;
+        let drop = self.passes.len().saturating_sub(turn);
+        self.passes.drain(..drop);
+        self.first += drop as i64;
+        Ok(figures)
+    }
+}
+
+fn angle_of(number: i64) -> f64 {
+    TAU * number.rem_euclid(SECTIONS) as f64 / SECTIONS as f64
+}
+
+/// When C passes `angle`, as a part of the segment.
+fn crossing(segment: &Segment, angle: f64) -> f64 {
+    let (from, to) = (segment.c.value(0.0), segment.c.value(1.0));
+    let mut s = (angle - from) / (to - from);
+    for _ in 0..CROSSING_STEPS {
+        let step = (segment.c.value(s) - angle) / segment.c.slope(s);
+        if !step.is_finite() {
+            break;
+        }
+        s = (s - step).clamp(0.0, 1.0);
+    }
+    s
+}
+
+/// Where the nose stands that touches the profile at a contact.
+fn tangent_centre(touch: &Touch, radius: f64) -> Point {
+    let w = (1.0 + touch.slope * touch.slope).sqrt();
+    Point::new(touch.foot - radius * touch.slope / w, touch.z + radius / w)
+}
+
+/// The residual between each of `earlier` and the pass `turn` places on in `all`.
+fn residual_between(
+    touch: &FirstTouch,
+    earlier: &[Pass],
+    all: &[Pass],
+    first: i64,
+    turn: usize,
+) -> Result<ResidualFigures> {
+    let subject = touch.subject();
+    let mut figures = ResidualFigures::default();
+    let (mut theta, mut cusps) = (Vec::new(), Vec::new());
+    for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
+        let same_side = one.x * other.x >= 0.0;
+        if !same_side || one.centre == other.centre {
+            continue;
+        }
+        let theta_here = angle_of(number);
+        match cusp::between(one.centre, other.centre, subject.tool.nose_radius) {
+            Some(cusp) => {
+                theta.push(theta_here);
+                cusps.push(cusp);
+            }
+            None => {
+                let apart = ResidualFigures {
+                    max: f64::INFINITY,
+                    at_theta: theta_here,
+                    at_rho: 0.5 * (one.x + other.x),
+                    cusps: 1,
+                };
+                figures.append(&apart);
+            }
+        }
+    }
+    let (heights, feet) = heights(subject.surface.as_ref(), &theta, &cusps)?;
+    for ((theta, height), foot) in theta.iter().zip(heights).zip(feet) {
+        let on_part =
+            (subject.part.inner_radius..=subject.part.aperture_radius).contains(&foot.abs());
+        if on_part {
+            let here = ResidualFigures {
+                max: height,
+                at_theta: *theta,
+                at_rho: foot,
+                cusps: 1,
+            };
+            figures.append(&here);
+        }
+    }
+    Ok(figures)
+}
+
+/// How far each cusp stands from its profile, and the radius of the place nearest to it.
+fn heights(
+    surface: &dyn SurfaceModel,
+    theta: &[f64],
+    cusps: &[Point],
+) -> Result<(Vec<f64>, Vec<f64>)> {
+    let turned: Vec<(f64, f64)> = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
+    let mut feet: Vec<f64> = cusps.iter().map(|cusp| cusp.x).collect();
+    let mut distances = vec![0.0; cusps.len()];
+    let blank = vec![0.0; cusps.len()];
+    let (mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank);
+    for _ in 0..FOOT_STEPS {
+        let x: Vec<f64> = feet
+            .iter()
+            .zip(&turned)
+            .map(|(foot, (_, c))| foot * c)
+            .collect();
+        let y: Vec<f64> = feet
+            .iter()
+            .zip(&turned)
+            .map(|(foot, (s, _))| foot * s)
+            .collect();
+        surface.gradient(
+            &x,
+            &y,
+            Gradients {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            },
+        )?;
+        for i in 0..cusps.len() {
+            let (s, c) = turned[i];
+            let slope = zx[i] * c + zy[i] * s;
+            let off = cusps[i] - Point::new(feet[i], z[i]);
+            let w = (1.0 + slope * slope).sqrt();
+            distances[i] = (off.y - slope * off.x) / w;
+            feet[i] += (off.x + slope * off.y) / (w * w);
+        }
+    }
+    Ok((distances, feet))
+}

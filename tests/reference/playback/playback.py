@@ -1,0 +1,309 @@
+#!/usr/bin/env python3
+"""Independent measurement of a turnpath `toolpath.csv` against its recipe.
+
+Shares no code and no method with turnpath: surfaces are the textbook formulas (the off-axis
+paraboloid is a rotated parent, solved for z), slopes come from complex steps, the first touch
+from a dense scan of the nose and golden section, the residual from intersecting circles.
+
+Lengths in mm, angles in rad unless a name ends in `_deg`; z towards the tool, material below.
+A point of the part is (theta, rho), rho signed, with x = rho cos(theta), y = rho sin(theta).
+
+    playback.py RECIPE.toml toolpath.csv [--stride N] [--instants M] [--sections S] [--scan P]
+
+prints JSON: the error of interpolation (played minus true Z, along z), the residual (cusp
+height along the profile's normal in the XZ plane, tool centres at their true Z), the rows of
+the file and the revolutions of section 1. Only section 1 (cutting) is measured.
+"""
+
+import argparse
+import json
+import math
+import tomllib
+
+import numpy as np
+
+from surfaces import ANGLE_RAD, LENGTH_MM, SURFACES, quantity
+
+COLUMNS = "time_s,c_deg,x_mm,z_mm,vc_deg_per_s,vx_mm_per_s,vz_mm_per_s,section"
+NM_PER_MM = 1e6
+INSTANTS_PER_CHUNK = 24_000  # bounds memory, and keeps a chunk's arrays in the cache
+COMPENSATORS = ("z-direction", "normal", "none")
+
+# --- recipe -------------------------------------------------------------------------------
+
+class Recipe:
+    """What a measurement needs of a recipe."""
+
+    def __init__(self, table):
+        part, tool = table["part"], table["tool"]
+        self.part_radius = quantity(part, "aperture", LENGTH_MM) / 2
+        self.hole_radius = quantity(part, "inner", LENGTH_MM, 0.0) / 2
+        self.nose_radius = quantity(tool, "nose_radius", LENGTH_MM)
+        included = quantity(tool, "included_angle", ANGLE_RAD, math.pi)
+        self.nose_half_angle = min(included / 2, math.pi / 2)
+        self.compensator = table["compensator"]["use"]
+        if self.compensator not in COMPENSATORS:
+            raise SystemExit(f"no reference for the compensator `{self.compensator}`")
+        surface = table["surface"]
+        if surface["use"] not in SURFACES:
+            raise SystemExit(f"no reference for the surface `{surface['use']}`")
+        self.sag = SURFACES[surface["use"]](surface)
+
+    @classmethod
+    def read(cls, path):
+        """The recipe in the TOML file `path`."""
+        with open(path, "rb") as file:
+            return cls(tomllib.load(file))
+
+    def profile(self, theta):
+        """The radial profile at theta: a function of rho, scalar, array or complex."""
+        cos, sin = np.cos(theta), np.sin(theta)
+        return lambda rho: self.sag(rho * cos, rho * sin)
+
+
+def slope(profile, rho):
+    """g_rho by a complex step: exact to rounding."""
+    return np.imag(profile(rho + 1e-30j)) / 1e-30
+
+
+# --- the true tool centre -----------------------------------------------------------------
+
+def first_touch(recipe, theta, x, scan=129):
+    """Z of the nose centre at (theta, x) when the nose, coming down, first touches the profile.
+
+    max over phi of g(theta, x + R sin phi) + R cos phi, phi within half the included angle:
+    a scan of `scan` angles picks the highest hill (by the parabola through its top three),
+    golden section climbs it.
+    """
+    profile, radius = recipe.profile(theta), recipe.nose_radius
+    angles = np.linspace(-recipe.nose_half_angle, recipe.nose_half_angle, scan)
+
+    def height(phi):
+        z = profile(x + radius * np.sin(phi)) + radius * np.cos(phi)
+        return np.where(np.isnan(z), -np.inf, z)
+
+    with np.errstate(invalid="ignore"):  # a formula may end within the nose's reach
+        hill = highest_hill(height, angles)
+        step = angles[1] - angles[0]
+        return climb(height, np.maximum(hill - step, angles[0]), np.minimum(hill + step, angles[-1]))
+
+
+def highest_hill(height, angles):
+    """The scanned angle at the top of the highest hill, per element."""
+    left, top = height(angles[0]), height(angles[1])
+    best, where = left, np.full(np.shape(left), angles[0])
+    for i in range(1, len(angles)):
+        right = height(angles[i + 1]) if i + 1 < len(angles) else np.full_like(top, -np.inf)
+        bend = 2 * top - left - right
+        is_hill = (top >= left) & (top >= right) & (bend > 0) & np.isfinite(bend)
+        rise = np.where(is_hill, (right - left) ** 2 / (8 * np.where(is_hill, bend, 1)), 0)
+        better = top + rise > best
+        best, where = np.where(better, top + rise, best), np.where(better, angles[i], where)
+        left, top = top, right
+    return where
+
+
+def climb(height, low, high, rounds=32):
+    """The maximum of `height` on [low, high] by golden section, per element.
+
+    32 rounds shrink the bracket 5e6 times; the height errs by the square of that.
+    """
+    golden = (math.sqrt(5) - 1) / 2
+    a, b = high - golden * (high - low), low + golden * (high - low)
+    at_a, at_b = height(a), height(b)
+    for _ in range(rounds):
+        keep_low = at_a > at_b
+        low, high = np.where(keep_low, low, a), np.where(keep_low, b, high)
+        new = np.where(keep_low, high - golden * (high - low), low + golden * (high - low))
+        at_new = height(new)
+        a, b = np.where(keep_low, new, b), np.where(keep_low, a, new)
+        at_a, at_b = np.where(keep_low, at_new, at_b), np.where(keep_low, at_a, at_new)
+    ends = np.maximum(height(low), height(high))
+    return np.maximum(np.maximum(at_a, at_b), ends)
+
+
+def true_z(recipe, theta, x, scan):
+    """What the path's Z should be: the first touch, or the surface for the compensator `none`."""
+    if recipe.compensator == "none":
+        return recipe.profile(theta)(x)
+    return first_touch(recipe, theta, x, scan)
+
+
+# --- the played path ----------------------------------------------------------------------
+
+class ToolPath:
+    """Section 1 of a path: a cubic Hermite in time per axis between rows."""
+
+    AXES = {"c": (1, 4), "x": (2, 5), "z": (3, 6)}  # columns of position and velocity
+
+    def __init__(self, rows):
+        self.rows = len(rows)
+        cutting = np.flatnonzero(rows[:, 7] == 1)
+        if len(cutting) < 2 or np.any(np.diff(cutting) != 1):
+            raise SystemExit("section 1 must be one run of two rows or more")
+        self.nodes = rows[cutting[0]:cutting[-1] + 1]
+        self.durations = np.diff(self.nodes[:, 0])
+        if not (np.all(np.isfinite(self.nodes)) and np.all(self.durations > 0)):
+            raise SystemExit("rows must be finite and time must increase")
+        self.segments = len(self.durations)
+        self.revolutions = (self.nodes[-1, 1] - self.nodes[0, 1]) / 360
+
+    @classmethod
+    def read(cls, path):
+        """The path in the CSV file `path`."""
+        with open(path, encoding="utf-8") as file:
+            if file.readline().strip() != COLUMNS:
+                raise SystemExit(f"{path}: the header is not `{COLUMNS}`")
+            return cls(np.loadtxt(file, delimiter=",", ndmin=2))
+
+    def play(self, axis, segment, tau):
+        """Position of an axis at the fraction `tau` of the segments (deg or mm)."""
+        p, v = self.AXES[axis]
+        h = self.durations[segment]
+        start, end = self.nodes[segment, p], self.nodes[segment + 1, p]
+        from_start = self.nodes[segment, v] * h
+        from_end = self.nodes[segment + 1, v] * h
+        chord, rest = end - start, 1 - tau
+        return (start + chord * tau * tau * (3 - 2 * tau)
+                + tau * rest * (from_start * rest - from_end * tau))
+
+    def pass_x(self, target_deg):
+        """X as played where C passes `target_deg` (increasing C), by bisection."""
+        segment = np.searchsorted(self.nodes[:, 1], target_deg, side="right") - 1
+        segment = np.clip(segment, 0, self.segments - 1)
+        low, high = np.zeros(len(target_deg)), np.ones(len(target_deg))
+        for _ in range(54):
+            middle = (low + high) / 2
+            before = self.play("c", segment, middle) < target_deg
+            low, high = np.where(before, middle, low), np.where(before, high, middle)
+        return self.play("x", segment, (low + high) / 2)
+
+
+# --- measurements -------------------------------------------------------------------------
+
+def radians(degrees):
+    """Unwrapped degrees to radians within one turn, without loss at many turns."""
+    return np.radians(np.fmod(degrees, 360.0))
+
+
+def interpolation_error(recipe, path, stride=1, instants=48, scan=129):
+    """Played minus true Z at `instants` steps a segment: extremes, time-weighted RMS, place."""
+    instants += instants % 2  # the midpoint is among them, and Simpson's rule needs it even
+    tau = np.arange(instants + 1) / instants
+    simpson = np.where(np.arange(instants + 1) % 2 == 1, 4.0, 2.0)
+    simpson[[0, -1]] = 1.0
+    simpson /= 3 * instants
+    chosen = np.arange(0, path.segments, stride)
+    chunk = max(1, INSTANTS_PER_CHUNK // len(tau))
+    low, high, worst, at = math.inf, -math.inf, -1.0, None
+    squares = duration = 0.0
+    for first in range(0, len(chosen), chunk):
+        segment = chosen[first:first + chunk, None]
+        c_deg, x = path.play("c", segment, tau), path.play("x", segment, tau)
+        error = path.play("z", segment, tau) - true_z(recipe, radians(c_deg), x, scan)
+        low, high = min(low, error.min()), max(high, error.max())
+        place = np.unravel_index(np.argmax(np.abs(error)), error.shape)
+        if abs(error[place]) > worst:
+            worst, at = abs(error[place]), {"c_deg": float(c_deg[place]), "x_mm": float(x[place])}
+        h = path.durations[segment[:, 0]]
+        squares += float(h @ (error**2 @ simpson))
+        duration += float(h.sum())
+    return {"max": float(worst * NM_PER_MM), "rms": math.sqrt(squares / duration) * NM_PER_MM,
+            "lowest": float(low * NM_PER_MM), "highest": float(high * NM_PER_MM), "at": at}
+
+
+def nose_centres(recipe, theta, x, scan):
+    """True nose centres (X, Z) of passes whose played X is `x`."""
+    if recipe.compensator != "none":
+        return x, first_touch(recipe, theta, x, scan)
+    profile, radius = recipe.profile(theta), recipe.nose_radius
+    g, s = profile(x), slope(profile, x)
+    w = np.sqrt(1 + s * s)
+    return x - radius * s / w, g + radius / w
+
+
+def lower_intersection(radius, x, z):
+    """Lower intersections of neighbouring circles of one radius."""
+    dx, dz = np.diff(x), np.diff(z)
+    apart = np.hypot(dx, dz)
+    drop = np.sqrt(np.maximum(radius**2 - apart**2 / 4, 0)) / apart
+    up = np.sign(dx)  # makes the chord's normal (-dz, dx) point up
+    return (x[:-1] + x[1:]) / 2 + up * dz * drop, (z[:-1] + z[1:]) / 2 - up * dx * drop
+
+
+def height_above(profile, x, z):
+    """Distance of points from the profile along its normal (above: positive), and the feet."""
+    foot = x
+    for _ in range(12):  # Gauss-Newton; each round gains a factor height times curvature
+        s = slope(profile, foot)
+        foot = foot + (x - foot + (z - profile(foot)) * s) / (1 + s * s)
+    s = slope(profile, foot)
+    return ((z - profile(foot)) - s * (x - foot)) / np.sqrt(1 + s * s), foot
+
+
+def section_residual(recipe, path, section_deg, scan):
+    """The highest cusp at one section angle and its place; (-inf, None) where there is none.
+
+    Left out: pairs of passes on both sides of the axis (the innermost turn), passes that
+    repeat one X, and cusps off the part.
+    """
+    first = math.ceil((path.nodes[0, 1] - section_deg) / 360)
+    last = math.floor((path.nodes[-1, 1] - section_deg) / 360)
+    played = path.pass_x(section_deg + 360.0 * np.arange(first, last + 1))
+    theta = math.radians(section_deg)
+    with np.errstate(invalid="ignore", divide="ignore"):  # a formula may end beyond the part
+        x, z = nose_centres(recipe, theta, played, scan)
+        cusp_x, cusp_z = lower_intersection(recipe.nose_radius, x, z)
+        index = np.flatnonzero((played[1:] * played[:-1] > -1e-12) & (np.abs(np.diff(x)) > 1e-9))
+        height, foot = height_above(recipe.profile(theta), cusp_x[index], cusp_z[index])
+    if np.any(np.isnan(height) & (np.abs(cusp_x[index]) <= recipe.part_radius)):
+        raise SystemExit(f"a pass or its cusp at C = {section_deg} deg leaves the surface's domain")
+    on_part = (np.abs(foot) <= recipe.part_radius) & (np.abs(foot) >= recipe.hole_radius)
+    if not np.any(on_part):
+        return -math.inf, None
+    height, foot = height[on_part], foot[on_part]
+    k = int(np.argmax(height))
+    return float(height[k]), {"c_deg": section_deg, "x_mm": float(foot[k])}
+
+
+def residual(recipe, path, sections=90, scan=129):
+    """The highest cusp over `sections` angles, then over 20 finer ones around the worst.
+
+    "at" is the section angle (within one turn) and the cusp's foot on the profile.
+    """
+    step = 360 / sections
+    coarse = [section_residual(recipe, path, (i + 0.37) * step, scan) for i in range(sections)]
+    worst = max(coarse, key=lambda found: found[0])
+    if worst[1] is None:
+        return {"max": None, "at": None}
+    around = worst[1]["c_deg"] + step * np.arange(-10, 11) / 10
+    fine = [section_residual(recipe, path, float(c), scan) for c in around]
+    worst = max([worst, *fine], key=lambda found: found[0])
+    return {"max": worst[0] * NM_PER_MM, "at": worst[1]}
+
+
+def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
+    """All figures of a path, as printed."""
+    return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
+            "residual_nm": residual(recipe, path, sections, scan),
+            "rows": path.rows, "control_points": path.segments + 1,
+            "revolutions": float(path.revolutions)}
+
+
+def main():
+    """Command line."""
+    parser = argparse.ArgumentParser(description="measure a toolpath.csv against its recipe")
+    parser.add_argument("recipe")
+    parser.add_argument("toolpath")
+    parser.add_argument("--stride", type=int, default=1, help="play back every n-th segment only")
+    parser.add_argument("--instants", type=int, default=48, help="steps a segment")
+    parser.add_argument("--sections", type=int, default=90, help="section angles of the residual")
+    parser.add_argument("--scan", type=int, default=129, help="nose angles scanned for the touch")
+    given = parser.parse_args()
+    figures = measure(Recipe.read(given.recipe), ToolPath.read(given.toolpath), given.stride,
+                      given.instants, given.sections, given.scan)
+    print(json.dumps(figures, indent=2))
+
+
+if __name__ == "__main__":
+    main()
