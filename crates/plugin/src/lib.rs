@@ -58,7 +58,9 @@ pub mod prelude {
 /// For the host: how a library's plugin is opened.
 #[doc(hidden)]
 pub mod loading {
-    pub use crate::abi::root::{BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX};
+    pub use crate::abi::root::{
+        BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX, inspect,
+    };
     pub use crate::offer::open;
 }
 

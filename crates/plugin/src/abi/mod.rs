@@ -11,6 +11,7 @@
 #![allow(unsafe_code)] // #[sabi_trait] and #[derive(StableAbi)] expand to unsafe code
 #![allow(non_local_definitions)] // raised by #[sabi_trait]'s expansion
 #![allow(missing_docs)] // private, and #[sabi_trait] generates public items without docs
+#![allow(clippy::too_many_arguments)] // a batch crosses as slices, one argument each
 
 pub(crate) mod catalogue;
 pub(crate) mod compensator;

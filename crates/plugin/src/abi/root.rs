@@ -199,6 +199,36 @@ struct EntryHead {
     version: BoundaryVersion,
 }
 
+impl EntryHead {
+    /// From the bytes of an entry in a file; `None` where they are too few.
+    fn read(entry: &[u8]) -> Option<Self> {
+        let (magic, rest) = entry.split_first_chunk::<16>()?;
+        let (words, _) = rest.as_chunks::<4>();
+        let [major, minor, patch, ..] = words else {
+            return None;
+        };
+        Some(Self {
+            magic: *magic,
+            version: BoundaryVersion {
+                major: u32::from_ne_bytes(*major),
+                minor: u32::from_ne_bytes(*minor),
+                patch: u32::from_ne_bytes(*patch),
+            },
+        })
+    }
+
+    fn check(&self) -> std::result::Result<(), OpenError> {
+        let BoundaryVersion { major, minor, .. } = self.version;
+        if self.magic != MAGIC {
+            return Err(OpenError::NotAPlugin);
+        }
+        if (major, minor) != (BOUNDARY_VERSION.major, BOUNDARY_VERSION.minor) {
+            return Err(OpenError::Version(self.version));
+        }
+        Ok(())
+    }
+}
+
 /// The one static that a plugin library exports.
 #[repr(C)]
 pub struct PluginEntry {
@@ -238,6 +268,20 @@ pub enum OpenError {
     Layout(String),
 }
 
+/// Looks at an entry as it stands in the library's file, before anything of the library runs.
+///
+/// # Errors
+/// As [`open`], but for the layout, which can only be compared after loading.
+pub fn inspect(entry: &[u8]) -> std::result::Result<(), OpenError> {
+    EntryHead::read(entry)
+        .ok_or(OpenError::NotAPlugin)?
+        .check()?;
+    if entry.len() < size_of::<PluginEntry>() {
+        return Err(OpenError::NotAPlugin);
+    }
+    Ok(())
+}
+
 /// Opens the entry that a library exports, and lists the strategies of its own crate.
 ///
 /// # Safety
@@ -246,14 +290,7 @@ pub enum OpenError {
 pub unsafe fn open(entry: *const u8) -> std::result::Result<(RootRef, Vec<Listed>), OpenError> {
     // SAFETY: every version of a plugin entry begins with a head; the symbol's name vouches for it.
     let head = unsafe { entry.cast::<EntryHead>().read_unaligned() };
-    if head.magic != MAGIC {
-        return Err(OpenError::NotAPlugin);
-    }
-    let compatible = (head.version.major, head.version.minor)
-        == (BOUNDARY_VERSION.major, BOUNDARY_VERSION.minor);
-    if !compatible {
-        return Err(OpenError::Version(head.version));
-    }
+    head.check()?;
     // SAFETY: magic and version say that this is a `PluginEntry`, in a library that stays.
     let entry = unsafe { &*entry.cast::<PluginEntry>() };
     // SAFETY: an `AbiHeaderRef` is the address of the header with which a `LibHeader` begins.

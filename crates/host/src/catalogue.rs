@@ -1,0 +1,165 @@
+//! All strategies that a run can choose from.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use turnpath_core::Slot;
+use turnpath_plugin::Offer;
+
+use crate::library::{self, Library};
+use crate::{LoadError, Plugin, Strategy};
+
+/// What the name of a library ends with; a plugin folder may hold other files too.
+const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
+
+/// The strategies by slot and name, from plugins linked in and loaded.
+#[derive(Debug, Clone, Default)]
+pub struct Catalogue {
+    strategies: BTreeMap<(Slot, &'static str), Strategy>,
+    plugins: Vec<Arc<Plugin>>,
+}
+
+impl Catalogue {
+    /// A catalogue without strategies.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The strategies that are linked into the program; none where no plugin crate is.
+    ///
+    /// # Errors
+    /// [`LoadError::TwoOfOneName`] when two crates linked in share a name.
+    pub fn linked() -> Result<Self, LoadError> {
+        let mut catalogue = Self::new();
+        let mut by_crate: BTreeMap<&'static str, Vec<Offer>> = BTreeMap::new();
+        for offer in turnpath_plugin::linked() {
+            by_crate.entry(offer.crate_name()).or_default().push(offer);
+        }
+        for (crate_name, offers) in by_crate {
+            let version = offers.first().map_or("", Offer::crate_version);
+            let plugin = plugin(crate_name, version, None);
+            catalogue.add(plugin, offers)?;
+        }
+        Ok(catalogue)
+    }
+
+    /// Takes the plugins that lie directly in a folder: its `*.so`, `*.dylib` and `*.dll`, by
+    /// name. Other files, and folders, are ignored.
+    ///
+    /// # Errors
+    /// At the first library that cannot be taken; those before it stay in the catalogue.
+    pub fn add_folder(&mut self, folder: &Path) -> Result<(), LoadError> {
+        for file in libraries_in(folder)? {
+            self.add_file(&file)?;
+        }
+        Ok(())
+    }
+
+    /// Takes the plugin in a file. One that is there already, under whatever path, is left alone.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is no plugin for this program, or brings a name that is
+    /// taken; nothing of it is in the catalogue then.
+    pub fn add_file(&mut self, file: &Path) -> Result<(), LoadError> {
+        let image = library::read(file)?;
+        let same = |plugin: &Arc<Plugin>| plugin.sha256.as_ref() == Some(&image.sha256);
+        if self.plugins.iter().any(same) {
+            return Ok(());
+        }
+        let Library {
+            crate_name,
+            version,
+            offers,
+        } = image.load()?;
+        let from = Some((image.path, image.sha256));
+        self.add(plugin(&crate_name, &version, from), offers)
+    }
+
+    fn add(&mut self, plugin: Plugin, offers: Vec<Offer>) -> Result<(), LoadError> {
+        let plugin = Arc::new(plugin);
+        let mut joined = self.strategies.clone();
+        for offer in offers {
+            let info = offer.info();
+            let strategy = Strategy::new(offer, Arc::clone(&plugin));
+            if let Some(first) = joined.insert((info.slot, info.name), strategy) {
+                return Err(LoadError::TwoOfOneName {
+                    slot: info.slot,
+                    name: info.name.to_owned(),
+                    first: Arc::clone(first.plugin()),
+                    second: plugin,
+                });
+            }
+        }
+        self.strategies = joined;
+        self.plugins.push(plugin);
+        Ok(())
+    }
+
+    /// All strategies, by slot and name.
+    pub fn strategies(&self) -> impl Iterator<Item = &Strategy> {
+        self.strategies.values()
+    }
+
+    /// The names in one slot, sorted.
+    pub fn names(&self, slot: Slot) -> Vec<&'static str> {
+        self.strategies
+            .keys()
+            .filter(|(of, _)| *of == slot)
+            .map(|(_, name)| *name)
+            .collect()
+    }
+
+    /// The strategy of this name, if there is one.
+    pub fn find(&self, slot: Slot, name: &str) -> Option<&Strategy> {
+        // A map with borrowed keys of two parts cannot be asked with a shorter-lived name.
+        self.strategies
+            .iter()
+            .find(|((of, known), _)| *of == slot && *known == name)
+            .map(|(_, strategy)| strategy)
+    }
+
+    /// The plugins in the order in which they came.
+    pub fn plugins(&self) -> &[Arc<Plugin>] {
+        &self.plugins
+    }
+}
+
+fn plugin(crate_name: &str, version: &str, from: Option<(PathBuf, String)>) -> Plugin {
+    let (file, sha256) = from.unzip();
+    Plugin {
+        name: crate_name.replace('_', "-"),
+        version: version.to_owned(),
+        file,
+        sha256,
+    }
+}
+
+fn libraries_in(folder: &Path) -> Result<Vec<PathBuf>, LoadError> {
+    let entries = fs::read_dir(folder).map_err(|source| folder_error(folder, source))?;
+    let mut files = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(|source| folder_error(folder, source))?.path();
+        if is_library_name(&path) && !path.is_dir() {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+fn is_library_name(path: &Path) -> bool {
+    let extension = path.extension().and_then(OsStr::to_str);
+    extension.is_some_and(|extension| EXTENSIONS.contains(&extension))
+}
+
+fn folder_error(folder: &Path, source: io::Error) -> LoadError {
+    let path = folder.to_owned();
+    match source.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => LoadError::NoFolder { path },
+        _ => LoadError::Unreadable { path, source },
+    }
+}
