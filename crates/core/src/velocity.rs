@@ -21,6 +21,10 @@ pub struct Nodes<'a> {
     pub z_theta: &'a [f64],
     /// ∂Z/∂X at constant θ.
     pub z_x: &'a [f64],
+    /// Whether the first node is the path's first, not just the first one handed over.
+    pub at_start: bool,
+    /// Whether the last node is the path's last, not just the last one handed over.
+    pub at_end: bool,
 }
 
 impl Nodes<'_> {

@@ -19,6 +19,8 @@ pub struct AbiNodes<'a> {
     x_rate: RSlice<'a, f64>,
     z_theta: RSlice<'a, f64>,
     z_x: RSlice<'a, f64>,
+    at_start: bool,
+    at_end: bool,
 }
 
 impl<'a> From<Nodes<'a>> for AbiNodes<'a> {
@@ -32,6 +34,8 @@ impl<'a> From<Nodes<'a>> for AbiNodes<'a> {
             x_rate: nodes.x_rate.into(),
             z_theta: nodes.z_theta.into(),
             z_x: nodes.z_x.into(),
+            at_start: nodes.at_start,
+            at_end: nodes.at_end,
         }
     }
 }
@@ -47,6 +51,8 @@ impl AbiNodes<'_> {
             x_rate: &self.x_rate,
             z_theta: &self.z_theta,
             z_x: &self.z_x,
+            at_start: self.at_start,
+            at_end: self.at_end,
         }
     }
 }
