@@ -28,12 +28,16 @@ fn find<'a>(catalogue: &'a Catalogue, asked: &str) -> Result<Vec<&'a Strategy>, 
             Some(slot) => (vec![slot], name),
             None => {
                 let keys = Slot::ALL.map(Slot::key).join(", ");
-                return Err(Failure::call(format!("there is no slot `{key}`; slots are {keys}")));
+                return Err(Failure::call(format!(
+                    "there is no slot `{key}`; slots are {keys}"
+                )));
             }
         },
     };
-    let found: Vec<&Strategy> =
-        slots.iter().filter_map(|slot| catalogue.find(*slot, name)).collect();
+    let found: Vec<&Strategy> = slots
+        .iter()
+        .filter_map(|slot| catalogue.find(*slot, name))
+        .collect();
     if !found.is_empty() {
         return Ok(found);
     }
@@ -47,7 +51,9 @@ fn find<'a>(catalogue: &'a Catalogue, asked: &str) -> Result<Vec<&'a Strategy>, 
         Some((_, known)) => format!("did you mean `{known}`?"),
         None => "`turnpath list` shows all".to_owned(),
     };
-    Err(Failure::call(format!("there is no strategy named `{name}`; {hint}")))
+    Err(Failure::call(format!(
+        "there is no strategy named `{name}`; {hint}"
+    )))
 }
 
 fn explained(strategy: &Strategy) -> String {
@@ -71,9 +77,11 @@ fn kind(param: &Param) -> String {
         ParamKind::Count => "a whole number".to_owned(),
         ParamKind::Flag => "true or false".to_owned(),
         ParamKind::Rows(columns) => format!("a list of rows of {columns} numbers"),
-        ParamKind::Choice(words) => {
-            words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" | ")
-        }
+        ParamKind::Choice(words) => words
+            .iter()
+            .map(|word| format!("\"{word}\""))
+            .collect::<Vec<_>>()
+            .join(" | "),
         kind => Quantity::of(kind).map_or_else(String::new, |quantity| {
             format!("{}, such as \"{}\"", quantity.noun(), quantity.example())
         }),

@@ -79,7 +79,11 @@ impl From<Diagnostic> for Failure {
 impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
         let text = format!("error: {error}");
-        if error.is_io() { Self::File(text) } else { Self::Plugin(text) }
+        if error.is_io() {
+            Self::File(text)
+        } else {
+            Self::Plugin(text)
+        }
     }
 }
 

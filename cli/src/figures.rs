@@ -82,7 +82,10 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
             error.at.x_mm
         ),
     );
-    text += &line("residual", against(residual.max, tolerance.residual, within.residual));
+    text += &line(
+        "residual",
+        against(residual.max, tolerance.residual, within.residual),
+    );
     text
 }
 

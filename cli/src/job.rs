@@ -38,14 +38,21 @@ impl Job {
             SpindleLaw::constant(recipe.spindle_speed),
         )
         .map_err(|error| of_pipeline(&recipe, error))?;
-        Ok(Self { recipe, catalogue, chain, prepared })
+        Ok(Self {
+            recipe,
+            catalogue,
+            chain,
+            prepared,
+        })
     }
 }
 
 /// Sets how many threads work; fails only when they are set already, which changes no result.
 pub fn use_threads(work: &WorkArgs) {
     let threads = work.threads.map_or(0, usize::from);
-    let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    let _ = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global();
 }
 
 /// An error of the pipeline, at its place in the recipe.
@@ -61,7 +68,9 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
         },
         PipelineError::NoSurface(_) => {
             let place = recipe.nearest_place("part.aperture");
-            recipe.complaint(place, title, "the part reaches there", []).into()
+            recipe
+                .complaint(place, title, "the part reaches there", [])
+                .into()
         }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
         PipelineError::Sink(error) => {
@@ -71,7 +80,12 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
 }
 
 fn at_choice(recipe: &Recipe, slot: Slot, title: String) -> Diagnostic {
-    recipe.complaint(recipe.choice(slot).name.place.clone(), title, "chosen here", [])
+    recipe.complaint(
+        recipe.choice(slot).name.place.clone(),
+        title,
+        "chosen here",
+        [],
+    )
 }
 
 /// The message for a tool that does not fit.
@@ -110,5 +124,10 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         ),
     };
     let title = format!("the tool would gouge: {what}");
-    recipe.complaint(recipe.nearest_place(key), title, "does not fit", [help.to_owned()])
+    recipe.complaint(
+        recipe.nearest_place(key),
+        title,
+        "does not fit",
+        [help.to_owned()],
+    )
 }

@@ -11,9 +11,16 @@ use crate::{Done, Verdict};
 pub fn list(args: &ListArgs) -> Done {
     let catalogue = catalogue(&args.plugins)?;
     let only = args.slot.as_deref().and_then(slot_of);
-    let width = catalogue.strategies().map(|one| one.info().name.len()).max().unwrap_or(0);
+    let width = catalogue
+        .strategies()
+        .map(|one| one.info().name.len())
+        .max()
+        .unwrap_or(0);
     let mut text = String::new();
-    for slot in Slot::ALL.into_iter().filter(|slot| only.is_none_or(|only| only == *slot)) {
+    for slot in Slot::ALL
+        .into_iter()
+        .filter(|slot| only.is_none_or(|only| only == *slot))
+    {
         text += &format!("{slot}\n");
         for strategy in catalogue.strategies().filter(|one| one.info().slot == slot) {
             let info = strategy.info();

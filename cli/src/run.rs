@@ -27,7 +27,13 @@ pub fn run(args: &RunArgs) -> Done {
     };
     let mut files = Files::new(folder, !job.recipe.output.data.is_empty());
     let bar = Bar::new();
-    let outcome = run_pipeline(&job.chain, &job.prepared, job.recipe.refine, &mut files, &bar);
+    let outcome = run_pipeline(
+        &job.chain,
+        &job.prepared,
+        job.recipe.refine,
+        &mut files,
+        &bar,
+    );
     bar.clear();
     let outcome = outcome.map_err(|error| of_pipeline(&job.recipe, error))?;
     let plugins = used_plugins(&job);
@@ -37,7 +43,11 @@ pub fn run(args: &RunArgs) -> Done {
         Format::Json => print(&summary.json())?,
         Format::Human => print(&human(&job, &summary, &written))?,
     }
-    Ok(if summary.measured.all_hold() { Verdict::Holds } else { Verdict::Exceeded })
+    Ok(if summary.measured.all_hold() {
+        Verdict::Holds
+    } else {
+        Verdict::Exceeded
+    })
 }
 
 /// The plugins of the five strategies, each once.
@@ -107,17 +117,31 @@ struct Begun {
 
 impl Files {
     fn new(folder: PathBuf, wants_path: bool) -> Self {
-        Self { folder, wants_path, begun: None, rows: 0 }
+        Self {
+            folder,
+            wants_path,
+            begun: None,
+            rows: 0,
+        }
     }
 
     fn begin(&mut self) -> Result<(), FileError> {
         let made_folder = !self.folder.exists();
-        let folder = |error| FileError { path: self.folder.clone(), error };
+        let folder = |error| FileError {
+            path: self.folder.clone(),
+            error,
+        };
         fs::create_dir_all(&self.folder).map_err(folder)?;
-        self.begun = Some(Begun { path: None, made_folder });
+        self.begun = Some(Begun {
+            path: None,
+            made_folder,
+        });
         if self.wants_path {
             let path = PathWriter::begin(self.folder.join("toolpath.csv"))?;
-            self.begun = Some(Begun { path: Some(path), made_folder });
+            self.begun = Some(Begun {
+                path: Some(path),
+                made_folder,
+            });
         }
         Ok(())
     }
@@ -126,7 +150,9 @@ impl Files {
     fn complete(mut self, summary: &str) -> Result<Vec<PathBuf>, FileError> {
         let path = self.folder.join("summary.json");
         let mut draft = Draft::begin(&path)?;
-        draft.write_all(summary.as_bytes()).map_err(|error| FileError { path, error })?;
+        draft
+            .write_all(summary.as_bytes())
+            .map_err(|error| FileError { path, error })?;
         let mut written = Vec::new();
         if let Some(path) = self.begun.take().and_then(|begun| begun.path) {
             written.push(path.complete()?);
@@ -139,7 +165,8 @@ impl Files {
 impl Sink for Files {
     fn take(&mut self, section: Section, points: &PathBlock) -> io::Result<()> {
         if self.begun.is_none() {
-            self.begin().map_err(|error| io::Error::other(error.to_string()))?;
+            self.begin()
+                .map_err(|error| io::Error::other(error.to_string()))?;
         }
         self.rows += points.len() as u64;
         match self.begun.as_mut().and_then(|begun| begun.path.as_mut()) {

@@ -17,16 +17,31 @@ pub fn sag(args: &SagArgs) -> Done {
     let recipe = Recipe::load(&args.recipe.recipe, &args.recipe.set)?;
     let catalogue = strategies::catalogue_for(&recipe, &args.recipe)?;
     let surface = strategies::surface(&recipe, &catalogue)?;
-    let grid = Grid { half: recipe.part.aperture_radius, count: args.grid as usize };
+    let grid = Grid {
+        half: recipe.part.aperture_radius,
+        count: args.grid as usize,
+    };
     let mut rows = csv::Writer::from_writer(Draft::begin(&args.output)?);
-    let failed = |error: io::Error| FileError { path: args.output.clone(), error };
-    rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"]).map_err(io::Error::other).map_err(failed)?;
+    let failed = |error: io::Error| FileError {
+        path: args.output.clone(),
+        error,
+    };
+    rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"])
+        .map_err(io::Error::other)
+        .map_err(failed)?;
     for j in 0..grid.count {
-        for row in grid.row(j, &surface).map_err(|e| not_evaluated(&recipe, &surface, e))? {
-            rows.serialize(row).map_err(io::Error::other).map_err(failed)?;
+        for row in grid
+            .row(j, &surface)
+            .map_err(|e| not_evaluated(&recipe, &surface, e))?
+        {
+            rows.serialize(row)
+                .map_err(io::Error::other)
+                .map_err(failed)?;
         }
     }
-    let draft = rows.into_inner().map_err(|error| failed(error.into_error()))?;
+    let draft = rows
+        .into_inner()
+        .map_err(|error| failed(error.into_error()))?;
     draft.complete()?;
     Ok(Verdict::Holds)
 }
@@ -61,8 +76,14 @@ impl Grid {
         let y = vec![self.at(j); self.count];
         let mut z = vec![f64::NAN; self.count];
         let (mut zx, mut zy) = (z.clone(), z.clone());
-        let out = Gradients { z: &mut z, zx: &mut zx, zy: &mut zy };
+        let out = Gradients {
+            z: &mut z,
+            zx: &mut zx,
+            zy: &mut zy,
+        };
         surface.strategy.gradient(&x, &y, out)?;
-        Ok((0..self.count).map(|i| [x[i], y[i], z[i], zx[i], zy[i]]).collect())
+        Ok((0..self.count)
+            .map(|i| [x[i], y[i], z[i], zx[i], zy[i]])
+            .collect())
     }
 }

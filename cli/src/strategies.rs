@@ -35,7 +35,9 @@ pub fn catalogue_for(recipe: &Recipe, args: &RecipeArgs) -> Result<Catalogue, Fa
         let help = "look at what it lists; then call again with `--trust-recipe`, or leave \
                     `plugins` out and give folders that you trust with `--plugin-dir`";
         let help = [help.to_owned()];
-        return Err(recipe.complaint(first.place.clone(), title, label, help).into());
+        return Err(recipe
+            .complaint(first.place.clone(), title, label, help)
+            .into());
     }
     let mut catalogue = catalogue(&args.plugins)?;
     for listed in &recipe.plugins {
@@ -76,7 +78,12 @@ fn link<T: ?Sized>(
     let name = strategy.info().name.to_owned();
     let plugin = strategy.plugin().to_string();
     match make(strategy, &params) {
-        Ok(made) => Ok(Link { slot, name, plugin, strategy: made }),
+        Ok(made) => Ok(Link {
+            slot,
+            name,
+            plugin,
+            strategy: made,
+        }),
         Err(error) => Err(not_made(recipe, slot, &name, &plugin, error)),
     }
 }
@@ -92,14 +99,29 @@ fn not_made(
 ) -> Failure {
     let choice = recipe.choice(slot);
     match error {
-        StrategyError::Parameter { name: parameter, message } => {
+        StrategyError::Parameter {
+            name: parameter,
+            message,
+        } => {
             let place = choice.param_place(&parameter);
-            let title = format!("the {} `{name}` cannot work with this: {message}", slot.noun());
-            recipe.complaint(place, title, format!("`{parameter}`"), []).into()
+            let title = format!(
+                "the {} `{name}` cannot work with this: {message}",
+                slot.noun()
+            );
+            recipe
+                .complaint(place, title, format!("`{parameter}`"), [])
+                .into()
         }
         StrategyError::Failed(message) => {
             let title = format!("the {} `{name}` cannot be made: {message}", slot.noun());
-            recipe.complaint(choice.name.place.clone(), title, format!("from {plugin}"), []).into()
+            recipe
+                .complaint(
+                    choice.name.place.clone(),
+                    title,
+                    format!("from {plugin}"),
+                    [],
+                )
+                .into()
         }
         panicked @ StrategyError::Panicked(_) => {
             let title = format!("the {} `{name}` of {plugin} {panicked}", slot.noun());
@@ -111,7 +133,9 @@ fn not_made(
 
 /// The recipe's surface alone.
 pub fn surface(recipe: &Recipe, catalogue: &Catalogue) -> Result<Link<dyn SurfaceModel>, Failure> {
-    link(recipe, catalogue, Slot::Surface, |strategy, params| strategy.offer().surface(params))
+    link(recipe, catalogue, Slot::Surface, |strategy, params| {
+        strategy.offer().surface(params)
+    })
 }
 
 /// The recipe's compensator alone.

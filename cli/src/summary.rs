@@ -127,7 +127,13 @@ struct PluginFile {
 
 impl Summary {
     /// The summary of a run.
-    pub fn new(recipe: &Recipe, chain: &Chain, plugins: &[&Plugin], rows: u64, outcome: &Outcome) -> Self {
+    pub fn new(
+        recipe: &Recipe,
+        chain: &Chain,
+        plugins: &[&Plugin],
+        rows: u64,
+        outcome: &Outcome,
+    ) -> Self {
         Self {
             turnpath: env!("CARGO_PKG_VERSION"),
             name: recipe.name.clone(),
@@ -148,7 +154,10 @@ impl Summary {
             },
             measured: Measured::new(&outcome.figures, &recipe.tolerance),
             programs: Vec::new(),
-            plugins: plugins.iter().map(|plugin| PluginFile::of(plugin)).collect(),
+            plugins: plugins
+                .iter()
+                .map(|plugin| PluginFile::of(plugin))
+                .collect(),
         }
     }
 
@@ -181,7 +190,10 @@ impl Measured {
     /// Figures against tolerances, in the units of the file.
     pub fn new(figures: &PathFigures, tolerance: &Tolerance) -> Self {
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
-        let at = Place { c_deg: playback.at_c / DEG, x_mm: playback.at_x };
+        let at = Place {
+            c_deg: playback.at_c / DEG,
+            x_mm: playback.at_x,
+        };
         let holds = |measured: f64, tolerance: f64| measured <= ALLOWED * tolerance;
         Self {
             interpolation_error_nm: InterpolationError {
@@ -191,7 +203,10 @@ impl Measured {
             },
             residual_nm: Residual {
                 max: residual.max / NM,
-                at: Place { c_deg: residual.at_theta / DEG, x_mm: residual.at_rho },
+                at: Place {
+                    c_deg: residual.at_theta / DEG,
+                    x_mm: residual.at_rho,
+                },
                 left_out: "the innermost turn",
             },
             surface_error_nm: SurfaceError::default(),
@@ -210,7 +225,11 @@ impl Measured {
 
     /// Whether all that is measured holds.
     pub fn all_hold(&self) -> bool {
-        let Within { interpolation, residual, machine } = self.within;
+        let Within {
+            interpolation,
+            residual,
+            machine,
+        } = self.within;
         interpolation && residual && machine.unwrap_or(true)
     }
 }

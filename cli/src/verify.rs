@@ -54,7 +54,11 @@ pub fn verify(args: &VerifyArgs) -> Done {
         Format::Human => human(&recipe, &verified),
     })?;
     let holds = verified.measured.all_hold();
-    Ok(if holds { Verdict::Holds } else { Verdict::Exceeded })
+    Ok(if holds {
+        Verdict::Holds
+    } else {
+        Verdict::Exceeded
+    })
 }
 
 fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<Subject, Failure> {
