@@ -49,7 +49,7 @@ impl PathWriter {
             Ok(draft) => draft.complete(),
             Err(error) => Err(FileError {
                 path,
-                error: error.into_error().into(),
+                error: error.into_error(),
             }),
         }
     }
