@@ -1,0 +1,206 @@
+//! The spline against scipy's, and a path in windows against the path as a whole.
+
+use proptest::prelude::*;
+use serde_json::Value;
+use turnpath_plugin::prelude::*;
+use turnpath_triangle_rotary::{Analytic, TriangleRotary};
+
+const REFERENCE: &str = include_str!("../../../tests/reference/splines.json");
+const BOUNDARIES: [&str; 3] = ["clamped", "natural", "not-a-knot"];
+const OVERLAP: usize = 64;
+
+fn triangle_rotary(ends: &str) -> TriangleRotary {
+    let mut params = Params::new();
+    params.set("ends", turnpath_core::ParamValue::Text(ends.into()));
+    TriangleRotary::new(&params).unwrap()
+}
+
+/// Nodes as the host holds them; Z's rate is given as ∂Z/∂θ at vC = 1.
+#[derive(Default, Clone)]
+struct Columns {
+    t: Vec<f64>,
+    values: [Vec<f64>; 3],
+    rates: [Vec<f64>; 3],
+}
+
+impl Columns {
+    fn solve(&self, solver: &impl VelocitySolver, from: usize, to: usize) -> [Vec<f64>; 3] {
+        let count = to - from;
+        let [c, x, z] = &self.values;
+        let (one, none) = (vec![1.0; count], vec![0.0; count]);
+        let [c_rate, x_rate, z_rate] = &self.rates;
+        let z_theta: Vec<f64> = (from..to).map(|k| z_rate[k] / c_rate[k]).collect();
+        let nodes = Nodes {
+            t: &self.t[from..to],
+            c: &c[from..to],
+            x: &x[from..to],
+            z: &z[from..to],
+            c_rate: &c_rate[from..to],
+            x_rate: &x_rate[from..to],
+            z_theta: &z_theta,
+            z_x: &none,
+            at_start: from == 0,
+            at_end: to == self.t.len(),
+        };
+        let mut out = [one.clone(), one.clone(), one];
+        let [c, x, z] = &mut out;
+        solver.solve(nodes, Velocities { c, x, z }).unwrap();
+        out
+    }
+
+    fn whole(&self, solver: &impl VelocitySolver) -> [Vec<f64>; 3] {
+        self.solve(solver, 0, self.t.len())
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let list = value.as_array().unwrap();
+    list.iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// Smooth axes of about a spindle's size at the given times.
+fn smooth(t: Vec<f64>) -> Columns {
+    let at = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { t.iter().map(|t| f(*t)).collect() };
+    let values = [
+        at(&|t| 52.36 * t),
+        at(&|t| 2.5 - 0.2 * t + 0.01 * Scalar::sin(9.0 * t)),
+        at(&|t| 0.4 * Scalar::sin(104.7 * t + 0.3)),
+    ];
+    let rates = [
+        at(&|_| 52.36),
+        at(&|t| -0.2 + 0.09 * Scalar::cos(9.0 * t)),
+        at(&|t| 41.88 * Scalar::cos(104.7 * t + 0.3)),
+    ];
+    Columns { t, values, rates }
+}
+
+fn times(steps: &[f64]) -> Vec<f64> {
+    let mut t = vec![0.0];
+    t.extend(steps.iter().scan(0.0, |sum, step| {
+        *sum += step;
+        Some(*sum)
+    }));
+    t
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| value.abs().max(most))
+}
+
+#[test]
+fn slopes_are_those_of_scipy() {
+    let cases: Value = serde_json::from_str(REFERENCE).unwrap();
+    for (i, case) in cases.as_array().unwrap().iter().enumerate() {
+        let ends = case["ends"].as_str().unwrap();
+        let t = numbers(&case["t"]);
+        let rates = std::array::from_fn(|axis| {
+            let mut rates = vec![1.0; t.len()];
+            let given = numbers(&case["end_rates"][axis]);
+            (rates[0], rates[t.len() - 1]) = (given[0], given[1]);
+            rates
+        });
+        let columns = Columns {
+            values: std::array::from_fn(|axis| numbers(&case["values"][axis])),
+            t,
+            rates,
+        };
+        let found = columns.whole(&triangle_rotary(ends));
+        for (axis, found) in found.iter().enumerate() {
+            let exact = numbers(&case["slopes"][axis]);
+            let off: Vec<f64> = found.iter().zip(&exact).map(|(f, e)| f - e).collect();
+            let off = largest(&off) / largest(&exact);
+            println!("{i} {ends} {} axis {axis}: {off:.1e}", columns.t.len());
+            assert!(off < 1e-11, "case {i}, {ends}, axis {axis}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn windows_with_their_overlap_give_the_whole() {
+    let steps: Vec<f64> = (0..2000)
+        .map(|k| 1e-3 * Scalar::powf(1000.0, (f64::from(k) * 0.618).fract() - 0.5))
+        .collect();
+    let columns = smooth(times(&steps));
+    let count = columns.t.len();
+    for ends in BOUNDARIES {
+        let solver = triangle_rotary(ends);
+        let whole = columns.whole(&solver);
+        for start in (0..count).step_by(150) {
+            let end = (start + 150).min(count);
+            let (from, to) = (start.saturating_sub(OVERLAP), (end + OVERLAP).min(count));
+            let window = columns.solve(&solver, from, to);
+            for axis in 0..3 {
+                let scale = largest(&whole[axis]);
+                for k in start..end {
+                    let off = (window[axis][k - from] - whole[axis][k]).abs();
+                    assert!(
+                        off <= 4e-15 * scale,
+                        "{ends}, axis {axis}, node {k}: {off:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn one_node_has_the_exact_rates() {
+    let columns = smooth(vec![0.25]);
+    for ends in BOUNDARIES {
+        let found = columns.whole(&triangle_rotary(ends));
+        for axis in 0..3 {
+            assert!((found[axis][0] - columns.rates[axis][0]).abs() < 1e-14);
+        }
+    }
+    let none = smooth(Vec::new()).whole(&triangle_rotary("natural"));
+    assert!(none.iter().all(Vec::is_empty));
+}
+
+#[test]
+fn analytic_velocities_are_the_rates() {
+    let columns = smooth(times(&[0.01, 0.02, 0.005]));
+    let found = columns.whole(&Analytic);
+    assert_eq!(found[0], columns.rates[0]);
+    assert_eq!(found[1], columns.rates[1]);
+    for (found, exact) in found[2].iter().zip(&columns.rates[2]) {
+        assert!((found - exact).abs() < 1e-14);
+    }
+}
+
+proptest! {
+    /// Every end condition reproduces what it admits: clamped and not-a-knot a cubic, natural a
+    /// straight line, from few nodes and on steps up to 1 : 1000.
+    #[test]
+    fn cubics_and_lines_are_reproduced(
+        exponents in prop::collection::vec(-1.5..1.5f64, 1..40),
+        c in prop::array::uniform4(-1.0..1.0f64),
+    ) {
+        let steps: Vec<f64> = exponents.iter().map(|e| Scalar::powf(10.0, *e)).collect();
+        let total: f64 = steps.iter().sum();
+        let t: Vec<f64> = times(&steps).iter().map(|t| t / total).collect();
+        for ends in BOUNDARIES {
+            let order = match (ends, t.len()) {
+                ("natural", _) => 1,
+                ("not-a-knot", count) => (count - 1).min(3),
+                _ => 3,
+            };
+            let term = |k: usize| if k <= order { c[k] } else { 0.0 };
+            let value = |t: &f64| term(0) + t * (term(1) + t * (term(2) + t * term(3)));
+            let rate = |t: &f64| term(1) + t * (2.0 * term(2) + t * 3.0 * term(3));
+            let values: Vec<f64> = t.iter().map(value).collect();
+            let rates: Vec<f64> = t.iter().map(rate).collect();
+            let columns = Columns {
+                t: t.clone(),
+                values: [t.clone(), values.clone(), values],
+                rates: [vec![1.0; t.len()], rates.clone(), rates],
+            };
+            let found = columns.whole(&triangle_rotary(ends));
+            for axis in 0..3 {
+                for k in 0..t.len() {
+                    let off = (found[axis][k] - columns.rates[axis][k]).abs();
+                    prop_assert!(off < 1e-10, "{}, axis {}, node {}: {:e}", ends, axis, k, off);
+                }
+            }
+        }
+    }
+}
