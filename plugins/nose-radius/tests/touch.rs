@@ -54,6 +54,8 @@ fn clearance(surface: &Rippled, theta: f64, x: f64, z: f64, offset: f64) -> f64 
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+
     #[test]
     fn the_nose_touches_at_its_foot_and_clears_the_rest(
         theta in 0.0..6.3f64,
