@@ -1,4 +1,5 @@
 //! The constant law: its ends, and the feed it derives on the saddle AST-5.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Arc;
 

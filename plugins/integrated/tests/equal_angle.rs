@@ -1,4 +1,5 @@
 //! Equal angles over blocks: one sequence, however the path is cut up.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
 use std::sync::Arc;

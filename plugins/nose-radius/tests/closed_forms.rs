@@ -1,4 +1,5 @@
 //! Tool centres and rates against closed forms: planes, spheres, cylinders, up and down.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

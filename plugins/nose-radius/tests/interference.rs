@@ -1,4 +1,5 @@
 //! The interference check on surfaces whose extremes have a closed form.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Compensator, Cut, DEG, Params, RadialRange, Scalar, Strategy, Tool};

@@ -1,4 +1,5 @@
 //! Series and rates: against 50-digit references, against each other, against the numeric fit.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 
@@ -7,7 +8,7 @@ use std::sync::Arc;
 use common::{centres, rates, series};
 use serde_json::Value;
 use turnpath_core::{
-    Centres, Compensator, Cut, Params, Radial, Result, Series, Strategy, SurfaceModel, Tool,
+    Centres, Compensator, Cut, DEG, Params, Radial, Result, Series, Strategy, SurfaceModel, Tool,
     ToolLocus,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
@@ -186,5 +187,39 @@ fn fitted_series_and_rates_come_close_to_the_exact_ones() {
             let off = off.fold(0.0, f64::max);
             assert!(off < 1e-12, "{name}, rate {which}: {off:e}");
         }
+    }
+}
+
+/// At 1.5 to 2 mm the section rises by more than 8 degrees; the edge ends at 5.
+#[test]
+fn where_the_edge_ends_series_and_rates_are_those_of_its_end() {
+    let blunt = Tool {
+        included_angle: Some(10.0 * DEG),
+        ..TOOL
+    };
+    let (theta, rho) = ([0.1, 0.2, 0.3, 0.4], [1.5, 2.0, 1.7, 1.9]);
+    let exact = ToolLocus::new(bent(), Arc::new(ZDirection), blunt);
+    let feet = centres(&exact, &theta, &rho).foot;
+    assert!(
+        feet.iter()
+            .zip(&rho)
+            .all(|(foot, rho)| *foot == rho + blunt.reach())
+    );
+    let fitted = CentreOnly(Arc::new(ZDirection));
+    let fitted = ToolLocus::new(bent(), Arc::new(fitted), blunt);
+    let curves = (lines(&theta, 1.0), lines(&rho, -0.01));
+    let [_, exact_z] = series(&exact, &curves.0, &curves.1);
+    let [_, fitted_z] = series(&fitted, &curves.0, &curves.1);
+    for (exact, fitted) in exact_z.iter().zip(&fitted_z) {
+        for (k, allowed) in [1e-15, 1e-12, 1e-10, 1e-8, 1e-7].into_iter().enumerate() {
+            assert!(
+                (exact[k] - fitted[k]).abs() <= allowed,
+                "{exact:?}, {fitted:?}"
+            );
+        }
+    }
+    let (exact, fitted) = (rates(&exact, &theta, &rho), rates(&fitted, &theta, &rho));
+    for (exact, fitted) in exact.iter().flatten().zip(fitted.iter().flatten()) {
+        assert!((exact - fitted).abs() < 1e-12, "{exact} for {fitted}");
     }
 }

@@ -1,4 +1,5 @@
 //! What a tool centre along z is for: the nose touches the section, and cuts into it nowhere.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! The spline against scipy's, and a path in windows against the path as a whole.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use proptest::prelude::*;
 use serde_json::Value;
@@ -83,6 +84,11 @@ fn times(steps: &[f64]) -> Vec<f64> {
     t
 }
 
+fn worst(found: &[f64], exact: &[f64]) -> f64 {
+    let off = found.iter().zip(exact);
+    off.map(|(f, e)| (f - e).abs()).fold(0.0, f64::max)
+}
+
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| value.abs().max(most))
 }
@@ -107,8 +113,7 @@ fn slopes_are_those_of_scipy() {
         let found = columns.whole(&triangle_rotary(ends));
         for (axis, found) in found.iter().enumerate() {
             let exact = numbers(&case["slopes"][axis]);
-            let off: Vec<f64> = found.iter().zip(&exact).map(|(f, e)| f - e).collect();
-            let off = largest(&off) / largest(&exact);
+            let off = worst(found, &exact) / largest(&exact);
             assert!(off < 1e-13, "case {i}, {ends}, axis {axis}: {off:e}");
         }
     }
@@ -128,15 +133,13 @@ fn windows_with_their_overlap_give_the_whole() {
             let end = (start + 150).min(count);
             let (from, to) = (start.saturating_sub(OVERLAP), (end + OVERLAP).min(count));
             let window = columns.solve(&solver, from, to);
-            for axis in 0..3 {
-                let scale = largest(&whole[axis]);
-                for k in start..end {
-                    let off = (window[axis][k - from] - whole[axis][k]).abs();
-                    assert!(
-                        off <= 4e-15 * scale,
-                        "{ends}, axis {axis}, node {k}: {off:e}"
-                    );
-                }
+            for (window, whole) in window.iter().zip(&whole) {
+                let off = worst(&window[start - from..end - from], &whole[start..end]);
+                let scale = largest(whole);
+                assert!(
+                    off <= 4e-15 * scale,
+                    "{ends}, from node {start}: {off:e} of {scale}"
+                );
             }
         }
     }
@@ -147,8 +150,8 @@ fn one_node_has_the_exact_rates() {
     let columns = smooth(vec![0.25]);
     for ends in BOUNDARIES {
         let found = columns.whole(&triangle_rotary(ends));
-        for axis in 0..3 {
-            assert!((found[axis][0] - columns.rates[axis][0]).abs() < 1e-14);
+        for (found, exact) in found.iter().zip(&columns.rates) {
+            assert!(worst(found, exact) < 1e-14);
         }
     }
     let none = smooth(Vec::new()).whole(&triangle_rotary("natural"));
@@ -164,6 +167,24 @@ fn analytic_velocities_are_the_rates() {
     for (found, exact) in found[2].iter().zip(&columns.rates[2]) {
         assert!((found - exact).abs() < 1e-14);
     }
+}
+
+/// What rounding of values up to 4 does to the slopes: to chords, by the shortest step of a whole
+/// of 1; and at a knot that is none once more by how far it extrapolates, (h₀ + h₁)/h₁.
+fn noise(steps: &[f64], total: f64, ends: &str) -> f64 {
+    let shortest = steps
+        .iter()
+        .fold(f64::INFINITY, |least, step| step.min(least))
+        / total;
+    let count = steps.len();
+    let reach = match (ends, count) {
+        ("not-a-knot", 2..) => {
+            let (first, last) = (steps[0] / steps[1], steps[count - 1] / steps[count - 2]);
+            1.0 + first.max(last)
+        }
+        _ => 1.0,
+    };
+    16.0 * f64::EPSILON * reach / shortest
 }
 
 proptest! {
@@ -196,11 +217,10 @@ proptest! {
                 rates: [vec![1.0; t.len()], rates.clone(), rates],
             };
             let found = columns.whole(&triangle_rotary(ends));
-            for axis in 0..3 {
-                for k in 0..t.len() {
-                    let off = (found[axis][k] - columns.rates[axis][k]).abs();
-                    prop_assert!(off < 1e-10, "{}, axis {}, node {}: {:e}", ends, axis, k, off);
-                }
+            let allowed = noise(&steps, total, ends);
+            for (found, exact) in found.iter().zip(&columns.rates) {
+                let off = worst(found, exact);
+                prop_assert!(off < allowed, "{}: {:e} of {:e}", ends, off, allowed);
             }
         }
     }

@@ -1,5 +1,5 @@
 //! Calls of a tool locus with room for the answers.
-#![allow(dead_code)] // every test program uses its own part
+#![allow(dead_code, reason = "every test program uses its own part")]
 
 use turnpath_core::{CentreBuffers, CentreSeries, Locus, Rates, Series, ToolLocus};
 
