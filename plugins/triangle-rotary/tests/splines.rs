@@ -10,10 +10,14 @@ const REFERENCE: &str = include_str!("../../../tests/reference/splines.json");
 const BOUNDARIES: [&str; 3] = ["clamped", "natural", "not-a-knot"];
 const OVERLAP: usize = 64;
 
-fn triangle_rotary(ends: &str) -> TriangleRotary {
+fn params(ends: &str) -> Params {
     let mut params = Params::new();
     params.set("ends", ParamValue::Text(ends.into()));
-    TriangleRotary::new(&params).unwrap()
+    params
+}
+
+fn triangle_rotary(ends: &str) -> TriangleRotary {
+    TriangleRotary::new(&params(ends)).unwrap()
 }
 
 /// Nodes as the host holds them; Z's rate is given as ∂Z/∂θ at vC = 1.
@@ -25,7 +29,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn solve(&self, solver: &impl VelocitySolver, from: usize, to: usize) -> [Vec<f64>; 3] {
+    fn solve(&self, solver: &dyn VelocitySolver, from: usize, to: usize) -> [Vec<f64>; 3] {
         let count = to - from;
         let [c, x, z] = &self.values;
         let (one, none) = (vec![1.0; count], vec![0.0; count]);
@@ -49,7 +53,7 @@ impl Columns {
         out
     }
 
-    fn whole(&self, solver: &impl VelocitySolver) -> [Vec<f64>; 3] {
+    fn whole(&self, solver: &dyn VelocitySolver) -> [Vec<f64>; 3] {
         self.solve(solver, 0, self.t.len())
     }
 }
@@ -141,6 +145,29 @@ fn windows_with_their_overlap_give_the_whole() {
                     "{ends}, from node {start}: {off:e} of {scale}"
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn across_the_boundary_windows_keep_their_ends() {
+    let columns = smooth(times(&[0.01, 0.02, 0.005, 0.01]));
+    let offers = turnpath_plugin::linked();
+    let offer = offers
+        .iter()
+        .find(|offer| offer.info().name == "triangle-rotary");
+    for ends in BOUNDARIES {
+        let (here, there) = (
+            triangle_rotary(ends),
+            offer.unwrap().velocity(&params(ends)).unwrap(),
+        );
+        for (from, to) in [(0, 5), (0, 4), (1, 5), (1, 4)] {
+            let found = columns.solve(there.as_ref(), from, to);
+            assert_eq!(
+                found,
+                columns.solve(&here, from, to),
+                "{ends}, {from} to {to}"
+            );
         }
     }
 }
