@@ -1,2 +1,61 @@
-//! x
-fn main() {}
+//! The program `turnpath`: a recipe in, a measured tool path out.
+
+mod args;
+mod check;
+mod explain;
+mod failure;
+mod figures;
+mod job;
+mod list;
+mod progress;
+mod run;
+mod sag;
+mod strategies;
+mod summary;
+mod verify;
+
+// A plugin that nothing names is dropped by the linker.
+#[cfg(feature = "built-ins")]
+use {
+    turnpath_constant as _, turnpath_integrated as _, turnpath_nose_radius as _,
+    turnpath_surfaces as _, turnpath_triangle_rotary as _,
+};
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Command, Program};
+use failure::Failure;
+
+/// How a command ended that did what it was asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// All tolerances hold.
+    Holds,
+    /// A tolerance does not hold.
+    Exceeded,
+}
+
+fn main() -> ExitCode {
+    let Program { command } = Program::parse();
+    let done = match command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Verify(args) => verify::verify(&args),
+        Command::Sag(args) => sag::sag(&args),
+        Command::List(args) => list::list(&args),
+        Command::Explain(args) => explain::explain(&args),
+    };
+    match done {
+        Ok(Verdict::Holds) => ExitCode::SUCCESS,
+        Ok(Verdict::Exceeded) => ExitCode::from(1),
+        Err(failure) => {
+            failure.report();
+            ExitCode::from(failure.status())
+        }
+    }
+}
+
+/// What a command gives.
+type Done = Result<Verdict, Failure>;

@@ -31,7 +31,8 @@ pub trait Locus: Send + Sync {
 
     /// The feed dρ/dN, mm, that leaves cusps of height `residual` (mm) at each (θ, ρ):
     /// sqrt(8Rε/(1 − Rκ))/w where ρ is the contact's radius and sqrt(8Rε(1 − Rκ))/w where it is
-    /// the centre's X, with κ and w at the contact, and never above R/10.
+    /// the centre's X, with κ and w at the contact, and never above R/10; NaN where the surface
+    /// has no curvature.
     ///
     /// `radial` overrides what ρ is taken for.
     fn held_feed(
@@ -248,7 +249,8 @@ impl Profile {
             Radial::Contact => 8.0 * nose_radius * residual / gap,
             Radial::Centre => 8.0 * nose_radius * residual * gap,
         };
-        (squared.sqrt() / self.stretch()).min(cap)
+        let feed = squared.sqrt() / self.stretch();
+        if feed > cap { cap } else { feed }
     }
 }
 

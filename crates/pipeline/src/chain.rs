@@ -9,7 +9,6 @@ use turnpath_core::{
 use crate::PipelineError;
 
 /// A strategy in its slot, with its own name and its plugin's.
-#[derive(Clone)]
 pub struct Link<T: ?Sized> {
     /// The slot it fills.
     pub slot: Slot,
@@ -47,7 +46,6 @@ impl<T: ?Sized> Link<T> {
 }
 
 /// The five strategies of a job.
-#[derive(Clone)]
 pub struct Chain {
     /// What is cut.
     pub surface: Link<dyn SurfaceModel>,

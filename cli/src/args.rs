@@ -1,0 +1,140 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use turnpath_core::Slot;
+
+/// Tool paths for slow-tool-servo diamond turning of freeform optics.
+///
+/// Exit status: 0 done, and all tolerances hold; 1 done, and a tolerance does not hold; 2 the
+/// recipe or the call is wrong; 3 a plugin failed; 4 a file could not be written or read.
+#[derive(Debug, Parser)]
+#[command(name = "turnpath", version, propagate_version = true)]
+pub struct Program {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Make the tool path of a recipe, measure it and write its files
+    Run(RunArgs),
+    /// Check a recipe without making its path: parameters, interference, expected size
+    Check(CheckArgs),
+    /// Measure a tool path against a recipe's surface, tool and tolerances
+    Verify(VerifyArgs),
+    /// Write the surface of a recipe on a grid, as CSV
+    Sag(SagArgs),
+    /// List the strategies that can be chosen
+    List(ListArgs),
+    /// Explain one strategy: what it does, its parameters and its source
+    Explain(ExplainArgs),
+}
+
+/// Where strategies come from.
+#[derive(Debug, Args)]
+pub struct PluginArgs {
+    /// Take plugins from this folder too; may be given several times
+    #[arg(long, value_name = "DIR")]
+    pub plugin_dir: Vec<PathBuf>,
+}
+
+/// A recipe, and how it is changed.
+#[derive(Debug, Args)]
+pub struct RecipeArgs {
+    /// The recipe
+    pub recipe: PathBuf,
+    /// Set a key of the recipe, such as tolerance.residual="50 nm"; may be given several times
+    #[arg(long, value_name = "KEY.PATH=VALUE")]
+    pub set: Vec<String>,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+    /// Load the plugins that the recipe itself lists: native code with your rights
+    #[arg(long)]
+    pub trust_recipe: bool,
+}
+
+/// How a command works and answers.
+#[derive(Debug, Args)]
+pub struct WorkArgs {
+    /// How many threads to use; as many as there are cores unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// What to print on standard output
+    #[arg(long, value_enum, default_value_t = Format::Human)]
+    pub format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A summary for a person
+    Human,
+    /// The same as JSON
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    #[command(flatten)]
+    pub recipe: RecipeArgs,
+    /// Where the files go; `out/<name>` unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub recipe: RecipeArgs,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    #[command(flatten)]
+    pub recipe: RecipeArgs,
+    /// The tool path to measure: a toolpath.csv
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct SagArgs {
+    #[command(flatten)]
+    pub recipe: RecipeArgs,
+    /// Points along each side of the square around the aperture, its edges included
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=20_000))]
+    pub grid: u32,
+    /// The file to write
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct ListArgs {
+    /// Only the strategies of this slot
+    #[arg(value_parser = PossibleValuesParser::new(Slot::ALL.map(Slot::key)))]
+    pub slot: Option<String>,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// The strategy's name, with its slot before it where two slots have one of that name
+    #[arg(value_name = "[SLOT/]NAME")]
+    pub name: String,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+}
+
+/// The slot with this key, if there is one.
+pub fn slot_of(key: &str) -> Option<Slot> {
+    Slot::ALL.into_iter().find(|slot| slot.key() == key)
+}

@@ -1,0 +1,107 @@
+//! Figures as a person reads them at a glance.
+
+use turnpath_core::Tolerance;
+
+use crate::summary::{Measured, NM_PER_MM};
+
+/// Column at which values begin.
+const LABEL: usize = 16;
+/// Seconds in a minute.
+const MINUTE: f64 = 60.0;
+
+/// A line of a summary: a label and what it is about.
+pub fn line(label: &str, text: impl std::fmt::Display) -> String {
+    format!("  {label:<LABEL$}{text}\n")
+}
+
+/// A whole number with its thousands apart.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A time as people say it.
+pub fn duration(seconds: f64) -> String {
+    if seconds < MINUTE {
+        return format!("{seconds:.1} s");
+    }
+    let whole = seconds.round() as u64;
+    let (hours, minutes, seconds) = (whole / 3600, whole / 60 % 60, whole % 60);
+    match hours {
+        0 => format!("{minutes} min {seconds:02} s"),
+        _ => format!("{hours} h {minutes:02} min {seconds:02} s"),
+    }
+}
+
+/// Bytes as people say them.
+pub fn bytes(count: f64) -> String {
+    match count {
+        c if c < 1e3 => format!("{c:.0} B"),
+        c if c < 1e6 => format!("{:.1} kB", c / 1e3),
+        c if c < 1e9 => format!("{:.1} MB", c / 1e6),
+        c => format!("{:.2} GB", c / 1e9),
+    }
+}
+
+/// Nanometres, with a digit where it tells something.
+pub fn nanometres(nm: f64) -> String {
+    match nm {
+        v if v.is_infinite() => "no number".to_owned(),
+        v if v < 1e4 => format!("{v:.2} nm"),
+        v if v < 1e6 => format!("{:.2} um", v / 1e3),
+        v => format!("{:.3} mm", v / 1e6),
+    }
+}
+
+/// The lines on what was measured, each error against its tolerance.
+pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
+    let (error, residual) = (&measured.interpolation_error_nm, &measured.residual_nm);
+    let verdict = |holds: bool| if holds { "holds" } else { "EXCEEDED" };
+    let against = |value: f64, tolerance: f64, holds: bool| {
+        let (value, limit) = (nanometres(value), nanometres(tolerance * NM_PER_MM));
+        format!("{value:>12} of {limit:<12}{}", verdict(holds))
+    };
+    let within = &measured.within;
+    let mut text = line(
+        "interpolation",
+        against(error.max, tolerance.interpolation, within.interpolation),
+    );
+    text += &line(
+        "",
+        format!(
+            "{:>12} rms; the largest at C = {:.2} deg, X = {:.4} mm",
+            nanometres(error.rms),
+            error.at.c_deg,
+            error.at.x_mm
+        ),
+    );
+    text += &line(
+        "residual",
+        against(residual.max, tolerance.residual, within.residual),
+    );
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_as_people_say_them() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+        assert_eq!(duration(12.34), "12.3 s");
+        assert_eq!(duration(329.6), "5 min 30 s");
+        assert_eq!(duration(7322.0), "2 h 02 min 02 s");
+        assert_eq!(bytes(1234.0), "1.2 kB");
+        assert_eq!(nanometres(99.876), "99.88 nm");
+        assert_eq!(nanometres(67_000.0), "67.00 um");
+    }
+}

@@ -1,0 +1,133 @@
+//! A recipe made ready: its chain, and the job with a tool that fits.
+
+use turnpath_core::interference::Conflict;
+use turnpath_core::{Slot, SpindleLaw};
+use turnpath_host::Catalogue;
+use turnpath_pipeline::{Chain, PipelineError, Prepared, prepare};
+use turnpath_recipe::{Diagnostic, Recipe};
+
+use crate::args::{RecipeArgs, WorkArgs};
+use crate::failure::Failure;
+use crate::strategies;
+
+/// A recipe with its strategies.
+pub struct Job {
+    /// What the user wrote.
+    pub recipe: Recipe,
+    /// What there is to choose from.
+    pub catalogue: Catalogue,
+    /// What was chosen.
+    pub chain: Chain,
+    /// The job, with a tool that fits.
+    pub prepared: Prepared,
+}
+
+impl Job {
+    /// Reads the recipe, makes its strategies, checks tool against part.
+    pub fn ready(args: &RecipeArgs, work: &WorkArgs) -> Result<Self, Failure> {
+        use_threads(work);
+        let recipe = Recipe::load(&args.recipe, &args.set)?;
+        let catalogue = strategies::catalogue_for(&recipe, args)?;
+        let chain = strategies::chain(&recipe, &catalogue)?;
+        let prepared = prepare(
+            &chain,
+            recipe.part,
+            recipe.tool,
+            recipe.tolerance,
+            recipe.direction,
+            SpindleLaw::constant(recipe.spindle_speed),
+        )
+        .map_err(|error| of_pipeline(&recipe, error))?;
+        Ok(Self {
+            recipe,
+            catalogue,
+            chain,
+            prepared,
+        })
+    }
+}
+
+/// Sets how many threads work; fails only when they are set already, which changes no result.
+pub fn use_threads(work: &WorkArgs) {
+    let threads = work.threads.map_or(0, usize::from);
+    let _ = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global();
+}
+
+/// An error of the pipeline, at its place in the recipe.
+pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
+    let title = error.to_string();
+    match error {
+        PipelineError::Strategy { slot, .. } | PipelineError::BadAnswer { slot, .. } => {
+            Failure::plugin(&at_choice(recipe, slot, title))
+        }
+        PipelineError::Gouge { conflicts, .. } => match conflicts.first() {
+            Some(conflict) => gouge(recipe, conflict).into(),
+            None => Failure::call(title),
+        },
+        PipelineError::NoSurface(_) => {
+            let place = recipe.nearest_place("part.aperture");
+            recipe
+                .complaint(place, title, "the part reaches there", [])
+                .into()
+        }
+        PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
+        PipelineError::Sink(error) => {
+            Failure::File(format!("error: cannot write the tool path: {error}"))
+        }
+    }
+}
+
+fn at_choice(recipe: &Recipe, slot: Slot, title: String) -> Diagnostic {
+    recipe.complaint(
+        recipe.choice(slot).name.place.clone(),
+        title,
+        "chosen here",
+        [],
+    )
+}
+
+/// The message for a tool that does not fit.
+fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
+    let (key, what, help) = match conflict {
+        Conflict::NoseRadius { largest, at } => (
+            "tool.nose_radius",
+            format!(
+                "nose radius {:.3} mm exceeds the smallest concave radius {largest:.3} mm, at \
+                 x = {:.2} mm, y = {:.2} mm in the radial direction",
+                recipe.tool.nose_radius, at.x, at.y
+            ),
+            "choose a smaller tool or a smaller aperture",
+        ),
+        Conflict::IncludedAngle { least, at } => (
+            "tool.included_angle",
+            format!(
+                "the contact leaves the edge: at x = {:.2} mm, y = {:.2} mm the profile is so \
+                 steep that it takes an included angle of {:.2} deg",
+                at.x,
+                at.y,
+                least.to_degrees()
+            ),
+            "choose a tool with a larger included angle, or a smaller aperture",
+        ),
+        Conflict::Clearance { least, at } => (
+            "tool.clearance_angle",
+            format!(
+                "the flank rubs: at x = {:.2} mm, y = {:.2} mm the surface falls along the cut by \
+                 {:.2} deg",
+                at.x,
+                at.y,
+                least.to_degrees()
+            ),
+            "choose a tool with a larger clearance angle, or a smaller aperture",
+        ),
+    };
+    let title = format!("the tool would gouge: {what}");
+    recipe.complaint(
+        recipe.nearest_place(key),
+        title,
+        "does not fit",
+        [help.to_owned()],
+    )
+}

@@ -1,0 +1,59 @@
+//! Progress with the remaining time, on a terminal only.
+
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use turnpath_pipeline::{Progress, Stage};
+
+/// How the bar looks.
+const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";
+/// How often the bar is drawn while nothing advances.
+const TICK: Duration = Duration::from_millis(250);
+
+/// A bar on standard error, or nothing where that is no terminal.
+pub struct Bar(Mutex<ProgressBar>);
+
+impl Bar {
+    /// No stage yet.
+    pub fn new() -> Self {
+        Self(Mutex::new(ProgressBar::hidden()))
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.with(|bar| bar.finish_and_clear());
+    }
+
+    fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
+        if let Ok(mut bar) = self.0.lock() {
+            act(&mut bar);
+        }
+    }
+}
+
+impl Progress for Bar {
+    fn begin(&self, stage: Stage, blocks: u64) {
+        if !std::io::stderr().is_terminal() {
+            return;
+        }
+        self.with(|bar| {
+            bar.finish_and_clear();
+            *bar = ProgressBar::with_draw_target(Some(blocks), ProgressDrawTarget::stderr());
+            if let Ok(style) = ProgressStyle::with_template(STYLE) {
+                bar.set_style(style);
+            }
+            bar.set_message(match stage {
+                Stage::Law => "planning the feed".to_owned(),
+                Stage::Refine(round) => format!("playing back, round {round}"),
+                Stage::Write => "measuring and writing".to_owned(),
+            });
+            bar.enable_steady_tick(TICK);
+        });
+    }
+
+    fn advance(&self, blocks: u64) {
+        self.with(|bar| bar.inc(blocks));
+    }
+}

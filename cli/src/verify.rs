@@ -1,0 +1,111 @@
+//! `turnpath verify`: any tool path against a recipe's surface, tool and tolerances.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use turnpath_core::toolpath::PathBlock;
+use turnpath_core::{Slot, StrategyError};
+use turnpath_pipeline::PipelineError;
+use turnpath_post::PathReader;
+use turnpath_recipe::Recipe;
+use turnpath_verify::{FirstTouch, Measured as Stretch, Meter, Subject};
+
+use crate::args::{Format, VerifyArgs};
+use crate::failure::Failure;
+use crate::job::{of_pipeline, use_threads};
+use crate::run::print;
+use crate::summary::{Measured, to_json};
+use crate::{Done, Verdict, figures, strategies};
+
+/// Rows that are measured in one go, and how many such blocks at a time.
+const BLOCK_ROWS: usize = 20_000;
+const BLOCKS: usize = 16;
+
+#[derive(Debug, Serialize)]
+struct Verified {
+    name: String,
+    file: String,
+    control_points: u64,
+    rows: u64,
+    #[serde(flatten)]
+    measured: Measured,
+}
+
+/// Measures a file.
+pub fn verify(args: &VerifyArgs) -> Done {
+    use_threads(&args.work);
+    let recipe = Recipe::load(&args.recipe.recipe, &args.recipe.set)?;
+    let mut reader = PathReader::open(&args.file)?;
+    let subject = subject(&recipe, args)?;
+    let meter = measure(&recipe, subject, &mut reader)?;
+    if reader.cutting() < 2 {
+        let file = args.file.display();
+        let message = format!("error: {file} has no cutting section to measure");
+        return Err(Failure::File(message));
+    }
+    let verified = Verified {
+        name: recipe.name.clone(),
+        file: args.file.display().to_string(),
+        control_points: reader.cutting(),
+        rows: reader.count(),
+        measured: Measured::new(meter.figures(), &recipe.tolerance),
+    };
+    print(&match args.work.format {
+        Format::Json => to_json(&verified),
+        Format::Human => human(&recipe, &verified),
+    })?;
+    let holds = verified.measured.all_hold();
+    Ok(if holds {
+        Verdict::Holds
+    } else {
+        Verdict::Exceeded
+    })
+}
+
+fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<Subject, Failure> {
+    let catalogue = strategies::catalogue_for(recipe, &args.recipe)?;
+    let surface = strategies::surface(recipe, &catalogue)?.strategy;
+    let compensator = strategies::compensator(recipe, &catalogue)?.strategy;
+    Ok(Subject {
+        surface,
+        part: recipe.part,
+        tool: recipe.tool,
+        compensates_nose: compensator.compensates_nose(),
+    })
+}
+
+fn measure(recipe: &Recipe, subject: Subject, reader: &mut PathReader) -> Result<Meter, Failure> {
+    let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
+    let touch = FirstTouch::new(subject, recipe.part.aperture_radius).map_err(failed)?;
+    let mut meter = Meter::new(touch);
+    loop {
+        let mut blocks: Vec<PathBlock> = Vec::new();
+        while blocks.len() < BLOCKS {
+            match reader.next_block(BLOCK_ROWS)? {
+                Some(block) => blocks.push(block),
+                None => break,
+            }
+        }
+        if blocks.is_empty() {
+            return Ok(meter);
+        }
+        let touch = meter.touch();
+        let stretches: Vec<Stretch> = blocks
+            .par_iter()
+            .map(|block| Meter::measure(touch, block))
+            .collect::<Result<_, _>>()
+            .map_err(failed)?;
+        for stretch in &stretches {
+            meter.append(stretch).map_err(failed)?;
+        }
+    }
+}
+
+fn human(recipe: &Recipe, verified: &Verified) -> String {
+    let mut text = format!("{}\n", verified.name);
+    text += &figures::line("file", &verified.file);
+    text += &figures::line("surface", recipe.choice(Slot::Surface).name());
+    let cutting = figures::grouped(verified.control_points);
+    let rows = figures::grouped(verified.rows);
+    text += &figures::line("points", format!("{cutting} that cut, of {rows} rows"));
+    text + &figures::measured(&verified.measured, &recipe.tolerance)
+}

@@ -1,0 +1,183 @@
+//! Reads `toolpath.csv`, and says at which line something is wrong.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
+
+use crate::row::{HEADER, Row};
+
+/// Most degrees that C may turn between two rows: beyond, rows are missing.
+const LARGEST_TURN_DEG: f64 = 360.0;
+
+/// Why a tool path could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file could not be opened or read.
+    #[error("cannot read {}: {error}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: std::io::Error,
+    },
+    /// A line is not what it should be.
+    #[error("{}, line {line}: {what}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong.
+        what: String,
+    },
+}
+
+/// `toolpath.csv`, read block by block.
+pub struct PathReader {
+    rows: csv::Reader<File>,
+    path: PathBuf,
+    last: Option<ControlPoint>,
+    last_section: Section,
+    count: u64,
+    cutting: u64,
+}
+
+impl PathReader {
+    /// Opens a file and checks its first line.
+    pub fn open(path: impl Into<PathBuf>) -> Result<Self, ReadError> {
+        let path = path.into();
+        let file = match File::open(&path) {
+            Ok(file) => file,
+            Err(error) => return Err(ReadError::File { path, error }),
+        };
+        let mut rows = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .from_reader(file);
+        let header = rows.headers().map_err(|error| of_csv(&path, &error))?;
+        if !header.iter().eq(HEADER) {
+            let what = format!(
+                "this is not the header of a tool path, `{}`",
+                HEADER.join(",")
+            );
+            return Err(ReadError::Line {
+                path,
+                line: 1,
+                what,
+            });
+        }
+        let last_section = Section::LeadIn;
+        Ok(Self {
+            rows,
+            path,
+            last: None,
+            last_section,
+            count: 0,
+            cutting: 0,
+        })
+    }
+
+    /// Rows read so far.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Rows of the cutting section so far.
+    pub fn cutting(&self) -> u64 {
+        self.cutting
+    }
+
+    /// The next control points of the cutting section, about `most` of them. A block begins with
+    /// the point that the one before ended with. `None` at the end.
+    pub fn next_block(&mut self, most: usize) -> Result<Option<PathBlock>, ReadError> {
+        let mut block = PathBlock::default();
+        if let Some(last) = self.last.filter(|_| self.last_section == Section::Cutting) {
+            block.push(last);
+        }
+        let begun = block.len();
+        while block.len() < most + begun {
+            let Some((point, section)) = self.next_row()? else {
+                break;
+            };
+            if section == Section::Cutting {
+                block.push(point);
+            }
+        }
+        Ok((block.len() > begun).then_some(block))
+    }
+
+    fn next_row(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+        let mut record = csv::StringRecord::new();
+        let read = self.rows.read_record(&mut record);
+        if !read.map_err(|error| of_csv(&self.path, &error))? {
+            return Ok(None);
+        }
+        let line = record.position().map_or(0, csv::Position::line);
+        let row: Row = record
+            .deserialize(None)
+            .map_err(|error| of_csv_at(&self.path, line, &error))?;
+        let wrong = |what: String| ReadError::Line {
+            path: self.path.clone(),
+            line,
+            what,
+        };
+        let section = row
+            .section()
+            .ok_or_else(|| wrong("the section must be 0, 1 or 2".to_owned()))?;
+        let point = row.point();
+        self.check(&point, section).map_err(wrong)?;
+        self.last = Some(point);
+        self.last_section = section;
+        self.count += 1;
+        self.cutting += u64::from(section == Section::Cutting);
+        Ok(Some((point, section)))
+    }
+
+    fn check(&self, point: &ControlPoint, section: Section) -> Result<(), String> {
+        if !point.is_finite() {
+            return Err("a value is not a finite number".to_owned());
+        }
+        if section < self.last_section {
+            return Err("the sections must come in the order 0, 1, 2".to_owned());
+        }
+        let Some(last) = self.last else { return Ok(()) };
+        if point.t <= last.t {
+            return Err(format!("the time {} s is not after {} s", point.t, last.t));
+        }
+        let turn = (point.c - last.c) / turnpath_core::DEG;
+        if section == Section::Cutting && !(turn > 0.0 && turn <= LARGEST_TURN_DEG) {
+            return Err(format!(
+                "C turns by {turn} deg from the row before; it must grow, by 360 deg at the most"
+            ));
+        }
+        Ok(())
+    }
+}
+
+fn of_csv(path: &Path, error: &csv::Error) -> ReadError {
+    let line = error.position().map_or(1, csv::Position::line);
+    of_csv_at(path, line, error)
+}
+
+fn of_csv_at(path: &Path, line: u64, error: &csv::Error) -> ReadError {
+    let path = path.to_owned();
+    let what = match error.kind() {
+        csv::ErrorKind::Io(error) => {
+            let error = std::io::Error::new(error.kind(), error.to_string());
+            return ReadError::File { path, error };
+        }
+        csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => {
+            format!("there are {len} values, not {expected_len}")
+        }
+        csv::ErrorKind::Deserialize { err, .. } => {
+            let column = err.field().and_then(|field| HEADER.get(field as usize));
+            format!("{}: {}", column.unwrap_or(&"row"), err.kind())
+        }
+        csv::ErrorKind::Utf8 { .. } => "this is no UTF-8 text".to_owned(),
+        _ => error.to_string(),
+    };
+    ReadError::Line { path, line, what }
+}

@@ -1,0 +1,102 @@
+//! What is written reads back, and what is spoiled is refused with its line.
+
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
+
+use crate::{PathReader, PathWriter};
+
+fn path_of(count: usize) -> PathBlock {
+    let mut block = PathBlock::default();
+    for i in 0..count {
+        let k = i as f64;
+        block.push(ControlPoint {
+            t: k * 0.1 + 1.0 / 3.0,
+            c: k * 0.7,
+            x: 2.5 - k / 7.0,
+            z: 1e-17 * k,
+            vc: 7.0,
+            vx: -1.0 / 7.0,
+            vz: 1e-16,
+        });
+    }
+    block
+}
+
+fn written(text: impl Fn(&str) -> String) -> (tempfile::TempDir, std::path::PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("toolpath.csv");
+    let mut writer = PathWriter::begin(&path).unwrap();
+    let rows = PathWriter::rows(Section::Cutting, &path_of(10)).unwrap();
+    writer.append(&rows).unwrap();
+    writer.complete().unwrap();
+    let good = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text(&good)).unwrap();
+    (folder, path)
+}
+
+fn refusal(text: impl Fn(&str) -> String) -> String {
+    let (folder, path) = written(text);
+    let read = PathReader::open(&path).and_then(|mut reader| reader.next_block(100).map(|_| ()));
+    let message = read.unwrap_err().to_string();
+    message.replace(&folder.path().display().to_string(), "")
+}
+
+fn with_line(text: &str, index: usize, line: &str) -> String {
+    let mut lines: Vec<&str> = text.lines().collect();
+    lines[index] = line;
+    lines.join("\n")
+}
+
+#[test]
+fn doubles_come_back_as_they_were() {
+    let (_folder, path) = written(str::to_owned);
+    let mut reader = PathReader::open(path).unwrap();
+    let block = reader.next_block(100).unwrap().unwrap();
+    let made = path_of(10);
+    assert_eq!((&block.t, &block.x, &block.z), (&made.t, &made.x, &made.z));
+    assert_eq!((&block.vx, &block.vz), (&made.vx, &made.vz));
+    for (read, made) in block.c.iter().zip(&made.c) {
+        assert!((read - made).abs() <= f64::EPSILON * made);
+    }
+    assert!(reader.next_block(100).unwrap().is_none());
+}
+
+#[test]
+fn blocks_share_the_point_between_them() {
+    let (_folder, path) = written(str::to_owned);
+    let mut reader = PathReader::open(path).unwrap();
+    let first = reader.next_block(4).unwrap().unwrap();
+    let second = reader.next_block(4).unwrap().unwrap();
+    assert_eq!((first.len(), second.len()), (4, 5));
+    assert_eq!(first.t[3], second.t[0]);
+    assert_eq!(reader.next_block(4).unwrap().unwrap().len(), 3);
+    assert!(reader.next_block(4).unwrap().is_none());
+    assert_eq!(reader.count(), 10);
+}
+
+#[test]
+fn spoiled_files_are_refused_with_their_line() {
+    assert!(
+        refusal(|text| text.replace("time_s", "time")).contains("line 1: this is not the header")
+    );
+    let short = refusal(|text| with_line(text, 3, "1,2,3"));
+    assert!(
+        short.contains("line 4: there are 3 values, not 8"),
+        "{short}"
+    );
+    let word = refusal(|text| with_line(text, 3, "1,two,3,4,5,6,7,1"));
+    assert!(
+        word.contains("line 4: c_deg: invalid float literal"),
+        "{word}"
+    );
+    let nan = refusal(|text| with_line(text, 3, "0.6,100,3,NaN,5,6,7,1"));
+    assert!(
+        nan.contains("line 4: a value is not a finite number"),
+        "{nan}"
+    );
+    let section = refusal(|text| with_line(text, 3, "1,2,3,4,5,6,7,9"));
+    assert!(section.contains("line 4: the section must be"), "{section}");
+    let back = refusal(|text| with_line(text, 5, "0.1,2,3,4,5,6,7,1"));
+    assert!(back.contains("line 6: the time"), "{back}");
+    let turned = refusal(|text| with_line(text, 10, "100,2000,3,4,5,6,7,1"));
+    assert!(turned.contains("line 11: C turns by"), "{turned}");
+}

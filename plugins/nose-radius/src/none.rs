@@ -1,0 +1,85 @@
+//! No compensation: the path of a point.
+
+use turnpath_plugin::prelude::*;
+
+use crate::polar::{Ray, Room, TurningRay, batches};
+
+/// X = ρ, Z = g(θ, ρ): the path that the contact would take, whatever the nose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Uncompensated;
+
+impl Strategy for Uncompensated {
+    const NAME: &'static str = "none";
+    const SUMMARY: &'static str = "no compensation: the nose radius taken as 0";
+
+    fn new(_: &Params) -> Result<Self> {
+        Ok(Self)
+    }
+}
+
+impl Compensator for Uncompensated {
+    fn radial(&self) -> Radial {
+        Radial::Contact
+    }
+
+    fn compensates_nose(&self) -> bool {
+        false
+    }
+
+    fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
+        let mut room = Room::default();
+        for batch in batches(theta.len()) {
+            let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
+            room.hold(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).place(*r)));
+            room.gradient(cut.surface)?;
+            out.z[batch].copy_from_slice(&room.z);
+        }
+        out.x.copy_from_slice(rho);
+        out.foot.copy_from_slice(rho);
+        Ok(())
+    }
+
+    fn exact_series(
+        &self,
+        cut: Cut<'_>,
+        theta: &[Series],
+        rho: &[Series],
+        out: CentreSeries<'_>,
+    ) -> Option<Result<()>> {
+        let mut curves = (Vec::new(), Vec::new());
+        for (theta, rho) in theta.iter().zip(rho) {
+            let (x, y) = TurningRay::at(*theta).place(Taylor(*rho));
+            curves.0.push(x);
+            curves.1.push(y);
+        }
+        out.x.copy_from_slice(rho);
+        Some(cut.surface.height_series(&curves.0, &curves.1, out.z))
+    }
+
+    fn exact_rates(
+        &self,
+        cut: Cut<'_>,
+        theta: &[f64],
+        rho: &[f64],
+        out: Rates<'_>,
+    ) -> Option<Result<()>> {
+        Some(rates(cut, theta, rho, out))
+    }
+}
+
+fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
+    let mut room = Room::default();
+    for batch in batches(theta.len()) {
+        let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
+        room.hold(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).place(*r)));
+        room.gradient(cut.surface)?;
+        for (i, at) in batch.enumerate() {
+            let (ray, zx, zy) = (Ray::at(theta[i]), room.zx[i], room.zy[i]);
+            out.z_theta[at] = rho[i] * ray.across(zx, zy);
+            out.z_x[at] = ray.along(zx, zy);
+        }
+    }
+    out.x_theta.fill(0.0);
+    out.x_rho.fill(1.0);
+    Ok(())
+}

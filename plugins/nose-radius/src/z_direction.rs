@@ -1,0 +1,198 @@
+//! Compensation along z: X stays what the feed says, and the nose comes down until it touches.
+
+use turnpath_plugin::prelude::*;
+
+use crate::foot::{FootFinder, Touch};
+use crate::polar::{Room, TurningRay, batches};
+
+/// X = ρ; Z = max over ρ' of g(θ, ρ') + sqrt(R² − (ρ − ρ')²), ρ' within the edge's reach.
+///
+/// X does not follow the surface, so the X axis moves as smoothly as the feed. The foot is the
+/// only one where Rκ < 1 over the reach; where the edge ends before the normal does, it touches
+/// with its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ZDirection;
+
+impl Strategy for ZDirection {
+    const NAME: &'static str = "z-direction";
+    const SUMMARY: &'static str = "X as the feed says, Z where the nose first touches from above";
+    const SOURCE: &'static str = "Wang et al. 2019, eq. 16–18: the foot of the nose's circle on \
+        the radial section, here as the maximum over the edge";
+
+    fn new(_: &Params) -> Result<Self> {
+        Ok(Self)
+    }
+}
+
+impl Compensator for ZDirection {
+    fn radial(&self) -> Radial {
+        Radial::Centre
+    }
+
+    fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
+        let (mut finder, mut room) = (FootFinder::default(), Room::default());
+        for batch in batches(theta.len()) {
+            let touches = finder.find(cut, &theta[batch.clone()], &rho[batch.clone()])?;
+            room.hold(touches.iter().map(|touch| touch.ray.place(touch.foot())));
+            room.gradient(cut.surface)?;
+            for ((touch, height), at) in touches.iter().zip(&room.z).zip(batch) {
+                out.x[at] = touch.rho;
+                out.z[at] = height + rise(cut.tool.nose_radius, touch.offset);
+                out.foot[at] = touch.foot();
+            }
+        }
+        Ok(())
+    }
+
+    fn exact_series(
+        &self,
+        cut: Cut<'_>,
+        theta: &[Series],
+        rho: &[Series],
+        out: CentreSeries<'_>,
+    ) -> Option<Result<()>> {
+        Some(series(cut, theta, rho, out))
+    }
+
+    /// The height is extreme at the foot, so the foot's own motion does not count.
+    fn exact_rates(
+        &self,
+        cut: Cut<'_>,
+        theta: &[f64],
+        rho: &[f64],
+        out: Rates<'_>,
+    ) -> Option<Result<()>> {
+        Some(rates(cut, theta, rho, out))
+    }
+}
+
+/// sqrt(R² − d²): how far the centre lies above the contact.
+fn rise<S: Scalar>(radius: f64, offset: S) -> S {
+    ((-offset + radius) * (offset + radius)).sqrt()
+}
+
+fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
+    let (mut finder, mut room) = (FootFinder::default(), Room::default());
+    for batch in batches(theta.len()) {
+        let touches = finder.find(cut, &theta[batch.clone()], &rho[batch.clone()])?;
+        room.hold(touches.iter().map(|touch| touch.ray.place(touch.foot())));
+        room.gradient(cut.surface)?;
+        for ((i, touch), at) in touches.iter().enumerate().zip(batch) {
+            let (zx, zy) = (room.zx[i], room.zy[i]);
+            out.z_theta[at] = touch.foot() * touch.ray.across(zx, zy);
+            out.z_x[at] = touch.ray.along(zx, zy);
+        }
+    }
+    out.x_theta.fill(0.0);
+    out.x_rho.fill(1.0);
+    Ok(())
+}
+
+fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
+    let (mut finder, mut room) = (FootFinder::default(), Room::default());
+    let (mut theta_0, mut rho_0) = (Vec::new(), Vec::new());
+    let mut descents = Vec::new();
+    for batch in batches(theta.len()) {
+        let curves = theta[batch.clone()].iter().zip(&rho[batch.clone()]);
+        theta_0.clear();
+        rho_0.clear();
+        theta_0.extend(curves.clone().map(|(theta, _)| theta[0]));
+        rho_0.extend(curves.clone().map(|(_, rho)| rho[0]));
+        let touches = finder.find(cut, &theta_0, &rho_0)?;
+        descents.clear();
+        descents.extend(
+            curves
+                .zip(touches)
+                .map(|((theta, rho), touch)| Descent::new(theta, rho, touch)),
+        );
+        heights(cut, &mut descents, &mut room)?;
+        for (descent, at) in descents.iter().zip(batch) {
+            (out.x[at], out.z[at]) = (descent.rho.0, descent.height.0);
+        }
+    }
+    Ok(())
+}
+
+/// Moves the feet along the curves, order by order, and the heights with them.
+fn heights(cut: Cut<'_>, descents: &mut [Descent], room: &mut Room<Series>) -> Result<()> {
+    let radius = cut.tool.nose_radius;
+    room.hold(descents.iter().map(Descent::section));
+    room.series(cut.surface)?;
+    for (i, descent) in descents.iter_mut().enumerate() {
+        descent.learn_steepness(radius, room.zx[i][1], room.zy[i][1]);
+    }
+    room.hold(descents.iter().map(Descent::curve));
+    room.series(cut.surface)?;
+    for (i, descent) in descents.iter_mut().enumerate() {
+        descent.move_foot(radius, room.zx[i], room.zy[i]);
+    }
+    room.hold(descents.iter().map(Descent::curve));
+    room.series(cut.surface)?;
+    for (i, descent) in descents.iter_mut().enumerate() {
+        descent.settle(radius, room.z[i], room.zx[i], room.zy[i]);
+    }
+    Ok(())
+}
+
+/// The nose coming down along one curve: ρ_t(t) = ρ(t) + d(t) is the foot.
+///
+/// With h(t, d) = g(θ(t), ρ(t) + d) + sqrt(R² − d²) and F = ∂h/∂d, the foot has F = 0. A foot
+/// d₀ + at that is right to order 1 leaves F = F₂t² + …, and what is still missing of Z = max h
+/// is −F₂²/(2F_d)·t⁴ + O(t⁵): three series of the surface give Z exactly through order 4.
+struct Descent {
+    touch: Touch,
+    ray: TurningRay,
+    rho: Taylor<f64>,
+    offset: Taylor<f64>,
+    /// F_d at t = 0, negative; −∞ where the edge's end touches, whose offset does not move.
+    steepness: f64,
+    height: Taylor<f64>,
+}
+
+impl Descent {
+    fn new(theta: &Series, rho: &Series, touch: &Touch) -> Self {
+        Self {
+            touch: *touch,
+            ray: TurningRay::at(*theta),
+            rho: Taylor(*rho),
+            offset: Taylor::constant(touch.offset),
+            steepness: f64::NEG_INFINITY,
+            height: Taylor::constant(f64::NAN),
+        }
+    }
+
+    /// The radial section through the foot.
+    fn section(&self) -> (Series, Series) {
+        self.touch.ray.line(self.touch.foot())
+    }
+
+    /// The foot's curve, as far as it is known.
+    fn curve(&self) -> (Series, Series) {
+        self.ray.place(self.rho + self.offset)
+    }
+
+    /// F_d = g_ρρ − R²/(R² − d²)^{3/2}, from the gradient's change along the section.
+    fn learn_steepness(&mut self, radius: f64, zx_rho: f64, zy_rho: f64) {
+        if !self.touch.at_edge_end {
+            let rise = rise(radius, self.touch.offset);
+            let second = self.touch.ray.along(zx_rho, zy_rho);
+            self.steepness = second - radius * radius / (rise * rise * rise);
+        }
+    }
+
+    /// F(t) = g_ρ − d/sqrt(R² − d²) at the foot as far as it is known.
+    fn tilt(&self, radius: f64, zx: Series, zy: Series) -> Taylor<f64> {
+        self.ray.along(zx, zy) - self.offset / rise(radius, self.offset)
+    }
+
+    /// Gives the foot its speed: F₁ = 0.
+    fn move_foot(&mut self, radius: f64, zx: Series, zy: Series) {
+        self.offset.0[1] = -self.tilt(radius, zx, zy).0[1] / self.steepness;
+    }
+
+    fn settle(&mut self, radius: f64, z: Series, zx: Series, zy: Series) {
+        let rest = self.tilt(radius, zx, zy).0[2];
+        self.height = Taylor(z) + rise(radius, self.offset);
+        self.height.0[4] -= 0.5 * rest * rest / self.steepness;
+    }
+}
