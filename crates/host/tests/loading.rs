@@ -1,5 +1,11 @@
 //! Good plugins through the catalogue: found, loaded once, each with its own strategies.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests may panic too"
+)]
+
 mod common;
 
 use std::fs;

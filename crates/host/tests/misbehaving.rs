@@ -1,5 +1,11 @@
 //! Plugins that misbehave: what they do becomes an error or a value that the caller can check.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests may panic too"
+)]
+
 mod common;
 
 use common::{Saddle, TOOL, nodes, with_fixture};

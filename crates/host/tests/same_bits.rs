@@ -1,5 +1,11 @@
 //! Built-ins linked into the program, and the same plugins loaded: the same bits.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests may panic too"
+)]
+
 mod common;
 
 use std::path::PathBuf;

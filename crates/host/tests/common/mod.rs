@@ -1,5 +1,5 @@
 //! A small job for strategies to work on, and shorthands for the catalogue.
-#![allow(dead_code)] // each test uses what it needs
+#![allow(dead_code, reason = "each test uses what it needs")]
 
 #[path = "../../../../tests/support/fixtures.rs"]
 pub mod fixtures;
