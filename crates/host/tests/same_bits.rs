@@ -71,7 +71,7 @@ fn all_bits(surface: &dyn SurfaceModel) -> Vec<u64> {
     let (x, y) = points();
     let blank = vec![0.0; x.len()];
     let (mut sag, mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank.clone(), blank);
-    surface.sag(&x, &y, &mut sag).unwrap();
+    surface.heights(&x, &y, &mut sag).unwrap();
     let out = Gradients {
         z: &mut z,
         zx: &mut zx,

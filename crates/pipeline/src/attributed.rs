@@ -62,8 +62,8 @@ impl AttributedSurface {
 }
 
 impl SurfaceModel for AttributedSurface {
-    fn sag(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
-        self.name.put(self.surface.sag(x, y, z))
+    fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
+        self.name.put(self.surface.heights(x, y, z))
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {

@@ -90,7 +90,7 @@ fn look_for_numbers(chain: &Chain, job: &Job) -> Result<()> {
     let x: Vec<f64> = (0..8).map(|i| radius * turn(i).1).collect();
     let y: Vec<f64> = (0..8).map(|i| radius * turn(i).0).collect();
     let mut z = vec![f64::NAN; x.len()];
-    let answer = chain.surface.strategy.sag(&x, &y, &mut z);
+    let answer = chain.surface.strategy.heights(&x, &y, &mut z);
     answer.map_err(|error| chain.surface.failed("at the middle of the part", error))?;
     if z.iter().any(|z| z.is_finite()) {
         return Ok(());

@@ -46,7 +46,7 @@ impl Compensator for Above {
             theta.iter().zip(rho).map(|(t, r)| r * part(*t)).collect()
         };
         cut.surface
-            .sag(&along(libm::cos), &along(libm::sin), out.z)?;
+            .heights(&along(libm::cos), &along(libm::sin), out.z)?;
         out.z.iter_mut().for_each(|z| *z += cut.tool.nose_radius);
         out.x.copy_from_slice(rho);
         out.foot.copy_from_slice(rho);
