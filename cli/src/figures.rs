@@ -54,6 +54,7 @@ pub fn bytes(count: f64) -> String {
 pub fn nanometres(nm: f64) -> String {
     match nm {
         v if v.is_infinite() => "no number".to_owned(),
+        v if v > 0.0 && v < 0.01 => format!("{v:.1e} nm"),
         v if v < 1e4 => format!("{v:.2} nm"),
         v if v < 1e6 => format!("{:.2} um", v / 1e3),
         v => format!("{:.3} mm", v / 1e6),
@@ -82,10 +83,11 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
             error.at.x_mm
         ),
     );
-    text += &line(
-        "residual",
-        against(residual.max, tolerance.residual, within.residual),
-    );
+    let residual = match residual.max {
+        Some(height) => against(height, tolerance.residual, within.residual),
+        None => "not measured: the path has no two turns side by side".to_owned(),
+    };
+    text += &line("residual", residual);
     text
 }
 
@@ -102,6 +104,7 @@ mod tests {
         assert_eq!(duration(7322.0), "2 h 02 min 02 s");
         assert_eq!(bytes(1234.0), "1.2 kB");
         assert_eq!(nanometres(99.876), "99.88 nm");
+        assert_eq!(nanometres(0.000123), "1.2e-4 nm");
         assert_eq!(nanometres(67_000.0), "67.00 um");
     }
 }

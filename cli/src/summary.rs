@@ -77,10 +77,10 @@ pub struct Place {
     pub x_mm: f64,
 }
 
-/// Cusps along the profile's normal.
+/// Cusps along the profile's normal; `null` where no two passes are neighbours.
 #[derive(Debug, Serialize)]
 pub struct Residual {
-    pub max: f64,
+    pub max: Option<f64>,
     at: Place,
     left_out: &'static str,
 }
@@ -204,7 +204,7 @@ impl Measured {
                 at,
             },
             residual_nm: Residual {
-                max: residual.max * NM_PER_MM,
+                max: residual.highest().map(|height| height * NM_PER_MM),
                 at: Place {
                     c_deg: residual.at_theta / DEG,
                     x_mm: residual.at_rho,
@@ -219,7 +219,9 @@ impl Measured {
             },
             within: Within {
                 interpolation: holds(playback.max(), tolerance.interpolation),
-                residual: holds(residual.max, tolerance.residual),
+                residual: residual
+                    .highest()
+                    .is_some_and(|height| holds(height, tolerance.residual)),
                 machine: None,
             },
         }

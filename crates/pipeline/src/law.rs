@@ -36,7 +36,8 @@ pub fn plan(chain: &Chain, job: &Job, locus: &dyn Locus) -> Result<SpiralLaw> {
             return Err(chain.feed.bad_answer(format!("no piece, {}", place(&law))));
         }
         if law.end() > MOST_REVOLUTIONS {
-            return Err(chain.feed.bad_answer("a law that does not end"));
+            let what = format!("a law of more than {MOST_REVOLUTIONS:e} revolutions");
+            return Err(chain.feed.bad_answer(what));
         }
         if onward == Onward::Done {
             break;

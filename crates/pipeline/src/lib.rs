@@ -1,6 +1,6 @@
 //! Chains the five stages: law, nodes, locus, velocities; refines, measures, hands blocks on.
 //!
-//! A path is made in blocks of [`BLOCK`] revolutions, whatever the threads: a block's bytes
+//! A path is made in blocks of [`BLOCK`] revolutions or fewer, whatever the threads: a block's bytes
 //! depend on the job alone. [`prepare`] checks tool against part and settles the range of ρ,
 //! [`run`] makes the path and gives it to a [`Sink`] in order.
 

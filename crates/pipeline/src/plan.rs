@@ -7,6 +7,11 @@ use crate::{Chain, Prepared, Result};
 /// Revolutions of a block. A sampler starts afresh at each border, which costs AST-50 a tenth of
 /// a percent of points; larger blocks take more memory and leave less to do in parallel.
 pub const BLOCK: f64 = 64.0;
+/// Nodes of a block above which it takes half the revolutions, down to one: memory stays bounded
+/// on the finest paths. It follows from the job alone, so the bytes do not depend on the machine.
+const COMFORTABLE_BLOCK: f64 = 50_000.0;
+/// Nodes of a block beyond which a sampler's answer is taken for a mistake.
+const MOST_NODES: usize = 4_000_000;
 /// Nodes closer together than this part of a revolution are a sampler's mistake: the velocity
 /// between them would be rounding.
 pub const CLOSEST_NODES: f64 = 1e-9;
@@ -19,6 +24,8 @@ pub struct Plan<'a> {
     pub prepared: &'a Prepared,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
+    /// Revolutions of a block: [`BLOCK`], fewer where nodes are very many.
+    block: f64,
     /// What the sampler found on the whole path.
     pub prepared_sampler: Vec<f64>,
     /// What a sequential sampler carries into each block; empty for others.
@@ -33,10 +40,12 @@ impl<'a> Plan<'a> {
             chain,
             prepared,
             law,
+            block: BLOCK,
             prepared_sampler: Vec::new(),
             sampler_states: Vec::new(),
         };
         plan.prepared_sampler = plan.prepare_sampler()?;
+        plan.block = plan.comfortable_block()?;
         if chain.sampler.strategy.dependence() == Dependence::Sequential {
             let mut state = Vec::new();
             for index in 0..plan.blocks() {
@@ -53,6 +62,22 @@ impl<'a> Plan<'a> {
         answer.map_err(|error| sampler.failed("while it looked at the whole path", error))
     }
 
+    /// From one revolution each at the path's start, middle and end.
+    fn comfortable_block(&self) -> Result<f64> {
+        let last = (self.law.end() - 1.0).max(0.0).floor();
+        let mut densest = 0;
+        for start in [0.0, (0.5 * last).floor(), last] {
+            let end = (start + 1.0).min(self.law.end());
+            let nodes = self.place(Revolutions { start, end }, &mut Vec::new())?;
+            densest = densest.max(nodes.len());
+        }
+        let mut block = BLOCK;
+        while block > 1.0 && block * densest as f64 > COMFORTABLE_BLOCK {
+            block *= 0.5;
+        }
+        Ok(block)
+    }
+
     fn path<'b>(&'b self, law: &'b SpiralLaw) -> Path<'b> {
         let Prepared { job, locus, .. } = self.prepared;
         let prepared = &self.prepared_sampler;
@@ -66,16 +91,21 @@ impl<'a> Plan<'a> {
 
     /// How many blocks there are.
     pub fn blocks(&self) -> usize {
-        (self.law.end() / BLOCK).ceil() as usize
+        (self.law.end() / self.block).ceil() as usize
     }
 
     /// The revolutions of a block.
     pub fn revolutions(&self, index: usize) -> Revolutions {
-        let start = index as f64 * BLOCK;
+        let start = index as f64 * self.block;
         Revolutions {
             start,
-            end: (start + BLOCK).min(self.law.end()),
+            end: (start + self.block).min(self.law.end()),
         }
+    }
+
+    /// Revolutions of every block but the last.
+    pub fn block(&self) -> f64 {
+        self.block
     }
 
     /// Whether it is the path's last block.
@@ -90,7 +120,18 @@ impl<'a> Plan<'a> {
     }
 
     fn sample_from(&self, index: usize, state: &mut Vec<f64>) -> Result<Vec<f64>> {
-        let (sampler, block) = (&self.chain.sampler, self.revolutions(index));
+        let mut nodes = self.place(self.revolutions(index), state)?;
+        self.check(index, &nodes)
+            .map_err(|what| self.chain.sampler.bad_answer(what))?;
+        if index == 0 && nodes.first() != Some(&0.0) {
+            nodes.insert(0, 0.0);
+        }
+        Ok(nodes)
+    }
+
+    /// The sampler's own answer.
+    fn place(&self, block: Revolutions, state: &mut Vec<f64>) -> Result<Vec<f64>> {
+        let sampler = &self.chain.sampler;
         let window = self.law.window(block.start - 1.0, block.end + 1.0);
         let path = self.path(&window);
         let mut nodes = Vec::new();
@@ -101,11 +142,6 @@ impl<'a> Plan<'a> {
             _ => sampler.strategy.place(&path, block, &mut nodes),
         };
         answer.map_err(|error| sampler.failed(place_of(block), error))?;
-        self.check(index, &nodes)
-            .map_err(|what| sampler.bad_answer(what))?;
-        if index == 0 && nodes.first() != Some(&0.0) {
-            nodes.insert(0, 0.0);
-        }
         Ok(nodes)
     }
 
@@ -114,6 +150,9 @@ impl<'a> Plan<'a> {
         let place = place_of(block);
         if nodes.is_empty() && !self.is_last(index) {
             return Err(format!("no node {place}"));
+        }
+        if nodes.len() > MOST_NODES {
+            return Err(format!("{} nodes {place}", nodes.len()));
         }
         let mut last: Option<f64> = None;
         for (i, node) in nodes.iter().enumerate() {

@@ -22,6 +22,10 @@ pub const MOST_ROUNDS: u32 = 12;
 /// Smallest segment that is made, s. Controllers take some 0.4 ms for a servo cycle; a tenth of
 /// a millisecond is below what any of them can follow.
 pub const SMALLEST_SEGMENT: f64 = 1e-4;
+/// Control points of a block above which none of its segments is halved any more: a tolerance
+/// that asks for so many (tens of thousands a revolution) is missed, and said to be, before the
+/// memory is gone.
+const MOST_POINTS: usize = 1_000_000;
 
 /// Halves segments until the played error is below the aim everywhere or no segment can be
 /// halved any more; gives how often each sampler segment is halved.
@@ -66,6 +70,9 @@ pub fn first_state(plan: &Plan<'_>) -> Option<Vec<f64>> {
 /// The block's depths with one more for every segment that is too far off, if there is one.
 fn deepen(plan: &Plan<'_>, made: &Made, depths: &Depths) -> Result<Option<Depths>> {
     let touch = &plan.prepared.touch;
+    if made.points.len() > MOST_POINTS {
+        return Ok(None);
+    }
     let errors = Meter::segment_errors(touch, &made.points).map_err(PipelineError::Measure)?;
     let aim = AIM * plan.prepared.job.tolerance.interpolation;
     let segments = made.owner.last().map_or(0, |last| *last as usize + 1);

@@ -14,7 +14,7 @@ use crate::{Chain, PipelineError, Prepared, Result};
 /// blocks (half a million nodes each) stays within some hundred megabytes.
 const LARGE_BATCH: usize = 64;
 /// Control points that a batch should not exceed much.
-const BATCH_POINTS: f64 = 1e6;
+const BATCH_POINTS: f64 = 5e5;
 /// Blocks that are looked at to expect the count of points.
 const LOOKED_AT: usize = 8;
 
@@ -160,7 +160,7 @@ fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
 
 /// How many blocks to make at a time; it changes memory and speed, never the path.
 fn batch_size(plan: &Plan<'_>) -> Result<usize> {
-    let per_block = nodes_per_revolution(plan)? * crate::BLOCK;
+    let per_block = nodes_per_revolution(plan)? * plan.block();
     let fitting = (BATCH_POINTS / per_block.max(1.0)) as usize;
-    Ok(fitting.clamp(rayon::current_num_threads().max(1), LARGE_BATCH))
+    Ok(fitting.clamp(1, LARGE_BATCH))
 }

@@ -35,6 +35,12 @@ pub struct ResidualFigures {
 }
 
 impl ResidualFigures {
+    /// The highest cusp, mm; `None` where no two passes were neighbours, as on a path of less
+    /// than two turns: nothing is known then, least of all that it is smooth.
+    pub fn highest(&self) -> Option<f64> {
+        (self.cusps > 0).then_some(self.max)
+    }
+
     /// Puts the figures of the path's next stretch behind these.
     pub fn append(&mut self, next: &Self) {
         self.cusps += next.cusps;
