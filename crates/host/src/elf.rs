@@ -4,7 +4,7 @@
 
 use object::NativeEndian;
 use object::elf;
-use object::read::elf::{Dyn, FileHeader, ProgramHeader, Sym};
+use object::read::elf::{Dyn, FileHeader, ProgramHeader, SectionHeader, Sym};
 use turnpath_plugin::loading;
 
 use crate::{Refusal, machine};
@@ -19,6 +19,10 @@ type Symbol = <Header as FileHeader>::Sym;
 const ENDIAN: NativeEndian = NativeEndian;
 /// Real libraries have about ten; the loader keeps them on its stack.
 const MOST_SEGMENTS: usize = 256;
+/// A library that wants more for every thread is not one; the system would give up, not refuse.
+const MOST_THREAD_LOCAL: u64 = 1 << 24;
+/// What is write-protected after loading may be rounded up to a page, by so much at most.
+const LARGEST_PAGE: u64 = 1 << 16;
 
 const NO_HEADERS: Refusal = Refusal::Damaged("its headers cannot be read");
 const NO_DYNAMIC: Refusal = Refusal::Damaged("its dynamic table does not fit its segments");
@@ -51,6 +55,8 @@ pub fn check(bytes: &[u8]) -> Result<Elf<'_>, Refusal> {
         header,
         segments,
     };
+    library.check_views()?;
+    library.check_sections()?;
     library.check_dynamic()?;
     Ok(library)
 }
@@ -148,12 +154,66 @@ const TABLES: [(elf::DynamicTag, Option<elf::DynamicTag>); 12] = [
 ];
 
 impl Elf<'_> {
-    /// The bytes that will be at an address.
-    fn at(&self, address: u64, size: u64) -> Option<&[u8]> {
+    /// Where in the file the bytes stand that will be at an address.
+    fn offset_of(&self, address: u64, size: u64) -> Option<u64> {
+        let end = address.checked_add(size)?;
         self.segments
             .iter()
             .filter(|segment| segment.p_type(ENDIAN) == elf::PT_LOAD)
-            .find_map(|segment| segment.data_range(ENDIAN, self.bytes, address, size).ok()?)
+            .find_map(|segment| {
+                let (offset, in_file) = segment.file_range(ENDIAN);
+                let start = u64::from(segment.p_vaddr(ENDIAN));
+                let holds = start <= address && end <= start.saturating_add(in_file);
+                holds.then(|| offset + (address - start))
+            })
+    }
+
+    /// The bytes that will be at an address.
+    fn at(&self, address: u64, size: u64) -> Option<&[u8]> {
+        let start = usize::try_from(self.offset_of(address, size)?).ok()?;
+        self.bytes
+            .get(start..start.checked_add(usize::try_from(size).ok()?)?)
+    }
+
+    /// What else the program headers name (the dynamic table, notes, thread-local data) is the
+    /// same in memory as in the file.
+    fn check_views(&self) -> Result<(), Refusal> {
+        for segment in self.segments {
+            let kind = segment.p_type(ENDIAN);
+            let (offset, in_file) = segment.file_range(ENDIAN);
+            let (address, in_memory) = (segment.p_vaddr(ENDIAN), segment.p_memsz(ENDIAN));
+            let (address, in_memory) = (u64::from(address), u64::from(in_memory));
+            if kind == elf::PT_TLS && in_memory > MOST_THREAD_LOCAL {
+                return Err(NO_HEADERS);
+            }
+            if kind == elf::PT_GNU_RELRO && in_memory > in_file.saturating_add(LARGEST_PAGE) {
+                return Err(NO_HEADERS);
+            }
+            let empty = in_file == 0 || kind == elf::PT_LOAD;
+            if !empty && self.offset_of(address, in_file) != Some(offset) {
+                return Err(NO_HEADERS);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sections say of every byte in memory where in the file it stands, as the segments do.
+    fn check_sections(&self) -> Result<(), Refusal> {
+        let sections = self
+            .header
+            .section_headers(ENDIAN, self.bytes)
+            .map_err(|_| NO_SYMBOLS)?;
+        for section in sections {
+            let in_memory = section.sh_flags(ENDIAN).contains(elf::SHF_ALLOC);
+            let Some((offset, size)) = section.file_range(ENDIAN) else {
+                continue;
+            };
+            let address = u64::from(section.sh_addr(ENDIAN));
+            if in_memory && size > 0 && self.offset_of(address, size) != Some(offset) {
+                return Err(NO_HEADERS);
+            }
+        }
+        Ok(())
     }
 
     /// The dynamic table is there, and what it points to lies in the segments.
