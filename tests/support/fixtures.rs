@@ -1,5 +1,6 @@
 //! Builds the plugins of `tests/fixtures`, for whichever test includes this file with `#[path]`.
-#![allow(dead_code)] // each test uses what it needs
+#![allow(dead_code, reason = "each test uses what it needs")]
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;

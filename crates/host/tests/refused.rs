@@ -1,5 +1,11 @@
 //! Files that are no plugins for this program: each its own message, and none ends the program.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests may panic too"
+)]
+
 mod common;
 
 use std::fs;
@@ -178,6 +184,19 @@ fn a_link_to_nowhere_in_a_folder() {
     assert_eq!(error.to_string(), expected);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_that_cannot_be_read_is_no_fault_of_a_plugin() {
+    let error = Catalogue::new()
+        .add_file(Path::new("/proc/self/mem"))
+        .unwrap_err();
+    assert!(error.is_io(), "{error}");
+    assert!(
+        error.to_string().starts_with("cannot read /proc/"),
+        "{error}"
+    );
+}
+
 /// What follows patches ELF headers of the 64-bit little-endian kind.
 #[cfg(all(
     target_os = "linux",
@@ -283,6 +302,34 @@ mod elf {
             }
         }
         assert!(refused > 20, "{refused}");
+    }
+
+    #[test]
+    fn a_library_that_needs_another_that_is_not_there() {
+        let mut bytes = good();
+        let needed = b"\0libc.so.6\0";
+        let place = bytes.windows(needed.len()).position(|w| w == needed);
+        bytes[place.unwrap() + 4] = b'q';
+        let (_folder, file) = file_of(&bytes);
+        let message = message(&error_of(&file), &file);
+        let expected = "libplugin.so: the system cannot load it: libq.so.6: \
+                        cannot open shared object file: No such file or directory";
+        assert_eq!(message, expected);
+    }
+
+    /// As an unfinished copy has it: the right length, and blocks of zeros.
+    #[test]
+    fn a_library_with_a_hole_in_its_code() {
+        let mut bytes = good();
+        let code = |header: &usize| bytes[*header..header + 5] == [1, 0, 0, 0, 5];
+        let header = program_headers(&bytes).into_iter().find(code).unwrap();
+        let middle = word(&bytes, header + 8) + word(&bytes, header + 32) / 2;
+        let hole = middle.next_multiple_of(4096);
+        bytes[hole..hole + 4096].fill(0);
+        assert_eq!(
+            refusal_of(&bytes).to_string(),
+            "the file is damaged (a part of it is empty); copy or build it again"
+        );
     }
 
     #[test]

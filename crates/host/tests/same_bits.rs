@@ -1,5 +1,11 @@
 //! Built-ins linked into the program, and the same plugins loaded: the same bits.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests may panic too"
+)]
+
 mod common;
 
 use std::path::PathBuf;
@@ -65,7 +71,7 @@ fn all_bits(surface: &dyn SurfaceModel) -> Vec<u64> {
     let (x, y) = points();
     let blank = vec![0.0; x.len()];
     let (mut sag, mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank.clone(), blank);
-    surface.sag(&x, &y, &mut sag).unwrap();
+    surface.heights(&x, &y, &mut sag).unwrap();
     let out = Gradients {
         z: &mut z,
         zx: &mut zx,

@@ -12,8 +12,10 @@ use crate::Subject;
 /// The secant stops when it moves less than this part of the nose radius. The height is wrong by
 /// the square of it: 1e-16 of the radius.
 const FOOT_TOLERANCE: f64 = 1e-8;
-/// Most steps of the secant; bisection alone reaches [`FOOT_TOLERANCE`] in half as many.
-const MOST_STEPS: usize = 60;
+/// Most steps of the search, and from where on every second one halves the bracket: that alone
+/// reaches [`FOOT_TOLERANCE`] in 28 halvings.
+const MOST_STEPS: usize = 80;
+const PATIENCE: usize = 16;
 /// Places of the scan over the reach. Ripples narrower than two of its steps can be missed.
 const SCAN: usize = 257;
 /// Angles and radii at which the profile's curvature is looked at before a single maximum is
@@ -42,9 +44,10 @@ pub struct Touch {
 }
 
 impl FirstTouch {
-    /// For tool positions with |X| up to `largest_x`.
-    pub fn new(subject: Subject, largest_x: f64) -> Result<Self> {
-        let reach = largest_x + subject.tool.nose_radius;
+    /// For tool positions whose X lies within the aperture, or beyond it by what a normal to the
+    /// rim takes: the nose radius.
+    pub fn new(subject: Subject) -> Result<Self> {
+        let reach = subject.part.aperture_radius + 2.0 * subject.tool.nose_radius;
         let single = !subject.compensates_nose
             || largest_curvature(subject.surface.as_ref(), reach)?
                 .is_some_and(|curvature| subject.tool.nose_radius * curvature < LARGEST_FIT);
@@ -162,7 +165,7 @@ fn close_in(
             before: None,
         })
         .collect();
-    for _ in 0..MOST_STEPS {
+    for step in 0..MOST_STEPS {
         if open.is_empty() {
             break;
         }
@@ -178,10 +181,14 @@ fn close_in(
                 foot: search.at,
                 slope,
             };
-            let fall = slope * lift - offset;
-            let next = search.next(fall, slope, radius, x[index], &mut brackets[index]);
+            let seen = Seen {
+                fall: slope * lift - offset,
+                by_normal: x[index] + radius * slope / (1.0 + slope * slope).sqrt(),
+            };
+            let halve = step > PATIENCE && step % 2 == 0;
+            let next = search.next(&seen, &mut brackets[index], halve);
             if (next - search.at).abs() > FOOT_TOLERANCE * radius {
-                search.before = Some((search.at, fall));
+                search.before = Some((search.at, seen.fall));
                 search.at = next;
                 open[still_open] = search;
                 still_open += 1;
@@ -192,21 +199,33 @@ fn close_in(
     Ok(())
 }
 
+/// What a search finds at one place.
+struct Seen {
+    /// F there.
+    fall: f64,
+    /// Where the normal through this contact leads: the first guess of a better one.
+    by_normal: f64,
+}
+
 impl Search {
     /// The next place: by the normal through the contact at first, then by the secant; the middle
-    /// of the bracket where either leaves it or where the surface has no value.
-    fn next(&self, fall: f64, slope: f64, radius: f64, x: f64, bracket: &mut Bracket) -> f64 {
-        if fall > 0.0 {
+    /// of the bracket where either leaves it, or when it is time to halve. Where the surface has
+    /// no value the bracket shrinks towards its start, which had one.
+    fn next(&self, seen: &Seen, bracket: &mut Bracket, halve: bool) -> f64 {
+        let nowhere = seen.fall.is_nan();
+        if seen.fall > 0.0 || (nowhere && self.at < bracket.start) {
             bracket.low = self.at;
-        } else if fall < 0.0 {
+        } else if seen.fall < 0.0 || (nowhere && self.at > bracket.start) {
             bracket.high = self.at;
         }
         let proposed = match self.before {
-            None => x + radius * slope / (1.0 + slope * slope).sqrt(),
-            Some((at, then)) if then != fall => self.at - fall * (self.at - at) / (fall - then),
+            None => seen.by_normal,
+            Some((at, then)) if then != seen.fall => {
+                self.at - seen.fall * (self.at - at) / (seen.fall - then)
+            }
             Some(_) => self.at,
         };
-        if (bracket.low..=bracket.high).contains(&proposed) {
+        if !halve && (bracket.low..=bracket.high).contains(&proposed) {
             proposed
         } else {
             0.5 * (bracket.low + bracket.high)

@@ -1,5 +1,5 @@
 //! A small job for strategies to work on, and shorthands for the catalogue.
-#![allow(dead_code)] // each test uses what it needs
+#![allow(dead_code, reason = "each test uses what it needs")]
 
 #[path = "../../../../tests/support/fixtures.rs"]
 pub mod fixtures;
@@ -46,7 +46,7 @@ impl Compensator for Above {
             theta.iter().zip(rho).map(|(t, r)| r * part(*t)).collect()
         };
         cut.surface
-            .sag(&along(libm::cos), &along(libm::sin), out.z)?;
+            .heights(&along(libm::cos), &along(libm::sin), out.z)?;
         out.z.iter_mut().for_each(|z| *z += cut.tool.nose_radius);
         out.x.copy_from_slice(rho);
         out.foot.copy_from_slice(rho);
@@ -105,6 +105,7 @@ pub fn onward(
         job: &job,
         locus: &locus,
         law: &law,
+        prepared: &[],
     };
     let mut nodes = Vec::new();
     sampler.place_onward(&path, Revolutions { start, end }, state, &mut nodes)?;

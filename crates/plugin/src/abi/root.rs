@@ -274,7 +274,7 @@ pub enum OpenError {
 /// Looks at an entry as it stands in the library's file, before anything of the library runs.
 ///
 /// # Errors
-/// As [`open`], but for the layout, which can only be compared after loading.
+/// As `open`, but for the layout, which can only be compared after loading.
 pub fn inspect(entry: &[u8]) -> std::result::Result<(), OpenError> {
     EntryHead::read(entry)
         .ok_or(OpenError::NotAPlugin)?
