@@ -1,4 +1,5 @@
 //! Which crate may depend on which: dependencies run one way.
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use cargo_metadata::{Dependency, DependencyKind, Metadata, MetadataCommand, Package};
 

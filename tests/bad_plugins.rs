@@ -1,5 +1,6 @@
 //! Plugins that misbehave: exit status 3, a message that names the culprit, and nothing left
 //! behind.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod support;
 

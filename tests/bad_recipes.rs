@@ -103,7 +103,7 @@ fn a_tool_whose_flank_would_rub() {
 }
 
 #[test]
-fn a_tool_that_does_not_fit_in_three_ways_is_refused_by_check_too() {
+fn a_tool_that_does_not_fit_in_three_ways_is_told_all_of_them_by_check() {
     let recipe = changed(SADDLE, "\"120 deg\"", "\"30 deg\"");
     let recipe = changed(
         &recipe,

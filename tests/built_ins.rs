@@ -1,4 +1,5 @@
 //! What is in the program as it is built by default.
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 mod support;
 

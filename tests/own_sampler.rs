@@ -1,5 +1,10 @@
 //! A lab's own strategies: written outside the repository against the plugin crate alone, loaded,
 //! and used in a recipe whose tolerance holds all the same.
+#![allow(
+    clippy::expect_used,
+    clippy::unwrap_used,
+    reason = "helpers of tests may panic too"
+)]
 
 mod support;
 

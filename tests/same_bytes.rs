@@ -1,5 +1,6 @@
 //! Same recipe, same bytes: whatever the threads, the processor's features, and whether the
 //! built-in plugins are linked in or loaded.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod support;
 

@@ -53,7 +53,7 @@ pub fn bytes(count: f64) -> String {
 /// Nanometres, with a digit where it tells something.
 pub fn nanometres(nm: f64) -> String {
     match nm {
-        v if v.is_infinite() => "no number".to_owned(),
+        v if !v.is_finite() => "no number".to_owned(),
         v if v < 1e4 => format!("{v:.2} nm"),
         v if v < 1e6 => format!("{:.2} um", v / 1e3),
         v => format!("{:.3} mm", v / 1e6),
@@ -84,7 +84,10 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
     );
     text += &line(
         "residual",
-        against(residual.max, tolerance.residual, within.residual),
+        match residual.max {
+            Some(max) => against(max, tolerance.residual, within.residual),
+            None => format!("not measured: {}", residual.left_out),
+        },
     );
     text
 }
@@ -103,5 +106,6 @@ mod tests {
         assert_eq!(bytes(1234.0), "1.2 kB");
         assert_eq!(nanometres(99.876), "99.88 nm");
         assert_eq!(nanometres(67_000.0), "67.00 um");
+        assert_eq!(nanometres(f64::NAN), "no number");
     }
 }

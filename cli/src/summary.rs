@@ -80,9 +80,11 @@ pub struct Place {
 /// Cusps along the profile's normal.
 #[derive(Debug, Serialize)]
 pub struct Residual {
-    pub max: f64,
+    /// Highest; none where no pass has a neighbour, which holds no tolerance.
+    pub max: Option<f64>,
     at: Place,
-    left_out: &'static str,
+    /// What the figure does not speak of.
+    pub left_out: &'static str,
 }
 
 /// The machined surface as a whole: not measured yet.
@@ -204,12 +206,15 @@ impl Measured {
                 at,
             },
             residual_nm: Residual {
-                max: residual.max * NM_PER_MM,
+                max: (residual.cusps > 0).then_some(residual.max * NM_PER_MM),
                 at: Place {
                     c_deg: residual.at_theta / DEG,
                     x_mm: residual.at_rho,
                 },
-                left_out: "the innermost turn",
+                left_out: match residual.cusps {
+                    0 => "no turn has a neighbour",
+                    _ => "the innermost turn",
+                },
             },
             surface_error_nm: SurfaceError::default(),
             axes: Axes {
@@ -219,7 +224,7 @@ impl Measured {
             },
             within: Within {
                 interpolation: holds(playback.max(), tolerance.interpolation),
-                residual: holds(residual.max, tolerance.residual),
+                residual: residual.cusps > 0 && holds(residual.max, tolerance.residual),
                 machine: None,
             },
         }
