@@ -1,4 +1,5 @@
 //! `turnpath sag`: the surface on a grid, against closed forms.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod support;
 

@@ -175,10 +175,8 @@ fn nothing_in_the_way(folder: &Path) -> Result<(), FileError> {
         let error = io::Error::new(kind, what);
         Err(FileError { path, error })
     };
-    let parts = folder.ancestors().filter(|part| *part != Path::new(""));
-    if let Some(file) = parts.into_iter().find(|part| part.exists())
-        && !file.is_dir()
-    {
+    let nearest = folder.ancestors().find(|part| part.exists());
+    if let Some(file) = nearest.filter(|part| !part.is_dir()) {
         let what = format!("{} is a file, not a folder", file.display());
         return wrong(folder.to_owned(), io::ErrorKind::NotADirectory, what);
     }
