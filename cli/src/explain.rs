@@ -41,19 +41,34 @@ fn find<'a>(catalogue: &'a Catalogue, asked: &str) -> Result<Vec<&'a Strategy>, 
     if !found.is_empty() {
         return Ok(found);
     }
+    Err(Failure::call(format!(
+        "there is no {} named `{name}`; {}",
+        match slots[..] {
+            [slot] => slot.noun(),
+            _ => "strategy",
+        },
+        hint(catalogue, &slots, name)
+    )))
+}
+
+/// What may have been meant: the same name in another slot, a like one, or something in the list.
+fn hint(catalogue: &Catalogue, slots: &[Slot], name: &str) -> String {
+    let elsewhere = Slot::ALL
+        .into_iter()
+        .find(|slot| catalogue.find(*slot, name).is_some());
+    if let Some(slot) = elsewhere {
+        return format!("did you mean `{}/{name}`?", slot.key());
+    }
     let alike = slots
         .iter()
         .flat_map(|slot| catalogue.names(*slot))
         .map(|known| (strsim::jaro_winkler(known, name), known))
         .filter(|(likeness, _)| *likeness >= ALIKE)
         .max_by(|one, other| one.0.total_cmp(&other.0));
-    let hint = match alike {
+    match alike {
         Some((_, known)) => format!("did you mean `{known}`?"),
         None => "`turnpath list` shows all".to_owned(),
-    };
-    Err(Failure::call(format!(
-        "there is no strategy named `{name}`; {hint}"
-    )))
+    }
 }
 
 fn explained(strategy: &Strategy) -> String {

@@ -38,6 +38,12 @@ impl Failure {
         Self::Plugin(diagnostic.render(color()))
     }
 
+    /// A recipe that is wrong in one or more ways.
+    pub fn recipe(diagnostics: &[Diagnostic]) -> Self {
+        let texts: Vec<String> = diagnostics.iter().map(|one| one.render(color())).collect();
+        Self::Wrong(texts.join("\n\n"))
+    }
+
     /// A wrong call, without a place in the recipe.
     pub fn call(message: impl std::fmt::Display) -> Self {
         Self::Wrong(format!("error: {message}"))

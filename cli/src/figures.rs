@@ -53,7 +53,7 @@ pub fn bytes(count: f64) -> String {
 /// Nanometres, with a digit where it tells something.
 pub fn nanometres(nm: f64) -> String {
     match nm {
-        v if v.is_infinite() => "no number".to_owned(),
+        v if !v.is_finite() => "no number".to_owned(),
         v if v > 0.0 && v < 0.01 => format!("{v:.1e} nm"),
         v if v < 1e4 => format!("{v:.2} nm"),
         v if v < 1e6 => format!("{:.2} um", v / 1e3),
@@ -83,11 +83,13 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
             error.at.x_mm
         ),
     );
-    let residual = match residual.max {
-        Some(height) => against(height, tolerance.residual, within.residual),
-        None => "not measured: the path has no two turns side by side".to_owned(),
-    };
-    text += &line("residual", residual);
+    text += &line(
+        "residual",
+        match residual.max {
+            Some(max) => against(max, tolerance.residual, within.residual),
+            None => format!("not measured: {}", residual.left_out),
+        },
+    );
     text
 }
 
@@ -106,5 +108,6 @@ mod tests {
         assert_eq!(nanometres(99.876), "99.88 nm");
         assert_eq!(nanometres(0.000123), "1.2e-4 nm");
         assert_eq!(nanometres(67_000.0), "67.00 um");
+        assert_eq!(nanometres(f64::NAN), "no number");
     }
 }

@@ -62,10 +62,10 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
         PipelineError::Strategy { slot, .. }
         | PipelineError::Asked { slot, .. }
         | PipelineError::BadAnswer { slot, .. } => Failure::plugin(&at_choice(recipe, slot, title)),
-        PipelineError::Gouge { conflicts, .. } => match conflicts.first() {
-            Some(conflict) => gouge(recipe, conflict).into(),
-            None => Failure::call(title),
-        },
+        PipelineError::Gouge { conflicts, .. } => {
+            let all = conflicts.iter().map(|conflict| gouge(recipe, conflict));
+            Failure::recipe(&all.collect::<Vec<_>>())
+        }
         PipelineError::NoSurface(_) => {
             let place = recipe.nearest_place("part.aperture");
             recipe
@@ -74,7 +74,8 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
         }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
         PipelineError::Sink(error) => {
-            Failure::File(format!("error: cannot write the tool path: {error}"))
+            // It names its file itself.
+            Failure::File(format!("error: {error}"))
         }
     }
 }

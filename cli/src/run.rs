@@ -18,6 +18,10 @@ use crate::progress::Bar;
 use crate::summary::Summary;
 use crate::{Done, Verdict};
 
+/// Names of the files in the output folder.
+const TOOLPATH: &str = "toolpath.csv";
+const SUMMARY: &str = "summary.json";
+
 /// Runs a recipe and writes its files.
 pub fn run(args: &RunArgs) -> Done {
     let job = Job::ready(&args.recipe, &args.work)?;
@@ -25,7 +29,7 @@ pub fn run(args: &RunArgs) -> Done {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(job.recipe.folder_name()),
     };
-    let mut files = Files::new(folder, !job.recipe.output.data.is_empty());
+    let mut files = Files::new(folder, !job.recipe.output.data.is_empty())?;
     let bar = Bar::new();
     let outcome = run_pipeline(
         &job.chain,
@@ -116,13 +120,16 @@ struct Begun {
 }
 
 impl Files {
-    fn new(folder: PathBuf, wants_path: bool) -> Self {
-        Self {
+    /// # Errors
+    /// When something is in the way that would stop the run only at its end.
+    fn new(folder: PathBuf, wants_path: bool) -> Result<Self, FileError> {
+        nothing_in_the_way(&folder)?;
+        Ok(Self {
             folder,
             wants_path,
             begun: None,
             rows: 0,
-        }
+        })
     }
 
     fn begin(&mut self) -> Result<(), FileError> {
@@ -137,7 +144,7 @@ impl Files {
             made_folder,
         });
         if self.wants_path {
-            let path = PathWriter::begin(self.folder.join("toolpath.csv"))?;
+            let path = PathWriter::begin(self.folder.join(TOOLPATH))?;
             self.begun = Some(Begun {
                 path: Some(path),
                 made_folder,
@@ -148,7 +155,7 @@ impl Files {
 
     /// Gives the files their names; the summary comes last, so that where it is, all is.
     fn complete(mut self, summary: &str) -> Result<Vec<PathBuf>, FileError> {
-        let path = self.folder.join("summary.json");
+        let path = self.folder.join(SUMMARY);
         let mut draft = Draft::begin(&path)?;
         draft
             .write_all(summary.as_bytes())
@@ -162,6 +169,26 @@ impl Files {
     }
 }
 
+/// A file where a folder must be, or a folder where a file must be, is told before the work.
+fn nothing_in_the_way(folder: &Path) -> Result<(), FileError> {
+    let wrong = |path: PathBuf, kind, what| {
+        let error = io::Error::new(kind, what);
+        Err(FileError { path, error })
+    };
+    let nearest = folder.ancestors().find(|part| part.exists());
+    if let Some(file) = nearest.filter(|part| !part.is_dir()) {
+        let what = format!("{} is a file, not a folder", file.display());
+        return wrong(folder.to_owned(), io::ErrorKind::NotADirectory, what);
+    }
+    for file in [TOOLPATH, SUMMARY].map(|name| folder.join(name)) {
+        if file.is_dir() {
+            let what = "it is a folder".to_owned();
+            return wrong(file, io::ErrorKind::IsADirectory, what);
+        }
+    }
+    Ok(())
+}
+
 impl Sink for Files {
     fn encode(&self, section: Section, points: &PathBlock) -> io::Result<Vec<u8>> {
         match self.wants_path {
@@ -172,12 +199,14 @@ impl Sink for Files {
 
     fn take(&mut self, points: usize, encoded: &[u8]) -> io::Result<()> {
         if self.begun.is_none() {
-            self.begin()
-                .map_err(|error| io::Error::other(error.to_string()))?;
+            self.begin().map_err(io::Error::other)?;
         }
         self.rows += points as u64;
         match self.begun.as_mut().and_then(|begun| begun.path.as_mut()) {
-            Some(path) => path.append(encoded),
+            Some(path) => path.append(encoded).map_err(|error| {
+                let path = self.folder.join(TOOLPATH);
+                io::Error::other(FileError { path, error })
+            }),
             None => Ok(()),
         }
     }

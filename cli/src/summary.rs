@@ -80,9 +80,11 @@ pub struct Place {
 /// Cusps along the profile's normal; `null` where no two passes are neighbours.
 #[derive(Debug, Serialize)]
 pub struct Residual {
+    /// Highest; none where no pass has a neighbour, which holds no tolerance.
     pub max: Option<f64>,
     at: Place,
-    left_out: &'static str,
+    /// What the figure does not speak of.
+    pub left_out: &'static str,
 }
 
 /// The machined surface as a whole: not measured yet.
@@ -209,7 +211,10 @@ impl Measured {
                     c_deg: residual.at_theta / DEG,
                     x_mm: residual.at_rho,
                 },
-                left_out: "the innermost turn",
+                left_out: match residual.cusps {
+                    0 => "no turn has a neighbour",
+                    _ => "the innermost turn",
+                },
             },
             surface_error_nm: SurfaceError::default(),
             axes: Axes {

@@ -295,7 +295,10 @@ fn solve(
     for k in own.start..(own.end + 1).min(columns.len()) {
         let point = columns.point(k, c[k], x[k], z[k]);
         if !point.is_finite() {
-            let what = format!("the velocity at {:.6} s is no number: {point:?}", point.t);
+            let what = format!(
+                "vC = {}, vX = {}, vZ = {} at {:.6} s are no velocities",
+                point.vc, point.vx, point.vz, point.t
+            );
             return Err(link.bad_answer(what));
         }
         points.push(point);
