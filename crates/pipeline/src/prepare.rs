@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use turnpath_core::interference::Interference;
+use turnpath_core::interference::{Conflict, Interference};
 use turnpath_core::{
     CentreBuffers, Compensator, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw,
     StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
@@ -58,15 +58,22 @@ pub fn prepare(
     let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));
     let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
     look_for_numbers(chain, &job)?;
-    refuse_conflicts(chain, compensator.as_ref(), surface.as_ref(), &tool, range)?;
-    let contact = contact_range(chain, &locus, range)?;
-    let interference = refuse_conflicts(
-        chain,
-        compensator.as_ref(),
-        surface.as_ref(),
+    let check = |region| {
+        let cut = Cut {
+            surface: surface.as_ref(),
+            tool: &tool,
+        };
+        interference(chain, compensator.as_ref(), cut, region)
+    };
+    // Where the contact goes beyond the rim is known only if the nose fits the part itself.
+    let on_part = check(range)?;
+    refuse(
+        &on_part,
+        |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
         &tool,
-        contact,
     )?;
+    let interference = check(contact_range(chain, &locus, range)?)?;
+    refuse(&interference, |_| true, &tool)?;
     let compensates_nose = compensator.compensates_nose();
     let subject = Subject {
         surface,
@@ -103,27 +110,29 @@ fn turn(eighths: usize) -> (f64, f64) {
     turnpath_core::Scalar::sin_cos(TAU * eighths as f64 / 8.0)
 }
 
-fn refuse_conflicts(
+fn interference(
     chain: &Chain,
     compensator: &dyn Compensator,
-    surface: &dyn SurfaceModel,
-    tool: &Tool,
+    cut: Cut<'_>,
     region: RadialRange,
 ) -> Result<Interference> {
-    let found = compensator
-        .interference(Cut { surface, tool }, region)
-        .map_err(|error| match error {
-            StrategyError::Failed(_) => PipelineError::NoSurface(error),
-            other => chain.compensator.failed("in the interference check", other),
-        })?;
-    let conflicts = found.conflicts(tool);
-    if conflicts.is_empty() {
-        return Ok(found);
-    }
-    Err(PipelineError::Gouge {
-        conflicts,
-        interference: found,
+    let found = compensator.interference(cut, region);
+    found.map_err(|error| match error {
+        StrategyError::Failed(_) => PipelineError::NoSurface(error),
+        other => chain.compensator.failed("in the interference check", other),
     })
+}
+
+fn refuse(found: &Interference, which: impl Fn(&Conflict) -> bool, tool: &Tool) -> Result<()> {
+    let conflicts = found.conflicts(tool);
+    if conflicts.iter().any(which) {
+        let interference = *found;
+        return Err(PipelineError::Gouge {
+            conflicts,
+            interference,
+        });
+    }
+    Ok(())
 }
 
 /// The radii of contact while ρ runs over `range`: where ρ is the centre's X, contact reaches
