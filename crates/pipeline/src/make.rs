@@ -120,8 +120,8 @@ impl Row {
     }
 }
 
-/// Places the nodes of `range` and of neighbours on both sides that hold `overlap` nodes, the
-/// next block's first one at least.
+/// Places the nodes of `range` and of neighbours on both sides that hold `overlap` nodes, and the
+/// next block's first one besides.
 fn place_around(
     plan: &Plan<'_>,
     range: Range<usize>,
@@ -131,7 +131,7 @@ fn place_around(
     let (mut first, mut last) = (range.start, range.end);
     let mut blocks = place(plan, first..last, depths)?;
     let mut before = 0;
-    while first > 0 && before < overlap.max(1) {
+    while first > 0 && before < overlap {
         first -= 1;
         let mut found = place(plan, first..first + 1, depths)?;
         before += found
@@ -275,9 +275,14 @@ fn solve(
     overlap: usize,
     state: Option<&mut Vec<f64>>,
 ) -> Result<Made> {
-    let (columns, own) = row.gather(index, overlap);
+    let Window {
+        columns,
+        own,
+        at_start,
+        at_end,
+    } = row.window(plan, index, overlap);
     let (mut c, mut x, mut z) = (columns.unset(), columns.unset(), columns.unset());
-    let nodes = columns.nodes(own.start == 0 && index == 0, plan.is_last(index));
+    let nodes = columns.nodes(at_start, at_end);
     let out = Velocities {
         c: &mut c,
         x: &mut x,
@@ -310,29 +315,42 @@ fn solve(
     })
 }
 
+/// What a velocity solver gets for one block.
+struct Window {
+    columns: Columns,
+    /// Where the block's own nodes are.
+    own: Range<usize>,
+    /// Whether the first node is the path's first, and the last one its last.
+    at_start: bool,
+    at_end: bool,
+}
+
 impl Row {
     /// The nodes of a block between `overlap` ones of its neighbours, the joint with the next
-    /// block besides; and where its own are.
-    fn gather(&self, index: usize, overlap: usize) -> (Columns, Range<usize>) {
-        let at = index - self.first;
+    /// block besides.
+    fn window(&self, plan: &Plan<'_>, index: usize, overlap: usize) -> Window {
+        let length = |block: &Placed| block.columns.len();
+        let (before, rest) = self.blocks.split_at(index - self.first);
+        let behind: usize = before.iter().map(length).sum();
+        let all: usize = behind + rest.iter().map(length).sum::<usize>();
+        let own = behind..behind + rest.first().map_or(0, length);
+        let wanted = own.start.saturating_sub(overlap)..(own.end + overlap + 1).min(all);
         let mut columns = Columns::default();
-        let lengths: Vec<usize> = self
-            .blocks
-            .iter()
-            .map(|block| block.columns.len())
-            .collect();
-        let behind: usize = lengths[..at].iter().sum();
-        let mut skip = behind.saturating_sub(overlap);
-        let mut wanted = behind - skip + lengths[at] + overlap + 1;
-        let own_start = behind - skip;
-        for (block, length) in self.blocks.iter().zip(&lengths) {
-            let from = skip.min(*length);
-            let to = (from + wanted).min(*length);
-            columns.append(&block.columns, from..to);
-            skip -= from;
-            wanted -= to - from;
+        let mut start = 0;
+        for block in &self.blocks {
+            let end = start + length(block);
+            let (from, to) = (wanted.start.max(start), wanted.end.min(end));
+            if from < to {
+                columns.append(&block.columns, from - start..to - start);
+            }
+            start = end;
         }
-        (columns, own_start..own_start + lengths[at])
+        Window {
+            columns,
+            own: own.start - wanted.start..own.end - wanted.start,
+            at_start: self.first == 0 && wanted.start == 0,
+            at_end: self.first + self.blocks.len() == plan.blocks() && wanted.end == all,
+        }
     }
 }
 
@@ -341,7 +359,7 @@ impl Columns {
         vec![f64::NAN; self.len()]
     }
 
-    fn nodes(&self, at_start: bool, at_block_end: bool) -> Nodes<'_> {
+    fn nodes(&self, at_start: bool, at_end: bool) -> Nodes<'_> {
         Nodes {
             t: &self.t,
             c: &self.c,
@@ -352,7 +370,7 @@ impl Columns {
             z_theta: &self.z_theta,
             z_x: &self.z_x,
             at_start,
-            at_end: at_block_end,
+            at_end,
         }
     }
 

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use turnpath_core::interference::Interference;
 use turnpath_core::{
-    CentreBuffers, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw, StrategyError,
-    Tolerance, Tool, ToolLocus,
+    CentreBuffers, Cut, Direction, Job, Locus, Part, Radial, RadialRange, SpindleLaw,
+    StrategyError, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
@@ -67,7 +67,12 @@ pub fn prepare(
         tool,
         compensates_nose: chain.compensator.strategy.compensates_nose(),
     };
-    let touch = FirstTouch::new(subject, range.outer).map_err(PipelineError::Measure)?;
+    // Where ρ is the contact's radius the centre can lie beyond it by the nose radius.
+    let largest_x = match chain.compensator.strategy.radial() {
+        Radial::Centre => range.outer,
+        Radial::Contact => range.outer + tool.nose_radius,
+    };
+    let touch = FirstTouch::new(subject, largest_x).map_err(PipelineError::Measure)?;
     Ok(Prepared {
         job,
         locus,

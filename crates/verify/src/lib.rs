@@ -9,7 +9,9 @@ mod axes;
 mod cusp;
 mod meter;
 mod playback;
+mod profiles;
 mod residual;
+mod scan;
 mod subject;
 mod touch;
 
