@@ -79,7 +79,7 @@ pub enum Format {
 pub struct RunArgs {
     #[command(flatten)]
     pub recipe: RecipeArgs,
-    /// Where the files go; out/<name> unless given
+    /// Where the files go; `out/<name>` unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     #[command(flatten)]

@@ -1,12 +1,12 @@
 //! Figures as a person reads them at a glance.
 
-use turnpath_core::{NM, Tolerance};
+use turnpath_core::Tolerance;
 
-use crate::summary::Measured;
+use crate::summary::{Measured, NM_PER_MM};
 
 /// Column at which values begin.
 const LABEL: usize = 16;
-/// Decimals of a percentage of the time.
+/// Seconds in a minute.
 const MINUTE: f64 = 60.0;
 
 /// A line of a summary: a label and what it is about.
@@ -65,7 +65,7 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
     let (error, residual) = (&measured.interpolation_error_nm, &measured.residual_nm);
     let verdict = |holds: bool| if holds { "holds" } else { "EXCEEDED" };
     let against = |value: f64, tolerance: f64, holds: bool| {
-        let (value, limit) = (nanometres(value), nanometres(tolerance / NM));
+        let (value, limit) = (nanometres(value), nanometres(tolerance * NM_PER_MM));
         format!("{value:>12} of {limit:<12}{}", verdict(holds))
     };
     let within = &measured.within;

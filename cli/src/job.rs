@@ -59,9 +59,9 @@ pub fn use_threads(work: &WorkArgs) {
 pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
     let title = error.to_string();
     match error {
-        PipelineError::Strategy { slot, .. } | PipelineError::BadAnswer { slot, .. } => {
-            Failure::plugin(&at_choice(recipe, slot, title))
-        }
+        PipelineError::Strategy { slot, .. }
+        | PipelineError::Asked { slot, .. }
+        | PipelineError::BadAnswer { slot, .. } => Failure::plugin(&at_choice(recipe, slot, title)),
         PipelineError::Gouge { conflicts, .. } => match conflicts.first() {
             Some(conflict) => gouge(recipe, conflict).into(),
             None => Failure::call(title),

@@ -163,14 +163,21 @@ impl Files {
 }
 
 impl Sink for Files {
-    fn take(&mut self, section: Section, points: &PathBlock) -> io::Result<()> {
+    fn encode(&self, section: Section, points: &PathBlock) -> io::Result<Vec<u8>> {
+        match self.wants_path {
+            true => PathWriter::rows(section, points),
+            false => Ok(Vec::new()),
+        }
+    }
+
+    fn take(&mut self, points: usize, encoded: &[u8]) -> io::Result<()> {
         if self.begun.is_none() {
             self.begin()
                 .map_err(|error| io::Error::other(error.to_string()))?;
         }
-        self.rows += points.len() as u64;
+        self.rows += points as u64;
         match self.begun.as_mut().and_then(|begun| begun.path.as_mut()) {
-            Some(path) => path.write(section, points),
+            Some(path) => path.append(encoded),
             None => Ok(()),
         }
     }

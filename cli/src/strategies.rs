@@ -123,7 +123,7 @@ fn not_made(
                 )
                 .into()
         }
-        panicked @ StrategyError::Panicked(_) => {
+        panicked @ (StrategyError::Panicked(_) | StrategyError::Asked { .. }) => {
             let title = format!("the {} `{name}` of {plugin} {panicked}", slot.noun());
             let place = choice.name.place.clone();
             Failure::plugin(&recipe.complaint(place, title, "while it was made", []))

@@ -1,12 +1,14 @@
 //! `summary.json`: what a run gave, for programs and for people later on.
 
 use serde::Serialize;
-use turnpath_core::{DEG, Direction, NM, Tolerance};
+use turnpath_core::{DEG, Direction, Tolerance};
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{AxisMotion, PathFigures};
 
+/// Nanometres in a millimetre; multiplying keeps round figures round.
+pub const NM_PER_MM: f64 = 1e6;
 /// A tolerance holds when measured ≤ this × tolerance: rounding in the last digit of a figure
 /// that was aimed exactly at it does not count.
 const ALLOWED: f64 = 1.001;
@@ -149,8 +151,8 @@ impl Summary {
             revolutions: outcome.revolutions,
             cutting_time_s: outcome.cutting_time,
             tolerance_nm: ToleranceNm {
-                interpolation: recipe.tolerance.interpolation / NM,
-                residual: recipe.tolerance.residual / NM,
+                interpolation: recipe.tolerance.interpolation * NM_PER_MM,
+                residual: recipe.tolerance.residual * NM_PER_MM,
             },
             measured: Measured::new(&outcome.figures, &recipe.tolerance),
             programs: Vec::new(),
@@ -197,12 +199,12 @@ impl Measured {
         let holds = |measured: f64, tolerance: f64| measured <= ALLOWED * tolerance;
         Self {
             interpolation_error_nm: InterpolationError {
-                max: playback.max() / NM,
-                rms: playback.rms() / NM,
+                max: playback.max() * NM_PER_MM,
+                rms: playback.rms() * NM_PER_MM,
                 at,
             },
             residual_nm: Residual {
-                max: residual.max / NM,
+                max: residual.max * NM_PER_MM,
                 at: Place {
                     c_deg: residual.at_theta / DEG,
                     x_mm: residual.at_rho,

@@ -75,7 +75,7 @@ fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<Subject, Failure> {
 
 fn measure(recipe: &Recipe, subject: Subject, reader: &mut PathReader) -> Result<Meter, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
-    let touch = FirstTouch::new(subject, recipe.part.aperture_radius).map_err(failed)?;
+    let touch = FirstTouch::new(subject).map_err(failed)?;
     let mut meter = Meter::new(touch);
     loop {
         let mut blocks: Vec<PathBlock> = Vec::new();

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::Slot;
+
 /// The answer of a strategy, or why there is none.
 pub type Result<T> = std::result::Result<T, StrategyError>;
 
@@ -17,6 +19,15 @@ pub enum StrategyError {
         /// The parameter as it stands in the recipe.
         name: Cow<'static, str>,
         /// What is wrong with it, and what would do.
+        message: Cow<'static, str>,
+    },
+    /// Another strategy that this one asked could not answer: a sampler asks the locus, a
+    /// compensator the surface.
+    #[error("{message}")]
+    Asked {
+        /// The slot of the strategy that was asked.
+        slot: Slot,
+        /// What it said, with its name and its plugin's.
         message: Cow<'static, str>,
     },
     /// The strategy panicked; the text says with what, and where.

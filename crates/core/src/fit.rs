@@ -3,7 +3,7 @@
 //! The centre is evaluated at 9 points t = −4h … 4h along the curve, and central differences of
 //! orders 8 give c_1 … c_4 with an error of h⁶ to h⁸ times a 9th or 10th derivative, against a
 //! rounding error that grows as h⁻⁴. Which h balances them depends on the surface, so a ladder of
-//! steps is tried and, for every coefficient, the value taken where two steps agree best.
+//! steps is tried and, for every coefficient, the value taken where three steps agree best.
 
 use crate::Series;
 
@@ -95,13 +95,14 @@ fn power(base: f64, exponent: i32) -> f64 {
     (0..exponent).fold(1.0, |product, _| product * base)
 }
 
-/// Of neighbours on the ladder the finer of the two that differ least.
+/// The value on the ladder that differs least from both its neighbours: two alone may agree by
+/// chance.
 fn most_agreed(tried: &[f64; LADDER]) -> f64 {
-    let mut best = (f64::INFINITY, tried[0]);
-    for pair in tried.windows(2) {
-        let gap = (pair[0] - pair[1]).abs();
+    let mut best = (f64::INFINITY, f64::NAN);
+    for three in tried.windows(3) {
+        let gap = (three[0] - three[1]).abs().max((three[1] - three[2]).abs());
         if gap < best.0 {
-            best = (gap, pair[1]);
+            best = (gap, three[1]);
         }
     }
     best.1

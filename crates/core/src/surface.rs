@@ -40,7 +40,7 @@ pub struct GradientSeries<'a> {
 /// All slices of one call have the same length. A place where the surface has no value holds NaN.
 pub trait SurfaceModel: Send + Sync {
     /// z at each (x, y).
-    fn sag(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()>;
+    fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()>;
     /// z and its slopes at each (x, y).
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()>;
     /// The series of z and of its slopes along the curves (x(t), y(t)).
@@ -58,7 +58,7 @@ const WIDTH: usize = 8;
 const CURVES: usize = 2;
 
 impl<T: Surface> SurfaceModel for T {
-    fn sag(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
+    fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
         let (xs, x_rest) = x.as_chunks::<WIDTH>();
         let (ys, y_rest) = y.as_chunks::<WIDTH>();
@@ -175,7 +175,7 @@ mod tests {
         let y: Vec<f64> = x.iter().map(|x| 1.0 - x).collect();
         for length in 0..x.len() {
             let mut z = vec![0.0; length];
-            SurfaceModel::sag(&Ripple, &x[..length], &y[..length], &mut z).unwrap();
+            SurfaceModel::heights(&Ripple, &x[..length], &y[..length], &mut z).unwrap();
             for i in 0..length {
                 assert_eq!(z[i].to_bits(), Surface::sag(&Ripple, x[i], y[i]).to_bits());
             }
@@ -200,7 +200,8 @@ mod tests {
 
     #[test]
     fn slices_of_unequal_length_are_an_error() {
-        let error = SurfaceModel::sag(&Ripple, &[1.0; 3], &[1.0; 2], &mut [0.0; 3]).unwrap_err();
+        let error =
+            SurfaceModel::heights(&Ripple, &[1.0; 3], &[1.0; 2], &mut [0.0; 3]).unwrap_err();
         assert_eq!(
             error.to_string(),
             "a batch of 3 points came with a slice of length 2"

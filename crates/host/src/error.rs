@@ -184,3 +184,41 @@ impl LoadError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(refusal: impl Into<Refusal>) -> LoadError {
+        LoadError::Refused {
+            path: "libx.so".into(),
+            refusal: refusal.into(),
+        }
+    }
+
+    #[test]
+    fn another_layout_is_one_line_and_its_details_are_apart() {
+        let error = refused(OpenError::Layout("line\n".repeat(500)));
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "libx.so: says turnpath-plugin {BOUNDARY_VERSION} like this program, but its data \
+                 are laid out differently; rebuild the plugin against this program's \
+                 turnpath-plugin"
+            )
+        );
+        assert_eq!(error.layout_details().map(str::len), Some(2500));
+        assert_eq!(refused(Refusal::NotAPlugin).layout_details(), None);
+    }
+
+    #[test]
+    fn a_hint_stands_on_a_line_of_its_own() {
+        let loader = |hint| {
+            let reason = "no".to_owned();
+            refused(Refusal::Loader { reason, hint }).to_string()
+        };
+        assert_eq!(loader(None), "libx.so: the system cannot load it: no");
+        let both = "libx.so: the system cannot load it: no\nset TMPDIR";
+        assert_eq!(loader(Some("set TMPDIR")), both);
+    }
+}

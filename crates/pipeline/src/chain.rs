@@ -21,14 +21,22 @@ pub struct Link<T: ?Sized> {
 }
 
 impl<T: ?Sized> Link<T> {
-    /// An error of this strategy; `place` says while doing what.
+    /// An error of this strategy, or of one that it asked; `place` says while doing what.
     pub fn failed(&self, place: impl Into<String>, error: StrategyError) -> PipelineError {
-        let (slot, name, plugin) = (self.slot, self.name.clone(), self.plugin.clone());
+        let place = place.into();
+        if let StrategyError::Asked { slot, message } = error {
+            let message = message.into_owned();
+            return PipelineError::Asked {
+                slot,
+                place,
+                message,
+            };
+        }
         PipelineError::Strategy {
-            slot,
-            name,
-            plugin,
-            place: place.into(),
+            slot: self.slot,
+            name: self.name.clone(),
+            plugin: self.plugin.clone(),
+            place,
             error,
         }
     }

@@ -23,6 +23,16 @@ pub enum PipelineError {
         /// What it said.
         error: StrategyError,
     },
+    /// A strategy that another one asked could not answer; the text names both it and its plugin.
+    #[error("{message}, {place}")]
+    Asked {
+        /// The slot of the strategy that was asked.
+        slot: Slot,
+        /// While doing what.
+        place: String,
+        /// What it said.
+        message: String,
+    },
     /// A strategy answered, but not with what can be used.
     #[error("the {} `{name}` of {plugin} gave a bad answer: {what}", slot.noun())]
     BadAnswer {

@@ -4,6 +4,7 @@
 //! depend on the job alone. [`prepare`] checks tool against part and settles the range of ρ,
 //! [`run`] makes the path and gives it to a [`Sink`] in order.
 
+mod attributed;
 mod chain;
 mod error;
 mod law;

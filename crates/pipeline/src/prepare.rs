@@ -1,14 +1,16 @@
 //! Before any path: the range of ρ, and whether the tool fits.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use turnpath_core::interference::Interference;
 use turnpath_core::{
-    CentreBuffers, Cut, Direction, Job, Locus, Part, Radial, RadialRange, SpindleLaw,
-    StrategyError, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw,
+    StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
+use crate::attributed::{AttributedCompensator, AttributedSurface};
 use crate::{Chain, PipelineError, Result};
 
 /// Angles at which the contact is looked for beyond the rim and the hole.
@@ -52,27 +54,27 @@ pub fn prepare(
         direction,
         spindle,
     };
-    let locus = ToolLocus::new(
-        chain.surface.strategy.clone(),
-        chain.compensator.strategy.clone(),
-        tool,
-    );
+    let surface: Arc<dyn SurfaceModel> = Arc::new(AttributedSurface::new(&chain.surface));
+    let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));
+    let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
     look_for_numbers(chain, &job)?;
-    refuse_conflicts(chain, &tool, range)?;
+    refuse_conflicts(chain, compensator.as_ref(), surface.as_ref(), &tool, range)?;
     let contact = contact_range(chain, &locus, range)?;
-    let interference = refuse_conflicts(chain, &tool, contact)?;
+    let interference = refuse_conflicts(
+        chain,
+        compensator.as_ref(),
+        surface.as_ref(),
+        &tool,
+        contact,
+    )?;
+    let compensates_nose = compensator.compensates_nose();
     let subject = Subject {
-        surface: chain.surface.strategy.clone(),
+        surface,
         part,
         tool,
-        compensates_nose: chain.compensator.strategy.compensates_nose(),
+        compensates_nose,
     };
-    // Where ρ is the contact's radius the centre can lie beyond it by the nose radius.
-    let largest_x = match chain.compensator.strategy.radial() {
-        Radial::Centre => range.outer,
-        Radial::Contact => range.outer + tool.nose_radius,
-    };
-    let touch = FirstTouch::new(subject, largest_x).map_err(PipelineError::Measure)?;
+    let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
     Ok(Prepared {
         job,
         locus,
@@ -88,7 +90,7 @@ fn look_for_numbers(chain: &Chain, job: &Job) -> Result<()> {
     let x: Vec<f64> = (0..8).map(|i| radius * turn(i).1).collect();
     let y: Vec<f64> = (0..8).map(|i| radius * turn(i).0).collect();
     let mut z = vec![f64::NAN; x.len()];
-    let answer = chain.surface.strategy.sag(&x, &y, &mut z);
+    let answer = chain.surface.strategy.heights(&x, &y, &mut z);
     answer.map_err(|error| chain.surface.failed("at the middle of the part", error))?;
     if z.iter().any(|z| z.is_finite()) {
         return Ok(());
@@ -101,15 +103,15 @@ fn turn(eighths: usize) -> (f64, f64) {
     turnpath_core::Scalar::sin_cos(TAU * eighths as f64 / 8.0)
 }
 
-fn refuse_conflicts(chain: &Chain, tool: &Tool, region: RadialRange) -> Result<Interference> {
-    let cut = Cut {
-        surface: chain.surface.strategy.as_ref(),
-        tool,
-    };
-    let found = chain
-        .compensator
-        .strategy
-        .interference(cut, region)
+fn refuse_conflicts(
+    chain: &Chain,
+    compensator: &dyn Compensator,
+    surface: &dyn SurfaceModel,
+    tool: &Tool,
+    region: RadialRange,
+) -> Result<Interference> {
+    let found = compensator
+        .interference(Cut { surface, tool }, region)
         .map_err(|error| match error {
             StrategyError::Failed(_) => PipelineError::NoSurface(error),
             other => chain.compensator.failed("in the interference check", other),

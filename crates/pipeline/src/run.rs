@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{PathBlock, Section};
-use turnpath_verify::{Measured, Meter, PathFigures};
+use turnpath_verify::{FirstTouch, Measured, Meter, PathFigures};
 
-use crate::make::{Depths, make};
+use crate::make::{Depths, Made, make};
 use crate::plan::Plan;
 use crate::progress::{Progress, Stage};
 use crate::refine::{first_state, refine, runs};
@@ -18,10 +18,21 @@ const BATCH_POINTS: f64 = 1e6;
 /// Blocks that are looked at to expect the count of points.
 const LOOKED_AT: usize = 8;
 
-/// Takes the path as it is made.
-pub trait Sink {
-    /// The next control points, in order.
-    fn take(&mut self, section: Section, points: &PathBlock) -> std::io::Result<()>;
+/// Takes the path as it is made: blocks are put into the file's form in parallel, and taken in
+/// order.
+pub trait Sink: Sync {
+    /// A block in the file's form.
+    fn encode(&self, section: Section, points: &PathBlock) -> std::io::Result<Vec<u8>>;
+    /// The next block in the file's form, with its count of control points.
+    fn take(&mut self, points: usize, encoded: &[u8]) -> std::io::Result<()>;
+}
+
+/// A block, measured and in the file's form.
+struct Ready {
+    measured: Measured,
+    points: usize,
+    sampled: usize,
+    encoded: Vec<u8>,
 }
 
 /// What a run gave.
@@ -83,18 +94,18 @@ fn write(
     progress.begin(Stage::Write, blocks.len() as u64);
     for range in runs(&blocks, batch) {
         let made = make(plan, range.clone(), depths, state.as_mut())?;
-        let measured: Vec<Measured> = made
-            .par_iter()
-            .map(|made| Meter::measure(touch, &made.points).map_err(PipelineError::Measure))
+        let encoder: &dyn Sink = sink;
+        let ready: Vec<Ready> = made
+            .into_par_iter()
+            .map(|made| ready(touch, made, encoder))
             .collect::<Result<_>>()?;
-        for (made, measured) in made.into_iter().zip(measured) {
-            meter.append(&measured).map_err(PipelineError::Measure)?;
-            let own = made.owner.len();
-            made_points += own as u64;
-            sampled += made.sampled as u64;
-            let mut points = made.points;
-            points.truncate(own);
-            sink.take(Section::Cutting, &points)
+        for block in ready {
+            meter
+                .append(&block.measured)
+                .map_err(PipelineError::Measure)?;
+            made_points += block.points as u64;
+            sampled += block.sampled as u64;
+            sink.take(block.points, &block.encoded)
                 .map_err(PipelineError::Sink)?;
         }
         progress.advance(range.len() as u64);
@@ -106,6 +117,22 @@ fn write(
         revolutions,
         cutting_time: plan.prepared.job.spindle.time_at(revolutions),
         figures: meter.figures().clone(),
+    })
+}
+
+/// Measures a block and puts it into the file's form, the joint with the next one left out.
+fn ready(touch: &FirstTouch, made: Made, sink: &dyn Sink) -> Result<Ready> {
+    let measured = Meter::measure(touch, &made.points).map_err(PipelineError::Measure)?;
+    let mut points = made.points;
+    points.truncate(made.owner.len());
+    let encoded = sink
+        .encode(Section::Cutting, &points)
+        .map_err(PipelineError::Sink)?;
+    Ok(Ready {
+        measured,
+        points: points.len(),
+        sampled: made.sampled,
+        encoded,
     })
 }
 

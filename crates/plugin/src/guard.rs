@@ -25,11 +25,13 @@ pub fn guarded<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
         place.take()
     });
     answer.unwrap_or_else(|payload| {
-        let what = if let Some(text) = payload.downcast_ref::<&str>() {
-            Cow::Borrowed(*text)
+        let what: Cow<'_, str> = if let Some(text) = payload.downcast_ref::<&str>() {
+            Cow::Borrowed(text)
         } else if let Some(text) = payload.downcast_ref::<String>() {
             Cow::Owned(text.clone())
         } else {
+            // It is the author's own type, and may panic when it is dropped.
+            std::mem::forget(payload);
             Cow::Borrowed("a value that is not text")
         };
         let place = place.map_or_else(String::new, |place| format!(", at {place}"));

@@ -25,8 +25,8 @@ fn written(text: impl Fn(&str) -> String) -> (tempfile::TempDir, std::path::Path
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("toolpath.csv");
     let mut writer = PathWriter::begin(&path).unwrap();
-    writer.write(Section::Cutting, &path_of(10)).unwrap();
-    assert_eq!(writer.count(), 10);
+    let rows = PathWriter::rows(Section::Cutting, &path_of(10)).unwrap();
+    writer.append(&rows).unwrap();
     writer.complete().unwrap();
     let good = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, text(&good)).unwrap();

@@ -1,56 +1,50 @@
 //! Writes `toolpath.csv`.
 
-use std::io;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use turnpath_core::toolpath::{PathBlock, Section};
 
-use crate::row::Row;
+use crate::row::{HEADER, Row};
 use crate::{Draft, FileError};
 
 /// `toolpath.csv` in the making.
 #[derive(Debug)]
 pub struct PathWriter {
-    rows: csv::Writer<Draft>,
-    path: PathBuf,
-    count: u64,
+    draft: Draft,
 }
 
 impl PathWriter {
-    /// Begins the file.
+    /// Begins the file with its first line.
     pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
-        let draft = Draft::begin(path)?;
-        let path = draft.path().to_owned();
-        Ok(Self {
-            rows: csv::Writer::from_writer(draft),
-            path,
-            count: 0,
-        })
-    }
-
-    /// Appends control points.
-    pub fn write(&mut self, section: Section, points: &PathBlock) -> io::Result<()> {
-        for point in points.points() {
-            self.rows.serialize(Row::new(&point, section))?;
+        let mut draft = Draft::begin(path)?;
+        match writeln!(draft, "{}", HEADER.join(",")) {
+            Ok(()) => Ok(Self { draft }),
+            Err(error) => Err(FileError {
+                path: draft.path().to_owned(),
+                error,
+            }),
         }
-        self.count += points.len() as u64;
-        Ok(())
     }
 
-    /// Rows so far, all sections together.
-    pub fn count(&self) -> u64 {
-        self.count
+    /// Control points as rows; needs no file, so that blocks can be put into rows in parallel.
+    pub fn rows(section: Section, points: &PathBlock) -> io::Result<Vec<u8>> {
+        let mut rows = csv::WriterBuilder::new()
+            .has_headers(false)
+            .from_writer(Vec::new());
+        for point in points.points() {
+            rows.serialize(Row::new(&point, section))?;
+        }
+        rows.into_inner().map_err(csv::IntoInnerError::into_error)
+    }
+
+    /// Appends rows.
+    pub fn append(&mut self, rows: &[u8]) -> io::Result<()> {
+        self.draft.write_all(rows)
     }
 
     /// The file is whole and takes its name.
     pub fn complete(self) -> Result<PathBuf, FileError> {
-        let path = self.path;
-        match self.rows.into_inner() {
-            Ok(draft) => draft.complete(),
-            Err(error) => Err(FileError {
-                path,
-                error: error.into_error().into(),
-            }),
-        }
+        self.draft.complete()
     }
 }

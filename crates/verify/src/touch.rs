@@ -14,8 +14,10 @@ use crate::scan;
 /// The secant stops when it moves less than this part of the nose radius. The height is wrong by
 /// the square of it: 1e-16 of the radius.
 const FOOT_TOLERANCE: f64 = 1e-8;
-/// Most steps of the secant; bisection alone reaches [`FOOT_TOLERANCE`] in half as many.
-const MOST_STEPS: usize = 60;
+/// Most steps of the search, and from where on every second one halves the bracket: that alone
+/// reaches [`FOOT_TOLERANCE`] in 28 halvings.
+const MOST_STEPS: usize = 80;
+const PATIENCE: usize = 16;
 /// Angles and radii at which the profile's curvature is looked at before a single maximum is
 /// taken for granted.
 const LOOK: (usize, usize) = (90, 400);
@@ -51,13 +53,14 @@ impl Touch {
 }
 
 impl FirstTouch {
-    /// For tool positions with |X| up to `largest_x`; beyond it the answer is as right but slow.
-    pub fn new(subject: Subject, largest_x: f64) -> Result<Self> {
-        let reach = largest_x + subject.tool.nose_radius;
+    /// Quickest for tool positions whose X lies within the aperture, or beyond it by what a normal
+    /// to the rim takes: the nose radius.
+    pub fn new(subject: Subject) -> Result<Self> {
+        let (radius, rim) = (subject.tool.nose_radius, subject.part.aperture_radius);
         let single = !subject.compensates_nose
-            || largest_curvature(subject.surface.as_ref(), reach)?
-                .is_some_and(|curvature| subject.tool.nose_radius * curvature < LARGEST_FIT);
-        let single_to = if single { largest_x } else { -1.0 };
+            || largest_curvature(subject.surface.as_ref(), rim + 2.0 * radius)?
+                .is_some_and(|curvature| radius * curvature < LARGEST_FIT);
+        let single_to = if single { rim + radius } else { -1.0 };
         Ok(Self { subject, single_to })
     }
 
@@ -156,7 +159,7 @@ fn close_in(
         before: None,
     };
     let mut open: Vec<Search> = brackets.iter().enumerate().map(begin).collect();
-    for _ in 0..MOST_STEPS {
+    for step in 0..MOST_STEPS {
         if open.is_empty() {
             break;
         }
@@ -176,50 +179,53 @@ fn close_in(
                     slope,
                 };
             }
-            let fall = slope * lift - offset;
-            search.go_on(fall, slope, radius, x[bracket.point], bracket)
+            let seen = Seen {
+                fall: slope * lift - offset,
+                by_normal: x[bracket.point] + radius * slope / (1.0 + slope * slope).sqrt(),
+            };
+            let halve = step > PATIENCE && step % 2 == 0;
+            let next = search.next(&seen, bracket, halve);
+            if (next - search.at).abs() <= FOOT_TOLERANCE * radius {
+                return false;
+            }
+            search.before = Some((search.at, seen.fall));
+            search.at = next;
+            true
         });
     }
     Ok(())
 }
 
+/// What a search finds at one place.
+struct Seen {
+    /// F there.
+    fall: f64,
+    /// Where the normal through this contact leads: the first guess of a better one.
+    by_normal: f64,
+}
+
 impl Search {
-    /// Moves to the next place; false once that is hardly another one.
-    fn go_on(&mut self, fall: f64, slope: f64, radius: f64, x: f64, within: &mut Bracket) -> bool {
-        self.narrow(fall, within);
-        let next = self.next(fall, slope, radius, x, within);
-        if (next - self.at).abs() <= FOOT_TOLERANCE * radius {
-            return false;
-        }
-        self.before = Some((self.at, fall));
-        self.at = next;
-        true
-    }
-
-    /// The bracket's part that still holds the maximum; where the surface has no value, the part
-    /// towards the place where it has one.
-    fn narrow(&self, fall: f64, within: &mut Bracket) {
-        let is_left = fall > 0.0 || (fall.is_nan() && self.at < within.start);
-        let is_right = fall < 0.0 || (fall.is_nan() && self.at > within.start);
-        if is_left {
-            within.low = self.at;
-        } else if is_right {
-            within.high = self.at;
-        }
-    }
-
     /// The next place: by the normal through the contact at first, then by the secant; the middle
-    /// of the bracket where either leaves it or where the surface has no value.
-    fn next(&self, fall: f64, slope: f64, radius: f64, x: f64, within: &Bracket) -> f64 {
+    /// of the bracket where either leaves it, or when it is time to halve. Where the surface has
+    /// no value the bracket shrinks towards its start, which had one.
+    fn next(&self, seen: &Seen, bracket: &mut Bracket, halve: bool) -> f64 {
+        let nowhere = seen.fall.is_nan();
+        if seen.fall > 0.0 || (nowhere && self.at < bracket.start) {
+            bracket.low = self.at;
+        } else if seen.fall < 0.0 || (nowhere && self.at > bracket.start) {
+            bracket.high = self.at;
+        }
         let proposed = match self.before {
-            None => x + radius * slope / (1.0 + slope * slope).sqrt(),
-            Some((at, then)) if then != fall => self.at - fall * (self.at - at) / (fall - then),
+            None => seen.by_normal,
+            Some((at, then)) if then != seen.fall => {
+                self.at - seen.fall * (self.at - at) / (seen.fall - then)
+            }
             Some(_) => self.at,
         };
-        if (within.low..=within.high).contains(&proposed) {
+        if !halve && (bracket.low..=bracket.high).contains(&proposed) {
             proposed
         } else {
-            0.5 * (within.low + within.high)
+            0.5 * (bracket.low + bracket.high)
         }
     }
 }

@@ -1,11 +1,14 @@
 //! Tool centres and rates against closed forms: planes, spheres, cylinders, up and down.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+mod common;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use common::{centres, rates};
 use turnpath_core::{
-    CentreBuffers, Compensator, Locus, Params, Rates, Result, Scalar, Strategy, Surface, Tool,
-    ToolLocus,
+    CentreBuffers, Compensator, Params, Scalar, Strategy, Surface, Tool, ToolLocus,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 
@@ -24,13 +27,6 @@ fn tool() -> Tool {
 fn locus<C: Strategy + Compensator + 'static>(surface: impl Surface + 'static) -> ToolLocus {
     let compensator = C::new(&Params::new()).unwrap();
     ToolLocus::new(Arc::new(surface), Arc::new(compensator), tool())
-}
-
-fn centres(locus: &ToolLocus, theta: &[f64], rho: &[f64]) -> Result<CentreBuffers> {
-    let mut found = CentreBuffers::default();
-    found.resize(theta.len());
-    locus.centre(theta, rho, found.as_centres())?;
-    Ok(found)
 }
 
 /// More points than one batch, over all angles, from beyond the axis to 2 mm.
@@ -91,12 +87,12 @@ fn on_a_plane_the_centre_lies_one_radius_above() {
         slope_y: 0.0,
     };
     for locus in [locus::<ZDirection>(flat()), locus::<Normal>(flat())] {
-        let found = centres(&locus, &theta, &rho).unwrap();
+        let found = centres(&locus, &theta, &rho);
         for (i, rho) in rho.iter().enumerate() {
             assert_eq!((found.x[i], found.z[i], found.foot[i]), (*rho, NOSE, *rho));
         }
     }
-    let found = centres(&locus::<Uncompensated>(flat()), &theta, &rho).unwrap();
+    let found = centres(&locus::<Uncompensated>(flat()), &theta, &rho);
     assert_eq!(found.x, rho);
     assert!(found.z.iter().all(|z| *z == 0.0));
 }
@@ -108,8 +104,8 @@ fn on_a_tilted_plane_the_centre_lies_one_radius_along_the_normal() {
         slope_x: 0.4,
         slope_y: -0.3,
     };
-    let down = centres(&locus::<ZDirection>(plane()), &theta, &rho).unwrap();
-    let off = centres(&locus::<Normal>(plane()), &theta, &rho).unwrap();
+    let down = centres(&locus::<ZDirection>(plane()), &theta, &rho);
+    let off = centres(&locus::<Normal>(plane()), &theta, &rho);
     for (i, (theta, rho)) in theta.iter().zip(&rho).enumerate() {
         let (sin, cos) = Scalar::sin_cos(*theta);
         let slope = 0.4 * cos - 0.3 * sin;
@@ -127,8 +123,8 @@ fn on_a_sphere_the_centre_lies_on_a_sphere_of_the_radius_less_the_nose() {
     for radius in [3.5, 20.0, -3.5, -20.0, 1e6] {
         let sphere = || Sphere { radius };
         let smaller = radius - NOSE;
-        let down = centres(&locus::<ZDirection>(sphere()), &theta, &rho).unwrap();
-        let off = centres(&locus::<Normal>(sphere()), &theta, &rho).unwrap();
+        let down = centres(&locus::<ZDirection>(sphere()), &theta, &rho);
+        let off = centres(&locus::<Normal>(sphere()), &theta, &rho);
         let along =
             |x: f64| NOSE + x * x / smaller / (1.0 + (1.0 - (x / smaller) * (x / smaller)).sqrt());
         for (i, rho) in rho.iter().enumerate() {
@@ -159,8 +155,8 @@ fn on_a_cylinder_the_centre_lies_one_radius_along_the_ellipses_normal() {
             closed.z[i] = radius - inner + NOSE / w;
             closed.foot[i] = *rho;
         }
-        let off = centres(&locus::<Normal>(Cylinder { radius }), &theta, &rho).unwrap();
-        let down = centres(&locus::<ZDirection>(Cylinder { radius }), &theta, &closed.x).unwrap();
+        let off = centres(&locus::<Normal>(Cylinder { radius }), &theta, &rho);
+        let down = centres(&locus::<ZDirection>(Cylinder { radius }), &theta, &closed.x);
         for (found, which) in [(&off, "normal"), (&down, "z-direction")] {
             for i in 0..theta.len() {
                 close(found.x[i], closed.x[i], which);
@@ -183,7 +179,7 @@ fn where_the_edge_ends_it_touches_with_its_end() {
         slope_y: 0.0,
     };
     let locus = ToolLocus::new(Arc::new(plane), Arc::new(ZDirection), blunt);
-    let found = centres(&locus, &[0.0, TAU / 2.0], &[1.0, 1.0]).unwrap();
+    let found = centres(&locus, &[0.0, TAU / 2.0], &[1.0, 1.0]);
     let reach = 0.5 * NOSE;
     let rise = (NOSE * NOSE - reach * reach).sqrt();
     close(found.foot[0], 1.0 + reach, "foot uphill");
@@ -197,7 +193,7 @@ fn where_the_surface_has_no_value_the_centre_has_none() {
     let sphere = || Sphere { radius: 2.0 };
     let rho = [0.5, 3.0, 1.0];
     for locus in [locus::<ZDirection>(sphere()), locus::<Normal>(sphere())] {
-        let found = centres(&locus, &[0.0; 3], &rho).unwrap();
+        let found = centres(&locus, &[0.0; 3], &rho);
         assert!(found.z[1].is_nan());
         assert!(found.z[0].is_finite() && found.z[2].is_finite());
     }
@@ -225,17 +221,4 @@ fn rates_on_a_sphere_are_those_of_the_closed_form() {
             }
         }
     }
-}
-
-fn rates(locus: &ToolLocus, theta: &[f64], rho: &[f64]) -> [Vec<f64>; 4] {
-    let mut found: [Vec<f64>; 4] = std::array::from_fn(|_| vec![f64::NAN; theta.len()]);
-    let [x_theta, x_rho, z_theta, z_x] = &mut found;
-    let out = Rates {
-        x_theta,
-        x_rho,
-        z_theta,
-        z_x,
-    };
-    locus.rates(theta, rho, out).unwrap();
-    found
 }

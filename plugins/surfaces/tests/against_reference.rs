@@ -116,7 +116,7 @@ fn heights_and_slopes_are_the_constant_terms() {
         let (x, y) = ([case.x[0]; 9], [case.y[0]; 9]);
         let (mut z, mut zx, mut zy) = ([0.0; 9], [0.0; 9], [0.0; 9]);
         let mut height = [0.0; 9];
-        case.surface.sag(&x, &y, &mut height).unwrap();
+        case.surface.heights(&x, &y, &mut height).unwrap();
         let out = Gradients {
             z: &mut z,
             zx: &mut zx,
@@ -166,7 +166,9 @@ fn a_point_alone_is_bit_for_bit_the_same_as_in_a_batch() {
                 "{}",
                 case.name
             );
-            case.surface.sag(&x[i..=i], &y[i..=i], &mut one).unwrap();
+            case.surface
+                .heights(&x[i..=i], &y[i..=i], &mut one)
+                .unwrap();
             assert_eq!(one[0].to_bits(), z[i].to_bits(), "{}", case.name);
         }
     }

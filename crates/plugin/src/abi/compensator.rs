@@ -8,6 +8,7 @@ use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, Radial, RadialRange, Rates, Result, Series, Tool,
 };
 
+use super::contained::Contained;
 use super::data::{AbiRange, AbiTool, Answer, answer, result, same_length};
 use super::surface::{self, Incoming, LentSurface, Outgoing};
 
@@ -88,7 +89,7 @@ pub trait AbiCompensator: Send + Sync {
 pub type OwnedCompensator = AbiCompensator_TO<'static, RBox<()>>;
 
 /// The author's compensator, on its way out.
-pub struct OutgoingCompensator(pub Box<dyn Compensator>);
+pub struct OutgoingCompensator(pub Contained<dyn Compensator>);
 
 impl AbiCompensator for OutgoingCompensator {
     fn traits(&self) -> Answer<AbiTraits> {

@@ -4,7 +4,7 @@ use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
     Direction, Job, ParamValue, Params, Part, Piece, PiecewisePolynomial, RadialRange, Result,
-    SpindleLaw, StrategyError, Tolerance, Tool,
+    Slot, SpindleLaw, StrategyError, Tolerance, Tool,
 };
 
 use crate::guarded;
@@ -27,6 +27,8 @@ pub fn result<T>(answer: Answer<T>) -> Result<T> {
 pub enum AbiErrorKind {
     Failed,
     Parameter,
+    /// `parameter` holds the key of the slot that was asked.
+    Asked,
     Panicked,
 }
 
@@ -43,6 +45,9 @@ impl From<StrategyError> for AbiError {
         let (kind, parameter, message) = match error {
             StrategyError::Failed(message) => (AbiErrorKind::Failed, "".into(), message),
             StrategyError::Parameter { name, message } => (AbiErrorKind::Parameter, name, message),
+            StrategyError::Asked { slot, message } => {
+                (AbiErrorKind::Asked, slot.key().into(), message)
+            }
             StrategyError::Panicked(message) => (AbiErrorKind::Panicked, "".into(), message),
         };
         let (parameter, message) = (parameter.into_owned().into(), message.into_owned().into());
@@ -57,12 +62,18 @@ impl From<StrategyError> for AbiError {
 impl From<AbiError> for StrategyError {
     fn from(error: AbiError) -> Self {
         let message = error.message.into_string().into();
+        let parameter = error.parameter.into_string();
+        let asked = || Slot::ALL.into_iter().find(|slot| slot.key() == parameter);
         match error.kind {
             AbiErrorKind::Failed => Self::Failed(message),
             AbiErrorKind::Panicked => Self::Panicked(message),
             AbiErrorKind::Parameter => Self::Parameter {
-                name: error.parameter.into_string().into(),
+                name: parameter.into(),
                 message,
+            },
+            AbiErrorKind::Asked => match asked() {
+                Some(slot) => Self::Asked { slot, message },
+                None => Self::Failed(message),
             },
         }
     }

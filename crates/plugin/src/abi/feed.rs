@@ -5,6 +5,7 @@ use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RVec};
 use turnpath_core::{FeedPlan, FeedStrategy, Job, Onward, Result, Setup, Stretch};
 
+use super::contained::Contained;
 use super::data::{AbiJob, Answer, answer, result};
 use super::locus::{self, IncomingLocus, LentLocus, OutgoingLocus};
 use super::surface::{self, LentSurface, Outgoing};
@@ -59,21 +60,21 @@ pub type OwnedFeed = AbiFeed_TO<'static, RBox<()>>;
 pub type OwnedPlan = AbiPlan_TO<'static, RBox<()>>;
 
 /// The author's strategy, on its way out.
-pub struct OutgoingFeed(pub Box<dyn FeedStrategy>);
+pub struct OutgoingFeed(pub Contained<dyn FeedStrategy>);
 
 impl AbiFeed for OutgoingFeed {
     fn plan(&self, setup: AbiSetup<'_>) -> Answer<OwnedPlan> {
         answer(|| {
             let plan = setup.receive(|setup| self.0.plan(setup))?;
             Ok(AbiPlan_TO::from_value(
-                OutgoingPlan(plan),
+                OutgoingPlan(Contained::new(plan)),
                 sabi_trait::TD_Opaque,
             ))
         })
     }
 }
 
-struct OutgoingPlan(Box<dyn FeedPlan>);
+struct OutgoingPlan(Contained<dyn FeedPlan>);
 
 impl AbiPlan for OutgoingPlan {
     fn extend(&mut self, setup: AbiSetup<'_>, pieces: &mut RVec<[f64; 7]>) -> Answer<bool> {

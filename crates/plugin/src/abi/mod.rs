@@ -15,6 +15,7 @@
 
 pub(crate) mod catalogue;
 pub(crate) mod compensator;
+pub(crate) mod contained;
 pub(crate) mod data;
 pub(crate) mod feed;
 pub(crate) mod locus;

@@ -14,6 +14,7 @@ use turnpath_core::{Params, Result, Slot, StrategyError};
 
 use super::catalogue::{AbiStrategy, Listed};
 use super::compensator::{AbiCompensator_TO, OutgoingCompensator, OwnedCompensator};
+use super::contained::Contained;
 use super::data::{AbiArgument, Answer, answer, params};
 use super::feed::{AbiFeed_TO, OutgoingFeed, OwnedFeed};
 use super::sampler::{AbiSampler_TO, OutgoingSampler, OwnedSampler};
@@ -111,7 +112,9 @@ macro_rules! maker {
         extern "C" fn $function(order: AbiOrder) -> Answer<$owned> {
             make(Slot::$slot, order, |build, params| match build {
                 Build::$slot(build) => {
-                    Some(build(params).map(|made| $object::from_value($outgoing(made), TD_Opaque)))
+                    Some(build(params).map(|made| {
+                        $object::from_value($outgoing(Contained::new(made)), TD_Opaque)
+                    }))
                 }
                 _ => None,
             })
@@ -271,7 +274,7 @@ pub enum OpenError {
 /// Looks at an entry as it stands in the library's file, before anything of the library runs.
 ///
 /// # Errors
-/// As [`open`], but for the layout, which can only be compared after loading.
+/// As `open`, but for the layout, which can only be compared after loading.
 pub fn inspect(entry: &[u8]) -> std::result::Result<(), OpenError> {
     EntryHead::read(entry)
         .ok_or(OpenError::NotAPlugin)?

@@ -5,6 +5,7 @@ use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RVec};
 use turnpath_core::{Dependence, Path, Result, Revolutions, Sampler, Setup, SpiralLaw};
 
+use super::contained::Contained;
 use super::data::{AbiLaw, Answer, answer, result};
 use super::feed::{AbiSetup, lend_setup};
 
@@ -109,7 +110,7 @@ pub trait AbiSampler: Send + Sync {
 pub type OwnedSampler = AbiSampler_TO<'static, RBox<()>>;
 
 /// The author's sampler, on its way out.
-pub struct OutgoingSampler(pub Box<dyn Sampler>);
+pub struct OutgoingSampler(pub Contained<dyn Sampler>);
 
 impl AbiSampler for OutgoingSampler {
     fn dependence(&self) -> Answer<AbiDependence> {

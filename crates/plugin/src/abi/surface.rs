@@ -12,7 +12,7 @@ use super::data::{Answer, answer, result, same_length};
 
 #[sabi_trait]
 pub trait AbiSurface: Send + Sync {
-    fn sag(&self, x: RSlice<'_, f64>, y: RSlice<'_, f64>, z: RSliceMut<'_, f64>) -> Answer<()>;
+    fn heights(&self, x: RSlice<'_, f64>, y: RSlice<'_, f64>, z: RSliceMut<'_, f64>) -> Answer<()>;
     fn gradient(
         &self,
         x: RSlice<'_, f64>,
@@ -47,8 +47,13 @@ pub type LentSurface<'a> = AbiSurface_TO<'a, RRef<'a, ()>>;
 pub struct Outgoing<P>(pub P);
 
 impl<'a, P: Deref<Target = dyn SurfaceModel + 'a> + Send + Sync> AbiSurface for Outgoing<P> {
-    fn sag(&self, x: RSlice<'_, f64>, y: RSlice<'_, f64>, mut z: RSliceMut<'_, f64>) -> Answer<()> {
-        answer(|| self.0.sag(&x, &y, &mut z))
+    fn heights(
+        &self,
+        x: RSlice<'_, f64>,
+        y: RSlice<'_, f64>,
+        mut z: RSliceMut<'_, f64>,
+    ) -> Answer<()> {
+        answer(|| self.0.heights(&x, &y, &mut z))
     }
 
     fn gradient(
@@ -114,9 +119,9 @@ pub struct Incoming<T>(pub T);
 macro_rules! incoming {
     ($object:ty, [$($lifetime:lifetime)?]) => {
         impl$(<$lifetime>)? SurfaceModel for Incoming<$object> {
-            fn sag(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
+            fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
                 same_length(&[x.len(), y.len(), z.len()])?;
-                result(self.0.sag(x.into(), y.into(), z.into()))
+                result(self.0.heights(x.into(), y.into(), z.into()))
             }
 
             fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {

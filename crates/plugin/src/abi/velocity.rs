@@ -5,6 +5,7 @@ use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RSlice, RSliceMut, RVec};
 use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
+use super::contained::Contained;
 use super::data::{Answer, answer, result, same_length};
 use super::sampler::AbiDependence;
 
@@ -82,7 +83,7 @@ pub trait AbiVelocity: Send + Sync {
 pub type OwnedVelocity = AbiVelocity_TO<'static, RBox<()>>;
 
 /// The author's solver, on its way out.
-pub struct OutgoingVelocity(pub Box<dyn VelocitySolver>);
+pub struct OutgoingVelocity(pub Contained<dyn VelocitySolver>);
 
 impl AbiVelocity for OutgoingVelocity {
     fn dependence(&self) -> Answer<AbiDependence> {

@@ -2,9 +2,11 @@
 //! within a segment would end the program with a signal.
 #![allow(clippy::useless_conversion)] // a word of the headers is u32 or u64
 
+mod tables;
+
 use object::NativeEndian;
 use object::elf;
-use object::read::elf::{Dyn, FileHeader, ProgramHeader, Sym};
+use object::read::elf::{FileHeader, ProgramHeader, Sym};
 use turnpath_plugin::loading;
 
 use crate::{Refusal, machine};
@@ -15,13 +17,17 @@ type Header = elf::FileHeader32<NativeEndian>;
 type Header = elf::FileHeader64<NativeEndian>;
 type Segment = <Header as FileHeader>::ProgramHeader;
 type Symbol = <Header as FileHeader>::Sym;
+type Section = <Header as FileHeader>::SectionHeader;
 
 const ENDIAN: NativeEndian = NativeEndian;
 /// Real libraries have about ten; the loader keeps them on its stack.
 const MOST_SEGMENTS: usize = 256;
+/// A library that wants more for every thread is not one; the system would give up, not refuse.
+const MOST_THREAD_LOCAL: u64 = 1 << 24;
+/// What is write-protected after loading may be rounded up to a page, by so much at most.
+const LARGEST_PAGE: u64 = 1 << 16;
 
 const NO_HEADERS: Refusal = Refusal::Damaged("its headers cannot be read");
-const NO_DYNAMIC: Refusal = Refusal::Damaged("its dynamic table does not fit its segments");
 const NO_SYMBOLS: Refusal = Refusal::Damaged("its symbols cannot be read");
 
 /// A library whose headers, segments and dynamic table are whole and agree.
@@ -51,7 +57,9 @@ pub fn check(bytes: &[u8]) -> Result<Elf<'_>, Refusal> {
         header,
         segments,
     };
-    library.check_dynamic()?;
+    library.check_views()?;
+    tables::check_sections(&library)?;
+    tables::check_dynamic(&library)?;
     Ok(library)
 }
 
@@ -75,14 +83,19 @@ fn fits_this_program(bytes: &[u8]) -> Result<(), Refusal> {
     if (*class, *order, number) == (our_class, our_order, our_number) {
         return Ok(());
     }
-    let bits = if *class == 1 { "32-bit " } else { "64-bit " };
-    let end = if *order == 2 { "big-endian " } else { "" };
-    let (bits, end) = (
-        if *class == our_class { "" } else { bits },
-        if *order == our_order { "" } else { end },
-    );
+    let name = machine::name(number);
+    let bits = match class {
+        _ if *class == our_class || name.contains("-bit") => "",
+        1 => "32-bit ",
+        _ => "64-bit ",
+    };
+    let end = match order {
+        _ if *order == our_order => "",
+        2 => "big-endian ",
+        _ => "little-endian ",
+    };
     Err(Refusal::WrongMachine {
-        found: format!("{bits}{end}{}", machine::name(number)),
+        found: format!("{bits}{end}{name}"),
         ours: machine::ours(),
     })
 }
@@ -131,54 +144,63 @@ fn segments_are_whole(segments: &[Segment], bytes: &[u8]) -> Result<(), Refusal>
     Ok(())
 }
 
-/// Tables that the loader follows: where each begins, and where its size stands.
-const TABLES: [(elf::DynamicTag, Option<elf::DynamicTag>); 12] = [
-    (elf::DT_STRTAB, Some(elf::DT_STRSZ)),
-    (elf::DT_SYMTAB, None),
-    (elf::DT_HASH, None),
-    (elf::DT_GNU_HASH, None),
-    (elf::DT_VERSYM, None),
-    (elf::DT_VERNEED, None),
-    (elf::DT_VERDEF, None),
-    (elf::DT_RELA, Some(elf::DT_RELASZ)),
-    (elf::DT_REL, Some(elf::DT_RELSZ)),
-    (elf::DT_JMPREL, Some(elf::DT_PLTRELSZ)),
-    (elf::DT_INIT_ARRAY, Some(elf::DT_INIT_ARRAYSZ)),
-    (elf::DT_FINI_ARRAY, Some(elf::DT_FINI_ARRAYSZ)),
-];
-
 impl Elf<'_> {
-    /// The bytes that will be at an address.
-    fn at(&self, address: u64, size: u64) -> Option<&[u8]> {
+    fn loadable(&self) -> impl Iterator<Item = &Segment> {
         self.segments
             .iter()
             .filter(|segment| segment.p_type(ENDIAN) == elf::PT_LOAD)
-            .find_map(|segment| segment.data_range(ENDIAN, self.bytes, address, size).ok()?)
     }
 
-    /// The dynamic table is there, and what it points to lies in the segments.
-    fn check_dynamic(&self) -> Result<(), Refusal> {
-        let table = self
-            .segments
-            .iter()
-            .find_map(|segment| segment.dynamic(ENDIAN, self.bytes).transpose())
-            .ok_or(Refusal::NotALibrary("a program without dynamic linking"))?
-            .map_err(|_| NO_DYNAMIC)?;
-        let value = |tag: elf::DynamicTag| {
-            let entry = table.iter().find(|entry| entry.d_tag(ENDIAN) == tag);
-            entry.map(|entry| u64::from(entry.d_val(ENDIAN)))
-        };
-        if value(elf::DT_STRTAB).is_none() || value(elf::DT_SYMTAB).is_none() {
-            return Err(NO_DYNAMIC);
-        }
-        for (start, size) in TABLES {
-            let size = size.map_or(Some(1), value).unwrap_or(0);
-            match value(start) {
-                Some(start) if self.at(start, size).is_none() => return Err(NO_DYNAMIC),
-                _ => (),
+    /// Where in the file the bytes stand that will be at an address.
+    fn offset_of(&self, address: u64, size: u64) -> Option<u64> {
+        let end = address.checked_add(size)?;
+        self.loadable().find_map(|segment| {
+            let (offset, in_file) = segment.file_range(ENDIAN);
+            let start = u64::from(segment.p_vaddr(ENDIAN));
+            let holds = start <= address && end <= start.saturating_add(in_file);
+            holds.then(|| offset + (address - start))
+        })
+    }
+
+    /// The bytes that will be at an address.
+    fn at(&self, address: u64, size: u64) -> Option<&[u8]> {
+        let start = usize::try_from(self.offset_of(address, size)?).ok()?;
+        self.bytes
+            .get(start..start.checked_add(usize::try_from(size).ok()?)?)
+    }
+
+    /// What else the program headers name (the dynamic table, notes, thread-local data) is the
+    /// same in memory as in the file.
+    fn check_views(&self) -> Result<(), Refusal> {
+        for segment in self.segments {
+            let kind = segment.p_type(ENDIAN);
+            let (offset, in_file) = segment.file_range(ENDIAN);
+            let (address, in_memory) = (segment.p_vaddr(ENDIAN), segment.p_memsz(ENDIAN));
+            let (address, in_memory) = (u64::from(address), u64::from(in_memory));
+            if kind == elf::PT_TLS && in_memory > MOST_THREAD_LOCAL {
+                return Err(NO_HEADERS);
+            }
+            if kind == elf::PT_GNU_RELRO && in_memory > in_file.saturating_add(LARGEST_PAGE) {
+                return Err(NO_HEADERS);
+            }
+            let empty = in_file == 0 || kind == elf::PT_LOAD;
+            // What is write-protected may reach into zeroed data, which no file holds.
+            let read = if kind == elf::PT_GNU_RELRO {
+                0
+            } else {
+                in_file
+            };
+            if !empty && self.offset_of(address, read) != Some(offset) {
+                return Err(NO_HEADERS);
             }
         }
         Ok(())
+    }
+
+    fn sections(&self) -> Result<&[Section], Refusal> {
+        self.header
+            .section_headers(ENDIAN, self.bytes)
+            .map_err(|_| NO_SYMBOLS)
     }
 
     /// The symbols that the library exports, by name.
