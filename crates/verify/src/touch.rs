@@ -251,6 +251,3 @@ fn largest_curvature(surface: &dyn SurfaceModel, reach: f64) -> Result<Option<f6
     }
     Ok(Some(largest))
 }
-
-#[cfg(test)]
-mod tests;
