@@ -16,7 +16,7 @@ const EXCEEDED: i32 = 1;
 /// Largest difference of a figure from the independent one, as a part of it.
 const TOLERANCE: f64 = 0.02;
 /// A difference that is rounding of either, nm.
-const ROUNDING: f64 = 1e-4;
+const ROUNDING: f64 = 1e-5;
 
 #[test]
 fn ready_recipes_hold_and_measure_as_the_reference_says() {

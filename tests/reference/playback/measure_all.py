@@ -49,8 +49,8 @@ def main():
         for recipe, figures in zip(recipes, pool.map(partial(measure_recipe, program), recipes)):
             text = json.dumps(figures, indent=2, allow_nan=False) + "\n"
             reference_file(recipe).write_text(text, encoding="utf-8")
-            error, residual = figures["interpolation_error_nm"]["max"], figures["residual_nm"]["max"]
-            print(f"{recipe.stem}: error {error:.4f} nm, residual {residual:.4f} nm")
+            error, cusp = figures["interpolation_error_nm"]["max"], figures["residual_nm"]["max"]
+            print(f"{recipe.stem}: error {error:.4f} nm, residual {cusp or 0:.4f} nm")
 
 
 if __name__ == "__main__":
