@@ -117,14 +117,15 @@ impl Spiral {
         if law.end() > MOST_REVOLUTIONS {
             return Err("a law that does not end".to_owned());
         }
-        loop {
+        while !law.pieces().is_empty() {
             let n = self.next as f64 / CHECKED_ANGLES as f64;
             if n > law.end() {
-                return Ok(());
+                break;
             }
             self.look(n, law.value(n))?;
             self.next += 1;
         }
+        Ok(())
     }
 
     /// Comparisons that also fail for what is no number.
