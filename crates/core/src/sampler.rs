@@ -24,6 +24,8 @@ pub struct Path<'a> {
     pub locus: &'a dyn Locus,
     /// ρ = ℓ(N).
     pub law: &'a SpiralLaw,
+    /// What [`Sampler::prepare`] found; empty while it looks.
+    pub prepared: &'a [f64],
 }
 
 impl Path<'_> {
@@ -115,6 +117,13 @@ pub trait Sampler: Send + Sync {
     /// Appends the nodes of `block`, in revolutions, increasing, from block.start (included) to
     /// block.end (excluded). The host adds the path's first and last point.
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()>;
+
+    /// Looks at the whole path once, before any block: what it gives is in [`Path::prepared`] of
+    /// every call that follows. In those, `path.law` may be the part around the block.
+    fn prepare(&self, path: &Path<'_>) -> Result<Vec<f64>> {
+        let _ = path;
+        Ok(Vec::new())
+    }
 
     /// How a block depends on the others; `Local` unless it says otherwise.
     fn dependence(&self) -> Dependence {

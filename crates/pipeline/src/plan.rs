@@ -19,6 +19,8 @@ pub struct Plan<'a> {
     pub prepared: &'a Prepared,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
+    /// What the sampler found on the whole path.
+    pub prepared_sampler: Vec<f64>,
     /// What a sequential sampler carries into each block; empty for others.
     pub sampler_states: Vec<Vec<f64>>,
 }
@@ -31,8 +33,10 @@ impl<'a> Plan<'a> {
             chain,
             prepared,
             law,
+            prepared_sampler: Vec::new(),
             sampler_states: Vec::new(),
         };
+        plan.prepared_sampler = plan.prepare_sampler()?;
         if chain.sampler.strategy.dependence() == Dependence::Sequential {
             let mut state = Vec::new();
             for index in 0..plan.blocks() {
@@ -41,6 +45,23 @@ impl<'a> Plan<'a> {
             }
         }
         Ok(plan)
+    }
+
+    fn prepare_sampler(&self) -> Result<Vec<f64>> {
+        let sampler = &self.chain.sampler;
+        let answer = sampler.strategy.prepare(&self.path(&self.law));
+        answer.map_err(|error| sampler.failed("while it looked at the whole path", error))
+    }
+
+    fn path<'b>(&'b self, law: &'b SpiralLaw) -> Path<'b> {
+        let Prepared { job, locus, .. } = self.prepared;
+        let prepared = &self.prepared_sampler;
+        Path {
+            job,
+            locus,
+            law,
+            prepared,
+        }
     }
 
     /// How many blocks there are.
@@ -71,12 +92,7 @@ impl<'a> Plan<'a> {
     fn sample_from(&self, index: usize, state: &mut Vec<f64>) -> Result<Vec<f64>> {
         let (sampler, block) = (&self.chain.sampler, self.revolutions(index));
         let window = self.law.window(block.start - 1.0, block.end + 1.0);
-        let Prepared { job, locus, .. } = self.prepared;
-        let path = Path {
-            job,
-            locus,
-            law: &window,
-        };
+        let path = self.path(&window);
         let mut nodes = Vec::new();
         let answer = match sampler.strategy.dependence() {
             Dependence::Sequential => sampler

@@ -54,6 +54,7 @@ fn nodes(step: f64, revolutions: f64, block: f64) -> Vec<f64> {
             job: &job,
             locus: &locus,
             law: &law,
+            prepared: &[],
         };
         sampler
             .place(&path, Revolutions { start, end }, &mut nodes)

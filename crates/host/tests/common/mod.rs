@@ -105,6 +105,7 @@ pub fn onward(
         job: &job,
         locus: &locus,
         law: &law,
+        prepared: &[],
     };
     let mut nodes = Vec::new();
     sampler.place_onward(&path, Revolutions { start, end }, state, &mut nodes)?;

@@ -2,7 +2,7 @@
 
 use abi_stable::StableAbi;
 use abi_stable::sabi_trait;
-use abi_stable::std_types::{RBox, RVec};
+use abi_stable::std_types::{RBox, RSlice, RVec};
 use turnpath_core::{Dependence, Path, Result, Revolutions, Sampler, Setup, SpiralLaw};
 
 use super::contained::Contained;
@@ -48,14 +48,15 @@ impl From<AbiDependence> for Dependence {
 
 #[repr(C)]
 #[derive(StableAbi)]
-pub struct AbiPath<'a> {
+pub struct AbiPath<'a, 'p> {
     setup: AbiSetup<'a>,
     law: AbiLaw,
+    prepared: RSlice<'p, f64>,
     start: f64,
     end: f64,
 }
 
-fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'_>) -> T) -> T {
+fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'_, '_>) -> T) -> T {
     let Revolutions { start, end } = block;
     lend_setup(
         Setup {
@@ -66,6 +67,7 @@ fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'
             call(AbiPath {
                 setup,
                 law: path.law.into(),
+                prepared: path.prepared.into(),
                 start,
                 end,
             })
@@ -73,19 +75,21 @@ fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'
     )
 }
 
-impl AbiPath<'_> {
+impl AbiPath<'_, '_> {
     fn receive<T>(self, call: impl FnOnce(&Path<'_>, Revolutions) -> T) -> T {
         let block = Revolutions {
             start: self.start,
             end: self.end,
         };
         let law = SpiralLaw::from(&self.law);
+        let prepared = self.prepared;
         self.setup.receive(|Setup { job, locus }| {
             call(
                 &Path {
                     job,
                     locus,
                     law: &law,
+                    prepared: prepared.as_slice(),
                 },
                 block,
             )
@@ -96,11 +100,12 @@ impl AbiPath<'_> {
 #[sabi_trait]
 pub trait AbiSampler: Send + Sync {
     fn dependence(&self) -> Answer<AbiDependence>;
-    fn place(&self, path: AbiPath<'_>, nodes: &mut RVec<f64>) -> Answer<()>;
+    fn prepare(&self, path: AbiPath<'_, '_>) -> Answer<RVec<f64>>;
+    fn place(&self, path: AbiPath<'_, '_>, nodes: &mut RVec<f64>) -> Answer<()>;
     #[sabi(last_prefix_field)]
     fn place_onward(
         &self,
-        path: AbiPath<'_>,
+        path: AbiPath<'_, '_>,
         state: &mut RVec<f64>,
         nodes: &mut RVec<f64>,
     ) -> Answer<()>;
@@ -117,7 +122,11 @@ impl AbiSampler for OutgoingSampler {
         answer(|| Ok(self.0.dependence().into()))
     }
 
-    fn place(&self, path: AbiPath<'_>, nodes: &mut RVec<f64>) -> Answer<()> {
+    fn prepare(&self, path: AbiPath<'_, '_>) -> Answer<RVec<f64>> {
+        answer(|| Ok(path.receive(|path, _| self.0.prepare(path))?.into()))
+    }
+
+    fn place(&self, path: AbiPath<'_, '_>, nodes: &mut RVec<f64>) -> Answer<()> {
         answer(|| {
             let mut placed = Vec::new();
             path.receive(|path, block| self.0.place(path, block, &mut placed))?;
@@ -128,7 +137,7 @@ impl AbiSampler for OutgoingSampler {
 
     fn place_onward(
         &self,
-        path: AbiPath<'_>,
+        path: AbiPath<'_, '_>,
         state: &mut RVec<f64>,
         nodes: &mut RVec<f64>,
     ) -> Answer<()> {
@@ -162,6 +171,15 @@ impl IncomingSampler {
 impl Sampler for IncomingSampler {
     fn dependence(&self) -> Dependence {
         self.dependence
+    }
+
+    fn prepare(&self, path: &Path<'_>) -> Result<Vec<f64>> {
+        let whole = Revolutions {
+            start: 0.0,
+            end: path.law.end(),
+        };
+        let found = lend_path(path, whole, |path| self.sampler.prepare(path));
+        Ok(result(found)?.into())
     }
 
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
