@@ -3,14 +3,18 @@
 //! A piece takes 56 bytes. Laws with one value a radius have some hundred pieces whatever the
 //! part; one that changes with the angle has some for every revolution.
 
-use turnpath_core::{Direction, Job, Locus, Onward, Setup, SpiralLaw, Stretch};
+use turnpath_core::{Direction, Job, Locus, Onward, RadialRange, Setup, SpiralLaw, Stretch};
 
 use crate::{Chain, Result};
 
 /// Angles of a revolution at which the next turn must lie beyond the last.
 const CHECKED_ANGLES: usize = 72;
 /// More revolutions than any job has: a law that gets here does not end.
-const MOST_REVOLUTIONS: f64 = 1e8;
+const MOST_REVOLUTIONS: f64 = 1e7;
+/// Largest jump of ρ where two pieces meet, mm: a nanometre, far above rounding.
+const LARGEST_JUMP: f64 = 1e-6;
+/// How much of the range a law may leave out at either end, mm.
+const SLACK: f64 = 1e-5;
 
 /// Plans the law and checks it.
 pub fn plan(chain: &Chain, job: &Job, locus: &dyn Locus) -> Result<SpiralLaw> {
@@ -18,67 +22,137 @@ pub fn plan(chain: &Chain, job: &Job, locus: &dyn Locus) -> Result<SpiralLaw> {
     let failed = |error| chain.feed.failed("while planning the law", error);
     let mut plan = chain.feed.strategy.plan(setup).map_err(failed)?;
     let mut law = SpiralLaw::new();
+    let mut spiral = Spiral::new(job);
     let mut pieces: Vec<Stretch> = Vec::new();
     loop {
         pieces.clear();
-        let place = |law: &SpiralLaw| format!("after {:.3} revolutions", law.end());
         let onward = plan
             .extend(setup, &mut pieces)
-            .map_err(|error| chain.feed.failed(place(&law), error))?;
-        for piece in &pieces {
-            let numbers = piece.coefficients.iter().all(|c| c.is_finite());
-            if !(numbers && piece.length.is_finite() && piece.length > 0.0) {
-                return Err(chain.feed.bad_answer(format!("{piece:?}, {}", place(&law))));
-            }
-            law.push(piece.length, piece.coefficients);
-        }
+            .map_err(|error| chain.feed.failed(after(&law), error))?;
         if pieces.is_empty() && onward == Onward::More {
-            return Err(chain.feed.bad_answer(format!("no piece, {}", place(&law))));
-        }
-        if law.end() > MOST_REVOLUTIONS {
-            let what = format!("a law of more than {MOST_REVOLUTIONS:e} revolutions");
+            let what = format!("no piece, {}", after(&law));
             return Err(chain.feed.bad_answer(what));
         }
+        for piece in &pieces {
+            add(&mut law, piece).map_err(|what| chain.feed.bad_answer(what))?;
+        }
+        spiral
+            .follow(&law)
+            .map_err(|what| chain.feed.bad_answer(what))?;
         if onward == Onward::Done {
             break;
         }
     }
-    check(&law, job.direction).map_err(|what| chain.feed.bad_answer(what))?;
+    covers(&law, job).map_err(|what| chain.feed.bad_answer(what))?;
     Ok(law)
 }
 
-/// Every turn lies beyond the last, at every angle.
-fn check(law: &SpiralLaw, direction: Direction) -> std::result::Result<(), String> {
+fn after(law: &SpiralLaw) -> String {
+    format!("after {:.3} revolutions", law.end())
+}
+
+type Checked = std::result::Result<(), String>;
+
+/// Appends a piece that begins where the law ends.
+fn add(law: &mut SpiralLaw, piece: &Stretch) -> Checked {
+    let numbers = piece.coefficients.iter().all(|c| c.is_finite());
+    if !(numbers && piece.length.is_finite() && piece.length > 0.0) {
+        return Err(format!("{piece:?}, {}", after(law)));
+    }
+    let (before, here) = (law.value(law.end()), piece.coefficients[0]);
+    if (here - before).abs() > LARGEST_JUMP {
+        let jump = format!("a jump from ρ = {before} mm to {here} mm");
+        return Err(format!("{jump}, {}", after(law)));
+    }
+    law.push(piece.length, piece.coefficients);
+    Ok(())
+}
+
+/// The law begins and ends at the two ends of the range, or beyond.
+fn covers(law: &SpiralLaw, job: &Job) -> Checked {
     if law.pieces().is_empty() {
         return Err("a law without pieces".to_owned());
     }
-    let outward = if direction == Direction::Outward {
-        1.0
-    } else {
-        -1.0
+    let (start, end) = (law.value(0.0), law.value(law.end()));
+    let RadialRange { inner, outer } = job.range;
+    let (low, high) = match job.direction {
+        Direction::Outward => (start, end),
+        Direction::Inward => (end, start),
     };
-    let step = 1.0 / CHECKED_ANGLES as f64;
-    let mut ring: Vec<f64> = Vec::with_capacity(CHECKED_ANGLES);
-    let count = (law.end() / step).floor() as u64;
-    for i in 0..=count {
-        let n = (i as f64 * step).min(law.end());
-        let (slot, rho) = ((i % CHECKED_ANGLES as u64) as usize, law.value(n));
-        match ring.get_mut(slot) {
-            None => ring.push(rho),
+    if low > inner + SLACK || high < outer - SLACK {
+        return Err(format!(
+            "the law runs from ρ = {start} mm to {end} mm and leaves some of the part uncut, which \
+             goes from {inner} mm to {outer} mm"
+        ));
+    }
+    Ok(())
+}
+
+/// Follows a law as it grows: every turn lies beyond the last, at every angle, and none far
+/// beyond the range, so that a law which does not end is found out.
+struct Spiral {
+    outward: f64,
+    allowed: std::ops::RangeInclusive<f64>,
+    ring: Vec<f64>,
+    next: u64,
+}
+
+impl Spiral {
+    fn new(job: &Job) -> Self {
+        let RadialRange { inner, outer } = job.range;
+        let beyond = outer - inner + 2.0 * job.tool.nose_radius;
+        Self {
+            outward: match job.direction {
+                Direction::Outward => 1.0,
+                Direction::Inward => -1.0,
+            },
+            allowed: inner - beyond..=outer + beyond,
+            ring: Vec::with_capacity(CHECKED_ANGLES),
+            next: 0,
+        }
+    }
+
+    /// Looks at what has come to the law.
+    fn follow(&mut self, law: &SpiralLaw) -> Checked {
+        if law.end() > MOST_REVOLUTIONS {
+            return Err(format!(
+                "a law of more than {MOST_REVOLUTIONS:e} revolutions"
+            ));
+        }
+        while !law.pieces().is_empty() {
+            let n = self.next as f64 / CHECKED_ANGLES as f64;
+            if n > law.end() {
+                break;
+            }
+            self.look(n, law.value(n))?;
+            self.next += 1;
+        }
+        Ok(())
+    }
+
+    /// Comparisons that also fail for what is no number.
+    fn look(&mut self, n: f64, rho: f64) -> Checked {
+        let place = || {
+            format!(
+                "at {:.1} deg, turn {:.0}",
+                360.0 * (n - n.floor()),
+                n.floor()
+            )
+        };
+        if !self.allowed.contains(&rho) {
+            return Err(format!("{}, ρ = {rho} mm lies far off the part", place()));
+        }
+        let slot = (self.next % CHECKED_ANGLES as u64) as usize;
+        match self.ring.get_mut(slot) {
+            None => self.ring.push(rho),
+            Some(last) if (rho - *last) * self.outward > 0.0 => *last = rho,
             Some(last) => {
-                // A comparison that also fails for what is no number.
-                if (rho - *last) * outward > 0.0 {
-                    *last = rho;
-                    continue;
-                }
-                let angle = 360.0 * (n - n.floor());
                 return Err(format!(
-                    "at {angle:.1} deg, turn {:.0} lies at ρ = {rho} mm, not beyond the one \
-                     before at {last} mm",
-                    n.floor()
+                    "{} lies at ρ = {rho} mm, not beyond the one before at {last} mm",
+                    place()
                 ));
             }
         }
+        Ok(())
     }
-    Ok(())
 }

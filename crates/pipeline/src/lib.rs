@@ -9,6 +9,7 @@ mod chain;
 mod error;
 mod law;
 mod make;
+mod order;
 mod plan;
 mod prepare;
 mod progress;

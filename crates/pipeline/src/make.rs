@@ -8,6 +8,7 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{CentreBuffers, Dependence, Locus, Nodes, Rates, Velocities, angle};
 
 use crate::Result;
+use crate::order::in_order;
 use crate::plan::{CLOSEST_NODES, Plan};
 
 /// How often each sampler segment of a block is halved; an empty list: not at all.
@@ -101,10 +102,11 @@ pub fn make(
         Some(state) => range
             .map(|index| solve(plan, &around, index, overlap, Some(&mut *state)))
             .collect(),
-        None => range
-            .into_par_iter()
-            .map(|index| solve(plan, &around, index, overlap, None))
-            .collect(),
+        None => in_order(
+            range
+                .into_par_iter()
+                .map(|index| solve(plan, &around, index, overlap, None)),
+        ),
     }
 }
 
@@ -120,8 +122,8 @@ impl Row {
     }
 }
 
-/// Places the nodes of `range` and of neighbours on both sides that hold `overlap` nodes, the
-/// next block's first one at least.
+/// Places the nodes of `range` and of neighbours on both sides that hold `overlap` nodes, and the
+/// next block's first one besides.
 fn place_around(
     plan: &Plan<'_>,
     range: Range<usize>,
@@ -131,7 +133,7 @@ fn place_around(
     let (mut first, mut last) = (range.start, range.end);
     let mut blocks = place(plan, first..last, depths)?;
     let mut before = 0;
-    while first > 0 && before < overlap.max(1) {
+    while first > 0 && before < overlap {
         first -= 1;
         let mut found = place(plan, first..first + 1, depths)?;
         before += found
@@ -157,25 +159,19 @@ fn place_around(
 /// Samples, subdivides and places the nodes of each block.
 fn place(plan: &Plan<'_>, range: Range<usize>, depths: &[Depths]) -> Result<Vec<Placed>> {
     let sampled_to = (range.end + 1).min(plan.blocks());
-    let raw: Vec<Vec<f64>> = (range.start..sampled_to)
-        .into_par_iter()
-        .map(|index| plan.sample(index))
-        .collect::<Result<_>>()?;
+    let sampled = (range.start..sampled_to).into_par_iter();
+    let raw = in_order(sampled.map(|index| plan.sample(index)))?;
     let end_of = |index: usize| {
         let next = raw
             .get(index + 1 - range.start)
             .and_then(|nodes| nodes.first());
         next.copied().unwrap_or(plan.law.end())
     };
-    range
-        .clone()
-        .into_par_iter()
-        .map(|index| {
-            let nodes = &raw[index - range.start];
-            let halved = depths.get(index).map_or(&[][..], Vec::as_slice);
-            place_block(plan, index, nodes, end_of(index), halved)
-        })
-        .collect()
+    in_order(range.clone().into_par_iter().map(|index| {
+        let nodes = &raw[index - range.start];
+        let halved = depths.get(index).map_or(&[][..], Vec::as_slice);
+        place_block(plan, index, nodes, end_of(index), halved)
+    }))
 }
 
 fn place_block(
@@ -275,9 +271,14 @@ fn solve(
     overlap: usize,
     state: Option<&mut Vec<f64>>,
 ) -> Result<Made> {
-    let (columns, own) = row.gather(index, overlap);
+    let Window {
+        columns,
+        own,
+        at_start,
+        at_end,
+    } = row.window(plan, index, overlap);
     let (mut c, mut x, mut z) = (columns.unset(), columns.unset(), columns.unset());
-    let nodes = columns.nodes(own.start == 0 && index == 0, plan.is_last(index));
+    let nodes = columns.nodes(at_start, at_end);
     let out = Velocities {
         c: &mut c,
         x: &mut x,
@@ -313,29 +314,42 @@ fn solve(
     })
 }
 
+/// What a velocity solver gets for one block.
+struct Window {
+    columns: Columns,
+    /// Where the block's own nodes are.
+    own: Range<usize>,
+    /// Whether the first node is the path's first, and the last one its last.
+    at_start: bool,
+    at_end: bool,
+}
+
 impl Row {
     /// The nodes of a block between `overlap` ones of its neighbours, the joint with the next
-    /// block besides; and where its own are.
-    fn gather(&self, index: usize, overlap: usize) -> (Columns, Range<usize>) {
-        let at = index - self.first;
+    /// block besides.
+    fn window(&self, plan: &Plan<'_>, index: usize, overlap: usize) -> Window {
+        let length = |block: &Placed| block.columns.len();
+        let (before, rest) = self.blocks.split_at(index - self.first);
+        let behind: usize = before.iter().map(length).sum();
+        let all: usize = behind + rest.iter().map(length).sum::<usize>();
+        let own = behind..behind + rest.first().map_or(0, length);
+        let wanted = own.start.saturating_sub(overlap)..(own.end + overlap + 1).min(all);
         let mut columns = Columns::default();
-        let lengths: Vec<usize> = self
-            .blocks
-            .iter()
-            .map(|block| block.columns.len())
-            .collect();
-        let behind: usize = lengths[..at].iter().sum();
-        let mut skip = behind.saturating_sub(overlap);
-        let mut wanted = behind - skip + lengths[at] + overlap + 1;
-        let own_start = behind - skip;
-        for (block, length) in self.blocks.iter().zip(&lengths) {
-            let from = skip.min(*length);
-            let to = (from + wanted).min(*length);
-            columns.append(&block.columns, from..to);
-            skip -= from;
-            wanted -= to - from;
+        let mut start = 0;
+        for block in &self.blocks {
+            let end = start + length(block);
+            let (from, to) = (wanted.start.max(start), wanted.end.min(end));
+            if from < to {
+                columns.append(&block.columns, from - start..to - start);
+            }
+            start = end;
         }
-        (columns, own_start..own_start + lengths[at])
+        Window {
+            columns,
+            own: own.start - wanted.start..own.end - wanted.start,
+            at_start: self.first == 0 && wanted.start == 0,
+            at_end: self.first + self.blocks.len() == plan.blocks() && wanted.end == all,
+        }
     }
 }
 
@@ -344,7 +358,7 @@ impl Columns {
         vec![f64::NAN; self.len()]
     }
 
-    fn nodes(&self, at_start: bool, at_block_end: bool) -> Nodes<'_> {
+    fn nodes(&self, at_start: bool, at_end: bool) -> Nodes<'_> {
         Nodes {
             t: &self.t,
             c: &self.c,
@@ -355,7 +369,7 @@ impl Columns {
             z_theta: &self.z_theta,
             z_x: &self.z_x,
             at_start,
-            at_end: at_block_end,
+            at_end,
         }
     }
 

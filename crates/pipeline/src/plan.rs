@@ -123,8 +123,9 @@ impl<'a> Plan<'a> {
         let mut nodes = self.place(self.revolutions(index), state)?;
         self.check(index, &nodes)
             .map_err(|what| self.chain.sampler.bad_answer(what))?;
-        if index == 0 && nodes.first() != Some(&0.0) {
-            nodes.insert(0, 0.0);
+        if index == 0 {
+            let too_early = nodes.iter().take_while(|node| **node < CLOSEST_NODES);
+            nodes.splice(..too_early.count(), [0.0]);
         }
         Ok(nodes)
     }

@@ -10,6 +10,7 @@ use turnpath_core::Dependence;
 use turnpath_verify::Meter;
 
 use crate::make::{Depths, Made, make};
+use crate::order::in_order;
 use crate::plan::Plan;
 use crate::progress::{Progress, Stage};
 use crate::{PipelineError, Result};
@@ -32,18 +33,17 @@ const MOST_POINTS: usize = 1_000_000;
 pub fn refine(plan: &Plan<'_>, batch: usize, progress: &dyn Progress) -> Result<Vec<Depths>> {
     let mut depths: Vec<Depths> = vec![Depths::new(); plan.blocks()];
     let mut dirty: Vec<usize> = (0..plan.blocks()).collect();
+    let mut counts = vec![0; plan.blocks()];
     for round in 1..=MOST_ROUNDS {
         progress.begin(Stage::Refine(round), dirty.len() as u64);
         let mut halved = Vec::new();
         let mut state = first_state(plan);
         for range in runs(&dirty, batch) {
             let made = make(plan, range.clone(), &depths, state.as_mut())?;
-            let deeper: Vec<Option<Depths>> = made
-                .par_iter()
-                .zip(range.clone())
-                .map(|(made, index)| deepen(plan, made, &depths[index]))
-                .collect::<Result<_>>()?;
-            for (index, deeper) in range.clone().zip(deeper) {
+            let each = made.par_iter().zip(range.clone());
+            let deeper = in_order(each.map(|(made, index)| deepen(plan, made, &depths[index])))?;
+            for ((index, deeper), made) in range.clone().zip(deeper).zip(&made) {
+                counts[index] = made.owner.len();
                 if let Some(deeper) = deeper {
                     halved.push((index, deeper));
                 }
@@ -53,7 +53,8 @@ pub fn refine(plan: &Plan<'_>, batch: usize, progress: &dyn Progress) -> Result<
         if halved.is_empty() {
             break;
         }
-        dirty = touched(plan, halved.iter().map(|(index, _)| *index));
+        let dependence = plan.chain.velocity.strategy.dependence();
+        dirty = touched(dependence, &counts, halved.iter().map(|(index, _)| *index));
         for (index, deeper) in halved {
             depths[index] = deeper;
         }
@@ -95,20 +96,38 @@ fn deepen(plan: &Plan<'_>, made: &Made, depths: &Depths) -> Result<Option<Depths
     Ok(Some(deeper))
 }
 
-/// The blocks that change when these do.
-fn touched(plan: &Plan<'_>, halved: impl Iterator<Item = usize>) -> Vec<usize> {
-    let mut touched = vec![false; plan.blocks()];
-    let dependence = plan.chain.velocity.strategy.dependence();
+/// The blocks that change when these do; `counts` has the nodes of each block.
+fn touched(
+    dependence: Dependence,
+    counts: &[usize],
+    halved: impl Iterator<Item = usize>,
+) -> Vec<usize> {
+    let mut touched = vec![false; counts.len()];
     for index in halved {
-        let (first, last) = match dependence {
-            Dependence::Sequential => (0, plan.blocks() - 1),
+        let range = match dependence {
+            Dependence::Sequential => 0..counts.len(),
             // The last segment of the block before ends at this block's first node, which stays.
-            Dependence::Local => (index, index),
-            Dependence::Overlap(_) => (index.saturating_sub(1), (index + 1).min(plan.blocks() - 1)),
+            Dependence::Local => index..index + 1,
+            Dependence::Overlap(overlap) => within_overlap(overlap, counts, index),
         };
-        touched[first..=last].fill(true);
+        touched[range].fill(true);
     }
-    (0..plan.blocks()).filter(|index| touched[*index]).collect()
+    (0..counts.len()).filter(|index| touched[*index]).collect()
+}
+
+/// The blocks that see some node of block `index` among `overlap` ones of their neighbours.
+fn within_overlap(overlap: usize, counts: &[usize], index: usize) -> Range<usize> {
+    let (mut first, mut last) = (index, index + 1);
+    let (mut before, mut after) = (0, 0);
+    while first > 0 && before <= overlap {
+        first -= 1;
+        before += counts[first];
+    }
+    while last < counts.len() && after <= overlap {
+        after += counts[last];
+        last += 1;
+    }
+    first..last
 }
 
 /// Blocks in a row, at most `batch` at a time.
@@ -126,6 +145,18 @@ pub fn runs(blocks: &[usize], batch: usize) -> Vec<Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_blocks_do_not_hide_what_lies_behind_them() {
+        let touched = |dependence, counts: &[usize], index: usize| {
+            touched(dependence, counts, std::iter::once(index))
+        };
+        let overlap = Dependence::Overlap(64);
+        assert_eq!(touched(overlap, &[500; 5], 2), [1, 2, 3]);
+        assert_eq!(touched(overlap, &[500, 500, 40, 500, 1], 3), [1, 2, 3, 4]);
+        assert_eq!(touched(Dependence::Local, &[500; 3], 1), [1]);
+        assert_eq!(touched(Dependence::Sequential, &[500; 3], 2), [0, 1, 2]);
+    }
 
     #[test]
     fn runs_are_rows_of_at_most_a_batch() {

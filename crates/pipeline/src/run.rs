@@ -5,6 +5,7 @@ use turnpath_core::toolpath::{PathBlock, Section};
 use turnpath_verify::{FirstTouch, Measured, Meter, PathFigures};
 
 use crate::make::{Depths, Made, make};
+use crate::order::in_order;
 use crate::plan::Plan;
 use crate::progress::{Progress, Stage};
 use crate::refine::{first_state, refine, runs};
@@ -95,11 +96,8 @@ fn write(
     for range in runs(&blocks, batch) {
         let made = make(plan, range.clone(), depths, state.as_mut())?;
         let encoder: &dyn Sink = sink;
-        let ready: Vec<Ready> = made
-            .into_par_iter()
-            .map(|made| ready(touch, made, encoder))
-            .collect::<Result<_>>()?;
-        for block in ready {
+        let each = made.into_par_iter();
+        for block in in_order(each.map(|made| ready(touch, made, encoder)))? {
             meter
                 .append(&block.measured)
                 .map_err(PipelineError::Measure)?;

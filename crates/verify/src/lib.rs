@@ -9,7 +9,9 @@ mod axes;
 mod cusp;
 mod meter;
 mod playback;
+mod profiles;
 mod residual;
+mod scan;
 mod subject;
 mod touch;
 
@@ -18,4 +20,4 @@ pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
 pub use residual::{ResidualFigures, SECTIONS};
 pub use subject::Subject;
-pub use touch::FirstTouch;
+pub use touch::{FirstTouch, Touch};

@@ -6,7 +6,8 @@ use turnpath_core::toolpath::{PathBlock, Segment};
 use crate::touch::{FirstTouch, Touch};
 
 /// Instants of each segment at which the played position is compared, its start among them and
-/// its middle. The error of a cubic is a bump over the segment: 16 places see it to 0.5 %.
+/// its middle. The error of a cubic is a bump over the segment, or a few: the largest of 16
+/// places misses its top by up to 1 %, the parabola through it and its neighbours by 0.1 %.
 pub const INSTANTS: usize = 16;
 /// Segments that are played back in one batch.
 const BATCH: usize = 64;
@@ -47,13 +48,14 @@ impl PlaybackFigures {
         }
     }
 
-    fn see(&mut self, error: f64, weight: f64, c: f64, x: f64) {
-        self.square += error * error * weight;
-        self.time += weight;
-        let worse = !self.broken && (error.is_nan() || error.abs() > self.extreme.abs());
+    fn see(&mut self, worst: Worst, segment: &Segment) {
+        let worse =
+            !self.broken && (worst.error.is_nan() || worst.error.abs() > self.extreme.abs());
         if worse {
-            self.broken = error.is_nan();
-            (self.extreme, self.at_c, self.at_x) = (error, c, x);
+            self.broken = worst.error.is_nan();
+            self.extreme = worst.error;
+            self.at_c = segment.c.value(worst.at);
+            self.at_x = segment.x.value(worst.at);
         }
     }
 
@@ -81,27 +83,71 @@ pub fn play_back(
     for batch in segments.chunks(BATCH) {
         room.play(batch, touch)?;
         for (i, segment) in batch.iter().enumerate() {
-            let weight = segment.duration / INSTANTS as f64;
-            let mut largest = 0.0f64;
-            for k in i * INSTANTS..(i + 1) * INSTANTS {
-                let error = room.z[k] - room.touches[k].z;
-                figures.see(error, weight, room.c[k], room.x[k]);
-                largest = if error.is_nan() {
-                    f64::INFINITY
-                } else {
-                    largest.max(error.abs())
-                };
-            }
-            per_segment.push(largest);
+            let errors = room.errors(i);
+            let square: f64 = errors.iter().map(|error| error * error).sum();
+            figures.square += square * segment.duration / INSTANTS as f64;
+            figures.time += segment.duration;
+            let worst = Worst::of(&errors);
+            figures.see(worst, segment);
+            per_segment.push(worst.amount());
         }
     }
     Ok(figures)
 }
 
+/// The largest error of one segment.
+#[derive(Debug, Clone, Copy)]
+struct Worst {
+    error: f64,
+    /// Where in the segment, 0 to 1.
+    at: f64,
+}
+
+impl Worst {
+    fn of(errors: &[f64; INSTANTS]) -> Self {
+        let mut worst = 0;
+        for (k, error) in errors.iter().enumerate() {
+            if error.is_nan() || error.abs() > errors[worst].abs() {
+                worst = k;
+            }
+            if error.is_nan() {
+                break;
+            }
+        }
+        let (rise, shift) = match worst.checked_sub(1).and_then(|k| errors.get(k..k + 3)) {
+            Some(&[before, top, after]) => beyond_sample(before, top, after),
+            _ => (0.0, 0.0),
+        };
+        Self {
+            error: errors[worst] + rise,
+            at: (worst as f64 + shift) / INSTANTS as f64,
+        }
+    }
+
+    fn amount(&self) -> f64 {
+        if self.error.is_nan() {
+            f64::INFINITY
+        } else {
+            self.error.abs()
+        }
+    }
+}
+
+/// By how much the parabola through three neighbours goes beyond the middle one, the largest, and
+/// how many steps on.
+fn beyond_sample(before: f64, top: f64, after: f64) -> (f64, f64) {
+    let (tilt, bend) = (0.5 * (after - before), 2.0 * top - before - after);
+    let shift = tilt / bend;
+    if shift.abs() <= 0.5 {
+        (0.5 * tilt * shift, shift)
+    } else {
+        (0.0, 0.0)
+    }
+}
+
 /// Room for a batch of instants.
 #[derive(Default)]
 struct Room {
-    c: Vec<f64>,
     theta: Vec<f64>,
     x: Vec<f64>,
     z: Vec<f64>,
@@ -109,15 +155,22 @@ struct Room {
 }
 
 impl Room {
+    /// Played − true Z of a segment of the batch, mm.
+    fn errors(&self, segment: usize) -> [f64; INSTANTS] {
+        std::array::from_fn(|k| {
+            let instant = segment * INSTANTS + k;
+            self.z[instant] - self.touches[instant].z
+        })
+    }
+
     fn play(&mut self, batch: &[Segment], touch: &FirstTouch) -> Result<()> {
-        for places in [&mut self.c, &mut self.theta, &mut self.x, &mut self.z] {
+        for places in [&mut self.theta, &mut self.x, &mut self.z] {
             places.clear();
         }
         for segment in batch {
             for k in 0..INSTANTS {
                 let s = k as f64 / INSTANTS as f64;
                 let c = segment.c.value(s);
-                self.c.push(c);
                 self.theta.push(c.rem_euclid(std::f64::consts::TAU));
                 self.x.push(segment.x.value(s));
                 self.z.push(segment.z.value(s));

@@ -57,6 +57,27 @@ struct Pass {
     centre: Point,
 }
 
+/// What two passes leave between them.
+struct Cusp {
+    /// Its tip.
+    place: Point,
+    /// Whether they meet at all.
+    meet: bool,
+    /// X in the middle between them.
+    between: f64,
+}
+
+impl Pass {
+    fn cusp(&self, other: &Self, radius: f64) -> Cusp {
+        let tip = cusp::between(self.centre, other.centre, radius);
+        Cusp {
+            place: tip.unwrap_or(self.centre),
+            meet: tip.is_some(),
+            between: 0.5 * (self.x + other.x),
+        }
+    }
+}
+
 /// Passes of successive sections: pass i is that of section number `first` + i, counted from
 /// C = 0 on, [`SECTIONS`] a revolution.
 #[derive(Debug, Clone, Default)]
@@ -163,6 +184,7 @@ fn residual_between(
     turn: usize,
 ) -> Result<ResidualFigures> {
     let subject = touch.subject();
+    let part = subject.part.inner_radius..=subject.part.aperture_radius;
     let mut figures = ResidualFigures::default();
     let (mut theta, mut cusps) = (Vec::new(), Vec::new());
     for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
@@ -170,32 +192,22 @@ fn residual_between(
         if !same_side || one.centre == other.centre {
             continue;
         }
-        let theta_here = angle_of(number);
-        match cusp::between(one.centre, other.centre, subject.tool.nose_radius) {
-            Some(cusp) => {
-                theta.push(theta_here);
-                cusps.push(cusp);
-            }
-            None => {
-                let apart = ResidualFigures {
-                    max: f64::INFINITY,
-                    at_theta: theta_here,
-                    at_rho: 0.5 * (one.x + other.x),
-                    cusps: 1,
-                };
-                figures.append(&apart);
-            }
-        }
+        theta.push(angle_of(number));
+        cusps.push(one.cusp(other, subject.tool.nose_radius));
     }
-    let (heights, feet) = heights(subject.surface.as_ref(), &theta, &cusps)?;
-    for ((theta, height), foot) in theta.iter().zip(heights).zip(feet) {
-        let on_part =
-            (subject.part.inner_radius..=subject.part.aperture_radius).contains(&foot.abs());
-        if on_part {
+    let places: Vec<Point> = cusps.iter().map(|cusp| cusp.place).collect();
+    let (heights, feet) = heights(subject.surface.as_ref(), &theta, &places)?;
+    for (((theta, cusp), height), foot) in theta.iter().zip(&cusps).zip(heights).zip(feet) {
+        let cut = cusp.meet && height.is_finite();
+        let (max, at_rho) = match cut {
+            true => (height, foot),
+            false => (f64::INFINITY, cusp.between),
+        };
+        if part.contains(&at_rho.abs()) {
             let here = ResidualFigures {
-                max: height,
+                max,
                 at_theta: *theta,
-                at_rho: foot,
+                at_rho,
                 cusps: 1,
             };
             figures.append(&here);

@@ -2,12 +2,14 @@
 //!
 //! The height of the centre over a contact s of the radial profile is H(s) = g(θ, s) +
 //! sqrt(R² − (s − X)²), and the tool is stopped by the largest one. Where Rκ < 1 all over the
-//! tool's reach, H has a single maximum, which a bracketed secant finds; elsewhere the whole reach
-//! is scanned first.
+//! tool's reach, H has a single maximum, which a bracketed secant finds; elsewhere a scan of the
+//! whole reach ([`crate::scan`]) brackets every maximum that can be the largest.
 
-use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
+use turnpath_core::{Result, SurfaceModel, Tool};
 
 use crate::Subject;
+use crate::profiles::Profiles;
+use crate::scan;
 
 /// The secant stops when it moves less than this part of the nose radius. The height is wrong by
 /// the square of it: 1e-16 of the radius.
@@ -16,8 +18,6 @@ const FOOT_TOLERANCE: f64 = 1e-8;
 /// reaches [`FOOT_TOLERANCE`] in 28 halvings.
 const MOST_STEPS: usize = 80;
 const PATIENCE: usize = 16;
-/// Places of the scan over the reach. Ripples narrower than two of its steps can be missed.
-const SCAN: usize = 257;
 /// Angles and radii at which the profile's curvature is looked at before a single maximum is
 /// taken for granted.
 const LOOK: (usize, usize) = (90, 400);
@@ -29,7 +29,8 @@ const LARGEST_FIT: f64 = 0.95;
 #[derive(Clone)]
 pub struct FirstTouch {
     subject: Subject,
-    single: bool,
+    /// |X| up to which the profile is known to leave a single maximum; below 0: nowhere.
+    single_to: f64,
 }
 
 /// Where the tool is stopped.
@@ -43,15 +44,24 @@ pub struct Touch {
     pub slope: f64,
 }
 
+impl Touch {
+    const NOWHERE: Self = Self {
+        z: f64::NAN,
+        foot: f64::NAN,
+        slope: f64::NAN,
+    };
+}
+
 impl FirstTouch {
-    /// For tool positions whose X lies within the aperture, or beyond it by what a normal to the
-    /// rim takes: the nose radius.
+    /// Quickest for tool positions whose X lies within the aperture, or beyond it by what a normal
+    /// to the rim takes: the nose radius.
     pub fn new(subject: Subject) -> Result<Self> {
-        let reach = subject.part.aperture_radius + 2.0 * subject.tool.nose_radius;
+        let (radius, rim) = (subject.tool.nose_radius, subject.part.aperture_radius);
         let single = !subject.compensates_nose
-            || largest_curvature(subject.surface.as_ref(), reach)?
-                .is_some_and(|curvature| subject.tool.nose_radius * curvature < LARGEST_FIT);
-        Ok(Self { subject, single })
+            || largest_curvature(subject.surface.as_ref(), rim + 2.0 * radius)?
+                .is_some_and(|curvature| radius * curvature < LARGEST_FIT);
+        let single_to = if single { rim + radius } else { -1.0 };
+        Ok(Self { subject, single_to })
     }
 
     /// What is measured.
@@ -61,140 +71,127 @@ impl FirstTouch {
 
     /// Whether the profile leaves a single maximum everywhere, so that no scan is needed.
     pub fn is_single(&self) -> bool {
-        self.single
+        self.single_to >= 0.0
     }
 
-    /// The first touch at each (θ, X).
+    /// The first touch at each (θ, X); NaN where the surface has no height below the nose.
     pub fn find(&self, theta: &[f64], x: &[f64], out: &mut Vec<Touch>) -> Result<()> {
-        let surface = self.subject.surface.as_ref();
-        let mut profile = Profiles::new(surface, theta);
+        let mut profiles = Profiles::new(self.subject.surface.as_ref(), theta);
         out.clear();
-        out.resize(x.len(), Touch::default());
+        out.resize(x.len(), Touch::NOWHERE);
+        let tool = &self.subject.tool;
         if !self.subject.compensates_nose {
-            profile.at_all(x)?;
-            for (i, touch) in out.iter_mut().enumerate() {
-                *touch = Touch {
-                    z: profile.height[i],
-                    foot: x[i],
-                    slope: profile.slope[i],
-                };
-            }
-            return Ok(());
-        }
-        let mut brackets = match self.single {
-            true => Bracket::of_reach(&self.subject.tool, x),
-            false => self.scanned(&mut profile, x)?,
-        };
-        close_in(
-            &mut profile,
-            self.subject.tool.nose_radius,
-            x,
-            &mut brackets,
-            out,
-        )
-    }
-
-    /// Brackets around the highest of [`SCAN`] places in the reach.
-    fn scanned(&self, profile: &mut Profiles<'_>, x: &[f64]) -> Result<Vec<Bracket>> {
-        let (radius, reach) = (self.subject.tool.nose_radius, self.subject.tool.reach());
-        let step = 2.0 * reach / (SCAN - 1) as f64;
-        let mut best = vec![(f64::NEG_INFINITY, 0.0); x.len()];
-        for place in 0..SCAN {
-            let offset = -reach + place as f64 * step;
-            let feet: Vec<f64> = x.iter().map(|x| x + offset).collect();
-            profile.at_all(&feet)?;
-            let lift = (radius * radius - offset * offset).max(0.0).sqrt();
-            for (best, height) in best.iter_mut().zip(&profile.height) {
-                if height + lift > best.0 {
-                    *best = (height + lift, offset);
+            bare(&mut profiles, x, out)
+        } else if x.iter().all(|x| x.abs() <= self.single_to) {
+            let mut brackets = Bracket::of_reach(tool, x);
+            close_in(&mut profiles, tool.nose_radius, x, &mut brackets, out)
+        } else {
+            let mut hills = scan::hills(&mut profiles, tool, x)?;
+            let mut tops = vec![Touch::NOWHERE; hills.len()];
+            close_in(&mut profiles, tool.nose_radius, x, &mut hills, &mut tops)?;
+            for (hill, top) in hills.iter().zip(tops) {
+                let touch = &mut out[hill.point];
+                if touch.z.is_nan() || top.z > touch.z {
+                    *touch = top;
                 }
             }
+            Ok(())
         }
-        let around = |(x, (_, offset)): (&f64, &(f64, f64))| Bracket {
-            low: x + (offset - step).max(-reach),
-            high: x + (offset + step).min(reach),
-            start: x + offset,
-        };
-        Ok(x.iter().zip(&best).map(around).collect())
     }
+}
+
+/// The touch of a point: the surface itself.
+fn bare(profiles: &mut Profiles<'_>, x: &[f64], out: &mut [Touch]) -> Result<()> {
+    profiles.at_all(x)?;
+    for (i, touch) in out.iter_mut().enumerate() {
+        *touch = Touch {
+            z: profiles.height[i],
+            foot: x[i],
+            slope: profiles.slope[i],
+        };
+    }
+    Ok(())
 }
 
 /// Where a maximum lies.
 #[derive(Debug, Clone, Copy)]
-struct Bracket {
-    low: f64,
-    high: f64,
-    start: f64,
+pub(crate) struct Bracket {
+    /// Of which (θ, X).
+    pub point: usize,
+    pub low: f64,
+    pub high: f64,
+    /// A place in it where the surface has a height.
+    pub start: f64,
 }
 
 impl Bracket {
     fn of_reach(tool: &Tool, x: &[f64]) -> Vec<Self> {
         let reach = tool.reach();
-        x.iter()
-            .map(|x| Self {
-                low: x - reach,
-                high: x + reach,
-                start: *x,
-            })
-            .collect()
+        let around = |(point, x): (usize, &f64)| Self {
+            point,
+            low: x - reach,
+            high: x + reach,
+            start: *x,
+        };
+        x.iter().enumerate().map(around).collect()
     }
 }
 
 /// One search: F(s) = g_ρ q − (s − X), q = sqrt(R² − (s − X)²), falls through zero at a maximum.
 #[derive(Clone, Copy)]
 struct Search {
-    index: usize,
+    bracket: usize,
     at: f64,
     before: Option<(f64, f64)>,
 }
 
-/// Closes in on the maximum in every bracket.
+/// Closes in on the maximum in every bracket; `out` has a place for each.
 fn close_in(
-    profile: &mut Profiles<'_>,
+    profiles: &mut Profiles<'_>,
     radius: f64,
     x: &[f64],
     brackets: &mut [Bracket],
     out: &mut [Touch],
 ) -> Result<()> {
-    let mut open: Vec<Search> = brackets
-        .iter()
-        .enumerate()
-        .map(|(index, bracket)| Search {
-            index,
-            at: bracket.start,
-            before: None,
-        })
-        .collect();
+    let begin = |(bracket, within): (usize, &Bracket)| Search {
+        bracket,
+        at: within.start,
+        before: None,
+    };
+    let mut open: Vec<Search> = brackets.iter().enumerate().map(begin).collect();
     for step in 0..MOST_STEPS {
         if open.is_empty() {
             break;
         }
-        profile.at(open.iter().map(|search| (search.index, search.at)))?;
-        let mut still_open = 0;
-        for i in 0..open.len() {
-            let mut search = open[i];
-            let (index, offset) = (search.index, search.at - x[search.index]);
+        let point = |search: &Search| brackets[search.bracket].point;
+        profiles.at(open.iter().map(|search| (point(search), search.at)))?;
+        let mut i = 0;
+        open.retain_mut(|search| {
+            let (height, slope) = (profiles.height[i], profiles.slope[i]);
+            i += 1;
+            let bracket = &mut brackets[search.bracket];
+            let offset = search.at - x[bracket.point];
             let lift = (radius * radius - offset * offset).max(0.0).sqrt();
-            let slope = profile.slope[i];
-            out[index] = Touch {
-                z: profile.height[i] + lift,
-                foot: search.at,
-                slope,
-            };
+            if height.is_finite() {
+                out[search.bracket] = Touch {
+                    z: height + lift,
+                    foot: search.at,
+                    slope,
+                };
+            }
             let seen = Seen {
                 fall: slope * lift - offset,
-                by_normal: x[index] + radius * slope / (1.0 + slope * slope).sqrt(),
+                by_normal: x[bracket.point] + radius * slope / (1.0 + slope * slope).sqrt(),
             };
             let halve = step > PATIENCE && step % 2 == 0;
-            let next = search.next(&seen, &mut brackets[index], halve);
-            if (next - search.at).abs() > FOOT_TOLERANCE * radius {
-                search.before = Some((search.at, seen.fall));
-                search.at = next;
-                open[still_open] = search;
-                still_open += 1;
+            let next = search.next(&seen, bracket, halve);
+            if (next - search.at).abs() <= FOOT_TOLERANCE * radius {
+                return false;
             }
-        }
-        open.truncate(still_open);
+            search.before = Some((search.at, seen.fall));
+            search.at = next;
+            true
+        });
     }
     Ok(())
 }
@@ -230,72 +227,6 @@ impl Search {
         } else {
             0.5 * (bracket.low + bracket.high)
         }
-    }
-}
-
-/// Radial profiles at a set of angles, in batches.
-struct Profiles<'a> {
-    surface: &'a dyn SurfaceModel,
-    turned: Vec<(f64, f64)>,
-    x: Vec<f64>,
-    y: Vec<f64>,
-    zx: Vec<f64>,
-    zy: Vec<f64>,
-    height: Vec<f64>,
-    slope: Vec<f64>,
-}
-
-impl<'a> Profiles<'a> {
-    fn new(surface: &'a dyn SurfaceModel, theta: &[f64]) -> Self {
-        let turned = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
-        let empty = Vec::new;
-        let (x, y, zx, zy) = (empty(), empty(), empty(), empty());
-        Self {
-            surface,
-            turned,
-            x,
-            y,
-            zx,
-            zy,
-            height: empty(),
-            slope: empty(),
-        }
-    }
-
-    /// Height and slope at one radius for each angle.
-    fn at_all(&mut self, rho: &[f64]) -> Result<()> {
-        self.at(rho.iter().copied().enumerate())
-    }
-
-    /// Height and slope at (which angle, radius).
-    fn at(&mut self, places: impl Iterator<Item = (usize, f64)> + Clone) -> Result<()> {
-        self.x.clear();
-        self.y.clear();
-        for (index, rho) in places.clone() {
-            let (s, c) = self.turned[index];
-            self.x.push(rho * c);
-            self.y.push(rho * s);
-        }
-        let count = self.x.len();
-        for places in [
-            &mut self.height,
-            &mut self.slope,
-            &mut self.zx,
-            &mut self.zy,
-        ] {
-            places.resize(count, 0.0);
-        }
-        let out = Gradients {
-            z: &mut self.height,
-            zx: &mut self.zx,
-            zy: &mut self.zy,
-        };
-        self.surface.gradient(&self.x, &self.y, out)?;
-        for (i, (index, _)) in places.enumerate() {
-            let (s, c) = self.turned[index];
-            self.slope[i] = self.zx[i] * c + self.zy[i] * s;
-        }
-        Ok(())
     }
 }
 

@@ -1,0 +1,72 @@
+//! Radial profiles: height and slope of the surface along rays from the spindle axis.
+
+use turnpath_core::{Gradients, Result, Scalar, SurfaceModel};
+
+/// Radial profiles at a set of angles, in batches.
+pub(crate) struct Profiles<'a> {
+    surface: &'a dyn SurfaceModel,
+    turned: Vec<(f64, f64)>,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    zx: Vec<f64>,
+    zy: Vec<f64>,
+    /// g at the places last asked for.
+    pub height: Vec<f64>,
+    /// g_ρ there.
+    pub slope: Vec<f64>,
+}
+
+impl<'a> Profiles<'a> {
+    /// For the profiles at these angles.
+    pub fn new(surface: &'a dyn SurfaceModel, theta: &[f64]) -> Self {
+        let turned = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
+        let empty = Vec::new;
+        let (x, y, zx, zy) = (empty(), empty(), empty(), empty());
+        Self {
+            surface,
+            turned,
+            x,
+            y,
+            zx,
+            zy,
+            height: empty(),
+            slope: empty(),
+        }
+    }
+
+    /// Height and slope at one radius for each angle.
+    pub fn at_all(&mut self, rho: &[f64]) -> Result<()> {
+        self.at(rho.iter().copied().enumerate())
+    }
+
+    /// Height and slope at (which angle, radius).
+    pub fn at(&mut self, places: impl Iterator<Item = (usize, f64)> + Clone) -> Result<()> {
+        self.x.clear();
+        self.y.clear();
+        for (index, rho) in places.clone() {
+            let (s, c) = self.turned[index];
+            self.x.push(rho * c);
+            self.y.push(rho * s);
+        }
+        let count = self.x.len();
+        for places in [
+            &mut self.height,
+            &mut self.slope,
+            &mut self.zx,
+            &mut self.zy,
+        ] {
+            places.resize(count, 0.0);
+        }
+        let out = Gradients {
+            z: &mut self.height,
+            zx: &mut self.zx,
+            zy: &mut self.zy,
+        };
+        self.surface.gradient(&self.x, &self.y, out)?;
+        for (i, (index, _)) in places.enumerate() {
+            let (s, c) = self.turned[index];
+            self.slope[i] = self.zx[i] * c + self.zy[i] * s;
+        }
+        Ok(())
+    }
+}

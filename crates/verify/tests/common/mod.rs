@@ -1,0 +1,198 @@
+//! Surfaces with closed forms, and paths over them made from closed forms alone.
+#![allow(dead_code, reason = "each test uses what it needs")]
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use turnpath_core::toolpath::{ControlPoint, PathBlock};
+use turnpath_core::{DEG, Part, Scalar, Surface, Tool};
+use turnpath_verify::{FirstTouch, Meter, PathFigures, Subject, Touch};
+
+/// 500 revolutions a minute, in rad/s.
+pub const SPEED: f64 = 500.0 / 60.0 * TAU;
+/// AST-5.
+pub const AST5: Astigmatic = Astigmatic { k: 0.08 };
+
+/// z = 2 k x y.
+#[derive(Clone, Copy)]
+pub struct Astigmatic {
+    pub k: f64,
+}
+
+impl Surface for Astigmatic {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        x * y * (2.0 * self.k)
+    }
+}
+
+/// z = slope · x.
+pub struct Plane {
+    pub slope: f64,
+}
+
+impl Surface for Plane {
+    fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+        x * self.slope
+    }
+}
+
+/// A ball's lower half seen from inside (positive radius), or its upper half.
+pub struct Ball {
+    pub radius: f64,
+}
+
+impl Surface for Ball {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let root = (-(x.squared() + y.squared()) + self.radius * self.radius).sqrt();
+        if self.radius > 0.0 {
+            -root + self.radius
+        } else {
+            root + self.radius
+        }
+    }
+}
+
+/// A trough along y.
+pub struct Trough {
+    pub radius: f64,
+}
+
+impl Surface for Trough {
+    fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+        -(-x.squared() + self.radius * self.radius).sqrt() + self.radius
+    }
+}
+
+/// A groove along y with a rounded bottom: z = slope · sqrt(x² + width²).
+pub struct Groove {
+    pub slope: f64,
+    pub width: f64,
+}
+
+impl Surface for Groove {
+    fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+        (x.squared() + self.width * self.width).sqrt() * self.slope
+    }
+}
+
+/// z = height · sin(wave number · x).
+pub struct Waves {
+    pub height: f64,
+    pub wave_number: f64,
+}
+
+impl Surface for Waves {
+    fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+        (x * self.wave_number).sin() * self.height
+    }
+}
+
+/// Finds touches of a nose on a surface; a nose radius of `None`: the path of a point.
+pub fn touch_on(
+    surface: impl Surface + 'static,
+    aperture_radius: f64,
+    nose_radius: f64,
+    compensates_nose: bool,
+) -> FirstTouch {
+    let tool = Tool {
+        nose_radius,
+        included_angle: None,
+        clearance_angle: None,
+    };
+    touch_of(surface, aperture_radius, tool, compensates_nose)
+}
+
+/// The same with a whole tool.
+pub fn touch_of(
+    surface: impl Surface + 'static,
+    aperture_radius: f64,
+    tool: Tool,
+    compensates_nose: bool,
+) -> FirstTouch {
+    FirstTouch::new(Subject {
+        surface: Arc::new(surface),
+        part: Part {
+            aperture_radius,
+            inner_radius: 0.0,
+        },
+        tool,
+        compensates_nose,
+    })
+    .expect("a surface with heights")
+}
+
+/// The touch at each X, all at one angle.
+pub fn touches(touch: &FirstTouch, theta: f64, x: &[f64]) -> Vec<Touch> {
+    let mut found = Vec::new();
+    let theta = vec![theta; x.len()];
+    touch.find(&theta, x, &mut found).expect("an answer");
+    found
+}
+
+/// All figures of a path measured in one piece.
+pub fn figures(touch: &FirstTouch, points: &PathBlock) -> PathFigures {
+    let mut meter = Meter::new(touch.clone());
+    let measured = Meter::measure(touch, points).expect("a measure");
+    meter.append(&measured).expect("a measure");
+    meter.figures().clone()
+}
+
+/// Z, ∂Z/∂θ and ∂Z/∂X of a nose over k ρ² sin 2θ, by Newton's method for its foot.
+pub fn astigmatic_locus(surface: Astigmatic, nose: f64, theta: f64, x: f64) -> [f64; 3] {
+    let (sin, cos) = Scalar::sin_cos(2.0 * theta);
+    let bend = 2.0 * surface.k * sin;
+    let mut foot = x;
+    for _ in 0..50 {
+        let w = (1.0 + bend * bend * foot * foot).sqrt();
+        foot -= (foot - nose * bend * foot / w - x) / (1.0 - nose * bend / (w * w * w));
+    }
+    let w = (1.0 + bend * bend * foot * foot).sqrt();
+    let height = 0.5 * bend * foot * foot + nose / w;
+    [height, 2.0 * surface.k * foot * foot * cos, bend * foot]
+}
+
+/// A path over an astigmatic surface with exact velocities: X = `x(θ)`, which has rate
+/// `x_rate(θ)`, at steps of `step` rad.
+pub fn astigmatic_path(
+    surface: Astigmatic,
+    nose: f64,
+    steps: usize,
+    step: f64,
+    law: impl Fn(f64) -> (f64, f64),
+) -> PathBlock {
+    let mut points = PathBlock::default();
+    for i in 0..=steps {
+        let theta = step * i as f64;
+        let (x, rate) = law(theta);
+        let [z, z_theta, z_x] = astigmatic_locus(surface, nose, theta, x);
+        points.push(ControlPoint {
+            t: theta / SPEED,
+            c: theta,
+            x,
+            z,
+            vc: SPEED,
+            vx: rate * SPEED,
+            vz: (z_theta + z_x * rate) * SPEED,
+        });
+    }
+    points
+}
+
+/// A spiral whose Z does not matter, at steps of 6 deg: X against revolutions.
+pub fn bare_spiral(turns: f64, x: impl Fn(f64) -> f64) -> PathBlock {
+    let mut points = PathBlock::default();
+    for i in 0..=(turns * 60.0) as usize {
+        let n = i as f64 / 60.0;
+        points.push(ControlPoint {
+            t: n * TAU / SPEED,
+            c: 6.0 * DEG * i as f64,
+            x: x(n),
+            z: 0.0,
+            vc: SPEED,
+            vx: (x(n + 1e-5) - x(n - 1e-5)) / 2e-5 * SPEED / TAU,
+            vz: 0.0,
+        });
+    }
+    points
+}
