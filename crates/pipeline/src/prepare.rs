@@ -15,6 +15,8 @@ use crate::{Chain, PipelineError, Result};
 
 /// Angles at which the contact is looked for beyond the rim and the hole.
 const RIM_ANGLES: usize = 720;
+/// Places of the nose's reach at which the surface is looked for.
+const REACH_PLACES: usize = 64;
 
 /// A job whose tool fits its part.
 pub struct Prepared {
@@ -72,16 +74,15 @@ pub fn prepare(
         |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
         &tool,
     )?;
-    let interference = check(contact_range(chain, &locus, range)?)?;
-    refuse(&interference, |_| true, &tool)?;
-    let compensates_nose = compensator.compensates_nose();
     let subject = Subject {
-        surface,
+        surface: surface.clone(),
         part,
         tool,
-        compensates_nose,
+        compensates_nose: compensator.compensates_nose(),
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
+    let interference = check(contact_range(chain, &locus, &tool, range)?)?;
+    refuse(&interference, |_| true, &tool)?;
     Ok(Prepared {
         job,
         locus,
@@ -137,7 +138,12 @@ fn refuse(found: &Interference, which: impl Fn(&Conflict) -> bool, tool: &Tool) 
 
 /// The radii of contact while ρ runs over `range`: where ρ is the centre's X, contact reaches
 /// beyond it on slopes.
-fn contact_range(chain: &Chain, locus: &ToolLocus, range: RadialRange) -> Result<RadialRange> {
+fn contact_range(
+    chain: &Chain,
+    locus: &ToolLocus,
+    tool: &Tool,
+    range: RadialRange,
+) -> Result<RadialRange> {
     let theta: Vec<f64> = (0..RIM_ANGLES)
         .map(|i| TAU * i as f64 / RIM_ANGLES as f64)
         .collect();
@@ -147,7 +153,10 @@ fn contact_range(chain: &Chain, locus: &ToolLocus, range: RadialRange) -> Result
         room.resize(theta.len());
         let answer = locus.centre(&theta, &vec![rho; theta.len()], room.as_centres());
         answer.map_err(|error| chain.compensator.failed(format!("at ρ = {rho} mm"), error))?;
-        for foot in room.foot.iter().filter(|foot| foot.is_finite()) {
+        for (foot, theta) in room.foot.iter().zip(&theta) {
+            if !foot.is_finite() {
+                return Err(no_contact(chain, tool, *theta, rho));
+            }
             contact.inner = contact.inner.min(foot.abs());
             contact.outer = contact.outer.max(foot.abs());
         }
@@ -156,4 +165,29 @@ fn contact_range(chain: &Chain, locus: &ToolLocus, range: RadialRange) -> Result
         contact.inner = 0.0;
     }
     Ok(contact)
+}
+
+/// Where a compensator finds no contact: the recipe's fault if the surface ends within the
+/// nose's reach, the compensator's if not.
+fn no_contact(chain: &Chain, tool: &Tool, theta: f64, rho: f64) -> PipelineError {
+    let place = format!(
+        "at C = {:.1} deg, ρ = {rho:.4} mm",
+        theta / turnpath_core::DEG
+    );
+    let (s, c) = turnpath_core::Scalar::sin_cos(theta);
+    let reach = tool.reach();
+    let feet =
+        (0..=REACH_PLACES).map(|i| rho + reach * (2.0 * i as f64 / REACH_PLACES as f64 - 1.0));
+    let (x, y): (Vec<f64>, Vec<f64>) = feet.map(|foot| (foot * c, foot * s)).unzip();
+    let mut z = vec![f64::NAN; x.len()];
+    match chain.surface.strategy.heights(&x, &y, &mut z) {
+        Err(error) => chain.surface.failed(place, error),
+        Ok(()) if z.iter().all(|z| z.is_finite()) => chain
+            .compensator
+            .bad_answer(format!("no number for the contact {place}")),
+        Ok(()) => PipelineError::NoSurface(StrategyError::failed(format!(
+            "the nose finds no contact {place}, since the surface ends within its reach; choose a \
+             smaller aperture or a smaller tool"
+        ))),
+    }
 }

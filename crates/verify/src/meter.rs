@@ -1,7 +1,7 @@
 //! The meter: a path in stretches, measured apart and put together in order.
 
-use turnpath_core::Result;
-use turnpath_core::toolpath::PathBlock;
+use turnpath_core::toolpath::{ControlPoint, PathBlock};
+use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
 use crate::playback::{PlaybackFigures, play_back};
@@ -20,6 +20,7 @@ pub struct Measured {
     /// Motion of the axes.
     pub axes: AxesMotion,
     passes: Passes,
+    ends: Option<[ControlPoint; 2]>,
 }
 
 /// The measure of a whole path.
@@ -38,6 +39,7 @@ pub struct Meter {
     touch: FirstTouch,
     figures: PathFigures,
     passes: Passes,
+    ends: Option<[ControlPoint; 2]>,
 }
 
 impl Meter {
@@ -47,6 +49,7 @@ impl Meter {
             touch,
             figures: PathFigures::default(),
             passes: Passes::default(),
+            ends: None,
         }
     }
 
@@ -59,6 +62,7 @@ impl Meter {
     pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<Measured> {
         let mut measured = Measured {
             axes: AxesMotion::of(points),
+            ends: ends(points),
             ..Measured::default()
         };
         measured.playback = play_back(touch, points, &mut measured.per_segment)?;
@@ -82,11 +86,40 @@ impl Meter {
         self.figures.residual.append(&next.residual);
         let seam = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&seam);
+        self.ends = match (self.ends, next.ends) {
+            (Some([first, _]), Some([_, last])) => Some([first, last]),
+            (own, next) => own.or(next),
+        };
         Ok(())
+    }
+
+    /// From which ρ to which the path runs, by its two ends: X, or the radius of the contact
+    /// where that is what ρ stands for. `None` before anything was measured.
+    pub fn reach(&self, radial: Radial) -> Result<Option<RadialRange>> {
+        let Some(ends) = self.ends else {
+            return Ok(None);
+        };
+        let rho = match radial {
+            Radial::Centre => ends.map(|end| end.x),
+            Radial::Contact => {
+                let mut touches = Vec::new();
+                self.touch
+                    .find(&ends.map(|end| end.c), &ends.map(|end| end.x), &mut touches)?;
+                [touches[0].foot, touches[1].foot]
+            }
+        };
+        Ok(Some(RadialRange {
+            inner: rho[0].min(rho[1]),
+            outer: rho[0].max(rho[1]),
+        }))
     }
 
     /// The figures so far.
     pub fn figures(&self) -> &PathFigures {
         &self.figures
     }
+}
+
+fn ends(points: &PathBlock) -> Option<[ControlPoint; 2]> {
+    Some([points.get(0)?, points.get(points.len() - 1)?])
 }
