@@ -13,9 +13,10 @@ const LARGEST: f64 = 1.0;
 /// The publications' formula is lost in the texts at hand; this one is derived from what they say
 /// of it, and gives the pattern of their figures. Each velocity carries the one before with the
 /// factor 1 − 1/c: with c = ⅔ an error halves from node to node and the error of position is of
-/// order 2 in the step; with c = ½ it is of order 3 on even steps and those that change smoothly,
-/// but no error ever dies out: it rings through the whole path. Hence it is solved in order from
-/// the path's start for every c: no overlap is long enough for all of them.
+/// order 2 in the step; with c = ½ it is of order 3 on even steps, halved ones and those that
+/// change smoothly, of order 2½ on steps in no order, since no error ever dies out: all ring
+/// through the rest of the path. Hence it is solved in order from the path's start, for every c:
+/// no overlap is long enough for all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Area {
     c: f64,
@@ -27,7 +28,7 @@ impl Strategy for Area {
         "velocities whose curve has each segment's area, one after the other";
     const SOURCE: &'static str = "the area method of the papers on triangle rotary, \
         V₊ = V + (ΔP/h − V)/c (derived: the printed formula is lost); error of order 3 for c = ½, \
-        ringing, of order 2 beyond";
+        ringing (2½ on steps in no order), of order 2 for larger c";
     const PARAMS: &'static [Param] = &[Param::number(
         "c",
         "share of the later velocity in a segment's mean, 0.5 to 1; 0.5 rings, 0.667 decays by half a point",
