@@ -71,7 +71,7 @@ fn a_unit_that_is_missing() {
 
 #[test]
 fn a_parameter_that_is_missing() {
-    insta::assert_snapshot!(with_change("step = \"9 deg\"\n", ""));
+    insta::assert_snapshot!(with_change("k = \"0.08 /mm\"\n", ""));
 }
 
 #[test]

@@ -21,7 +21,16 @@ const BUILT_INS: [(&str, &[&str]); 5] = [
     ("feed", &["constant"]),
     ("sampler", &["equal-angle"]),
     ("compensator", &["none", "normal", "z-direction"]),
-    ("velocity", &["analytic", "triangle-rotary"]),
+    (
+        "velocity",
+        &[
+            "analytic",
+            "area",
+            "linear",
+            "three-point",
+            "triangle-rotary",
+        ],
+    ),
 ];
 
 /// Slot and name of each line of a list.

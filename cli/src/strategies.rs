@@ -148,6 +148,16 @@ pub fn compensator(
     })
 }
 
+/// The recipe's velocity solver alone.
+pub fn velocity(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+) -> Result<Link<dyn turnpath_core::VelocitySolver>, Failure> {
+    link(recipe, catalogue, Slot::Velocity, |strategy, params| {
+        strategy.offer().velocity(params)
+    })
+}
+
 /// The recipe's five strategies.
 pub fn chain(recipe: &Recipe, catalogue: &Catalogue) -> Result<Chain, Failure> {
     Ok(Chain {
@@ -159,8 +169,6 @@ pub fn chain(recipe: &Recipe, catalogue: &Catalogue) -> Result<Chain, Failure> {
             strategy.offer().sampler(params)
         })?,
         compensator: compensator(recipe, catalogue)?,
-        velocity: link(recipe, catalogue, Slot::Velocity, |strategy, params| {
-            strategy.offer().velocity(params)
-        })?,
+        velocity: velocity(recipe, catalogue)?,
     })
 }

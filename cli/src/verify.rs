@@ -1,8 +1,11 @@
 //! `turnpath verify`: any tool path against a recipe's surface, tool and tolerances.
+//!
+//! Control points do not say what is played between them: that is taken from the recipe's
+//! velocity solver, cubics or straight lines.
 
 use rayon::prelude::*;
 use serde::Serialize;
-use turnpath_core::toolpath::PathBlock;
+use turnpath_core::toolpath::{PathBlock, SegmentShape};
 use turnpath_core::{Slot, StrategyError};
 use turnpath_pipeline::PipelineError;
 use turnpath_post::PathReader;
@@ -35,8 +38,8 @@ pub fn verify(args: &VerifyArgs) -> Done {
     use_threads(&args.work);
     let recipe = Recipe::load(&args.recipe.recipe, &args.recipe.set)?;
     let mut reader = PathReader::open(&args.file)?;
-    let subject = subject(&recipe, args)?;
-    let meter = measure(&recipe, subject, &mut reader)?;
+    let (subject, shape) = subject(&recipe, args)?;
+    let meter = measure(&recipe, subject, shape, &mut reader)?;
     if reader.cutting() < 2 {
         let file = args.file.display();
         let message = format!("error: {file} has no cutting section to measure");
@@ -61,19 +64,29 @@ pub fn verify(args: &VerifyArgs) -> Done {
     })
 }
 
-fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<Subject, Failure> {
+/// What the file is measured against, and what is played between its control points.
+fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<(Subject, SegmentShape), Failure> {
     let catalogue = strategies::catalogue_for(recipe, &args.recipe)?;
     let surface = strategies::surface(recipe, &catalogue)?.strategy;
     let compensator = strategies::compensator(recipe, &catalogue)?.strategy;
-    Ok(Subject {
+    let shape = strategies::velocity(recipe, &catalogue)?
+        .strategy
+        .segments();
+    let subject = Subject {
         surface,
         part: recipe.part,
         tool: recipe.tool,
         compensates_nose: compensator.compensates_nose(),
-    })
+    };
+    Ok((subject, shape))
 }
 
-fn measure(recipe: &Recipe, subject: Subject, reader: &mut PathReader) -> Result<Meter, Failure> {
+fn measure(
+    recipe: &Recipe,
+    subject: Subject,
+    shape: SegmentShape,
+    reader: &mut PathReader,
+) -> Result<Meter, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
     let touch = FirstTouch::new(subject).map_err(failed)?;
     let mut meter = Meter::new(touch);
@@ -81,7 +94,7 @@ fn measure(recipe: &Recipe, subject: Subject, reader: &mut PathReader) -> Result
         let mut blocks: Vec<PathBlock> = Vec::new();
         while blocks.len() < BLOCKS {
             match reader.next_block(BLOCK_ROWS)? {
-                Some(block) => blocks.push(block),
+                Some(block) => blocks.push(PathBlock { shape, ..block }),
                 None => break,
             }
         }

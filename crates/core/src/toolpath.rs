@@ -12,6 +12,17 @@ pub enum Section {
     LeadOut = 2,
 }
 
+/// What is played between neighbouring control points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SegmentShape {
+    /// The cubic Hermite of both points' positions and velocities: a PVT move.
+    #[default]
+    Cubic,
+    /// A straight line at constant speed on each axis. Velocities are not used; those that stand
+    /// at a point are the rates of the segment that follows.
+    Linear,
+}
+
 /// One control point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ControlPoint {
@@ -57,6 +68,8 @@ pub struct PathBlock {
     pub vx: Vec<f64>,
     /// dZ/dt, mm/s.
     pub vz: Vec<f64>,
+    /// What is played between the points.
+    pub shape: SegmentShape,
 }
 
 impl PathBlock {
@@ -91,6 +104,7 @@ impl PathBlock {
             vc,
             vx,
             vz,
+            shape: _,
         } = self;
         for column in [t, c, x, z, vc, vx, vz] {
             column.truncate(count);
@@ -115,11 +129,15 @@ impl PathBlock {
         (0..self.len()).filter_map(|index| self.get(index))
     }
 
-    /// The segments between neighbouring points.
+    /// The segments between neighbouring points, of the block's shape.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
+        let between = match self.shape {
+            SegmentShape::Cubic => Segment::between,
+            SegmentShape::Linear => Segment::straight,
+        };
         self.points()
             .zip(self.points().skip(1))
-            .map(|(from, to)| Segment::between(&from, &to))
+            .map(move |(from, to)| between(&from, &to))
     }
 }
 
@@ -132,6 +150,11 @@ impl Cubic {
     pub fn hermite(p0: f64, v0: f64, p1: f64, v1: f64, duration: f64) -> Self {
         let (rise, m0, m1) = (p1 - p0, v0 * duration, v1 * duration);
         Self([p0, m0, 3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise])
+    }
+
+    /// The straight line from p0 to p1.
+    pub fn straight(p0: f64, p1: f64) -> Self {
+        Self([p0, p1 - p0, 0.0, 0.0])
     }
 
     /// Its value at `s`.
@@ -185,6 +208,17 @@ impl Segment {
             z: Cubic::hermite(from.z, from.vz, to.z, to.vz, duration),
         }
     }
+
+    /// The straight move from one control point to the next; their velocities are not used.
+    pub fn straight(from: &ControlPoint, to: &ControlPoint) -> Self {
+        Self {
+            start: from.t,
+            duration: to.t - from.t,
+            c: Cubic::straight(from.c, to.c),
+            x: Cubic::straight(from.x, to.x),
+            z: Cubic::straight(from.z, to.z),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -203,5 +237,27 @@ mod tests {
             assert!((cubic.slope(s) - 0.5 * v(t)).abs() < 1e-14);
         }
         assert!((cubic.jerk() - 18.0 * 0.125).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_blocks_shape_is_that_of_its_segments() {
+        let point = |t: f64, z: f64, vz: f64| ControlPoint {
+            t,
+            z,
+            vz,
+            ..ControlPoint::default()
+        };
+        let mut block = PathBlock::default();
+        block.push(point(0.0, 1.0, 7.0));
+        block.push(point(2.0, 3.0, -7.0));
+        let middle = |block: &PathBlock| block.segments().next().map(|s| s.z.value(0.5));
+        assert_eq!(middle(&block), Some(5.5));
+        block.shape = SegmentShape::Linear;
+        assert_eq!(middle(&block), Some(2.0));
+        let straight = block
+            .segments()
+            .next()
+            .map(|s| (s.z.slope(0.3), s.z.jerk()));
+        assert_eq!(straight, Some((2.0, 0.0)));
     }
 }

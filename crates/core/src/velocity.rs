@@ -1,5 +1,6 @@
 //! The PVT velocity solver: the velocities that the controller's cubics take at the nodes.
 
+use crate::toolpath::SegmentShape;
 use crate::{Dependence, Result};
 
 /// What a solver gets of the nodes; all slices have the same length.
@@ -60,6 +61,11 @@ pub trait VelocitySolver: Send + Sync {
     /// How a block depends on its neighbours' nodes. With `Overlap(n)` the host hands over n nodes
     /// more on either side (fewer only at the path's ends) and keeps the block's own.
     fn dependence(&self) -> Dependence;
+
+    /// What is to be played between the control points: cubics, unless it says otherwise.
+    fn segments(&self) -> SegmentShape {
+        SegmentShape::Cubic
+    }
 
     /// The velocities at all nodes handed over.
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()>;

@@ -291,7 +291,10 @@ fn solve(
     };
     let start = columns.t.get(own.start).copied().unwrap_or_default();
     answer.map_err(|error| link.failed(format!("from {start:.6} s on"), error))?;
-    let mut points = PathBlock::default();
+    let mut points = PathBlock {
+        shape: link.strategy.segments(),
+        ..PathBlock::default()
+    };
     // One more than its own: the joint with the next block.
     for k in own.start..(own.end + 1).min(columns.len()) {
         let point = columns.point(k, c[k], x[k], z[k]);

@@ -45,6 +45,7 @@ pub use registration::{Build, Registration};
 pub mod prelude {
     pub use std::f64::consts::{PI, TAU};
     pub use turnpath_core::interference::{self, Interference};
+    pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{
         CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence, Direction, Dual,
         FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus, Mask, NM, Nodes,

@@ -5,6 +5,9 @@ use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Section};
 
 /// The first line of `toolpath.csv`.
+///
+/// Of a path of straight segments the velocities are the rates of the segment that follows each
+/// point, at the last one those of the segment before.
 pub const HEADER: [&str; 8] = [
     "time_s",
     "c_deg",

@@ -1,20 +1,35 @@
-//! How hard the axes work: velocity, acceleration and jerk of the played cubics.
+//! How hard the axes work: velocity, acceleration and jerk of what is played.
+//!
+//! Straight segments have their acceleration in impulses at the control points, where a controller
+//! blends from one rate to the next. What is told of them is the jump of the rate over the mean of
+//! both segments' times: the least acceleration that a blend can do with, from one segment's
+//! middle to the other's.
 
-use turnpath_core::toolpath::{Cubic, PathBlock};
+use turnpath_core::toolpath::{Cubic, PathBlock, SegmentShape};
 
 /// One axis over a path, in its own unit (mm or rad) and seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisMotion {
     /// Largest speed.
     pub max_velocity: f64,
-    /// Largest acceleration.
+    /// Largest acceleration; between straight segments that of the slowest blend.
     pub max_acceleration: f64,
-    /// Largest jerk within segments; the steps of acceleration between them are not in it.
+    /// Largest jerk within segments; the steps of acceleration between them are not in it, so
+    /// straight segments have none.
     pub max_jerk: f64,
     /// Time integral of the acceleration's square.
     square: f64,
     /// Time measured, s.
     time: f64,
+    /// The first and the last straight segment, where there are such.
+    outer: Option<[Straight; 2]>,
+}
+
+/// A straight segment of one axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Straight {
+    rate: f64,
+    duration: f64,
 }
 
 impl AxisMotion {
@@ -45,7 +60,31 @@ impl AxisMotion {
         self.time += duration;
     }
 
+    fn see_straight(&mut self, rise: f64, duration: f64) {
+        let rate = rise / duration;
+        let here = Straight { rate, duration };
+        self.max_velocity = self.max_velocity.max(rate.abs());
+        self.time += duration;
+        self.join([here, here]);
+    }
+
+    /// Blends from the last straight segment so far into the first of those that follow.
+    fn join(&mut self, [first, last]: [Straight; 2]) {
+        let Some([begin, before]) = self.outer else {
+            self.outer = Some([first, last]);
+            return;
+        };
+        let blend = 0.5 * (before.duration + first.duration);
+        let acceleration = (first.rate - before.rate) / blend;
+        self.max_acceleration = self.max_acceleration.max(acceleration.abs());
+        self.square += acceleration * acceleration * blend;
+        self.outer = Some([begin, last]);
+    }
+
     fn append(&mut self, next: &Self) {
+        if let Some(straight) = next.outer {
+            self.join(straight);
+        }
         self.max_velocity = self.max_velocity.max(next.max_velocity);
         self.max_acceleration = self.max_acceleration.max(next.max_acceleration);
         self.max_jerk = self.max_jerk.max(next.max_jerk);
@@ -70,9 +109,17 @@ impl AxesMotion {
     pub fn of(points: &PathBlock) -> Self {
         let mut motion = Self::default();
         for segment in points.segments() {
-            motion.c.see(&segment.c, segment.duration);
-            motion.x.see(&segment.x, segment.duration);
-            motion.z.see(&segment.z, segment.duration);
+            let axes = [
+                (&mut motion.c, &segment.c),
+                (&mut motion.x, &segment.x),
+                (&mut motion.z, &segment.z),
+            ];
+            for (axis, played) in axes {
+                match points.shape {
+                    SegmentShape::Cubic => axis.see(played, segment.duration),
+                    SegmentShape::Linear => axis.see_straight(played.slope(0.0), segment.duration),
+                }
+            }
         }
         motion
     }
@@ -107,5 +154,38 @@ mod tests {
         assert!((z.max_acceleration - 12.0).abs() < 1e-12);
         assert!((z.max_jerk - 6.0).abs() < 1e-12);
         assert!((z.rms_acceleration() - 48f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn straight_segments_have_the_blends_acceleration_also_where_stretches_join() {
+        let polygon = |points: &[(f64, f64)]| {
+            let mut block = PathBlock {
+                shape: SegmentShape::Linear,
+                ..PathBlock::default()
+            };
+            for (t, z) in points {
+                block.push(ControlPoint {
+                    t: *t,
+                    z: *z,
+                    vz: 1e9,
+                    ..ControlPoint::default()
+                });
+            }
+            AxesMotion::of(&block)
+        };
+        let points = [(0.0, 0.0), (1.0, 2.0), (4.0, 2.0), (5.0, -1.0)];
+        let whole = polygon(&points);
+        // Rates 2, 0, −3; blends of 2 s each: 1 and 1.5 mm/s².
+        assert_eq!(whole.z.max_velocity, 3.0);
+        assert_eq!(whole.z.max_acceleration, 1.5);
+        assert_eq!(whole.z.max_jerk, 0.0);
+        let mean_square: f64 = (1.0 * 2.0 + 2.25 * 2.0) / 5.0;
+        assert!((whole.z.rms_acceleration() - mean_square.sqrt()).abs() < 1e-15);
+        for joint in [1, 2] {
+            let mut parts = AxesMotion::default();
+            parts.append(&polygon(&points[..=joint]));
+            parts.append(&polygon(&points[joint..]));
+            assert_eq!(parts, whole);
+        }
     }
 }

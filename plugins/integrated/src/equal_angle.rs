@@ -2,37 +2,54 @@
 
 use turnpath_plugin::prelude::*;
 
+use crate::sharpest::{Spot, sharpest, where_is};
+
 /// A count of steps a revolution this close to a whole one is that one: 6 deg in rad is not a
 /// 60th of a revolution to the last digit, and the 60th node must not drift off.
 const WHOLE: f64 = 1e-9;
 /// A node closer than this part of a step to the path's end is left out: it would be the end.
 const SLACK: f64 = 1e-6;
+/// Part of the interpolation tolerance that a derived step aims at: a little below what refinement
+/// takes for good, so that it finds nothing to do, for half a percent more points.
+const AIM: f64 = 0.98;
+/// Smallest step that is derived: 360,000 points a revolution are a kink of the surface, not what
+/// somebody wants.
+const SMALLEST_STEP: f64 = 1e-3 * DEG;
 
 /// Node k lies at k steps of the C angle from the path's start, on whatever revolution that is.
+///
+/// A step that is not given is the largest for which L⁴/384·max|φ⁗| over the whole path, the
+/// error of cubics with exact slopes, stays within the interpolation tolerance. It knows nothing
+/// of knots of the feed's law; refinement sees what they do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EqualAngle {
-    per_turn: f64,
+    step: Option<f64>,
+    largest: f64,
 }
 
 impl Strategy for EqualAngle {
     const NAME: &'static str = "equal-angle";
     const SUMMARY: &'static str = "equal steps of the C angle along the whole path";
+    const SOURCE: &'static str = "the conventional sampling; derived step after Wang et al. 2019, \
+        eq. 10, at the worst place of the tool centre's path";
     const PARAMS: &'static [Param] = &[
         Param::angle(
             "step",
-            "angle between neighbouring points, such as \"6 deg\"; it need not divide a turn",
+            "angle between neighbouring points, such as \"6 deg\"; left out: the largest that holds \
+             tolerance.interpolation everywhere",
         )
         .positive()
-        .max(90.0 * DEG),
-        Param::angle("max_step", "largest angle step that is accepted")
+        .max(90.0 * DEG)
+        .optional(),
+        Param::angle("max_step", "largest angle step, given or derived")
             .default(45.0 * DEG)
             .positive()
             .max(90.0 * DEG),
     ];
 
     fn new(params: &Params) -> Result<Self> {
-        let (step, largest) = (params.angle_rad("step"), params.angle_rad("max_step"));
-        if step > largest * (1.0 + WHOLE) {
+        let (step, largest) = (params.given("step"), params.angle_rad("max_step"));
+        if let Some(step) = step.filter(|step| *step > largest * (1.0 + WHOLE)) {
             let (step, largest) = (step / DEG, largest / DEG);
             return Err(StrategyError::parameter(
                 "step",
@@ -42,15 +59,52 @@ impl Strategy for EqualAngle {
                 ),
             ));
         }
-        let (per_turn, whole) = (TAU / step, (TAU / step).round());
-        let near = (per_turn - whole).abs() <= WHOLE * whole;
-        Ok(Self {
-            per_turn: if near { whole } else { per_turn },
-        })
+        Ok(Self { step, largest })
     }
 }
 
 impl EqualAngle {
+    /// The largest step that the interpolation tolerance allows at the path's worst place, rad.
+    fn derive(&self, path: &Path<'_>) -> Result<f64> {
+        let Spot { n, sharpness } = sharpest(path)?;
+        let fourth_power = 384.0 * AIM * path.job.tolerance.interpolation / sharpness;
+        let step = fourth_power.sqrt().sqrt().min(self.largest);
+        if step < SMALLEST_STEP {
+            return Err(StrategyError::failed(format!(
+                "tolerance.interpolation would take steps of {:.2e} deg: the tool centre's path \
+                 bends too sharply at {}; give `step`",
+                step / DEG,
+                where_is(path, n)
+            )));
+        }
+        Ok(step)
+    }
+
+    fn steps(&self, path: &Path<'_>) -> Result<Steps> {
+        match self.step.or(path.prepared.first().copied()) {
+            Some(step) => Ok(Steps::of(step)),
+            None => Err(StrategyError::failed(
+                "the path has not been looked at, and no step is given",
+            )),
+        }
+    }
+}
+
+/// Equal steps.
+#[derive(Debug, Clone, Copy)]
+struct Steps {
+    per_turn: f64,
+}
+
+impl Steps {
+    fn of(step: f64) -> Self {
+        let (per_turn, whole) = (TAU / step, (TAU / step).round());
+        let near = (per_turn - whole).abs() <= WHOLE * whole;
+        Self {
+            per_turn: if near { whole } else { per_turn },
+        }
+    }
+
     /// Where node `k` lies, in revolutions.
     fn node(&self, k: u64) -> f64 {
         k as f64 / self.per_turn
@@ -68,17 +122,25 @@ impl EqualAngle {
 }
 
 impl Sampler for EqualAngle {
+    fn prepare(&self, path: &Path<'_>) -> Result<Vec<f64>> {
+        match self.step {
+            Some(_) => Ok(Vec::new()),
+            None => Ok(vec![self.derive(path)?]),
+        }
+    }
+
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+        let steps = self.steps(path)?;
         let ends_path = block.end >= path.law.end();
         let slack = if ends_path {
-            SLACK / self.per_turn
+            SLACK / steps.per_turn
         } else {
             0.0
         };
-        let from = self.first_from(block.start);
+        let from = steps.first_from(block.start);
         nodes.extend(
             (from..)
-                .map(|k| self.node(k))
+                .map(|k| steps.node(k))
                 .take_while(|n| *n < block.end - slack),
         );
         Ok(())
@@ -102,14 +164,10 @@ mod tests {
     #[test]
     fn steps_that_divide_a_turn_meet_every_revolution() {
         for divisor in [4, 60, 97, 256, 36_000] {
-            let step = 360.0 / f64::from(divisor) * DEG;
-            let params = Params::new()
-                .with("step", step)
-                .with("max_step", 90.0 * DEG);
-            let sampler = EqualAngle::new(&params).unwrap();
+            let steps = Steps::of(360.0 / f64::from(divisor) * DEG);
             for turn in [1, 64, 99_999] {
-                assert_eq!(sampler.node(divisor as u64 * turn), turn as f64);
-                assert_eq!(sampler.first_from(turn as f64), divisor as u64 * turn);
+                assert_eq!(steps.node(divisor as u64 * turn), turn as f64);
+                assert_eq!(steps.first_from(turn as f64), divisor as u64 * turn);
             }
         }
     }

@@ -1,6 +1,7 @@
-//! Samplers that place the control points by the spiral alone: in equal steps of the angle.
+//! Samplers that place the control points in even steps: of the angle.
 
 mod equal_angle;
+mod sharpest;
 
 pub use equal_angle::EqualAngle;
 

@@ -3,6 +3,7 @@
 use abi_stable::StableAbi;
 use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RSlice, RSliceMut, RVec};
+use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
 use super::contained::Contained;
@@ -58,9 +59,35 @@ impl AbiNodes<'_> {
     }
 }
 
+#[repr(u8)]
+#[derive(StableAbi, Clone, Copy)]
+pub enum AbiShape {
+    Cubic,
+    Linear,
+}
+
+impl From<SegmentShape> for AbiShape {
+    fn from(shape: SegmentShape) -> Self {
+        match shape {
+            SegmentShape::Cubic => Self::Cubic,
+            SegmentShape::Linear => Self::Linear,
+        }
+    }
+}
+
+impl From<AbiShape> for SegmentShape {
+    fn from(shape: AbiShape) -> Self {
+        match shape {
+            AbiShape::Cubic => Self::Cubic,
+            AbiShape::Linear => Self::Linear,
+        }
+    }
+}
+
 #[sabi_trait]
 pub trait AbiVelocity: Send + Sync {
     fn dependence(&self) -> Answer<AbiDependence>;
+    fn segments(&self) -> Answer<AbiShape>;
     fn solve(
         &self,
         nodes: AbiNodes<'_>,
@@ -88,6 +115,10 @@ pub struct OutgoingVelocity(pub Contained<dyn VelocitySolver>);
 impl AbiVelocity for OutgoingVelocity {
     fn dependence(&self) -> Answer<AbiDependence> {
         answer(|| Ok(self.0.dependence().into()))
+    }
+
+    fn segments(&self) -> Answer<AbiShape> {
+        answer(|| Ok(self.0.segments().into()))
     }
 
     fn solve(
@@ -127,17 +158,23 @@ impl AbiVelocity for OutgoingVelocity {
     }
 }
 
-/// A plugin's solver, as the core's. The dependence is asked once, when it is made.
+/// A plugin's solver, as the core's. Dependence and shape are asked once, when it is made.
 pub struct IncomingVelocity {
     solver: OwnedVelocity,
     dependence: Dependence,
+    shape: SegmentShape,
 }
 
 impl IncomingVelocity {
-    /// Asks the solver how it depends on its neighbours, and unwraps it.
+    /// Asks the solver how it depends on its neighbours and what is played, and unwraps it.
     pub fn new(solver: OwnedVelocity) -> Result<Self> {
         let dependence = result(solver.dependence())?.into();
-        Ok(Self { solver, dependence })
+        let shape = result(solver.segments())?.into();
+        Ok(Self {
+            solver,
+            dependence,
+            shape,
+        })
     }
 }
 
@@ -162,6 +199,10 @@ fn check(nodes: &Nodes<'_>, out: &Velocities<'_>) -> Result<()> {
 impl VelocitySolver for IncomingVelocity {
     fn dependence(&self) -> Dependence {
         self.dependence
+    }
+
+    fn segments(&self) -> SegmentShape {
+        self.shape
     }
 
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
