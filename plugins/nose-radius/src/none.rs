@@ -11,6 +11,7 @@ pub struct Uncompensated;
 impl Strategy for Uncompensated {
     const NAME: &'static str = "none";
     const SUMMARY: &'static str = "no compensation: the nose radius taken as 0";
+    const SOURCE: &'static str = "X = ρ, Z = g(θ, ρ)";
 
     fn new(_: &Params) -> Result<Self> {
         Ok(Self)

@@ -11,6 +11,7 @@ pub struct Astigmatic {
 impl Strategy for Astigmatic {
     const NAME: &'static str = "astigmatic";
     const SUMMARY: &'static str = "a saddle, z = k ρ² sin 2θ";
+    const SOURCE: &'static str = "the astigmatic mirror of Wang et al. 2019, Micromachines 10";
     const PARAMS: &'static [Param] = &[Param::per_length(
         "k",
         "height over the square of the radius, along the ridge",

@@ -25,6 +25,8 @@ pub struct OffAxisParaboloid {
 impl Strategy for OffAxisParaboloid {
     const NAME: &'static str = "off-axis-paraboloid";
     const SUMMARY: &'static str = "a paraboloid's segment off its axis, laid flat at its middle";
+    const SOURCE: &'static str =
+        "a parent paraboloid in the frame of the segment's normal: z = q/(B + sqrt(B² − s²q))";
     const PARAMS: &'static [Param] = &[
         Param::length(
             "vertex_radius",

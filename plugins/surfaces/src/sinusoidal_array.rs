@@ -27,6 +27,7 @@ enum Form {
 impl Strategy for SinusoidalArray {
     const NAME: &'static str = "sinusoidal-array";
     const SUMMARY: &'static str = "waves along x and y: cosines added, or sines multiplied";
+    const SOURCE: &'static str = "the lens array of Zhong et al. (sum) and the sinusoidal array of the integrated discretization paper (product)";
     const PARAMS: &'static [Param] = &[
         Param::length(
             "amplitude_x",

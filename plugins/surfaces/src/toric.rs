@@ -20,6 +20,8 @@ pub struct Toric {
 impl Strategy for Toric {
     const NAME: &'static str = "toric";
     const SUMMARY: &'static str = "a torus: a base arc along y, turned about an axis parallel to y";
+    const SOURCE: &'static str =
+        "z = R − sqrt((R − a + sqrt(a² − y²))² − x²), written without cancellation";
     const PARAMS: &'static [Param] = &[
         Param::length(
             "radius_rotation",

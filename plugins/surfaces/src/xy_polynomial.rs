@@ -15,6 +15,7 @@ pub struct XyPolynomial {
 impl Strategy for XyPolynomial {
     const NAME: &'static str = "xy-polynomial";
     const SUMMARY: &'static str = "a polynomial in x and y";
+    const SOURCE: &'static str = "z = Σ c xⁱ yʲ, without a conic base";
     const PARAMS: &'static [Param] = &[Param::rows(
         "terms",
         3,
