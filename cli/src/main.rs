@@ -7,6 +7,7 @@ mod failure;
 mod figures;
 mod job;
 mod list;
+mod programs;
 mod progress;
 mod run;
 mod sag;

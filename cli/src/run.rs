@@ -5,17 +5,18 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use turnpath_core::Slot;
-use turnpath_core::toolpath::{PathBlock, Section};
+use turnpath_core::toolpath::PathStretch;
 use turnpath_host::Plugin;
-use turnpath_pipeline::{Sink, run as run_pipeline};
-use turnpath_post::{Draft, FileError, PathWriter};
+use turnpath_pipeline::{Outcome, Sink, run as run_pipeline};
+use turnpath_post::{Draft, FileError, PathWriter, PmacWriter};
 
 use crate::args::{Format, RunArgs};
 use crate::failure::Failure;
 use crate::figures;
 use crate::job::{Job, of_pipeline};
+use crate::programs::{Program, asked};
 use crate::progress::Bar;
-use crate::summary::Summary;
+use crate::summary::{ProgramSummary, Summary};
 use crate::{Done, Verdict};
 
 /// Runs a recipe and writes its files.
@@ -25,7 +26,8 @@ pub fn run(args: &RunArgs) -> Done {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(job.recipe.folder_name()),
     };
-    let mut files = Files::new(folder, !job.recipe.output.data.is_empty());
+    let programs = asked(&job.recipe, job.compensates_nose())?;
+    let mut files = Files::new(folder, !job.recipe.output.data.is_empty(), programs);
     let bar = Bar::new();
     let outcome = run_pipeline(
         &job.chain,
@@ -34,16 +36,21 @@ pub fn run(args: &RunArgs) -> Done {
         &mut files,
         &bar,
     );
+    let outcome = outcome.map_err(|error| {
+        bar.clear();
+        of_pipeline(&job.recipe, error)
+    })?;
+    let programs = files.read_back(&job, &args.recipe.set, &outcome, &bar);
     bar.clear();
-    let outcome = outcome.map_err(|error| of_pipeline(&job.recipe, error))?;
     let plugins = used_plugins(&job);
-    let summary = Summary::new(&job.recipe, &job.chain, &plugins, files.rows, &outcome);
+    let (recipe, chain) = (&job.recipe, &job.chain);
+    let summary = Summary::new(recipe, chain, &plugins, files.rows, &outcome, programs?);
     let written = files.complete(&summary.json())?;
     match args.work.format {
         Format::Json => print(&summary.json())?,
         Format::Human => print(&human(&job, &summary, &written))?,
     }
-    Ok(if summary.measured.all_hold() {
+    Ok(if summary.all_hold() {
         Verdict::Holds
     } else {
         Verdict::Exceeded
@@ -86,6 +93,11 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::line("revolutions", format!("{:.2}", summary.revolutions));
     text += &figures::line("cutting time", figures::duration(summary.cutting_time_s));
     text += &figures::measured(&summary.measured, &job.recipe.tolerance);
+    for program in &summary.programs {
+        let (error, holds) = (program.interpolation_error_nm, program.within_interpolation);
+        let tolerance = job.recipe.tolerance.interpolation;
+        text += &figures::line(program.post, figures::against(error, tolerance, holds));
+    }
     for file in written {
         text += &figures::line("file", file.display());
     }
@@ -106,20 +118,26 @@ pub fn print(text: &str) -> Result<(), Failure> {
 struct Files {
     folder: PathBuf,
     wants_path: bool,
+    programs: Vec<Program>,
     begun: Option<Begun>,
     rows: u64,
 }
 
+#[derive(Default)]
 struct Begun {
-    path: Option<PathWriter>,
     made_folder: bool,
+    path: Option<PathWriter>,
+    programs: Vec<PmacWriter>,
+    /// Programs that are whole, and still without their names.
+    whole: Vec<Draft>,
 }
 
 impl Files {
-    fn new(folder: PathBuf, wants_path: bool) -> Self {
+    fn new(folder: PathBuf, wants_path: bool, programs: Vec<Program>) -> Self {
         Self {
             folder,
             wants_path,
+            programs,
             begun: None,
             rows: 0,
         }
@@ -132,18 +150,39 @@ impl Files {
             error,
         };
         fs::create_dir_all(&self.folder).map_err(folder)?;
-        self.begun = Some(Begun {
-            path: None,
+        // From here on the folder is removed again if anything fails.
+        let begun = self.begun.insert(Begun {
             made_folder,
+            ..Begun::default()
         });
         if self.wants_path {
-            let path = PathWriter::begin(self.folder.join("toolpath.csv"))?;
-            self.begun = Some(Begun {
-                path: Some(path),
-                made_folder,
-            });
+            begun.path = Some(PathWriter::begin(self.folder.join("toolpath.csv"))?);
+        }
+        for program in &self.programs {
+            begun.programs.push(program.begin(&self.folder)?);
         }
         Ok(())
+    }
+
+    /// Puts the programs together, reads each back and measures it on its own text.
+    fn read_back(
+        &mut self,
+        job: &Job,
+        sets: &[String],
+        outcome: &Outcome,
+        bar: &Bar,
+    ) -> Result<Vec<ProgramSummary>, Failure> {
+        let Some(begun) = &mut self.begun else {
+            return Ok(Vec::new());
+        };
+        let mut measured = Vec::new();
+        for (program, writer) in self.programs.iter().zip(begun.programs.drain(..)) {
+            let mut draft = program.assemble(writer, &job.recipe, sets, outcome)?;
+            let touch = job.prepared.touch.clone();
+            measured.push(program.measure(&mut draft, &job.recipe, touch, self.rows, bar)?);
+            begun.whole.push(draft);
+        }
+        Ok(measured)
     }
 
     /// Gives the files their names; the summary comes last, so that where it is, all is.
@@ -154,8 +193,13 @@ impl Files {
             .write_all(summary.as_bytes())
             .map_err(|error| FileError { path, error })?;
         let mut written = Vec::new();
-        if let Some(path) = self.begun.take().and_then(|begun| begun.path) {
-            written.push(path.complete()?);
+        if let Some(begun) = self.begun.take() {
+            for program in begun.whole {
+                written.push(program.complete()?);
+            }
+            if let Some(path) = begun.path {
+                written.push(path.complete()?);
+            }
         }
         written.push(draft.complete()?);
         Ok(written)
@@ -163,31 +207,44 @@ impl Files {
 }
 
 impl Sink for Files {
-    fn encode(&self, section: Section, points: &PathBlock) -> io::Result<Vec<u8>> {
-        match self.wants_path {
-            true => PathWriter::rows(section, points),
-            false => Ok(Vec::new()),
+    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
+        let mut encoded = Vec::new();
+        if self.wants_path {
+            encoded.push(PathWriter::rows(stretch.section, stretch.points)?);
         }
+        for program in &self.programs {
+            encoded.push(program.lines(stretch)?);
+        }
+        Ok(encoded)
     }
 
-    fn take(&mut self, points: usize, encoded: &[u8]) -> io::Result<()> {
+    fn take(&mut self, points: usize, encoded: &[Vec<u8>]) -> io::Result<()> {
         if self.begun.is_none() {
             self.begin()
                 .map_err(|error| io::Error::other(error.to_string()))?;
         }
         self.rows += points as u64;
-        match self.begun.as_mut().and_then(|begun| begun.path.as_mut()) {
-            Some(path) => path.append(encoded),
-            None => Ok(()),
+        let Some(begun) = &mut self.begun else {
+            return Ok(());
+        };
+        let mut encoded = encoded.iter();
+        if let Some((path, rows)) = begun.path.as_mut().zip(encoded.as_slice().first()) {
+            path.append(rows)?;
+            encoded.next();
         }
+        for (program, lines) in begun.programs.iter_mut().zip(encoded) {
+            program.append(points, lines)?;
+        }
+        Ok(())
     }
 }
 
 impl Drop for Files {
     /// Of a run that failed nothing stays, its folder neither if it made it.
     fn drop(&mut self) {
-        if let Some(Begun { path, made_folder }) = self.begun.take() {
-            drop(path);
+        if let Some(begun) = self.begun.take() {
+            let made_folder = begun.made_folder;
+            drop(begun);
             if made_folder {
                 // It is left where something else has come into it meanwhile.
                 let _ = fs::remove_dir(&self.folder);
