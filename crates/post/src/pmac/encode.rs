@@ -116,25 +116,26 @@ fn units(value: f64, decimals: u32) -> Option<i64> {
     (scaled.abs() <= LARGEST_UNITS).then_some(scaled as i64)
 }
 
-/// The point moved along the cubic that ends at it, to a time that is at most half a quantum away:
-/// its third derivative does not matter.
+/// The point moved along the cubic that ends at it, by half a quantum at the most.
 fn at_time(point: &ControlPoint, before: Option<&ControlPoint>, time: f64) -> ControlPoint {
-    let acceleration = before.map_or([0.0; 3], |before| {
-        let segment = Segment::between(before, point);
-        let square = segment.duration * segment.duration;
-        [&segment.c, &segment.x, &segment.z].map(|axis| axis.bend(1.0) / square)
-    });
     let by = time - point.t;
-    let place = |p: f64, v: f64, a: f64| p + by * (v + 0.5 * by * a);
-    let [ac, ax, az] = acceleration;
+    let bends = before.map_or([(0.0, 0.0); 3], |before| {
+        let segment = Segment::between(before, point);
+        let h = segment.duration;
+        [&segment.c, &segment.x, &segment.z]
+            .map(|axis| (axis.bend(1.0) / (h * h), axis.jerk() / (h * h * h)))
+    });
+    let place = |p: f64, v: f64, (a, j): (f64, f64)| p + by * (v + by * (a / 2.0 + by * j / 6.0));
+    let speed = |v: f64, (a, j): (f64, f64)| v + by * (a + by * j / 2.0);
+    let [c, x, z] = bends;
     ControlPoint {
         t: time,
-        c: place(point.c, point.vc, ac),
-        x: place(point.x, point.vx, ax),
-        z: place(point.z, point.vz, az),
-        vc: point.vc + by * ac,
-        vx: point.vx + by * ax,
-        vz: point.vz + by * az,
+        c: place(point.c, point.vc, c),
+        x: place(point.x, point.vx, x),
+        z: place(point.z, point.vz, z),
+        vc: speed(point.vc, c),
+        vx: speed(point.vx, x),
+        vz: speed(point.vz, z),
     }
 }
 
