@@ -98,7 +98,7 @@ pub struct CheckArgs {
 pub struct VerifyArgs {
     #[command(flatten)]
     pub recipe: RecipeArgs,
-    /// The tool path to measure: a toolpath.csv
+    /// The tool path to measure: a toolpath.csv, or a program of the post pmac-pvt (.pmc)
     pub file: PathBuf,
     #[command(flatten)]
     pub work: WorkArgs,

@@ -7,6 +7,7 @@ use turnpath_pipeline::expect;
 
 use crate::args::{CheckArgs, Format};
 use crate::job::{Job, of_pipeline};
+use crate::programs::asked;
 use crate::run::print;
 use crate::summary::to_json;
 use crate::{Done, Verdict, figures};
@@ -30,12 +31,21 @@ struct Expected {
     cutting_time_s: f64,
     control_points: f64,
     toolpath_bytes: f64,
+    programs: Vec<ExpectedProgram>,
+}
+
+#[derive(Debug, Serialize)]
+struct ExpectedProgram {
+    file: String,
+    bytes: f64,
 }
 
 /// Checks a recipe.
 pub fn check(args: &CheckArgs) -> Done {
     let job = Job::ready(&args.recipe, &args.work)?;
     let expected = expect(&job.chain, &job.prepared).map_err(|e| of_pipeline(&job.recipe, e))?;
+    let programs = asked(&job.recipe, job.compensates_nose())?;
+    let radius = job.prepared.job.range.outer;
     let found = &job.prepared.interference;
     let checked = Checked {
         name: job.recipe.name.clone(),
@@ -47,6 +57,13 @@ pub fn check(args: &CheckArgs) -> Done {
             cutting_time_s: expected.cutting_time,
             control_points: expected.control_points.round(),
             toolpath_bytes: expected.control_points * ROW_BYTES,
+            programs: programs
+                .into_iter()
+                .map(|program| ExpectedProgram {
+                    bytes: program.expected_bytes(radius, &expected),
+                    file: program.file,
+                })
+                .collect(),
         },
     };
     print(&match args.work.format {
@@ -88,5 +105,9 @@ fn human(job: &Job, checked: &Checked, found: &Interference) -> String {
     text += &figures::line("cutting time", figures::duration(expected.cutting_time_s));
     let size = figures::bytes(expected.toolpath_bytes);
     text += &figures::line("toolpath.csv", format!("about {size}"));
+    for program in &expected.programs {
+        let size = figures::bytes(program.bytes);
+        text += &figures::line("program", format!("about {size}, {}", program.file));
+    }
     text
 }

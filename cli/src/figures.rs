@@ -61,14 +61,16 @@ pub fn nanometres(nm: f64) -> String {
     }
 }
 
+/// A figure in nm against its tolerance in mm.
+pub fn against(value: f64, tolerance: f64, holds: bool) -> String {
+    let (value, limit) = (nanometres(value), nanometres(tolerance * NM_PER_MM));
+    let verdict = if holds { "holds" } else { "EXCEEDED" };
+    format!("{value:>12} of {limit:<12}{verdict}")
+}
+
 /// The lines on what was measured, each error against its tolerance.
 pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
     let (error, residual) = (&measured.interpolation_error_nm, &measured.residual_nm);
-    let verdict = |holds: bool| if holds { "holds" } else { "EXCEEDED" };
-    let against = |value: f64, tolerance: f64, holds: bool| {
-        let (value, limit) = (nanometres(value), nanometres(tolerance * NM_PER_MM));
-        format!("{value:>12} of {limit:<12}{}", verdict(holds))
-    };
     let within = &measured.within;
     let mut text = line(
         "interpolation",

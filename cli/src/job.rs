@@ -8,6 +8,7 @@ use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
 use crate::failure::Failure;
+use crate::programs::not_carried;
 use crate::strategies;
 
 /// A recipe with its strategies.
@@ -45,6 +46,11 @@ impl Job {
             prepared,
         })
     }
+
+    /// Whether the path is that of the nose centre.
+    pub fn compensates_nose(&self) -> bool {
+        self.chain.compensator.strategy.compensates_nose()
+    }
 }
 
 /// Sets how many threads work; fails only when they are set already, which changes no result.
@@ -74,6 +80,10 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
         }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
         PipelineError::Sink(error) => {
+            let inner = error.get_ref().and_then(|inner| inner.downcast_ref());
+            if let Some(error) = inner {
+                return not_carried(recipe, error);
+            }
             // It names its file itself.
             Failure::File(format!("error: {error}"))
         }

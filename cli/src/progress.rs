@@ -48,6 +48,7 @@ impl Progress for Bar {
                 Stage::Law => "planning the feed".to_owned(),
                 Stage::Refine(round) => format!("playing back, round {round}"),
                 Stage::Write => "measuring and writing".to_owned(),
+                Stage::ReadBack => "reading programs back".to_owned(),
             });
             bar.enable_steady_tick(TICK);
         });

@@ -1,26 +1,23 @@
 //! `turnpath run`: the whole pipeline, and its files.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use turnpath_core::Slot;
-use turnpath_core::toolpath::{PathBlock, Section};
+use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Plugin;
-use turnpath_pipeline::{Sink, run as run_pipeline};
-use turnpath_post::{Draft, FileError, PathWriter};
+use turnpath_pipeline::{Making, run as run_pipeline};
+use turnpath_post::PMAC_TIME_STEPS;
 
 use crate::args::{Format, RunArgs};
 use crate::failure::Failure;
 use crate::figures;
+use crate::files::Files;
 use crate::job::{Job, of_pipeline};
+use crate::programs::asked;
 use crate::progress::Bar;
 use crate::summary::Summary;
 use crate::{Done, Verdict};
-
-/// Names of the files in the output folder.
-const TOOLPATH: &str = "toolpath.csv";
-const SUMMARY: &str = "summary.json";
 
 /// Runs a recipe and writes its files.
 pub fn run(args: &RunArgs) -> Done {
@@ -29,29 +26,59 @@ pub fn run(args: &RunArgs) -> Done {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(job.recipe.folder_name()),
     };
-    let mut files = Files::new(folder, !job.recipe.output.data.is_empty())?;
+    let programs = asked(&job.recipe, job.compensates_nose())?;
+    refuse_straight_lines(&job)?;
+    let making = Making {
+        refine: job.recipe.refine,
+        time_steps: (!programs.is_empty()).then_some(PMAC_TIME_STEPS),
+    };
+    let wants_path = !job.recipe.output.data.is_empty();
+    let mut files = Files::new(folder, wants_path, programs)?;
     let bar = Bar::new();
-    let outcome = run_pipeline(
-        &job.chain,
-        &job.prepared,
-        job.recipe.refine,
-        &mut files,
-        &bar,
-    );
+    let outcome = run_pipeline(&job.chain, &job.prepared, making, &mut files, &bar);
+    let outcome = outcome.map_err(|error| {
+        bar.clear();
+        of_pipeline(&job.recipe, error)
+    })?;
+    let programs = files.read_back(&job, &args.recipe.set, &outcome, &bar);
     bar.clear();
-    let outcome = outcome.map_err(|error| of_pipeline(&job.recipe, error))?;
     let plugins = used_plugins(&job);
-    let summary = Summary::new(&job.recipe, &job.chain, &plugins, files.rows, &outcome);
+    let (recipe, chain) = (&job.recipe, &job.chain);
+    let summary = Summary::new(recipe, chain, &plugins, files.rows, &outcome, programs?);
     let written = files.complete(&summary.json())?;
     match args.work.format {
         Format::Json => print(&summary.json())?,
         Format::Human => print(&human(&job, &summary, &written))?,
     }
-    Ok(if summary.measured.all_hold() {
+    Ok(if summary.all_hold() {
         Verdict::Holds
     } else {
         Verdict::Exceeded
     })
+}
+
+/// A program in PVT mode plays cubics; a path of straight lines is another one.
+fn refuse_straight_lines(job: &Job) -> Result<(), Failure> {
+    let straight = job.chain.velocity.strategy.segments() == SegmentShape::Linear;
+    match job.recipe.output.posts.first().filter(|_| straight) {
+        None => Ok(()),
+        Some(post) => {
+            let name = &job.chain.velocity.name;
+            let title = format!(
+                "`{}` cannot carry the straight lines of `{name}`",
+                post.value
+            );
+            let help = "choose another velocity solver, or no post: toolpath.csv is written anyway";
+            let place = post.place.clone();
+            let complaint = job.recipe.complaint(
+                place,
+                title,
+                "plays a cubic between points",
+                [help.to_owned()],
+            );
+            Err(complaint.into())
+        }
+    }
 }
 
 /// The plugins of the five strategies, each once.
@@ -90,6 +117,11 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::line("revolutions", format!("{:.2}", summary.revolutions));
     text += &figures::line("cutting time", figures::duration(summary.cutting_time_s));
     text += &figures::measured(&summary.measured, &job.recipe.tolerance);
+    for program in &summary.programs {
+        let (error, holds) = (program.interpolation_error_nm, program.within_interpolation);
+        let tolerance = job.recipe.tolerance.interpolation;
+        text += &figures::line(program.post, figures::against(error, tolerance, holds));
+    }
     for file in written {
         text += &figures::line("file", file.display());
     }
@@ -102,125 +134,5 @@ pub fn print(text: &str) -> Result<(), Failure> {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::output(&error)),
         Ok(()) => Ok(()),
-    }
-}
-
-/// The files of a run, begun with its first control points, so that a run which fails before
-/// leaves nothing behind.
-struct Files {
-    folder: PathBuf,
-    wants_path: bool,
-    begun: Option<Begun>,
-    rows: u64,
-}
-
-struct Begun {
-    path: Option<PathWriter>,
-    made_folder: bool,
-}
-
-impl Files {
-    /// # Errors
-    /// When something is in the way that would stop the run only at its end.
-    fn new(folder: PathBuf, wants_path: bool) -> Result<Self, FileError> {
-        nothing_in_the_way(&folder)?;
-        Ok(Self {
-            folder,
-            wants_path,
-            begun: None,
-            rows: 0,
-        })
-    }
-
-    fn begin(&mut self) -> Result<(), FileError> {
-        let made_folder = !self.folder.exists();
-        let folder = |error| FileError {
-            path: self.folder.clone(),
-            error,
-        };
-        fs::create_dir_all(&self.folder).map_err(folder)?;
-        self.begun = Some(Begun {
-            path: None,
-            made_folder,
-        });
-        if self.wants_path {
-            let path = PathWriter::begin(self.folder.join(TOOLPATH))?;
-            self.begun = Some(Begun {
-                path: Some(path),
-                made_folder,
-            });
-        }
-        Ok(())
-    }
-
-    /// Gives the files their names; the summary comes last, so that where it is, all is.
-    fn complete(mut self, summary: &str) -> Result<Vec<PathBuf>, FileError> {
-        let path = self.folder.join(SUMMARY);
-        let mut draft = Draft::begin(&path)?;
-        draft
-            .write_all(summary.as_bytes())
-            .map_err(|error| FileError { path, error })?;
-        let mut written = Vec::new();
-        if let Some(path) = self.begun.take().and_then(|begun| begun.path) {
-            written.push(path.complete()?);
-        }
-        written.push(draft.complete()?);
-        Ok(written)
-    }
-}
-
-/// A file where a folder must be, or a folder where a file must be, is told before the work.
-fn nothing_in_the_way(folder: &Path) -> Result<(), FileError> {
-    let wrong = |path: PathBuf, kind, what| {
-        let error = io::Error::new(kind, what);
-        Err(FileError { path, error })
-    };
-    let nearest = folder.ancestors().find(|part| part.exists());
-    if let Some(file) = nearest.filter(|part| !part.is_dir()) {
-        let what = format!("{} is a file, not a folder", file.display());
-        return wrong(folder.to_owned(), io::ErrorKind::NotADirectory, what);
-    }
-    for file in [TOOLPATH, SUMMARY].map(|name| folder.join(name)) {
-        if file.is_dir() {
-            let what = "it is a folder".to_owned();
-            return wrong(file, io::ErrorKind::IsADirectory, what);
-        }
-    }
-    Ok(())
-}
-
-impl Sink for Files {
-    fn encode(&self, section: Section, points: &PathBlock) -> io::Result<Vec<u8>> {
-        match self.wants_path {
-            true => PathWriter::rows(section, points),
-            false => Ok(Vec::new()),
-        }
-    }
-
-    fn take(&mut self, points: usize, encoded: &[u8]) -> io::Result<()> {
-        if self.begun.is_none() {
-            self.begin().map_err(io::Error::other)?;
-        }
-        self.rows += points as u64;
-        match self.begun.as_mut().and_then(|begun| begun.path.as_mut()) {
-            Some(path) => path.append(encoded).map_err(|error| {
-                let path = self.folder.join(TOOLPATH);
-                io::Error::other(FileError { path, error })
-            }),
-            None => Ok(()),
-        }
-    }
-}
-
-impl Drop for Files {
-    /// Of a run that failed nothing stays, its folder neither if it made it.
-    fn drop(&mut self) {
-        if let Some(Begun { path, made_folder }) = self.begun.take() {
-            drop(path);
-            if made_folder {
-                // It is left where something else has come into it meanwhile.
-                let _ = fs::remove_dir(&self.folder);
-            }
-        }
     }
 }

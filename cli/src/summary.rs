@@ -29,7 +29,7 @@ pub struct Summary {
     tolerance_nm: ToleranceNm,
     #[serde(flatten)]
     pub measured: Measured,
-    programs: Vec<Program>,
+    pub programs: Vec<ProgramSummary>,
     plugins: Vec<PluginFile>,
 }
 
@@ -118,8 +118,14 @@ pub struct Within {
     machine: Option<bool>,
 }
 
+/// A motion program, measured on its own text as read back.
 #[derive(Debug, Serialize)]
-struct Program {}
+pub struct ProgramSummary {
+    pub file: String,
+    pub post: &'static str,
+    pub interpolation_error_nm: f64,
+    pub within_interpolation: bool,
+}
 
 #[derive(Debug, Serialize)]
 struct PluginFile {
@@ -137,6 +143,7 @@ impl Summary {
         plugins: &[&Plugin],
         rows: u64,
         outcome: &Outcome,
+        programs: Vec<ProgramSummary>,
     ) -> Self {
         Self {
             turnpath: env!("CARGO_PKG_VERSION"),
@@ -157,12 +164,22 @@ impl Summary {
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
             measured: Measured::new(&outcome.figures, &recipe.tolerance),
-            programs: Vec::new(),
+            programs,
             plugins: plugins
                 .iter()
                 .map(|plugin| PluginFile::of(plugin))
                 .collect(),
         }
+    }
+
+    /// Whether all tolerances hold, on the path and on each program.
+    pub fn all_hold(&self) -> bool {
+        let programs = || {
+            self.programs
+                .iter()
+                .all(|program| program.within_interpolation)
+        };
+        self.measured.all_hold() && programs()
     }
 
     /// The JSON text, with a line end.
@@ -198,7 +215,6 @@ impl Measured {
             c_deg: playback.at_c / DEG,
             x_mm: playback.at_x,
         };
-        let holds = |measured: f64, tolerance: f64| measured <= ALLOWED * tolerance;
         Self {
             interpolation_error_nm: InterpolationError {
                 max: playback.max() * NM_PER_MM,
@@ -241,6 +257,29 @@ impl Measured {
         } = self.within;
         interpolation && residual && machine.unwrap_or(true)
     }
+}
+
+impl ProgramSummary {
+    /// Figures of a program against the tolerance.
+    pub fn new(
+        file: String,
+        post: &'static str,
+        figures: &PathFigures,
+        tolerance: &Tolerance,
+    ) -> Self {
+        let error = figures.playback.max();
+        Self {
+            file,
+            post,
+            interpolation_error_nm: error * NM_PER_MM,
+            within_interpolation: holds(error, tolerance.interpolation),
+        }
+    }
+}
+
+/// Whether a measured figure holds a tolerance.
+fn holds(measured: f64, tolerance: f64) -> bool {
+    measured <= ALLOWED * tolerance
 }
 
 impl Axis {

@@ -3,24 +3,27 @@
 //! Control points do not say what is played between them: that is taken from the recipe's
 //! velocity solver, cubics or straight lines.
 
+use std::path::Path;
+
 use rayon::prelude::*;
 use serde::Serialize;
 use turnpath_core::toolpath::{PathBlock, SegmentShape};
 use turnpath_core::{Slot, StrategyError};
-use turnpath_pipeline::PipelineError;
-use turnpath_post::PathReader;
+use turnpath_pipeline::{PipelineError, Progress, Quiet};
+use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{FirstTouch, Measured as Stretch, Meter, Subject};
 
 use crate::args::{Format, VerifyArgs};
 use crate::failure::Failure;
 use crate::job::{of_pipeline, use_threads};
+use crate::programs::{PMAC_EXTENSION, pmac_format};
 use crate::run::print;
 use crate::summary::{Measured, to_json};
 use crate::{Done, Verdict, figures, strategies};
 
 /// Rows that are measured in one go, and how many such blocks at a time.
-const BLOCK_ROWS: usize = 20_000;
+pub const BLOCK_ROWS: usize = 20_000;
 const BLOCKS: usize = 16;
 
 #[derive(Debug, Serialize)]
@@ -37,10 +40,13 @@ struct Verified {
 pub fn verify(args: &VerifyArgs) -> Done {
     use_threads(&args.work);
     let recipe = Recipe::load(&args.recipe.recipe, &args.recipe.set)?;
-    let mut reader = PathReader::open(&args.file)?;
     let (subject, shape) = subject(&recipe, args)?;
-    let meter = measure(&recipe, subject, shape, &mut reader)?;
-    if reader.cutting() < 2 {
+    let mut reader = open(&args.file, &recipe, subject.compensates_nose)?;
+    let failed = |error| of_pipeline(&recipe, PipelineError::Measure(error));
+    let touch = FirstTouch::new(subject).map_err(failed)?;
+    let meter = measure(&recipe, touch, shape, reader.as_mut(), &Quiet)?;
+    let read = reader.counted();
+    if read.cutting() < 2 {
         let file = args.file.display();
         let message = format!("error: {file} has no cutting section to measure");
         return Err(Failure::File(message));
@@ -48,8 +54,8 @@ pub fn verify(args: &VerifyArgs) -> Done {
     let verified = Verified {
         name: recipe.name.clone(),
         file: args.file.display().to_string(),
-        control_points: reader.cutting(),
-        rows: reader.count(),
+        control_points: read.cutting(),
+        rows: read.count(),
         measured: Measured::new(meter.figures(), &recipe.tolerance),
     };
     print(&match args.work.format {
@@ -81,14 +87,34 @@ fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<(Subject, SegmentShape)
     Ok((subject, shape))
 }
 
-fn measure(
+/// Opens a motion program or a table, as the file's name says.
+fn open(
+    file: &Path,
     recipe: &Recipe,
-    subject: Subject,
+    compensates_nose: bool,
+) -> Result<Box<dyn ReadPath>, ReadError> {
+    let is_program = file
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case(PMAC_EXTENSION));
+    Ok(if is_program {
+        Box::new(PmacReader::open(
+            file,
+            pmac_format(recipe, compensates_nose),
+        )?)
+    } else {
+        Box::new(PathReader::open(file)?)
+    })
+}
+
+/// Reads a path and measures it, in blocks, in parallel.
+pub fn measure(
+    recipe: &Recipe,
+    touch: FirstTouch,
     shape: SegmentShape,
-    reader: &mut PathReader,
+    reader: &mut dyn ReadPath,
+    progress: &dyn Progress,
 ) -> Result<Meter, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
-    let touch = FirstTouch::new(subject).map_err(failed)?;
     let mut meter = Meter::new(touch);
     loop {
         let mut blocks: Vec<PathBlock> = Vec::new();
@@ -110,6 +136,7 @@ fn measure(
         for stretch in &stretches {
             meter.append(stretch).map_err(failed)?;
         }
+        progress.advance(blocks.len() as u64);
     }
 }
 

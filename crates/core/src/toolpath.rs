@@ -141,6 +141,20 @@ impl PathBlock {
     }
 }
 
+/// Neighbouring control points on their way to the files, with what came before them: enough to
+/// write times and distances that do not depend on where a block begins.
+#[derive(Debug, Clone, Copy)]
+pub struct PathStretch<'a> {
+    /// What the points are for.
+    pub section: Section,
+    /// Whether the section begins with the first of them.
+    pub opens_section: bool,
+    /// The two points before the first, as far as the path has them.
+    pub before: &'a [ControlPoint],
+    /// The points; each point of a path is in one stretch.
+    pub points: &'a PathBlock,
+}
+
 /// A cubic on s = 0 … 1 in Σ a_i s^i.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic(pub [f64; 4]);

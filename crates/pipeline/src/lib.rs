@@ -22,4 +22,4 @@ pub use plan::BLOCK;
 pub use prepare::{Prepared, prepare};
 pub use progress::{Progress, Quiet, Stage};
 pub use refine::{AIM, MOST_ROUNDS, SMALLEST_SEGMENT};
-pub use run::{Expected, Outcome, Sink, expect, run};
+pub use run::{Expected, Making, Outcome, Sink, expect, run};

@@ -209,9 +209,23 @@ fn place_block(
     })
 }
 
+/// Nodes and their times; on the steps of the controller's time, if it has such.
+fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
+    let (n, t): (Vec<f64>, Vec<f64>) = nodes.iter().map(|n| plan.on_time(*n)).unzip();
+    match t.windows(2).position(|pair| pair[1] <= pair[0]) {
+        None => Ok((n, t)),
+        Some(i) => Err(plan.chain.sampler.bad_answer(format!(
+            "the nodes at {} and {} revolutions are closer in time than the controller's step",
+            nodes[i],
+            nodes[i + 1]
+        ))),
+    }
+}
+
 /// Puts nodes on the locus.
-fn locate(plan: &Plan<'_>, n: &[f64]) -> Result<Columns> {
+fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
     let (job, compensator) = (&plan.prepared.job, &plan.chain.compensator);
+    let (n, t) = on_time(plan, nodes)?;
     let place = || match (n.first(), n.last()) {
         (Some(first), Some(last)) => format!("in revolutions {first:.3} to {last:.3}"),
         _ => String::new(),
@@ -241,7 +255,7 @@ fn locate(plan: &Plan<'_>, n: &[f64]) -> Result<Columns> {
         .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
         .collect();
     let columns = Columns {
-        t: n.iter().map(|n| job.spindle.time_at(*n)).collect(),
+        t,
         c: n.iter().map(|n| TAU * n).collect(),
         x: centres.x,
         z: centres.z,

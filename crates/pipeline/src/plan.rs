@@ -1,5 +1,7 @@
 //! What every block is made from: chain, job, locus, law, and the blocks' borders.
 
+use std::f64::consts::TAU;
+
 use turnpath_core::{Dependence, Path, Revolutions, SpiralLaw};
 
 use crate::{Chain, Prepared, Result};
@@ -24,6 +26,8 @@ pub struct Plan<'a> {
     pub prepared: &'a Prepared,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
+    /// Steps of time a second at which control points must lie, if the controller has such.
+    pub time_steps: Option<f64>,
     /// Revolutions of a block: [`BLOCK`], fewer where nodes are very many.
     block: f64,
     /// What the sampler found on the whole path.
@@ -40,6 +44,7 @@ impl<'a> Plan<'a> {
             chain,
             prepared,
             law,
+            time_steps: None,
             block: BLOCK,
             prepared_sampler: Vec::new(),
             sampler_states: Vec::new(),
@@ -101,6 +106,24 @@ impl<'a> Plan<'a> {
             start,
             end: (start + self.block).min(self.law.end()),
         }
+    }
+
+    /// A node and its time, moved to the nearest step of the controller's time if it has such; the
+    /// path's end to the one before, so that the path does not run beyond it.
+    pub fn on_time(&self, n: f64) -> (f64, f64) {
+        let spindle = &self.prepared.job.spindle;
+        let t = spindle.time_at(n);
+        let Some(steps) = self.time_steps else {
+            return (n, t);
+        };
+        let whole = if n < self.law.end() {
+            (t * steps).round()
+        } else {
+            (t * steps).floor()
+        };
+        let on_step = whole / steps;
+        let moved = (on_step - t) * spindle.speed_at(n) / TAU;
+        (n + moved, on_step)
     }
 
     /// Revolutions of every block but the last.

@@ -9,9 +9,11 @@ pub enum Stage {
     Refine(u32),
     /// The path is made, measured and written.
     Write,
+    /// What was written is read back and measured.
+    ReadBack,
 }
 
-/// Is told how far a run is. Counts are blocks of revolutions.
+/// Is told how far a run is. Counts are blocks, of revolutions or of points.
 pub trait Progress: Sync {
     /// A stage begins.
     fn begin(&self, stage: Stage, blocks: u64);

@@ -1,7 +1,7 @@
 //! The whole run: law, refinement, then every block made, measured and handed on in order.
 
 use rayon::prelude::*;
-use turnpath_core::toolpath::{PathBlock, Section};
+use turnpath_core::toolpath::{ControlPoint, PathStretch, Section};
 use turnpath_verify::{FirstTouch, Measured, Meter, PathFigures};
 
 use crate::make::{Depths, Made, make};
@@ -19,21 +19,21 @@ const BATCH_POINTS: f64 = 5e5;
 /// Blocks that are looked at to expect the count of points.
 const LOOKED_AT: usize = 8;
 
-/// Takes the path as it is made: blocks are put into the file's form in parallel, and taken in
-/// order.
+/// Takes the path as it is made: blocks are put into the form of each file in parallel, and taken
+/// in order.
 pub trait Sink: Sync {
-    /// A block in the file's form.
-    fn encode(&self, section: Section, points: &PathBlock) -> std::io::Result<Vec<u8>>;
-    /// The next block in the file's form, with its count of control points.
-    fn take(&mut self, points: usize, encoded: &[u8]) -> std::io::Result<()>;
+    /// A block in the form of each file.
+    fn encode(&self, stretch: &PathStretch<'_>) -> std::io::Result<Vec<Vec<u8>>>;
+    /// The next block in the form of each file, with its count of control points.
+    fn take(&mut self, points: usize, encoded: &[Vec<u8>]) -> std::io::Result<()>;
 }
 
-/// A block, measured and in the file's form.
+/// A block, measured and in the form of each file.
 struct Ready {
     measured: Measured,
     points: usize,
     sampled: usize,
-    encoded: Vec<u8>,
+    encoded: Vec<Vec<u8>>,
 }
 
 /// What a run gave.
@@ -62,18 +62,29 @@ pub struct Expected {
     pub control_points: f64,
 }
 
+/// How a path is made, besides its chain and job.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Making {
+    /// Whether segments whose error exceeds the tolerance are halved.
+    pub refine: bool,
+    /// Steps of time a second to which the controller rounds: every control point is then put
+    /// where the path is at such a step, so that program and path have the same points.
+    pub time_steps: Option<f64>,
+}
+
 /// Makes, measures and hands on the path.
 pub fn run(
     chain: &Chain,
     prepared: &Prepared,
-    refined: bool,
+    making: Making,
     sink: &mut dyn Sink,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
     progress.begin(Stage::Law, 1);
-    let plan = Plan::new(chain, prepared)?;
+    let mut plan = Plan::new(chain, prepared)?;
+    plan.time_steps = making.time_steps;
     let batch = batch_size(&plan)?;
-    let depths = match refined {
+    let depths = match making.refine {
         true => refine(&plan, batch, progress)?,
         false => Vec::new(),
     };
@@ -91,13 +102,17 @@ fn write(
     let mut meter = Meter::new(touch.clone());
     let (mut made_points, mut sampled) = (0, 0);
     let mut state = first_state(plan);
+    let mut tail = Vec::new();
     let blocks: Vec<usize> = (0..plan.blocks()).collect();
     progress.begin(Stage::Write, blocks.len() as u64);
     for range in runs(&blocks, batch) {
         let made = make(plan, range.clone(), depths, state.as_mut())?;
+        let before: Vec<Vec<ControlPoint>> =
+            made.iter().map(|made| follow(&mut tail, made)).collect();
         let encoder: &dyn Sink = sink;
-        let each = made.into_par_iter();
-        for block in in_order(each.map(|made| ready(touch, made, encoder)))? {
+        let each = made.into_par_iter().zip(before);
+        let ready = in_order(each.map(|(made, before)| ready(touch, made, &before, encoder)))?;
+        for block in ready {
             meter
                 .append(&block.measured)
                 .map_err(PipelineError::Measure)?;
@@ -118,14 +133,32 @@ fn write(
     })
 }
 
-/// Measures a block and puts it into the file's form, the joint with the next one left out.
-fn ready(touch: &FirstTouch, made: Made, sink: &dyn Sink) -> Result<Ready> {
+/// The points before a block; its own last two take their place in `tail`.
+fn follow(tail: &mut Vec<ControlPoint>, made: &Made) -> Vec<ControlPoint> {
+    let before = tail.clone();
+    let own = made.owner.len();
+    tail.extend((own.saturating_sub(2)..own).filter_map(|index| made.points.get(index)));
+    tail.drain(..tail.len().saturating_sub(2));
+    before
+}
+
+/// Measures a block and puts it into the form of each file, the joint with the next one left out.
+fn ready(
+    touch: &FirstTouch,
+    made: Made,
+    before: &[ControlPoint],
+    sink: &dyn Sink,
+) -> Result<Ready> {
     let measured = Meter::measure(touch, &made.points).map_err(PipelineError::Measure)?;
     let mut points = made.points;
     points.truncate(made.owner.len());
-    let encoded = sink
-        .encode(Section::Cutting, &points)
-        .map_err(PipelineError::Sink)?;
+    let stretch = PathStretch {
+        section: Section::Cutting,
+        opens_section: before.is_empty(),
+        before,
+        points: &points,
+    };
+    let encoded = sink.encode(&stretch).map_err(PipelineError::Sink)?;
     Ok(Ready {
         measured,
         points: points.len(),

@@ -53,6 +53,17 @@ impl Draft {
         &self.path
     }
 
+    /// What has been written so far, as a file that can be read under another name.
+    pub fn readable(&mut self) -> Result<&Path, FileError> {
+        match self.file.flush() {
+            Ok(()) => Ok(self.file.get_ref().path()),
+            Err(error) => Err(FileError {
+                path: self.path.clone(),
+                error,
+            }),
+        }
+    }
+
     /// Everything has been written: the file takes its name, in place of what stood there.
     pub fn complete(self) -> Result<PathBuf, FileError> {
         let Self { file, path } = self;

@@ -3,8 +3,9 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
+use turnpath_core::toolpath::{ControlPoint, Section};
 
+use crate::path_reader::{Counted, ReadPath};
 use crate::row::{HEADER, Row};
 
 /// Most degrees that C may turn between two rows: beyond, rows are missing.
@@ -38,10 +39,7 @@ pub enum ReadError {
 pub struct PathReader {
     rows: csv::Reader<File>,
     path: PathBuf,
-    last: Option<ControlPoint>,
-    last_section: Section,
-    count: u64,
-    cutting: u64,
+    counted: Counted,
 }
 
 impl PathReader {
@@ -67,47 +65,21 @@ impl PathReader {
                 what,
             });
         }
-        let last_section = Section::LeadIn;
+        let counted = Counted::default();
         Ok(Self {
             rows,
             path,
-            last: None,
-            last_section,
-            count: 0,
-            cutting: 0,
+            counted,
         })
     }
+}
 
-    /// Rows read so far.
-    pub fn count(&self) -> u64 {
-        self.count
+impl ReadPath for PathReader {
+    fn counted(&self) -> &Counted {
+        &self.counted
     }
 
-    /// Rows of the cutting section so far.
-    pub fn cutting(&self) -> u64 {
-        self.cutting
-    }
-
-    /// The next control points of the cutting section, about `most` of them. A block begins with
-    /// the point that the one before ended with. `None` at the end.
-    pub fn next_block(&mut self, most: usize) -> Result<Option<PathBlock>, ReadError> {
-        let mut block = PathBlock::default();
-        if let Some(last) = self.last.filter(|_| self.last_section == Section::Cutting) {
-            block.push(last);
-        }
-        let begun = block.len();
-        while block.len() < most + begun {
-            let Some((point, section)) = self.next_row()? else {
-                break;
-            };
-            if section == Section::Cutting {
-                block.push(point);
-            }
-        }
-        Ok((block.len() > begun).then_some(block))
-    }
-
-    fn next_row(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
         let mut record = csv::StringRecord::new();
         let read = self.rows.read_record(&mut record);
         if !read.map_err(|error| of_csv(&self.path, &error))? {
@@ -126,33 +98,49 @@ impl PathReader {
             .section()
             .ok_or_else(|| wrong("the section must be 0, 1 or 2".to_owned()))?;
         let point = row.point();
-        self.check(&point, section).map_err(wrong)?;
-        self.last = Some(point);
-        self.last_section = section;
-        self.count += 1;
-        self.cutting += u64::from(section == Section::Cutting);
+        check(self.counted.last(), &point, section).map_err(wrong)?;
+        self.counted.see(point, section);
         Ok(Some((point, section)))
     }
+}
 
-    fn check(&self, point: &ControlPoint, section: Section) -> Result<(), String> {
-        if !point.is_finite() {
-            return Err("a value is not a finite number".to_owned());
-        }
-        if section < self.last_section {
-            return Err("the sections must come in the order 0, 1, 2".to_owned());
-        }
-        let Some(last) = self.last else { return Ok(()) };
-        if point.t <= last.t {
-            return Err(format!("the time {} s is not after {} s", point.t, last.t));
-        }
-        let turn = (point.c - last.c) / turnpath_core::DEG;
-        if section == Section::Cutting && !(turn > 0.0 && turn <= LARGEST_TURN_DEG) {
-            return Err(format!(
-                "C turns by {turn} deg from the row before; it must grow, by 360 deg at the most"
-            ));
-        }
-        Ok(())
+fn check(
+    last: Option<&(ControlPoint, Section)>,
+    point: &ControlPoint,
+    section: Section,
+) -> Result<(), String> {
+    if !point.is_finite() {
+        return Err("a value is not a finite number".to_owned());
     }
+    let Some((before, last_section)) = last else {
+        return Ok(());
+    };
+    if section < *last_section {
+        return Err("the sections must come in the order 0, 1, 2".to_owned());
+    }
+    if point.t <= before.t {
+        return Err(format!(
+            "the time {} s is not after {} s",
+            point.t, before.t
+        ));
+    }
+    check_turn(last, point, section)
+}
+
+/// While it cuts, C must grow, and not by more than rows that are missing would make it.
+pub(crate) fn check_turn(
+    last: Option<&(ControlPoint, Section)>,
+    point: &ControlPoint,
+    section: Section,
+) -> Result<(), String> {
+    let Some((last, _)) = last else { return Ok(()) };
+    let turn = (point.c - last.c) / turnpath_core::DEG;
+    if section == Section::Cutting && !(turn > 0.0 && turn <= LARGEST_TURN_DEG) {
+        return Err(format!(
+            "C turns by {turn} deg from the point before; it must grow, by 360 deg at the most"
+        ));
+    }
+    Ok(())
 }
 
 fn of_csv(path: &Path, error: &csv::Error) -> ReadError {

@@ -2,7 +2,7 @@
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
 
-use crate::{PathReader, PathWriter};
+use crate::{PathReader, PathWriter, ReadPath};
 
 fn path_of(count: usize) -> PathBlock {
     let mut block = PathBlock::default();
@@ -70,7 +70,7 @@ fn blocks_share_the_point_between_them() {
     assert_eq!(first.t[3], second.t[0]);
     assert_eq!(reader.next_block(4).unwrap().unwrap().len(), 3);
     assert!(reader.next_block(4).unwrap().is_none());
-    assert_eq!(reader.count(), 10);
+    assert_eq!(reader.counted().count(), 10);
 }
 
 #[test]

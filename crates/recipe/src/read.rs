@@ -45,9 +45,9 @@ impl Sections<'_> {
         }
     }
 
-    /// A table by its name; it may be missing.
+    /// A table by its name, `output` or `output.pmac-pvt`; it may be missing.
     pub(crate) fn open(&mut self, name: &'static str) -> Section<'_> {
-        let entry = self.root.get(name);
+        let entry = self.root.find(name.split('.'));
         let place = entry.map_or(self.whole, |entry| &entry.node.place).clone();
         let table = match entry.map(|entry| &entry.node.value) {
             Some(Value::Table(table)) => Some(table),
@@ -93,6 +93,18 @@ impl<'a> Section<'a> {
     /// Whether the name stands for a value that is no table, which was complained about.
     pub(crate) fn is_something_else(&self) -> bool {
         self.table.is_none() && !self.place.is_whole()
+    }
+
+    /// Complains if the name of a table within a table stands for something else.
+    pub(crate) fn is_table(&mut self) {
+        if self.is_something_else() {
+            let title = format!("`{}` must be a table", self.name);
+            let diagnostic = Diagnostic::new(self.place.clone(), title).help(format!(
+                "write the line [{}], and its keys below it",
+                self.name
+            ));
+            self.complain(diagnostic);
+        }
     }
 
     /// Takes a complaint.
@@ -147,6 +159,11 @@ impl<'a> Section<'a> {
             self.missing(key, &format!("\"{example}\""));
         }
         self.quantity(key, kind, bound)
+    }
+
+    /// A pure number, if the key is there and right.
+    pub(crate) fn number(&mut self, key: &str) -> Option<Located<f64>> {
+        self.at(key, |node| value::number(key, node))
     }
 
     /// A flag, if the key is there and right.

@@ -14,7 +14,7 @@ use crate::document::{Reader, Table};
 use crate::place::{Located, Place, Source};
 use crate::read::Sections;
 use crate::set;
-use crate::tables::{self, Interference, Output, Overrun};
+use crate::tables::{self, Interference, Output, Overrun, PmacPvt};
 
 /// Largest recipe, in bytes; a hundred times any that a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -45,6 +45,8 @@ pub struct Recipe {
     pub refine: bool,
     /// The files to write.
     pub output: Output,
+    /// How the post `pmac-pvt` lays out its programs.
+    pub pmac_pvt: PmacPvt,
     /// Folders and libraries to take plugins from, as written, relative to the recipe.
     pub plugins: Vec<Located<String>>,
     choices: [Choice; 5],
@@ -169,6 +171,11 @@ impl Recipe {
         &self.document
     }
 
+    /// The recipe's text as it stands in its file.
+    pub fn text(&self) -> &str {
+        &self.whole.source().text
+    }
+
     /// The recipe's path, as the user gave it.
     pub fn path(&self) -> &Path {
         &self.path
@@ -281,6 +288,7 @@ fn build(
     let speed = tables::spindle(&mut sections.open("spindle"));
     let way = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
+    let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
     let choices = Slot::ALL.map(|slot| Choice::read(slot, &mut sections.open(slot.key())));
     let [surface, feed, sampler, compensator, velocity] = choices;
     let tool = tool?;
@@ -296,6 +304,7 @@ fn build(
         lead: way.lead,
         refine: top.refine,
         output,
+        pmac_pvt,
         plugins: top.plugins,
         choices: [surface?, feed?, sampler?, compensator?, velocity?],
         document,

@@ -77,8 +77,15 @@ says! {
     path_left_out: "[path]\ndirection = \"inward\"\noverrun = \"none\"\nlead = false\n" => "";
     machine: "[output]" => "[machine]\npreset = \"generic-sts\"\n\n[output]";
     interference_cut_what_fits: "\"refuse\"" => "\"cut-what-fits\"";
-    post_not_yet: "posts = []" => "posts = [\"pmac-pvt\"]";
+    post_twice: "posts = []" => "posts = [\"pmac-pvt\", \"pmac-pvt\"]";
     post_unknown: "posts = []" => "posts = [\"pmac-pwt\"]";
+    post_key_unknown: "[ablation]" => "[output.pmac-pvt]\nposition_decimal = 7\n\n[ablation]";
+    post_decimals: "[ablation]" => "[output.pmac-pvt]\nposition_decimals = 7.5\n\n[ablation]";
+    post_c_sign: "[ablation]" => "[output.pmac-pvt]\nc_sign = 2\n\n[ablation]";
+    post_c_wrap: "[ablation]" => "[output.pmac-pvt]\nc_wrap = \"0..360\"\n\n[ablation]";
+    post_positioning: "[ablation]" => "[output.pmac-pvt]\npositioning = \"incremantal\"\n\n[ablation]";
+    post_table_misspelt: "[ablation]" => "[output.pmac-pvd]\nc_sign = 1\n\n[ablation]";
+    post_no_table: "posts = []" => "pmac-pvt = 7";
     data_unknown: "data = [\"csv\"]" => "data = [\"csw\"]";
     z_reference_misspelt: "\"tip\"" => "\"center\"";
     control_characters: "aperture = \"5 mm\"" => "aperture = \"5 \\u001b[31m\"";

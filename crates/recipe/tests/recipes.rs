@@ -108,6 +108,25 @@ fn words_are_read() {
 }
 
 #[test]
+fn programs_are_laid_out_as_asked_or_well() {
+    let plain = parse(FULL, &[]).pmac_pvt;
+    assert_eq!((plain.position_decimals, plain.velocity_decimals), (7, 7));
+    assert!(!plain.per_minute && !plain.c_reversed && !plain.c_wrapped && !plain.incremental);
+    assert!(plain.header.is_none() && plain.footer.is_none());
+    let table = "[output.pmac-pvt]\nposition_decimals = 6\nvelocity_per = \"min\"\nc_sign = -1\n\
+                 c_wrap = \"0-360\"\npositioning = \"incremental\"\nheader = \"; {name}\"\n";
+    let text = FULL.replace("posts = []", "posts = [\"pmac-pvt\"]") + table;
+    let recipe = parse(&text, &["output.pmac-pvt.footer=\"M30\""]);
+    let asked = &recipe.pmac_pvt;
+    assert_eq!((asked.position_decimals, asked.velocity_decimals), (6, 5));
+    assert!(asked.per_minute && asked.c_reversed && asked.c_wrapped && asked.incremental);
+    assert_eq!(asked.header.as_ref().unwrap().value, "; {name}");
+    assert_eq!(asked.footer.as_ref().unwrap().value, "M30");
+    assert_eq!(recipe.output.posts[0].value, "pmac-pvt");
+    assert_eq!(recipe.text(), text);
+}
+
+#[test]
 fn places_are_those_of_the_text() {
     let recipe = parse(FULL, &["velocity.use=area"]);
     assert_eq!(underlined(&recipe, "tool.nose_radius"), "\"1 mm\"");

@@ -8,13 +8,13 @@ use std::f64::consts::TAU;
 use std::io;
 use std::sync::Arc;
 
-use turnpath_core::toolpath::{PathBlock, Section};
+use turnpath_core::toolpath::{PathBlock, PathStretch};
 use turnpath_core::{
     Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Onward, Part, Path,
     Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw, Stretch, Surface,
     SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
-use turnpath_pipeline::{Chain, Link, Outcome, PipelineError, Quiet, Sink, prepare, run};
+use turnpath_pipeline::{Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, prepare, run};
 
 /// The rim, mm.
 pub const RIM: f64 = 2.0;
@@ -211,6 +211,7 @@ pub struct Job {
     pub interpolation: f64,
     pub rpm: f64,
     pub refined: bool,
+    pub time_steps: Option<f64>,
 }
 
 impl Default for Job {
@@ -224,6 +225,7 @@ impl Default for Job {
             interpolation: 1e-4,
             rpm: 60.0,
             refined: false,
+            time_steps: None,
         }
     }
 }
@@ -265,7 +267,11 @@ impl Job {
         let spindle = SpindleLaw::constant(self.rpm / 60.0 * TAU);
         let prepared = prepare(&chain, part, tool, tolerance, self.direction, spindle)?;
         let mut kept = Kept::default();
-        let outcome = run(&chain, &prepared, self.refined, &mut kept, &Quiet)?;
+        let making = Making {
+            refine: self.refined,
+            time_steps: self.time_steps,
+        };
+        let outcome = run(&chain, &prepared, making, &mut kept, &Quiet)?;
         Ok((kept.points, outcome))
     }
 
@@ -282,14 +288,16 @@ struct Kept {
 }
 
 impl Sink for Kept {
-    fn encode(&self, _: Section, points: &PathBlock) -> io::Result<Vec<u8>> {
-        let numbers = points
+    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
+        let numbers = stretch
+            .points
             .points()
             .flat_map(|p| [p.t, p.c, p.x, p.z, p.vc, p.vx, p.vz]);
-        Ok(numbers.flat_map(f64::to_le_bytes).collect())
+        Ok(vec![numbers.flat_map(f64::to_le_bytes).collect()])
     }
 
-    fn take(&mut self, _: usize, encoded: &[u8]) -> io::Result<()> {
+    fn take(&mut self, _: usize, encoded: &[Vec<u8>]) -> io::Result<()> {
+        let encoded = encoded.concat();
         let (bytes, _) = encoded.as_chunks::<8>();
         let numbers: Vec<f64> = bytes.iter().map(|b| f64::from_le_bytes(*b)).collect();
         for [t, c, x, z, vc, vx, vz] in numbers.as_chunks::<7>().0 {

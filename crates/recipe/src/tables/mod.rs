@@ -3,16 +3,19 @@
 mod cutting;
 mod output;
 mod path;
+mod pmac_pvt;
 mod top;
 mod work;
 
 pub use output::{DataFormat, Output, ZReference};
 pub use path::Overrun;
+pub use pmac_pvt::PmacPvt;
 pub use work::Interference;
 
 pub(crate) use cutting::{spindle, tolerance};
 pub(crate) use output::{machine, output};
 pub(crate) use path::path;
+pub(crate) use pmac_pvt::pmac_pvt;
 pub(crate) use top::{format_is_one, top};
 pub(crate) use work::{part, tool};
 
@@ -24,6 +27,7 @@ pub(crate) const SCHEMA: &[(&str, &[&str])] = &[
     ("spindle", cutting::SPINDLE_KEYS),
     ("path", path::KEYS),
     ("output", output::KEYS),
+    (pmac_pvt::NAME, pmac_pvt::KEYS),
     ("machine", &["preset"]),
     ("ablation", &["mode"]),
 ];

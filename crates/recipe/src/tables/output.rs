@@ -5,9 +5,9 @@ use crate::place::Located;
 use crate::read::Section;
 use crate::suggest::{did_you_mean, listed, quoted};
 
-pub(super) const KEYS: &[&str] = &["posts", "data", "z_reference"];
+pub(super) const KEYS: &[&str] = &["posts", "data", "z_reference", "pmac-pvt"];
 
-/// Posts that turnpath will have; this version has none.
+/// The posts there are. Each may have a table of its name below `[output]`.
 const POSTS: &[&str] = &["pmac-pvt"];
 const DATA: &[&str] = &["csv"];
 
@@ -42,9 +42,7 @@ pub struct Output {
 pub(crate) fn output(section: &mut Section<'_>) -> Output {
     section.only(KEYS);
     let posts = section.texts("posts").unwrap_or_default();
-    for post in &posts {
-        refuse_post(section, post);
-    }
+    check_posts(section, &posts);
     let z_reference = match section.word("z_reference", &["tip", "centre"]) {
         Some(word) if word.value == "centre" => ZReference::Centre,
         _ => ZReference::Tip,
@@ -84,19 +82,18 @@ fn no_such(what: &str, name: &Located<String>, known: &[&str]) -> Diagnostic {
     .help(format!("known: {}", listed(known)))
 }
 
-fn refuse_post(section: &mut Section<'_>, post: &Located<String>) {
-    if !POSTS.contains(&post.value.as_str()) {
-        section.complain(no_such("post", post, POSTS));
-        return;
+fn check_posts(section: &mut Section<'_>, posts: &[Located<String>]) {
+    for (index, post) in posts.iter().enumerate() {
+        if !POSTS.contains(&post.value.as_str()) {
+            section.complain(no_such("post", post, POSTS));
+        } else if posts[..index].iter().any(|other| other.value == post.value) {
+            let title = format!("the post {} stands twice", quoted(&post.value));
+            let diagnostic = Diagnostic::new(post.place.clone(), title)
+                .label("again")
+                .help("each post writes one program: name it once");
+            section.complain(diagnostic);
+        }
     }
-    let title = format!(
-        "the post {} is not in this version yet",
-        quoted(&post.value)
-    );
-    let diagnostic = Diagnostic::new(post.place.clone(), title)
-        .label("not yet")
-        .help("write posts = []; data = [\"csv\"] writes the path as a table");
-    section.complain(diagnostic);
 }
 
 /// Refuses `[machine]`.

@@ -81,7 +81,11 @@ fn only_known(section: &mut Section<'_>) {
 
 fn table_names() -> Vec<&'static str> {
     let slots = Slot::ALL.iter().map(|slot| slot.key());
-    SCHEMA.iter().map(|(name, _)| *name).chain(slots).collect()
+    let fixed = SCHEMA.iter().map(|(name, _)| *name);
+    fixed
+        .filter(|name| !name.contains('.'))
+        .chain(slots)
+        .collect()
 }
 
 fn not_a_table(entry: &Entry) -> Diagnostic {

@@ -1,0 +1,140 @@
+//! Headers and footers: text with placeholders.
+
+/// What can stand in braces, and what it becomes.
+pub const PLACEHOLDERS: &[&str] = &[
+    "name",
+    "recipe",
+    "sha256",
+    "changes",
+    "turnpath",
+    "points",
+    "revolutions",
+    "time_s",
+    "z_reference",
+    "c_range",
+    "velocity_unit",
+    "ix90",
+];
+
+/// A text with placeholders, `{name}`; a brace itself is written twice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Template(Vec<Part>);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Part {
+    Text(String),
+    Placeholder(String),
+}
+
+/// Why a text is no template.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TemplateError {
+    /// No such placeholder.
+    #[error("no placeholder named `{{{0}}}`")]
+    Unknown(String),
+    /// A brace that stands alone.
+    #[error("a brace stands alone; a brace itself is written twice, `{{{{` or `}}}}`")]
+    Alone,
+}
+
+impl Template {
+    /// Reads a text.
+    ///
+    /// ```
+    /// # use turnpath_post::Template;
+    /// let template = Template::parse("; {name}, {points} points").unwrap();
+    /// let filled = template.fill(|placeholder| match placeholder {
+    ///     "name" => "Mirror".to_owned(),
+    ///     _ => "4160".to_owned(),
+    /// });
+    /// assert_eq!(filled, "; Mirror, 4160 points\n");
+    /// assert!(Template::parse("{nam}").is_err());
+    /// ```
+    ///
+    /// # Errors
+    /// Where a placeholder is unknown or a brace stands alone.
+    pub fn parse(text: &str) -> Result<Self, TemplateError> {
+        let mut parts = Vec::new();
+        let mut rest = text;
+        while let Some(at) = rest.find(['{', '}']) {
+            let (before, after) = rest.split_at(at);
+            parts.push(Part::Text(before.to_owned()));
+            let (part, behind) = part(after)?;
+            parts.push(part);
+            rest = behind;
+        }
+        parts.push(Part::Text(rest.to_owned()));
+        Ok(Self(parts))
+    }
+
+    /// The text with each placeholder's value in its place, and a line end. What a controller
+    /// could stumble on in a value, line ends and characters beyond ASCII, is replaced.
+    pub fn fill(&self, value: impl Fn(&str) -> String) -> String {
+        let mut text = String::new();
+        for part in &self.0 {
+            match part {
+                Part::Text(plain) => text.push_str(plain),
+                Part::Placeholder(name) => text.extend(value(name).chars().map(plain)),
+            }
+        }
+        if !text.is_empty() && !text.ends_with('\n') {
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// What begins with a brace, and what stands behind it.
+fn part(text: &str) -> Result<(Part, &str), TemplateError> {
+    for (twice, brace) in [("{{", "{"), ("}}", "}")] {
+        if let Some(behind) = text.strip_prefix(twice) {
+            return Ok((Part::Text(brace.to_owned()), behind));
+        }
+    }
+    let inside = text.strip_prefix('{').and_then(|text| text.split_once('}'));
+    let (name, behind) = inside.ok_or(TemplateError::Alone)?;
+    match PLACEHOLDERS.contains(&name) {
+        true => Ok((Part::Placeholder(name.to_owned()), behind)),
+        false => Err(TemplateError::Unknown(name.to_owned())),
+    }
+}
+
+fn plain(c: char) -> char {
+    match c {
+        ' '..='~' => c,
+        c if c.is_whitespace() || c.is_control() => ' ',
+        _ => '?',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(text: &str) -> String {
+        Template::parse(text)
+            .unwrap()
+            .fill(|name| format!("<{name}>"))
+    }
+
+    #[test]
+    fn placeholders_are_replaced_and_double_braces_kept() {
+        assert_eq!(filled("a{name}b{points}"), "a<name>b<points>\n");
+        assert_eq!(filled("{{name}}\n"), "{name}\n");
+        assert_eq!(filled(""), "");
+    }
+
+    #[test]
+    fn values_stay_on_their_line_and_in_ascii() {
+        let name = Template::parse("; {name}").unwrap();
+        assert_eq!(name.fill(|_| "a\nX1:2 µ".to_owned()), "; a X1:2 ?\n");
+    }
+
+    #[test]
+    fn unknown_placeholders_and_lone_braces_are_refused() {
+        let unknown = Template::parse("{nam}").unwrap_err();
+        assert_eq!(unknown.to_string(), "no placeholder named `{nam}`");
+        assert_eq!(Template::parse("{name"), Err(TemplateError::Alone));
+        assert_eq!(Template::parse("name}"), Err(TemplateError::Alone));
+    }
+}
