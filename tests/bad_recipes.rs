@@ -178,8 +178,15 @@ fn a_lead_that_this_version_does_not_make() {
 
 #[test]
 fn a_program_that_this_version_does_not_write() {
-    let recipe = format!("{SADDLE}\n[output]\nposts = [\"pmac-pvt\"]\n");
+    let recipe = format!("{SADDLE}\n[output]\nposts = [\"pmac-pvd\"]\n");
     insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
+}
+
+#[test]
+fn a_program_that_cannot_carry_straight_lines() {
+    let recipe = format!("{SADDLE}\n[output]\nposts = [\"pmac-pvt\"]\n");
+    let straight = "run recipe.toml --set velocity={use=\"linear\"}";
+    insta::assert_snapshot!(answer(recipe, straight));
 }
 
 #[test]

@@ -47,7 +47,8 @@ impl Files {
         wants_path: bool,
         programs: Vec<Program>,
     ) -> Result<Self, FileError> {
-        nothing_in_the_way(&folder)?;
+        let names = programs.iter().map(|program| program.file.as_str());
+        nothing_in_the_way(&folder, names.chain([TOOLPATH, SUMMARY]))?;
         Ok(Self {
             folder,
             wants_path,
@@ -123,7 +124,10 @@ impl Files {
 }
 
 /// A file where a folder must be, or a folder where a file must be, is told before the work.
-fn nothing_in_the_way(folder: &Path) -> Result<(), FileError> {
+fn nothing_in_the_way<'a>(
+    folder: &Path,
+    files: impl Iterator<Item = &'a str>,
+) -> Result<(), FileError> {
     let wrong = |path: PathBuf, kind, what| {
         let error = io::Error::new(kind, what);
         Err(FileError { path, error })
@@ -133,7 +137,7 @@ fn nothing_in_the_way(folder: &Path) -> Result<(), FileError> {
         let what = format!("{} is a file, not a folder", file.display());
         return wrong(folder.to_owned(), io::ErrorKind::NotADirectory, what);
     }
-    for file in [TOOLPATH, SUMMARY].map(|name| folder.join(name)) {
+    for file in files.map(|name| folder.join(name)) {
         if file.is_dir() {
             let what = "it is a folder".to_owned();
             return wrong(file, io::ErrorKind::IsADirectory, what);

@@ -7,14 +7,14 @@ use turnpath_core::Slot;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Making, run as run_pipeline};
-use turnpath_post::PMAC_TIME_STEPS;
+use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 
 use crate::args::{Format, RunArgs};
 use crate::failure::Failure;
 use crate::figures;
 use crate::files::Files;
 use crate::job::{Job, of_pipeline};
-use crate::programs::asked;
+use crate::programs::{asked, not_carried};
 use crate::progress::Bar;
 use crate::summary::Summary;
 use crate::{Done, Verdict};
@@ -60,25 +60,10 @@ pub fn run(args: &RunArgs) -> Done {
 /// A program in PVT mode plays cubics; a path of straight lines is another one.
 fn refuse_straight_lines(job: &Job) -> Result<(), Failure> {
     let straight = job.chain.velocity.strategy.segments() == SegmentShape::Linear;
-    match job.recipe.output.posts.first().filter(|_| straight) {
-        None => Ok(()),
-        Some(post) => {
-            let name = &job.chain.velocity.name;
-            let title = format!(
-                "`{}` cannot carry the straight lines of `{name}`",
-                post.value
-            );
-            let help = "choose another velocity solver, or no post: toolpath.csv is written anyway";
-            let place = post.place.clone();
-            let complaint = job.recipe.complaint(
-                place,
-                title,
-                "plays a cubic between points",
-                [help.to_owned()],
-            );
-            Err(complaint.into())
-        }
+    if straight && !job.recipe.output.posts.is_empty() {
+        return Err(not_carried(&job.recipe, &PmacError::Straight));
     }
+    Ok(())
 }
 
 /// The plugins of the five strategies, each once.
