@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn the_minimum_between_the_angles_of_a_ring_is_found() {
-        for waves in [1.0, 2.0, 7.0, 36.0, 90.0, 180.0, 251.0, 360.0] {
+        for waves in [1.0, 2.0, 7.0, 36.0, 90.0, 180.0, 251.0] {
             let found = least(|theta| 3.0 + Scalar::cos(waves * theta + 0.123)).unwrap();
             assert!((found - 2.0).abs() < 1e-6, "{waves} waves: {found}");
         }

@@ -10,7 +10,7 @@
 
 use std::collections::VecDeque;
 
-use crate::table::FeedTable;
+use crate::table::{FLOORS, FeedTable};
 
 /// By how much the smooth feed stays below what is proven: room for the polynomial pieces, whose
 /// rate follows it to half of this. It costs a ten-thousandth more revolutions.
@@ -28,16 +28,17 @@ pub struct SmoothFeed {
 impl SmoothFeed {
     /// Erodes and averages the table's floors over `window` = h, mm.
     pub fn new(table: &FeedTable, window: f64) -> Self {
+        let step = table.step / FLOORS as f64;
         let (origin, floor) = if table.even {
             let mirrored = table.floor.iter().rev().chain(&table.floor);
             (
-                -table.step * table.floor.len() as f64,
+                -step * table.floor.len() as f64,
                 mirrored.copied().collect(),
             )
         } else {
             (table.from, table.floor.clone())
         };
-        let reach = ((window + table.largest()) / table.step).ceil();
+        let reach = ((window + table.largest()) / step).ceil();
         let reach = if reach < floor.len() as f64 {
             reach as usize
         } else {
@@ -47,15 +48,15 @@ impl SmoothFeed {
         cells.iter_mut().for_each(|feed| *feed *= 1.0 - MARGIN);
         Self {
             origin,
-            step: table.step,
+            step,
             cells,
             window,
         }
     }
 
-    /// The width of the cells that it is averaged from, mm: it varies little over one.
-    pub fn cell(&self) -> f64 {
-        self.step
+    /// A length over which it is as good as a polynomial of low degree, mm.
+    pub fn scale(&self) -> f64 {
+        0.125 * self.window
     }
 
     /// F₂ and dF₂/dρ at `rho`.
@@ -126,15 +127,18 @@ fn eroded(values: &[f64], reach: usize) -> Vec<f64> {
 mod tests {
     use super::*;
 
+    /// A table whose floors go up and down; of its feeds only the largest counts.
     fn table(even: bool) -> FeedTable {
-        let feed: Vec<f64> = (0..=200)
-            .map(|i| 0.02 + 0.001 * f64::from((i * 37) % 11) + 1e-4 * f64::from(i))
+        let floor: Vec<f64> = (0..200 * FLOORS)
+            .map(|i| {
+                0.02 + 0.001 * ((i / FLOORS * 37) % 11) as f64 + 1e-4 / FLOORS as f64 * i as f64
+            })
             .collect();
         FeedTable {
             from: if even { 0.0 } else { 1.0 },
             step: 0.01,
-            floor: feed.windows(2).map(|pair| pair[0].min(pair[1])).collect(),
-            feed,
+            feed: vec![floor.iter().copied().fold(0.0, f64::max)],
+            floor,
             even,
         }
     }
@@ -159,7 +163,8 @@ mod tests {
             for i in 0..4000 {
                 let rho = table.from + 2.0 * f64::from(i) / 4000.0;
                 let cell = |rho: f64| {
-                    (((rho - table.from).abs() / table.step) as usize).min(table.floor.len() - 1)
+                    (((rho - table.from).abs() / table.step * FLOORS as f64) as usize)
+                        .min(table.floor.len() - 1)
                 };
                 let (from, to) = (
                     (rho - table.largest()).max(table.from),
