@@ -9,7 +9,7 @@
 //! |E| ≤ L⁴/384 max|φ⁗| + L³/192 Σ|J₃| + 0.016152 L² Σ|J₂| + 4/27 L Σ|J₁|,
 //!
 //! where max|φ⁗| takes both sides of each knot. A law whose pieces join almost as smoothly as
-//! they are within costs next to nothing by this; any other makes the step end on its knot.
+//! they are within costs next to nothing by this; at any other knot the sampler ends its step.
 
 /// max |∂K/∂t| for L = 1, at x = 0.566, t = 0.767 (or mirrored), rounded up.
 const SECOND: f64 = 0.016_152;

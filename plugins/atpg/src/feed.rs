@@ -3,13 +3,18 @@
 use turnpath_plugin::prelude::*;
 
 use crate::cubic::{CubicFit, explicit_pairs};
-use crate::pieces::pieces;
+use crate::pieces::{pieces, revolutions};
 use crate::smooth::SmoothFeed;
 use crate::table::{FeedTable, Residual};
 
 /// Half width h of the average over ρ, as a part of the aperture: wider makes X smoother, and
 /// costs revolutions where the feed varies (AST-5: 0.2 % at this width).
 const WINDOW: f64 = 0.01;
+/// What smoothing may cost in revolutions against the fastest law: where the feed goes up and
+/// down with every lens of an array, the window is halved until it costs no more.
+const LARGEST_COST: f64 = 0.01;
+/// The narrowest window, in feeds: narrower, X would change its speed within a turn.
+const NARROWEST: f64 = 0.25;
 
 /// How the law follows F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,8 +73,7 @@ impl FeedStrategy for AtpgFeed {
         let table = FeedTable::new(setup, self.residual)?;
         let stretches = match self.fit {
             Fit::Smooth => {
-                let window = WINDOW * 2.0 * job.part.aperture_radius;
-                let smooth = SmoothFeed::new(&table, window);
+                let smooth = smoothed(&table, WINDOW * 2.0 * job.part.aperture_radius);
                 pieces(&smooth, job.range, job.direction)?
             }
             Fit::Cubic => {
@@ -79,6 +83,21 @@ impl FeedStrategy for AtpgFeed {
             }
         };
         Ok(Box::new(Planned(stretches)))
+    }
+}
+
+/// The smooth feed with the widest window that is not too dear.
+fn smoothed(table: &FeedTable, widest: f64) -> SmoothFeed {
+    let (from, to) = table.range();
+    let fastest = table.fewest_revolutions();
+    let mut window = widest;
+    loop {
+        let smooth = SmoothFeed::new(table, window);
+        let cost = revolutions(&smooth, from, to) / fastest - 1.0;
+        if cost <= LARGEST_COST || window <= 2.0 * NARROWEST * table.largest() {
+            return smooth;
+        }
+        window *= 0.5;
     }
 }
 

@@ -105,7 +105,7 @@ fn divide(
 }
 
 /// ∫ dρ/F₂.
-fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
+pub fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
     let panels = ((to - from) / feed.scale()).ceil().max(1.0) as usize;
     let half = 0.5 * (to - from) / panels as f64;
     let turns = |rho: f64| 1.0 / feed.at(rho).0;

@@ -15,6 +15,9 @@ const LOOKS: f64 = 16.0;
 const TOO_FINE: f64 = 4.0;
 /// The shortest step, deg: 90,000 points a revolution. What asks for less is no smooth surface.
 const SHORTEST_DEG: f64 = 0.004;
+/// The part of the tolerance that knots within a step may take; a step ends on one that might
+/// take more.
+const KNOTS_SHARE: f64 = 0.1;
 /// A node closer to the block's end than this part of its step is left out.
 const SLACK: f64 = 1e-3;
 
@@ -154,6 +157,9 @@ impl<'a> Walk<'a> {
             if to >= limit {
                 return Ok(Step { end: limit, bound });
             }
+            if crossed.is_some_and(|knot| self.is_hard(knot, &bound, length(limit))) {
+                return Ok(Step { end: to, bound });
+            }
             reached = to;
             match crossed {
                 Some(crossed) => {
@@ -164,6 +170,18 @@ impl<'a> Walk<'a> {
                 None => sample += 1,
             }
         }
+    }
+}
+
+impl Walk<'_> {
+    /// Whether the jumps of a knot could take more than their share on a step over it.
+    fn is_hard(&self, knot: &Knot, bound: &Bound, limit: f64) -> bool {
+        let jumps = Bound {
+            fourth: 0.0,
+            jumps: bound.jumps.and(knot.jumps),
+        };
+        let longest = bound.natural_length(self.allowed).min(limit);
+        jumps.error(longest) > KNOTS_SHARE * self.allowed
     }
 }
 

@@ -195,10 +195,10 @@ impl<'a> Samples<'a> {
         let mut knots = Vec::with_capacity(places.len());
         for batch in places.chunks(BATCH as usize) {
             self.played.look(batch)?;
-            let after: Vec<Series> = (0..batch.len()).map(|i| self.played.phi(i)).collect();
-            let before = self.played.before(batch)?;
-            for ((n, before), after) in batch.iter().zip(before).zip(after) {
-                knots.push(Knot::between(*n, &before, &after));
+            let after = self.played.both();
+            self.played.look_before(batch)?;
+            for ((n, before), after) in batch.iter().zip(self.played.both()).zip(after) {
+                knots.push(Knot::between(*n, before, after));
             }
         }
         Ok(knots)
@@ -206,8 +206,15 @@ impl<'a> Samples<'a> {
 }
 
 impl Played<'_> {
-    /// The series of φ at knots, as the pieces that end there have them; slopes are at hand.
-    fn before(&mut self, knots: &[f64]) -> Result<Vec<Series>> {
+    /// The series of φ and of Z at every place of the last look.
+    fn both(&self) -> Vec<[Series; 2]> {
+        (0..self.z.len())
+            .map(|i| [self.phi(i), self.z[i]])
+            .collect()
+    }
+
+    /// Looks at knots as the pieces have them that end there; the slopes are at hand.
+    fn look_before(&mut self, knots: &[f64]) -> Result<()> {
         let law = self.path.law;
         let theta: Vec<Series> = knots
             .iter()
@@ -221,18 +228,22 @@ impl Played<'_> {
             x: &mut self.x,
             z: &mut self.z,
         };
-        self.path.locus.series(&theta, &rho, out)?;
-        Ok((0..knots.len()).map(|i| self.phi(i)).collect())
+        self.path.locus.series(&theta, &rho, out)
     }
 }
 
 impl Knot {
-    fn between(n: f64, before: &Series, after: &Series) -> Self {
-        let jump = |k: usize, factorial: f64| factorial * (after[k] - before[k]).abs();
+    /// From φ and Z on both sides. A jump counts as that of φ or of Z, whichever is larger: in φ
+    /// those of Z and X cancel at the knot's own slope, which is not the slope all over the step.
+    fn between(n: f64, before: [Series; 2], after: [Series; 2]) -> Self {
+        let jump = |k: usize, factorial: f64| {
+            let of = |which: usize| (after[which][k] - before[which][k]).abs();
+            factorial * of(0).max(of(1))
+        };
         Self {
             n,
-            before: 24.0 * before[4].abs(),
-            after: 24.0 * after[4].abs(),
+            before: 24.0 * before[0][4].abs(),
+            after: 24.0 * after[0][4].abs(),
             jumps: Jumps {
                 first: jump(1, 1.0),
                 second: jump(2, 2.0),

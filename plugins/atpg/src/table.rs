@@ -91,6 +91,17 @@ impl FeedTable {
             .fold(0.0, |largest, feed| feed.max(largest))
     }
 
+    /// The radii that the table covers, mm.
+    pub fn range(&self) -> (f64, f64) {
+        (self.from, self.from + self.step * self.cells() as f64)
+    }
+
+    /// ∫ dρ/F over the table: revolutions of the fastest law that holds.
+    pub fn fewest_revolutions(&self) -> f64 {
+        let turns = |pair: &[f64]| 0.5 / pair[0] + 0.5 / pair[1];
+        self.step * self.feed.windows(2).map(turns).sum::<f64>()
+    }
+
     /// F at `rho` by the cubic through the four borders around it.
     pub fn value(&self, rho: f64) -> f64 {
         let place = ((rho - self.from) / self.step).clamp(0.0, self.cells() as f64);
