@@ -35,7 +35,7 @@ pub struct FeedTable {
     pub step: f64,
     /// F at the cells' borders, mm.
     pub feed: Vec<f64>,
-    /// What F does not fall below in each [`FLOORS`]-th of a cell, mm.
+    /// What F does not fall below in each eighth of a cell, mm.
     pub floor: Vec<f64>,
     /// Whether the table begins at the axis, and F(−ρ) = F(ρ).
     pub even: bool,

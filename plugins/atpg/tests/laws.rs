@@ -284,6 +284,20 @@ fn thin_rings_far_out_have_a_law() {
 }
 
 #[test]
+fn a_law_may_start_beyond_the_axis() {
+    let mut case = ast_5(ZDirection);
+    case.job.range.inner = -0.1;
+    check(&case, 0.5);
+    let beyond = case.law("held", "smooth").unwrap().end();
+    let turns = ast_5(ZDirection).law("held", "smooth").unwrap().end();
+    let least = case
+        .held(0.0, 360)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+    assert!(off(beyond - turns, 0.1 / least) < 0.005);
+}
+
+#[test]
 fn words_choose_the_law() {
     let feed =
         |residual, fit| AtpgFeed::new(&words(&[("residual", residual), ("fit", fit)])).unwrap();
