@@ -18,8 +18,8 @@ const BUILT_INS: [(&str, &[&str]); 5] = [
             "xy-polynomial",
         ],
     ),
-    ("feed", &["constant"]),
-    ("sampler", &["equal-angle"]),
+    ("feed", &["atpg", "constant"]),
+    ("sampler", &["atpg", "equal-angle"]),
     ("compensator", &["none", "normal", "z-direction"]),
     (
         "velocity",

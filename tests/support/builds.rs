@@ -10,7 +10,8 @@ use tempfile::TempDir;
 use super::fixtures::file_name;
 
 /// The packages whose plugins the program has inside.
-pub const BUILT_INS: [&str; 5] = [
+pub const BUILT_INS: [&str; 6] = [
+    "turnpath-atpg",
     "turnpath-constant",
     "turnpath-integrated",
     "turnpath-nose-radius",

@@ -1,0 +1,112 @@
+//! The feed strategy `atpg`.
+
+use turnpath_plugin::prelude::*;
+
+use crate::cubic::{CubicFit, explicit_pairs};
+use crate::pieces::{pieces, revolutions};
+use crate::smooth::SmoothFeed;
+use crate::table::{FeedTable, Residual};
+
+/// Half width h of the average over ρ, as a part of the aperture: wider makes X smoother, and
+/// costs revolutions where the feed varies (AST-5: 0.2 % at this width).
+const WINDOW: f64 = 0.01;
+/// What smoothing may cost in revolutions against the fastest law: where the feed goes up and
+/// down with every lens of an array, the window is halved until it costs no more.
+const LARGEST_COST: f64 = 0.01;
+/// The narrowest window, in feeds: narrower, X would change its speed within a turn.
+const NARROWEST: f64 = 0.25;
+
+/// How the law follows F.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fit {
+    Smooth,
+    Cubic,
+}
+
+/// ρ' = F(ρ), the feed that holds the residual at every angle of a radius: X does not follow the
+/// angle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtpgFeed {
+    residual: Residual,
+    fit: Fit,
+}
+
+impl Strategy for AtpgFeed {
+    const NAME: &'static str = "atpg";
+    const SUMMARY: &'static str = "at each radius the largest feed that holds the residual at \
+        every angle, made smooth";
+    const SOURCE: &'static str = "Wang et al. 2019, Micromachines 10, §3.2 and 3.3; fit = \
+        \"smooth\" stays below the feed, which the paper's cubic does not";
+    const PARAMS: &'static [Param] = &[
+        Param::choice(
+            "residual",
+            &["held", "paper"],
+            "held: cusps as the compensator leaves them; paper: a contact's feed whatever the \
+             compensator, smallest curvature and largest slope taken apart",
+        )
+        .default_choice("held"),
+        Param::choice(
+            "fit",
+            &["smooth", "cubic"],
+            "smooth: nowhere above the feed that holds; cubic: the paper's, one cubic through \
+             all revolutions, which may exceed it",
+        )
+        .default_choice("smooth"),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        let residual = match params.choice("residual") {
+            "paper" => Residual::Paper,
+            _ => Residual::Held,
+        };
+        let fit = match params.choice("fit") {
+            "cubic" => Fit::Cubic,
+            _ => Fit::Smooth,
+        };
+        Ok(Self { residual, fit })
+    }
+}
+
+impl FeedStrategy for AtpgFeed {
+    fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
+        let job = setup.job;
+        let table = FeedTable::new(setup, self.residual)?;
+        let stretches = match self.fit {
+            Fit::Smooth => {
+                let smooth = smoothed(&table, WINDOW * 2.0 * job.part.aperture_radius);
+                pieces(&smooth, job.range, job.direction)?
+            }
+            Fit::Cubic => {
+                let pairs = explicit_pairs(&table, job.range)?;
+                let turns = (pairs.len() - 1) as f64;
+                vec![CubicFit::through(&pairs)?.piece(job.range, turns, job.direction)?]
+            }
+        };
+        Ok(Box::new(Planned(stretches)))
+    }
+}
+
+/// The smooth feed with the widest window that is not too dear.
+fn smoothed(table: &FeedTable, widest: f64) -> SmoothFeed {
+    let (from, to) = table.range();
+    let fastest = table.fewest_revolutions();
+    let mut window = widest;
+    loop {
+        let smooth = SmoothFeed::new(table, window);
+        let cost = revolutions(&smooth, from, to) / fastest - 1.0;
+        if cost <= LARGEST_COST || window <= 2.0 * NARROWEST * table.largest() {
+            return smooth;
+        }
+        window *= 0.5;
+    }
+}
+
+/// All pieces at once: F has one value a radius, so they are some hundred whatever the part.
+struct Planned(Vec<Stretch>);
+
+impl FeedPlan for Planned {
+    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+        pieces.append(&mut self.0);
+        Ok(Onward::Done)
+    }
+}

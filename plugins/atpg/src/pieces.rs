@@ -1,0 +1,163 @@
+//! The law of a smooth feed: dN = dρ/F₂(ρ) integrated, as quintic pieces in N.
+//!
+//! A piece has ρ, ρ' = F₂ and ρ'' = F₂F₂' at both its ends, so the law is C² wherever pieces
+//! join.
+
+use turnpath_plugin::prelude::*;
+
+use crate::smooth::{MARGIN, SmoothFeed};
+
+/// Pieces of the whole range at first.
+const FEWEST_PIECES: usize = 8;
+/// How often a piece is halved at most: far below the width of a table's cell.
+const MOST_HALVINGS: usize = 24;
+/// Places within a piece at which its rate is held against the feed, in 1/n of the piece.
+const LOOKS: usize = 12;
+/// Nodes and weights of Gauss' rule of 10th order on (−1, 1), without the middle.
+const GAUSS: [(f64, f64); 2] = [
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+];
+/// Weight of the middle.
+const GAUSS_MIDDLE: f64 = 128.0 / 225.0;
+
+/// ρ and its first two derivatives in N.
+#[derive(Debug, Clone, Copy)]
+struct State {
+    rho: f64,
+    rate: f64,
+    second: f64,
+}
+
+impl State {
+    fn at(feed: &SmoothFeed, rho: f64) -> Self {
+        let (value, slope) = feed.at(rho);
+        Self {
+            rho,
+            rate: value,
+            second: value * slope,
+        }
+    }
+
+    /// The same place when the law runs backwards.
+    fn reversed(self) -> Self {
+        Self {
+            rate: -self.rate,
+            ..self
+        }
+    }
+}
+
+/// The part of a law between two radii.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    from: State,
+    to: State,
+    length: f64,
+}
+
+/// The pieces of the law over `range`, in the order of cutting.
+///
+/// # Errors
+/// Where the feed cannot be followed.
+pub fn pieces(feed: &SmoothFeed, range: RadialRange, direction: Direction) -> Result<Vec<Stretch>> {
+    let RadialRange { inner, outer } = range;
+    let knot = |i: usize| match i {
+        FEWEST_PIECES => outer,
+        _ => inner + (outer - inner) * i as f64 / FEWEST_PIECES as f64,
+    };
+    let mut spans = Vec::new();
+    for i in 0..FEWEST_PIECES {
+        divide(feed, knot(i), knot(i + 1), MOST_HALVINGS, &mut spans)?;
+    }
+    Ok(match direction {
+        Direction::Outward => spans.iter().map(Span::stretch).collect(),
+        Direction::Inward => spans.iter().rev().map(Span::reversed_stretch).collect(),
+    })
+}
+
+/// Halves (from, to) until each piece's rate follows the feed.
+fn divide(
+    feed: &SmoothFeed,
+    from: f64,
+    to: f64,
+    halvings: usize,
+    out: &mut Vec<Span>,
+) -> Result<()> {
+    let span = Span {
+        from: State::at(feed, from),
+        to: State::at(feed, to),
+        length: revolutions(feed, from, to),
+    };
+    if span.follows(feed) {
+        out.push(span);
+        return Ok(());
+    }
+    if halvings == 0 {
+        return Err(StrategyError::failed(format!(
+            "the feed cannot be followed at ρ = {from} mm, where it is {} mm per revolution",
+            span.from.rate
+        )));
+    }
+    let middle = 0.5 * (from + to);
+    divide(feed, from, middle, halvings - 1, out)?;
+    divide(feed, middle, to, halvings - 1, out)
+}
+
+/// ∫ dρ/F₂.
+pub fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
+    let panels = ((to - from) / feed.scale()).ceil().max(1.0) as usize;
+    let half = 0.5 * (to - from) / panels as f64;
+    let turns = |rho: f64| 1.0 / feed.at(rho).0;
+    let mut sum = 0.0;
+    for panel in 0..panels {
+        let middle = from + (2 * panel + 1) as f64 * half;
+        sum += GAUSS_MIDDLE * turns(middle);
+        for (node, weight) in GAUSS {
+            sum += weight * (turns(middle - node * half) + turns(middle + node * half));
+        }
+    }
+    sum * half
+}
+
+impl Span {
+    fn stretch(&self) -> Stretch {
+        quintic(self.from, self.to, self.length)
+    }
+
+    fn reversed_stretch(&self) -> Stretch {
+        quintic(self.to.reversed(), self.from.reversed(), self.length)
+    }
+
+    /// Whether the piece's rate is the feed's, to half the margin that the feed leaves.
+    fn follows(&self, feed: &SmoothFeed) -> bool {
+        let c = self.stretch().coefficients;
+        (1..LOOKS).all(|i| {
+            let n = self.length * i as f64 / LOOKS as f64;
+            let rho = c.iter().rev().fold(0.0, |sum, c| sum * n + c);
+            let rate = (1..6).rev().fold(0.0, |sum, k| sum * n + k as f64 * c[k]);
+            let wanted = feed.at(rho).0;
+            (rate - wanted).abs() <= 0.5 * MARGIN * wanted
+        })
+    }
+}
+
+/// The polynomial of degree 5 between two states.
+fn quintic(from: State, to: State, length: f64) -> Stretch {
+    let t = length;
+    let d = to.rho - from.rho - t * (from.rate + 0.5 * t * from.second);
+    let v = t * (to.rate - from.rate - t * from.second);
+    let a = 0.5 * t * t * (to.second - from.second);
+    let cube = t * t * t;
+    Stretch {
+        length,
+        coefficients: [
+            from.rho,
+            from.rate,
+            0.5 * from.second,
+            (10.0 * d - 4.0 * v + a) / cube,
+            (-15.0 * d + 7.0 * v - 2.0 * a) / (cube * t),
+            (6.0 * d - 3.0 * v + a) / (cube * t * t),
+        ],
+    }
+}
