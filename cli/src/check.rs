@@ -79,16 +79,15 @@ fn human(job: &Job, checked: &Checked, found: &Interference) -> String {
     let at = found.curvature.place();
     let largest = match checked.largest_nose_radius_mm {
         Some(largest) => {
-            format!(
-                "at most {largest:.4} mm (at x = {:.3} mm, y = {:.3} mm)",
-                at.x, at.y
-            )
+            let largest = figures::millimetres(largest, 4);
+            let (x, y) = (figures::millimetres(at.x, 3), figures::millimetres(at.y, 3));
+            format!("at most {largest} (at x = {x}, y = {y})")
         }
         None => "any: the part has no hollow".to_owned(),
     };
     text += &figures::line(
         "nose radius",
-        format!("{:.4} mm; {largest}", tool.nose_radius),
+        format!("{}; {largest}", figures::millimetres(tool.nose_radius, 4)),
     );
     let angle = |given: Option<f64>, least: f64| match given {
         Some(given) => format!("{:.2} deg; at least {least:.2} deg", given / DEG),

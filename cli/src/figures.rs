@@ -57,7 +57,19 @@ pub fn nanometres(nm: f64) -> String {
         v if v > 0.0 && v < 0.01 => format!("{v:.1e} nm"),
         v if v < 1e4 => format!("{v:.2} nm"),
         v if v < 1e6 => format!("{:.2} um", v / 1e3),
-        v => format!("{:.3} mm", v / 1e6),
+        v => millimetres(v / 1e6, 3),
+    }
+}
+
+/// Lengths from which digits in full tell less than a power of ten, mm.
+const LONG: f64 = 1e6;
+
+/// Millimetres with so many decimals, whatever a file or a recipe made of them.
+pub fn millimetres(mm: f64, decimals: usize) -> String {
+    match mm {
+        v if !v.is_finite() => "no number".to_owned(),
+        v if v.abs() < LONG => format!("{v:.decimals$} mm"),
+        v => format!("{v:.decimals$e} mm"),
     }
 }
 
@@ -65,7 +77,7 @@ pub fn nanometres(nm: f64) -> String {
 pub fn against(value: f64, tolerance: f64, holds: bool) -> String {
     let (value, limit) = (nanometres(value), nanometres(tolerance * NM_PER_MM));
     let verdict = if holds { "holds" } else { "EXCEEDED" };
-    format!("{value:>12} of {limit:<12}{verdict}")
+    format!("{value:>12} of {limit:<11} {verdict}")
 }
 
 /// The lines on what was measured, each error against its tolerance.
@@ -79,10 +91,10 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
     text += &line(
         "",
         format!(
-            "{:>12} rms; the largest at C = {:.2} deg, X = {:.4} mm",
+            "{:>12} rms; the largest at C = {:.2} deg, X = {}",
             nanometres(error.rms),
             error.at.c_deg,
-            error.at.x_mm
+            millimetres(error.at.x_mm, 4)
         ),
     );
     text += &line(
@@ -111,5 +123,18 @@ mod tests {
         assert_eq!(nanometres(0.000123), "1.2e-4 nm");
         assert_eq!(nanometres(67_000.0), "67.00 um");
         assert_eq!(nanometres(f64::NAN), "no number");
+        assert_eq!(nanometres(1e300), "1.000e294 mm");
+        assert_eq!(millimetres(2.49733, 4), "2.4973 mm");
+        assert_eq!(millimetres(-1e300, 4), "-1.0000e300 mm");
+    }
+
+    #[test]
+    fn a_wide_limit_stays_apart_from_the_verdict() {
+        assert_eq!(
+            against(99.9, 1e-4, true),
+            "    99.90 nm of 100.00 nm   holds"
+        );
+        let wide = against(1e12, 123_456.789, false);
+        assert!(wide.ends_with(" of 123456.789 mm EXCEEDED"), "{wide}");
     }
 }

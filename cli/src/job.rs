@@ -8,6 +8,7 @@ use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
 use crate::failure::Failure;
+use crate::figures::millimetres;
 use crate::programs::not_carried;
 use crate::strategies;
 
@@ -105,19 +106,22 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         Conflict::NoseRadius { largest, at } => (
             "tool.nose_radius",
             format!(
-                "nose radius {:.3} mm exceeds the smallest concave radius {largest:.3} mm, at \
-                 x = {:.2} mm, y = {:.2} mm in the radial direction",
-                recipe.tool.nose_radius, at.x, at.y
+                "nose radius {} exceeds the smallest concave radius {}, at x = {}, y = {} in the \
+                 radial direction",
+                millimetres(recipe.tool.nose_radius, 3),
+                millimetres(*largest, 3),
+                millimetres(at.x, 2),
+                millimetres(at.y, 2)
             ),
             "choose a smaller tool or a smaller aperture",
         ),
         Conflict::IncludedAngle { least, at } => (
             "tool.included_angle",
             format!(
-                "the contact leaves the edge: at x = {:.2} mm, y = {:.2} mm the profile is so \
-                 steep that it takes an included angle of {:.2} deg",
-                at.x,
-                at.y,
+                "the contact leaves the edge: at x = {}, y = {} the profile is so steep that \
+                 it takes an included angle of {:.2} deg",
+                millimetres(at.x, 2),
+                millimetres(at.y, 2),
                 least.to_degrees()
             ),
             "choose a tool with a larger included angle, or a smaller aperture",
@@ -125,10 +129,9 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         Conflict::Clearance { least, at } => (
             "tool.clearance_angle",
             format!(
-                "the flank rubs: at x = {:.2} mm, y = {:.2} mm the surface falls along the cut by \
-                 {:.2} deg",
-                at.x,
-                at.y,
+                "the flank rubs: at x = {}, y = {} the surface falls along the cut by {:.2} deg",
+                millimetres(at.x, 2),
+                millimetres(at.y, 2),
                 least.to_degrees()
             ),
             "choose a tool with a larger clearance angle, or a smaller aperture",
