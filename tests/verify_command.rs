@@ -93,7 +93,10 @@ fn a_file_of_the_program_gives_the_figures_of_its_summary() {
         ] {
             same(&summary, &verified, pointer);
         }
-        assert_eq!(summary["within"], verified["within"]);
+        for tolerance in ["interpolation", "residual", "machine"] {
+            assert_eq!(summary["within"][tolerance], verified["within"][tolerance]);
+        }
+        assert_eq!(verified["within"]["reach"], true);
     }
 }
 
@@ -102,7 +105,63 @@ fn a_person_gets_the_figures_and_the_verdict() {
     let bench = made();
     let said = bench.line("verify recipe.toml out/toolpath.csv").ends(0);
     assert_eq!(said.stderr, "");
+    assert_eq!(said.stdout.matches("holds").count(), 3, "{said}");
+    let reach = "  reach           X from 0.000 mm to 2.500 mm; holds\n";
+    assert!(said.stdout.contains(reach), "{said}");
+}
+
+/// The path from one line to another alone, which holds all tolerances where it cuts.
+fn part_of_it(lines: std::ops::Range<usize>) -> Value {
+    let (_, said) = spoiled(|all| {
+        *all = [&all[..1], &all[lines]].concat();
+    });
+    let verified = said.ends(1).json();
+    assert_eq!(verified["within"]["interpolation"], true);
+    assert_eq!(verified["within"]["residual"], true);
+    assert_eq!(verified["within"]["reach"], false);
+    verified
+}
+
+#[test]
+fn a_path_that_ends_before_the_axis_does_not_hold() {
+    let verified = part_of_it(1..2001);
+    assert_eq!(number(&verified, "/reach_mm/outer"), 2.5);
+    assert!(number(&verified, "/reach_mm/inner") > 1.0, "{verified}");
+}
+
+#[test]
+fn a_path_that_begins_inside_the_rim_does_not_hold() {
+    let verified = part_of_it(2001..4001);
+    assert!(number(&verified, "/reach_mm/outer") < 1.5, "{verified}");
+}
+
+#[test]
+fn the_path_of_a_smaller_part_does_not_hold_and_says_where_it_ends() {
+    let bench = made();
+    let words = "verify recipe.toml out/toolpath.csv --set part.aperture=10mm \
+                 --set tool.included_angle=150deg --set tool.clearance_angle=60deg";
+    let said = bench.line(words).ends(1);
+    let line = "reach           X from 0.000 mm to 2.500 mm; EXCEEDED: the part reaches from \
+                0.000 mm to 5.000 mm\n";
+    assert!(said.stdout.contains(line), "{said}");
     assert_eq!(said.stdout.matches("holds").count(), 2, "{said}");
+}
+
+#[test]
+fn a_path_of_contacts_is_held_to_the_part_by_its_contacts() {
+    let normal = saddle_with("compensator", "use = \"normal\"");
+    let said = made_of(&normal).line("verify recipe.toml out/toolpath.csv");
+    let line = "reach           contact from 0.000 mm to 2.500 mm; holds\n";
+    assert!(said.ends(0).stdout.contains(line));
+}
+
+#[test]
+fn an_x_of_three_hundred_digits_is_told_in_short() {
+    let (bench, _) = spoiled(|lines| {
+        edit(&mut lines[2000], 2, |_| "1e300".to_owned());
+    });
+    let said = bench.line("verify recipe.toml spoiled.csv").ends(1);
+    assert!(said.stdout.lines().all(|line| line.len() < 120), "{said}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod job;
 mod list;
 mod programs;
 mod progress;
+mod reach;
 mod run;
 mod sag;
 mod strategies;

@@ -116,6 +116,9 @@ pub struct Within {
     pub interpolation: bool,
     pub residual: bool,
     machine: Option<bool>,
+    /// Whether the path covers the part; only of a file, since a run's law is held to that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reach: Option<bool>,
 }
 
 /// A motion program, measured on its own text as read back.
@@ -244,6 +247,7 @@ impl Measured {
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
                 machine: None,
+                reach: None,
             },
         }
     }
@@ -254,8 +258,9 @@ impl Measured {
             interpolation,
             residual,
             machine,
+            reach,
         } = self.within;
-        interpolation && residual && machine.unwrap_or(true)
+        interpolation && residual && machine.unwrap_or(true) && reach.unwrap_or(true)
     }
 }
 

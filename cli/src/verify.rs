@@ -8,7 +8,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use serde::Serialize;
 use turnpath_core::toolpath::{PathBlock, SegmentShape};
-use turnpath_core::{Slot, StrategyError};
+use turnpath_core::{Radial, Slot, StrategyError};
 use turnpath_pipeline::{PipelineError, Progress, Quiet};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
@@ -18,6 +18,7 @@ use crate::args::{Format, VerifyArgs};
 use crate::failure::Failure;
 use crate::job::{of_pipeline, use_threads};
 use crate::programs::{PMAC_EXTENSION, pmac_format};
+use crate::reach::Reach;
 use crate::run::print;
 use crate::summary::{Measured, to_json};
 use crate::{Done, Verdict, figures, strategies};
@@ -32,35 +33,53 @@ struct Verified {
     file: String,
     control_points: u64,
     rows: u64,
+    reach_mm: Reach,
     #[serde(flatten)]
     measured: Measured,
+}
+
+/// What a file is measured against, and how it is played.
+struct Held {
+    subject: Subject,
+    shape: SegmentShape,
+    /// What the compensator's ρ stands for.
+    radial: Radial,
 }
 
 /// Measures a file.
 pub fn verify(args: &VerifyArgs) -> Done {
     use_threads(&args.work);
     let recipe = Recipe::load(&args.recipe.recipe, &args.recipe.set)?;
-    let (subject, shape) = subject(&recipe, args)?;
+    let Held {
+        subject,
+        shape,
+        radial,
+    } = held(&recipe, args)?;
     let mut reader = open(&args.file, &recipe, subject.compensates_nose)?;
     let failed = |error| of_pipeline(&recipe, PipelineError::Measure(error));
     let touch = FirstTouch::new(subject).map_err(failed)?;
     let meter = measure(&recipe, touch, shape, reader.as_mut(), &Quiet)?;
     let read = reader.counted();
-    if read.cutting() < 2 {
+    let range = meter.reach(radial).map_err(failed)?;
+    let Some(range) = range.filter(|_| read.cutting() >= 2) else {
         let file = args.file.display();
         let message = format!("error: {file} has no cutting section to measure");
         return Err(Failure::File(message));
-    }
+    };
+    let reach = Reach::new(range);
+    let mut measured = Measured::new(meter.figures(), &recipe.tolerance);
+    measured.within.reach = Some(reach.covers(&recipe.part));
     let verified = Verified {
         name: recipe.name.clone(),
         file: args.file.display().to_string(),
         control_points: read.cutting(),
         rows: read.count(),
-        measured: Measured::new(meter.figures(), &recipe.tolerance),
+        reach_mm: reach,
+        measured,
     };
     print(&match args.work.format {
         Format::Json => to_json(&verified),
-        Format::Human => human(&recipe, &verified),
+        Format::Human => human(&recipe, radial, &verified),
     })?;
     let holds = verified.measured.all_hold();
     Ok(if holds {
@@ -70,8 +89,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
     })
 }
 
-/// What the file is measured against, and what is played between its control points.
-fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<(Subject, SegmentShape), Failure> {
+fn held(recipe: &Recipe, args: &VerifyArgs) -> Result<Held, Failure> {
     let catalogue = strategies::catalogue_for(recipe, &args.recipe)?;
     let surface = strategies::surface(recipe, &catalogue)?.strategy;
     let compensator = strategies::compensator(recipe, &catalogue)?.strategy;
@@ -84,7 +102,11 @@ fn subject(recipe: &Recipe, args: &VerifyArgs) -> Result<(Subject, SegmentShape)
         tool: recipe.tool,
         compensates_nose: compensator.compensates_nose(),
     };
-    Ok((subject, shape))
+    Ok(Held {
+        subject,
+        shape,
+        radial: compensator.radial(),
+    })
 }
 
 /// Opens a motion program or a table, as the file's name says.
@@ -140,12 +162,13 @@ pub fn measure(
     }
 }
 
-fn human(recipe: &Recipe, verified: &Verified) -> String {
+fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     let mut text = format!("{}\n", verified.name);
     text += &figures::line("file", &verified.file);
     text += &figures::line("surface", recipe.choice(Slot::Surface).name());
     let cutting = figures::grouped(verified.control_points);
     let rows = figures::grouped(verified.rows);
     text += &figures::line("points", format!("{cutting} that cut, of {rows} rows"));
+    text += &verified.reach_mm.line(radial, &recipe.part);
     text + &figures::measured(&verified.measured, &recipe.tolerance)
 }
