@@ -276,6 +276,20 @@ fn a_file_above_the_output_folder() {
     insta::assert_snapshot!(bench.shown(&said));
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_where_the_summary_should_be_is_told_before_the_work() {
+    let bench = Bench::with(SADDLE);
+    fs::create_dir(bench.path("out")).expect("a folder");
+    let pipe = bench.path("out/summary.json");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    let said = bench.line("run recipe.toml -o out").ends(4);
+    let told = "error: cannot write out/summary.json: it is no regular file\n";
+    assert_eq!(said.stderr, told);
+    assert_eq!(bench.files(), ["out/summary.json", "recipe.toml"]);
+}
+
 #[test]
 fn a_folder_where_the_tool_path_should_be() {
     let bench = Bench::with(SADDLE);

@@ -86,7 +86,39 @@ fn a_folder_that_is_not_there_is_named() {
     let bench = Bench::with(SADDLE);
     let said = bench.line("sag recipe.toml --grid 3 -o no/sag.csv").ends(4);
     assert!(said.stderr.contains("no/sag.csv"), "{said}");
+    assert!(!said.stderr.contains(".part"), "{said}");
     assert_eq!(bench.files(), ["recipe.toml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_not_replaced_by_one() {
+    let bench = Bench::with(SADDLE);
+    let pipe = bench.path("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    let said = bench.line("sag recipe.toml --grid 3 -o pipe").ends(4);
+    assert_eq!(
+        said.stderr,
+        "error: cannot write pipe: it is no regular file\n"
+    );
+    assert_eq!(bench.files(), ["pipe", "recipe.toml"]);
+    assert!(!std::fs::metadata(pipe).unwrap().is_file());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_grid_is_whose_the_umask_says() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::with(SADDLE);
+    for (umask, mode) in [("027", 0o640), ("002", 0o664), ("077", 0o600)] {
+        let line = format!("umask {umask}; exec \"$0\" sag recipe.toml --grid 3 -o sag.csv");
+        let shell = ["-c", &line, support::bench::TURNPATH];
+        let status = bench.command_of("sh".as_ref(), shell).status().unwrap();
+        assert!(status.success());
+        let found = std::fs::metadata(bench.path("sag.csv")).unwrap();
+        assert_eq!(found.permissions().mode() & 0o777, mode, "umask {umask}");
+    }
 }
 
 #[test]

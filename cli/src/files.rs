@@ -123,25 +123,22 @@ impl Files {
     }
 }
 
-/// A file where a folder must be, or a folder where a file must be, is told before the work.
+/// A file where a folder must be, or anything but a file where one must be, is told before the
+/// work.
 fn nothing_in_the_way<'a>(
     folder: &Path,
     files: impl Iterator<Item = &'a str>,
 ) -> Result<(), FileError> {
-    let wrong = |path: PathBuf, kind, what| {
-        let error = io::Error::new(kind, what);
-        Err(FileError { path, error })
-    };
     let nearest = folder.ancestors().find(|part| part.exists());
     if let Some(file) = nearest.filter(|part| !part.is_dir()) {
         let what = format!("{} is a file, not a folder", file.display());
-        return wrong(folder.to_owned(), io::ErrorKind::NotADirectory, what);
+        return Err(FileError {
+            path: folder.to_owned(),
+            error: io::Error::new(io::ErrorKind::NotADirectory, what),
+        });
     }
     for file in files.map(|name| folder.join(name)) {
-        if file.is_dir() {
-            let what = "it is a folder".to_owned();
-            return wrong(file, io::ErrorKind::IsADirectory, what);
-        }
+        Draft::can_be(&file)?;
     }
     Ok(())
 }

@@ -142,7 +142,8 @@ impl Program {
         progress: &dyn Progress,
     ) -> Result<ProgramSummary, Failure> {
         let name: PathBuf = draft.path().to_owned();
-        let mut reader = PmacReader::open(draft.readable()?, self.format)?.named(&name);
+        let reader = PmacReader::open(draft.readable()?, self.format);
+        let mut reader = reader.map_err(|error| error.named(&name))?.named(&name);
         progress.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meter = measure(recipe, touch, SegmentShape::Cubic, &mut reader, progress)?;
         let count = reader.counted().count();

@@ -35,6 +35,15 @@ pub enum ReadError {
     },
 }
 
+impl ReadError {
+    /// The same of a file that goes by another name.
+    pub fn named(mut self, name: &Path) -> Self {
+        let (Self::File { path, .. } | Self::Line { path, .. }) = &mut self;
+        *path = name.to_owned();
+        self
+    }
+}
+
 /// `toolpath.csv`, read block by block.
 pub struct PathReader {
     rows: csv::Reader<File>,
