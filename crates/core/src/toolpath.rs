@@ -94,6 +94,12 @@ impl PathBlock {
         self.vz.push(point.vz);
     }
 
+    /// Puts `point` in the place of the last one.
+    pub fn set_last(&mut self, point: ControlPoint) {
+        self.truncate(self.len().saturating_sub(1));
+        self.push(point);
+    }
+
     /// Keeps the first `count` points.
     pub fn truncate(&mut self, count: usize) {
         let Self {

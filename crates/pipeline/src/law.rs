@@ -11,6 +11,8 @@ use crate::{Chain, Result};
 const CHECKED_ANGLES: usize = 72;
 /// More revolutions than any job has: a law that gets here does not end.
 const MOST_REVOLUTIONS: f64 = 1e7;
+/// Most pieces of a law: half a gigabyte of them. Some for each of 100,000 revolutions fit.
+const MOST_PIECES: usize = 8_000_000;
 /// Largest jump of ρ where two pieces meet, mm: a nanometre, far above rounding.
 const LARGEST_JUMP: f64 = 1e-6;
 /// How much of the range a law may leave out at either end, mm.
@@ -57,7 +59,15 @@ type Checked = std::result::Result<(), String>;
 fn add(law: &mut SpiralLaw, piece: &Stretch) -> Checked {
     let numbers = piece.coefficients.iter().all(|c| c.is_finite());
     if !(numbers && piece.length.is_finite() && piece.length > 0.0) {
-        return Err(format!("{piece:?}, {}", after(law)));
+        let Stretch {
+            length,
+            coefficients,
+        } = piece;
+        let what = format!("a piece of {length} revolutions with coefficients {coefficients:?}");
+        return Err(format!("{what}, {}", after(law)));
+    }
+    if law.pieces().len() >= MOST_PIECES {
+        return Err(format!("more than {MOST_PIECES} pieces, {}", after(law)));
     }
     let (before, here) = (law.value(law.end()), piece.coefficients[0]);
     if (here - before).abs() > LARGEST_JUMP {

@@ -98,15 +98,27 @@ pub fn make(
         Dependence::Local | Dependence::Sequential => 0,
     };
     let around = place_around(plan, range.clone(), overlap, depths)?;
-    match solver_state {
+    let mut made: Vec<Made> = match solver_state {
         Some(state) => range
             .map(|index| solve(plan, &around, index, overlap, Some(&mut *state)))
-            .collect(),
+            .collect::<Result<_>>()?,
         None => in_order(
             range
                 .into_par_iter()
                 .map(|index| solve(plan, &around, index, overlap, None)),
-        ),
+        )?,
+    };
+    join(&mut made);
+    Ok(made)
+}
+
+/// Ends every block with the point that the next one begins with: the joint as it is written, and
+/// not as the block's own window had it, however the solver came by it.
+pub fn join(made: &mut [Made]) {
+    for i in 1..made.len() {
+        if let Some(joint) = made[i].points.get(0) {
+            made[i - 1].points.set_last(joint);
+        }
     }
 }
 

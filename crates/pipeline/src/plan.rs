@@ -14,6 +14,9 @@ pub const BLOCK: f64 = 64.0;
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
 /// Nodes of a block beyond which a sampler's answer is taken for a mistake.
 const MOST_NODES: usize = 4_000_000;
+/// Most nodes of overlap that a velocity solver may ask for: a spline needs 64, and what needs
+/// thousands is sequential.
+const MOST_OVERLAP: usize = 10_000;
 /// Nodes closer together than this part of a revolution are a sampler's mistake: the velocity
 /// between them would be rounding.
 pub const CLOSEST_NODES: f64 = 1e-9;
@@ -39,6 +42,10 @@ pub struct Plan<'a> {
 impl<'a> Plan<'a> {
     /// Plans the law; runs a sequential sampler once through to learn its states.
     pub fn new(chain: &'a Chain, prepared: &'a Prepared) -> Result<Self> {
+        if let Dependence::Overlap(nodes @ MOST_OVERLAP..) = chain.velocity.strategy.dependence() {
+            let what = format!("an overlap of {nodes} nodes, where {MOST_OVERLAP} are too many");
+            return Err(chain.velocity.bad_answer(what));
+        }
         let law = crate::law::plan(chain, &prepared.job, &prepared.locus)?;
         let mut plan = Self {
             chain,
@@ -67,11 +74,14 @@ impl<'a> Plan<'a> {
         answer.map_err(|error| sampler.failed("while it looked at the whole path", error))
     }
 
-    /// From one revolution each at the path's start, middle and end.
+    /// From one revolution each at the path's start, middle and end; a sequential sampler can
+    /// begin at the start alone.
     fn comfortable_block(&self) -> Result<f64> {
         let last = (self.law.end() - 1.0).max(0.0).floor();
+        let sequential = self.chain.sampler.strategy.dependence() == Dependence::Sequential;
+        let looks = if sequential { 1 } else { 3 };
         let mut densest = 0;
-        for start in [0.0, (0.5 * last).floor(), last] {
+        for start in [0.0, (0.5 * last).floor(), last].into_iter().take(looks) {
             let end = (start + 1.0).min(self.law.end());
             let nodes = self.place(Revolutions { start, end }, &mut Vec::new())?;
             densest = densest.max(nodes.len());

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use turnpath_core::interference::{Conflict, Interference};
+use turnpath_core::interference::{Conflict, Extreme, Interference};
 use turnpath_core::{
     CentreBuffers, Compensator, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw,
     StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
@@ -117,11 +117,24 @@ fn interference(
     cut: Cut<'_>,
     region: RadialRange,
 ) -> Result<Interference> {
-    let found = compensator.interference(cut, region);
-    found.map_err(|error| match error {
-        StrategyError::Failed(_) => PipelineError::NoSurface(error),
-        other => chain.compensator.failed("in the interference check", other),
-    })
+    let found = compensator
+        .interference(cut, region)
+        .map_err(|error| match error {
+            StrategyError::Failed(_) => PipelineError::NoSurface(error),
+            other => chain.compensator.failed("in the interference check", other),
+        })?;
+    let numbers = |extreme: &Extreme| {
+        let all = [extreme.value, extreme.theta, extreme.rho];
+        all.iter().all(|number| number.is_finite())
+    };
+    if ![found.curvature, found.contact_angle, found.cut_angle]
+        .iter()
+        .all(numbers)
+    {
+        let what = format!("no numbers in its interference check: {found:?}");
+        return Err(chain.compensator.bad_answer(what));
+    }
+    Ok(found)
 }
 
 fn refuse(found: &Interference, which: impl Fn(&Conflict) -> bool, tool: &Tool) -> Result<()> {

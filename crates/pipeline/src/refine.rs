@@ -1,7 +1,13 @@
 //! Refinement: segments whose played error exceeds the tolerance are halved, in global rounds.
 //!
-//! What is kept between rounds is one small number for each sampler segment, and only blocks that
-//! changed, or whose neighbours did, are made again.
+//! What is kept between rounds is two bytes for each sampler segment (how often it is halved, and
+//! what its last playback said), and only blocks that changed, or whose neighbours did, are made
+//! again.
+//!
+//! With a spline, the error of a long segment rises when its neighbour is halved. Where all
+//! segments are near the tolerance, halving only those beyond it would move the border between
+//! short and long ones by one segment a round. So a halving spreads from a segment that is beyond
+//! the tolerance over its neighbours that are near it, four times as far every round.
 
 use std::ops::Range;
 
@@ -18,8 +24,14 @@ use crate::{PipelineError, Result};
 /// Part of the tolerance that refinement aims at: what the instants of a playback can miss, and
 /// a little for whoever measures again.
 pub const AIM: f64 = 0.99;
+/// Part of the aim from which on a segment is near it: the spline's error on the long side of a
+/// border between steps of 2 : 1 is 1.3 times what it was.
+const NEAR: f64 = 0.75;
 /// Most rounds: a segment ends as 1/4096 of the sampler's at the least.
 pub const MOST_ROUNDS: u32 = 12;
+/// Rounds before halvings spread: fewer add points to paths that need none of it, more leave
+/// long borders no time to move.
+const PLAIN_ROUNDS: u32 = 5;
 /// Smallest segment that is made, s. Controllers take some 0.4 ms for a servo cycle; a tenth of
 /// a millisecond is below what any of them can follow.
 pub const SMALLEST_SEGMENT: f64 = 1e-4;
@@ -28,38 +40,105 @@ pub const SMALLEST_SEGMENT: f64 = 1e-4;
 /// memory is gone.
 const MOST_POINTS: usize = 1_000_000;
 
+/// What the last playback of a sampler segment said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Found {
+    /// Far from the aim, or as short as a segment may be.
+    Calm,
+    /// Near the aim.
+    Near,
+    /// Beyond the aim.
+    Beyond,
+    /// Near the aim, and reached by a halving.
+    Reached,
+}
+
 /// Halves segments until the played error is below the aim everywhere or no segment can be
 /// halved any more; gives how often each sampler segment is halved.
 pub fn refine(plan: &Plan<'_>, batch: usize, progress: &dyn Progress) -> Result<Vec<Depths>> {
+    let dependence = plan.chain.velocity.strategy.dependence();
     let mut depths: Vec<Depths> = vec![Depths::new(); plan.blocks()];
+    let mut found: Vec<Vec<Found>> = vec![Vec::new(); plan.blocks()];
     let mut dirty: Vec<usize> = (0..plan.blocks()).collect();
     let mut counts = vec![0; plan.blocks()];
     for round in 1..=MOST_ROUNDS {
         progress.begin(Stage::Refine(round), dirty.len() as u64);
-        let mut halved = Vec::new();
         let mut state = first_state(plan);
         for range in runs(&dirty, batch) {
             let made = make(plan, range.clone(), &depths, state.as_mut())?;
-            let each = made.par_iter().zip(range.clone());
-            let deeper = in_order(each.map(|(made, index)| deepen(plan, made, &depths[index])))?;
-            for ((index, deeper), made) in range.clone().zip(deeper).zip(&made) {
+            let looks = in_order(made.par_iter().map(|made| look(plan, made)))?;
+            for ((index, look), made) in range.clone().zip(looks).zip(&made) {
                 counts[index] = made.owner.len();
-                if let Some(deeper) = deeper {
-                    halved.push((index, deeper));
-                }
+                found[index] = look;
             }
             progress.advance(range.len() as u64);
         }
+        spread(&mut found, reach(dependence, round));
+        let halved = halve(&mut depths, &mut found);
         if halved.is_empty() {
             break;
         }
-        let dependence = plan.chain.velocity.strategy.dependence();
-        dirty = touched(dependence, &counts, halved.iter().map(|(index, _)| *index));
-        for (index, deeper) in halved {
-            depths[index] = deeper;
-        }
+        dirty = touched(dependence, &counts, halved.into_iter());
     }
     Ok(depths)
+}
+
+/// Over how many segments a halving spreads: none where segments do not move their neighbours,
+/// and none in the first rounds, in which most paths are done without.
+fn reach(dependence: Dependence, round: u32) -> usize {
+    match dependence {
+        Dependence::Local => 0,
+        Dependence::Overlap(_) | Dependence::Sequential => {
+            let late = round.saturating_sub(PLAIN_ROUNDS);
+            if late > 0 { 4usize.pow(late) } else { 0 }
+        }
+    }
+}
+
+/// Spreads halvings forward and backward along the path, over block borders.
+fn spread(found: &mut [Vec<Found>], reach: usize) {
+    let mut left = 0;
+    for one in found.iter_mut().flatten() {
+        left = spread_to(one, left, reach);
+    }
+    left = 0;
+    for one in found
+        .iter_mut()
+        .rev()
+        .flat_map(|block| block.iter_mut().rev())
+    {
+        left = spread_to(one, left, reach);
+    }
+}
+
+/// How far the halving still spreads behind this segment.
+fn spread_to(one: &mut Found, left: usize, reach: usize) -> usize {
+    match *one {
+        Found::Beyond => reach,
+        Found::Near | Found::Reached if left > 0 => {
+            *one = Found::Reached;
+            left - 1
+        }
+        _ => 0,
+    }
+}
+
+/// Halves what is beyond the aim or reached; gives the blocks that changed.
+fn halve(depths: &mut [Depths], found: &mut [Vec<Found>]) -> Vec<usize> {
+    let mut changed = Vec::new();
+    for (index, (depths, found)) in depths.iter_mut().zip(found).enumerate() {
+        let chosen = |one: &Found| matches!(one, Found::Beyond | Found::Reached);
+        if !found.iter().any(chosen) {
+            continue;
+        }
+        changed.push(index);
+        depths.resize(found.len(), 0);
+        for (depth, one) in depths.iter_mut().zip(found.iter_mut()) {
+            *depth += u8::from(chosen(one));
+            *one = Found::Calm;
+        }
+    }
+    changed
 }
 
 /// The state that a sequential solver starts with; nothing for others.
@@ -68,32 +147,27 @@ pub fn first_state(plan: &Plan<'_>) -> Option<Vec<f64>> {
     sequential.then(Vec::new)
 }
 
-/// The block's depths with one more for every segment that is too far off, if there is one.
-fn deepen(plan: &Plan<'_>, made: &Made, depths: &Depths) -> Result<Option<Depths>> {
-    let touch = &plan.prepared.touch;
+/// Plays a block back and says how each of its sampler segments is.
+fn look(plan: &Plan<'_>, made: &Made) -> Result<Vec<Found>> {
+    let segments = made.owner.last().map_or(0, |last| *last as usize + 1);
+    let mut found = vec![Found::Calm; segments];
     if made.points.len() > MOST_POINTS {
-        return Ok(None);
+        return Ok(found);
     }
+    let touch = &plan.prepared.touch;
     let errors = Meter::segment_errors(touch, &made.points).map_err(PipelineError::Measure)?;
     let aim = AIM * plan.prepared.job.tolerance.interpolation;
-    let segments = made.owner.last().map_or(0, |last| *last as usize + 1);
-    let mut too_far = vec![false; segments];
     let times = made.points.t.windows(2);
     for ((error, owner), time) in errors.iter().zip(&made.owner).zip(times) {
+        let one = &mut found[*owner as usize];
         let long_enough = time[1] - time[0] >= 2.0 * SMALLEST_SEGMENT;
-        if *error > aim && long_enough {
-            too_far[*owner as usize] = true;
+        if long_enough && *error > aim {
+            *one = Found::Beyond;
+        } else if long_enough && *error > NEAR * aim && *one == Found::Calm {
+            *one = Found::Near;
         }
     }
-    if !too_far.contains(&true) {
-        return Ok(None);
-    }
-    let mut deeper = depths.clone();
-    deeper.resize(segments, 0);
-    for (depth, too_far) in deeper.iter_mut().zip(too_far) {
-        *depth += u8::from(too_far);
-    }
-    Ok(Some(deeper))
+    Ok(found)
 }
 
 /// The blocks that change when these do; `counts` has the nodes of each block.
@@ -156,6 +230,18 @@ mod tests {
         assert_eq!(touched(overlap, &[500, 500, 40, 500, 1], 3), [1, 2, 3, 4]);
         assert_eq!(touched(Dependence::Local, &[500; 3], 1), [1]);
         assert_eq!(touched(Dependence::Sequential, &[500; 3], 2), [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_halving_spreads_over_neighbours_that_are_near_the_aim() {
+        use Found::{Beyond, Calm, Near, Reached};
+        let mut found = vec![vec![Near, Calm, Near, Near], vec![Near, Beyond, Near, Calm]];
+        spread(&mut found, 2);
+        assert_eq!(found[0], [Near, Calm, Near, Reached]);
+        assert_eq!(found[1], [Reached, Beyond, Reached, Calm]);
+        let mut depths = vec![Depths::new(); 2];
+        assert_eq!(halve(&mut depths, &mut found), [0, 1]);
+        assert_eq!(depths, [vec![0, 0, 0, 1], vec![1, 1, 1, 0]]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use turnpath_core::toolpath::{ControlPoint, PathStretch, Section};
 use turnpath_verify::{FirstTouch, Measured, Meter, PathFigures};
 
-use crate::make::{Depths, Made, make};
+use crate::make::{Depths, Made, join, make};
 use crate::order::in_order;
 use crate::plan::Plan;
 use crate::progress::{Progress, Stage};
@@ -105,8 +105,13 @@ fn write(
     let mut tail = Vec::new();
     let blocks: Vec<usize> = (0..plan.blocks()).collect();
     progress.begin(Stage::Write, blocks.len() as u64);
+    let mut held = Vec::new();
     for range in runs(&blocks, batch) {
-        let made = make(plan, range.clone(), depths, state.as_mut())?;
+        let mut made = held;
+        made.extend(make(plan, range.clone(), depths, state.as_mut())?);
+        join(&mut made);
+        // The last block waits for the first point of the next one.
+        held = made.split_off(made.len() - usize::from(range.end < plan.blocks()));
         let before: Vec<Vec<ControlPoint>> =
             made.iter().map(|made| follow(&mut tail, made)).collect();
         let encoder: &dyn Sink = sink;

@@ -4,7 +4,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::solvers::Broken;
+use common::solvers::{Broken, Greedy};
 use common::{BrokenBeyond90, Feed, Job, Nodes, RIM, feed_of, straight};
 use turnpath_core::{
     FeedPlan, FeedStrategy, Onward, Path, Result, Revolutions, Setup, Slot, StrategyError, Stretch,
@@ -138,6 +138,26 @@ fn a_law_must_end() {
     assert_feed_says(Arc::new(onward(0.0)), "not beyond the one before");
     let eternal = Feed(|_| (vec![straight(1e9, RIM, -1e-9)], Onward::Done));
     assert_feed_says(Arc::new(eternal), "more than 1e7 revolutions");
+}
+
+#[test]
+fn a_law_of_endless_crumbs_is_refused() {
+    let crumbs = |call: usize| {
+        let length = 1e-9;
+        let start = RIM - 0.01 * length * 1e6 * call as f64;
+        let piece = move |i: usize| straight(length, start - 0.01 * length * i as f64, -0.01);
+        ((0..1_000_000).map(piece).collect(), Onward::More)
+    };
+    assert_feed_says(Arc::new(Feed(crumbs)), "pieces, after");
+}
+
+#[test]
+fn a_solver_may_not_ask_for_all_nodes() {
+    let job = Job {
+        velocity: Arc::new(Greedy),
+        ..Job::default()
+    };
+    assert_says(&job, Slot::Velocity, "an overlap of");
 }
 
 /// Gives up at once, or after its first piece.

@@ -6,10 +6,11 @@ mod common;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use common::solvers::{Area, Exact, Spline};
-use common::{Counting, Job, K, Nodes, RIM, even, feed_of, inward, straight};
+use common::solvers::{Area, Disjoint, Exact, Spline};
+use common::{Counting, Job, K, Nodes, RIM, Saddle, even, feed_of, inward, straight};
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{Direction, Path, Revolutions, Scalar, Velocities, VelocitySolver};
+use turnpath_core::{Direction, Part, Path, Revolutions, Scalar, Tool, Velocities, VelocitySolver};
+use turnpath_verify::{FirstTouch, Meter, Subject};
 
 /// Velocities that `solver` gives when it sees the whole path, of constant feed, at once.
 fn whole(solver: &dyn VelocitySolver, path: &PathBlock, feed: f64, rpm: f64) -> [Vec<f64>; 3] {
@@ -231,4 +232,65 @@ fn a_node_hardly_after_the_start_is_the_start() {
     let (path, outcome) = job.made();
     assert_eq!(path.c, [0.0, 0.5 * TAU, 1.5 * TAU, 2.0 * TAU]);
     assert_eq!(outcome.control_points, 4);
+}
+
+/// The largest error of a path of contacts, measured in one piece.
+fn measured_whole(path: &PathBlock) -> f64 {
+    let subject = Subject {
+        surface: Arc::new(Saddle),
+        part: Part {
+            aperture_radius: RIM,
+            inner_radius: 0.0,
+        },
+        tool: Tool {
+            nose_radius: 1.0,
+            included_angle: None,
+            clearance_angle: None,
+        },
+        compensates_nose: false,
+    };
+    let touch = FirstTouch::new(subject).expect("a surface");
+    let measured = Meter::measure(&touch, path).expect("a measure");
+    measured.playback.max()
+}
+
+#[test]
+fn joints_are_measured_as_they_are_written_whatever_each_window_says_of_them() {
+    let job = Job {
+        velocity: Arc::new(Disjoint),
+        ..Job::default()
+    };
+    let (path, outcome) = job.made();
+    let (here, whole) = (outcome.figures.playback.max(), measured_whole(&path));
+    assert!((here - whole).abs() <= 1e-12 * whole, "{here}, not {whole}");
+}
+
+#[test]
+fn control_points_lie_on_the_steps_of_the_controllers_time() {
+    let steps = 4_096_000.0;
+    let job = Job {
+        rpm: 433.0,
+        time_steps: Some(steps),
+        sampler: even(37.0),
+        ..Job::default()
+    };
+    let (path, outcome) = job.made();
+    for (t, c) in path.t.iter().zip(&path.c) {
+        assert_eq!((t * steps).round() / steps, *t);
+        let spindle = t * 433.0 / 60.0 * TAU;
+        assert!((c - spindle).abs() <= 1e-12 * spindle, "{c}, not {spindle}");
+    }
+    let (free, _) = Job {
+        time_steps: None,
+        ..job
+    }
+    .made();
+    assert_eq!(path.len(), free.len());
+    assert!(
+        path.t
+            .iter()
+            .zip(&free.t)
+            .all(|(a, b)| (a - b).abs() <= 1.0001 / steps)
+    );
+    assert_eq!(outcome.figures.playback.max(), measured_whole(&path));
 }

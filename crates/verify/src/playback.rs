@@ -30,9 +30,9 @@ pub struct PlaybackFigures {
 }
 
 impl PlaybackFigures {
-    /// Largest |played − true|, mm; infinite where there was no number.
+    /// Largest |played − true|, mm; infinite where there was no number, or nothing to measure.
     pub fn max(&self) -> f64 {
-        if self.broken {
+        if self.broken || self.time == 0.0 {
             f64::INFINITY
         } else {
             self.extreme.abs()

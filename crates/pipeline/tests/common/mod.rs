@@ -11,8 +11,8 @@ use std::sync::Arc;
 use turnpath_core::toolpath::{PathBlock, PathStretch};
 use turnpath_core::{
     Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Onward, Part, Path,
-    Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw, Stretch, Surface,
-    SurfaceModel, Tolerance, Tool, VelocitySolver,
+    Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw, StrategyError,
+    Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, prepare, run};
 
@@ -191,6 +191,10 @@ impl Sampler for Counting {
         state: &mut Vec<f64>,
         nodes: &mut Vec<f64>,
     ) -> Result<()> {
+        if state.is_empty() != (block.start == 0.0) {
+            let what = format!("a state of {} at {}", state.len(), block.start);
+            return Err(StrategyError::failed(what));
+        }
         let mut k = state.first().copied().unwrap_or(0.0);
         while k * self.step < block.end {
             nodes.push(k * self.step);

@@ -145,3 +145,33 @@ impl VelocitySolver for Area {
         Ok(())
     }
 }
+
+/// The exact rates, but for no rate of Z at the first node of every call: what one block's window
+/// says of a joint is not what the next one's says.
+pub struct Disjoint;
+
+impl VelocitySolver for Disjoint {
+    fn dependence(&self) -> Dependence {
+        Dependence::Local
+    }
+
+    fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
+        let Velocities { c, x, z } = out;
+        Exact.solve(nodes, Velocities { c, x, z: &mut *z })?;
+        z[0] = 0.0;
+        Ok(())
+    }
+}
+
+/// Asks for all nodes.
+pub struct Greedy;
+
+impl VelocitySolver for Greedy {
+    fn dependence(&self) -> Dependence {
+        Dependence::Overlap(usize::MAX)
+    }
+
+    fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
+        Exact.solve(nodes, out)
+    }
+}
