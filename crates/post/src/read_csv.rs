@@ -129,7 +129,7 @@ fn check(
     }
     if point.t <= before.t {
         return Err(format!(
-            "the time {} s is not after {} s",
+            "the time {:?} s is not after {:?} s",
             point.t, before.t
         ));
     }
@@ -146,7 +146,7 @@ pub(crate) fn check_turn(
     let turn = (point.c - last.c) / turnpath_core::DEG;
     if section == Section::Cutting && !(turn > 0.0 && turn <= LARGEST_TURN_DEG) {
         return Err(format!(
-            "C turns by {turn} deg from the point before; it must grow, by 360 deg at the most"
+            "C turns by {turn:?} deg from the point before; it must grow, by 360 deg at the most"
         ));
     }
     Ok(())
@@ -167,7 +167,12 @@ fn of_csv_at(path: &Path, line: u64, error: &csv::Error) -> ReadError {
         csv::ErrorKind::UnequalLengths {
             expected_len, len, ..
         } => {
-            format!("there are {len} values, not {expected_len}")
+            let are = if *len == 1 {
+                "is 1 value"
+            } else {
+                &format!("are {len} values")
+            };
+            format!("there {are}, not {expected_len}")
         }
         csv::ErrorKind::Deserialize { err, .. } => {
             let column = err.field().and_then(|field| HEADER.get(field as usize));

@@ -83,6 +83,8 @@ fn spoiled_files_are_refused_with_their_line() {
         short.contains("line 4: there are 3 values, not 8"),
         "{short}"
     );
+    let one = refusal(|text| with_line(text, 3, "1"));
+    assert!(one.contains("line 4: there is 1 value, not 8"), "{one}");
     let word = refusal(|text| with_line(text, 3, "1,two,3,4,5,6,7,1"));
     assert!(
         word.contains("line 4: c_deg: invalid float literal"),
@@ -99,4 +101,6 @@ fn spoiled_files_are_refused_with_their_line() {
     assert!(back.contains("line 6: the time"), "{back}");
     let turned = refusal(|text| with_line(text, 10, "100,2000,3,4,5,6,7,1"));
     assert!(turned.contains("line 11: C turns by"), "{turned}");
+    let far = refusal(|text| with_line(text, 10, "1e300,1e300,3,4,5,6,7,1"));
+    assert!(far.contains("line 11: C turns by 1e300 deg"), "{far}");
 }
