@@ -85,7 +85,9 @@ fn every_built_in_is_explained_with_and_without_its_slot() {
             assert!(said.stdout.starts_with(&format!("{full}: ")), "{said}");
             let use_line = format!("\n  [{slot}]\n  use = \"{name}\"\n");
             assert!(said.stdout.contains(&use_line), "{said}");
-            assert_eq!(bench.call(["explain", name]).ends(0).stdout, said.stdout);
+            // A name that two slots have explains both.
+            let without = bench.call(["explain", name]).ends(0);
+            assert!(without.stdout.contains(&said.stdout), "{without}");
         }
     }
 }

@@ -144,7 +144,11 @@ fn the_summary_names_file_and_hash_of_every_plugin_that_was_loaded() {
         names.push(name);
     }
     names.sort_unstable();
-    assert_eq!(names, BUILT_INS);
+    // This job takes nothing of ATPG.
+    let used = BUILT_INS
+        .into_iter()
+        .filter(|name| *name != "turnpath-atpg");
+    assert!(names.into_iter().eq(used), "{plugins:?}");
 }
 
 #[test]
