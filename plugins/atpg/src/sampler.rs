@@ -36,7 +36,6 @@ impl Strategy for AtpgSampler {
         compensated path, and with the step's own maximum";
     const PARAMS: &'static [Param] = &[Param::angle("max_step", "largest angle step")
         .default(45.0 * DEG)
-        .positive()
         .min(SHORTEST_DEG * DEG)
         .max(90.0 * DEG)];
 

@@ -12,8 +12,8 @@ const SLACK: f64 = 1e-6;
 /// Part of the interpolation tolerance that a derived step aims at: a little below what refinement
 /// takes for good, so that it finds nothing to do, for half a percent more points.
 const AIM: f64 = 0.98;
-/// Smallest step that is derived: 360,000 points a revolution are a kink of the surface, not what
-/// somebody wants.
+/// Smallest step, given or derived: 360,000 points a revolution are a slip of the unit or a kink
+/// of the surface, not what somebody wants, and a block of them is as much as memory should hold.
 const SMALLEST_STEP: f64 = 1e-3 * DEG;
 
 /// Node k lies at k steps of the C angle from the path's start, on whatever revolution that is.
@@ -38,12 +38,12 @@ impl Strategy for EqualAngle {
             "angle between neighbouring points, such as \"6 deg\"; left out: the largest that holds \
              tolerance.interpolation everywhere",
         )
-        .positive()
+        .min(SMALLEST_STEP)
         .max(90.0 * DEG)
         .optional(),
         Param::angle("max_step", "largest angle step, given or derived")
             .default(45.0 * DEG)
-            .positive()
+            .min(SMALLEST_STEP)
             .max(90.0 * DEG),
     ];
 
