@@ -130,6 +130,18 @@ fn parameters_that_contradict_each_other() {
 }
 
 #[test]
+fn a_feed_of_too_many_revolutions() {
+    let set = "run recipe.toml --set feed.feed=1e-7um/rev";
+    insta::assert_snapshot!(answer(SADDLE, set));
+}
+
+#[test]
+fn a_step_of_too_many_points() {
+    let step = with_change("\"9 deg\"", "\"1e-7 deg\"");
+    insta::assert_snapshot!(step);
+}
+
+#[test]
 fn several_mistakes_are_told_at_once() {
     let recipe = changed(SADDLE, "\"5 mm\"", "\"5\"");
     let recipe = changed(&recipe, "speed = \"500 rpm\"\n", "");

@@ -1,7 +1,7 @@
 //! A recipe made ready: its chain, and the job with a tool that fits.
 
 use turnpath_core::interference::Conflict;
-use turnpath_core::{Slot, SpindleLaw};
+use turnpath_core::{Slot, SpindleLaw, StrategyError};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Chain, PipelineError, Prepared, prepare};
 use turnpath_recipe::{Diagnostic, Recipe};
@@ -66,6 +66,12 @@ pub fn use_threads(work: &WorkArgs) {
 pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
     let title = error.to_string();
     match error {
+        // A parameter may turn out wrong only when the path is made.
+        PipelineError::Strategy {
+            slot,
+            error: StrategyError::Parameter { name, message },
+            ..
+        } => strategies::wrong_parameter(recipe, slot, &name, &message),
         PipelineError::Strategy { slot, .. }
         | PipelineError::Asked { slot, .. }
         | PipelineError::BadAnswer { slot, .. } => Failure::plugin(&at_choice(recipe, slot, title)),

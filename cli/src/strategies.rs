@@ -102,16 +102,7 @@ fn not_made(
         StrategyError::Parameter {
             name: parameter,
             message,
-        } => {
-            let place = choice.param_place(&parameter);
-            let title = format!(
-                "the {} `{name}` cannot work with this: {message}",
-                slot.noun()
-            );
-            recipe
-                .complaint(place, title, format!("`{parameter}`"), [])
-                .into()
-        }
+        } => wrong_parameter(recipe, slot, &parameter, &message),
         StrategyError::Failed(message) => {
             let title = format!("the {} `{name}` cannot be made: {message}", slot.noun());
             recipe
@@ -129,6 +120,20 @@ fn not_made(
             Failure::plugin(&recipe.complaint(place, title, "while it was made", []))
         }
     }
+}
+
+/// A parameter that a strategy cannot work with, underlined where it stands.
+pub fn wrong_parameter(recipe: &Recipe, slot: Slot, parameter: &str, message: &str) -> Failure {
+    let choice = recipe.choice(slot);
+    let title = format!(
+        "the {} `{}` cannot work with this: {message}",
+        slot.noun(),
+        choice.name()
+    );
+    let place = choice.param_place(parameter);
+    recipe
+        .complaint(place, title, format!("`{parameter}`"), [])
+        .into()
 }
 
 /// The recipe's surface alone.

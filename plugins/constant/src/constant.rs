@@ -7,6 +7,8 @@ use crate::smallest::smallest_held_feed;
 /// By how much a derived feed stays below the smallest found on the part: more than the search
 /// misses it by, and a ten-thousandth more revolutions.
 const MARGIN: f64 = 1e-4;
+/// Most revolutions of a path: two weeks at 500 rpm. A feed that takes more is a slip of the unit.
+const MOST_REVOLUTIONS: f64 = 1e7;
 
 /// ρ = start ± f·N over the whole range.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,10 +37,16 @@ impl Strategy for Constant {
 
 impl FeedStrategy for Constant {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
+        let RadialRange { inner, outer } = setup.job.range;
+        let least = (outer - inner) / MOST_REVOLUTIONS;
         let feed = match self.feed {
+            Some(feed) if feed < least => return Err(given_too_small(least)),
             Some(feed) => feed,
             None => smallest_held_feed(setup)? * (1.0 - MARGIN),
         };
+        if feed < least {
+            return Err(derived_too_small(feed));
+        }
         Ok(Box::new(OnePiece { feed }))
     }
 }
@@ -62,4 +70,24 @@ impl FeedPlan for OnePiece {
         });
         Ok(Onward::Done)
     }
+}
+
+fn given_too_small(least: f64) -> StrategyError {
+    StrategyError::parameter(
+        "feed",
+        format!(
+            "it takes more than {MOST_REVOLUTIONS:.0e} revolutions; \
+             give at least {:.1e} um/rev",
+            least / UM
+        ),
+    )
+}
+
+fn derived_too_small(feed: f64) -> StrategyError {
+    StrategyError::failed(format!(
+        "tolerance.residual with this nose radius takes a feed of {:.1e} nm/rev, which is more \
+         than {MOST_REVOLUTIONS:.0e} revolutions; allow a larger residual, or choose a larger \
+         nose radius",
+        feed / NM
+    ))
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use turnpath_constant::Constant;
 use turnpath_core::{
     Compensator, Direction, FeedStrategy, Job, NM, Onward, Params, Part, RadialRange, Result,
-    Setup, SpindleLaw, SpiralLaw, Strategy, Tolerance, Tool, ToolLocus, UM,
+    Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Tolerance, Tool, ToolLocus, UM,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic};
@@ -122,6 +122,33 @@ fn the_derived_feed_on_the_saddle_is_the_centre_laws_minimum() {
         (feed / (closed * (1.0 - MARGIN)) - 1.0).abs() < 1e-12,
         "{feed} for {closed}"
     );
+}
+
+#[test]
+fn a_given_feed_of_too_many_revolutions_is_an_error_on_feed() {
+    let job = job(0.0, Direction::Inward);
+    let locus = saddle(Arc::new(ZDirection));
+    let law = |feed| law(&Params::new().with("feed", feed), &job, &locus);
+    assert!(law(RIM / 0.99e7).is_ok());
+    for feed in [RIM / 1.01e7, 1e-300] {
+        let error = law(feed).unwrap_err();
+        let on_feed = matches!(&error, StrategyError::Parameter { name, .. } if name == "feed");
+        assert!(on_feed, "{error}");
+        let said = error.to_string();
+        assert!(said.contains("at least 2.5e-4 um/rev"), "{said}");
+    }
+}
+
+#[test]
+fn a_derived_feed_of_too_many_revolutions_names_what_it_comes_from() {
+    let mut job = job(0.0, Direction::Inward);
+    job.tolerance.residual = 1e-18;
+    let error = law(&Params::new(), &job, &saddle(Arc::new(ZDirection))).unwrap_err();
+    let said = error.to_string();
+    assert!(matches!(error, StrategyError::Failed(_)), "{said}");
+    for word in ["tolerance.residual", "nose radius", "1e7 revolutions"] {
+        assert!(said.contains(word), "{said}");
+    }
 }
 
 #[test]
