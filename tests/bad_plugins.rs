@@ -201,7 +201,21 @@ fn a_library_that_is_no_plugin() {
 #[test]
 fn a_plugin_folder_that_does_not_exist() {
     let bench = Bench::with(SADDLE);
-    insta::assert_snapshot!(shown(&bench, &refused(&bench)));
+    let said = bench.line("run recipe.toml -o out --plugin-dir plugins");
+    assert_eq!(bench.files(), ["recipe.toml"]);
+    insta::assert_snapshot!(shown(&bench, &said.ends(2)));
+}
+
+/// The details belong to layouts alone; `cli/src/failure.rs` holds what they look like.
+#[test]
+fn other_refusals_are_as_short_with_the_flag_for_layouts() {
+    let bench = bench(SADDLE, &["other-version"]);
+    let words = "list --plugin-dir plugins --layout-details";
+    let (short, long) = (
+        bench.line("list --plugin-dir plugins").ends(3),
+        bench.line(words).ends(3),
+    );
+    assert_eq!(short.stderr, long.stderr);
 }
 
 #[test]

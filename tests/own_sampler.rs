@@ -192,7 +192,7 @@ fn a_plugin_that_the_recipe_lists_but_that_is_not_there_is_shown_in_it() {
     let recipe = changed(SADDLE, "format = 1\n", "format = 1\nplugins = [\"labs\"]\n");
     let bench = Bench::with(&recipe);
     let said = bench.line("run recipe.toml --trust-recipe");
-    insta::assert_snapshot!("listed_plugin_missing", bench.shown(&said.ends(3)));
+    insta::assert_snapshot!("listed_plugin_missing", bench.shown(&said.ends(2)));
 }
 
 #[test]

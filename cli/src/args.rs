@@ -39,6 +39,9 @@ pub struct PluginArgs {
     /// Take plugins from this folder too; may be given several times
     #[arg(long, value_name = "DIR")]
     pub plugin_dir: Vec<PathBuf>,
+    /// Print the whole comparison when a plugin's layout differs
+    #[arg(long)]
+    pub layout_details: bool,
 }
 
 /// A recipe, and how it is changed.

@@ -49,6 +49,27 @@ impl Failure {
         Self::Wrong(format!("error: {message}"))
     }
 
+    /// A plugin that could not be loaded.
+    pub fn load(error: &LoadError, details: bool) -> Self {
+        Self::load_told(error, format!("error: {error}"), details)
+    }
+
+    /// The same where the recipe lists the plugin.
+    pub fn listed_load(error: &LoadError, diagnostic: &Diagnostic, details: bool) -> Self {
+        Self::load_told(error, diagnostic.render(color()), details)
+    }
+
+    fn load_told(error: &LoadError, mut text: String, details: bool) -> Self {
+        if let Some(comparison) = error.layout_details().filter(|_| details) {
+            text = format!("{text}\n\n{comparison}");
+        }
+        match error {
+            _ if error.is_io() => Self::File(text),
+            _ if error.is_missing() => Self::Wrong(text),
+            _ => Self::Plugin(text),
+        }
+    }
+
     /// Standard output is gone, or something like it.
     pub fn output(error: &std::io::Error) -> Self {
         Self::File(format!("error: cannot write to standard output: {error}"))
@@ -82,17 +103,6 @@ impl From<Diagnostic> for Failure {
     }
 }
 
-impl From<LoadError> for Failure {
-    fn from(error: LoadError) -> Self {
-        let text = format!("error: {error}");
-        if error.is_io() {
-            Self::File(text)
-        } else {
-            Self::Plugin(text)
-        }
-    }
-}
-
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         Self::File(format!("error: {error}"))
@@ -102,5 +112,45 @@ impl From<FileError> for Failure {
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
         Self::File(format!("error: {error}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use turnpath_host::{BOUNDARY_VERSION, Refusal};
+
+    use super::*;
+
+    #[test]
+    fn the_comparison_of_layouts_is_told_when_asked_for() {
+        let error = LoadError::Refused {
+            path: "libx.so".into(),
+            refusal: Refusal::Layout {
+                ours: BOUNDARY_VERSION,
+                details: "field 3 is missing".to_owned(),
+            },
+        };
+        let (short, long) = (Failure::load(&error, false), Failure::load(&error, true));
+        assert_eq!(short.status(), 3);
+        let (Failure::Plugin(short), Failure::Plugin(long)) = (short, long) else {
+            panic!("a plugin's fault");
+        };
+        assert!(short.ends_with("against this program's turnpath-plugin"));
+        assert_eq!(long, format!("{short}\n\nfield 3 is missing"));
+    }
+
+    #[test]
+    fn what_is_missing_what_cannot_be_read_and_what_is_no_plugin_differ() {
+        let path = std::path::PathBuf::from("labs");
+        let missing = LoadError::NoFolder { path: path.clone() };
+        let source = std::io::ErrorKind::PermissionDenied.into();
+        let unreadable = LoadError::Unreadable { path, source };
+        let not_a_plugin = LoadError::Refused {
+            path: "libx.so".into(),
+            refusal: Refusal::NotAPlugin,
+        };
+        let statuses = [missing, unreadable, not_a_plugin];
+        let statuses = statuses.map(|error| Failure::load(&error, false).status());
+        assert_eq!(statuses, [2, 4, 3]);
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use turnpath_core::{Params, Slot, StrategyError, SurfaceModel};
-use turnpath_host::{Catalogue, Strategy};
+use turnpath_host::{Catalogue, LoadError, Strategy};
 use turnpath_pipeline::{Chain, Link};
 use turnpath_recipe::Recipe;
 
@@ -15,6 +15,10 @@ const PLUGIN_PATH: &str = "TURNPATH_PLUGIN_PATH";
 
 /// All strategies from the program itself, `--plugin-dir` and the environment.
 pub fn catalogue(args: &PluginArgs) -> Result<Catalogue, Failure> {
+    gathered(args).map_err(|error| Failure::load(&error, args.layout_details))
+}
+
+fn gathered(args: &PluginArgs) -> Result<Catalogue, LoadError> {
     let mut catalogue = Catalogue::linked()?;
     for folder in &args.plugin_dir {
         catalogue.add_folder(folder)?;
@@ -47,8 +51,14 @@ pub fn catalogue_for(recipe: &Recipe, args: &RecipeArgs) -> Result<Catalogue, Fa
             false => catalogue.add_file(&path),
         };
         added.map_err(|error| {
+            // Whether a file or a folder was meant is not to be seen.
+            let title = match error.is_missing() && !path.exists() {
+                true => format!("there is no file or folder {}", path.display()),
+                false => error.to_string(),
+            };
             let place = listed.place.clone();
-            Failure::plugin(&recipe.complaint(place, error.to_string(), "listed here", []))
+            let diagnostic = recipe.complaint(place, title, "listed here", []);
+            Failure::listed_load(&error, &diagnostic, args.plugins.layout_details)
         })?;
     }
     Ok(catalogue)

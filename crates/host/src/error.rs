@@ -155,10 +155,15 @@ impl From<OpenError> for Refusal {
 }
 
 impl LoadError {
-    /// Whether a file could not be read or written; all else is a fault of a plugin, or of the
-    /// list of plugins.
+    /// Whether a file could not be read or written. What is neither this nor
+    /// [missing](Self::is_missing) is a plugin's fault.
     pub fn is_io(&self) -> bool {
         matches!(self, Self::Unreadable { .. } | Self::NoCopy { .. })
+    }
+
+    /// Whether what was asked for is not there: then the call, or the recipe, is wrong.
+    pub fn is_missing(&self) -> bool {
+        matches!(self, Self::NoFolder { .. } | Self::NoFile { .. })
     }
 
     /// The file or folder that was asked for; for two of one name the file that came later.
