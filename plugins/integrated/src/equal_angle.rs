@@ -13,7 +13,8 @@ const SLACK: f64 = 1e-6;
 /// takes for good, so that it finds nothing to do, for half a percent more points.
 const AIM: f64 = 0.98;
 /// Smallest step, given or derived: 360,000 points a revolution are a slip of the unit or a kink
-/// of the surface, not what somebody wants, and a block of them is as much as memory should hold.
+/// of the surface, not what somebody wants, and finer ones fill the memory: a block of 64 revolutions
+/// is 23 million points already.
 const SMALLEST_STEP: f64 = 1e-3 * DEG;
 
 /// Node k lies at k steps of the C angle from the path's start, on whatever revolution that is.
