@@ -6,7 +6,7 @@ use turnpath_plugin::prelude::*;
 use crate::table::FeedTable;
 
 /// More revolutions than a part has.
-const MOST_PAIRS: usize = 10_000_000;
+const MOST_PAIRS: usize = 1_000_000;
 /// Rounds of closing in on a root: more than it takes to halve any interval down to rounding.
 const ROUNDS: usize = 200;
 

@@ -11,6 +11,9 @@ const COARSEST: f64 = 367.0;
 const BATCH: u64 = 256;
 /// Slopes up to this count when it is judged whether X's own interpolation matters.
 const STEEPEST: f64 = 10.0;
+/// Part of the feed that X's own interpolation may take. Two neighbouring passes may err apart, and
+/// the cusp grows with the square of their distance: by 4e-4 of itself at the most.
+const X_PART: f64 = 1e-4;
 /// It does not where it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
@@ -33,6 +36,8 @@ struct Played<'a> {
     path: Path<'a>,
     /// X's 4th derivative below this does not matter, mm/rad⁴.
     still: f64,
+    /// Largest error of φ, mm.
+    allowed: f64,
     theta: Vec<f64>,
     rho: Vec<f64>,
     x: Vec<Series>,
@@ -83,6 +88,14 @@ impl Played<'_> {
         self.path.locus.rates(&self.theta, &self.rho, rates)
     }
 
+    /// |φ⁗| at place `i` of the last look, `n` revolutions on; or |X⁗| in the measure in which X's
+    /// own error may be as large as φ's, where that is more.
+    fn fourth(&self, i: usize, n: f64) -> f64 {
+        let x_allowed = X_PART * self.path.law.rate(n).abs();
+        let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
+        24.0 * phi.max(x * self.allowed / x_allowed)
+    }
+
     /// The series of φ at place `i` of the last look.
     fn phi(&self, i: usize) -> Series {
         let (x, z, slope) = (&self.x[i], &self.z[i], self.slope[i]);
@@ -90,7 +103,7 @@ impl Played<'_> {
     }
 }
 
-/// |φ⁗| on the grid around the step in hand.
+/// |φ⁗| on the grid around the step in hand, or |X⁗| in its measure.
 pub struct Samples<'a> {
     played: Played<'a>,
     block: Revolutions,
@@ -109,6 +122,7 @@ impl<'a> Samples<'a> {
         let played = Played {
             path: *path,
             still: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
+            allowed,
             theta: Vec::new(),
             rho: Vec::new(),
             x: Vec::new(),
@@ -182,7 +196,7 @@ impl<'a> Samples<'a> {
         n.extend((from..from + BATCH).map(|i| self.place(i)));
         self.played.look(&n)?;
         for i in 0..n.len() {
-            self.fourth.push(24.0 * self.played.phi(i)[4].abs());
+            self.fourth.push(self.played.fourth(i, n[i]));
         }
         self.n = n;
         Ok(())

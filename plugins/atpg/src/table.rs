@@ -13,6 +13,8 @@ const MOST_CELLS: usize = 4096;
 /// Cells are halved while their floors lie this much below the feed, over the whole table: it is
 /// what the table costs in revolutions.
 const TABLE_COST: f64 = 1e-4;
+/// Where in a cell it is probed, as a part of its width: the golden section, in step with nothing.
+const PROBE: f64 = 0.381_966;
 /// Parts of a cell, each with a floor of its own: more borders without more angles to look at.
 pub const FLOORS: usize = 8;
 
@@ -35,7 +37,7 @@ pub struct FeedTable {
     pub step: f64,
     /// F at the cells' borders, mm.
     pub feed: Vec<f64>,
-    /// What F does not fall below in each eighth of a cell, mm.
+    /// What F does not fall below in each eighth of a cell, as far as the cells resolve it, mm.
     pub floor: Vec<f64>,
     /// Whether the table begins at the axis, and F(−ρ) = F(ρ).
     pub even: bool,
@@ -73,11 +75,32 @@ impl FeedTable {
             table.halve(setup, residual)?;
         }
         table.lay_floor();
-        while table.cells() < MOST_CELLS && table.cost() > TABLE_COST {
+        while table.cells() < MOST_CELLS
+            && (table.cost() > TABLE_COST || table.sink(setup, residual)?)
+        {
             table.halve(setup, residual)?;
             table.lay_floor();
         }
+        table.sink(setup, residual)?;
         Ok(table)
+    }
+
+    /// Probes every cell at an inner place, off the borders' rhythm: a ripple in step with the
+    /// cells shows there. Sinks the floors of cells that F falls through; whether there were any.
+    fn sink(&mut self, setup: Setup<'_>, residual: Residual) -> Result<bool> {
+        let mut any = false;
+        for (cell, floors) in self.floor.chunks_mut(FLOORS).enumerate() {
+            let rho = self.from + (cell as f64 + PROBE) * self.step;
+            let found = feed_at(setup, residual, rho)?;
+            let floor = floors.get((PROBE * FLOORS as f64) as usize).copied();
+            if let Some(through) = floor.map(|floor| floor - found).filter(|by| *by > 0.0) {
+                any = true;
+                for floor in floors {
+                    *floor = (*floor - 2.0 * through).max(0.5 * found);
+                }
+            }
+        }
+        Ok(any)
     }
 
     fn cells(&self) -> usize {
