@@ -103,10 +103,13 @@ fn human(job: &Job, checked: &Checked, found: &Interference) -> String {
     text += &figures::line("revolutions", format!("{:.2}", expected.revolutions));
     text += &figures::line("cutting time", figures::duration(expected.cutting_time_s));
     let size = figures::bytes(expected.toolpath_bytes);
-    text += &figures::line("toolpath.csv", format!("about {size}"));
+    text += &figures::line("toolpath.csv", format!("about {size}, before refinement"));
     for program in &expected.programs {
         let size = figures::bytes(program.bytes);
-        text += &figures::line("program", format!("about {size}, {}", program.file));
+        text += &figures::line(
+            "program",
+            format!("about {size}, before refinement: {}", program.file),
+        );
     }
     text
 }

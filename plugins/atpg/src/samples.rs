@@ -195,8 +195,8 @@ impl<'a> Samples<'a> {
         n.clear();
         n.extend((from..from + BATCH).map(|i| self.place(i)));
         self.played.look(&n)?;
-        for i in 0..n.len() {
-            self.fourth.push(self.played.fourth(i, n[i]));
+        for (i, n) in n.iter().enumerate() {
+            self.fourth.push(self.played.fourth(i, *n));
         }
         self.n = n;
         Ok(())

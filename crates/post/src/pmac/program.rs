@@ -93,8 +93,8 @@ impl PmacWriter {
         }
     }
 
-    /// Bytes that a program of so many points will take, give or take a third: from points made up
-    /// half-way, with all digits. How often the time changes depends on the sampler.
+    /// Bytes that a program of so many points will take, roughly: from points made up half-way, with
+    /// all digits and one time. A time of its own for every point adds half as much.
     pub fn expected_bytes(format: &PmacFormat, radius: f64, time: f64, c: f64, points: f64) -> f64 {
         let half = |end: f64| 0.5 * end * (1.0 + 1e-7 / 3.0);
         let (speed, step) = (c / time, time / points.max(1.0));

@@ -43,7 +43,9 @@ pub struct PmacReader {
 
 /// What stands until another statement changes it.
 struct Modes {
-    absolute: [bool; 3],
+    /// Places or distances for each axis, once the program has said it: what a controller takes
+    /// before is what ran last on it.
+    absolute: [Option<bool>; 3],
     /// A segment's time in quanta.
     time: Option<i64>,
 }
@@ -71,7 +73,7 @@ impl PmacReader {
             Err(error) => return Err(ReadError::File { path, error }),
         };
         let modes = Modes {
-            absolute: [true; 3],
+            absolute: [None; 3],
             time: None,
         };
         Ok(Self {
@@ -150,7 +152,9 @@ impl PmacReader {
         } else if self.section.is_some() && text.starts_with(END_MARK) {
             self.ended = true;
             let digits: String = text.chars().filter(char::is_ascii_digit).collect();
-            let points = digits.parse().unwrap_or(self.counted.count());
+            let points: u64 = digits
+                .parse()
+                .map_err(|_| "the end mark must say how many points the path has".to_owned())?;
             if points != self.counted.count() {
                 let count = self.counted.count();
                 return Err(format!(
@@ -172,7 +176,7 @@ impl PmacReader {
                 _ if moved => return Err("a mode stands behind a move on its line".to_owned()),
                 Word::Absolute(absolute, axes) => {
                     for (mode, chosen) in self.modes.absolute.iter_mut().zip(axes) {
-                        *mode = if chosen { absolute } else { *mode };
+                        *mode = if chosen { Some(absolute) } else { *mode };
                     }
                 }
                 Word::Time(ms) => self.modes.time = Some(quanta(ms)?),
@@ -191,7 +195,10 @@ impl PmacReader {
             .modes
             .time
             .ok_or("a move without a `PVT` time before it")?;
-        let absolute = self.modes.absolute;
+        let [Some(c), Some(x), Some(z)] = self.modes.absolute else {
+            return Err("a move before `ABS` or `INC` has said how to read it".to_owned());
+        };
+        let absolute = [c, x, z];
         let Some(last) = self.axes.place else {
             self.axes.place = Some(first_place(line, absolute)?);
             self.axes.velocity = velocities(line);

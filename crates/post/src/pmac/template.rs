@@ -16,6 +16,12 @@ pub const PLACEHOLDERS: &[&str] = &[
     "ix90",
 ];
 
+/// Placeholders whose values are a person's words: they may stand in comments alone, where no
+/// controller reads them as code.
+const WORDS: &[&str] = &["name", "recipe", "changes"];
+/// Longest value that is put in whole, in characters; a controller's line is not endless.
+const LONGEST_VALUE: usize = 200;
+
 /// A text with placeholders, `{name}`; a brace itself is written twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Template(Vec<Part>);
@@ -32,6 +38,12 @@ pub enum TemplateError {
     /// No such placeholder.
     #[error("no placeholder named `{{{0}}}`")]
     Unknown(String),
+    /// Words that could be read as code.
+    #[error("`{{{0}}}` stands outside a comment: put a `;` before it on its line")]
+    OutsideComment(String),
+    /// A line that the reader would take for a mark of the path.
+    #[error("a comment that begins with `--` would be taken for a mark of the path")]
+    Mark,
     /// A brace that stands alone.
     #[error("a brace stands alone; a brace itself is written twice, `{{{{` or `}}}}`")]
     Alone,
@@ -52,14 +64,25 @@ impl Template {
     /// ```
     ///
     /// # Errors
-    /// Where a placeholder is unknown or a brace stands alone.
+    /// Where a placeholder is unknown, stands where its words would be code, a brace stands alone,
+    /// or a line would be taken for a mark of the path.
     pub fn parse(text: &str) -> Result<Self, TemplateError> {
+        if text.lines().any(is_mark) {
+            return Err(TemplateError::Mark);
+        }
         let mut parts = Vec::new();
         let mut rest = text;
         while let Some(at) = rest.find(['{', '}']) {
             let (before, after) = rest.split_at(at);
             parts.push(Part::Text(before.to_owned()));
             let (part, behind) = part(after)?;
+            if let Part::Placeholder(name) = &part {
+                let read = text.len() - rest.len() + before.len();
+                let line = text[..read].rsplit('\n').next().unwrap_or_default();
+                if WORDS.contains(&name.as_str()) && !line.contains(';') {
+                    return Err(TemplateError::OutsideComment(name.clone()));
+                }
+            }
             parts.push(part);
             rest = behind;
         }
@@ -73,8 +96,11 @@ impl Template {
         let mut text = String::new();
         for part in &self.0 {
             match part {
-                Part::Text(plain) => text.push_str(plain),
-                Part::Placeholder(name) => text.extend(value(name).chars().map(plain)),
+                Part::Text(own) => text.extend(own.chars().map(|c| match c {
+                    '\n' => c,
+                    c => plain(c),
+                })),
+                Part::Placeholder(name) => text.push_str(&harmless(&value(name))),
             }
         }
         if !text.is_empty() && !text.ends_with('\n') {
@@ -99,6 +125,20 @@ fn part(text: &str) -> Result<(Part, &str), TemplateError> {
     }
 }
 
+/// Whether the reader would take the line for a mark.
+fn is_mark(line: &str) -> bool {
+    let comment = line
+        .split_once(';')
+        .map(|(_, comment)| comment.trim_start());
+    comment.is_some_and(|comment| comment.starts_with("--"))
+}
+
+/// A value that is no mark of the path, no code and no endless line.
+fn harmless(value: &str) -> String {
+    let short: String = value.chars().take(LONGEST_VALUE).map(plain).collect();
+    short.replace("--", "- -")
+}
+
 fn plain(c: char) -> char {
     match c {
         ' '..='~' => c,
@@ -119,7 +159,7 @@ mod tests {
 
     #[test]
     fn placeholders_are_replaced_and_double_braces_kept() {
-        assert_eq!(filled("a{name}b{points}"), "a<name>b<points>\n");
+        assert_eq!(filled("; a{name}b{points}"), "; a<name>b<points>\n");
         assert_eq!(filled("{{name}}\n"), "{name}\n");
         assert_eq!(filled(""), "");
     }
@@ -136,5 +176,21 @@ mod tests {
         assert_eq!(unknown.to_string(), "no placeholder named `{nam}`");
         assert_eq!(Template::parse("{name"), Err(TemplateError::Alone));
         assert_eq!(Template::parse("name}"), Err(TemplateError::Alone));
+    }
+
+    #[test]
+    fn words_of_a_person_are_never_code_nor_marks() {
+        let outside = TemplateError::OutsideComment("name".to_owned());
+        assert_eq!(Template::parse("CLOSE\n{name}"), Err(outside));
+        assert_eq!(Template::parse("; -- cutting --"), Err(TemplateError::Mark));
+        assert_eq!(
+            Template::parse("CLOSE ;-- end of path --"),
+            Err(TemplateError::Mark)
+        );
+        let filled = Template::parse("; {name}\n")
+            .unwrap()
+            .fill(|_| format!("-- cutting --\nOPEN{}", "x".repeat(1000)));
+        assert!(filled.starts_with("; - - cutting - - OPENx"), "{filled}");
+        assert!(filled.len() < 250 && filled.lines().count() == 1);
     }
 }

@@ -372,7 +372,7 @@ TM3
 C9:3000 X2.497:-0.2
 ABS (C)
 C36:3000 X2.496:-0.2 Z1:5\r
-; -- end of path --
+; -- END OF PATH: 5 points
 whatever the footer says";
     let mut wanted = read(&format, good().as_bytes()).unwrap();
     // Z without a word keeps its place, and ends at rest.
