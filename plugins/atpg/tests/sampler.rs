@@ -11,10 +11,12 @@ use common::{Case, ast_5, ast_50, oap_213};
 use proptest::prelude::{ProptestConfig, proptest};
 use turnpath_atpg::AtpgSampler;
 use turnpath_core::{
-    CentreSeries, DEG, Locus, NM, Params, Path, Result, Revolutions, Sampler, Scalar, Series,
-    SpiralLaw, Strategy, Surface, UM, angle, per_radian,
+    CentreSeries, DEG, Locus, NM, Nodes, ParamValue, Params, Path, Result, Revolutions, Sampler,
+    Scalar, Series, SpiralLaw, Strategy, Surface, UM, Velocities, VelocitySolver, angle,
+    per_radian,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
+use turnpath_triangle_rotary::{Analytic, ThreePoint, TriangleRotary};
 
 /// Revolutions of the host's blocks.
 const BLOCK: f64 = 64.0;
@@ -73,9 +75,50 @@ fn cubic(from: &Series, to: &Series, h: f64, s: f64) -> f64 {
     from[0] + s * (a + s * (3.0 * d - 2.0 * a - b + s * (a + b - 2.0 * d)))
 }
 
+/// Puts a solver's velocities, per rad, in the place of the exact rates.
+fn solve(solver: &dyn VelocitySolver, n: &[f64], x: &mut [Series], z: &mut [Series]) {
+    let column = |of: &[Series], k: usize| -> Vec<f64> { of.iter().map(|s| s[k]).collect() };
+    let theta: Vec<f64> = n.iter().map(|n| TAU * n).collect();
+    let (ones, zeros) = (vec![1.0; n.len()], vec![0.0; n.len()]);
+    let (places, rates) = ([column(x, 0), column(z, 0)], [column(x, 1), column(z, 1)]);
+    let given = Nodes {
+        t: &theta,
+        c: &theta,
+        x: &places[0],
+        z: &places[1],
+        c_rate: &ones,
+        x_rate: &rates[0],
+        z_theta: &rates[1],
+        z_x: &zeros,
+        at_start: true,
+        at_end: true,
+    };
+    let (mut vc, mut vx, mut vz) = (zeros.clone(), zeros.clone(), zeros.clone());
+    let out = Velocities {
+        c: &mut vc,
+        x: &mut vx,
+        z: &mut vz,
+    };
+    solver.solve(given, out).unwrap();
+    for (k, (vx, vz)) in vx.into_iter().zip(vz).enumerate() {
+        (x[k][1], z[k][1]) = (vx, vz);
+    }
+}
+
 /// The largest |played − true| along z on every segment, mm: axes played by exact rates on
 /// `played`, the truth from `truth`, whose ρ is the nose centre's X.
 fn errors(played: &Case, truth: &Case, law: &SpiralLaw, nodes: &[f64]) -> Vec<f64> {
+    errors_by(&Analytic, played, truth, law, nodes)
+}
+
+/// The same with the velocities of a solver.
+fn errors_by(
+    solver: &dyn VelocitySolver,
+    played: &Case,
+    truth: &Case,
+    law: &SpiralLaw,
+    nodes: &[f64],
+) -> Vec<f64> {
     let theta: Vec<Series> = nodes
         .iter()
         .map(|n| [angle(*n), 1.0, 0.0, 0.0, 0.0])
@@ -94,6 +137,7 @@ fn errors(played: &Case, truth: &Case, law: &SpiralLaw, nodes: &[f64]) -> Vec<f6
         z: &mut z,
     };
     played.locus.series(&theta, &rho, out).unwrap();
+    solve(solver, nodes, &mut x, &mut z);
     let mut at = Vec::new();
     for k in 0..nodes.len() - 1 {
         let step = nodes[k + 1] - nodes[k];
@@ -187,6 +231,12 @@ fn points_on_oap_213() {
     assert!((count as f64 / 371e3 - 1.0).abs() < 0.01, "{count}");
 }
 
+fn clamped() -> Params {
+    let mut params = Params::new();
+    params.set("ends", ParamValue::Text("clamped".to_owned()));
+    params
+}
+
 /// The contact curve is not enough: its own nodes hold the tolerance on it, and leave 366 nm on
 /// the compensated path, which the sampler's own nodes for that path hold again.
 #[test]
@@ -202,6 +252,12 @@ fn nodes_of_the_contact_path_are_not_enough_for_the_compensated_one() {
     );
     let on_centre = largest(&errors(&centre, &centre, &law, &sampled));
     assert!((on_centre / (366.0 * NM) - 1.0).abs() < 0.1, "{on_centre}");
+    let by = |solver: &dyn VelocitySolver, expected_nm: f64| {
+        let found = largest(&errors_by(solver, &centre, &centre, &law, &sampled)) / NM;
+        assert!((found / expected_nm - 1.0).abs() < 0.1, "{found}");
+    };
+    by(&TriangleRotary::new(&clamped()).unwrap(), 843.0);
+    by(&ThreePoint, 3462.0);
     let sampled = nodes(&centre, &law, 45.0);
     assert!((sampled.len() as f64 / 1655.0 - 1.0).abs() < 0.01);
     let on_centre = largest(&errors(&centre, &centre, &law, &sampled));
