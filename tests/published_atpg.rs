@@ -6,30 +6,30 @@
 //! 99.3 and 325 are expected.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+mod support;
+
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
+use support::bench::{Bench, Said};
 
 fn recipe(name: &str) -> PathBuf {
     let recipes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/recipes");
     recipes.join(name)
 }
 
+/// Calls a command on a recipe of docs/ with changes.
+fn call(command: &str, name: &str, set: &[&str]) -> Said {
+    let recipe = recipe(name);
+    let fixed = [command, recipe.to_str().unwrap(), "--format", "json"];
+    let set = set.iter().flat_map(|set| ["--set", *set]);
+    Bench::empty().call(fixed.into_iter().chain(set))
+}
+
 /// Runs a recipe of docs/ with changes; gives the exit status and the summary.
 fn run(name: &str, set: &[&str]) -> (i32, Value) {
-    let folder = tempfile::tempdir().unwrap();
-    let mut program = Command::new(env!("CARGO_BIN_EXE_turnpath"));
-    program.arg("run").arg(recipe(name));
-    program.args(["--format", "json", "-o"]).arg(folder.path());
-    for set in set {
-        program.args(["--set", set]);
-    }
-    let output = program.output().unwrap();
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.stdout.is_empty(), "{error}");
-    let summary = serde_json::from_slice(&output.stdout).unwrap();
-    (output.status.code().unwrap(), summary)
+    let said = call("run", name, set);
+    (said.status.unwrap(), said.json())
 }
 
 const NO_REFINE: &str = "refine=false";
@@ -184,13 +184,8 @@ fn on_every_recipe_the_smooth_law_is_within_3_percent_of_the_cubic() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         let revolutions = |fit: &str| {
             let feed = format!("feed={{ use = \"atpg\", fit = \"{fit}\" }}");
-            let output = Command::new(env!("CARGO_BIN_EXE_turnpath"))
-                .arg("check")
-                .arg(recipe(&name))
-                .args(["--format", "json", "--set", &feed])
-                .output()
-                .unwrap();
-            let checked: Option<Value> = serde_json::from_slice(&output.stdout).ok();
+            let said = call("check", &name, &[&feed]);
+            let checked: Option<Value> = serde_json::from_str(&said.stdout).ok();
             checked?["expected"]["revolutions"].as_f64()
         };
         let smooth = revolutions("smooth").unwrap_or_else(|| panic!("{name}"));

@@ -1,53 +1,21 @@
 //! Whole runs of every velocity solver, against published and independently computed figures.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod support;
 
 use serde_json::Value;
-use tempfile::TempDir;
+use support::bench::{Bench, Said};
+use support::recipe::{SADDLE, changed, with_table};
 
-/// The saddle z = kρ² sin 2θ. With 40 mm and 0.0015 /mm it stands in for the third paper's toric
-/// surface, whose radii are not given.
-const RECIPE: &str = r#"
-format = 1
-name = "test"
-refine = false
-
-[part]
-aperture = "5 mm"
-
-[surface]
-use = "astigmatic"
-k = "0.08 /mm"
-
-[tool]
-nose_radius = "1 mm"
-
-[tolerance]
-interpolation = "100 nm"
-residual = "100 nm"
-
-[spindle]
-speed = "500 rpm"
-
-[path]
-overrun = "none"
-lead = false
-
-[feed]
-use = "constant"
-
-[sampler]
-use = "equal-angle"
-
-[compensator]
-use = "z-direction"
-
-[velocity]
-use = "analytic"
-"#;
+/// The saddle z = kρ² sin 2θ, without what the tests choose: no refinement, no step of its own,
+/// exact rates, no angles of the tool. With 40 mm and 0.0015 /mm it stands in for the third
+/// paper's toric surface, whose radii are not given.
+fn recipe() -> String {
+    let plain = changed(SADDLE, "name =", "refine = false\nname =");
+    let plain = with_table(&plain, "tool", "nose_radius = \"1 mm\"");
+    let plain = with_table(&plain, "sampler", "use = \"equal-angle\"");
+    with_table(&plain, "velocity", "use = \"analytic\"")
+}
 
 /// 1000 points inward from the rim: 999 steps of 5 deg are 0.69375 mm of the radius.
 const TORIC: &[&str] = &[
@@ -80,48 +48,30 @@ const ANALYTIC: &str = "velocity.use=analytic";
 const LINEAR: &str = "velocity.use=linear";
 
 /// A folder with the recipe, and what runs in it.
-struct Place(TempDir);
+struct Place(Bench);
 
 impl Place {
     fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("test.toml"), RECIPE).unwrap();
-        Self(folder)
+        Self(Bench::with(&recipe()))
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn call(&self, command: &[&str], set: &[&str]) -> Output {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_turnpath"));
-        program.current_dir(self.0.path()).args(command);
-        for set in set {
-            program.args(["--set", set]);
-        }
-        program.output().unwrap()
+    fn call(&self, command: &[&str], set: &[&str]) -> Said {
+        let set = set.iter().flat_map(|set| ["--set", *set]);
+        self.0.call(command.iter().copied().chain(set))
     }
 
     /// Runs the recipe; gives the exit status and the summary.
     fn run(&self, set: &[&str]) -> (i32, Value) {
-        let command = ["run", "test.toml", "-o", "out", "--format", "json"];
-        let output = self.call(&command, set);
-        let error = String::from_utf8_lossy(&output.stderr);
-        assert!(!output.stdout.is_empty(), "{error}");
-        let summary = serde_json::from_slice(&output.stdout).unwrap();
-        (output.status.code().unwrap(), summary)
+        let command = ["run", "recipe.toml", "-o", "out", "--format", "json"];
+        let said = self.call(&command, set);
+        (said.status.unwrap(), said.json())
     }
 
     /// What `turnpath verify` says of the path that the last run wrote.
     fn verify(&self, set: &[&str]) -> Value {
-        let command = [
-            "verify",
-            "test.toml",
-            "out/toolpath.csv",
-            "--format",
-            "json",
-        ];
-        serde_json::from_slice(&self.call(&command, set).stdout).unwrap()
+        let file = "out/toolpath.csv";
+        let command = ["verify", "recipe.toml", file, "--format", "json"];
+        self.call(&command, set).json()
     }
 }
 
@@ -286,28 +236,24 @@ fn the_count_of_threads_does_not_show() {
     let place = Place::new();
     for velocity in [HALF, TWO_THIRDS, THREE_POINT, LINEAR] {
         let file = |threads: &str| {
-            let command = ["run", "test.toml", "-o", threads, "--threads", threads];
+            let command = ["run", "recipe.toml", "-o", threads, "--threads", threads];
             let set = ["feed.feed=8 um", "refine=true", velocity];
             place.call(&command, &set);
-            read(&place.path(threads).join("toolpath.csv"))
+            place.0.read(format!("{threads}/toolpath.csv"))
         };
         assert!(file("1") == file("3"), "{velocity}");
     }
 }
 
-fn read(path: &Path) -> Vec<u8> {
-    fs::read(path).unwrap()
-}
-
 #[test]
 fn an_unstable_area_share_is_refused_with_the_reason() {
     let place = Place::new();
-    let output = place.call(
-        &["run", "test.toml"],
+    let said = place.call(
+        &["run", "recipe.toml"],
         &["velocity={ use = \"area\", c = 0.4 }"],
     );
-    assert_eq!(output.status.code(), Some(2));
-    insta::assert_snapshot!(String::from_utf8_lossy(&output.stderr), @r#"
+    assert_eq!(said.status, Some(2));
+    insta::assert_snapshot!(said.stderr, @r#"
     error: the velocity solver `area` cannot work with this: c = 0.4 is unstable: an error of velocity grows from point to point, by |1 − 1/c| = 1.500; choose 0.5 to 1
      --> --set:1:30
       |
