@@ -2,13 +2,10 @@
 //! alone and holds the residual at every angle, and points as far apart as the interpolation
 //! tolerance allows.
 
-mod bound;
 mod cubic;
 mod feed;
-mod least;
 mod pieces;
 mod sampler;
-mod samples;
 mod smooth;
 mod table;
 

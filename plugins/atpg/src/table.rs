@@ -1,8 +1,7 @@
 //! F(ρ), the feed that holds the residual at every angle, tabulated over the radius.
 
 use turnpath_plugin::prelude::*;
-
-use crate::least::{Measure, least_over_angles};
+use turnpath_plugin::ring::{Measure, least_over_angles};
 
 /// The largest feed is this part of the nose radius, as for the held feed of the locus.
 const LARGEST_FEED: f64 = 0.1;

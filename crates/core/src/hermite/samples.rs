@@ -1,8 +1,13 @@
 //! |φ⁗| along the path on an even grid of angles, in batches that follow the steps.
 
-use turnpath_plugin::prelude::*;
+use std::f64::consts::TAU;
 
-use crate::bound::Jumps;
+use super::Steps;
+use super::bound::Jumps;
+use crate::{
+    CentreSeries, Path, Rates, Result, Revolutions, Series, SpiralLaw, StrategyError, angle,
+    per_radian,
+};
 
 /// Samples a revolution on the coarsest grid. A prime, so that no array of equal features on a
 /// ring has all its samples at the same phase.
@@ -11,9 +16,6 @@ const COARSEST: f64 = 367.0;
 const BATCH: u64 = 256;
 /// Slopes up to this count when it is judged whether X's own interpolation matters.
 const STEEPEST: f64 = 10.0;
-/// Part of the feed that X's own interpolation may take. Two neighbouring passes may err apart, and
-/// the cusp grows with the square of their distance: by 4e-4 of itself at the most.
-const X_PART: f64 = 1e-4;
 /// It does not where it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
@@ -38,6 +40,8 @@ struct Played<'a> {
     still: f64,
     /// Largest error of φ, mm.
     allowed: f64,
+    /// Part of the distance between passes that X's own error may take.
+    feed_part: f64,
     theta: Vec<f64>,
     rho: Vec<f64>,
     x: Vec<Series>,
@@ -91,8 +95,11 @@ impl Played<'_> {
     /// |φ⁗| at place `i` of the last look, `n` revolutions on; or |X⁗| in the measure in which X's
     /// own error may be as large as φ's, where that is more.
     fn fourth(&self, i: usize, n: f64) -> f64 {
-        let x_allowed = X_PART * self.path.law.rate(n).abs();
         let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
+        if x == 0.0 {
+            return 24.0 * phi;
+        }
+        let x_allowed = self.feed_part * gap(self.path.law, n);
         24.0 * phi.max(x * self.allowed / x_allowed)
     }
 
@@ -101,6 +108,18 @@ impl Played<'_> {
         let (x, z, slope) = (&self.x[i], &self.z[i], self.slope[i]);
         std::array::from_fn(|k| z[k] - slope * x[k])
     }
+}
+
+/// How far the pass at `n` lies from the next one at its angle, or from the one before where there
+/// is no next, mm. The rate ρ' is no measure of it: on a law that changes with the angle it may be
+/// nought or have the other sign.
+fn gap(law: &SpiralLaw, n: f64) -> f64 {
+    let other = match (n + 1.0 <= law.end(), n >= 1.0) {
+        (true, _) => n + 1.0,
+        (false, true) => n - 1.0,
+        (false, false) => return law.rate(n).abs(),
+    };
+    (law.value(other) - law.value(n)).abs()
 }
 
 /// |φ⁗| on the grid around the step in hand, or |X⁗| in its measure.
@@ -116,13 +135,14 @@ pub struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    /// None yet. Steps will be at most `max_step` rad, errors at most `allowed` mm.
-    pub fn new(path: &Path<'a>, block: Revolutions, max_step: f64, allowed: f64) -> Self {
-        let squared = max_step * max_step;
+    /// None yet. Steps will be at most those of `steps`, errors at most `allowed` mm.
+    pub fn new(path: &Path<'a>, block: Revolutions, steps: &Steps, allowed: f64) -> Self {
+        let squared = steps.max_step * steps.max_step;
         let played = Played {
             path: *path,
             still: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
             allowed,
+            feed_part: steps.feed_part,
             theta: Vec::new(),
             rho: Vec::new(),
             x: Vec::new(),
