@@ -18,8 +18,8 @@ const BUILT_INS: [(&str, &[&str]); 5] = [
             "xy-polynomial",
         ],
     ),
-    ("feed", &["atpg", "constant"]),
-    ("sampler", &["atpg", "equal-angle"]),
+    ("feed", &["atpg", "ats", "constant"]),
+    ("sampler", &["atpg", "ats", "equal-angle"]),
     ("compensator", &["none", "normal", "z-direction"]),
     (
         "velocity",

@@ -10,8 +10,9 @@ use tempfile::TempDir;
 use super::fixtures::file_name;
 
 /// The packages whose plugins the program has inside.
-pub const BUILT_INS: [&str; 6] = [
+pub const BUILT_INS: [&str; 7] = [
     "turnpath-atpg",
+    "turnpath-ats",
     "turnpath-constant",
     "turnpath-integrated",
     "turnpath-nose-radius",

@@ -35,6 +35,33 @@ pub struct Stretch {
     pub coefficients: [f64; 6],
 }
 
+impl Stretch {
+    /// The polynomial of degree 5 with a given ρ, dρ/dN and d²ρ/dN² at each of its ends.
+    ///
+    /// ```
+    /// let smooth = turnpath_core::Stretch::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
+    /// assert_eq!(smooth.coefficients, [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]);
+    /// ```
+    pub fn between(from: [f64; 3], to: [f64; 3], length: f64) -> Self {
+        let t = length;
+        let d = to[0] - from[0] - t * (from[1] + 0.5 * t * from[2]);
+        let v = t * (to[1] - from[1] - t * from[2]);
+        let a = 0.5 * t * t * (to[2] - from[2]);
+        let cube = t * t * t;
+        Self {
+            length,
+            coefficients: [
+                from[0],
+                from[1],
+                0.5 * from[2],
+                (10.0 * d - 4.0 * v + a) / cube,
+                (-15.0 * d + 7.0 * v - 2.0 * a) / (cube * t),
+                (6.0 * d - 3.0 * v + a) / (cube * t * t),
+            ],
+        }
+    }
+}
+
 /// A law in the making: a state of one's own, asked for the next pieces until it is done.
 pub trait FeedPlan: Send {
     /// Appends at least one piece; about a revolution's worth or more is a good measure.

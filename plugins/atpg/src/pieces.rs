@@ -39,6 +39,10 @@ impl State {
         }
     }
 
+    fn ends(self) -> [f64; 3] {
+        [self.rho, self.rate, self.second]
+    }
+
     /// The same place when the law runs backwards.
     fn reversed(self) -> Self {
         Self {
@@ -122,11 +126,15 @@ pub fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
 
 impl Span {
     fn stretch(&self) -> Stretch {
-        quintic(self.from, self.to, self.length)
+        Stretch::between(self.from.ends(), self.to.ends(), self.length)
     }
 
     fn reversed_stretch(&self) -> Stretch {
-        quintic(self.to.reversed(), self.from.reversed(), self.length)
+        Stretch::between(
+            self.to.reversed().ends(),
+            self.from.reversed().ends(),
+            self.length,
+        )
     }
 
     /// Whether the piece's rate is the feed's, to half the margin that the feed leaves.
@@ -139,25 +147,5 @@ impl Span {
             let wanted = feed.at(rho).0;
             (rate - wanted).abs() <= 0.5 * MARGIN * wanted
         })
-    }
-}
-
-/// The polynomial of degree 5 between two states.
-fn quintic(from: State, to: State, length: f64) -> Stretch {
-    let t = length;
-    let d = to.rho - from.rho - t * (from.rate + 0.5 * t * from.second);
-    let v = t * (to.rate - from.rate - t * from.second);
-    let a = 0.5 * t * t * (to.second - from.second);
-    let cube = t * t * t;
-    Stretch {
-        length,
-        coefficients: [
-            from.rho,
-            from.rate,
-            0.5 * from.second,
-            (10.0 * d - 4.0 * v + a) / cube,
-            (-15.0 * d + 7.0 * v - 2.0 * a) / (cube * t),
-            (6.0 * d - 3.0 * v + a) / (cube * t * t),
-        ],
     }
 }
