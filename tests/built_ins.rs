@@ -18,8 +18,8 @@ const BUILT_INS: [(&str, &[&str]); 5] = [
             "xy-polynomial",
         ],
     ),
-    ("feed", &["atpg", "ats", "constant"]),
-    ("sampler", &["atpg", "ats", "equal-angle"]),
+    ("feed", &["atpg", "ats", "constant", "fft-adaptive"]),
+    ("sampler", &["atpg", "ats", "equal-angle", "fft-adaptive"]),
     ("compensator", &["none", "normal", "z-direction"]),
     (
         "velocity",

@@ -5,13 +5,13 @@
 mod cubic;
 mod feed;
 mod pieces;
+mod residual;
 mod sampler;
 mod smooth;
-mod table;
 
 pub use cubic::{CubicFit, explicit_pairs};
 pub use feed::AtpgFeed;
+pub use residual::Residual;
 pub use sampler::AtpgSampler;
-pub use table::{FeedTable, Residual};
 
 turnpath_plugin::export!(feeds: [AtpgFeed], samplers: [AtpgSampler]);

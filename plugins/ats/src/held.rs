@@ -3,13 +3,12 @@
 //! It is the host's held feed f, but for two things: a margin, and (f⁻⁸ + cap⁻⁸)^(−1/8) in place of
 //! min(f, cap), so that it has derivatives wherever the surface has.
 
+use turnpath_plugin::locus::LARGEST_FEED;
 use turnpath_plugin::prelude::*;
 
 use crate::jet::Jet;
 use crate::sections::{Section, Sections};
 
-/// The largest feed is this part of the nose radius, as for the held feed of the locus.
-const LARGEST_FEED: f64 = 0.1;
 /// By how much the feed stays below what holds: room for X's own interpolation, to which the
 /// sampler `ats` gives a thousandth of the distance between passes. It costs as much in
 /// revolutions.
