@@ -37,6 +37,14 @@ fn jobs() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ("waves", waves, vec!["tool.nose_radius=0.5mm"]),
         ("normal", normal, vec!["tool.nose_radius=0.2mm"]),
         (
+            "FFT-adaptive",
+            SADDLE.to_owned(),
+            vec![
+                "feed.use=fft-adaptive",
+                "sampler={ use = \"fft-adaptive\" }",
+            ],
+        ),
+        (
             "ATS",
             SADDLE.to_owned(),
             vec!["feed.use=ats", "sampler={ use = \"ats\" }"],

@@ -12,6 +12,9 @@ const MOST: usize = 1 << 20;
 /// Places within a step, at least.
 const LOOKS: f64 = 16.0;
 
+/// Arcs are taken for this long at least, mm/rad: a tool that stands still on the axis has none.
+const STILL: f64 = 1e-9;
+
 /// How a place is curved along the path.
 #[derive(Debug, Clone, Copy)]
 struct Bend {
@@ -24,8 +27,8 @@ struct Bend {
 }
 
 impl Bend {
-    fn of(rho: &Series, z: &Series) -> Self {
-        let arc = (rho[0] * rho[0] + rho[1] * rho[1]).sqrt();
+    fn of(x: &Series, z: &Series) -> Self {
+        let arc = (x[0] * x[0] + x[1] * x[1]).sqrt().max(STILL);
         let slope = z[1] / arc;
         Self {
             second: 2.0 * z[2],
@@ -102,11 +105,10 @@ impl Revolution {
         let (mut x, mut z) = (vec![[f64::NAN; 5]; n.len()], vec![[f64::NAN; 5]; n.len()]);
         path.series_at(&n, &mut x, &mut z)?;
         self.bends.clear();
-        for (n, z) in n.iter().zip(&z) {
-            let rho = per_radian(path.law.series(*n));
-            let bend = Bend::of(&rho, z);
+        for ((n, x), z) in n.iter().zip(&x).zip(&z) {
+            let bend = Bend::of(x, z);
             if bend.step(self.chord, self.tolerance).is_nan() {
-                return Err(no_bend(*n, rho[0]));
+                return Err(no_bend(*n, path.radius_at(*n)));
             }
             self.bends.push(bend);
         }
