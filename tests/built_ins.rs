@@ -19,7 +19,17 @@ const BUILT_INS: [(&str, &[&str]); 5] = [
         ],
     ),
     ("feed", &["atpg", "ats", "constant", "fft-adaptive"]),
-    ("sampler", &["atpg", "ats", "equal-angle", "fft-adaptive"]),
+    (
+        "sampler",
+        &[
+            "atpg",
+            "ats",
+            "equal-angle",
+            "equal-arc",
+            "fft-adaptive",
+            "integrated",
+        ],
+    ),
     ("compensator", &["none", "normal", "z-direction"]),
     (
         "velocity",

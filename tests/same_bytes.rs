@@ -45,6 +45,11 @@ fn jobs() -> Vec<(&'static str, String, Vec<&'static str>)> {
             ],
         ),
         (
+            "arcs",
+            SADDLE.to_owned(),
+            vec!["sampler={ use = \"integrated\", spacing = \"0.3 mm\" }"],
+        ),
+        (
             "ATS",
             SADDLE.to_owned(),
             vec!["feed.use=ats", "sampler={ use = \"ats\" }"],
