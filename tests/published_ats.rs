@@ -86,7 +86,8 @@ fn revolutions_beside_atpgs() {
     assert!((0.5..3.0).contains(&lattice), "{lattice}");
 }
 
-/// Each feed with each sampler holds both tolerances: points are added until it does.
+/// Each feed with each sampler: points are added until the interpolation tolerance holds, and the
+/// residual holds or the run says that it does not.
 #[test]
 fn every_feed_goes_with_every_sampler() {
     let feeds = ["constant", "atpg", "ats", "fft-adaptive"];
@@ -112,14 +113,22 @@ fn every_feed_goes_with_every_sampler() {
                 .copied()
                 .chain(chain.iter().map(String::as_str));
             arguments.extend(set.flat_map(|set| ["--set", set]));
-            let summary = Bench::empty().call(arguments).json();
+            let said = Bench::empty().call(arguments);
+            let summary = said.json();
             let within = &summary["within"];
             assert_eq!(within["interpolation"], true, "{feed}, {sampler}");
-            assert_eq!(
-                within["residual"], true,
-                "{feed}, {sampler}: {}",
-                summary["residual_nm"]
+            let holds = within["residual"] == true;
+            assert_eq!(said.status, Some(i32::from(!holds)), "{feed}, {sampler}");
+            // Points are added for Z's sake. Where X moves within the turn only the samplers that
+            // look at X hold the distance of passes too; with others the run says so.
+            assert!(
+                holds || (feed == "ats" && !looks_at_x(sampler)),
+                "{feed}, {sampler}"
             );
         }
     }
+}
+
+fn looks_at_x(sampler: &str) -> bool {
+    ["atpg", "ats"].contains(&sampler)
 }
