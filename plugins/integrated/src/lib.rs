@@ -6,8 +6,8 @@
 //! goes with the radius: equal angles are worst at the rim, equal arcs near the centre, and the
 //! integrated method takes the better of both.
 //!
-//! The text of the discretization formulas is lost in the copy at hand, as are the figure's scales and the
-//! toric surface's radii; its case has 5° steps, 1 mm of arc, Ø 40 mm and 0.05 mm/rev. What was
+//! The text of the discretization formulas is lost in the copy at hand, as are the figure's scales and
+//! the toric surface's radii; its case has 5° steps, 1 mm of arc, Ø 40 mm and 0.05 mm/rev. What was
 //! decided:
 //!
 //! - Arc is that of the spiral seen from above, ∫ sqrt(ρ² + ρ_θ²) dθ; the slope of the surface does
