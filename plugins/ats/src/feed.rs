@@ -21,8 +21,8 @@ pub struct AtsFeed;
 
 impl Strategy for AtsFeed {
     const NAME: &'static str = "ats";
-    const SUMMARY: &'static str = "at every cutting point the feed that holds the residual there: \
-        fewest turns, and X moves back and forth within each";
+    const SUMMARY: &'static str = "at every cutting point the feed that holds the residual there; X \
+        moves back and forth within each turn";
     const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, from its abstract and \
         from Wang et al. 2019; the law is derived here";
 

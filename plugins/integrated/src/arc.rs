@@ -2,8 +2,8 @@
 
 use turnpath_plugin::prelude::*;
 
-/// Shortest arc, mm: 31 million points a revolution at a radius of 5 mm are a slip of the unit.
-pub const SHORTEST_ARC: f64 = 1e-6;
+/// Smallest step: 360,000 points a revolution are a slip of the unit, and finer ones fill the memory.
+pub const SMALLEST_STEP: f64 = 1e-3 * DEG;
 /// Nodes and weights of Gauss' rule of 6th order on (0, 1), around the middle.
 const GAUSS: f64 = 0.387_298_334_620_741_7;
 const OUTER: f64 = 5.0 / 18.0;
@@ -42,8 +42,11 @@ impl ArcSteps {
         while n < block.end {
             nodes.push(n);
             let step = self.step_from(path, n);
-            if !(step.is_finite() && step > 0.0) {
+            if !step.is_finite() {
                 return Err(no_arc(path, n));
+            }
+            if step < SMALLEST_STEP / TAU {
+                return Err(too_short(path, n));
             }
             n += step;
             if ends_path && block.end - n < SLACK * step {
@@ -102,6 +105,18 @@ fn arc(path: &Path<'_>, n: f64, length: f64) -> f64 {
             + MIDDLE * arc_rate(path, middle)
     };
     width * (0..panels as usize).map(panel).sum::<f64>()
+}
+
+fn too_short(path: &Path<'_>, n: f64) -> StrategyError {
+    let least = arc(path, n, SMALLEST_STEP / TAU) / UM;
+    StrategyError::parameter(
+        "spacing",
+        format!(
+            "it takes steps below {:.3} deg at ρ = {:.3} mm; give at least {least:.2} um",
+            SMALLEST_STEP / DEG,
+            path.radius_at(n)
+        ),
+    )
 }
 
 fn no_arc(path: &Path<'_>, n: f64) -> StrategyError {

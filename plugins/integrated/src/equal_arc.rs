@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::arc::{ArcSteps, SHORTEST_ARC};
+use crate::arc::ArcSteps;
 
 /// Largest angle of a step: near the centre the arc of one turn is shorter than any spacing.
 const LARGEST_STEP: f64 = 90.0 * DEG;
@@ -22,7 +22,7 @@ impl Strategy for EqualArc {
         "spacing",
         "arc between neighbouring points, in the plane of the part",
     )
-    .min(SHORTEST_ARC)];
+    .positive()];
 
     fn new(params: &Params) -> Result<Self> {
         let steps = ArcSteps {

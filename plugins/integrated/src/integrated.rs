@@ -2,10 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::arc::{ArcSteps, SHORTEST_ARC};
-
-/// Smallest value of the largest step: 360,000 points a revolution are a slip of the unit.
-const SMALLEST_STEP: f64 = 1e-3 * DEG;
+use crate::arc::{ArcSteps, SMALLEST_STEP};
 
 /// Equal arcs outside; from where they would span more than the largest angle on inwards, equal
 /// angles.
@@ -25,7 +22,7 @@ impl Strategy for Integrated {
             "spacing",
             "largest arc between neighbouring points, in the plane of the part",
         )
-        .min(SHORTEST_ARC),
+        .positive(),
         Param::angle(
             "max_step",
             "largest angle step, which binds near the centre",

@@ -141,6 +141,31 @@ fn where_the_tool_stands_still_on_the_axis_the_largest_step_binds() {
     assert_eq!(nodes(integrated(0.1, 30.0).as_ref(), &law, 64.0).len(), 36);
 }
 
+/// 20 mm and 0.001° are 0.349 µm.
+#[test]
+fn a_spacing_of_too_many_points_is_an_error_on_it() {
+    let (job, law) = (job(), spiral(RIM, -0.05, 400.0));
+    let locus = locus(&job);
+    let path = Path {
+        job: &job,
+        locus: &locus,
+        law: &law,
+        prepared: &[],
+    };
+    let block = Revolutions {
+        start: 0.0,
+        end: 1.0,
+    };
+    let mut nodes = Vec::new();
+    for (spacing, fits) in [(0.34e-3, false), (0.36e-3, true)] {
+        let answer = equal_arc(spacing).place(&path, block, &mut nodes);
+        assert_eq!(answer.is_ok(), fits);
+        if let Err(error) = answer {
+            assert!(error.to_string().contains("at least 0.35 um"), "{error}");
+        }
+    }
+}
+
 /// Inside of spacing/max_step, 11.46 mm, the integrated steps are the largest angle, outside the
 /// arc.
 #[test]
