@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::turn::{Turn, Turns};
+use crate::turn::{Departure, Turn, Turns};
 
 /// Places of a piece at which it is held against the end of the range.
 const LOOKS: usize = 32;
@@ -17,7 +17,9 @@ const BATCH: usize = 8;
 /// At every cutting point the feed that holds the residual there:
 /// ℓ(N + 1) = ℓ(N) ± f, so that X moves back and forth within each turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AtsFeed;
+pub struct AtsFeed {
+    departure: Departure,
+}
 
 impl Strategy for AtsFeed {
     const NAME: &'static str = "ats";
@@ -26,8 +28,20 @@ impl Strategy for AtsFeed {
     const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, from its abstract and \
         from Wang et al. 2019; the law is derived here";
 
-    fn new(_: &Params) -> Result<Self> {
-        Ok(Self)
+    const PARAMS: &'static [Param] = &[Param::choice(
+        "first_turn",
+        &["even", "smoothstep"],
+        "even: at an even rate from the first circle; smoothstep: from rest to rest, and X then \
+         stands still at every whole turn",
+    )
+    .default_choice("even")];
+
+    fn new(params: &Params) -> Result<Self> {
+        let departure = match params.choice("first_turn") {
+            "smoothstep" => Departure::Smoothstep,
+            _ => Departure::Even,
+        };
+        Ok(Self { departure })
     }
 }
 
@@ -40,6 +54,7 @@ impl FeedStrategy for AtsFeed {
             )));
         }
         Ok(Box::new(AtsPlan {
+            departure: self.departure,
             last: None,
             count: None,
             short: None,
@@ -49,6 +64,7 @@ impl FeedStrategy for AtsFeed {
 
 /// The law as far as it has come: one turn is all that the next one needs.
 struct AtsPlan {
+    departure: Departure,
     last: Option<Turn>,
     /// Pieces that the next turn should try.
     count: Option<usize>,
@@ -62,7 +78,7 @@ impl FeedPlan for AtsPlan {
         let mut turns = Turns::new(setup, self.count);
         for _ in 0..BATCH {
             let turn = match &self.last {
-                None => turns.first(goal.start)?,
+                None => turns.first(goal.start, self.departure)?,
                 Some(last) => turns.after(last)?,
             };
             let short = goal.last_short(&turn);

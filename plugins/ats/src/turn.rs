@@ -27,6 +27,17 @@ const PROBES: [f64; 2] = [0.381_966, 0.763_932];
 /// ρ, dρ/dN and d²ρ/dN².
 pub type State = [f64; 3];
 
+/// How the first turn leaves its circle: ℓ = ρ₀ ± q(N)·F, with q a quintic from 0 to 1.
+///
+/// What q does, every turn does after it: the recursion hands ρ' on from turn to turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Departure {
+    /// At an even rate: q' = 1 at its start, and at its end what the recursion makes of it.
+    Even,
+    /// From rest to rest: X stands still at every whole turn.
+    Smoothstep,
+}
+
 /// A turn as pieces of one length.
 #[derive(Debug, Clone)]
 pub struct Turn {
@@ -35,7 +46,7 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// The state at a part of the turn.
+    /// Value, rate and second derivative at a part of the turn, in N.
     fn state(&self, part: f64) -> State {
         let count = self.pieces.len();
         let place = part * count as f64;
@@ -56,8 +67,8 @@ impl Turn {
 
 /// What a turn is made from.
 enum Before<'a> {
-    /// The circle that the path begins at.
-    Circle(f64),
+    /// The circle that the path begins at, and how much of the feed is taken along the first turn.
+    Circle(f64, Turn),
     /// The turn before.
     Turn(&'a Turn),
 }
@@ -65,24 +76,16 @@ enum Before<'a> {
 impl Before<'_> {
     fn state(&self, part: f64) -> State {
         match self {
-            Before::Circle(rho) => [*rho, 0.0, 0.0],
+            Before::Circle(rho, _) => [*rho, 0.0, 0.0],
             Before::Turn(turn) => turn.state(part),
         }
     }
 
-    /// How much of the feed is taken, with its derivatives: on the first turn a quintic from 0 to
-    /// 1 whose rate and second derivative are nought at both ends, then all of it.
+    /// How much of the feed is taken, with its derivatives: q, and on later turns all of it.
     fn share(&self, part: f64) -> State {
         match self {
             Before::Turn(_) => [1.0, 0.0, 0.0],
-            Before::Circle(_) => {
-                let (s, t) = (part, 1.0 - part);
-                [
-                    s * s * s * (10.0 + s * (6.0 * s - 15.0)),
-                    30.0 * s * s * t * t,
-                    60.0 * s * t * (t - s),
-                ]
-            }
+            Before::Circle(_, share) => share.state(part),
         }
     }
 }
@@ -123,8 +126,28 @@ impl<'a> Turns<'a> {
     }
 
     /// The first turn, from the circle of radius `rho`.
-    pub fn first(&mut self, rho: f64) -> Result<Turn> {
-        self.next(&Before::Circle(rho))
+    pub fn first(&mut self, rho: f64, departure: Departure) -> Result<Turn> {
+        let ends = match departure {
+            Departure::Smoothstep => ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+            Departure::Even => ([0.0, 1.0, 0.0], self.even_end(rho)?),
+        };
+        let share = Turn {
+            pieces: vec![Stretch::between(ends.0, ends.1, 1.0)],
+        };
+        self.next(&Before::Circle(rho, share))
+    }
+
+    /// q at the first turn's end, where q' = 1 and q'' = 0 at its start: with these the second turn,
+    /// which is the recursion's, goes on with the same ρ' and ρ''.
+    fn even_end(&mut self, rho: f64) -> Result<State> {
+        (self.theta, self.rho) = (vec![0.0], vec![rho]);
+        let outward = self.outward;
+        let feeds = self.feeds()?;
+        let Some(feed) = feeds.first() else {
+            return Err(no_edges(rho));
+        };
+        let second = 2.0 * TAU * outward * feed.tr + feed.rr * feed.value;
+        Ok([1.0, 1.0 + outward * feed.r, second])
     }
 
     /// The turn after another.
@@ -166,6 +189,20 @@ impl<'a> Turns<'a> {
     /// The states a turn on from those at the given parts of the turn before.
     fn states(&mut self, before: &Before<'_>, parts: &[f64]) -> Result<Vec<State>> {
         self.hold(before, parts);
+        let outward = self.outward;
+        let feeds = self.feeds()?;
+        Ok(feeds
+            .iter()
+            .zip(parts)
+            .map(|(feed, part)| {
+                let state = before.state(*part);
+                onward(state, before.share(*part), along(feed, state), outward)
+            })
+            .collect())
+    }
+
+    /// F at the places held: the feed at ρ ± ½f(ρ), as a function of (θ, ρ). The places move there.
+    fn feeds(&mut self) -> Result<&[Jet]> {
         let half = 0.5 * self.outward;
         let [inner, outer] = &mut self.jets;
         self.feed.jets(&self.theta, &self.rho, inner)?;
@@ -174,16 +211,10 @@ impl<'a> Turns<'a> {
             *rho = jet.value;
         }
         self.feed.jets(&self.theta, &self.rho, outer)?;
-        let feeds = outer.iter().zip(inner.iter());
-        let outward = self.outward;
-        Ok(feeds
-            .zip(parts)
-            .map(|((outer, middle), part)| {
-                let state = before.state(*part);
-                let feed = along(&outer.through(middle), state);
-                onward(state, before.share(*part), feed, outward)
-            })
-            .collect())
+        for (outer, middle) in outer.iter_mut().zip(inner.iter()) {
+            *outer = outer.through(middle);
+        }
+        Ok(outer)
     }
 
     /// The largest distance of a turn from the recursion, in parts of the feed.

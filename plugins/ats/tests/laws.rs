@@ -14,14 +14,20 @@ use turnpath_core::{
     angle,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
-use turnpath_surfaces::{SinusoidalArray, XyPolynomial};
+use turnpath_surfaces::{Conic, SinusoidalArray, XyPolynomial};
 
 /// What the feed keeps below the one that holds, and what its pieces may stray.
 const MARGIN: f64 = 1.5e-3;
 const STRAY: f64 = 5e-5;
 
+fn feed(first_turn: &str) -> AtsFeed {
+    let mut params = Params::new();
+    params.set("first_turn", ParamValue::Text(first_turn.to_owned()));
+    AtsFeed::new(&params).unwrap()
+}
+
 fn ats(case: &Case) -> SpiralLaw {
-    case.law(&AtsFeed).unwrap()
+    case.law(&feed("even")).unwrap()
 }
 
 fn outward(case: &Case) -> f64 {
@@ -39,7 +45,7 @@ fn check_shape(case: &Case, law: &SpiralLaw) {
         Direction::Outward => (range.inner, range.outer),
         Direction::Inward => (range.outer, range.inner),
     };
-    assert_eq!(law.series(0.0)[..3], [from, 0.0, 0.0]);
+    assert_eq!(law.value(0.0), from);
     for piece in law.pieces().iter().skip(1) {
         let (before, after) = (law.series_before(piece.start), law.series(piece.start));
         let scale = 1.0 + before[2].abs();
@@ -135,9 +141,10 @@ fn the_law_is_the_recursion_of_the_hosts_held_feed() {
 }
 
 #[test]
-fn the_first_turn_leaves_its_circle_by_the_smoothstep() {
+fn with_smoothstep_the_first_turn_leaves_its_circle_by_it() {
     let case = ast_5(ZDirection);
-    let law = ats(&case);
+    let law = case.law(&feed("smoothstep")).unwrap();
+    assert_eq!(law.series(0.0)[..3], [0.0; 3]);
     for i in 0..=50 {
         let n = f64::from(i) / 50.0;
         let q = n * n * n * (10.0 - 15.0 * n + 6.0 * n * n);
@@ -235,7 +242,11 @@ fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
         }
     }
     let case = Case::new(Arc::new(Roof), Arc::new(Uncompensated), 4.0, 1.0, 100.0);
-    let error = case.with_hole(1.0).law(&AtsFeed).unwrap_err().to_string();
+    let error = case
+        .with_hole(1.0)
+        .law(&feed("even"))
+        .unwrap_err()
+        .to_string();
     assert!(
         error.contains("ρ = 1.000 mm") && error.contains("`atpg`"),
         "{error}"
@@ -244,7 +255,10 @@ fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
 
 #[test]
 fn nothing_to_cut_is_an_error() {
-    let error = ast_5(ZDirection).with_hole(2.5).law(&AtsFeed).unwrap_err();
+    let error = ast_5(ZDirection)
+        .with_hole(2.5)
+        .law(&feed("even"))
+        .unwrap_err();
     assert!(error.to_string().contains("nothing to cut"), "{error}");
 }
 
@@ -290,9 +304,33 @@ fn check(mut case: Case, inward: bool, offset: f64) {
     if inward {
         case = case.inward();
     }
-    let law = ats(&case);
-    check_shape(&case, &law);
-    check_cusps(&case, &law, offset);
+    for first_turn in ["even", "smoothstep"] {
+        let law = case.law(&feed(first_turn)).unwrap();
+        check_shape(&case, &law);
+        check_cusps(&case, &law, offset);
+    }
+}
+
+/// On a part of rotational symmetry no angle is slower than another: an even first turn gives a
+/// spiral whose rate follows the radius, a smoothstep one that stands still once a turn.
+#[test]
+fn on_a_sphere_the_even_law_is_as_smooth_as_atpgs() {
+    let params = Params::new().with("radius", 60.0).with("conic", 0.0);
+    let surface = Arc::new(Conic::new(&params).unwrap());
+    for direction in [Direction::Outward, Direction::Inward] {
+        let mut case = Case::new(surface.clone(), Arc::new(ZDirection), 20.0, 1.0, 100.0);
+        case.job.direction = direction;
+        let law = ats(&case);
+        check_shape(&case, &law);
+        for i in 0..500 {
+            let n = law.end() * f64::from(i) / 500.0;
+            let held = case.held(0.0, law.value(n));
+            let share = law.rate(n).abs() / held;
+            assert!((share - 1.0 + MARGIN).abs() < 1e-4, "{share} at {n}");
+        }
+        let paused = case.law(&feed("smoothstep")).unwrap();
+        assert!(paused.rate(100.0).abs() < 1e-3 * paused.rate(100.5).abs());
+    }
 }
 
 proptest! {
