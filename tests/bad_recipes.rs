@@ -174,13 +174,21 @@ fn a_folder_in_place_of_a_recipe() {
 }
 
 #[test]
-fn an_overrun_that_this_version_does_not_make() {
-    insta::assert_snapshot!(with_change("overrun = \"none\"", "overrun = \"contact\""));
+fn an_overrun_that_is_neither_a_word_nor_a_length() {
+    insta::assert_snapshot!(with_change("overrun = \"none\"", "overrun = \"contract\""));
 }
 
 #[test]
-fn an_overrun_that_is_left_out() {
-    insta::assert_snapshot!(with_change("overrun = \"none\"\n", ""));
+fn an_overrun_for_which_the_surface_ends_too_early() {
+    let sphere = SADDLE
+        .replace(
+            "use = \"astigmatic\"",
+            "use = \"conic\"\nradius = \"-2.51 mm\"",
+        )
+        .replace("k = \"0.08 /mm\"\n", "")
+        .replace("included_angle", "# included_angle")
+        .replace("overrun = \"none\"", "overrun = \"100 um\"");
+    insta::assert_snapshot!(answer(sphere, "run recipe.toml"));
 }
 
 #[test]

@@ -59,6 +59,17 @@ pub struct RadialRange {
     pub outer: f64,
 }
 
+/// How far the path runs beyond the part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Overrun {
+    /// As far as it takes for the contact to cover the whole part at every angle.
+    Contact,
+    /// Not at all: ρ runs over the aperture exactly.
+    None,
+    /// By this length, mm, at the rim, at the hole, and without a hole beyond the axis.
+    Length(f64),
+}
+
 /// Which way the tool feeds. C increases with time either way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {

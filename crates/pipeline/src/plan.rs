@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Dependence, Path, Revolutions, SpiralLaw};
+use turnpath_core::{Dependence, Overrun, Path, Revolutions, SpiralLaw};
 
+use crate::taper::taper;
 use crate::{Chain, Prepared, Result};
 
 /// Revolutions of a block. A sampler starts afresh at each border, which costs AST-50 a tenth of
@@ -47,6 +48,10 @@ impl<'a> Plan<'a> {
             return Err(chain.velocity.bad_answer(what));
         }
         let law = crate::law::plan(chain, &prepared.job, &prepared.locus)?;
+        let law = match prepared.overrun {
+            Overrun::Contact => taper(&law),
+            Overrun::None | Overrun::Length(_) => law,
+        };
         let mut plan = Self {
             chain,
             prepared,

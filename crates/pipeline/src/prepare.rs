@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Overrun, Part, RadialRange, SpindleLaw,
     StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::attributed::{AttributedCompensator, AttributedSurface};
+use crate::range::range;
 use crate::{Chain, PipelineError, Result};
 
 /// Angles at which the contact is looked for beyond the rim and the hole.
@@ -18,10 +19,29 @@ const RIM_ANGLES: usize = 720;
 /// Places of the nose's reach at which the surface is looked for.
 const REACH_PLACES: usize = 64;
 
+/// What is wanted, as a recipe says it.
+#[derive(Debug, Clone)]
+pub struct Wanted {
+    /// What is cut.
+    pub part: Part,
+    /// With what.
+    pub tool: Tool,
+    /// How exactly.
+    pub tolerance: Tolerance,
+    /// How far the path runs beyond the part.
+    pub overrun: Overrun,
+    /// Which way it feeds.
+    pub direction: Direction,
+    /// How fast the spindle turns.
+    pub spindle: SpindleLaw,
+}
+
 /// A job whose tool fits its part.
 pub struct Prepared {
     /// Part, tool, tolerances, range of ρ, direction, spindle.
     pub job: Job,
+    /// How far the path runs beyond the part.
+    pub overrun: Overrun,
     /// Surface, compensator and tool put together.
     pub locus: ToolLocus,
     /// What the part asks of a tool.
@@ -30,36 +50,24 @@ pub struct Prepared {
     pub touch: FirstTouch,
 }
 
-/// Checks tool against part over all radii of contact, and settles the range of ρ: the aperture
-/// exactly, from the hole (or the axis) to the rim.
+/// Checks tool against part over all radii of contact, and settles the range of ρ.
 ///
 /// # Errors
-/// When the tool does not fit, when the surface has no height somewhere on the part, or when a
-/// strategy fails.
-pub fn prepare(
-    chain: &Chain,
-    part: Part,
-    tool: Tool,
-    tolerance: Tolerance,
-    direction: Direction,
-    spindle: SpindleLaw,
-) -> Result<Prepared> {
-    let range = RadialRange {
-        inner: part.inner_radius,
-        outer: part.aperture_radius,
-    };
-    let job = Job {
+/// When the tool does not fit, when the surface has no height somewhere on the part or on its
+/// overrun, or when a strategy fails.
+pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
+    let Wanted {
         part,
         tool,
         tolerance,
-        range,
+        overrun,
         direction,
         spindle,
-    };
+    } = wanted;
     let surface: Arc<dyn SurfaceModel> = Arc::new(AttributedSurface::new(&chain.surface));
     let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));
     let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
-    look_for_numbers(chain, &job)?;
+    look_for_numbers(chain, &part)?;
     let check = |region| {
         let cut = Cut {
             surface: surface.as_ref(),
@@ -68,12 +76,31 @@ pub fn prepare(
         interference(chain, compensator.as_ref(), cut, region)
     };
     // Where the contact goes beyond the rim is known only if the nose fits the part itself.
-    let on_part = check(range)?;
+    let on_part = check(RadialRange {
+        inner: part.inner_radius,
+        outer: part.aperture_radius,
+    })?;
     refuse(
         &on_part,
         |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
         &tool,
     )?;
+    let range = range(
+        overrun,
+        &part,
+        &tool,
+        surface.as_ref(),
+        compensator.as_ref(),
+    )
+    .map_err(PipelineError::NoSurface)?;
+    let job = Job {
+        part,
+        tool,
+        tolerance,
+        range,
+        direction,
+        spindle,
+    };
     let subject = Subject {
         surface: surface.clone(),
         part,
@@ -85,6 +112,7 @@ pub fn prepare(
     refuse(&interference, |_| true, &tool)?;
     Ok(Prepared {
         job,
+        overrun,
         locus,
         interference,
         touch,
@@ -93,8 +121,8 @@ pub fn prepare(
 
 /// A surface that has no height anywhere on a ring of the part is a plugin's fault, not the
 /// recipe's.
-fn look_for_numbers(chain: &Chain, job: &Job) -> Result<()> {
-    let radius = job.part.inner_radius;
+fn look_for_numbers(chain: &Chain, part: &Part) -> Result<()> {
+    let radius = part.inner_radius;
     let x: Vec<f64> = (0..8).map(|i| radius * turn(i).1).collect();
     let y: Vec<f64> = (0..8).map(|i| radius * turn(i).0).collect();
     let mut z = vec![f64::NAN; x.len()];
@@ -160,7 +188,10 @@ fn contact_range(
     let theta: Vec<f64> = (0..RIM_ANGLES)
         .map(|i| TAU * i as f64 / RIM_ANGLES as f64)
         .collect();
-    let mut contact = range;
+    let mut contact = RadialRange {
+        inner: range.inner.abs(),
+        ..range
+    };
     for rho in [range.inner, range.outer] {
         let mut room = CentreBuffers::default();
         room.resize(theta.len());
@@ -174,7 +205,7 @@ fn contact_range(
             contact.outer = contact.outer.max(foot.abs());
         }
     }
-    if range.inner == 0.0 {
+    if range.inner <= 0.0 {
         contact.inner = 0.0;
     }
     Ok(contact)

@@ -52,7 +52,7 @@ pub mod prelude {
         Onward, Param, Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates,
         Result, Revolutions, Sampler, Scalar, Series, Setup, SpindleLaw, SpiralLaw, Strategy,
         StrategyError, Stretch, Surface, SurfaceModel, Taylor, Tolerance, Tool, Turn, UM,
-        Velocities, VelocitySolver, angle, per_radian,
+        Velocities, VelocitySolver, angle, per_radian, quintic,
     };
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::de::DeTable;
-use turnpath_core::{Direction, Part, Slot, Tolerance, Tool};
+use turnpath_core::{Direction, Overrun, Part, Slot, Tolerance, Tool};
 
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -14,7 +14,7 @@ use crate::document::{Reader, Table};
 use crate::place::{Located, Place, Source};
 use crate::read::Sections;
 use crate::set;
-use crate::tables::{self, Interference, Output, Overrun, PmacPvt};
+use crate::tables::{self, Interference, Output, PmacPvt};
 
 /// Largest recipe, in bytes; a hundred times any that a person writes.
 const LARGEST: u64 = 1 << 20;

@@ -68,9 +68,9 @@ says! {
     strategy_is_a_path: "use = \"z-direction\"" => "use = \"../evil.so\"";
     strategy_not_named: "use = \"z-direction\"\n" => "";
     strategy_as_number: "use = \"z-direction\"" => "use = 3";
-    overrun_left_out: "overrun = \"none\"\n" => "";
-    overrun_contact: "overrun = \"none\"" => "overrun = \"contact\"";
-    overrun_length: "overrun = \"none\"" => "overrun = \"1 mm\"";
+    overrun_negative: "overrun = \"none\"" => "overrun = \"-1 mm\"";
+    overrun_without_unit: "overrun = \"none\"" => "overrun = 1";
+    overrun_as_angle: "overrun = \"none\"" => "overrun = \"1 deg\"";
     overrun_misspelt: "overrun = \"none\"" => "overrun = \"contacts\"";
     lead_left_out: "lead = false\n" => "";
     lead_true: "lead = false" => "lead = true";

@@ -7,10 +7,8 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::FULL;
-use turnpath_core::{DEG, Direction, Param, ParamValue, Slot, StrategyInfo};
-use turnpath_recipe::{
-    DataFormat, FileProblem, Interference, Overrun, Recipe, RecipeError, ZReference,
-};
+use turnpath_core::{DEG, Direction, Overrun, Param, ParamValue, Slot, StrategyInfo};
+use turnpath_recipe::{DataFormat, FileProblem, Interference, Recipe, RecipeError, ZReference};
 
 fn parse(text: &str, sets: &[&str]) -> Recipe {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
@@ -237,6 +235,16 @@ fn set_makes_a_table_that_is_missing() {
     );
     let recipe = parse(&text, &["path.overrun=none", "path.lead=false"]);
     assert_eq!(recipe.overrun, Overrun::None);
+}
+
+#[test]
+fn an_overrun_is_a_word_or_a_length_and_contact_unless_given() {
+    let overrun = |set: &str| parse(FULL, &[set, "path.lead=false"]).overrun;
+    assert_eq!(overrun("path.overrun=contact"), Overrun::Contact);
+    assert_eq!(overrun("path.overrun=250 um"), Overrun::Length(0.25));
+    assert_eq!(overrun("path.overrun=0 mm"), Overrun::Length(0.0));
+    let left_out = FULL.replace("overrun = \"none\"\n", "");
+    assert_eq!(parse(&left_out, &[]).overrun, Overrun::Contact);
 }
 
 #[test]

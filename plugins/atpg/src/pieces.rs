@@ -122,11 +122,11 @@ pub fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
 
 impl Span {
     fn stretch(&self) -> Stretch {
-        quintic(self.from, self.to, self.length)
+        between(self.from, self.to, self.length)
     }
 
     fn reversed_stretch(&self) -> Stretch {
-        quintic(self.to.reversed(), self.from.reversed(), self.length)
+        between(self.to.reversed(), self.from.reversed(), self.length)
     }
 
     /// Whether the piece's rate is the feed's, to half the margin that the feed leaves.
@@ -142,22 +142,10 @@ impl Span {
     }
 }
 
-/// The polynomial of degree 5 between two states.
-fn quintic(from: State, to: State, length: f64) -> Stretch {
-    let t = length;
-    let d = to.rho - from.rho - t * (from.rate + 0.5 * t * from.second);
-    let v = t * (to.rate - from.rate - t * from.second);
-    let a = 0.5 * t * t * (to.second - from.second);
-    let cube = t * t * t;
+fn between(from: State, to: State, length: f64) -> Stretch {
+    let ends = [from, to].map(|state| [state.rho, state.rate, state.second]);
     Stretch {
         length,
-        coefficients: [
-            from.rho,
-            from.rate,
-            0.5 * from.second,
-            (10.0 * d - 4.0 * v + a) / cube,
-            (-15.0 * d + 7.0 * v - 2.0 * a) / (cube * t),
-            (6.0 * d - 3.0 * v + a) / (cube * t * t),
-        ],
+        coefficients: quintic(ends[0], ends[1], length),
     }
 }

@@ -11,7 +11,7 @@ const COARSEST: f64 = 367.0;
 const BATCH: u64 = 256;
 /// Slopes up to this count when it is judged whether X's own interpolation matters.
 const STEEPEST: f64 = 10.0;
-/// Part of the feed that X's own interpolation may take. Two neighbouring passes may err apart, and
+/// Part of the pitch that X's own interpolation may take. Two neighbouring passes may err apart, and
 /// the cusp grows with the square of their distance: by 4e-4 of itself at the most.
 const X_PART: f64 = 1e-4;
 /// It does not where it changes Z by less than this part of the tolerance.
@@ -91,7 +91,7 @@ impl Played<'_> {
     /// |φ⁗| at place `i` of the last look, `n` revolutions on; or |X⁗| in the measure in which X's
     /// own error may be as large as φ's, where that is more.
     fn fourth(&self, i: usize, n: f64) -> f64 {
-        let x_allowed = X_PART * self.path.law.rate(n).abs();
+        let x_allowed = X_PART * pitch(&self.path, n);
         let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
         24.0 * phi.max(x * self.allowed / x_allowed)
     }
@@ -100,6 +100,20 @@ impl Played<'_> {
     fn phi(&self, i: usize) -> Series {
         let (x, z, slope) = (&self.x[i], &self.z[i], self.slope[i]);
         std::array::from_fn(|k| z[k] - slope * x[k])
+    }
+}
+
+/// How far the next turn lies, mm; at the path's last turn, the one before. A law may come to rest
+/// at its ends, where its rate tells nothing of that.
+fn pitch(path: &Path<'_>, n: f64) -> f64 {
+    let law = path.law;
+    let to = |other: f64| (law.value(other) - law.value(n)).abs();
+    if n + 1.0 <= law.end() {
+        to(n + 1.0)
+    } else if n >= 1.0 {
+        to(n - 1.0)
+    } else {
+        law.rate(n).abs()
     }
 }
 

@@ -10,11 +10,13 @@ use std::sync::Arc;
 
 use turnpath_core::toolpath::{PathBlock, PathStretch};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Onward, Part, Path,
-    Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw, StrategyError,
-    Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Onward, Overrun,
+    Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw,
+    StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
-use turnpath_pipeline::{Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, prepare, run};
+use turnpath_pipeline::{
+    Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, Wanted, prepare, run,
+};
 
 /// The rim, mm.
 pub const RIM: f64 = 2.0;
@@ -212,6 +214,7 @@ pub struct Job {
     pub compensator: Arc<dyn Compensator>,
     pub velocity: Arc<dyn VelocitySolver>,
     pub direction: Direction,
+    pub overrun: Overrun,
     pub interpolation: f64,
     pub rpm: f64,
     pub refined: bool,
@@ -226,6 +229,7 @@ impl Default for Job {
             compensator: Arc::new(Bare),
             velocity: Arc::new(solvers::Exact),
             direction: Direction::Inward,
+            overrun: Overrun::None,
             interpolation: 1e-4,
             rpm: 60.0,
             refined: false,
@@ -268,8 +272,15 @@ impl Job {
             interpolation: self.interpolation,
             residual: 1e-4,
         };
-        let spindle = SpindleLaw::constant(self.rpm / 60.0 * TAU);
-        let prepared = prepare(&chain, part, tool, tolerance, self.direction, spindle)?;
+        let wanted = Wanted {
+            part,
+            tool,
+            tolerance,
+            overrun: self.overrun,
+            direction: self.direction,
+            spindle: SpindleLaw::constant(self.rpm / 60.0 * TAU),
+        };
+        let prepared = prepare(&chain, wanted)?;
         let mut kept = Kept::default();
         let making = Making {
             refine: self.refined,

@@ -8,7 +8,6 @@ mod top;
 mod work;
 
 pub use output::{DataFormat, Output, ZReference};
-pub use path::Overrun;
 pub use pmac_pvt::PmacPvt;
 pub use work::Interference;
 

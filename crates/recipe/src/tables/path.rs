@@ -1,20 +1,13 @@
 //! `[path]`: which way the tool feeds, how far beyond the part, and how it comes and goes.
 
-use turnpath_core::{Direction, Quantity};
+use turnpath_core::{Direction, Overrun, Quantity};
 
 use crate::diagnostic::Diagnostic;
 use crate::document::Value;
 use crate::place::Place;
-use crate::read::{POSITIVE, Section};
+use crate::read::{NOT_NEGATIVE, Section};
 
 pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead"];
-
-/// How far the path runs beyond the aperture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Overrun {
-    /// ρ runs over the aperture exactly.
-    None,
-}
 
 /// `[path]`.
 pub(crate) struct PathTable {
@@ -23,13 +16,13 @@ pub(crate) struct PathTable {
     pub(crate) lead: bool,
 }
 
-/// Reads `[path]`, which may be missing as a table but not, so far, in what it says.
+/// Reads `[path]`.
 pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
     section.only(KEYS);
     if section.is_something_else() {
         return PathTable {
             direction: Direction::Inward,
-            overrun: Overrun::None,
+            overrun: Overrun::Contact,
             lead: false,
         };
     }
@@ -44,29 +37,21 @@ pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
     }
 }
 
+/// A word, or a length.
 fn overrun(section: &mut Section<'_>) -> Overrun {
     let Some(node) = section.node("overrun") else {
-        refuse_default(section, "overrun", "\"contact\"", "\"none\"");
-        return Overrun::None;
+        return Overrun::Contact;
     };
-    let place = node.place.clone();
-    match &node.value {
-        Value::Text(text) if text == "none" => {}
-        Value::Text(text) if text.starts_with(|c: char| c.is_ascii_alphabetic()) => {
-            if section.word("overrun", &["contact", "none"]).is_some() {
-                refuse(section, "overrun", place, "\"none\"");
-            }
-        }
-        _ => {
-            if section
-                .quantity("overrun", Quantity::Length, POSITIVE)
-                .is_some()
-            {
-                refuse(section, "overrun", place, "\"none\"");
-            }
-        }
+    let is_word = |text: &str| text.starts_with(|c: char| c.is_ascii_alphabetic());
+    if matches!(&node.value, Value::Text(text) if is_word(text)) {
+        let word = section.word("overrun", &["contact", "none"]);
+        return match word {
+            Some(word) if word.value == "none" => Overrun::None,
+            _ => Overrun::Contact,
+        };
     }
-    Overrun::None
+    let length = section.quantity("overrun", Quantity::Length, NOT_NEGATIVE);
+    length.map_or(Overrun::Contact, |length| Overrun::Length(length.value))
 }
 
 fn lead(section: &mut Section<'_>) -> bool {
