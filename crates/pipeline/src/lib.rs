@@ -19,7 +19,7 @@ mod run;
 pub use chain::{Chain, Link};
 pub use error::{PipelineError, Result};
 pub use plan::BLOCK;
-pub use prepare::{Prepared, prepare};
+pub use prepare::{Prepared, Wanted, prepare};
 pub use progress::{Progress, Quiet, Stage};
 pub use refine::{AIM, MOST_ROUNDS, SMALLEST_SEGMENT};
 pub use run::{Expected, Making, Outcome, Sink, expect, run};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Part, RadialRange, SpindleLaw,
     StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
@@ -18,9 +18,26 @@ const RIM_ANGLES: usize = 720;
 /// Places of the nose's reach at which the surface is looked for.
 const REACH_PLACES: usize = 64;
 
+/// What is wanted, as a recipe says it.
+#[derive(Debug, Clone)]
+pub struct Wanted {
+    /// What is cut.
+    pub part: Part,
+    /// With what.
+    pub tool: Tool,
+    /// How exactly.
+    pub tolerance: Tolerance,
+    /// Which way it feeds.
+    pub direction: Direction,
+    /// How fast the spindle turns.
+    pub spindle: SpindleLaw,
+    /// What the machine can do.
+    pub machine: Machine,
+}
+
 /// A job whose tool fits its part.
 pub struct Prepared {
-    /// Part, tool, tolerances, range of ρ, direction, spindle.
+    /// Part, tool, tolerances, range of ρ, direction, spindle, machine.
     pub job: Job,
     /// Surface, compensator and tool put together.
     pub locus: ToolLocus,
@@ -36,14 +53,15 @@ pub struct Prepared {
 /// # Errors
 /// When the tool does not fit, when the surface has no height somewhere on the part, or when a
 /// strategy fails.
-pub fn prepare(
-    chain: &Chain,
-    part: Part,
-    tool: Tool,
-    tolerance: Tolerance,
-    direction: Direction,
-    spindle: SpindleLaw,
-) -> Result<Prepared> {
+pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
+    let Wanted {
+        part,
+        tool,
+        tolerance,
+        direction,
+        spindle,
+        machine,
+    } = wanted;
     let range = RadialRange {
         inner: part.inner_radius,
         outer: part.aperture_radius,
@@ -55,6 +73,7 @@ pub fn prepare(
         range,
         direction,
         spindle,
+        machine,
     };
     let surface: Arc<dyn SurfaceModel> = Arc::new(AttributedSurface::new(&chain.surface));
     let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));

@@ -10,11 +10,13 @@ use std::sync::Arc;
 
 use turnpath_core::toolpath::{PathBlock, PathStretch};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Onward, Part, Path,
-    Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw, StrategyError,
-    Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Machine, Onward,
+    Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw,
+    StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
-use turnpath_pipeline::{Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, prepare, run};
+use turnpath_pipeline::{
+    Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, Wanted, prepare, run,
+};
 
 /// The rim, mm.
 pub const RIM: f64 = 2.0;
@@ -269,7 +271,15 @@ impl Job {
             residual: 1e-4,
         };
         let spindle = SpindleLaw::constant(self.rpm / 60.0 * TAU);
-        let prepared = prepare(&chain, part, tool, tolerance, self.direction, spindle)?;
+        let wanted = Wanted {
+            part,
+            tool,
+            tolerance,
+            direction: self.direction,
+            spindle,
+            machine: Machine::default(),
+        };
+        let prepared = prepare(&chain, wanted)?;
         let mut kept = Kept::default();
         let making = Making {
             refine: self.refined,
