@@ -60,6 +60,11 @@ impl Derivative {
         }
     }
 
+    /// The key of its limit in a recipe: `x_velocity`.
+    pub fn key(self, axis: Axis) -> String {
+        format!("{}_{}", axis.letter().to_ascii_lowercase(), self.name())
+    }
+
     /// The quantity that it is on an axis.
     pub const fn quantity(self, axis: Axis) -> Quantity {
         match (axis, self) {
@@ -113,6 +118,13 @@ pub struct Limit {
     pub derivative: Derivative,
     /// The largest amount; mm or rad, and s.
     pub value: f64,
+}
+
+impl Limit {
+    /// Its key in a recipe: `x_velocity`.
+    pub fn key(&self) -> String {
+        self.derivative.key(self.axis)
+    }
 }
 
 impl Machine {
