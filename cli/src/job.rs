@@ -3,7 +3,7 @@
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Slot, SpindleLaw, StrategyError};
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{Chain, PipelineError, Prepared, prepare};
+use turnpath_pipeline::{Chain, PipelineError, Prepared, Wanted, prepare};
 use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
@@ -31,15 +31,15 @@ impl Job {
         let recipe = Recipe::load(&args.recipe, &args.set)?;
         let catalogue = strategies::catalogue_for(&recipe, args)?;
         let chain = strategies::chain(&recipe, &catalogue)?;
-        let prepared = prepare(
-            &chain,
-            recipe.part,
-            recipe.tool,
-            recipe.tolerance,
-            recipe.direction,
-            SpindleLaw::constant(recipe.spindle_speed),
-        )
-        .map_err(|error| of_pipeline(&recipe, error))?;
+        let wanted = Wanted {
+            part: recipe.part,
+            tool: recipe.tool,
+            tolerance: recipe.tolerance,
+            direction: recipe.direction,
+            spindle: SpindleLaw::constant(recipe.spindle_speed),
+            machine: recipe.machine,
+        };
+        let prepared = prepare(&chain, wanted).map_err(|error| of_pipeline(&recipe, error))?;
         Ok(Self {
             recipe,
             catalogue,

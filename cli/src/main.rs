@@ -8,6 +8,7 @@ mod figures;
 mod files;
 mod job;
 mod list;
+mod machine;
 mod programs;
 mod progress;
 mod reach;
