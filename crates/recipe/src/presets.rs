@@ -1,7 +1,8 @@
 //! Typical machines: their limits, each with its source.
 //!
 //! A limit stands here only if a published figure says it or it follows from one; what is not
-//! known is left out, and not checked. A recipe adds its own machine's.
+//! known is left out, and not checked. A recipe adds its own machine's. Fast tool servos are not
+//! here: their published strokes and bandwidths do not say what they reach together.
 
 use std::f64::consts::TAU;
 
@@ -63,8 +64,9 @@ pub const PRESETS: &[Preset] = &[
         },
         source: "slow tool servo of the lathes Precitech Nanoform 200, 350 and 700, from \
             Precitech's table of servo tools (AZoM, article 11751): 10 mm travel at 2 Hz, \
-            bandwidth 70 Hz. Derived: velocity and acceleration of a sine of 5 mm at 2 Hz, jerk \
-            of that acceleration at 70 Hz; X and C are not in the table",
+            bandwidth 70 Hz. Derived: velocity and acceleration of a sine of 5 mm at 2 Hz, a \
+            motion that it makes, so it may do more; jerk of that acceleration at 70 Hz. X and C \
+            are not in the table",
     },
 ];
 
