@@ -253,7 +253,7 @@ const METRE: f64 = 1e3;
 fn significant(value: f64) -> String {
     match value {
         v if !v.is_finite() => "no number".to_owned(),
-        v if v >= 1e6 || v < 1e-3 => format!("{v:.3e}"),
+        v if !(1e-3..1e6).contains(&v) => format!("{v:.3e}"),
         v if v >= 1e3 => format!("{v:.0}"),
         v if v >= 1e2 => format!("{v:.1}"),
         v if v >= 1e1 => format!("{v:.2}"),
