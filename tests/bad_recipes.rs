@@ -216,9 +216,15 @@ fn data_that_this_version_does_not_write() {
 }
 
 #[test]
-fn limits_that_this_version_does_not_check() {
-    let recipe = format!("{SADDLE}\n[machine]\npreset = \"generic-sts\"\n");
+fn a_machine_that_is_not_known() {
+    let recipe = format!("{SADDLE}\n[machine]\npreset = \"generic-fts\"\n");
     insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
+}
+
+#[test]
+fn a_spindle_faster_than_the_machine() {
+    let recipe = format!("{SADDLE}\n[machine]\nc_velocity = \"300 rpm\"\n");
+    insta::assert_snapshot!(answer(recipe, "check recipe.toml"));
 }
 
 #[test]

@@ -38,6 +38,7 @@ impl Job {
             overrun: recipe.overrun,
             direction: recipe.direction,
             spindle: SpindleLaw::constant(recipe.spindle_speed),
+            machine: recipe.machine,
         };
         let prepared = prepare(&chain, wanted).map_err(|error| of_pipeline(&recipe, error))?;
         Ok(Self {

@@ -8,6 +8,7 @@ mod figures;
 mod files;
 mod job;
 mod list;
+mod machine;
 mod programs;
 mod progress;
 mod reach;
@@ -34,9 +35,9 @@ use failure::Failure;
 /// How a command ended that did what it was asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Verdict {
-    /// All tolerances hold.
+    /// All tolerances hold, and all limits of the machine.
     Holds,
-    /// A tolerance does not hold.
+    /// A tolerance or a limit of the machine does not hold.
     Exceeded,
 }
 

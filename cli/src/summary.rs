@@ -5,7 +5,9 @@ use turnpath_core::{DEG, Direction, Tolerance};
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
-use turnpath_verify::{AxisMotion, PathFigures};
+use turnpath_verify::{AxisMotion, PathFigures, Peak};
+
+use crate::machine::{HighestSpindle, MachineFigures};
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
@@ -40,6 +42,10 @@ pub struct Measured {
     pub residual_nm: Residual,
     pub surface_error_nm: SurfaceError,
     pub axes: Axes,
+    /// The machine's limits; null without any.
+    pub machine: Option<MachineFigures>,
+    #[serde(flatten)]
+    pub highest_spindle: HighestSpindle,
     pub within: Within,
 }
 
@@ -105,12 +111,23 @@ pub struct Axes {
 #[derive(Debug, Serialize)]
 pub struct Axis {
     max_velocity: f64,
+    rms_velocity: f64,
     max_acceleration: f64,
     rms_acceleration: f64,
     max_jerk: f64,
+    rms_jerk: f64,
+    at: AxisPlaces,
 }
 
-/// Which tolerances hold; `machine` is null without limits to hold.
+/// Where an axis' largest amounts are.
+#[derive(Debug, Serialize)]
+struct AxisPlaces {
+    max_velocity: Place,
+    max_acceleration: Place,
+    max_jerk: Place,
+}
+
+/// Which tolerances hold, and the machine's limits; null without limits of which there are figures.
 #[derive(Debug, Serialize)]
 pub struct Within {
     pub interpolation: bool,
@@ -166,7 +183,7 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(&outcome.figures, &recipe.tolerance),
+            measured: Measured::new(&outcome.figures, recipe),
             programs,
             plugins: plugins
                 .iter()
@@ -211,9 +228,11 @@ impl ChainNames {
 }
 
 impl Measured {
-    /// Figures against tolerances, in the units of the file.
-    pub fn new(figures: &PathFigures, tolerance: &Tolerance) -> Self {
+    /// Figures against the recipe's tolerances and limits, in the units of the file.
+    pub fn new(figures: &PathFigures, recipe: &Recipe) -> Self {
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
+        let tolerance = &recipe.tolerance;
+        let machine = MachineFigures::new(axes, recipe);
         let at = Place {
             c_deg: playback.at_c / DEG,
             x_mm: playback.at_x,
@@ -246,9 +265,11 @@ impl Measured {
                 residual: residual
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
-                machine: None,
+                machine: machine.as_ref().and_then(MachineFigures::hold),
                 reach: None,
             },
+            machine,
+            highest_spindle: HighestSpindle::new(axes, recipe),
         }
     }
 
@@ -261,6 +282,16 @@ impl Measured {
             reach,
         } = self.within;
         interpolation && residual && machine.unwrap_or(true) && reach.unwrap_or(true)
+    }
+}
+
+impl Place {
+    /// Where a largest amount is.
+    pub fn of(peak: &Peak) -> Self {
+        Self {
+            c_deg: peak.at_c / DEG,
+            x_mm: peak.at_x,
+        }
     }
 }
 
@@ -282,18 +313,25 @@ impl ProgramSummary {
     }
 }
 
-/// Whether a measured figure holds a tolerance.
-fn holds(measured: f64, tolerance: f64) -> bool {
+/// Whether a measured figure holds a tolerance or a limit.
+pub fn holds(measured: f64, tolerance: f64) -> bool {
     measured <= ALLOWED * tolerance
 }
 
 impl Axis {
     fn of(motion: &AxisMotion, unit: f64) -> Self {
         Self {
-            max_velocity: motion.max_velocity / unit,
-            max_acceleration: motion.max_acceleration / unit,
+            max_velocity: motion.velocity.amount / unit,
+            rms_velocity: motion.rms_velocity() / unit,
+            max_acceleration: motion.acceleration.amount / unit,
             rms_acceleration: motion.rms_acceleration() / unit,
-            max_jerk: motion.max_jerk / unit,
+            max_jerk: motion.jerk.amount / unit,
+            rms_jerk: motion.rms_jerk() / unit,
+            at: AxisPlaces {
+                max_velocity: Place::of(&motion.velocity),
+                max_acceleration: Place::of(&motion.acceleration),
+                max_jerk: Place::of(&motion.jerk),
+            },
         }
     }
 }

@@ -67,7 +67,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         return Err(Failure::File(message));
     };
     let reach = Reach::new(range);
-    let mut measured = Measured::new(meter.figures(), &recipe.tolerance);
+    let mut measured = Measured::new(meter.figures(), &recipe);
     measured.within.reach = Some(reach.covers(&recipe.part));
     let verified = Verified {
         name: recipe.name.clone(),

@@ -75,7 +75,17 @@ says! {
     lead_left_out: "lead = false\n" => "";
     lead_true: "lead = false" => "lead = true";
     path_left_out: "[path]\ndirection = \"inward\"\noverrun = \"none\"\nlead = false\n" => "";
-    machine: "[output]" => "[machine]\npreset = \"generic-sts\"\n\n[output]";
+    machine_empty: "[output]" => "[machine]\n\n[output]";
+    machine_preset_misspelt: "[output]" => "[machine]\npreset = \"genric-sts\"\n\n[output]";
+    machine_preset_unknown: "[output]" => "[machine]\npreset = \"my lathe\"\n\n[output]";
+    machine_preset_as_number: "[output]" => "[machine]\npreset = 5\n\n[output]";
+    machine_key_misspelt: "[output]" => "[machine]\nx_accelaration = \"1 m/s^2\"\n\n[output]";
+    machine_limit_zero: "[output]" => "[machine]\nz_jerk = \"0 m/s^3\"\n\n[output]";
+    machine_limit_of_another_kind: "[output]" => "[machine]\nx_acceleration = \"1 m/s\"\n\n[output]";
+    machine_limit_without_unit: "[output]" => "[machine]\nz_velocity = 50\n\n[output]";
+    machine_limit_unit_unknown: "[output]" => "[machine]\nc_acceleration = \"100 mm/s^2\"\nc_jerk = \"3 rad/s3\"\n\n[output]";
+    machine_slower_than_the_spindle: "[output]" => "[machine]\nc_velocity = \"400 rpm\"\n\n[output]";
+    machine_no_table: "format = 1" => "format = 1\nmachine = \"generic-sts\"";
     interference_cut_what_fits: "\"refuse\"" => "\"cut-what-fits\"";
     post_twice: "posts = []" => "posts = [\"pmac-pvt\", \"pmac-pvt\"]";
     post_unknown: "posts = []" => "posts = [\"pmac-pwt\"]";

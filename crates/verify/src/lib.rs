@@ -7,6 +7,7 @@
 
 mod axes;
 mod cusp;
+mod limits;
 mod meter;
 mod playback;
 mod profiles;
@@ -15,7 +16,8 @@ mod scan;
 mod subject;
 mod touch;
 
-pub use axes::{AxesMotion, AxisMotion};
+pub use axes::{AxesMotion, AxisMotion, Peak};
+pub use limits::{HighestSpeed, LimitFigure};
 pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
 pub use residual::{ResidualFigures, SECTIONS};

@@ -10,9 +10,9 @@ use std::sync::Arc;
 
 use turnpath_core::toolpath::{PathBlock, PathStretch};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Onward, Overrun,
-    Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw,
-    StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Machine, Onward,
+    Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot,
+    SpindleLaw, StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
     Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, Wanted, prepare, run,
@@ -279,6 +279,7 @@ impl Job {
             overrun: self.overrun,
             direction: self.direction,
             spindle: SpindleLaw::constant(self.rpm / 60.0 * TAU),
+            machine: Machine::default(),
         };
         let prepared = prepare(&chain, wanted)?;
         let mut kept = Kept::default();
