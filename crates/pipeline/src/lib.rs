@@ -8,6 +8,7 @@ mod attributed;
 mod chain;
 mod error;
 mod law;
+mod lead;
 mod make;
 mod order;
 mod plan;
@@ -18,6 +19,7 @@ mod run;
 
 pub use chain::{Chain, Link};
 pub use error::{PipelineError, Result};
+pub use lead::{AxisLimits, LeadLimits, LeadSettings, Leads};
 pub use plan::BLOCK;
 pub use prepare::{Prepared, prepare};
 pub use progress::{Progress, Quiet, Stage};

@@ -7,6 +7,7 @@
 
 mod axes;
 mod cusp;
+mod lead;
 mod meter;
 mod playback;
 mod profiles;
@@ -16,6 +17,7 @@ mod subject;
 mod touch;
 
 pub use axes::{AxesMotion, AxisMotion};
+pub use lead::{Jumps, LeadFigures, LeadMeter, LeadStretch};
 pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
 pub use residual::{ResidualFigures, SECTIONS};
