@@ -199,12 +199,7 @@ impl Trail {
     }
 
     /// Hands a whole section on.
-    fn hand_on(
-        &mut self,
-        section: Section,
-        points: &PathBlock,
-        sink: &mut dyn Sink,
-    ) -> Result<()> {
+    fn hand_on(&mut self, section: Section, points: &PathBlock, sink: &mut dyn Sink) -> Result<()> {
         let behind = self.behind(section, points, points.len());
         let stretch = PathStretch {
             section,
@@ -219,12 +214,7 @@ impl Trail {
 }
 
 /// Measures a block and puts it into the form of each file, the joint with the next one left out.
-fn ready(
-    touch: &FirstTouch,
-    made: Made,
-    behind: &Behind,
-    sink: &dyn Sink,
-) -> Result<Ready> {
+fn ready(touch: &FirstTouch, made: Made, behind: &Behind, sink: &dyn Sink) -> Result<Ready> {
     let measured = Meter::measure(touch, &made.points).map_err(PipelineError::Measure)?;
     let mut points = made.points;
     points.truncate(made.owner.len());

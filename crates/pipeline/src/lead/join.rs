@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::toolpath::{ControlPoint, Cubic, Segment};
-use turnpath_verify::AxesMotion;
+use turnpath_core::toolpath::{ControlPoint, Cubic, PathBlock, Segment};
+use turnpath_verify::{AxesMotion, Meter};
 
 use crate::plan::Plan;
 use crate::{PipelineError, Result};
@@ -50,6 +50,8 @@ pub struct Join {
     pub rho_bend: f64,
     /// Z above the first touch, mm: none but a rounding where the compensator is right.
     pub above_touch: f64,
+    /// Largest |played − first touch| of the cut's own segment there, mm.
+    pub error: f64,
     /// How the cut moves near the join.
     pub cut: AxesMotion,
 }
@@ -91,6 +93,7 @@ impl Join {
             rho_rate: series[1] * turning,
             rho_bend: 2.0 * series[2] * turning * turning,
             above_touch: above_touch(plan, &point)?,
+            error: error(plan, pair)?,
             cut,
         })
     }
@@ -101,6 +104,18 @@ impl Join {
         self.point.t += time;
         self
     }
+}
+
+/// The played error of the cut's segment between two points.
+fn error(plan: &Plan<'_>, pair: &[ControlPoint; 2]) -> Result<f64> {
+    let mut points = PathBlock {
+        shape: plan.chain.velocity.strategy.segments(),
+        ..PathBlock::default()
+    };
+    pair.iter().for_each(|point| points.push(*point));
+    let errors = Meter::segment_errors(&plan.prepared.touch, &points);
+    let errors = errors.map_err(PipelineError::Measure)?;
+    Ok(errors.into_iter().fold(0.0, f64::max))
 }
 
 fn above_touch(plan: &Plan<'_>, point: &ControlPoint) -> Result<f64> {

@@ -14,8 +14,12 @@ pub struct AxisLimits {
     pub jerk: Option<f64>,
 }
 
-/// Limits of the three axes. What the cut itself asks of them beside the join comes on top:
-/// a lead follows the part as the cut does.
+/// How much more than the cut a lead may ask for where it follows the part: it does so a little
+/// beyond where the cut begins or ends, and slopes may be steeper there.
+const FOLLOWING: f64 = 1.25;
+
+/// Limits of the three axes. What the cut itself asks of them beside the join comes on top, and a
+/// quarter of it: a lead follows the part as the cut does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeadLimits {
     /// C, rad and s.
@@ -79,9 +83,9 @@ impl AxisLimits {
         let way = way.abs();
         let by_velocity = shape.velocity * way / self.velocity;
         let by_acceleration = (shape.acceleration * way / self.acceleration).sqrt();
-        let by_jerk = self.jerk.map_or(0.0, |jerk| {
-            Scalar::powf(shape.jerk * way / jerk, 1.0 / 3.0)
-        });
+        let by_jerk = self
+            .jerk
+            .map_or(0.0, |jerk| Scalar::powf(shape.jerk * way / jerk, 1.0 / 3.0));
         by_velocity.max(by_acceleration).max(by_jerk)
     }
 
@@ -95,11 +99,16 @@ impl AxisLimits {
     }
 
     fn allow(&self, motion: &AxisMotion, cut: &AxisMotion) -> bool {
-        motion.max_velocity <= self.velocity + cut.max_velocity
-            && motion.max_acceleration <= self.acceleration + cut.max_acceleration
+        let within = |asked: f64, limit: f64, cut: f64| asked <= limit + FOLLOWING * cut;
+        within(motion.max_velocity, self.velocity, cut.max_velocity)
+            && within(
+                motion.max_acceleration,
+                self.acceleration,
+                cut.max_acceleration,
+            )
             && self
                 .jerk
-                .is_none_or(|jerk| motion.max_jerk <= jerk + cut.max_jerk)
+                .is_none_or(|jerk| within(motion.max_jerk, jerk, cut.max_jerk))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Makes one lead: as long as its limits ask for, in steps as fine as the part asks for.
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
-use turnpath_verify::{LeadMeter, LeadStretch};
+use turnpath_verify::{AxesMotion, LeadMeter, LeadStretch};
 
 use super::clock::Clock;
 use super::join::{Join, Side};
@@ -23,8 +23,12 @@ const LENGTHENINGS: u32 = 12;
 /// How often the steps near the part are halved at the most.
 const HALVINGS: u32 = 8;
 /// Part of the interpolation tolerance by which a lead may come below the first touch between
-/// its control points.
+/// its control points; by as much as the cut where that misses its own beside the join.
 const BELOW: f64 = 0.5;
+/// Segments beside the join of which the axes' limits are not asked: there a spline gets from what
+/// the cut plays to the locus itself, by a quarter of it a node, and a cut that plays badly has
+/// accelerations that are far from the locus'.
+const TRANSITION: usize = 8;
 /// What a spline through the nodes of the spindle's phase adds to its acceleration.
 const PLAYED: f64 = 1.01;
 
@@ -44,7 +48,8 @@ pub struct Maker<'a> {
 pub struct Laid {
     side: Side,
     phases: Phases,
-    slower: f64,
+    /// How long X may drift on, s.
+    drift: f64,
     /// From the join to rest, in ticks away from the join.
     nodes: Vec<f64>,
     /// Whole revolutions of a lead-in.
@@ -63,6 +68,7 @@ impl Laid {
 struct Longer {
     descent: f64,
     spin: f64,
+    drift: f64,
 }
 
 impl Longer {
@@ -72,6 +78,9 @@ impl Longer {
         }
         if beyond.x || beyond.z {
             self.descent *= LONGER;
+        }
+        if beyond.x {
+            self.drift *= LONGER;
         }
     }
 }
@@ -83,13 +92,15 @@ impl Maker<'_> {
         let mut longer = Longer {
             descent: 1.0,
             spin: 1.0,
+            drift: 1.0,
         };
         let limits = &self.settings.limits;
         let mut beyond;
         let mut lengthenings = 0;
         loop {
-            let (laid, stretch) = self.clear(side, join, longer)?;
-            beyond = limits.beyond(&stretch.figures.axes, &join.cut);
+            let (laid, points) = self.clear(side, join, longer)?;
+            let motion = AxesMotion::of(&away_from_join(side, &points));
+            beyond = limits.beyond(&motion, &join.cut);
             if !beyond.any() {
                 return Ok(laid);
             }
@@ -102,14 +113,19 @@ impl Maker<'_> {
     }
 
     /// Halves steps until the lead clears the part.
-    fn clear(&self, side: Side, join: &Join, longer: Longer) -> Result<(Laid, LeadStretch)> {
+    fn clear(&self, side: Side, join: &Join, longer: Longer) -> Result<(Laid, PathBlock)> {
         let mut laid = self.first(side, join, longer)?;
         let join = match side {
             Side::In => join.shifted(laid.turns, self.clock.seconds(laid.ticks())),
             Side::Out => *join,
         };
         let tolerance = self.plan.prepared.job.tolerance.interpolation;
-        let floor = join.above_touch.min(0.0) - BELOW * tolerance;
+        // Where the cut itself misses its tolerance, which is told, its lead may do so as well.
+        let below = match join.error > tolerance {
+            true => join.error,
+            false => BELOW * tolerance,
+        };
+        let floor = join.above_touch.min(0.0) - below;
         let mut halvings = 0;
         loop {
             let points = self.points(&laid, &join)?;
@@ -118,7 +134,7 @@ impl Maker<'_> {
             let clears = |clearance: &f64| *clearance >= floor;
             let mut below: Vec<bool> = stretch.per_segment.iter().map(|c| !clears(c)).collect();
             if !below.contains(&true) {
-                return Ok((laid, stretch));
+                return Ok((laid, points));
             }
             if halvings == HALVINGS {
                 let figures = &stretch.figures;
@@ -166,7 +182,7 @@ impl Maker<'_> {
         Ok(Laid {
             side,
             phases,
-            slower: longer.descent,
+            drift: longer.drift * gentle,
             nodes,
             turns,
         })
@@ -176,7 +192,7 @@ impl Maker<'_> {
     pub fn points(&self, laid: &Laid, join: &Join) -> Result<PathBlock> {
         let Laid { side, phases, .. } = *laid;
         let plan = self.plan;
-        let target = Target::new(plan, side, join, phases, self.rest_z, laid.slower)?;
+        let target = Target::new(plan, side, join, phases, self.rest_z, laid.drift)?;
         let joined = match side {
             Side::In => laid.ticks(),
             Side::Out => self.clock.nearest(join.point.t),
@@ -277,6 +293,22 @@ impl Ends {
             [joined, resting]
         }))
     }
+}
+
+/// The points of a lead without those of the transition.
+fn away_from_join(side: Side, points: &PathBlock) -> PathBlock {
+    let skipped = TRANSITION.min(points.len());
+    let mut rest = PathBlock {
+        shape: points.shape,
+        ..PathBlock::default()
+    };
+    let (from, to) = match side {
+        Side::In => (0, points.len() - skipped),
+        Side::Out => (skipped, points.len()),
+    };
+    let kept = points.points().skip(from).take(to - from);
+    kept.for_each(|point| rest.push(point));
+    rest
 }
 
 fn asks_too_much(beyond: Beyond) -> String {

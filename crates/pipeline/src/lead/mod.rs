@@ -6,7 +6,8 @@
 //! then its speed changes. The cubic spline through the nodes takes position, velocity and
 //! acceleration of the cut as played, so all three are continuous at every control point. Between
 //! nodes near the part a cubic is not the locus: each lead is played back and its steps are halved
-//! until it clears the part to half the interpolation tolerance.
+//! until it clears the part to half the interpolation tolerance, or as well as the cut does where
+//! they join.
 //!
 //! The control point of a join belongs to the cutting section: the lead-in ends with the point
 //! before it, the lead-out begins with the point after it. Leads of straight segments have the same

@@ -164,9 +164,10 @@ mod tests {
             let mut p: Vec<f64> = t.iter().map(|t| motion(*t).position).collect();
             let slopes = join(&t, &mut p, motion(0.0), motion(2.0));
             let cubics = cubics(&t, &p, &slopes);
-            let each = cubics.iter().enumerate().map(|(k, (cubic, h))| {
-                (cubic.value(0.5) - motion(t[k] + 0.5 * h).position).abs()
-            });
+            let each = cubics
+                .iter()
+                .enumerate()
+                .map(|(k, (cubic, h))| (cubic.value(0.5) - motion(t[k] + 0.5 * h).position).abs());
             each.fold(0.0, f64::max)
         };
         let ratio = error(20) / error(40);

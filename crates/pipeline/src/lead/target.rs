@@ -27,8 +27,9 @@ struct Drift {
 }
 
 impl Drift {
-    fn new(side: Side, join: &Join, longest: f64, largest: f64) -> Self {
+    fn new(side: Side, join: &Join, longest: f64, nose_radius: f64) -> Self {
         let (rate, bend) = (side.sign() * join.rho_rate, join.rho_bend);
+        let largest = LARGEST_DRIFT * nose_radius;
         // |rate|/2 time + |bend|/12 time² = largest.
         let half = 0.5 * rate.abs();
         let by_way = 2.0 * largest / (half + (half * half + bend.abs() * largest / 3.0).sqrt());
@@ -69,18 +70,17 @@ pub struct Places {
 }
 
 impl<'a> Target<'a> {
-    /// The way from or to rest at height `rest_z`. `slower` is how often the phases have been
-    /// made longer: X may then drift farther too.
+    /// The way from or to rest at height `rest_z`; X may drift on for `drift` s.
     pub fn new(
         plan: &'a Plan<'a>,
         side: Side,
         join: &'a Join,
         phases: Phases,
         rest_z: f64,
-        slower: f64,
+        drift: f64,
     ) -> Result<Self> {
-        let largest = LARGEST_DRIFT * plan.prepared.job.tool.nose_radius * slower;
-        let drift = Drift::new(side, join, phases.descent, largest);
+        let nose_radius = plan.prepared.job.tool.nose_radius;
+        let drift = Drift::new(side, join, phases.descent.min(drift), nose_radius);
         let mut target = Self {
             plan,
             side,
