@@ -5,7 +5,9 @@ use turnpath_core::{DEG, Direction, Tolerance};
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
-use turnpath_verify::{AxisMotion, PathFigures};
+use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures};
+
+use crate::lead::Lead;
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
@@ -40,6 +42,8 @@ pub struct Measured {
     pub residual_nm: Residual,
     pub surface_error_nm: SurfaceError,
     pub axes: Axes,
+    /// Null without leads.
+    pub lead: Option<Lead>,
     pub within: Within,
 }
 
@@ -110,12 +114,14 @@ pub struct Axis {
     max_jerk: f64,
 }
 
-/// Which tolerances hold; `machine` is null without limits to hold.
+/// Which tolerances hold; `machine` is null without limits to hold, `lead` without leads.
 #[derive(Debug, Serialize)]
 pub struct Within {
     pub interpolation: bool,
     pub residual: bool,
     machine: Option<bool>,
+    /// Whether the leads stay above the first touch, to the interpolation tolerance.
+    pub lead: Option<bool>,
     /// Whether the path covers the part; only of a file, since a run's law is held to that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<bool>,
@@ -128,6 +134,8 @@ pub struct ProgramSummary {
     pub post: &'static str,
     pub interpolation_error_nm: f64,
     pub within_interpolation: bool,
+    /// Null without leads.
+    pub within_lead: Option<bool>,
 }
 
 #[derive(Debug, Serialize)]
@@ -166,7 +174,8 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(&outcome.figures, &recipe.tolerance),
+            measured: Measured::new(&outcome.figures, &recipe.tolerance)
+                .with_lead(outcome.lead.as_ref().map(Lead::made), &recipe.tolerance),
             programs,
             plugins: plugins
                 .iter()
@@ -180,7 +189,7 @@ impl Summary {
         let programs = || {
             self.programs
                 .iter()
-                .all(|program| program.within_interpolation)
+                .all(|program| program.within_interpolation && program.within_lead.unwrap_or(true))
         };
         self.measured.all_hold() && programs()
     }
@@ -236,20 +245,25 @@ impl Measured {
                 },
             },
             surface_error_nm: SurfaceError::default(),
-            axes: Axes {
-                x: Axis::of(&axes.x, 1.0),
-                z: Axis::of(&axes.z, 1.0),
-                c: Axis::of(&axes.c, DEG),
-            },
+            axes: Axes::of(axes),
+            lead: None,
             within: Within {
                 interpolation: holds(playback.max(), tolerance.interpolation),
                 residual: residual
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
                 machine: None,
+                lead: None,
                 reach: None,
             },
         }
+    }
+
+    /// The same with what was measured on leads.
+    pub fn with_lead(mut self, lead: Option<Lead>, tolerance: &Tolerance) -> Self {
+        self.within.lead = lead.as_ref().map(|lead| lead.clears(tolerance));
+        self.lead = lead;
+        self
     }
 
     /// Whether all that is measured holds.
@@ -258,9 +272,11 @@ impl Measured {
             interpolation,
             residual,
             machine,
+            lead,
             reach,
         } = self.within;
-        interpolation && residual && machine.unwrap_or(true) && reach.unwrap_or(true)
+        let others = [machine, lead, reach];
+        interpolation && residual && others.iter().all(|holds| holds.unwrap_or(true))
     }
 }
 
@@ -270,6 +286,7 @@ impl ProgramSummary {
         file: String,
         post: &'static str,
         figures: &PathFigures,
+        lead: Option<&LeadFigures>,
         tolerance: &Tolerance,
     ) -> Self {
         let error = figures.playback.max();
@@ -278,13 +295,25 @@ impl ProgramSummary {
             post,
             interpolation_error_nm: error * NM_PER_MM,
             within_interpolation: holds(error, tolerance.interpolation),
+            within_lead: lead.map(|lead| holds(-lead.clearance, tolerance.interpolation)),
         }
     }
 }
 
 /// Whether a measured figure holds a tolerance.
-fn holds(measured: f64, tolerance: f64) -> bool {
+pub fn holds(measured: f64, tolerance: f64) -> bool {
     measured <= ALLOWED * tolerance
+}
+
+impl Axes {
+    /// Motion in the units of the file.
+    pub fn of(axes: &AxesMotion) -> Self {
+        Self {
+            x: Axis::of(&axes.x, 1.0),
+            z: Axis::of(&axes.z, 1.0),
+            c: Axis::of(&axes.c, DEG),
+        }
+    }
 }
 
 impl Axis {

@@ -40,6 +40,8 @@ pub struct Recipe {
     pub overrun: Overrun,
     /// Whether the path runs from rest to rest.
     pub lead: bool,
+    /// How far it rests above the highest place of the part, mm.
+    pub clearance: f64,
     /// Whether segments whose error exceeds the tolerance are halved. `place("refine")` tells
     /// whether the recipe says so itself.
     pub refine: bool,
@@ -302,6 +304,7 @@ fn build(
         direction: way.direction,
         overrun: way.overrun,
         lead: way.lead,
+        clearance: way.clearance,
         refine: top.refine,
         output,
         pmac_pvt,

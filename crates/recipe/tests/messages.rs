@@ -72,8 +72,8 @@ says! {
     overrun_contact: "overrun = \"none\"" => "overrun = \"contact\"";
     overrun_length: "overrun = \"none\"" => "overrun = \"1 mm\"";
     overrun_misspelt: "overrun = \"none\"" => "overrun = \"contacts\"";
-    lead_left_out: "lead = false\n" => "";
-    lead_true: "lead = false" => "lead = true";
+    lead_as_text: "lead = false" => "lead = \"yes\"";
+    clearance_zero: "lead = false" => "clearance = \"0 mm\"";
     path_left_out: "[path]\ndirection = \"inward\"\noverrun = \"none\"\nlead = false\n" => "";
     machine: "[output]" => "[machine]\npreset = \"generic-sts\"\n\n[output]";
     interference_cut_what_fits: "\"refuse\"" => "\"cut-what-fits\"";

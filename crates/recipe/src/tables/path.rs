@@ -7,7 +7,10 @@ use crate::document::Value;
 use crate::place::Place;
 use crate::read::{POSITIVE, Section};
 
-pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead"];
+pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead", "clearance"];
+
+/// How far the path rests above the part where the recipe does not say it, mm.
+const CLEARANCE: f64 = 1.0;
 
 /// How far the path runs beyond the aperture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +24,7 @@ pub(crate) struct PathTable {
     pub(crate) direction: Direction,
     pub(crate) overrun: Overrun,
     pub(crate) lead: bool,
+    pub(crate) clearance: f64,
 }
 
 /// Reads `[path]`, which may be missing as a table but not, so far, in what it says.
@@ -30,7 +34,8 @@ pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
         return PathTable {
             direction: Direction::Inward,
             overrun: Overrun::None,
-            lead: false,
+            lead: true,
+            clearance: CLEARANCE,
         };
     }
     let direction = match section.word("direction", &["inward", "outward"]) {
@@ -40,7 +45,10 @@ pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
     PathTable {
         direction,
         overrun: overrun(section),
-        lead: lead(section),
+        lead: section.flag("lead").is_none_or(|lead| lead.value),
+        clearance: section
+            .quantity("clearance", Quantity::Length, POSITIVE)
+            .map_or(CLEARANCE, |clearance| clearance.value),
     }
 }
 
@@ -67,17 +75,6 @@ fn overrun(section: &mut Section<'_>) -> Overrun {
         }
     }
     Overrun::None
-}
-
-fn lead(section: &mut Section<'_>) -> bool {
-    if section.node("lead").is_none() {
-        refuse_default(section, "lead", "true", "false");
-        return false;
-    }
-    if let Some(lead) = section.flag("lead").filter(|lead| lead.value) {
-        refuse(section, "lead", lead.place, "false");
-    }
-    false
 }
 
 fn refuse(section: &mut Section<'_>, key: &str, place: Place, instead: &str) {
