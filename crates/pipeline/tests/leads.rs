@@ -1,4 +1,5 @@
 //! Leads: smooth at every point, from rest to rest, and nowhere below the first touch.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

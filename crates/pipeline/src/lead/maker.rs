@@ -94,13 +94,11 @@ impl Maker<'_> {
             spin: 1.0,
             drift: 1.0,
         };
-        let limits = &self.settings.limits;
-        let mut beyond;
         let mut lengthenings = 0;
         loop {
             let (laid, points) = self.clear(side, join, longer)?;
             let motion = AxesMotion::of(&away_from_join(side, &points));
-            beyond = limits.beyond(&motion, &join.cut);
+            let beyond = self.settings.limits.beyond(&motion, &join.cut);
             if !beyond.any() {
                 return Ok(laid);
             }
