@@ -14,12 +14,12 @@ pub struct AxisLimits {
     pub jerk: Option<f64>,
 }
 
-/// How much more than the cut a lead may ask for where it follows the part: it does so a little
-/// beyond where the cut begins or ends, and slopes may be steeper there.
+/// How much more than following the part asks for a lead may ask for: X drifts on a little beyond
+/// the cut, where slopes may be steeper.
 const FOLLOWING: f64 = 1.25;
 
-/// Limits of the three axes. What the cut itself asks of them beside the join comes on top, and a
-/// quarter of it: a lead follows the part as the cut does.
+/// Limits of the three axes. What following the part asks of them beside the join, as the cut does
+/// it, comes on top, and a quarter of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeadLimits {
     /// C, rad and s.
@@ -98,17 +98,17 @@ impl AxisLimits {
         (shape.acceleration * change / self.acceleration).max(by_jerk)
     }
 
-    fn allow(&self, motion: &AxisMotion, cut: &AxisMotion) -> bool {
-        let within = |asked: f64, limit: f64, cut: f64| asked <= limit + FOLLOWING * cut;
-        within(motion.max_velocity, self.velocity, cut.max_velocity)
-            && within(
-                motion.max_acceleration,
-                self.acceleration,
-                cut.max_acceleration,
-            )
+    fn allow(&self, motion: &AxisMotion, cut: &AxisMotion, part: &AxisMotion) -> bool {
+        let within = |asked: f64, limit: f64, most: fn(&AxisMotion) -> f64| {
+            asked <= limit + FOLLOWING * most(cut).max(most(part))
+        };
+        within(motion.max_velocity, self.velocity, |m| m.max_velocity)
+            && within(motion.max_acceleration, self.acceleration, |m| {
+                m.max_acceleration
+            })
             && self
                 .jerk
-                .is_none_or(|jerk| within(motion.max_jerk, jerk, cut.max_jerk))
+                .is_none_or(|jerk| within(motion.max_jerk, jerk, |m| m.max_jerk))
     }
 }
 
@@ -131,19 +131,50 @@ impl Beyond {
 }
 
 impl LeadLimits {
-    /// What `motion` asks for beyond these limits and what the cut asks for.
-    pub fn beyond(&self, motion: &AxesMotion, cut: &AxesMotion) -> Beyond {
+    /// What `motion` asks for beyond these limits and what the cut or the part itself asks for.
+    pub fn beyond(&self, motion: &AxesMotion, cut: &AxesMotion, part: &AxesMotion) -> Beyond {
         Beyond {
-            c: !self.c.allow(&motion.c, &cut.c),
-            x: !self.x.allow(&motion.x, &cut.x),
-            z: !self.z.allow(&motion.z, &cut.z),
+            c: !self.c.allow(&motion.c, &cut.c, &part.c),
+            x: !self.x.allow(&motion.x, &cut.x, &part.x),
+            z: !self.z.allow(&motion.z, &cut.z, &part.z),
         }
     }
+}
+
+/// Largest derivatives of what goes through positions `p` at times `t`, by differences.
+pub fn of_differences(t: &[f64], p: &[f64]) -> AxisMotion {
+    let mut motion = AxisMotion::default();
+    let (velocity, at) = divided(t, p);
+    let (acceleration, at) = divided(&at, &velocity);
+    let (jerk, _) = divided(&at, &acceleration);
+    let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    motion.max_velocity = largest(&velocity);
+    motion.max_acceleration = largest(&acceleration);
+    motion.max_jerk = largest(&jerk);
+    motion
+}
+
+/// Slopes between neighbours, and the middles where they hold.
+fn divided(t: &[f64], p: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let pairs = t.windows(2).zip(p.windows(2));
+    pairs
+        .map(|(t, p)| ((p[1] - p[0]) / (t[1] - t[0]), 0.5 * (t[0] + t[1])))
+        .unzip()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn differences_of_a_cubic_come_close_to_its_derivatives() {
+        let t: Vec<f64> = (0..=1000).map(|k| 0.002 * f64::from(k)).collect();
+        let p: Vec<f64> = t.iter().map(|t| t * t * t - t).collect();
+        let motion = of_differences(&t, &p);
+        assert!((motion.max_velocity - 11.0).abs() < 0.02);
+        assert!((motion.max_acceleration - 12.0).abs() < 0.02);
+        assert!((motion.max_jerk - 6.0).abs() < 1e-3);
+    }
 
     #[test]
     fn a_step_takes_as_long_as_its_strictest_limit() {

@@ -5,7 +5,7 @@ use turnpath_verify::{AxesMotion, LeadMeter, LeadStretch};
 
 use super::clock::Clock;
 use super::join::{Join, Side};
-use super::limits::{Beyond, LeadSettings, QUINTIC, SPEED_UP};
+use super::limits::{self, Beyond, LeadSettings, QUINTIC, SPEED_UP};
 use super::nodes::{self, MOST_NODES};
 use super::phases::Phases;
 use super::spline::{self, FEWEST_NODES, Motion};
@@ -98,7 +98,8 @@ impl Maker<'_> {
         loop {
             let (laid, points) = self.clear(side, join, longer)?;
             let motion = AxesMotion::of(&away_from_join(side, &points));
-            let beyond = self.settings.limits.beyond(&motion, &join.cut);
+            let following = self.following(&laid, join)?;
+            let beyond = self.settings.limits.beyond(&motion, &join.cut, &following);
             if !beyond.any() {
                 return Ok(laid);
             }
@@ -108,6 +109,22 @@ impl Maker<'_> {
             longer.for_those(beyond);
             lengthenings += 1;
         }
+    }
+
+    /// What following the part asks of the axes at the lead's own nodes. The cut as played does
+    /// not always say it: its steps may be coarser than the part.
+    fn following(&self, laid: &Laid, join: &Join) -> Result<AxesMotion> {
+        let phases = laid.phases;
+        let sigma = laid.nodes.iter().map(|ticks| self.clock.seconds(*ticks));
+        let sigma: Vec<f64> = sigma.take_while(|s| *s <= phases.descent).collect();
+        let (plan, rest_z) = (self.plan, self.rest_z);
+        let target = Target::new(plan, laid.side, join, phases, rest_z, laid.drift)?;
+        let [x, z] = target.on_the_part(&sigma)?;
+        Ok(AxesMotion {
+            x: limits::of_differences(&sigma, &x),
+            z: limits::of_differences(&sigma, &z),
+            ..AxesMotion::default()
+        })
     }
 
     /// Halves steps until the lead clears the part.

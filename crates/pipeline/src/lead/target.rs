@@ -142,6 +142,17 @@ impl<'a> Target<'a> {
         Ok(Places { c, x, z })
     }
 
+    /// X and Z if the tool went on touching the part where it joined the cut, at the same ρ.
+    pub fn on_the_part(&self, sigma: &[f64]) -> Result<[Vec<f64>; 2]> {
+        let theta: Vec<f64> = sigma
+            .iter()
+            .map(|sigma| self.c(*sigma).rem_euclid(TAU))
+            .collect();
+        let x = self.locus_x(&theta, &vec![self.join.rho; theta.len()])?;
+        let touches = self.touches(&theta, &x)?;
+        Ok([x, touches.iter().map(|touch| touch.z).collect()])
+    }
+
     /// X of the locus.
     fn locus_x(&self, theta: &[f64], rho: &[f64]) -> Result<Vec<f64>> {
         let mut room = CentreBuffers::default();
