@@ -86,6 +86,13 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
                 .complaint(place, title, "the part reaches there", [])
                 .into()
         }
+        PipelineError::Lead { .. } => {
+            let place = recipe.nearest_place("path.lead");
+            let help = "choose another `clearance`, or write lead = false under [path]";
+            recipe
+                .complaint(place, title, "leads are made here", [help.to_owned()])
+                .into()
+        }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
         PipelineError::Sink(error) => {
             let inner = error.get_ref().and_then(|inner| inner.downcast_ref());

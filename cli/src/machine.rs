@@ -102,12 +102,18 @@ impl MachineFigures {
         Some(verdicts.all(|holds| holds))
     }
 
+    /// The lines on limits that do not hold, each after the name of what was measured.
+    pub fn exceeded(&self, of: &str) -> String {
+        let lines = self
+            .figures
+            .iter()
+            .filter_map(|figure| exceeded(figure, of));
+        lines.collect()
+    }
+
     /// The lines for a person.
     pub fn lines(&self) -> String {
-        let mut text = String::new();
-        for figure in &self.figures {
-            text += &exceeded(figure).unwrap_or_default();
-        }
+        let mut text = self.exceeded("");
         let name = self.machine.name();
         let unmeasured = self.figures.iter().filter(|figure| figure.peak.is_none());
         let apart: Vec<String> = unmeasured.map(|figure| named(&figure.limit)).collect();
@@ -205,7 +211,7 @@ fn verdict(figure: &LimitFigure) -> Option<bool> {
 }
 
 /// The line on a limit that does not hold.
-fn exceeded(figure: &LimitFigure) -> Option<String> {
+fn exceeded(figure: &LimitFigure, of: &str) -> Option<String> {
     let peak = figure.peak.filter(|_| verdict(figure) == Some(false))?;
     let limit = &figure.limit;
     let (found, most) = (shown(limit, peak.amount), shown(limit, limit.value));
@@ -215,7 +221,7 @@ fn exceeded(figure: &LimitFigure) -> Option<String> {
         millimetres(peak.at_x, 4)
     );
     let text = format!("{found:>12} of {most:<11} EXCEEDED, {place}");
-    Some(line(&named(limit), text))
+    Some(line(&format!("{of}{}", named(limit)), text))
 }
 
 /// The unit of an axis in files, in inner units.
@@ -286,7 +292,10 @@ mod tests {
 
     #[test]
     fn a_limit_that_does_not_hold_is_told_with_its_place() {
-        let told = exceeded(&figure(Axis::X, Derivative::Acceleration, 1000.0, 1300.0));
+        let told = exceeded(
+            &figure(Axis::X, Derivative::Acceleration, 1000.0, 1300.0),
+            "",
+        );
         assert_eq!(
             told.as_deref(),
             Some(
@@ -294,12 +303,10 @@ mod tests {
                  X = 1.2500 mm\n"
             )
         );
-        let told = exceeded(&figure(
-            Axis::C,
-            Derivative::Velocity,
-            10.0 * RPM,
-            20.0 * RPM,
-        ));
+        let told = exceeded(
+            &figure(Axis::C, Derivative::Velocity, 10.0 * RPM, 20.0 * RPM),
+            "",
+        );
         assert!(told.is_some_and(|told| told.contains("20.00 rpm of 10.00 rpm")));
     }
 

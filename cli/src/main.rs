@@ -7,6 +7,7 @@ mod failure;
 mod figures;
 mod files;
 mod job;
+mod lead;
 mod list;
 mod machine;
 mod programs;

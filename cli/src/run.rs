@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use turnpath_core::Slot;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Plugin;
-use turnpath_pipeline::{Making, run as run_pipeline};
+use turnpath_pipeline::{LeadLimits, LeadSettings, Making, run as run_pipeline};
 use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 
 use crate::args::{Format, RunArgs};
@@ -31,6 +31,7 @@ pub fn run(args: &RunArgs) -> Done {
     let making = Making {
         refine: job.recipe.refine,
         time_steps: (!programs.is_empty()).then_some(PMAC_TIME_STEPS),
+        lead: lead(&job),
     };
     let wants_path = !job.recipe.output.data.is_empty();
     let mut files = Files::new(folder, wants_path, programs)?;
@@ -54,6 +55,14 @@ pub fn run(args: &RunArgs) -> Done {
         Verdict::Holds
     } else {
         Verdict::Exceeded
+    })
+}
+
+/// How the path comes and goes, where the recipe wants leads.
+fn lead(job: &Job) -> Option<LeadSettings> {
+    job.recipe.lead.then(|| LeadSettings {
+        clearance: job.recipe.clearance,
+        limits: LeadLimits::within(job.recipe.machine),
     })
 }
 
@@ -102,6 +111,9 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::line("revolutions", format!("{:.2}", summary.revolutions));
     text += &figures::line("cutting time", figures::duration(summary.cutting_time_s));
     text += &figures::measured(&summary.measured, &job.recipe.tolerance);
+    if let Some(lead) = &summary.measured.lead {
+        text += &lead.lines(summary.measured.within.lead);
+    }
     for program in &summary.programs {
         let (error, holds) = (program.interpolation_error_nm, program.within_interpolation);
         let tolerance = job.recipe.tolerance.interpolation;

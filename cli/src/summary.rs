@@ -5,8 +5,9 @@ use turnpath_core::{DEG, Direction, Tolerance};
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
-use turnpath_verify::{AxisMotion, PathFigures, Peak};
+use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak};
 
+use crate::lead::Lead;
 use crate::machine::{HighestSpindle, MachineFigures};
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
@@ -46,6 +47,8 @@ pub struct Measured {
     pub machine: Option<MachineFigures>,
     #[serde(flatten)]
     pub highest_spindle: HighestSpindle,
+    /// Null without leads.
+    pub lead: Option<Lead>,
     pub within: Within,
 }
 
@@ -127,12 +130,15 @@ struct AxisPlaces {
     max_jerk: Place,
 }
 
-/// Which tolerances hold, and the machine's limits; null without limits of which there are figures.
+/// Which tolerances hold; `machine` is null without limits of which there are figures, `lead` without
+/// leads.
 #[derive(Debug, Serialize)]
 pub struct Within {
     pub interpolation: bool,
     pub residual: bool,
     machine: Option<bool>,
+    /// Whether the leads stay above the first touch, to the interpolation tolerance.
+    pub lead: Option<bool>,
     /// Whether the path covers the part; only of a file, since a run's law is held to that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<bool>,
@@ -145,6 +151,8 @@ pub struct ProgramSummary {
     pub post: &'static str,
     pub interpolation_error_nm: f64,
     pub within_interpolation: bool,
+    /// Null without leads.
+    pub within_lead: Option<bool>,
 }
 
 #[derive(Debug, Serialize)]
@@ -183,7 +191,10 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(&outcome.figures, recipe),
+            measured: Measured::new(&outcome.figures, recipe).with_lead(
+                outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),
+                &recipe.tolerance,
+            ),
             programs,
             plugins: plugins
                 .iter()
@@ -197,7 +208,7 @@ impl Summary {
         let programs = || {
             self.programs
                 .iter()
-                .all(|program| program.within_interpolation)
+                .all(|program| program.within_interpolation && program.within_lead.unwrap_or(true))
         };
         self.measured.all_hold() && programs()
     }
@@ -255,22 +266,32 @@ impl Measured {
                 },
             },
             surface_error_nm: SurfaceError::default(),
-            axes: Axes {
-                x: Axis::of(&axes.x, 1.0),
-                z: Axis::of(&axes.z, 1.0),
-                c: Axis::of(&axes.c, DEG),
-            },
+            axes: Axes::of(axes),
+            lead: None,
             within: Within {
                 interpolation: holds(playback.max(), tolerance.interpolation),
                 residual: residual
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
                 machine: machine.as_ref().and_then(MachineFigures::hold),
+                lead: None,
                 reach: None,
             },
             machine,
             highest_spindle: HighestSpindle::new(axes, recipe),
         }
+    }
+
+    /// The same with what was measured on leads.
+    pub fn with_lead(mut self, lead: Option<Lead>, tolerance: &Tolerance) -> Self {
+        self.within.lead = lead.as_ref().map(|lead| lead.clears(tolerance));
+        let within_machine = lead.as_ref().and_then(Lead::within_machine);
+        self.within.machine = match (self.within.machine, within_machine) {
+            (Some(cut), Some(lead)) => Some(cut && lead),
+            (cut, lead) => cut.or(lead),
+        };
+        self.lead = lead;
+        self
     }
 
     /// Whether all that is measured holds.
@@ -279,9 +300,11 @@ impl Measured {
             interpolation,
             residual,
             machine,
+            lead,
             reach,
         } = self.within;
-        interpolation && residual && machine.unwrap_or(true) && reach.unwrap_or(true)
+        let others = [machine, lead, reach];
+        interpolation && residual && others.iter().all(|holds| holds.unwrap_or(true))
     }
 }
 
@@ -301,6 +324,7 @@ impl ProgramSummary {
         file: String,
         post: &'static str,
         figures: &PathFigures,
+        lead: Option<&LeadFigures>,
         tolerance: &Tolerance,
     ) -> Self {
         let error = figures.playback.max();
@@ -309,6 +333,7 @@ impl ProgramSummary {
             post,
             interpolation_error_nm: error * NM_PER_MM,
             within_interpolation: holds(error, tolerance.interpolation),
+            within_lead: lead.map(|lead| holds(-lead.clearance, tolerance.interpolation)),
         }
     }
 }
@@ -316,6 +341,17 @@ impl ProgramSummary {
 /// Whether a measured figure holds a tolerance or a limit.
 pub fn holds(measured: f64, tolerance: f64) -> bool {
     measured <= ALLOWED * tolerance
+}
+
+impl Axes {
+    /// Motion in the units of the file.
+    pub fn of(axes: &AxesMotion) -> Self {
+        Self {
+            x: Axis::of(&axes.x, 1.0),
+            z: Axis::of(&axes.z, 1.0),
+            c: Axis::of(&axes.c, DEG),
+        }
+    }
 }
 
 impl Axis {

@@ -45,6 +45,8 @@ pub struct Recipe {
     pub overrun: Overrun,
     /// Whether the path runs from rest to rest.
     pub lead: bool,
+    /// How far it rests above the highest place of the part, mm.
+    pub clearance: f64,
     /// Whether segments whose error exceeds the tolerance are halved. `place("refine")` tells
     /// whether the recipe says so itself.
     pub refine: bool,
@@ -312,6 +314,7 @@ fn build(
         direction: way.direction,
         overrun: way.overrun,
         lead: way.lead,
+        clearance: way.clearance,
         refine: top.refine,
         output,
         pmac_pvt,

@@ -72,8 +72,8 @@ says! {
     overrun_without_unit: "overrun = \"none\"" => "overrun = 1";
     overrun_as_angle: "overrun = \"none\"" => "overrun = \"1 deg\"";
     overrun_misspelt: "overrun = \"none\"" => "overrun = \"contacts\"";
-    lead_left_out: "lead = false\n" => "";
-    lead_true: "lead = false" => "lead = true";
+    lead_as_text: "lead = false" => "lead = \"yes\"";
+    clearance_zero: "lead = false" => "clearance = \"0 mm\"";
     path_left_out: "[path]\ndirection = \"inward\"\noverrun = \"none\"\nlead = false\n" => "";
     machine_empty: "[output]" => "[machine]\n\n[output]";
     machine_preset_misspelt: "[output]" => "[machine]\npreset = \"genric-sts\"\n\n[output]";

@@ -80,6 +80,7 @@ fn the_full_example_is_read() {
     assert_eq!(recipe.direction, Direction::Inward);
     assert_eq!(recipe.overrun, Overrun::None);
     assert!(!recipe.lead && recipe.refine);
+    assert_eq!(recipe.clearance, 1.0);
     assert!(recipe.output.posts.is_empty());
     assert_eq!(recipe.output.data, [DataFormat::Csv]);
     assert_eq!(recipe.output.z_reference, ZReference::Tip);
@@ -262,6 +263,15 @@ fn set_overrides_and_adds_and_the_later_one_wins() {
     assert_eq!(keys, ["max_step", "spacing"]);
     assert_eq!(recipe.choice(Slot::Surface).name(), "flat");
     assert!(recipe.choice(Slot::Surface).params.is_empty());
+}
+
+#[test]
+fn a_lead_is_made_unless_the_recipe_says_otherwise() {
+    let without = FULL.replace("lead = false\n", "");
+    let recipe = parse(&without, &["path.clearance=2.5mm"]);
+    assert!(recipe.lead);
+    assert_eq!(recipe.clearance, 2.5);
+    assert!(parse(FULL, &["path.lead=true"]).lead);
 }
 
 #[test]

@@ -7,6 +7,7 @@
 
 mod axes;
 mod cusp;
+mod lead;
 mod limits;
 mod meter;
 mod playback;
@@ -17,6 +18,7 @@ mod subject;
 mod touch;
 
 pub use axes::{AxesMotion, AxisMotion, Peak};
+pub use lead::{Jumps, LeadFigures, LeadMeter, LeadStretch};
 pub use limits::{HighestSpeed, LimitFigure};
 pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
