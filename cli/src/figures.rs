@@ -1,6 +1,6 @@
 //! Figures as a person reads them at a glance.
 
-use turnpath_core::Tolerance;
+use turnpath_recipe::Recipe;
 
 use crate::summary::{Measured, NM_PER_MM};
 
@@ -81,7 +81,8 @@ pub fn against(value: f64, tolerance: f64, holds: bool) -> String {
 }
 
 /// The lines on what was measured, each error against its tolerance, motion against limits.
-pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
+pub fn measured(measured: &Measured, recipe: &Recipe) -> String {
+    let tolerance = &recipe.tolerance;
     let (error, residual) = (&measured.interpolation_error_nm, &measured.residual_nm);
     let within = &measured.within;
     let mut text = line(
@@ -104,6 +105,8 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
             None => format!("not measured: {}", residual.left_out),
         },
     );
+    text += &measured.coverage_nm.lines(recipe, within.coverage);
+    text += &measured.axis_crossing_um.line();
     if let Some(machine) = &measured.machine {
         text += &machine.lines();
     }

@@ -7,6 +7,7 @@ use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{AxisMotion, PathFigures, Peak};
 
+use crate::coverage::{AxisCrossing, Coverage, Promise, largest_uncut};
 use crate::machine::{HighestSpindle, MachineFigures};
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
@@ -40,6 +41,8 @@ pub struct Summary {
 pub struct Measured {
     pub interpolation_error_nm: InterpolationError,
     pub residual_nm: Residual,
+    pub coverage_nm: Coverage,
+    pub axis_crossing_um: AxisCrossing,
     pub surface_error_nm: SurfaceError,
     pub axes: Axes,
     /// The machine's limits; null without any.
@@ -132,6 +135,9 @@ struct AxisPlaces {
 pub struct Within {
     pub interpolation: bool,
     pub residual: bool,
+    /// Whether no more than the residual stays uncut at the part's edges and around the axis;
+    /// null where the path is not meant to cover the part.
+    pub coverage: Option<bool>,
     machine: Option<bool>,
     /// Whether the path covers the part; only of a file, since a run's law is held to that.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -230,6 +236,7 @@ impl ChainNames {
 impl Measured {
     /// Figures against the recipe's tolerances and limits, in the units of the file.
     pub fn new(figures: &PathFigures, recipe: &Recipe) -> Self {
+        let promise = Promise::of(recipe.overrun);
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
         let tolerance = &recipe.tolerance;
         let machine = MachineFigures::new(axes, recipe);
@@ -251,9 +258,12 @@ impl Measured {
                 },
                 left_out: match residual.cusps {
                     0 => "no turn has a neighbour",
+                    _ if promise.covers_centre => "nothing",
                     _ => "the innermost turn",
                 },
             },
+            coverage_nm: Coverage::new(&figures.coverage),
+            axis_crossing_um: AxisCrossing::new(&figures.coverage),
             surface_error_nm: SurfaceError::default(),
             axes: Axes {
                 x: Axis::of(&axes.x, 1.0),
@@ -265,6 +275,9 @@ impl Measured {
                 residual: residual
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
+                coverage: promise
+                    .covers_part
+                    .then(|| holds(largest_uncut(&figures.coverage), tolerance.residual)),
                 machine: machine.as_ref().and_then(MachineFigures::hold),
                 reach: None,
             },
@@ -278,10 +291,12 @@ impl Measured {
         let Within {
             interpolation,
             residual,
+            coverage,
             machine,
             reach,
         } = self.within;
-        interpolation && residual && machine.unwrap_or(true) && reach.unwrap_or(true)
+        let asked = [coverage, machine, reach];
+        interpolation && residual && asked.into_iter().flatten().all(|holds| holds)
     }
 }
 

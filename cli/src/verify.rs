@@ -15,6 +15,7 @@ use turnpath_recipe::Recipe;
 use turnpath_verify::{FirstTouch, Measured as Stretch, Meter, Subject};
 
 use crate::args::{Format, VerifyArgs};
+use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::job::{of_pipeline, use_threads};
 use crate::programs::{PMAC_EXTENSION, pmac_format};
@@ -67,7 +68,8 @@ pub fn verify(args: &VerifyArgs) -> Done {
         return Err(Failure::File(message));
     };
     let reach = Reach::new(range);
-    let mut measured = Measured::new(meter.figures(), &recipe);
+    let figures = meter.figures().map_err(failed)?;
+    let mut measured = Measured::new(&figures, &recipe);
     measured.within.reach = Some(reach.covers(&recipe.part));
     let verified = Verified {
         name: recipe.name.clone(),
@@ -137,7 +139,8 @@ pub fn measure(
     progress: &dyn Progress,
 ) -> Result<Meter, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
-    let mut meter = Meter::new(touch);
+    let centre = Promise::of(recipe.overrun).covers_centre;
+    let mut meter = Meter::new(touch).counting_centre(centre);
     loop {
         let mut blocks: Vec<PathBlock> = Vec::new();
         while blocks.len() < BLOCKS {
@@ -170,5 +173,5 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     let rows = figures::grouped(verified.rows);
     text += &figures::line("points", format!("{cutting} that cut, of {rows} rows"));
     text += &verified.reach_mm.line(radial, &recipe.part);
-    text + &figures::measured(&verified.measured, &recipe.tolerance)
+    text + &figures::measured(&verified.measured, recipe)
 }

@@ -70,6 +70,8 @@ pub struct Making {
     /// Steps of time a second to which the controller rounds: every control point is then put
     /// where the path is at such a step, so that program and path have the same points.
     pub time_steps: Option<f64>,
+    /// Whether the path covers the axis on purpose: the cusps there are then residual too.
+    pub covers_centre: bool,
 }
 
 /// Makes, measures and hands on the path.
@@ -88,18 +90,19 @@ pub fn run(
         true => refine(&plan, batch, progress)?,
         false => Vec::new(),
     };
-    write(&plan, batch, &depths, sink, progress)
+    let meter = Meter::new(prepared.touch.clone()).counting_centre(making.covers_centre);
+    write(&plan, batch, &depths, meter, sink, progress)
 }
 
 fn write(
     plan: &Plan<'_>,
     batch: usize,
     depths: &[Depths],
+    mut meter: Meter,
     sink: &mut dyn Sink,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
     let touch = &plan.prepared.touch;
-    let mut meter = Meter::new(touch.clone());
     let (mut made_points, mut sampled) = (0, 0);
     let mut state = first_state(plan);
     let mut tail = Vec::new();
@@ -134,7 +137,7 @@ fn write(
         added_by_refine: made_points - sampled,
         revolutions,
         cutting_time: plan.prepared.job.spindle.time_at(revolutions),
-        figures: meter.figures().clone(),
+        figures: meter.figures().map_err(PipelineError::Measure)?,
     })
 }
 

@@ -38,11 +38,12 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
             meter.append(&measured).unwrap();
             from = to;
         }
-        let found = meter.figures();
+        let found = meter.figures().unwrap();
         assert_eq!(found.playback.extreme, whole.playback.extreme);
         assert_eq!(found.playback.at_c, whole.playback.at_c);
         assert!((found.playback.rms() / whole.playback.rms() - 1.0).abs() < 1e-12);
         assert_eq!(found.residual, whole.residual, "{lengths:?}");
+        assert_eq!(found.coverage, whole.coverage, "{lengths:?}");
         assert_eq!(found.axes.z.velocity, whole.axes.z.velocity);
         assert_eq!(found.axes.z.acceleration, whole.axes.z.acceleration);
         assert_eq!(found.axes.z.jerk, whole.axes.z.jerk);
