@@ -1,8 +1,8 @@
 //! What stays uncut at the part's edges and around the axis, and X beyond the axis, as told.
 
 use serde::Serialize;
-use turnpath_core::DEG;
-use turnpath_recipe::{Overrun, Recipe};
+use turnpath_core::{DEG, Overrun};
+use turnpath_recipe::Recipe;
 use turnpath_verify::{CoverageFigures, Uncut};
 
 use crate::figures::{against, line, nanometres};
@@ -26,6 +26,14 @@ impl Promise {
     /// Of the recipe's overrun.
     pub fn of(overrun: Overrun) -> Self {
         match overrun {
+            Overrun::Contact => Self {
+                covers_centre: true,
+                covers_part: true,
+            },
+            Overrun::Length(_) => Self {
+                covers_centre: true,
+                covers_part: false,
+            },
             Overrun::None => Self {
                 covers_centre: false,
                 covers_part: false,
@@ -35,9 +43,11 @@ impl Promise {
 }
 
 /// The overrun as the recipe has it.
-fn name(overrun: Overrun) -> &'static str {
+fn name(overrun: Overrun) -> String {
     match overrun {
-        Overrun::None => "overrun = \"none\"",
+        Overrun::Contact => "overrun = \"contact\"".to_owned(),
+        Overrun::None => "overrun = \"none\"".to_owned(),
+        Overrun::Length(length) => format!("overrun = \"{length} mm\""),
     }
 }
 
@@ -180,8 +190,8 @@ impl AxisCrossing {
         line(
             "warning",
             format!(
-                "X crosses the axis by {x}, as the normal of a tilted centre asks: there the \
-                 part moves against the edge"
+                "X crosses the axis by {x}, as the normal of a tilted centre asks; beyond it \
+                 the part moves against the edge"
             ),
         )
     }
@@ -226,6 +236,10 @@ mod tests {
         assert_eq!(json["centre"], serde_json::Value::Null);
         assert_eq!(json["hole"], serde_json::Value::Null);
         assert_eq!(json["at_deg"]["hole"], serde_json::Value::Null);
-        assert!(json["rim"].as_f64().is_some_and(|rim| (rim - 100.0).abs() < 1e-9));
+        assert!(
+            json["rim"]
+                .as_f64()
+                .is_some_and(|rim| (rim - 100.0).abs() < 1e-9)
+        );
     }
 }

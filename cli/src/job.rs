@@ -133,12 +133,13 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
             ),
             "choose a tool with a larger included angle, or a smaller aperture",
         ),
-        Conflict::Clearance { least, at } => (
+        Conflict::Clearance { least, at, uphill } => (
             "tool.clearance_angle",
             format!(
-                "the flank rubs: at x = {}, y = {} the surface falls along the cut by {:.2} deg",
+                "the flank rubs: at x = {}, y = {} the surface {} along the cut by {:.2} deg",
                 millimetres(at.x, 2),
                 millimetres(at.y, 2),
+                if *uphill { "rises" } else { "falls" },
                 least.to_degrees()
             ),
             "choose a tool with a larger clearance angle, or a smaller aperture",

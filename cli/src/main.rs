@@ -7,6 +7,7 @@ mod explain;
 mod failure;
 mod figures;
 mod files;
+mod interference;
 mod job;
 mod list;
 mod machine;

@@ -7,6 +7,7 @@
 mod attributed;
 mod chain;
 mod error;
+mod largest_nose;
 mod law;
 mod make;
 mod order;
@@ -20,6 +21,7 @@ mod taper;
 
 pub use chain::{Chain, Link};
 pub use error::{PipelineError, Result};
+pub use largest_nose::largest_nose;
 pub use plan::BLOCK;
 pub use prepare::{Prepared, Wanted, prepare};
 pub use progress::{Progress, Quiet, Stage};

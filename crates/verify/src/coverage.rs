@@ -87,8 +87,12 @@ impl Coverage {
         self.contact_beyond_axis = self.contact_beyond_axis.max(next.contact_beyond_axis);
         self.first.extend(&next.first);
         self.first = self.first.first_few(INNERMOST);
-        self.last.extend(&next.last);
-        self.last = self.last.last_few(INNERMOST);
+        if next.last.passes.len() == INNERMOST {
+            self.last = next.last.clone();
+        } else {
+            self.last.extend(&next.last);
+            self.last = self.last.last_few(INNERMOST);
+        }
     }
 
     /// What the whole path leaves uncut, and the cusps around the axis.

@@ -27,8 +27,16 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
     let whole = figures(&touch, &path);
     // Half of the contacts lie beyond the rim.
     assert!(whole.residual.cusps > 1000);
-    // Within a section, many to a turn, a turn, more than a turn, all but one.
-    for lengths in [&[1][..], &[1, 2, 50, 3], &[7, 49, 50], &[130, 1], &[399, 1]] {
+    // Within a section, many to a turn, a turn, more than a turn, four turns, all but one.
+    let all: [&[usize]; 6] = [
+        &[1],
+        &[1, 2, 50, 3],
+        &[7, 49, 50],
+        &[130, 1],
+        &[200],
+        &[399, 1],
+    ];
+    for lengths in all {
         let mut meter = Meter::new(touch.clone());
         let (mut from, mut next) = (0, lengths.iter().cycle());
         while from < 400 {
