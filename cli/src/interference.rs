@@ -204,11 +204,11 @@ impl Margin<Degrees> {
 }
 
 /// Width of a limit with its margin.
-const LIMIT: usize = 45;
+const LIMIT: usize = 44;
 
 fn row(label: &str, given: &str, limit: &str, at: Option<&Place>) -> String {
     let at = at.map_or(String::new(), Place::told);
-    let text = format!("{given:>11}; {limit:<LIMIT$}{at}");
+    let text = format!("{given:>11}; {limit:<LIMIT$} {at}");
     line(label, text.trim_end())
 }
 
@@ -233,6 +233,7 @@ impl Sections {
     fn lines(&self) -> String {
         let curvature = self.hollow.curvature_per_mm;
         let hollow = match curvature > 0.0 {
+            true if curvature < 1e-3 => format!("curvature {curvature:.3e} /mm"),
             true => format!("curvature {curvature:.5} /mm"),
             false => "none".to_owned(),
         };
@@ -283,12 +284,7 @@ impl Place {
     }
 
     fn told(&self) -> String {
-        // The sign of what rounds to nothing is noise.
-        let tidy = |mm: f64| if mm.abs() < 5e-4 { 0.0 } else { mm };
-        let (x, y) = (
-            millimetres(tidy(self.x_mm), 3),
-            millimetres(tidy(self.y_mm), 3),
-        );
+        let (x, y) = (millimetres(self.x_mm, 3), millimetres(self.y_mm, 3));
         let on = match self.on {
             On::Part => "part",
             On::Overrun => "overrun",

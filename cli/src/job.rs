@@ -8,7 +8,7 @@ use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
 use crate::failure::Failure;
-use crate::figures::millimetres;
+use crate::figures::{millimetres, nose_radius};
 use crate::programs::not_carried;
 use crate::strategies;
 
@@ -115,8 +115,8 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
             format!(
                 "nose radius {} exceeds the smallest concave radius {}, at x = {}, y = {} in the \
                  radial direction",
-                millimetres(recipe.tool.nose_radius, 3),
-                millimetres(*largest, 3),
+                nose_radius(recipe.tool.nose_radius),
+                nose_radius(*largest),
                 millimetres(at.x, 2),
                 millimetres(at.y, 2)
             ),

@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use turnpath_core::extreme::Extreme;
 use turnpath_core::largest_nose::{LargestNose, largest_that_fits};
-use turnpath_core::{
-    Compensator, Cut, Overrun, Part, RadialRange, SurfaceModel, Tool, ToolLocus,
-};
+use turnpath_core::{Compensator, Cut, Overrun, Part, RadialRange, SurfaceModel, Tool, ToolLocus};
 
 use crate::attributed::{AttributedCompensator, AttributedSurface};
 use crate::prepare::{contact_range, interference};

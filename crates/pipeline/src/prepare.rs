@@ -200,7 +200,7 @@ fn refuse(
         let nose = largest()?;
         (*radius, *at) = (nose.radius, nose.at.place());
     }
-    let interference = *found;
+    let interference = Box::new(*found);
     Err(PipelineError::Gouge {
         conflicts,
         interference,

@@ -1,4 +1,5 @@
 //! Coverage of rim, hole and centre against closed forms.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

@@ -286,6 +286,7 @@ impl Job {
         let making = Making {
             refine: self.refined,
             time_steps: self.time_steps,
+            covers_centre: false,
         };
         let outcome = run(&chain, &prepared, making, &mut kept, &Quiet)?;
         Ok((kept.points, outcome))
