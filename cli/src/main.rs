@@ -2,10 +2,12 @@
 
 mod args;
 mod check;
+mod coverage;
 mod explain;
 mod failure;
 mod figures;
 mod files;
+mod interference;
 mod job;
 mod lead;
 mod list;

@@ -10,6 +10,7 @@ use turnpath_pipeline::{LeadLimits, LeadSettings, Making, run as run_pipeline};
 use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 
 use crate::args::{Format, RunArgs};
+use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::figures;
 use crate::files::Files;
@@ -32,6 +33,7 @@ pub fn run(args: &RunArgs) -> Done {
         refine: job.recipe.refine,
         time_steps: (!programs.is_empty()).then_some(PMAC_TIME_STEPS),
         lead: lead(&job),
+        covers_centre: Promise::of(job.recipe.overrun).covers_centre,
     };
     let wants_path = !job.recipe.output.data.is_empty();
     let mut files = Files::new(folder, wants_path, programs)?;
@@ -110,7 +112,7 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::line("points", format!("{points} ({added})"));
     text += &figures::line("revolutions", format!("{:.2}", summary.revolutions));
     text += &figures::line("cutting time", figures::duration(summary.cutting_time_s));
-    text += &figures::measured(&summary.measured, &job.recipe.tolerance);
+    text += &figures::measured(&summary.measured, &job.recipe);
     if let Some(lead) = &summary.measured.lead {
         text += &lead.lines(summary.measured.within.lead);
     }
