@@ -33,7 +33,7 @@ pub use lanes::Lanes;
 pub use laws::{SpindleLaw, SpiralLaw, per_radian};
 pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Slot, Strategy, StrategyInfo};
-pub use part::{DEG, Direction, Job, NM, Part, RadialRange, Tolerance, Tool, UM};
+pub use part::{DEG, Direction, Job, Misfit, NM, Part, RadialRange, Tolerance, Tool, UM};
 pub use piecewise::{Piece, PiecewisePolynomial};
 pub use quantity::{Quantity, QuantityError};
 pub use sampler::{Dependence, Path, Revolutions, Sampler, Turn, angle};

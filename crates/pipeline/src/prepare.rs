@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Misfit, Part, RadialRange, SpindleLaw,
     StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
@@ -69,11 +69,9 @@ pub fn prepare(
     };
     // Where the contact goes beyond the rim is known only if the nose fits the part itself.
     let on_part = check(range)?;
-    refuse(
-        &on_part,
-        |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
-        &tool,
-    )?;
+    let conflicts = |found: &Interference| conflicts(found, &tool, compensator.as_ref());
+    let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });
+    refuse(&on_part, conflicts(&on_part), of_nose)?;
     let subject = Subject {
         surface: surface.clone(),
         part,
@@ -82,7 +80,7 @@ pub fn prepare(
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
     let interference = check(contact_range(chain, &locus, &tool, range)?)?;
-    refuse(&interference, |_| true, &tool)?;
+    refuse(&interference, conflicts(&interference), |_| true)?;
     Ok(Prepared {
         job,
         locus,
@@ -137,8 +135,21 @@ fn interference(
     Ok(found)
 }
 
-fn refuse(found: &Interference, which: impl Fn(&Conflict) -> bool, tool: &Tool) -> Result<()> {
-    let conflicts = found.conflicts(tool);
+/// In which ways the tool does not fit, but for those that leave something standing where that is
+/// what the recipe asks for and the compensator can do.
+fn conflicts(found: &Interference, tool: &Tool, compensator: &dyn Compensator) -> Vec<Conflict> {
+    let mut conflicts = found.conflicts(tool);
+    if tool.misfit == Misfit::CutWhatFits && compensator.cuts_what_fits() {
+        conflicts.retain(|conflict| matches!(conflict, Conflict::Clearance { .. }));
+    }
+    conflicts
+}
+
+fn refuse(
+    found: &Interference,
+    conflicts: Vec<Conflict>,
+    which: impl Fn(&Conflict) -> bool,
+) -> Result<()> {
     if conflicts.iter().any(which) {
         let interference = *found;
         return Err(PipelineError::Gouge {

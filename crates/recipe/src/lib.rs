@@ -62,4 +62,4 @@ pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::{Entry, Node, Table, Value};
 pub use place::{Located, Place, Source};
 pub use recipe::{FileProblem, Recipe, RecipeError};
-pub use tables::{DataFormat, Interference, Output, Overrun, PmacPvt, ZReference};
+pub use tables::{DataFormat, Output, Overrun, PmacPvt, ZReference};

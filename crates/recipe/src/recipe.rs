@@ -14,7 +14,7 @@ use crate::document::{Reader, Table};
 use crate::place::{Located, Place, Source};
 use crate::read::Sections;
 use crate::set;
-use crate::tables::{self, Interference, Output, Overrun, PmacPvt};
+use crate::tables::{self, Output, Overrun, PmacPvt};
 
 /// Largest recipe, in bytes; a hundred times any that a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -28,8 +28,6 @@ pub struct Recipe {
     pub part: Part,
     /// With what.
     pub tool: Tool,
-    /// What happens where the nose does not fit.
-    pub interference: Interference,
     /// How exactly.
     pub tolerance: Tolerance,
     /// Speed of the spindle, rad/s.
@@ -295,8 +293,7 @@ fn build(
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
         part: part?,
-        tool: tool.tool,
-        interference: tool.interference,
+        tool,
         tolerance: tolerance?,
         spindle_speed: speed?,
         direction: way.direction,

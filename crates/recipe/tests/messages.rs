@@ -76,7 +76,7 @@ says! {
     lead_true: "lead = false" => "lead = true";
     path_left_out: "[path]\ndirection = \"inward\"\noverrun = \"none\"\nlead = false\n" => "";
     machine: "[output]" => "[machine]\npreset = \"generic-sts\"\n\n[output]";
-    interference_cut_what_fits: "\"refuse\"" => "\"cut-what-fits\"";
+    interference_misspelt: "\"refuse\"" => "\"cut-what-fit\"";
     post_twice: "posts = []" => "posts = [\"pmac-pvt\", \"pmac-pvt\"]";
     post_unknown: "posts = []" => "posts = [\"pmac-pwt\"]";
     post_key_unknown: "[ablation]" => "[output.pmac-pvt]\nposition_decimal = 7\n\n[ablation]";

@@ -3,8 +3,8 @@
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
-    Direction, Job, ParamValue, Params, Part, Piece, PiecewisePolynomial, RadialRange, Result,
-    Slot, SpindleLaw, StrategyError, Tolerance, Tool,
+    Direction, Job, Misfit, ParamValue, Params, Part, Piece, PiecewisePolynomial, RadialRange,
+    Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
 };
 
 use crate::guarded;
@@ -137,6 +137,7 @@ pub struct AbiTool {
     nose_radius: f64,
     included_angle: ROption<f64>,
     clearance_angle: ROption<f64>,
+    cut_what_fits: bool,
 }
 
 impl From<&Tool> for AbiTool {
@@ -145,6 +146,7 @@ impl From<&Tool> for AbiTool {
             nose_radius: tool.nose_radius,
             included_angle: tool.included_angle.into(),
             clearance_angle: tool.clearance_angle.into(),
+            cut_what_fits: tool.misfit == Misfit::CutWhatFits,
         }
     }
 }
@@ -155,6 +157,11 @@ impl From<AbiTool> for Tool {
             nose_radius: tool.nose_radius,
             included_angle: tool.included_angle.into(),
             clearance_angle: tool.clearance_angle.into(),
+            misfit: if tool.cut_what_fits {
+                Misfit::CutWhatFits
+            } else {
+                Misfit::Refuse
+            },
         }
     }
 }
