@@ -1,17 +1,21 @@
 //! The scan: all places where the nose may touch first when more than one hill of the section can.
 //!
 //! Over the edge's angle φ, with the foot at ρ + R sin φ, the centre stands at h(φ) = g + R cos φ,
-//! whose rate is h' = R (g_ρ cos φ − sin φ). A hill lies where h' falls through zero between two
-//! places, or at an end of the edge towards which h rises. A hill whose top cannot come up to the
-//! highest place seen is dropped.
+//! whose rate is h' = R (g_ρ cos φ − sin φ). The edge is looked at in coarse steps; of these the
+//! ones that may come up to the highest place are looked at in fine ones. A hill lies where h'
+//! falls through zero between two places, or at an end of the edge towards which h rises.
 
 use turnpath_plugin::prelude::*;
 
 use crate::foot::{Nose, Touch};
 use crate::polar::Room;
 
-/// Places on the edge: half a degree apart on a full one. A ripple narrower than that is not seen.
-const PLACES: usize = 361;
+/// Coarse steps along the edge: 4° on a full one.
+const STEPS: usize = 45;
+/// Fine steps in a coarse one: half a degree. A ripple narrower than two of them is not seen.
+const PARTS: usize = 8;
+/// A coarse step may rise by so many times what its steeper end says.
+const DOUBT: f64 = 2.0;
 
 /// A stretch of the edge that holds one hill.
 #[derive(Debug, Clone, Copy)]
@@ -37,28 +41,30 @@ pub struct Candidate {
     at_most: f64,
 }
 
-/// The highest place seen so far of one point, and the place before.
-#[derive(Debug, Clone, Copy)]
-struct Seen {
-    highest: f64,
-    before: Place,
-}
-
-/// h and h' at one place of the edge; NaN where the surface has no height.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    offset: f64,
-    height: f64,
-    rate: f64,
-}
-
 /// What a scan found.
 #[derive(Debug, Default)]
-pub struct Scan {
+pub struct Found {
     /// The hills that may be a first touch.
     pub candidates: Vec<Candidate>,
     /// The highest place seen of each point, mm.
     pub highest: Vec<f64>,
+}
+
+impl Found {
+    fn see(&mut self, point: usize, here: &Place) {
+        if here.height > self.highest[point] {
+            self.highest[point] = here.height;
+        }
+    }
+
+    fn add(&mut self, point: usize, hill: Option<(Hill, f64)>) {
+        self.candidates
+            .extend(hill.map(|(hill, at_most)| Candidate {
+                point,
+                hill,
+                at_most,
+            }));
+    }
 }
 
 /// Scans the edge at each touch's ray and X.
@@ -67,62 +73,145 @@ pub fn scan(
     nose: Nose,
     touches: &[Touch],
     room: &mut Room<f64>,
-) -> Result<Scan> {
-    let mut found = Vec::new();
-    let mut seen = vec![Seen::NOTHING; touches.len()];
-    let half = Scalar::asin(nose.reach / nose.radius);
-    let step = 2.0 * half / (PLACES - 1) as f64;
-    for index in 0..PLACES {
-        let (sin, cos) = Scalar::sin_cos(index as f64 * step - half);
-        let offset = match index {
-            0 => -nose.reach,
-            _ if index == PLACES - 1 => nose.reach,
-            _ => nose.radius * sin,
-        };
-        room.hold(touches.iter().map(|at| at.ray.place(at.rho + offset)));
-        room.gradient(surface)?;
-        for (point, (touch, seen)) in touches.iter().zip(&mut seen).enumerate() {
-            let slope = touch.ray.along(room.zx[point], room.zy[point]);
-            let here = Place {
-                offset,
-                height: room.z[point] + nose.radius * cos,
-                rate: nose.radius * (slope * cos - sin),
-            };
-            let hills = [seen.before.hill_until(&here, step), here.hill_at_end(index)];
-            for (hill, at_most) in hills.into_iter().flatten() {
-                found.push(Candidate {
-                    point,
-                    hill,
-                    at_most,
-                });
-            }
-            seen.take(here);
+) -> Result<Found> {
+    let mut found = Found {
+        candidates: Vec::new(),
+        highest: vec![f64::NEG_INFINITY; touches.len()],
+    };
+    let edge = Edge::of(nose);
+    let coarse = edge.look_everywhere(surface, touches, room)?;
+    for places in coarse.chunks(touches.len().max(1)) {
+        for (point, here) in places.iter().enumerate() {
+            found.see(point, here);
         }
     }
-    let highest: Vec<f64> = seen.iter().map(|seen| seen.highest).collect();
-    found.retain(|candidate| candidate.at_most >= highest[candidate.point]);
-    Ok(Scan {
-        candidates: found,
+    let mut open = edge.open_steps(&coarse, &found.highest);
+    for part in 1..PARTS {
+        room.hold(open.iter().map(|step| {
+            let touch = &touches[step.point];
+            touch.ray.place(touch.rho + edge.place(step.from + part).0)
+        }));
+        room.gradient(surface)?;
+        for (i, step) in open.iter_mut().enumerate() {
+            let here = edge.seen(step.from + part, &touches[step.point], room, i);
+            found.add(step.point, step.last.hill_until(&here, edge.step));
+            found.see(step.point, &here);
+            step.last = here;
+        }
+    }
+    for step in &open {
+        found.add(step.point, step.last.hill_until(&step.right, edge.step));
+    }
+    let ends = [0, STEPS].map(|at| coarse.iter().skip(at * touches.len()).take(touches.len()));
+    for (hill, places) in [Place::falling_from, Place::rising_to]
+        .into_iter()
+        .zip(ends)
+    {
+        for (point, place) in places.enumerate() {
+            found.add(point, hill(place));
+        }
+    }
+    let Found {
+        candidates,
         highest,
-    })
+    } = &mut found;
+    candidates.retain(|candidate| candidate.at_most >= highest[candidate.point]);
+    Ok(found)
 }
 
-impl Seen {
-    const NOTHING: Self = Self {
-        highest: f64::NEG_INFINITY,
-        before: Place {
-            offset: f64::NAN,
-            height: f64::NAN,
-            rate: f64::NAN,
-        },
-    };
+/// The edge in fine steps, counted from its inner end.
+struct Edge {
+    nose: Nose,
+    half: f64,
+    /// A fine step, rad.
+    step: f64,
+}
 
-    fn take(&mut self, here: Place) {
-        if here.height > self.highest {
-            self.highest = here.height;
-        }
-        self.before = here;
+/// A coarse step that is looked at in fine ones.
+struct OpenStep {
+    point: usize,
+    /// The fine step that it begins with.
+    from: usize,
+    /// The place last looked at.
+    last: Place,
+    right: Place,
+}
+
+impl Edge {
+    fn of(nose: Nose) -> Self {
+        let half = Scalar::asin(nose.reach / nose.radius);
+        let step = 2.0 * half / (STEPS * PARTS) as f64;
+        Self { nose, half, step }
     }
+
+    /// Offset from the centre's X, sine and cosine of φ.
+    fn place(&self, index: usize) -> (f64, f64, f64) {
+        let (sin, cos) = Scalar::sin_cos(index as f64 * self.step - self.half);
+        let offset = match index {
+            0 => -self.nose.reach,
+            _ if index == STEPS * PARTS => self.nose.reach,
+            _ => self.nose.radius * sin,
+        };
+        (offset, sin, cos)
+    }
+
+    /// What the room has of a place.
+    fn seen(&self, index: usize, touch: &Touch, room: &Room<f64>, at: usize) -> Place {
+        let (offset, sin, cos) = self.place(index);
+        let slope = touch.ray.along(room.zx[at], room.zy[at]);
+        Place {
+            offset,
+            height: room.z[at] + self.nose.radius * cos,
+            rate: self.nose.radius * (slope * cos - sin),
+        }
+    }
+
+    /// All points at the first coarse place, then all at the next.
+    fn look_everywhere(
+        &self,
+        surface: &dyn SurfaceModel,
+        touches: &[Touch],
+        room: &mut Room<f64>,
+    ) -> Result<Vec<Place>> {
+        let mut places = Vec::with_capacity((STEPS + 1) * touches.len());
+        for index in (0..=STEPS).map(|step| step * PARTS) {
+            let offset = self.place(index).0;
+            room.hold(touches.iter().map(|at| at.ray.place(at.rho + offset)));
+            room.gradient(surface)?;
+            let seen = |(at, touch)| self.seen(index, touch, room, at);
+            places.extend(touches.iter().enumerate().map(seen));
+        }
+        Ok(places)
+    }
+
+    /// The coarse steps that may come up to the highest place of their point.
+    fn open_steps(&self, coarse: &[Place], highest: &[f64]) -> Vec<OpenStep> {
+        let points = highest.len();
+        let pairs = coarse.iter().zip(coarse.iter().skip(points)).enumerate();
+        pairs
+            .filter(|(at, (left, right))| {
+                let rise = DOUBT * PARTS as f64 * self.step;
+                let top =
+                    left.height.max(right.height) + rise * left.rate.abs().max(right.rate.abs());
+                let known = (left.height + right.height + top).is_finite();
+                !known || top >= highest[at % points]
+            })
+            .map(|(at, (left, right))| OpenStep {
+                point: at % points,
+                from: at / points * PARTS,
+                last: *left,
+                right: *right,
+            })
+            .collect()
+    }
+}
+
+/// h and h' at one place of the edge; NaN where the surface has no height.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    offset: f64,
+    height: f64,
+    rate: f64,
 }
 
 impl Place {
@@ -135,13 +224,18 @@ impl Place {
         turns.then_some((Hill::Between { lower, upper }, top))
     }
 
-    /// The hill at an end of the edge, if this is one and h rises towards it.
-    fn hill_at_end(&self, index: usize) -> Option<(Hill, f64)> {
-        let rises = match index {
-            0 => self.rate <= 0.0,
-            _ => index == PLACES - 1 && self.rate > 0.0,
-        };
-        let known = rises && self.height.is_finite();
+    /// The hill at the edge's inner end, if h falls from there.
+    fn falling_from(&self) -> Option<(Hill, f64)> {
+        self.end_if(self.rate <= 0.0)
+    }
+
+    /// The hill at the edge's outer end, if h rises up to it.
+    fn rising_to(&self) -> Option<(Hill, f64)> {
+        self.end_if(self.rate > 0.0)
+    }
+
+    fn end_if(&self, is_hill: bool) -> Option<(Hill, f64)> {
+        let known = is_hill && self.height.is_finite();
         known.then_some((Hill::EdgeEnd(self.offset), self.height))
     }
 }
