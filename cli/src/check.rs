@@ -10,6 +10,7 @@ use crate::job::{Job, of_pipeline};
 use crate::programs::asked;
 use crate::run::print;
 use crate::summary::to_json;
+use crate::unreached::Unreached;
 use crate::{Done, Verdict, figures};
 
 /// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
@@ -21,6 +22,7 @@ struct Checked {
     largest_nose_radius_mm: Option<f64>,
     least_included_angle_deg: f64,
     least_clearance_angle_deg: f64,
+    unreached: Option<Unreached>,
     expected: Expected,
 }
 
@@ -52,6 +54,7 @@ pub fn check(args: &CheckArgs) -> Done {
         largest_nose_radius_mm: Some(found.largest_nose_radius()).filter(|r| r.is_finite()),
         least_included_angle_deg: 2.0 * found.contact_angle.value / DEG,
         least_clearance_angle_deg: found.cut_angle.value / DEG,
+        unreached: Unreached::of_job(&job)?,
         expected: Expected {
             revolutions: expected.revolutions,
             cutting_time_s: expected.cutting_time,
@@ -97,6 +100,9 @@ fn human(job: &Job, checked: &Checked, found: &Interference) -> String {
     text += &figures::line("included angle", included);
     let clearance = angle(tool.clearance_angle, checked.least_clearance_angle_deg);
     text += &figures::line("clearance angle", clearance);
+    if let Some(unreached) = &checked.unreached {
+        text += &unreached.lines();
+    }
     let expected = &checked.expected;
     let points = figures::grouped(expected.control_points as u64);
     text += &figures::line("points", format!("about {points}, before refinement"));

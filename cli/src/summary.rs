@@ -7,6 +7,8 @@ use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{AxisMotion, PathFigures};
 
+use crate::unreached::Unreached;
+
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
 /// A tolerance holds when measured ≤ this × tolerance: rounding in the last digit of a figure
@@ -29,6 +31,7 @@ pub struct Summary {
     tolerance_nm: ToleranceNm,
     #[serde(flatten)]
     pub measured: Measured,
+    pub unreached: Option<Unreached>,
     pub programs: Vec<ProgramSummary>,
     plugins: Vec<PluginFile>,
 }
@@ -146,6 +149,7 @@ impl Summary {
         plugins: &[&Plugin],
         rows: u64,
         outcome: &Outcome,
+        unreached: Option<Unreached>,
         programs: Vec<ProgramSummary>,
     ) -> Self {
         Self {
@@ -167,6 +171,7 @@ impl Summary {
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
             measured: Measured::new(&outcome.figures, &recipe.tolerance),
+            unreached,
             programs,
             plugins: plugins
                 .iter()

@@ -21,6 +21,7 @@ use crate::programs::{PMAC_EXTENSION, pmac_format};
 use crate::reach::Reach;
 use crate::run::print;
 use crate::summary::{Measured, to_json};
+use crate::unreached::Unreached;
 use crate::{Done, Verdict, figures, strategies};
 
 /// Rows that are measured in one go, and how many such blocks at a time.
@@ -36,6 +37,7 @@ struct Verified {
     reach_mm: Reach,
     #[serde(flatten)]
     measured: Measured,
+    unreached: Option<Unreached>,
 }
 
 /// What a file is measured against, and how it is played.
@@ -67,6 +69,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         return Err(Failure::File(message));
     };
     let reach = Reach::new(range);
+    let unreached = Unreached::of(meter.touch(), &recipe.tolerance).map_err(failed)?;
     let mut measured = Measured::new(meter.figures(), &recipe.tolerance);
     measured.within.reach = Some(reach.covers(&recipe.part));
     let verified = Verified {
@@ -76,6 +79,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         rows: read.count(),
         reach_mm: reach,
         measured,
+        unreached,
     };
     print(&match args.work.format {
         Format::Json => to_json(&verified),
@@ -170,5 +174,9 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     let rows = figures::grouped(verified.rows);
     text += &figures::line("points", format!("{cutting} that cut, of {rows} rows"));
     text += &verified.reach_mm.line(radial, &recipe.part);
-    text + &figures::measured(&verified.measured, &recipe.tolerance)
+    text += &figures::measured(&verified.measured, &recipe.tolerance);
+    text + &verified
+        .unreached
+        .as_ref()
+        .map_or(String::new(), Unreached::lines)
 }

@@ -6,6 +6,7 @@
 //! ([`Meter::append`]): the figures do not depend on how many threads there were.
 
 mod axes;
+mod closing;
 mod cusp;
 mod meter;
 mod playback;
@@ -14,6 +15,7 @@ mod residual;
 mod scan;
 mod subject;
 mod touch;
+mod unreached;
 
 pub use axes::{AxesMotion, AxisMotion};
 pub use meter::{Measured, Meter, PathFigures};
@@ -21,3 +23,4 @@ pub use playback::{INSTANTS, PlaybackFigures};
 pub use residual::{ResidualFigures, SECTIONS};
 pub use subject::Subject;
 pub use touch::{FirstTouch, Touch};
+pub use unreached::{UnreachedFigures, unreached};

@@ -1,14 +1,16 @@
 //! The residual: cusps between neighbouring passes along radial sections.
 //!
 //! The tool centres are at the played X with their true Z, so the figure is the spiral's own and
-//! does not mix with the interpolation error. The innermost turn is left out: the pair of passes
+//! does not mix with the interpolation error. Where the nose may leave seams, cusps count from what it
+//! can reach at best ([`crate::closing`]). The innermost turn is left out: the pair of passes
 //! that would close it lies on both sides of the axis.
 
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{PathBlock, Segment};
-use turnpath_core::{Gradients, Result, Scalar, SurfaceModel};
+use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
+use crate::closing::{self, Raised};
 use crate::cusp::{self, Point};
 use crate::touch::{FirstTouch, Touch};
 
@@ -68,8 +70,9 @@ struct Cusp {
 }
 
 impl Pass {
-    fn cusp(&self, other: &Self, radius: f64) -> Cusp {
-        let tip = cusp::between(self.centre, other.centre, radius);
+    fn cusp(&self, other: &Self, tool: &Tool) -> Cusp {
+        let (radius, reach) = (tool.nose_radius, tool.reach());
+        let tip = cusp::between_edges(self.centre, other.centre, radius, reach);
         Cusp {
             place: tip.unwrap_or(self.centre),
             meet: tip.is_some(),
@@ -186,17 +189,32 @@ fn residual_between(
     let subject = touch.subject();
     let part = subject.part.inner_radius..=subject.part.aperture_radius;
     let mut figures = ResidualFigures::default();
-    let (mut theta, mut cusps) = (Vec::new(), Vec::new());
+    let (mut theta, mut cusps, mut ends) = (Vec::new(), Vec::new(), Vec::new());
     for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
         let same_side = one.x * other.x >= 0.0;
         if !same_side || one.centre == other.centre {
             continue;
         }
         theta.push(angle_of(number));
-        cusps.push(one.cusp(other, subject.tool.nose_radius));
+        cusps.push(one.cusp(other, &subject.tool));
+        ends.push((one.x.min(other.x), one.x.max(other.x)));
     }
     let places: Vec<Point> = cusps.iter().map(|cusp| cusp.place).collect();
-    let (heights, feet) = heights(subject.surface.as_ref(), &theta, &places)?;
+    let (heights, feet) = match touch.leaves_seams() {
+        false => heights(subject.surface.as_ref(), &theta, &places)?,
+        true => {
+            let raised = |((theta, cusp), (lower, upper)): ((&f64, &Cusp), &(f64, f64))| Raised {
+                theta: *theta,
+                place: cusp.place,
+                lower: *lower,
+                upper: *upper,
+                counts: cusp.meet && part.contains(&cusp.place.x.abs()),
+            };
+            let raised: Vec<Raised> = theta.iter().zip(&cusps).zip(&ends).map(raised).collect();
+            let feet = places.iter().map(|place| place.x).collect();
+            (closing::heights(touch, &raised)?, feet)
+        }
+    };
     for (((theta, cusp), height), foot) in theta.iter().zip(&cusps).zip(heights).zip(feet) {
         let cut = cusp.meet && height.is_finite();
         let (max, at_rho) = match cut {

@@ -5,7 +5,7 @@
 //! tool's reach, H has a single maximum, which a bracketed secant finds; elsewhere a scan of the
 //! whole reach ([`crate::scan`]) brackets every maximum that can be the largest.
 
-use turnpath_core::{Result, SurfaceModel, Tool};
+use turnpath_core::{Misfit, Result, SurfaceModel, Tool};
 
 use crate::Subject;
 use crate::profiles::Profiles;
@@ -72,6 +72,11 @@ impl FirstTouch {
     /// Whether the profile leaves a single maximum everywhere, so that no scan is needed.
     pub fn is_single(&self) -> bool {
         self.single_to >= 0.0
+    }
+
+    /// Whether the nose may leave something standing that no pass of it reaches.
+    pub fn leaves_seams(&self) -> bool {
+        self.subject.tool.misfit == Misfit::CutWhatFits && !self.is_single()
     }
 
     /// The first touch at each (θ, X); NaN where the surface has no height below the nose.
