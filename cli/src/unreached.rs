@@ -1,7 +1,7 @@
 //! What the nose leaves standing where it does not fit, for the summary.
 
 use serde::Serialize;
-use turnpath_core::{DEG, Misfit, StrategyError, Tolerance, UM};
+use turnpath_core::{DEG, StrategyError, Tolerance, UM};
 use turnpath_pipeline::PipelineError;
 use turnpath_verify::{FirstTouch, UnreachedFigures, unreached};
 
@@ -22,7 +22,7 @@ pub struct Unreached {
 }
 
 impl Unreached {
-    /// What stays on a job's part; none unless the recipe asks for what fits.
+    /// What stays on a job's part; none unless the recipe asks for what fits of a nose.
     pub fn of_job(job: &Job) -> Result<Option<Self>, Failure> {
         Self::of(&job.prepared.touch, &job.recipe.tolerance)
             .map_err(|error| of_pipeline(&job.recipe, PipelineError::Measure(error)))
@@ -30,10 +30,11 @@ impl Unreached {
 
     /// The same for what is measured.
     pub fn of(touch: &FirstTouch, tolerance: &Tolerance) -> Result<Option<Self>, StrategyError> {
-        match touch.subject().tool.misfit {
-            Misfit::Refuse => Ok(None),
-            Misfit::CutWhatFits => Ok(Some(Self::new(&unreached(touch, tolerance.residual)?))),
+        if !touch.leaves_seams() {
+            return Ok(None);
         }
+        let found = unreached(touch, tolerance.residual)?;
+        Ok(Some(Self::new(&found)))
     }
 
     fn new(found: &UnreachedFigures) -> Self {

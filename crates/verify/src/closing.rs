@@ -14,6 +14,8 @@ use crate::touch::{FirstTouch, Touch};
 
 /// Halvings of the distance of two passes: 1e-8 of it, and in the height at most as much.
 const HALVINGS: usize = 27;
+/// A place this part of the nose radius from the contact is at the contact.
+const AT_CONTACT: f64 = 1e-4;
 /// Cusps that are looked at in one batch.
 const BATCH: usize = 64;
 
@@ -91,9 +93,15 @@ fn middles(between: &[(f64, f64)]) -> Vec<f64> {
     between.iter().map(|(a, b)| 0.5 * (a + b)).collect()
 }
 
-/// How far a place stands above the lower side of the nose that touches at X, along its normal.
+/// How far a place stands above the lower side of the nose that touches at X: along the surface's
+/// normal where the contact is, along the nose's own over a seam.
 fn above_nose(place: Point, x: f64, touch: &Touch, radius: f64) -> f64 {
     let offset = place.x - x;
     let lift = (radius * radius - offset * offset).max(0.0).sqrt();
-    (place.y - (touch.z - lift)) * lift / radius
+    let height = place.y - (touch.z - lift);
+    if (touch.foot - place.x).abs() <= AT_CONTACT * radius {
+        height / (1.0 + touch.slope * touch.slope).sqrt()
+    } else {
+        height * lift / radius
+    }
 }

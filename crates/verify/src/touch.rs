@@ -57,9 +57,16 @@ impl FirstTouch {
     /// to the rim takes: the nose radius.
     pub fn new(subject: Subject) -> Result<Self> {
         let (radius, rim) = (subject.tool.nose_radius, subject.part.aperture_radius);
-        let single = !subject.compensates_nose
-            || largest_curvature(subject.surface.as_ref(), rim + 2.0 * radius)?
-                .is_some_and(|curvature| radius * curvature < LARGEST_FIT);
+        let fits = || -> Result<bool> {
+            let found = largest_curvature(subject.surface.as_ref(), rim + 2.0 * radius)?;
+            Ok(found.is_some_and(|curvature| radius * curvature < LARGEST_FIT))
+        };
+        let single = match (subject.compensates_nose, subject.tool.misfit) {
+            (false, _) => true,
+            (true, Misfit::Refuse) => fits()?,
+            // Seams may be sharper than any look at curvatures sees.
+            (true, Misfit::CutWhatFits) => false,
+        };
         let single_to = if single { rim + radius } else { -1.0 };
         Ok(Self { subject, single_to })
     }
@@ -76,7 +83,7 @@ impl FirstTouch {
 
     /// Whether the nose may leave something standing that no pass of it reaches.
     pub fn leaves_seams(&self) -> bool {
-        self.subject.tool.misfit == Misfit::CutWhatFits && !self.is_single()
+        self.subject.tool.misfit == Misfit::CutWhatFits && self.subject.compensates_nose
     }
 
     /// The first touch at each (θ, X); NaN where the surface has no height below the nose.
