@@ -52,7 +52,7 @@ impl Unreached {
     /// The lines for a person.
     pub fn lines(&self) -> String {
         if self.height_um <= 0.0 {
-            return figures::line("unreached", "nothing: the nose fits everywhere");
+            return figures::line("unreached", "nothing: the edge comes to every place");
         }
         let height = figures::nanometres(self.height_um / UM);
         let Place { c_deg, x_mm } = self.at;

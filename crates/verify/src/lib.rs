@@ -7,6 +7,7 @@
 
 mod axes;
 mod closing;
+mod corners;
 mod cusp;
 mod meter;
 mod playback;
