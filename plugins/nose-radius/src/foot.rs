@@ -22,8 +22,9 @@ const PATIENCE: usize = 12;
 /// Trials enough to halve any bracket down to rounding.
 const MOST_TRIALS: usize = 160;
 
-/// A top this part of R below the highest place of a scan is that place: rounding.
-const UNSEEN: f64 = 1e-14;
+/// A top this part of R below the highest place of a scan still counts as that place: more than
+/// rounding, and than what hills differ by that lie closer together than a scan can tell.
+const UNSEEN: f64 = 1e-11;
 
 /// sqrt(R² − d²): how far the centre lies above the contact.
 pub fn rise<S: Scalar>(radius: f64, offset: S) -> S {

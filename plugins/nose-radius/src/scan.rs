@@ -14,6 +14,8 @@ use crate::polar::Room;
 const STEPS: usize = 45;
 /// Fine steps in a coarse one: half a degree. A ripple narrower than two of them is not seen.
 const PARTS: usize = 8;
+/// Parts of a fine step in which a hill hides beside a valley.
+const HIDDEN: usize = 32;
 /// A coarse step may rise by so many times what its steeper end says.
 const DOUBT: f64 = 2.0;
 
@@ -85,6 +87,7 @@ pub fn scan(
             found.see(point, here);
         }
     }
+    let mut hidden = Vec::new();
     let mut open = edge.open_steps(&coarse, &found.highest);
     for part in 1..PARTS {
         room.hold(open.iter().map(|step| {
@@ -96,12 +99,15 @@ pub fn scan(
             let here = edge.seen(step.from + part, &touches[step.point], room, i);
             found.add(step.point, step.last.hill_until(&here, edge.step));
             found.see(step.point, &here);
+            hidden.extend(step.hidden_until(&here, step.from + part - 1));
             step.last = here;
         }
     }
     for step in &open {
         found.add(step.point, step.last.hill_until(&step.right, edge.step));
+        hidden.extend(step.hidden_until(&step.right, step.from + PARTS - 1));
     }
+    edge.look_closely(surface, touches, room, hidden, &mut found)?;
     let ends = [0, STEPS].map(|at| coarse.iter().skip(at * touches.len()).take(touches.len()));
     for (hill, places) in [Place::falling_from, Place::rising_to]
         .into_iter()
@@ -146,18 +152,33 @@ impl Edge {
 
     /// Offset from the centre's X, sine and cosine of φ.
     fn place(&self, index: usize) -> (f64, f64, f64) {
-        let (sin, cos) = Scalar::sin_cos(index as f64 * self.step - self.half);
-        let offset = match index {
-            0 => -self.nose.reach,
-            _ if index == STEPS * PARTS => self.nose.reach,
-            _ => self.nose.radius * sin,
-        };
-        (offset, sin, cos)
+        let (offset, sin, cos) = self.within(index, 0);
+        match index {
+            0 => (-self.nose.reach, sin, cos),
+            _ if index == STEPS * PARTS => (self.nose.reach, sin, cos),
+            _ => (offset, sin, cos),
+        }
+    }
+
+    /// The same so many parts of [`HIDDEN`] further on.
+    fn within(&self, index: usize, part: usize) -> (f64, f64, f64) {
+        let steps = index as f64 + part as f64 / HIDDEN as f64;
+        let (sin, cos) = Scalar::sin_cos(steps * self.step - self.half);
+        (self.nose.radius * sin, sin, cos)
     }
 
     /// What the room has of a place.
     fn seen(&self, index: usize, touch: &Touch, room: &Room<f64>, at: usize) -> Place {
-        let (offset, sin, cos) = self.place(index);
+        self.of_room(self.place(index), touch, room, at)
+    }
+
+    fn of_room(
+        &self,
+        (offset, sin, cos): (f64, f64, f64),
+        touch: &Touch,
+        room: &Room<f64>,
+        at: usize,
+    ) -> Place {
         let slope = touch.ray.along(room.zx[at], room.zy[at]);
         Place {
             offset,
@@ -184,17 +205,43 @@ impl Edge {
         Ok(places)
     }
 
+    /// Looks for the hills in fine steps that hide one.
+    fn look_closely(
+        &self,
+        surface: &dyn SurfaceModel,
+        touches: &[Touch],
+        room: &mut Room<f64>,
+        mut hidden: Vec<OpenStep>,
+        found: &mut Found,
+    ) -> Result<()> {
+        let step = self.step / HIDDEN as f64;
+        hidden.retain(|one| one.reaches(found.highest[one.point], self.step));
+        for part in 1..HIDDEN {
+            room.hold(hidden.iter().map(|one| {
+                let touch = &touches[one.point];
+                touch.ray.place(touch.rho + self.within(one.from, part).0)
+            }));
+            room.gradient(surface)?;
+            for (i, one) in hidden.iter_mut().enumerate() {
+                let place = self.within(one.from, part);
+                let here = self.of_room(place, &touches[one.point], room, i);
+                found.add(one.point, one.last.hill_until(&here, step));
+                one.last = here;
+            }
+        }
+        for one in &hidden {
+            found.add(one.point, one.last.hill_until(&one.right, step));
+        }
+        Ok(())
+    }
+
     /// The coarse steps that may come up to the highest place of their point.
     fn open_steps(&self, coarse: &[Place], highest: &[f64]) -> Vec<OpenStep> {
         let points = highest.len();
         let pairs = coarse.iter().zip(coarse.iter().skip(points)).enumerate();
         pairs
             .filter(|(at, (left, right))| {
-                let rise = DOUBT * PARTS as f64 * self.step;
-                let top =
-                    left.height.max(right.height) + rise * left.rate.abs().max(right.rate.abs());
-                let known = (left.height + right.height + top).is_finite();
-                !known || top >= highest[at % points]
+                may_reach(left, right, highest[at % points], PARTS as f64 * self.step)
             })
             .map(|(at, (left, right))| OpenStep {
                 point: at % points,
@@ -204,6 +251,35 @@ impl Edge {
             })
             .collect()
     }
+}
+
+impl OpenStep {
+    /// Whether its ends let it come up to the highest place.
+    fn reaches(&self, highest: f64, step: f64) -> bool {
+        may_reach(&self.last, &self.right, highest, step)
+    }
+
+    /// The fine step from the last place to the next, if it hides a hill beside a valley: h falls
+    /// at both and yet has risen, or rises at both and yet has fallen.
+    fn hidden_until(&self, next: &Place, from: usize) -> Option<Self> {
+        let last = self.last;
+        let falls = last.rate <= 0.0 && next.rate <= 0.0 && next.height > last.height;
+        let rises = last.rate > 0.0 && next.rate > 0.0 && next.height < last.height;
+        (falls || rises).then_some(Self {
+            point: self.point,
+            from,
+            last,
+            right: *next,
+        })
+    }
+}
+
+/// Whether h may come up to `highest` between two places `step` rad apart.
+fn may_reach(left: &Place, right: &Place, highest: f64, step: f64) -> bool {
+    let rise = DOUBT * step * left.rate.abs().max(right.rate.abs());
+    let top = left.height.max(right.height) + rise;
+    let known = (left.height + right.height + top).is_finite();
+    !known || top >= highest
 }
 
 /// h and h' at one place of the edge; NaN where the surface has no height.

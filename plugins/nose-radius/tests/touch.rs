@@ -142,6 +142,39 @@ fn over_waves_too_narrow_for_the_nose_it_stops_at_the_first_touch() {
     }
 }
 
+/// A lattice of hollows; where a seam begins between a nose of 3 mm and one of them, two hills lie
+/// within a fraction of a degree of the edge.
+#[derive(Clone, Copy)]
+struct Lattice;
+
+impl Surface for Lattice {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let wave = std::f64::consts::TAU;
+        ((x * wave).cos() + (y * wave).cos()) * 0.01
+    }
+}
+
+#[test]
+fn where_a_seam_begins_there_is_a_centre_and_a_series() {
+    let tool = Tool {
+        nose_radius: 3.0,
+        ..cuts_what_fits(None)
+    };
+    let locus = ToolLocus::new(Arc::new(Lattice), Arc::new(ZDirection), tool);
+    let near = |i: i32| f64::from(i) * 2e-5;
+    for i in -40..40 {
+        let theta: Vec<f64> = (-40..40).map(|j| 0.3284 + near(i + j)).collect();
+        let rho: Vec<f64> = (-40..40).map(|j| 0.5816 + near(j)).collect();
+        let found = centres(&locus, &theta, &rho);
+        assert!(found.z.iter().chain(&found.foot).all(|z| z.is_finite()));
+        let curve = |values: &[f64], rate: f64| -> Vec<turnpath_core::Series> {
+            values.iter().map(|v| [*v, rate, 0.0, 0.0, 0.0]).collect()
+        };
+        let [x, z] = common::series(&locus, &curve(&theta, 1.0), &curve(&rho, 0.003));
+        assert!(x.iter().chain(&z).flatten().all(|c| c.is_finite()));
+    }
+}
+
 #[test]
 fn where_the_nose_fits_the_first_touch_is_the_only_one() {
     let find = |tool| {
