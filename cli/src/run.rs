@@ -18,6 +18,7 @@ use crate::job::{Job, of_pipeline};
 use crate::programs::{asked, not_carried};
 use crate::progress::Bar;
 use crate::summary::Summary;
+use crate::unreached::Unreached;
 use crate::{Done, Verdict};
 
 /// Runs a recipe and writes its files.
@@ -47,7 +48,11 @@ pub fn run(args: &RunArgs) -> Done {
     bar.clear();
     let plugins = used_plugins(&job);
     let (recipe, chain) = (&job.recipe, &job.chain);
-    let summary = Summary::new(recipe, chain, &plugins, files.rows, &outcome, programs?);
+    let programs = programs?;
+    let unreached = Unreached::of_job(&job)?;
+    let summary = Summary::new(
+        recipe, chain, &plugins, files.rows, &outcome, unreached, programs,
+    );
     let written = files.complete(&summary.json())?;
     match args.work.format {
         Format::Json => print(&summary.json())?,
@@ -115,6 +120,9 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::measured(&summary.measured, &job.recipe);
     if let Some(lead) = &summary.measured.lead {
         text += &lead.lines(summary.measured.within.lead);
+    }
+    if let Some(unreached) = &summary.unreached {
+        text += &unreached.lines();
     }
     for program in &summary.programs {
         let (error, holds) = (program.interpolation_error_nm, program.within_interpolation);
