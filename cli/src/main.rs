@@ -2,12 +2,16 @@
 
 mod args;
 mod check;
+mod coverage;
 mod explain;
 mod failure;
 mod figures;
 mod files;
+mod interference;
 mod job;
+mod lead;
 mod list;
+mod machine;
 mod programs;
 mod progress;
 mod reach;
@@ -15,6 +19,7 @@ mod run;
 mod sag;
 mod strategies;
 mod summary;
+mod unreached;
 mod verify;
 
 // A plugin that nothing names is dropped by the linker.
@@ -35,9 +40,9 @@ use failure::Failure;
 /// How a command ended that did what it was asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Verdict {
-    /// All tolerances hold.
+    /// All tolerances hold, and all limits of the machine.
     Holds,
-    /// A tolerance does not hold.
+    /// A tolerance or a limit of the machine does not hold.
     Exceeded,
 }
 

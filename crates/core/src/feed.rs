@@ -1,6 +1,6 @@
 //! The feed strategy: the spiral law, block by block.
 
-use crate::{Job, Locus, Result};
+use crate::{Job, Locus, Result, quintic};
 
 /// The job and the locus, before there is a law.
 #[derive(Clone, Copy)]
@@ -43,21 +43,9 @@ impl Stretch {
     /// assert_eq!(smooth.coefficients, [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]);
     /// ```
     pub fn between(from: [f64; 3], to: [f64; 3], length: f64) -> Self {
-        let t = length;
-        let d = to[0] - from[0] - t * (from[1] + 0.5 * t * from[2]);
-        let v = t * (to[1] - from[1] - t * from[2]);
-        let a = 0.5 * t * t * (to[2] - from[2]);
-        let cube = t * t * t;
         Self {
             length,
-            coefficients: [
-                from[0],
-                from[1],
-                0.5 * from[2],
-                (10.0 * d - 4.0 * v + a) / cube,
-                (-15.0 * d + 7.0 * v - 2.0 * a) / (cube * t),
-                (6.0 * d - 3.0 * v + a) / (cube * t * t),
-            ],
+            coefficients: quintic(from, to, length),
         }
     }
 }

@@ -12,16 +12,22 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Value and derivatives divided by factorials, up to the 4th, at `n`.
-    fn series(&self, n: f64) -> Series {
-        let s = n - self.start;
+    /// The same polynomial's coefficients in local n − `at`, lowest first.
+    pub fn shifted(&self, at: f64) -> [f64; 6] {
+        let s = at - self.start;
         let mut shifted = self.coefficients;
         for low in 0..5 {
             for i in (low..5).rev() {
                 shifted[i] += s * shifted[i + 1];
             }
         }
-        [shifted[0], shifted[1], shifted[2], shifted[3], shifted[4]]
+        shifted
+    }
+
+    /// Value and derivatives divided by factorials, up to the 4th, at `n`.
+    fn series(&self, n: f64) -> Series {
+        let [value, rate, second, third, fourth, _] = self.shifted(n);
+        [value, rate, second, third, fourth]
     }
 
     fn value(&self, n: f64) -> f64 {
@@ -31,6 +37,24 @@ impl Piece {
             .rev()
             .fold(0.0, |sum, c| sum * s + c)
     }
+}
+
+/// The coefficients, lowest first, of the polynomial of degree 5 that goes within `length` from one
+/// value with its first and second derivative to another.
+pub fn quintic(from: [f64; 3], to: [f64; 3], length: f64) -> [f64; 6] {
+    let t = length;
+    let d = to[0] - from[0] - t * (from[1] + 0.5 * t * from[2]);
+    let v = t * (to[1] - from[1] - t * from[2]);
+    let a = 0.5 * t * t * (to[2] - from[2]);
+    let cube = t * t * t;
+    [
+        from[0],
+        from[1],
+        0.5 * from[2],
+        (10.0 * d - 4.0 * v + a) / cube,
+        (-15.0 * d + 7.0 * v - 2.0 * a) / (cube * t),
+        (6.0 * d - 3.0 * v + a) / (cube * t * t),
+    ]
 }
 
 /// A function of N in pieces, from 0 to [`PiecewisePolynomial::end`].
@@ -146,6 +170,22 @@ mod tests {
     fn series_is_that_of_the_expanded_polynomial() {
         let s = two_pieces().series(1.0);
         assert_eq!(s, [2.5, 5.5, 10.0, 10.0, 5.0]);
+    }
+
+    #[test]
+    fn a_quintic_has_both_its_ends() {
+        let (from, to) = ([1.0, -2.0, 0.5], [3.0, 0.25, -4.0]);
+        let piece = Piece {
+            start: 2.0,
+            coefficients: quintic(from, to, 1.5),
+        };
+        for (n, end) in [(2.0, from), (3.5, to)] {
+            let [value, rate, second, ..] = piece.shifted(n);
+            for (found, wanted) in [value, rate, 2.0 * second].iter().zip(end) {
+                assert!((found - wanted).abs() < 1e-13, "{found} {wanted}");
+            }
+        }
+        assert!((piece.shifted(2.7)[0] - piece.value(2.7)).abs() < 1e-15);
     }
 
     #[test]

@@ -7,19 +7,25 @@
 mod attributed;
 mod chain;
 mod error;
+mod largest_nose;
 mod law;
+mod lead;
 mod make;
 mod order;
 mod plan;
 mod prepare;
 mod progress;
+mod range;
 mod refine;
 mod run;
+mod taper;
 
 pub use chain::{Chain, Link};
 pub use error::{PipelineError, Result};
+pub use largest_nose::largest_nose;
+pub use lead::{AxisLimits, LeadLimits, LeadSettings, Leads};
 pub use plan::BLOCK;
-pub use prepare::{Prepared, prepare};
+pub use prepare::{Prepared, Wanted, prepare};
 pub use progress::{Progress, Quiet, Stage};
 pub use refine::{AIM, MOST_ROUNDS, SMALLEST_SEGMENT};
 pub use run::{Expected, Making, Outcome, Sink, expect, run};

@@ -4,13 +4,16 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
+use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Part, RadialRange, SpindleLaw,
-    StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Misfit, Overrun, Part,
+    RadialRange, SpindleLaw, StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::attributed::{AttributedCompensator, AttributedSurface};
+use crate::largest_nose::Fit;
+use crate::range::range;
 use crate::{Chain, PipelineError, Result};
 
 /// Angles at which the contact is looked for beyond the rim and the hole.
@@ -18,10 +21,31 @@ const RIM_ANGLES: usize = 720;
 /// Places of the nose's reach at which the surface is looked for.
 const REACH_PLACES: usize = 64;
 
+/// What is wanted, as a recipe says it.
+#[derive(Debug, Clone)]
+pub struct Wanted {
+    /// What is cut.
+    pub part: Part,
+    /// With what.
+    pub tool: Tool,
+    /// How exactly.
+    pub tolerance: Tolerance,
+    /// How far the path runs beyond the part.
+    pub overrun: Overrun,
+    /// Which way it feeds.
+    pub direction: Direction,
+    /// How fast the spindle turns.
+    pub spindle: SpindleLaw,
+    /// What the machine can do.
+    pub machine: Machine,
+}
+
 /// A job whose tool fits its part.
 pub struct Prepared {
-    /// Part, tool, tolerances, range of ρ, direction, spindle.
+    /// Part, tool, tolerances, range of ρ, direction, spindle, machine.
     pub job: Job,
+    /// How far the path runs beyond the part.
+    pub overrun: Overrun,
     /// Surface, compensator and tool put together.
     pub locus: ToolLocus,
     /// What the part asks of a tool.
@@ -30,36 +54,25 @@ pub struct Prepared {
     pub touch: FirstTouch,
 }
 
-/// Checks tool against part over all radii of contact, and settles the range of ρ: the aperture
-/// exactly, from the hole (or the axis) to the rim.
+/// Checks tool against part over all radii of contact, and settles the range of ρ.
 ///
 /// # Errors
-/// When the tool does not fit, when the surface has no height somewhere on the part, or when a
-/// strategy fails.
-pub fn prepare(
-    chain: &Chain,
-    part: Part,
-    tool: Tool,
-    tolerance: Tolerance,
-    direction: Direction,
-    spindle: SpindleLaw,
-) -> Result<Prepared> {
-    let range = RadialRange {
-        inner: part.inner_radius,
-        outer: part.aperture_radius,
-    };
-    let job = Job {
+/// When the tool does not fit, when the surface has no height somewhere on the part or on its
+/// overrun, or when a strategy fails.
+pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
+    let Wanted {
         part,
         tool,
         tolerance,
-        range,
+        overrun,
         direction,
         spindle,
-    };
+        machine,
+    } = wanted;
     let surface: Arc<dyn SurfaceModel> = Arc::new(AttributedSurface::new(&chain.surface));
     let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));
     let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
-    look_for_numbers(chain, &job)?;
+    look_for_numbers(chain, &part)?;
     let check = |region| {
         let cut = Cut {
             surface: surface.as_ref(),
@@ -68,12 +81,41 @@ pub fn prepare(
         interference(chain, compensator.as_ref(), cut, region)
     };
     // Where the contact goes beyond the rim is known only if the nose fits the part itself.
-    let on_part = check(range)?;
-    refuse(
-        &on_part,
-        |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
+    let on_part = check(RadialRange {
+        inner: part.inner_radius,
+        outer: part.aperture_radius,
+    })?;
+    let largest = || {
+        let fit = Fit {
+            chain,
+            surface: surface.clone(),
+            compensator: compensator.clone(),
+            part,
+            tool,
+            overrun,
+        };
+        fit.largest_nose(on_part.curvature)
+    };
+    let conflicts = |found: &Interference| conflicts(found, &tool, compensator.as_ref());
+    let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });
+    refuse(&on_part, conflicts(&on_part), of_nose, largest)?;
+    let range = range(
+        overrun,
+        &part,
         &tool,
-    )?;
+        surface.as_ref(),
+        compensator.as_ref(),
+    )
+    .map_err(PipelineError::NoSurface)?;
+    let job = Job {
+        part,
+        tool,
+        tolerance,
+        range,
+        direction,
+        spindle,
+        machine,
+    };
     let subject = Subject {
         surface: surface.clone(),
         part,
@@ -82,9 +124,10 @@ pub fn prepare(
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
     let interference = check(contact_range(chain, &locus, &tool, range)?)?;
-    refuse(&interference, |_| true, &tool)?;
+    refuse(&interference, conflicts(&interference), |_| true, largest)?;
     Ok(Prepared {
         job,
+        overrun,
         locus,
         interference,
         touch,
@@ -93,8 +136,8 @@ pub fn prepare(
 
 /// A surface that has no height anywhere on a ring of the part is a plugin's fault, not the
 /// recipe's.
-fn look_for_numbers(chain: &Chain, job: &Job) -> Result<()> {
-    let radius = job.part.inner_radius;
+fn look_for_numbers(chain: &Chain, part: &Part) -> Result<()> {
+    let radius = part.inner_radius;
     let x: Vec<f64> = (0..8).map(|i| radius * turn(i).1).collect();
     let y: Vec<f64> = (0..8).map(|i| radius * turn(i).0).collect();
     let mut z = vec![f64::NAN; x.len()];
@@ -111,7 +154,7 @@ fn turn(eighths: usize) -> (f64, f64) {
     turnpath_core::Scalar::sin_cos(TAU * eighths as f64 / 8.0)
 }
 
-fn interference(
+pub(crate) fn interference(
     chain: &Chain,
     compensator: &dyn Compensator,
     cut: Cut<'_>,
@@ -127,31 +170,52 @@ fn interference(
         let all = [extreme.value, extreme.theta, extreme.rho];
         all.iter().all(|number| number.is_finite())
     };
-    if ![found.curvature, found.contact_angle, found.cut_angle]
-        .iter()
-        .all(numbers)
-    {
+    if !found.extremes().iter().all(numbers) {
         let what = format!("no numbers in its interference check: {found:?}");
         return Err(chain.compensator.bad_answer(what));
     }
     Ok(found)
 }
 
-fn refuse(found: &Interference, which: impl Fn(&Conflict) -> bool, tool: &Tool) -> Result<()> {
-    let conflicts = found.conflicts(tool);
-    if conflicts.iter().any(which) {
-        let interference = *found;
-        return Err(PipelineError::Gouge {
-            conflicts,
-            interference,
-        });
+/// In which ways the tool does not fit, but for those that leave something standing where that is
+/// what the recipe asks for and the compensator can do.
+fn conflicts(found: &Interference, tool: &Tool, compensator: &dyn Compensator) -> Vec<Conflict> {
+    let mut conflicts = found.conflicts(tool);
+    if tool.misfit == Misfit::CutWhatFits && compensator.cuts_what_fits() {
+        conflicts.retain(|conflict| matches!(conflict, Conflict::Clearance { .. }));
     }
-    Ok(())
+    conflicts
+}
+
+/// Refuses a tool that does not fit; of a nose that is too large the message tells the one that
+/// would really do.
+fn refuse(
+    found: &Interference,
+    mut conflicts: Vec<Conflict>,
+    which: impl Fn(&Conflict) -> bool,
+    largest: impl FnOnce() -> Result<LargestNose>,
+) -> Result<()> {
+    if !conflicts.iter().any(which) {
+        return Ok(());
+    }
+    let noses = conflicts.iter_mut().find_map(|conflict| match conflict {
+        Conflict::NoseRadius { largest, at } => Some((largest, at)),
+        _ => None,
+    });
+    if let Some((radius, at)) = noses {
+        let nose = largest()?;
+        (*radius, *at) = (nose.radius, nose.at.place());
+    }
+    let interference = Box::new(*found);
+    Err(PipelineError::Gouge {
+        conflicts,
+        interference,
+    })
 }
 
 /// The radii of contact while ρ runs over `range`: where ρ is the centre's X, contact reaches
 /// beyond it on slopes.
-fn contact_range(
+pub(crate) fn contact_range(
     chain: &Chain,
     locus: &ToolLocus,
     tool: &Tool,
@@ -160,7 +224,10 @@ fn contact_range(
     let theta: Vec<f64> = (0..RIM_ANGLES)
         .map(|i| TAU * i as f64 / RIM_ANGLES as f64)
         .collect();
-    let mut contact = range;
+    let mut contact = RadialRange {
+        inner: range.inner.abs(),
+        ..range
+    };
     for rho in [range.inner, range.outer] {
         let mut room = CentreBuffers::default();
         room.resize(theta.len());
@@ -174,7 +241,7 @@ fn contact_range(
             contact.outer = contact.outer.max(foot.abs());
         }
     }
-    if range.inner == 0.0 {
+    if range.inner <= 0.0 {
         contact.inner = 0.0;
     }
     Ok(contact)

@@ -3,7 +3,7 @@
 //! It is the host's held feed f, but for two things: a margin, and (f⁻⁸ + cap⁻⁸)^(−1/8) in place of
 //! min(f, cap), so that it has derivatives wherever the surface has.
 
-use turnpath_plugin::locus::LARGEST_FEED;
+use turnpath_plugin::locus::{LARGEST_FEED, LEAST_GAP};
 use turnpath_plugin::prelude::*;
 
 use crate::jet::Jet;
@@ -20,6 +20,7 @@ struct Law {
     radial: Radial,
     nose_radius: f64,
     residual: f64,
+    misfit: Misfit,
 }
 
 impl Law {
@@ -29,6 +30,13 @@ impl Law {
         let cap = LARGEST_FEED * self.nose_radius;
         let squared = slope.squared() + 1.0;
         let gap = -(second / (squared * squared.sqrt()) * self.nose_radius) + 1.0;
+        let gap = match self.misfit {
+            Misfit::Refuse => gap,
+            Misfit::CutWhatFits => {
+                let least = S::constant(LEAST_GAP);
+                S::select(gap.less(least), least, gap)
+            }
+        };
         let scale = cap * cap / (8.0 * self.nose_radius * self.residual);
         let y = match self.radial {
             Radial::Contact => squared * gap * scale,
@@ -74,6 +82,7 @@ impl<'a> HeldFeed<'a> {
                 radial: setup.locus.radial(),
                 nose_radius: setup.job.tool.nose_radius,
                 residual: setup.job.tolerance.residual,
+                misfit: setup.job.tool.misfit,
             },
             centres: CentreBuffers::default(),
             sections: Sections::default(),

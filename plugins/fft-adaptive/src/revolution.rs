@@ -15,6 +15,10 @@ const LOOKS: f64 = 16.0;
 /// Arcs are taken for this long at least, mm/rad: a tool that stands still on the axis has none.
 const STILL: f64 = 1e-9;
 
+/// With [`Misfit::CutWhatFits`] steps are no shorter than this, rad: where the nose passes from one
+/// side of a seam to the other the path has a kink, and no step is right. Refinement halves there.
+const LEAST_NEAR_SEAMS: f64 = 0.1 * DEG;
+
 /// How a place is curved along the path.
 #[derive(Debug, Clone, Copy)]
 struct Bend {
@@ -65,6 +69,7 @@ pub struct Revolution {
     bends: Vec<Bend>,
     chord: Chord,
     tolerance: f64,
+    shortest: f64,
     longest: f64,
 }
 
@@ -80,6 +85,10 @@ impl Revolution {
             bends: Vec::new(),
             chord,
             tolerance: path.job.tolerance.interpolation,
+            shortest: match path.job.tool.misfit {
+                Misfit::Refuse => 0.0,
+                Misfit::CutWhatFits => LEAST_NEAR_SEAMS,
+            },
             longest,
         };
         let mut places = FEWEST;
@@ -116,7 +125,8 @@ impl Revolution {
     }
 
     fn allowed(&self, bend: Bend) -> f64 {
-        bend.step(self.chord, self.tolerance).min(self.longest)
+        let step = bend.step(self.chord, self.tolerance);
+        step.max(self.shortest).min(self.longest)
     }
 
     fn least_step(&self) -> f64 {

@@ -5,8 +5,8 @@ use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, propte
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use turnpath_core::{
-    DEG, Direction, Job, Params, Part, Path, RadialRange, Revolutions, Sampler, Series, SpindleLaw,
-    SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
+    DEG, Direction, Job, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler, Series,
+    SpindleLaw, SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::{EqualAngle, EqualArc, Integrated};
 use turnpath_nose_radius::Uncompensated;
@@ -26,6 +26,7 @@ fn job() -> Job {
             nose_radius: 1.0,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         },
         tolerance: Tolerance {
             interpolation: 1e-5,
@@ -36,6 +37,7 @@ fn job() -> Job {
             outer: RIM,
         },
         direction: Direction::Inward,
+        machine: Machine::default(),
         spindle: SpindleLaw::constant(52.0),
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Steps;
 use super::bound::Jumps;
 use crate::{
-    CentreSeries, Path, Rates, Result, Revolutions, Series, SpiralLaw, StrategyError, angle,
+    CentreSeries, DEG, Misfit, Path, Rates, Result, Revolutions, Series, StrategyError, angle,
     per_radian,
 };
 
@@ -18,6 +18,11 @@ const BATCH: u64 = 256;
 const STEEPEST: f64 = 10.0;
 /// It does not where it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
+
+/// With [`Misfit::CutWhatFits`] steps are no shorter than this, rad: where the nose passes from one
+/// side of a seam to the other the path has a kink, and no step of any length is right. Refinement
+/// halves there what is too long.
+const LEAST_NEAR_SEAMS: f64 = 0.1 * DEG;
 
 /// A knot of the law: |φ⁗| before and after it, and what jumps there.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +47,8 @@ struct Played<'a> {
     allowed: f64,
     /// Part of the distance between passes that X's own error may take.
     feed_part: f64,
+    /// |φ⁗| counts as no more than this, mm/rad⁴.
+    sharpest: f64,
     theta: Vec<f64>,
     rho: Vec<f64>,
     x: Vec<Series>,
@@ -97,10 +104,10 @@ impl Played<'_> {
     fn fourth(&self, i: usize, n: f64) -> f64 {
         let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
         if x == 0.0 {
-            return 24.0 * phi;
+            return (24.0 * phi).min(self.sharpest);
         }
-        let x_allowed = self.feed_part * gap(self.path.law, n);
-        24.0 * phi.max(x * self.allowed / x_allowed)
+        let x_allowed = self.feed_part * pitch(&self.path, n);
+        (24.0 * phi.max(x * self.allowed / x_allowed)).min(self.sharpest)
     }
 
     /// The series of φ at place `i` of the last look.
@@ -110,16 +117,18 @@ impl Played<'_> {
     }
 }
 
-/// How far the pass at `n` lies from the next one at its angle, or from the one before where there
-/// is no next, mm. The rate ρ' is no measure of it: on a law that changes with the angle it may be
-/// nought or have the other sign.
-fn gap(law: &SpiralLaw, n: f64) -> f64 {
-    let other = match (n + 1.0 <= law.end(), n >= 1.0) {
-        (true, _) => n + 1.0,
-        (false, true) => n - 1.0,
-        (false, false) => return law.rate(n).abs(),
-    };
-    (law.value(other) - law.value(n)).abs()
+/// How far the next turn lies, mm; at the path's last turn, the one before. The rate is no measure of
+/// it: a law may come to rest at its ends, and one that follows the angle moves back and forth.
+fn pitch(path: &Path<'_>, n: f64) -> f64 {
+    let law = path.law;
+    let to = |other: f64| (law.value(other) - law.value(n)).abs();
+    if n + 1.0 <= law.end() {
+        to(n + 1.0)
+    } else if n >= 1.0 {
+        to(n - 1.0)
+    } else {
+        law.rate(n).abs()
+    }
 }
 
 /// |φ⁗| on the grid around the step in hand, or |X⁗| in its measure.
@@ -143,6 +152,7 @@ impl<'a> Samples<'a> {
             still: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
             allowed,
             feed_part: steps.feed_part,
+            sharpest: sharpest(path.job.tool.misfit, allowed),
             theta: Vec::new(),
             rho: Vec::new(),
             x: Vec::new(),
@@ -232,7 +242,7 @@ impl<'a> Samples<'a> {
             let after = self.played.both();
             self.played.look_before(batch)?;
             for ((n, before), after) in batch.iter().zip(self.played.both()).zip(after) {
-                knots.push(Knot::between(*n, before, after));
+                knots.push(Knot::between(*n, before, after, self.played.sharpest));
             }
         }
         Ok(knots)
@@ -269,20 +279,31 @@ impl Played<'_> {
 impl Knot {
     /// From φ and Z on both sides. A jump counts as that of φ or of Z, whichever is larger: in φ
     /// those of Z and X cancel at the knot's own slope, which is not the slope all over the step.
-    fn between(n: f64, before: [Series; 2], after: [Series; 2]) -> Self {
+    fn between(n: f64, before: [Series; 2], after: [Series; 2], sharpest: f64) -> Self {
         let jump = |k: usize, factorial: f64| {
             let of = |which: usize| (after[which][k] - before[which][k]).abs();
             factorial * of(0).max(of(1))
         };
         Self {
             n,
-            before: 24.0 * before[0][4].abs(),
-            after: 24.0 * after[0][4].abs(),
+            before: (24.0 * before[0][4].abs()).min(sharpest),
+            after: (24.0 * after[0][4].abs()).min(sharpest),
             jumps: Jumps {
                 first: jump(1, 1.0),
                 second: jump(2, 2.0),
                 third: jump(3, 6.0),
             },
+        }
+    }
+}
+
+/// The largest |φ⁗| that counts, mm/rad⁴: that of the least step where there may be seams.
+fn sharpest(misfit: Misfit, allowed: f64) -> f64 {
+    match misfit {
+        Misfit::Refuse => f64::INFINITY,
+        Misfit::CutWhatFits => {
+            let squared = LEAST_NEAR_SEAMS * LEAST_NEAR_SEAMS;
+            384.0 * allowed / (squared * squared)
         }
     }
 }

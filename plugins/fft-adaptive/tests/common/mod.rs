@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, Direction, FeedStrategy, Job, Locus, NM, Onward, ParamValue, Params, Part,
-    RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy, SurfaceModel, Tolerance, Tool,
-    ToolLocus,
+    Compensator, Direction, FeedStrategy, Job, Locus, Machine, NM, Onward, ParamValue, Params,
+    Part, RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy, SurfaceModel, Tolerance,
+    Tool, ToolLocus,
 };
 use turnpath_surfaces::{Astigmatic, SinusoidalArray};
 
@@ -32,6 +32,7 @@ impl Case {
             nose_radius,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         };
         let job = Job {
             part: Part {
@@ -45,6 +46,7 @@ impl Case {
             },
             range: RadialRange { inner: 0.0, outer },
             direction: Direction::Outward,
+            machine: Machine::default(),
             spindle: SpindleLaw::constant(500.0 * TAU / 60.0),
         };
         Self {

@@ -1,0 +1,271 @@
+//! The taper: at both ends of a law the feed runs out, so that the spiral closes.
+//!
+//! A spiral's last pass lies up to a feed inside of where the spiral ends, at the axis up to 1.5
+//! feeds lie between the passes of both sides. A law that runs out from its feed f to rest over n
+//! turns, ρ(m) = f n (s³ − s⁴/2) with s = m/n, has its passes within ρ(1) of its end at every
+//! angle.
+
+use turnpath_core::{Piece, SpiralLaw, quintic};
+
+/// Turns n over which the feed runs out: ρ(1) is 0.38 feeds, so that what stays at a rim is 0.6 of
+/// a cusp, and 0.45 feeds lie between the passes of both sides of the axis. It costs n/2 turns;
+/// n = 1 would leave a whole cusp at the rim.
+const TURNS: f64 = 1.25;
+/// A law whose passes are no further from its end than this part of its pitch closes by itself,
+/// as one does that follows the angle until every angle has passed the rim.
+const CLOSED: f64 = 0.4;
+/// A law that moves by less than this part of its pitch a turn at its end is at rest there.
+const REST: f64 = 0.01;
+/// Turns that a law stays where it ends at rest: with the C² start of a turn that follows, the
+/// passes lie within 0.32 feeds of the end.
+const HOLD: f64 = 0.6;
+/// Angles of a turn at which passes are looked at.
+const ANGLES: usize = 72;
+/// Halvings of the interval in which the taper begins: down to rounding.
+const HALVINGS: usize = 60;
+
+/// The law with its feed running out at both ends, where it does not close by itself.
+pub fn taper(law: &SpiralLaw) -> SpiralLaw {
+    let (start, end) = (End::of(law, false), End::of(law, true));
+    let mut pieces = Vec::new();
+    let mut at = 0.0;
+    let mut put = |length: f64, coefficients: [f64; 6]| {
+        pieces.push(Piece {
+            start: at,
+            coefficients,
+        });
+        at += length;
+    };
+    let (from, to) = (start.cut(), law.end() - end.cut());
+    if let Some((length, coefficients)) = start.piece(law) {
+        put(length, coefficients);
+    }
+    for (i, piece) in law.pieces().iter().enumerate() {
+        let next = law.pieces().get(i + 1).map_or(law.end(), |next| next.start);
+        let (first, last) = (piece.start.max(from), next.min(to));
+        if first < last {
+            put(last - first, piece.shifted(first));
+        }
+    }
+    if let Some((length, coefficients)) = end.piece(law) {
+        put(length, coefficients);
+    }
+    SpiralLaw::from_pieces(pieces, at)
+}
+
+/// What is done at one end of a law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Close {
+    /// Nothing: it closes by itself, or is too short for it.
+    Not,
+    /// It stays where it is.
+    Hold,
+    /// From so many turns before the end on, the feed runs out.
+    Taper(f64),
+}
+
+/// One end of a law.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    last: bool,
+    close: Close,
+}
+
+impl End {
+    fn of(law: &SpiralLaw, last: bool) -> Self {
+        let side = Side { law, last };
+        Self {
+            last,
+            close: side.close(),
+        }
+    }
+
+    /// Turns of the law that the taper takes the place of.
+    fn cut(&self) -> f64 {
+        match self.close {
+            Close::Taper(turns) => turns,
+            Close::Not | Close::Hold => 0.0,
+        }
+    }
+
+    /// The piece that closes this end, with its length.
+    fn piece(&self, law: &SpiralLaw) -> Option<(f64, [f64; 6])> {
+        let side = Side {
+            law,
+            last: self.last,
+        };
+        match self.close {
+            Close::Not => None,
+            Close::Hold => Some((HOLD, [side.rho(0.0), 0.0, 0.0, 0.0, 0.0, 0.0])),
+            Close::Taper(turns) => Some((TURNS, side.run_out(turns))),
+        }
+    }
+}
+
+/// A law seen from one of its ends: m turns away from it.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    law: &'a SpiralLaw,
+    last: bool,
+}
+
+impl Side<'_> {
+    fn at(&self, m: f64) -> f64 {
+        if self.last { self.law.end() - m } else { m }
+    }
+
+    fn rho(&self, m: f64) -> f64 {
+        self.law.value(self.at(m))
+    }
+
+    /// |dρ/dN|.
+    fn speed(&self, m: f64) -> f64 {
+        self.law.rate(self.at(m)).abs()
+    }
+
+    fn close(&self) -> Close {
+        // Both ends have half of the law to themselves.
+        let half = 0.5 * self.law.end();
+        if half < 1.0 {
+            return Close::Not;
+        }
+        let pitch = (self.rho(1.0) - self.rho(0.0)).abs();
+        let away = |m: f64| (self.rho(m) - self.rho(0.0)) / (self.rho(1.0) - self.rho(0.0));
+        let closed = (0..ANGLES).all(|i| away(i as f64 / ANGLES as f64) <= CLOSED);
+        if closed || !pitch.is_normal() {
+            Close::Not
+        } else if self.speed(0.0) <= REST * pitch {
+            Close::Hold
+        } else {
+            self.taper_begins(half).map_or(Close::Not, Close::Taper)
+        }
+    }
+
+    /// m at which what is left of the way is what the feed there takes to run out, half its speed
+    /// for [`TURNS`] turns.
+    fn taper_begins(&self, half: f64) -> Option<f64> {
+        let left = |m: f64| (self.rho(m) - self.rho(0.0)).abs() - 0.5 * TURNS * self.speed(m);
+        let (mut low, mut high) = (0.0, half.min(2.0 * TURNS));
+        if left(high) < 0.0 {
+            return None;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if left(middle) < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(high)
+    }
+
+    /// The quintic between rest at the end and the law at m, in the order of N.
+    fn run_out(&self, m: f64) -> [f64; 6] {
+        let series = self.law.series(self.at(m));
+        let moving = [series[0], series[1], 2.0 * series[2]];
+        let resting = [self.rho(0.0), 0.0, 0.0];
+        match self.last {
+            true => quintic(moving, resting, TURNS),
+            false => quintic(resting, moving, TURNS),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From 1 mm outward by 0.1 mm a turn, faster with time, in two pieces.
+    fn law() -> SpiralLaw {
+        let mut law = SpiralLaw::new();
+        law.push(6.0, [1.0, 0.1, 1e-3, 0.0, 0.0, 0.0]);
+        law.push(4.5, [1.636, 0.112, 1e-3, 0.0, 0.0, 0.0]);
+        law
+    }
+
+    /// The same backwards.
+    fn inward() -> SpiralLaw {
+        let law = law();
+        let mut back = SpiralLaw::new();
+        let [c0, c1, c2, ..] = law.series(law.end());
+        back.push(law.end(), [c0, -c1, c2, 0.0, 0.0, 0.0]);
+        back
+    }
+
+    #[test]
+    fn both_ends_stay_where_they_were_and_come_to_rest() {
+        for law in [law(), inward()] {
+            let tapered = taper(&law);
+            for (n, whole) in [(0.0, 0.0), (tapered.end(), law.end())] {
+                let [value, rate, second, ..] = tapered.series_before(n);
+                assert!((value - law.value(whole)).abs() < 1e-13);
+                assert!(
+                    rate.abs() < 1e-13 && second.abs() < 1e-12,
+                    "{rate} {second}"
+                );
+            }
+            let more = tapered.end() - law.end();
+            assert!((1.2..1.35).contains(&more), "{more} turns more");
+        }
+    }
+
+    #[test]
+    fn value_and_two_derivatives_are_continuous() {
+        let tapered = taper(&law());
+        let knots: Vec<f64> = tapered.knots(0.0, tapered.end()).collect();
+        assert_eq!(knots.len(), 3);
+        for knot in knots {
+            let (before, after) = (tapered.series_before(knot), tapered.series(knot));
+            for k in 0..3 {
+                assert!((before[k] - after[k]).abs() < 1e-12, "{before:?} {after:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn passes_close_at_rim_and_axis() {
+        for law in [law(), inward()] {
+            let tapered = taper(&law);
+            for last in [false, true] {
+                let side = Side {
+                    law: &tapered,
+                    last,
+                };
+                let feed = Side { law: &law, last }.speed(0.5);
+                let away = |m: f64| (side.rho(m) - side.rho(0.0)).abs();
+                for i in 0..72 {
+                    let m = f64::from(i) / 72.0;
+                    assert!(away(m) < 0.42 * feed, "{m}: {}", away(m) / feed);
+                    let across = away(0.5 * m) + away(0.5 * m + 0.5);
+                    assert!(across < 0.55 * feed, "{m}: {}", across / feed);
+                    // Every turn beyond the last, and by no more than the feed.
+                    let step = away(m + 1.0) - away(m);
+                    assert!(step > 0.0 && step < 1.05 * feed, "{m}: {}", step / feed);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_law_at_rest_at_its_start_is_held() {
+        let mut law = SpiralLaw::new();
+        law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
+        law.push(9.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
+        let held = taper(&law);
+        assert_eq!(held.value(HOLD), 1.0);
+        assert!((held.value(HOLD + 3.0) - law.value(3.0)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_law_that_closes_by_itself_or_is_short_is_left_alone() {
+        let mut law = SpiralLaw::new();
+        law.push(1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
+        law.push(7.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(End::of(&law, false).close, Close::Not);
+        let mut short = SpiralLaw::new();
+        short.push(1.5, [1.0, 0.1, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(taper(&short), short);
+    }
+}
