@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::turn::{Departure, Turn, Turns};
+use crate::turn::{Turn, Turns};
 
 /// Places of a piece at which it is held against the end of the range.
 const LOOKS: usize = 32;
@@ -17,9 +17,7 @@ const BATCH: usize = 8;
 /// At every cutting point the feed that holds the residual there:
 /// ℓ(N + 1) = ℓ(N) ± f, so that X moves back and forth within each turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AtsFeed {
-    departure: Departure,
-}
+pub struct AtsFeed;
 
 impl Strategy for AtsFeed {
     const NAME: &'static str = "ats";
@@ -28,20 +26,8 @@ impl Strategy for AtsFeed {
     const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, from its abstract and \
         from Wang et al. 2019; the law is derived here";
 
-    const PARAMS: &'static [Param] = &[Param::choice(
-        "first_turn",
-        &["even", "smoothstep"],
-        "even: at an even rate from the first circle; smoothstep: from rest to rest, and X then \
-         stands still at every whole turn",
-    )
-    .default_choice("even")];
-
-    fn new(params: &Params) -> Result<Self> {
-        let departure = match params.choice("first_turn") {
-            "smoothstep" => Departure::Smoothstep,
-            _ => Departure::Even,
-        };
-        Ok(Self { departure })
+    fn new(_: &Params) -> Result<Self> {
+        Ok(Self)
     }
 }
 
@@ -54,7 +40,7 @@ impl FeedStrategy for AtsFeed {
             )));
         }
         Ok(Box::new(AtsPlan {
-            departure: self.departure,
+            made: 0,
             last: None,
             count: None,
             short: None,
@@ -64,7 +50,8 @@ impl FeedStrategy for AtsFeed {
 
 /// The law as far as it has come: one turn is all that the next one needs.
 struct AtsPlan {
-    departure: Departure,
+    /// How many turns are made.
+    made: usize,
     last: Option<Turn>,
     /// Pieces that the next turn should try.
     count: Option<usize>,
@@ -77,10 +64,8 @@ impl FeedPlan for AtsPlan {
         let goal = Goal::of(setup.job);
         let mut turns = Turns::new(setup, self.count);
         for _ in 0..BATCH {
-            let turn = match &self.last {
-                None => turns.first(goal.start, self.departure)?,
-                Some(last) => turns.after(last)?,
-            };
+            let turn = turns.turn(self.made, goal.start, self.last.as_ref())?;
+            self.made += 1;
             let short = goal.last_short(&turn);
             match (self.last.is_some(), short, self.short) {
                 // Every angle has passed: the turn that began where the last fell short ends it.

@@ -7,15 +7,15 @@
 //! law is derived, and held against cusps by brute force.
 //!
 //! **The feed.** ℓ(N + 1) = ℓ(N) ± f, with f the feed that holds the residual at that place and
-//! angle. The first turn leaves the circle ρ₀ by q(N)·f(ρ₀, 2πN), q a quintic from 0 to 1, such that
-//! ρ and its first two derivatives go on across every whole turn; the third jumps there. What was
-//! decided:
+//! angle. The path leaves the circle ρ₀ by ℓ(N + 1) = ℓ(N) ± q(N)·f, q two quintics from 0 to 1, such
+//! that ρ and its first two derivatives go on across every whole turn; the third jumps there. What
+//! was decided:
 //!
-//! - What q does in the first turn, ℓ' does in every turn after it. With the quintic smoothstep
-//!   (`first_turn = "smoothstep"`) X comes to a stop once a turn on a part of any shape: a sphere of
-//!   50 mm cut at 500 rpm takes 10 mm/s² RMS of X. The default, `"even"`, begins with q' = 1, q'' = 0
-//!   and ends with what the recursion makes of them, q' = 1 ± f_ρ and q'' = f·f_ρρ ± 4π·f_ρθ: where
-//!   nothing follows the angle it is the smooth spiral of one value a radius (3e-5 mm/s²).
+//! - q rises over two turns, not over one. What one turn does to ρ' every turn after it repeats: with
+//!   a smoothstep over one, from rest to rest, X comes to a stop once a turn on a part of any shape (a
+//!   sphere of 50 mm cut at 500 rpm then takes 10 mm/s² RMS of X, where 3e-5 do). Over two, with
+//!   q'(u) + q'(1 + u) = 1, the rate is even where nothing follows the angle, and the path still
+//!   begins at rest. The first turn stays within 0.4 feeds of ρ₀: the edge is cut at every angle.
 //! - f is taken in the middle of the step, at ρ ± ½f, where the cusp stands. With f at its start
 //!   the cusps would exceed the tolerance by f_ρ wherever the feed falls along the cut.
 //! - The cap at R/10 is a smooth one, and f keeps 0.15 % below what holds, the room of X's own

@@ -20,14 +20,8 @@ use turnpath_surfaces::{Conic, SinusoidalArray, XyPolynomial};
 const MARGIN: f64 = 1.5e-3;
 const STRAY: f64 = 5e-5;
 
-fn feed(first_turn: &str) -> AtsFeed {
-    let mut params = Params::new();
-    params.set("first_turn", ParamValue::Text(first_turn.to_owned()));
-    AtsFeed::new(&params).unwrap()
-}
-
 fn ats(case: &Case) -> SpiralLaw {
-    case.law(&feed("even")).unwrap()
+    case.law(&AtsFeed).unwrap()
 }
 
 fn outward(case: &Case) -> f64 {
@@ -45,7 +39,7 @@ fn check_shape(case: &Case, law: &SpiralLaw) {
         Direction::Outward => (range.inner, range.outer),
         Direction::Inward => (range.outer, range.inner),
     };
-    assert_eq!(law.value(0.0), from);
+    assert_eq!(law.series(0.0)[..3], [from, 0.0, 0.0]);
     for piece in law.pieces().iter().skip(1) {
         let (before, after) = (law.series_before(piece.start), law.series(piece.start));
         let scale = 1.0 + before[2].abs();
@@ -60,8 +54,16 @@ fn check_shape(case: &Case, law: &SpiralLaw) {
         .map(ahead)
         .fold(f64::INFINITY, f64::min);
     assert!(least >= 0.0, "an angle ends {least} mm short");
-    let first = turn(0.0).map(|n| sign * (law.value(n) - from));
-    assert!(first.fold(f64::INFINITY, f64::min) >= 0.0);
+    for n in turn(0.0).filter(|n| n + 1.0 <= law.end()) {
+        let (way, next) = (
+            sign * (law.value(n) - from),
+            law.value(n + 1.0) - law.value(n),
+        );
+        assert!(
+            way >= 0.0 && way <= 0.4 * next.abs() * (1.0 + 1e-2) + 1e-15,
+            "{way} {next}"
+        );
+    }
     let slowest = ahead(law.end() - 1.0);
     let feed = case.held(0.0, to);
     assert!(slowest <= 0.2 * feed, "{slowest} mm too far");
@@ -108,7 +110,7 @@ fn check_cusps(case: &Case, law: &SpiralLaw, offset: f64) {
     let cap = 0.1 * case.job.tool.nose_radius;
     let places = 150;
     for i in 0..places {
-        let n = 1.0 + (law.end() - 2.0) * (f64::from(i) + offset) / f64::from(places);
+        let n = 2.0 + (law.end() - 3.0) * (f64::from(i) + offset) / f64::from(places);
         let theta = angle(n);
         let (rho, next) = (law.value(n), law.value(n + 1.0));
         let gap = outward(case) * (next - rho);
@@ -130,7 +132,7 @@ fn the_law_is_the_recursion_of_the_hosts_held_feed() {
         let law = ats(&case);
         let sign = outward(&case);
         for i in 0..2000 {
-            let n = 1.0 + (law.end() - 2.0) * f64::from(i) / 2000.0;
+            let n = 2.0 + (law.end() - 3.0) * f64::from(i) / 2000.0;
             let (theta, rho) = (angle(n), law.value(n));
             let half = 0.5 * sign * (1.0 - MARGIN) * case.held(theta, rho);
             let feed = (1.0 - MARGIN) * case.held(theta, rho + half);
@@ -140,17 +142,21 @@ fn the_law_is_the_recursion_of_the_hosts_held_feed() {
     }
 }
 
+/// q over two turns: from rest, by 0.4 of the feed in the first, and by all of it from the third on.
 #[test]
-fn with_smoothstep_the_first_turn_leaves_its_circle_by_it() {
+fn the_first_two_turns_bring_the_feed_in() {
     let case = ast_5(ZDirection);
-    let law = case.law(&feed("smoothstep")).unwrap();
+    let law = ats(&case);
     assert_eq!(law.series(0.0)[..3], [0.0; 3]);
-    for i in 0..=50 {
+    for i in 0..100 {
         let n = f64::from(i) / 50.0;
-        let q = n * n * n * (10.0 - 15.0 * n + 6.0 * n * n);
-        let half = 0.5 * (1.0 - MARGIN) * case.held(angle(n), 0.0);
-        let feed = (1.0 - MARGIN) * case.held(angle(n), half);
-        assert!((law.value(n) - q * feed).abs() <= STRAY * feed);
+        let before = if n < 1.0 { 0.0 } else { law.value(n - 1.0) };
+        let u = n - n.floor();
+        let rest = u * u * u * u * (1.0 - 0.6 * u);
+        let q = if n < 1.0 { rest } else { 0.4 + u - rest };
+        let half = 0.5 * (1.0 - MARGIN) * case.held(angle(n), before);
+        let feed = (1.0 - MARGIN) * case.held(angle(n), before + half);
+        assert!((law.value(n) - before - q * feed).abs() <= STRAY * feed);
     }
 }
 
@@ -242,11 +248,7 @@ fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
         }
     }
     let case = Case::new(Arc::new(Roof), Arc::new(Uncompensated), 4.0, 1.0, 100.0);
-    let error = case
-        .with_hole(1.0)
-        .law(&feed("even"))
-        .unwrap_err()
-        .to_string();
+    let error = case.with_hole(1.0).law(&AtsFeed).unwrap_err().to_string();
     assert!(
         error.contains("ρ = 1.000 mm") && error.contains("`atpg`"),
         "{error}"
@@ -255,21 +257,18 @@ fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
 
 #[test]
 fn nothing_to_cut_is_an_error() {
-    let error = ast_5(ZDirection)
-        .with_hole(2.5)
-        .law(&feed("even"))
-        .unwrap_err();
+    let error = ast_5(ZDirection).with_hole(2.5).law(&AtsFeed).unwrap_err();
     assert!(error.to_string().contains("nothing to cut"), "{error}");
 }
 
 #[test]
-fn thin_rings_have_a_law_of_two_turns() {
+fn thin_rings_have_a_law_of_a_few_turns() {
     for direction in [Direction::Outward, Direction::Inward] {
         let mut case = ast_5(ZDirection).with_hole(2.4999);
         case.job.direction = direction;
         let law = ats(&case);
         check_shape(&case, &law);
-        assert!(law.end() < 2.0, "{}", law.end());
+        assert!(law.end() < 3.0, "{}", law.end());
     }
 }
 
@@ -304,17 +303,15 @@ fn check(mut case: Case, inward: bool, offset: f64) {
     if inward {
         case = case.inward();
     }
-    for first_turn in ["even", "smoothstep"] {
-        let law = case.law(&feed(first_turn)).unwrap();
-        check_shape(&case, &law);
-        check_cusps(&case, &law, offset);
-    }
+    let law = ats(&case);
+    check_shape(&case, &law);
+    check_cusps(&case, &law, offset);
 }
 
-/// On a part of rotational symmetry no angle is slower than another: an even first turn gives a
-/// spiral whose rate follows the radius, a smoothstep one that stands still once a turn.
+/// On a part of rotational symmetry no angle is slower than another: the rate follows the radius
+/// alone, and never pauses.
 #[test]
-fn on_a_sphere_the_even_law_is_as_smooth_as_atpgs() {
+fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
     let params = Params::new().with("radius", 60.0).with("conic", 0.0);
     let surface = Arc::new(Conic::new(&params).unwrap());
     for direction in [Direction::Outward, Direction::Inward] {
@@ -323,13 +320,11 @@ fn on_a_sphere_the_even_law_is_as_smooth_as_atpgs() {
         let law = ats(&case);
         check_shape(&case, &law);
         for i in 0..500 {
-            let n = law.end() * f64::from(i) / 500.0;
+            let n = 2.0 + (law.end() - 2.0) * f64::from(i) / 500.0;
             let held = case.held(0.0, law.value(n));
             let share = law.rate(n).abs() / held;
             assert!((share - 1.0 + MARGIN).abs() < 1e-4, "{share} at {n}");
         }
-        let paused = case.law(&feed("smoothstep")).unwrap();
-        assert!(paused.rate(100.0).abs() < 1e-3 * paused.rate(100.5).abs());
     }
 }
 

@@ -19,9 +19,7 @@ use turnpath_surfaces::SinusoidalArray;
 const INSTANTS: i32 = 16;
 
 fn law(case: &Case) -> SpiralLaw {
-    let mut params = Params::new();
-    params.set("first_turn", ParamValue::Text("even".to_owned()));
-    case.law(&AtsFeed::new(&params).unwrap()).unwrap()
+    case.law(&AtsFeed).unwrap()
 }
 
 fn path<'a>(case: &'a Case, law: &'a SpiralLaw) -> Path<'a> {
