@@ -15,7 +15,7 @@ pub(crate) use cutting::{spindle, tolerance};
 pub(crate) use output::{machine, output};
 pub(crate) use path::path;
 pub(crate) use pmac_pvt::pmac_pvt;
-pub(crate) use top::{format_is_one, top};
+pub(crate) use top::{KEYS as TOP_KEYS, format_is_one, top};
 pub(crate) use work::{part, tool};
 
 /// The tables with fixed keys.
