@@ -1,0 +1,150 @@
+//! `ablation.json` and `ablation.csv`.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value, json};
+use turnpath_core::Slot;
+use turnpath_post::{Draft, FileError};
+use turnpath_recipe::Variant;
+
+use crate::summary::to_json;
+
+use super::Outcome;
+use super::columns::{self, figure};
+
+const JSON: &str = "ablation.json";
+const CSV: &str = "ablation.csv";
+
+/// What each variant gave, in their order: a summary with `varied`, `program_bytes` and
+/// `planning_time_s`, or a chain with `varied` and `error`.
+pub fn entries(variants: &[Variant], outcomes: &[Outcome]) -> Vec<Value> {
+    let both = variants.iter().zip(outcomes);
+    both.map(|(variant, outcome)| entry(variant, outcome))
+        .collect()
+}
+
+fn entry(variant: &Variant, outcome: &Outcome) -> Value {
+    let mut entry = Map::new();
+    match outcome {
+        Ok(made) => {
+            if let Value::Object(summary) = &made.summary {
+                entry.extend(summary.clone());
+            }
+            // Names play no part in what is taken over.
+            entry.insert("name".to_owned(), json!(variant.recipe.name));
+            entry.insert("program_bytes".to_owned(), json!(made.program_bytes));
+            entry.insert("planning_time_s".to_owned(), json!(made.planning_time_s));
+        }
+        Err(failure) => {
+            entry.insert("chain".to_owned(), chain(variant));
+            entry.insert("error".to_owned(), json!(failure.title()));
+        }
+    }
+    let varied = variant.varied.iter();
+    let varied: Map<String, Value> = varied
+        .map(|varied| (varied.key.clone(), json!(varied.value)))
+        .collect();
+    entry.insert("varied".to_owned(), Value::Object(varied));
+    Value::Object(entry)
+}
+
+fn chain(variant: &Variant) -> Value {
+    let slots = Slot::ALL.into_iter();
+    let names = slots.map(|slot| {
+        let name = variant.recipe.choice(slot).name();
+        (slot.key().to_owned(), json!(name))
+    });
+    Value::Object(names.collect())
+}
+
+/// The content of `ablation.json`.
+pub fn document(entries: &[Value]) -> Value {
+    json!({ "runs": entries })
+}
+
+/// The files of an ablation.
+pub struct Report {
+    folder: PathBuf,
+}
+
+impl Report {
+    /// Makes the folder, and looks whether the files can stand there.
+    pub fn ready(folder: &Path) -> Result<Self, FileError> {
+        fs::create_dir_all(folder).map_err(|error| FileError {
+            path: folder.to_owned(),
+            error,
+        })?;
+        for name in [JSON, CSV] {
+            Draft::can_be(&folder.join(name))?;
+        }
+        let folder = folder.to_owned();
+        Ok(Self { folder })
+    }
+
+    /// Writes both files; gives their paths.
+    pub fn write(
+        &self,
+        variants: &[Variant],
+        entries: &[Value],
+    ) -> Result<Vec<PathBuf>, FileError> {
+        let first = variants.first().map(|variant| variant.varied.as_slice());
+        let keys = first.unwrap_or_default().iter();
+        let keys: Vec<&str> = keys.map(|varied| varied.key.as_str()).collect();
+        let (csv, json) = (self.folder.join(CSV), self.folder.join(JSON));
+        let table = csv_table(&keys, entries).map_err(|error| FileError {
+            path: csv.clone(),
+            error,
+        })?;
+        let csv = write(csv, &table)?;
+        let json = write(json, to_json(&document(entries)).as_bytes())?;
+        Ok(vec![json, csv])
+    }
+}
+
+fn write(path: PathBuf, bytes: &[u8]) -> Result<PathBuf, FileError> {
+    let mut draft = Draft::begin(&path)?;
+    match draft.write_all(bytes) {
+        Ok(()) => draft.complete(),
+        Err(error) => Err(FileError { path, error }),
+    }
+}
+
+/// A header, and a row a run: its number, what varies, all figures, which tolerances hold, why it
+/// failed.
+fn csv_table(keys: &[&str], entries: &[Value]) -> io::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let figures = columns::ALL.iter().map(|column| column.csv);
+    let header = ["run"].into_iter().chain(keys.iter().copied());
+    let header = header.chain(figures).chain(WITHIN.map(|(name, _)| name));
+    writer.write_record(header.chain(["reason"]))?;
+    for (index, entry) in entries.iter().enumerate() {
+        let varied = keys.iter().map(|key| text(&entry["varied"][*key]));
+        let figures = columns::ALL.iter();
+        let figures = figures.map(|column| figure(entry, column).map_or_else(String::new, text));
+        let within = WITHIN.iter().map(|(_, pointer)| entry.pointer(pointer));
+        let within = within.map(|flag| flag.map_or_else(String::new, text));
+        let row = [(index + 1).to_string()].into_iter().chain(varied);
+        let row = row.chain(figures).chain(within);
+        writer.write_record(row.chain([text(&entry["error"])]))?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| io::Error::other(error.to_string()))
+}
+
+/// Columns that say which tolerances hold.
+const WITHIN: [(&str, &str); 2] = [
+    ("within_interpolation", "/within/interpolation"),
+    ("within_residual", "/within/residual"),
+];
+
+/// A value as it stands in CSV: a string without quotes, nothing for null.
+fn text(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        value => value.to_string(),
+    }
+}
