@@ -21,6 +21,8 @@ const BEST: &str = "*";
 const EXCEEDS: &str = "!";
 /// Where there is no figure.
 const NONE: &str = "–";
+/// Figures below this are rounding: 1e-9 nm, or mm/s².
+const ROUNDING: f64 = 1e-9;
 /// Columns that a figure takes besides its own width: a space before it, and its mark.
 const AROUND: usize = 2;
 
@@ -102,7 +104,9 @@ struct Figures {
 
 impl Figures {
     fn of(entries: &[Value], column: &Column) -> Self {
-        let numbers: Vec<Option<f64>> = entries.iter().map(|entry| number(entry, column)).collect();
+        let tidy = |number: f64| if number.abs() < ROUNDING { 0.0 } else { number };
+        let figures = entries.iter().map(|entry| number(entry, column));
+        let numbers: Vec<Option<f64>> = figures.map(|number| number.map(tidy)).collect();
         let best = best(&numbers, column.form).filter(|_| column.has_best());
         let first = numbers.first().copied().flatten();
         let rows = entries.iter().zip(&numbers).enumerate();

@@ -5,7 +5,7 @@ use turnpath_core::Slot;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Entry, Node, Table, Value};
 use crate::place::Place;
-use crate::read::{Section, tables_with};
+use crate::read::Section;
 use crate::suggest::{did_you_mean, listed, quoted};
 use crate::tables::{SCHEMA, TOP_KEYS};
 use crate::value;
@@ -132,6 +132,10 @@ impl Walk<'_> {
                 continue;
             }
             match &entry.node.value {
+                Value::Table(inner) if is_strategy(&path, inner) => {
+                    let complaint = not_a_strategy(&dotted(&path), &entry.node);
+                    self.found.push(complaint);
+                }
                 Value::Table(inner) if !is_final(&path) => self.table(inner, &path),
                 _ => match self.list(path, &entry.node) {
                     Ok(list) => self.lists.push(list),
@@ -178,10 +182,16 @@ fn is_final(path: &[(String, Place)]) -> bool {
     }
 }
 
+/// Whether a strategy stands where a list of them should.
+fn is_strategy(path: &[(String, Place)], table: &Table) -> bool {
+    let name = table.get("use").map(|entry| &entry.node.value);
+    matches!(path, [(key, _)] if is_slot(key)) && matches!(name, Some(Value::Text(_)))
+}
+
 fn not_a_strategy(key: &str, item: &Node) -> Diagnostic {
     let help = match &item.value {
         Value::Text(name) => format!("write it as a table: {{ use = {name:?} }}"),
-        _ => "a strategy is a table with its parameters: { use = \"…\" }".to_owned(),
+        _ => format!("for example: {key} = [{{ use = \"…\" }}, {{ use = \"…\" }}]"),
     };
     value::wrong_type(key, item, "a list of strategies").help(help)
 }
@@ -223,7 +233,12 @@ fn cannot_begin(first: &str, place: &Place, entry: &Entry) -> Option<Diagnostic>
 }
 
 fn unknown_beginning(first: &str, place: &Place, known: &[&str]) -> Diagnostic {
-    let elsewhere = || tables_with(first).map(|tables| format!("`{first}` belongs to {tables}"));
+    let elsewhere = || {
+        let mut tables = SCHEMA.iter().filter(|(_, keys)| keys.contains(&first));
+        tables
+            .next()
+            .map(|(table, _)| format!("write it with its table: {table}.{first}"))
+    };
     let title = format!("the recipe has no key or table {} to vary", quoted(first));
     Diagnostic::new(place.clone(), title)
         .label("unknown")
