@@ -3,6 +3,7 @@
 //! Every run leaves a record in `DIR/runs`, named by the hash of all that the run depends on. A run
 //! whose record is there is not made again, so an interrupted ablation goes on where it stopped.
 
+mod clock;
 pub mod columns;
 mod key;
 mod one;

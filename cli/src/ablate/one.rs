@@ -1,7 +1,6 @@
 //! One run of an ablation: the path of a variant made and measured, and nothing written.
 
 use std::io;
-use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -16,6 +15,8 @@ use crate::job::{Job, of_pipeline};
 use crate::programs::pmac_format;
 use crate::run::{making, refuse_straight_lines, summary};
 
+use super::clock;
+
 /// What a run gave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Made {
@@ -24,13 +25,13 @@ pub struct Made {
     /// Bytes of the lines that the post `pmac-pvt` makes of the points, header and footer aside;
     /// none where such a program cannot carry the path.
     pub program_bytes: Option<u64>,
-    /// How long one thread took to make and measure the path.
+    /// Processor time that it took to make and measure the path, on one thread.
     pub planning_time_s: f64,
 }
 
-/// Makes and measures the path of a recipe.
+/// Makes and measures the path of a recipe; on a pool of one thread, so that its time counts.
 pub fn make(recipe: &Recipe, catalogue: &Catalogue) -> Result<Made, Failure> {
-    let begun = Instant::now();
+    let begun = clock::now();
     let job = Job::of(recipe.clone(), catalogue.clone())?;
     refuse_straight_lines(&job)?;
     let mut sizes = Sizes::of(&job);
@@ -45,7 +46,7 @@ pub fn make(recipe: &Recipe, catalogue: &Catalogue) -> Result<Made, Failure> {
     Ok(Made {
         summary,
         program_bytes: sizes.program_bytes,
-        planning_time_s: begun.elapsed().as_secs_f64(),
+        planning_time_s: clock::now() - begun,
     })
 }
 

@@ -1,7 +1,7 @@
 //! The runs that are still to be made: several at a time, one thread each.
 //!
-//! A run has one thread to itself, so that planning times compare, and memory is that of as many
-//! runs as there are threads.
+//! A run has one thread to itself: its processor time compares with that of any other run, on
+//! however many threads, and memory is that of as many runs as there are threads.
 
 use std::num::NonZero;
 use std::sync::Mutex;

@@ -81,7 +81,7 @@ fn legend(columns: &[Figures]) -> String {
         text += "program: the lines that pmac-pvt makes of the points, measured\n";
     }
     if has(Form::Clock) {
-        text += "planning: to make and measure the path, on one thread\n";
+        text += "planning: processor time to make and measure the path\n";
     }
     text
 }
