@@ -7,6 +7,7 @@ use turnpath_pipeline::expect;
 
 use crate::args::{CheckArgs, Format};
 use crate::job::{Job, of_pipeline};
+use crate::machine::MachineAsked;
 use crate::programs::asked;
 use crate::run::print;
 use crate::summary::to_json;
@@ -21,6 +22,8 @@ struct Checked {
     largest_nose_radius_mm: Option<f64>,
     least_included_angle_deg: f64,
     least_clearance_angle_deg: f64,
+    /// Limits that the path will be held against; null without any.
+    machine: Option<MachineAsked>,
     expected: Expected,
 }
 
@@ -52,6 +55,7 @@ pub fn check(args: &CheckArgs) -> Done {
         largest_nose_radius_mm: Some(found.largest_nose_radius()).filter(|r| r.is_finite()),
         least_included_angle_deg: 2.0 * found.contact_angle.value / DEG,
         least_clearance_angle_deg: found.cut_angle.value / DEG,
+        machine: MachineAsked::new(&job.recipe),
         expected: Expected {
             revolutions: expected.revolutions,
             cutting_time_s: expected.cutting_time,
@@ -97,6 +101,9 @@ fn human(job: &Job, checked: &Checked, found: &Interference) -> String {
     text += &figures::line("included angle", included);
     let clearance = angle(tool.clearance_angle, checked.least_clearance_angle_deg);
     text += &figures::line("clearance angle", clearance);
+    if let Some(machine) = &checked.machine {
+        text += &machine.lines(&job.recipe);
+    }
     let expected = &checked.expected;
     let points = figures::grouped(expected.control_points as u64);
     text += &figures::line("points", format!("about {points}, before refinement"));

@@ -80,7 +80,7 @@ pub fn against(value: f64, tolerance: f64, holds: bool) -> String {
     format!("{value:>12} of {limit:<11} {verdict}")
 }
 
-/// The lines on what was measured, each error against its tolerance.
+/// The lines on what was measured, each error against its tolerance, motion against limits.
 pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
     let (error, residual) = (&measured.interpolation_error_nm, &measured.residual_nm);
     let within = &measured.within;
@@ -104,7 +104,10 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
             None => format!("not measured: {}", residual.left_out),
         },
     );
-    text
+    if let Some(machine) = &measured.machine {
+        text += &machine.lines();
+    }
+    text + &measured.highest_spindle.line()
 }
 
 #[cfg(test)]

@@ -43,6 +43,7 @@ impl Job {
             overrun: recipe.overrun,
             direction: recipe.direction,
             spindle: SpindleLaw::constant(recipe.spindle_speed),
+            machine: recipe.machine,
         };
         let prepared = prepare(&chain, wanted).map_err(|error| of_pipeline(&recipe, error))?;
         Ok(Self {
@@ -88,6 +89,13 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
             let place = recipe.nearest_place("part.aperture");
             recipe
                 .complaint(place, title, "the part reaches there", [])
+                .into()
+        }
+        PipelineError::Lead { .. } => {
+            let place = recipe.nearest_place("path.lead");
+            let help = "choose another `clearance`, or write lead = false under [path]";
+            recipe
+                .complaint(place, title, "leads are made here", [help.to_owned()])
                 .into()
         }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),

@@ -8,7 +8,9 @@ mod failure;
 mod figures;
 mod files;
 mod job;
+mod lead;
 mod list;
+mod machine;
 mod programs;
 mod progress;
 mod reach;
@@ -35,9 +37,9 @@ use failure::Failure;
 /// How a command ended that did what it was asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Verdict {
-    /// All tolerances hold.
+    /// All tolerances hold, and all limits of the machine.
     Holds,
-    /// A tolerance does not hold.
+    /// A tolerance or a limit of the machine does not hold.
     Exceeded,
 }
 

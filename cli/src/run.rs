@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use turnpath_core::Slot;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::{Catalogue, Plugin};
-use turnpath_pipeline::{Making, Outcome, run as run_pipeline};
+use turnpath_pipeline::{LeadLimits, LeadSettings, Making, Outcome, run as run_pipeline};
 use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 use turnpath_recipe::Recipe;
 
@@ -58,6 +58,7 @@ pub fn making(job: &Job) -> Making {
     Making {
         refine: job.recipe.refine,
         time_steps: (!job.recipe.output.posts.is_empty()).then_some(PMAC_TIME_STEPS),
+        lead: lead(job),
     }
 }
 
@@ -65,6 +66,14 @@ pub fn making(job: &Job) -> Making {
 pub fn summary(job: &Job, rows: u64, outcome: &Outcome, programs: Vec<ProgramSummary>) -> Summary {
     let plugins = used_plugins(&job.recipe, &job.catalogue);
     Summary::new(&job.recipe, &job.chain, &plugins, rows, outcome, programs)
+}
+
+/// How the path comes and goes, where the recipe wants leads.
+fn lead(job: &Job) -> Option<LeadSettings> {
+    job.recipe.lead.then(|| LeadSettings {
+        clearance: job.recipe.clearance,
+        limits: LeadLimits::within(job.recipe.machine),
+    })
 }
 
 /// A program in PVT mode plays cubics; a path of straight lines is another one.
@@ -112,6 +121,9 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::line("revolutions", format!("{:.2}", summary.revolutions));
     text += &figures::line("cutting time", figures::duration(summary.cutting_time_s));
     text += &figures::measured(&summary.measured, &job.recipe.tolerance);
+    if let Some(lead) = &summary.measured.lead {
+        text += &lead.lines(summary.measured.within.lead);
+    }
     for program in &summary.programs {
         let (error, holds) = (program.interpolation_error_nm, program.within_interpolation);
         let tolerance = job.recipe.tolerance.interpolation;

@@ -5,7 +5,10 @@ use turnpath_core::{DEG, Direction, Tolerance};
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
-use turnpath_verify::{AxisMotion, PathFigures};
+use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak};
+
+use crate::lead::Lead;
+use crate::machine::{HighestSpindle, MachineFigures};
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
@@ -40,6 +43,12 @@ pub struct Measured {
     pub residual_nm: Residual,
     pub surface_error_nm: SurfaceError,
     pub axes: Axes,
+    /// The machine's limits; null without any.
+    pub machine: Option<MachineFigures>,
+    #[serde(flatten)]
+    pub highest_spindle: HighestSpindle,
+    /// Null without leads.
+    pub lead: Option<Lead>,
     pub within: Within,
 }
 
@@ -105,17 +114,31 @@ pub struct Axes {
 #[derive(Debug, Serialize)]
 pub struct Axis {
     max_velocity: f64,
+    rms_velocity: f64,
     max_acceleration: f64,
     rms_acceleration: f64,
     max_jerk: f64,
+    rms_jerk: f64,
+    at: AxisPlaces,
 }
 
-/// Which tolerances hold; `machine` is null without limits to hold.
+/// Where an axis' largest amounts are.
+#[derive(Debug, Serialize)]
+struct AxisPlaces {
+    max_velocity: Place,
+    max_acceleration: Place,
+    max_jerk: Place,
+}
+
+/// Which tolerances hold; `machine` is null without limits of which there are figures, `lead` without
+/// leads.
 #[derive(Debug, Serialize)]
 pub struct Within {
     pub interpolation: bool,
     pub residual: bool,
     machine: Option<bool>,
+    /// Whether the leads stay above the first touch, to the interpolation tolerance.
+    pub lead: Option<bool>,
     /// Whether the path covers the part; only of a file, since a run's law is held to that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<bool>,
@@ -128,6 +151,8 @@ pub struct ProgramSummary {
     pub post: &'static str,
     pub interpolation_error_nm: f64,
     pub within_interpolation: bool,
+    /// Null without leads.
+    pub within_lead: Option<bool>,
 }
 
 #[derive(Debug, Serialize)]
@@ -166,7 +191,10 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(&outcome.figures, &recipe.tolerance),
+            measured: Measured::new(&outcome.figures, recipe).with_lead(
+                outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),
+                &recipe.tolerance,
+            ),
             programs,
             plugins: plugins
                 .iter()
@@ -180,7 +208,7 @@ impl Summary {
         let programs = || {
             self.programs
                 .iter()
-                .all(|program| program.within_interpolation)
+                .all(|program| program.within_interpolation && program.within_lead.unwrap_or(true))
         };
         self.measured.all_hold() && programs()
     }
@@ -211,9 +239,11 @@ impl ChainNames {
 }
 
 impl Measured {
-    /// Figures against tolerances, in the units of the file.
-    pub fn new(figures: &PathFigures, tolerance: &Tolerance) -> Self {
+    /// Figures against the recipe's tolerances and limits, in the units of the file.
+    pub fn new(figures: &PathFigures, recipe: &Recipe) -> Self {
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
+        let tolerance = &recipe.tolerance;
+        let machine = MachineFigures::new(axes, recipe);
         let at = Place {
             c_deg: playback.at_c / DEG,
             x_mm: playback.at_x,
@@ -236,20 +266,32 @@ impl Measured {
                 },
             },
             surface_error_nm: SurfaceError::default(),
-            axes: Axes {
-                x: Axis::of(&axes.x, 1.0),
-                z: Axis::of(&axes.z, 1.0),
-                c: Axis::of(&axes.c, DEG),
-            },
+            axes: Axes::of(axes),
+            lead: None,
             within: Within {
                 interpolation: holds(playback.max(), tolerance.interpolation),
                 residual: residual
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
-                machine: None,
+                machine: machine.as_ref().and_then(MachineFigures::hold),
+                lead: None,
                 reach: None,
             },
+            machine,
+            highest_spindle: HighestSpindle::new(axes, recipe),
         }
+    }
+
+    /// The same with what was measured on leads.
+    pub fn with_lead(mut self, lead: Option<Lead>, tolerance: &Tolerance) -> Self {
+        self.within.lead = lead.as_ref().map(|lead| lead.clears(tolerance));
+        let within_machine = lead.as_ref().and_then(Lead::within_machine);
+        self.within.machine = match (self.within.machine, within_machine) {
+            (Some(cut), Some(lead)) => Some(cut && lead),
+            (cut, lead) => cut.or(lead),
+        };
+        self.lead = lead;
+        self
     }
 
     /// Whether all that is measured holds.
@@ -258,9 +300,21 @@ impl Measured {
             interpolation,
             residual,
             machine,
+            lead,
             reach,
         } = self.within;
-        interpolation && residual && machine.unwrap_or(true) && reach.unwrap_or(true)
+        let others = [machine, lead, reach];
+        interpolation && residual && others.iter().all(|holds| holds.unwrap_or(true))
+    }
+}
+
+impl Place {
+    /// Where a largest amount is.
+    pub fn of(peak: &Peak) -> Self {
+        Self {
+            c_deg: peak.at_c / DEG,
+            x_mm: peak.at_x,
+        }
     }
 }
 
@@ -270,6 +324,7 @@ impl ProgramSummary {
         file: String,
         post: &'static str,
         figures: &PathFigures,
+        lead: Option<&LeadFigures>,
         tolerance: &Tolerance,
     ) -> Self {
         let error = figures.playback.max();
@@ -278,22 +333,41 @@ impl ProgramSummary {
             post,
             interpolation_error_nm: error * NM_PER_MM,
             within_interpolation: holds(error, tolerance.interpolation),
+            within_lead: lead.map(|lead| holds(-lead.clearance, tolerance.interpolation)),
         }
     }
 }
 
-/// Whether a measured figure holds a tolerance.
-fn holds(measured: f64, tolerance: f64) -> bool {
+/// Whether a measured figure holds a tolerance or a limit.
+pub fn holds(measured: f64, tolerance: f64) -> bool {
     measured <= ALLOWED * tolerance
+}
+
+impl Axes {
+    /// Motion in the units of the file.
+    pub fn of(axes: &AxesMotion) -> Self {
+        Self {
+            x: Axis::of(&axes.x, 1.0),
+            z: Axis::of(&axes.z, 1.0),
+            c: Axis::of(&axes.c, DEG),
+        }
+    }
 }
 
 impl Axis {
     fn of(motion: &AxisMotion, unit: f64) -> Self {
         Self {
-            max_velocity: motion.max_velocity / unit,
-            max_acceleration: motion.max_acceleration / unit,
+            max_velocity: motion.velocity.amount / unit,
+            rms_velocity: motion.rms_velocity() / unit,
+            max_acceleration: motion.acceleration.amount / unit,
             rms_acceleration: motion.rms_acceleration() / unit,
-            max_jerk: motion.max_jerk / unit,
+            max_jerk: motion.jerk.amount / unit,
+            rms_jerk: motion.rms_jerk() / unit,
+            at: AxisPlaces {
+                max_velocity: Place::of(&motion.velocity),
+                max_acceleration: Place::of(&motion.acceleration),
+                max_jerk: Place::of(&motion.jerk),
+            },
         }
     }
 }

@@ -168,3 +168,78 @@ pub fn hex(bytes: &[u8]) -> String {
     }
     hex
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RECIPE: &str = r#"format = 1
+name = "Map"
+[part]
+aperture = "5 mm"
+[surface]
+use = "grid"
+map = "map.dat"
+[tool]
+nose_radius = "1 mm"
+[tolerance]
+interpolation = "100 nm"
+residual = "100 nm"
+[spindle]
+speed = "500 rpm"
+[path]
+overrun = "none"
+lead = false
+[feed]
+use = "constant"
+[sampler]
+use = "equal-angle"
+[compensator]
+use = "z-direction"
+[velocity]
+use = "analytic"
+"#;
+
+    fn key(folder: &Path, text: &str) -> Key {
+        let recipe = Recipe::parse(text, folder.join("recipe.toml"), &[]).unwrap();
+        Keys::new(&Catalogue::new()).of(&recipe)
+    }
+
+    #[test]
+    fn the_contents_of_files_that_the_recipe_names_count() {
+        let folder = tempfile::tempdir().unwrap();
+        let map = folder.path().join("map.dat");
+        std::fs::write(&map, "1 2 3").unwrap();
+        let before = key(folder.path(), RECIPE);
+        assert_eq!(before, key(folder.path(), RECIPE));
+        let hash = before.of["files"]["map.dat"].as_str().unwrap();
+        assert_eq!(hash, hex(&Sha256::digest(b"1 2 3")));
+        std::fs::write(&map, "1 2 4").unwrap();
+        assert_ne!(before.hash, key(folder.path(), RECIPE).hash);
+    }
+
+    #[test]
+    fn names_comments_and_the_order_of_keys_do_not_count_and_values_do() {
+        let folder = tempfile::tempdir().unwrap();
+        let key = |from: &str, to: &str| {
+            assert!(RECIPE.contains(from), "{from}");
+            key(folder.path(), &RECIPE.replacen(from, to, 1)).hash
+        };
+        let same = key("Map", "Map");
+        assert_eq!(same, key("Map", "Another"));
+        assert_eq!(same, key("[tool]", "# the old one\n[tool]"));
+        assert_eq!(
+            same,
+            key(
+                "overrun = \"none\"\nlead = false",
+                "lead = false\noverrun = \"none\""
+            )
+        );
+        assert_eq!(same, key("[feed]", "[output]\ndata = []\n[feed]"));
+        assert_ne!(same, key("1 mm", "2 mm"));
+        assert_ne!(
+            same,
+            key("[feed]", "[output]\nposts = [\"pmac-pvt\"]\n[feed]")
+        );
+    }
+}

@@ -111,7 +111,7 @@ fn write(path: PathBuf, bytes: &[u8]) -> Result<PathBuf, FileError> {
     }
 }
 
-/// A header, and a row a run: its number, what varies, all figures, which tolerances hold, why it
+/// A header, and a row a run: its number, what varies, all figures, which tolerances and limits hold, why it
 /// failed.
 fn csv_table(keys: &[&str], entries: &[Value]) -> io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -134,10 +134,12 @@ fn csv_table(keys: &[&str], entries: &[Value]) -> io::Result<Vec<u8>> {
         .map_err(|error| io::Error::other(error.to_string()))
 }
 
-/// Columns that say which tolerances hold.
-const WITHIN: [(&str, &str); 2] = [
+/// Columns that say which tolerances and limits hold.
+const WITHIN: [(&str, &str); 4] = [
     ("within_interpolation", "/within/interpolation"),
     ("within_residual", "/within/residual"),
+    ("within_machine", "/within/machine"),
+    ("within_lead", "/within/lead"),
 ];
 
 /// A value as it stands in CSV: a string without quotes, nothing for null.

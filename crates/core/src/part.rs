@@ -1,6 +1,6 @@
 //! What is cut, with what, how exactly, and in which direction.
 
-use crate::SpindleLaw;
+use crate::{Machine, SpindleLaw};
 
 /// A degree in rad.
 pub const DEG: f64 = std::f64::consts::PI / 180.0;
@@ -94,4 +94,6 @@ pub struct Job {
     pub direction: Direction,
     /// How fast the spindle turns.
     pub spindle: SpindleLaw,
+    /// What the machine can do; a strategy may keep to it.
+    pub machine: Machine,
 }

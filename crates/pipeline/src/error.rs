@@ -56,6 +56,14 @@ pub enum PipelineError {
     /// The surface has no height on a part of the part.
     #[error("{0}")]
     NoSurface(StrategyError),
+    /// There is no lead-in or no lead-out that keeps to what it must.
+    #[error("no {which} could be made: {what}")]
+    Lead {
+        /// `lead-in` or `lead-out`.
+        which: &'static str,
+        /// Why not.
+        what: String,
+    },
     /// The path's measure could not be taken.
     #[error("the path could not be measured: {0}")]
     Measure(StrategyError),

@@ -8,6 +8,7 @@ mod attributed;
 mod chain;
 mod error;
 mod law;
+mod lead;
 mod make;
 mod order;
 mod plan;
@@ -20,6 +21,7 @@ mod taper;
 
 pub use chain::{Chain, Link};
 pub use error::{PipelineError, Result};
+pub use lead::{AxisLimits, LeadLimits, LeadSettings, Leads};
 pub use plan::BLOCK;
 pub use prepare::{Prepared, Wanted, prepare};
 pub use progress::{Progress, Quiet, Stage};

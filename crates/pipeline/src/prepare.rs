@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Overrun, Part, RadialRange, SpindleLaw,
-    StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Overrun, Part, RadialRange,
+    SpindleLaw, StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
@@ -34,11 +34,13 @@ pub struct Wanted {
     pub direction: Direction,
     /// How fast the spindle turns.
     pub spindle: SpindleLaw,
+    /// What the machine can do.
+    pub machine: Machine,
 }
 
 /// A job whose tool fits its part.
 pub struct Prepared {
-    /// Part, tool, tolerances, range of ρ, direction, spindle.
+    /// Part, tool, tolerances, range of ρ, direction, spindle, machine.
     pub job: Job,
     /// How far the path runs beyond the part.
     pub overrun: Overrun,
@@ -63,6 +65,7 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
         overrun,
         direction,
         spindle,
+        machine,
     } = wanted;
     let surface: Arc<dyn SurfaceModel> = Arc::new(AttributedSurface::new(&chain.surface));
     let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));
@@ -100,6 +103,7 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
         range,
         direction,
         spindle,
+        machine,
     };
     let subject = Subject {
         surface: surface.clone(),

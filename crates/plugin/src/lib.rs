@@ -47,12 +47,12 @@ pub mod prelude {
     pub use turnpath_core::interference::{self, Interference};
     pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{
-        CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence, Direction, Dual,
-        FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus, Mask, NM, Nodes,
-        Onward, Param, Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates,
-        Result, Revolutions, Sampler, Scalar, Series, Setup, SpindleLaw, SpiralLaw, Strategy,
-        StrategyError, Stretch, Surface, SurfaceModel, Taylor, Tolerance, Tool, Turn, UM,
-        Velocities, VelocitySolver, angle, per_radian, quintic,
+        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence,
+        Direction, Dual, FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus,
+        Machine, Mask, NM, Nodes, Onward, Param, Params, Part, Path, Piece, PiecewisePolynomial,
+        Radial, RadialRange, Rates, Result, Revolutions, Sampler, Scalar, Series, Setup,
+        SpindleLaw, SpiralLaw, Strategy, StrategyError, Stretch, Surface, SurfaceModel, Taylor,
+        Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
     };
 }
 

@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::de::DeTable;
-use turnpath_core::{Direction, Overrun, Part, Slot, Tolerance, Tool};
+use turnpath_core::{Direction, Machine, Overrun, Part, Slot, Tolerance, Tool};
 
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Reader, Table};
 use crate::place::{Located, Place, Source};
+use crate::presets::Preset;
 use crate::read::Sections;
 use crate::set;
 use crate::tables::{self, Interference, Output, PmacPvt};
@@ -34,12 +35,18 @@ pub struct Recipe {
     pub tolerance: Tolerance,
     /// Speed of the spindle, rad/s.
     pub spindle_speed: f64,
+    /// What the machine can do; no limits unless the recipe says so.
+    pub machine: Machine,
+    /// The machine that the recipe names; its own limits go before those of the preset.
+    pub preset: Option<&'static Preset>,
     /// Which way the tool feeds.
     pub direction: Direction,
     /// How far the path runs beyond the aperture.
     pub overrun: Overrun,
     /// Whether the path runs from rest to rest.
     pub lead: bool,
+    /// How far it rests above the highest place of the part, mm.
+    pub clearance: f64,
     /// Whether segments whose error exceeds the tolerance are halved. `place("refine")` tells
     /// whether the recipe says so itself.
     pub refine: bool,
@@ -287,11 +294,14 @@ pub(crate) fn build(
         return None;
     }
     let top = tables::top(&mut sections.top());
-    tables::machine(&mut sections.open("machine"));
     let part = tables::part(&mut sections.open("part"));
     let tool = tables::tool(&mut sections.open("tool"));
     let tolerance = tables::tolerance(&mut sections.open("tolerance"));
     let speed = tables::spindle(&mut sections.open("spindle"));
+    let machine = tables::machine(&mut sections.open("machine"));
+    if let Some(speed) = speed {
+        tables::check_spindle(&mut sections.open("spindle"), speed, &machine.machine);
+    }
     let way = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
@@ -305,9 +315,12 @@ pub(crate) fn build(
         interference: tool.interference,
         tolerance: tolerance?,
         spindle_speed: speed?,
+        machine: machine.machine,
+        preset: machine.preset,
         direction: way.direction,
         overrun: way.overrun,
         lead: way.lead,
+        clearance: way.clearance,
         refine: top.refine,
         output,
         pmac_pvt,

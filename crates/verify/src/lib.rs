@@ -7,6 +7,8 @@
 
 mod axes;
 mod cusp;
+mod lead;
+mod limits;
 mod meter;
 mod playback;
 mod profiles;
@@ -15,7 +17,9 @@ mod scan;
 mod subject;
 mod touch;
 
-pub use axes::{AxesMotion, AxisMotion};
+pub use axes::{AxesMotion, AxisMotion, Peak};
+pub use lead::{Jumps, LeadFigures, LeadMeter, LeadStretch};
+pub use limits::{HighestSpeed, LimitFigure};
 pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
 pub use residual::{ResidualFigures, SECTIONS};

@@ -10,7 +10,7 @@ use crate::touch::{FirstTouch, Touch};
 /// places misses its top by up to 1 %, the parabola through it and its neighbours by 0.1 %.
 pub const INSTANTS: usize = 16;
 /// Segments that are played back in one batch.
-const BATCH: usize = 64;
+pub(crate) const BATCH: usize = 64;
 
 /// The interpolation error of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -147,7 +147,7 @@ fn beyond_sample(before: f64, top: f64, after: f64) -> (f64, f64) {
 
 /// Room for a batch of instants.
 #[derive(Default)]
-struct Room {
+pub(crate) struct Room {
     theta: Vec<f64>,
     x: Vec<f64>,
     z: Vec<f64>,
@@ -156,14 +156,20 @@ struct Room {
 
 impl Room {
     /// Played − true Z of a segment of the batch, mm.
-    fn errors(&self, segment: usize) -> [f64; INSTANTS] {
+    pub(crate) fn errors(&self, segment: usize) -> [f64; INSTANTS] {
         std::array::from_fn(|k| {
             let instant = segment * INSTANTS + k;
             self.z[instant] - self.touches[instant].z
         })
     }
 
-    fn play(&mut self, batch: &[Segment], touch: &FirstTouch) -> Result<()> {
+    /// X played at an instant of a segment of the batch, mm.
+    pub(crate) fn x(&self, segment: usize, instant: usize) -> f64 {
+        self.x[segment * INSTANTS + instant]
+    }
+
+    /// Plays segments, and finds the first touch at each instant.
+    pub(crate) fn play(&mut self, batch: &[Segment], touch: &FirstTouch) -> Result<()> {
         for places in [&mut self.theta, &mut self.x, &mut self.z] {
             places.clear();
         }

@@ -4,8 +4,8 @@
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
 use std::sync::Arc;
 use turnpath_core::{
-    DEG, Direction, Job, Params, Part, Path, RadialRange, Revolutions, Sampler, SpindleLaw,
-    SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
+    DEG, Direction, Job, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler,
+    SpindleLaw, SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::EqualAngle;
 use turnpath_nose_radius::Uncompensated;
@@ -32,6 +32,7 @@ fn job() -> Job {
         },
         direction: Direction::Inward,
         spindle: SpindleLaw::constant(52.0),
+        machine: Machine::default(),
     }
 }
 

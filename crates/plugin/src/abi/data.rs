@@ -3,8 +3,8 @@
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
-    Direction, Job, ParamValue, Params, Part, Piece, PiecewisePolynomial, RadialRange, Result,
-    Slot, SpindleLaw, StrategyError, Tolerance, Tool,
+    AxisLimits, Direction, Job, Machine, ParamValue, Params, Part, Piece, PiecewisePolynomial,
+    RadialRange, Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
 };
 
 use crate::guarded;
@@ -222,6 +222,62 @@ impl From<&AbiLaw> for PiecewisePolynomial {
 }
 
 #[repr(C)]
+#[derive(StableAbi, Clone, Copy)]
+pub struct AbiAxisLimits {
+    velocity: ROption<f64>,
+    acceleration: ROption<f64>,
+    jerk: ROption<f64>,
+}
+
+impl From<AxisLimits> for AbiAxisLimits {
+    fn from(limits: AxisLimits) -> Self {
+        Self {
+            velocity: limits.velocity.into(),
+            acceleration: limits.acceleration.into(),
+            jerk: limits.jerk.into(),
+        }
+    }
+}
+
+impl From<AbiAxisLimits> for AxisLimits {
+    fn from(limits: AbiAxisLimits) -> Self {
+        Self {
+            velocity: limits.velocity.into(),
+            acceleration: limits.acceleration.into(),
+            jerk: limits.jerk.into(),
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(StableAbi, Clone, Copy)]
+pub struct AbiMachine {
+    x: AbiAxisLimits,
+    z: AbiAxisLimits,
+    c: AbiAxisLimits,
+}
+
+impl From<Machine> for AbiMachine {
+    fn from(machine: Machine) -> Self {
+        Self {
+            x: machine.x.into(),
+            z: machine.z.into(),
+            c: machine.c.into(),
+        }
+    }
+}
+
+impl From<AbiMachine> for Machine {
+    fn from(machine: AbiMachine) -> Self {
+        Self {
+            x: machine.x.into(),
+            z: machine.z.into(),
+            c: machine.c.into(),
+        }
+    }
+}
+
+#[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiJob {
     aperture_radius: f64,
@@ -232,6 +288,7 @@ pub struct AbiJob {
     range: AbiRange,
     inward: bool,
     spindle: AbiLaw,
+    machine: AbiMachine,
 }
 
 impl From<&Job> for AbiJob {
@@ -245,6 +302,7 @@ impl From<&Job> for AbiJob {
             range: job.range.into(),
             inward: job.direction == Direction::Inward,
             spindle: job.spindle.as_time().into(),
+            machine: job.machine.into(),
         }
     }
 }
@@ -269,6 +327,7 @@ impl From<&AbiJob> for Job {
                 Direction::Outward
             },
             spindle: SpindleLaw::from_time((&job.spindle).into()),
+            machine: job.machine.into(),
         }
     }
 }
@@ -280,5 +339,46 @@ pub fn same_length(lengths: &[usize]) -> Result<()> {
             StrategyError::failed("the slices of a call differ in length"),
         ),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_job_comes_back_as_it_went() {
+        let limits = |velocity: f64| AxisLimits {
+            velocity: Some(velocity),
+            acceleration: None,
+            jerk: Some(3.0 * velocity),
+        };
+        let job = Job {
+            part: Part {
+                aperture_radius: 4.0,
+                inner_radius: 1.0,
+            },
+            tool: Tool {
+                nose_radius: 0.5,
+                included_angle: Some(2.0),
+                clearance_angle: None,
+            },
+            tolerance: Tolerance {
+                interpolation: 1e-4,
+                residual: 2e-4,
+            },
+            range: RadialRange {
+                inner: 0.9,
+                outer: 4.1,
+            },
+            direction: Direction::Outward,
+            spindle: SpindleLaw::constant(50.0),
+            machine: Machine {
+                x: limits(1.0),
+                z: limits(2.0),
+                c: limits(5.0),
+            },
+        };
+        assert_eq!(Job::from(&AbiJob::from(&job)), job);
     }
 }
