@@ -26,7 +26,7 @@ pub enum Command {
     Run(RunArgs),
     /// Check a recipe without making its path: parameters, interference, expected size
     Check(CheckArgs),
-    /// Make the variants of a recipe that its [ablation] lists, and set their figures side by side
+    /// Make the variants of a recipe that its `[ablation]` lists, and set their figures side by side
     Ablate(AblateArgs),
     /// Measure a tool path against a recipe's surface, tool and tolerances
     Verify(VerifyArgs),
