@@ -8,7 +8,7 @@ use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
 use crate::failure::Failure;
-use crate::figures::millimetres;
+use crate::figures::{millimetres, nose_radius};
 use crate::programs::not_carried;
 use crate::strategies;
 
@@ -127,8 +127,8 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
             format!(
                 "nose radius {} exceeds the smallest concave radius {}, at x = {}, y = {} in the \
                  radial direction",
-                millimetres(recipe.tool.nose_radius, 3),
-                millimetres(*largest, 3),
+                nose_radius(recipe.tool.nose_radius),
+                nose_radius(*largest),
                 millimetres(at.x, 2),
                 millimetres(at.y, 2)
             ),
@@ -145,12 +145,13 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
             ),
             "choose a tool with a larger included angle, or a smaller aperture",
         ),
-        Conflict::Clearance { least, at } => (
+        Conflict::Clearance { least, at, uphill } => (
             "tool.clearance_angle",
             format!(
-                "the flank rubs: at x = {}, y = {} the surface falls along the cut by {:.2} deg",
+                "the flank rubs: at x = {}, y = {} the surface {} along the cut by {:.2} deg",
                 millimetres(at.x, 2),
                 millimetres(at.y, 2),
+                if *uphill { "rises" } else { "falls" },
                 least.to_degrees()
             ),
             "choose a tool with a larger clearance angle, or a smaller aperture",

@@ -3,10 +3,12 @@
 mod ablate;
 mod args;
 mod check;
+mod coverage;
 mod explain;
 mod failure;
 mod figures;
 mod files;
+mod interference;
 mod job;
 mod lead;
 mod list;

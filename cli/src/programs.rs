@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use turnpath_core::toolpath::{PathStretch, SegmentShape};
-use turnpath_pipeline::{Leads, Outcome, Progress, Stage};
+use turnpath_pipeline::{Leads, Outcome, PipelineError, Progress, Stage};
 use turnpath_post::{
     Draft, FileError, PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacReader,
     PmacWriter, ReadPath, Template,
@@ -14,6 +14,7 @@ use turnpath_recipe::{Located, Recipe, ZReference};
 use turnpath_verify::FirstTouch;
 
 use crate::failure::Failure;
+use crate::job::of_pipeline;
 use crate::summary::ProgramSummary;
 use crate::verify::{BLOCK_ROWS, measure};
 
@@ -164,11 +165,13 @@ impl Program {
             let message = format!("error: {name} has {count} points of the path's {points}");
             return Err(Failure::File(message));
         }
+        let figures = measured.cut.figures();
+        let figures = figures.map_err(|e| of_pipeline(recipe, PipelineError::Measure(e)))?;
         let file = self.file.clone();
         Ok(ProgramSummary::new(
             file,
             PMAC_PVT,
-            measured.cut.figures(),
+            &figures,
             measured.lead.figures(),
             &recipe.tolerance,
         ))

@@ -11,6 +11,7 @@ use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 use turnpath_recipe::Recipe;
 
 use crate::args::{Format, RunArgs};
+use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::figures;
 use crate::files::Files;
@@ -59,6 +60,7 @@ pub fn making(job: &Job) -> Making {
         refine: job.recipe.refine,
         time_steps: (!job.recipe.output.posts.is_empty()).then_some(PMAC_TIME_STEPS),
         lead: lead(job),
+        covers_centre: Promise::of(job.recipe.overrun).covers_centre,
     }
 }
 
@@ -120,7 +122,7 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::line("points", format!("{points} ({added})"));
     text += &figures::line("revolutions", format!("{:.2}", summary.revolutions));
     text += &figures::line("cutting time", figures::duration(summary.cutting_time_s));
-    text += &figures::measured(&summary.measured, &job.recipe.tolerance);
+    text += &figures::measured(&summary.measured, &job.recipe);
     if let Some(lead) = &summary.measured.lead {
         text += &lead.lines(summary.measured.within.lead);
     }

@@ -7,6 +7,7 @@ use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak};
 
+use crate::coverage::{AxisCrossing, Coverage, Promise, largest_uncut};
 use crate::lead::Lead;
 use crate::machine::{HighestSpindle, MachineFigures};
 
@@ -41,6 +42,8 @@ pub struct Summary {
 pub struct Measured {
     pub interpolation_error_nm: InterpolationError,
     pub residual_nm: Residual,
+    pub coverage_nm: Coverage,
+    pub axis_crossing_um: AxisCrossing,
     pub surface_error_nm: SurfaceError,
     pub axes: Axes,
     /// The machine's limits; null without any.
@@ -136,6 +139,9 @@ struct AxisPlaces {
 pub struct Within {
     pub interpolation: bool,
     pub residual: bool,
+    /// Whether no more than the residual stays uncut at the part's edges and around the axis;
+    /// null where the path is not meant to cover the part.
+    pub coverage: Option<bool>,
     machine: Option<bool>,
     /// Whether the leads stay above the first touch, to the interpolation tolerance.
     pub lead: Option<bool>,
@@ -241,6 +247,7 @@ impl ChainNames {
 impl Measured {
     /// Figures against the recipe's tolerances and limits, in the units of the file.
     pub fn new(figures: &PathFigures, recipe: &Recipe) -> Self {
+        let promise = Promise::of(recipe.overrun);
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
         let tolerance = &recipe.tolerance;
         let machine = MachineFigures::new(axes, recipe);
@@ -262,9 +269,12 @@ impl Measured {
                 },
                 left_out: match residual.cusps {
                     0 => "no turn has a neighbour",
+                    _ if promise.covers_centre => "nothing",
                     _ => "the innermost turn",
                 },
             },
+            coverage_nm: Coverage::new(&figures.coverage),
+            axis_crossing_um: AxisCrossing::new(&figures.coverage),
             surface_error_nm: SurfaceError::default(),
             axes: Axes::of(axes),
             lead: None,
@@ -273,6 +283,9 @@ impl Measured {
                 residual: residual
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
+                coverage: promise
+                    .covers_part
+                    .then(|| holds(largest_uncut(&figures.coverage), tolerance.residual)),
                 machine: machine.as_ref().and_then(MachineFigures::hold),
                 lead: None,
                 reach: None,
@@ -299,12 +312,13 @@ impl Measured {
         let Within {
             interpolation,
             residual,
+            coverage,
             machine,
             lead,
             reach,
         } = self.within;
-        let others = [machine, lead, reach];
-        interpolation && residual && others.iter().all(|holds| holds.unwrap_or(true))
+        let asked = [coverage, machine, lead, reach];
+        interpolation && residual && asked.into_iter().flatten().all(|holds| holds)
     }
 }
 

@@ -15,6 +15,7 @@ use turnpath_recipe::Recipe;
 use turnpath_verify::{FirstTouch, LeadMeter, LeadStretch, Measured as CutStretch, Meter, Subject};
 
 use crate::args::{Format, VerifyArgs};
+use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::job::{of_pipeline, use_threads};
 use crate::lead::Lead;
@@ -71,7 +72,8 @@ pub fn verify(args: &VerifyArgs) -> Done {
     let lead = lead
         .figures()
         .map(|figures| Lead::measured(figures, &recipe));
-    let measured = Measured::new(meter.figures(), &recipe);
+    let figures = meter.figures().map_err(failed)?;
+    let measured = Measured::new(&figures, &recipe);
     let mut measured = measured.with_lead(lead, &recipe.tolerance);
     measured.within.reach = Some(reach.covers(&recipe.part));
     let verified = Verified {
@@ -181,7 +183,7 @@ pub fn measure(
 ) -> Result<PathMeters, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
     let mut meters = PathMeters {
-        cut: Meter::new(touch),
+        cut: Meter::new(touch).counting_centre(Promise::of(recipe.overrun).covers_centre),
         lead: LeadMeter::default(),
     };
     loop {
@@ -216,7 +218,7 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     let rows = figures::grouped(verified.rows);
     text += &figures::line("points", format!("{cutting} that cut, of {rows} rows"));
     text += &verified.reach_mm.line(radial, &recipe.part);
-    text += &figures::measured(&verified.measured, &recipe.tolerance);
+    text += &figures::measured(&verified.measured, recipe);
     if let Some(lead) = &verified.measured.lead {
         text += &lead.lines(verified.measured.within.lead);
     }

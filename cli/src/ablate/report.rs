@@ -115,32 +115,48 @@ fn write(path: PathBuf, bytes: &[u8]) -> Result<PathBuf, FileError> {
 /// failed.
 fn csv_table(keys: &[&str], entries: &[Value]) -> io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let figures = columns::ALL.iter().map(|column| column.csv);
-    let header = ["run"].into_iter().chain(keys.iter().copied());
-    let header = header.chain(figures).chain(WITHIN.map(|(name, _)| name));
-    writer.write_record(header.chain(["reason"]))?;
+    let limits = limits(entries);
+    let texts = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect();
+    let figures = columns::ALL.iter().map(|column| column.csv.to_owned());
+    let within = limits.iter().map(|limit| format!("within_{limit}"));
+    let header: Vec<Vec<String>> = vec![
+        texts(&["run"]),
+        texts(keys),
+        figures.collect(),
+        within.collect(),
+        texts(&["reason"]),
+    ];
+    writer.write_record(header.concat())?;
     for (index, entry) in entries.iter().enumerate() {
         let varied = keys.iter().map(|key| text(&entry["varied"][*key]));
         let figures = columns::ALL.iter();
         let figures = figures.map(|column| figure(entry, column).map_or_else(String::new, text));
-        let within = WITHIN.iter().map(|(_, pointer)| entry.pointer(pointer));
-        let within = within.map(|flag| flag.map_or_else(String::new, text));
-        let row = [(index + 1).to_string()].into_iter().chain(varied);
-        let row = row.chain(figures).chain(within);
-        writer.write_record(row.chain([text(&entry["error"])]))?;
+        let within = limits.iter().map(|limit| text(&entry["within"][*limit]));
+        let row: Vec<Vec<String>> = vec![
+            vec![(index + 1).to_string()],
+            varied.collect(),
+            figures.collect(),
+            within.collect(),
+            vec![text(&entry["error"])],
+        ];
+        writer.write_record(row.concat())?;
     }
     writer
         .into_inner()
         .map_err(|error| io::Error::other(error.to_string()))
 }
 
-/// Columns that say which tolerances and limits hold.
-const WITHIN: [(&str, &str); 4] = [
-    ("within_interpolation", "/within/interpolation"),
-    ("within_residual", "/within/residual"),
-    ("within_machine", "/within/machine"),
-    ("within_lead", "/within/lead"),
-];
+/// The tolerances and limits of which any run tells whether they hold.
+fn limits(entries: &[Value]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    let within = entries.iter().filter_map(|entry| entry.get("within"));
+    for name in within.filter_map(Value::as_object).flat_map(Map::keys) {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    names
+}
 
 /// A value as it stands in CSV: a string without quotes, nothing for null.
 fn text(value: &Value) -> String {

@@ -51,7 +51,7 @@ pub enum PipelineError {
         /// In which ways; at least one.
         conflicts: Vec<Conflict>,
         /// What the part asks for.
-        interference: Interference,
+        interference: Box<Interference>,
     },
     /// The surface has no height on a part of the part.
     #[error("{0}")]

@@ -7,6 +7,7 @@
 mod attributed;
 mod chain;
 mod error;
+mod largest_nose;
 mod law;
 mod lead;
 mod make;
@@ -21,6 +22,7 @@ mod taper;
 
 pub use chain::{Chain, Link};
 pub use error::{PipelineError, Result};
+pub use largest_nose::largest_nose;
 pub use lead::{AxisLimits, LeadLimits, LeadSettings, Leads};
 pub use plan::BLOCK;
 pub use prepare::{Prepared, Wanted, prepare};

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
+use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::{
     CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Overrun, Part, RadialRange,
     SpindleLaw, StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
@@ -11,6 +12,7 @@ use turnpath_core::{
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::attributed::{AttributedCompensator, AttributedSurface};
+use crate::largest_nose::Fit;
 use crate::range::range;
 use crate::{Chain, PipelineError, Result};
 
@@ -83,10 +85,22 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
         inner: part.inner_radius,
         outer: part.aperture_radius,
     })?;
+    let largest = || {
+        let fit = Fit {
+            chain,
+            surface: surface.clone(),
+            compensator: compensator.clone(),
+            part,
+            tool,
+            overrun,
+        };
+        fit.largest_nose(on_part.curvature)
+    };
     refuse(
         &on_part,
         |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
         &tool,
+        largest,
     )?;
     let range = range(
         overrun,
@@ -113,7 +127,7 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
     let interference = check(contact_range(chain, &locus, &tool, range)?)?;
-    refuse(&interference, |_| true, &tool)?;
+    refuse(&interference, |_| true, &tool, largest)?;
     Ok(Prepared {
         job,
         overrun,
@@ -143,7 +157,7 @@ fn turn(eighths: usize) -> (f64, f64) {
     turnpath_core::Scalar::sin_cos(TAU * eighths as f64 / 8.0)
 }
 
-fn interference(
+pub(crate) fn interference(
     chain: &Chain,
     compensator: &dyn Compensator,
     cut: Cut<'_>,
@@ -159,31 +173,43 @@ fn interference(
         let all = [extreme.value, extreme.theta, extreme.rho];
         all.iter().all(|number| number.is_finite())
     };
-    if ![found.curvature, found.contact_angle, found.cut_angle]
-        .iter()
-        .all(numbers)
-    {
+    if !found.extremes().iter().all(numbers) {
         let what = format!("no numbers in its interference check: {found:?}");
         return Err(chain.compensator.bad_answer(what));
     }
     Ok(found)
 }
 
-fn refuse(found: &Interference, which: impl Fn(&Conflict) -> bool, tool: &Tool) -> Result<()> {
-    let conflicts = found.conflicts(tool);
-    if conflicts.iter().any(which) {
-        let interference = *found;
-        return Err(PipelineError::Gouge {
-            conflicts,
-            interference,
-        });
+/// Refuses a tool that does not fit; of a nose that is too large the message tells the one that
+/// would really do.
+fn refuse(
+    found: &Interference,
+    which: impl Fn(&Conflict) -> bool,
+    tool: &Tool,
+    largest: impl FnOnce() -> Result<LargestNose>,
+) -> Result<()> {
+    let mut conflicts = found.conflicts(tool);
+    if !conflicts.iter().any(which) {
+        return Ok(());
     }
-    Ok(())
+    let noses = conflicts.iter_mut().find_map(|conflict| match conflict {
+        Conflict::NoseRadius { largest, at } => Some((largest, at)),
+        _ => None,
+    });
+    if let Some((radius, at)) = noses {
+        let nose = largest()?;
+        (*radius, *at) = (nose.radius, nose.at.place());
+    }
+    let interference = Box::new(*found);
+    Err(PipelineError::Gouge {
+        conflicts,
+        interference,
+    })
 }
 
 /// The radii of contact while ρ runs over `range`: where ρ is the centre's X, contact reaches
 /// beyond it on slopes.
-fn contact_range(
+pub(crate) fn contact_range(
     chain: &Chain,
     locus: &ToolLocus,
     tool: &Tool,

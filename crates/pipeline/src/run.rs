@@ -75,6 +75,8 @@ pub struct Making {
     pub time_steps: Option<f64>,
     /// How the path comes from rest and goes to rest; it begins and ends in motion without.
     pub lead: Option<LeadSettings>,
+    /// Whether the path covers the axis on purpose: the cusps there are then residual too.
+    pub covers_centre: bool,
 }
 
 /// Makes, measures and hands on the path.
@@ -97,7 +99,8 @@ pub fn run(
         .lead
         .map(|settings| LeadRun::begin(&mut plan, &depths, settings))
         .transpose()?;
-    write(&plan, batch, &depths, leads, sink, progress)
+    let meter = Meter::new(prepared.touch.clone()).counting_centre(making.covers_centre);
+    write(&plan, batch, &depths, leads, meter, sink, progress)
 }
 
 fn write(
@@ -105,11 +108,11 @@ fn write(
     batch: usize,
     depths: &[Depths],
     leads: Option<LeadRun>,
+    mut meter: Meter,
     sink: &mut dyn Sink,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
     let touch = &plan.prepared.touch;
-    let mut meter = Meter::new(touch.clone());
     let (mut made_points, mut sampled) = (0, 0);
     let mut last_motion = AxesMotion::default();
     let mut state = first_state(plan);
@@ -156,7 +159,7 @@ fn write(
         added_by_refine: made_points - sampled,
         revolutions,
         cutting_time: plan.prepared.job.spindle.time_at(revolutions),
-        figures: meter.figures().clone(),
+        figures: meter.figures().map_err(PipelineError::Measure)?,
         lead,
     })
 }

@@ -44,6 +44,7 @@ pub use registration::{Build, Registration};
 /// Everything that a strategy's author needs.
 pub mod prelude {
     pub use std::f64::consts::{PI, TAU};
+    pub use turnpath_core::extreme;
     pub use turnpath_core::interference::{self, Interference};
     pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{

@@ -6,6 +6,7 @@
 //! ([`Meter::append`]): the figures do not depend on how many threads there were.
 
 mod axes;
+mod coverage;
 mod cusp;
 mod lead;
 mod limits;
@@ -18,6 +19,7 @@ mod subject;
 mod touch;
 
 pub use axes::{AxesMotion, AxisMotion, Peak};
+pub use coverage::{CoverageFigures, Uncut};
 pub use lead::{Jumps, LeadFigures, LeadMeter, LeadStretch};
 pub use limits::{HighestSpeed, LimitFigure};
 pub use meter::{Measured, Meter, PathFigures};

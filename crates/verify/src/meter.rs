@@ -4,6 +4,7 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
+use crate::coverage::{Coverage, CoverageFigures};
 use crate::playback::{PlaybackFigures, play_back};
 use crate::residual::{Passes, ResidualFigures};
 use crate::touch::FirstTouch;
@@ -20,6 +21,7 @@ pub struct Measured {
     /// Motion of the axes.
     pub axes: AxesMotion,
     passes: Passes,
+    coverage: Coverage,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -28,8 +30,10 @@ pub struct Measured {
 pub struct PathFigures {
     /// Interpolation error.
     pub playback: PlaybackFigures,
-    /// Residual.
+    /// Residual; the cusps around the axis are in it where [`Meter::counting_centre`] says so.
     pub residual: ResidualFigures,
+    /// What stays uncut at the part's edges and around the axis.
+    pub coverage: CoverageFigures,
     /// Motion of the axes.
     pub axes: AxesMotion,
 }
@@ -39,6 +43,8 @@ pub struct Meter {
     touch: FirstTouch,
     figures: PathFigures,
     passes: Passes,
+    coverage: Coverage,
+    counts_centre: bool,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -49,8 +55,18 @@ impl Meter {
             touch,
             figures: PathFigures::default(),
             passes: Passes::default(),
+            coverage: Coverage::default(),
+            counts_centre: false,
             ends: None,
         }
+    }
+
+    /// Whether the path covers the axis on purpose. The cusps between the passes of its both
+    /// sides are then residual like any other; if not, they are told by the coverage alone.
+    #[must_use]
+    pub fn counting_centre(mut self, counts: bool) -> Self {
+        self.counts_centre = counts;
+        self
     }
 
     /// Finds first touches as this meter does.
@@ -68,6 +84,7 @@ impl Meter {
         measured.playback = play_back(touch, points, &mut measured.per_segment)?;
         measured.passes = Passes::of(touch, points)?;
         measured.residual = measured.passes.residual(touch)?;
+        measured.coverage = Coverage::of(touch, points, &measured.passes)?;
         Ok(measured)
     }
 
@@ -86,6 +103,7 @@ impl Meter {
         self.figures.residual.append(&next.residual);
         let seam = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&seam);
+        self.coverage.append(&next.coverage);
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
             (own, next) => own.or(next),
@@ -115,8 +133,14 @@ impl Meter {
     }
 
     /// The figures so far.
-    pub fn figures(&self) -> &PathFigures {
-        &self.figures
+    pub fn figures(&self) -> Result<PathFigures> {
+        let mut figures = self.figures.clone();
+        let (coverage, around_axis) = self.coverage.figures(&self.touch)?;
+        figures.coverage = coverage;
+        if self.counts_centre {
+            figures.residual.append(&around_axis);
+        }
+        Ok(figures)
     }
 }
 

@@ -27,8 +27,16 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
     let whole = figures(&touch, &path);
     // Half of the contacts lie beyond the rim.
     assert!(whole.residual.cusps > 1000);
-    // Within a section, many to a turn, a turn, more than a turn, all but one.
-    for lengths in [&[1][..], &[1, 2, 50, 3], &[7, 49, 50], &[130, 1], &[399, 1]] {
+    // Within a section, many to a turn, a turn, more than a turn, four turns, all but one.
+    let all: [&[usize]; 6] = [
+        &[1],
+        &[1, 2, 50, 3],
+        &[7, 49, 50],
+        &[130, 1],
+        &[200],
+        &[399, 1],
+    ];
+    for lengths in all {
         let mut meter = Meter::new(touch.clone());
         let (mut from, mut next) = (0, lengths.iter().cycle());
         while from < 400 {
@@ -38,11 +46,12 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
             meter.append(&measured).unwrap();
             from = to;
         }
-        let found = meter.figures();
+        let found = meter.figures().unwrap();
         assert_eq!(found.playback.extreme, whole.playback.extreme);
         assert_eq!(found.playback.at_c, whole.playback.at_c);
         assert!((found.playback.rms() / whole.playback.rms() - 1.0).abs() < 1e-12);
         assert_eq!(found.residual, whole.residual, "{lengths:?}");
+        assert_eq!(found.coverage, whole.coverage, "{lengths:?}");
         assert_eq!(found.axes.z.velocity, whole.axes.z.velocity);
         assert_eq!(found.axes.z.acceleration, whole.axes.z.acceleration);
         assert_eq!(found.axes.z.jerk, whole.axes.z.jerk);

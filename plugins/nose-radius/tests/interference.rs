@@ -37,10 +37,10 @@ fn extremes_of_the_saddle_are_those_of_the_closed_form() {
         let steepest = Scalar::atan(2.0 * K * REGION.outer);
         assert!((found.curvature.value - 2.0 * K).abs() < 1e-14);
         assert!((found.largest_nose_radius() - 6.25).abs() < 1e-11);
-        assert!((found.contact_angle.value - steepest).abs() < 1e-14);
-        assert!((found.cut_angle.value - steepest).abs() < 1e-14);
-        assert!((found.cut_angle.value / DEG - 21.8).abs() < 0.01);
-        assert!((found.cut_angle.rho - REGION.outer).abs() < 1e-12);
+        assert!((found.contact_angle().value - steepest).abs() < 1e-14);
+        assert!((found.cut_angle().value - steepest).abs() < 1e-14);
+        assert!((found.cut_angle().value / DEG - 21.8).abs() < 0.01);
+        assert!((found.cut_angle().rho - REGION.outer).abs() < 1e-12);
         assert!(found.conflicts(&tool).is_empty());
     }
 }

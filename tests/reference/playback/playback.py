@@ -11,7 +11,8 @@ A point of the part is (theta, rho), rho signed, with x = rho cos(theta), y = rh
     playback.py RECIPE.toml toolpath.csv [--stride N] [--instants M] [--sections S] [--scan P]
 
 prints JSON: the error of interpolation (played minus true Z, along z), the residual (cusp
-height along the profile's normal in the XZ plane, tool centres at their true Z), the rows of
+height along the profile's normal in the XZ plane, tool centres at their true Z), what stays
+uncut at the part's edges and around the axis (null: not reached, or no such place), the rows of
 the file and the revolutions of section 1. Only section 1 (cutting) is measured.
 """
 
@@ -282,10 +283,98 @@ def residual(recipe, path, sections=90, scan=129):
     return {"max": worst[0] * NM_PER_MM, "at": worst[1]}
 
 
+class Sections:
+    """X as played at evenly spaced angles, a turn in each place; none on a degree."""
+
+    COUNT = 360
+
+    def __init__(self, recipe, path, scan):
+        self.recipe, self.scan = recipe, scan
+        self.degrees = (np.arange(self.COUNT) + 0.37) * 360 / self.COUNT
+        self.played = [self.turns(path, c) for c in self.degrees]
+
+    @staticmethod
+    def turns(path, section_deg):
+        """X of every pass of one section, in the order of time."""
+        first = math.ceil((path.nodes[0, 1] - section_deg) / 360)
+        last = math.floor((path.nodes[-1, 1] - section_deg) / 360)
+        return path.pass_x(section_deg + 360.0 * np.arange(first, last + 1))
+
+    def line(self, i, chosen):
+        """True nose centres (x, z) along the line of section i: its own passes, and those of the
+        opposite half mirrored. `chosen` takes the passes' X and gives the ones that count."""
+        j = (i + self.COUNT // 2) % self.COUNT
+        found = []
+        for section, sign in ((i, 1.0), (j, -1.0)):
+            played = chosen(self.played[section], sign)
+            theta = math.radians(self.degrees[section])
+            with np.errstate(invalid="ignore"):
+                x, z = nose_centres(self.recipe, theta, played, self.scan)
+            found.append((sign * x, z))
+        return found
+
+
+def uncut_at_edge(sections, radius):
+    """The largest distance of the wanted surface at `radius` from all that the nose cuts there,
+    over all angles; infinite where the nose stands above it nowhere."""
+    recipe = sections.recipe
+    nose, reach = recipe.nose_radius, recipe.nose_radius * math.sin(recipe.nose_half_angle)
+    worst = -math.inf
+    for i, degrees in enumerate(sections.degrees):
+        near = lambda x, sign: x[np.abs(sign * x - radius) < 2 * nose]
+        place = float(recipe.profile(math.radians(degrees))(np.float64(radius)))
+        uncut = math.inf
+        for x, z in sections.line(i, near):
+            away = np.hypot(x - radius, z - place)[np.abs(x - radius) < reach]
+            uncut = min(uncut, away.min(initial=math.inf) - nose)
+        worst = max(worst, uncut)
+    return worst
+
+
+def uncut_at_centre(sections):
+    """The highest cusp between neighbouring passes of the innermost three turns, both halves of
+    each line together; infinite where they do not meet, or one half has none."""
+    recipe, worst = sections.recipe, -math.inf
+    played = [x for x in sections.played if len(x)]
+    ends = [abs(np.mean([x[at] for x in played])) for at in (0, -1)]
+    innermost = (lambda x, _: x[:3]) if ends[0] < ends[1] else (lambda x, _: x[-3:])
+    for i in range(sections.COUNT // 2):
+        sides = sections.line(i, innermost)
+        if any(len(x) == 0 for x, _ in sides):
+            return math.inf
+        x, z = (np.concatenate(both) for both in zip(*sides))
+        order = np.argsort(x)
+        x, z = x[order], z[order]
+        apart = np.hypot(np.diff(x), np.diff(z))
+        if np.any(apart > 2 * recipe.nose_radius):
+            return math.inf
+        with np.errstate(invalid="ignore", divide="ignore"):
+            cusp_x, cusp_z = lower_intersection(recipe.nose_radius, x, z)
+        differ = apart > 1e-9
+        profile = recipe.profile(math.radians(sections.degrees[i]))
+        height, foot = height_above(profile, cusp_x[differ], cusp_z[differ])
+        on_part = np.abs(foot) <= recipe.part_radius
+        worst = max(worst, height[on_part].max(initial=-math.inf))
+    return worst if worst > -math.inf else math.inf
+
+
+def coverage(recipe, path, scan=129):
+    """What stays uncut at the rim, at the hole or around the axis."""
+    sections = Sections(recipe, path, scan)
+    heights = {"rim": uncut_at_edge(sections, recipe.part_radius), "hole": None, "centre": None}
+    if recipe.hole_radius > 0:
+        heights["hole"] = uncut_at_edge(sections, recipe.hole_radius)
+    else:
+        heights["centre"] = uncut_at_centre(sections)
+    return {place: None if height is None or math.isinf(height) else float(height * NM_PER_MM)
+            for place, height in heights.items()}
+
+
 def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
     """All figures of a path, as printed."""
     return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
             "residual_nm": residual(recipe, path, sections, scan),
+            "coverage_nm": coverage(recipe, path, scan),
             "rows": path.rows, "control_points": path.segments + 1,
             "revolutions": float(path.revolutions)}
 

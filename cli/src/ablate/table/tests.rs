@@ -2,7 +2,8 @@
 
 use serde_json::json;
 
-use super::super::columns::{ALL, chosen};
+use crate::ablate::columns::{ALL, chosen};
+
 use super::*;
 
 fn entry(label: &str, points: u64, error: f64) -> Value {
@@ -18,7 +19,7 @@ fn entry(label: &str, points: u64, error: f64) -> Value {
             "x": { "rms_acceleration": 0.0123 },
             "z": { "rms_acceleration": 12_345.6 },
         },
-        "within": { "interpolation": error < 100.0, "residual": true },
+        "within": { "interpolation": error < 100.0, "residual": true, "machine": error < 100.0 },
         "program_bytes": 1_234_567,
         "planning_time_s": 0.0042,
     })
@@ -77,30 +78,4 @@ fn a_first_run_that_failed_leaves_no_ratios() {
     ];
     let text = table(&entries, &chosen(&[]));
     assert!(!text.contains('×'), "{text}");
-}
-
-#[test]
-fn figures_have_four_digits_and_ratios_three() {
-    let figures = [
-        0.0, 1.2e-7, 0.012345, 0.5, 3.2123, 42.4242, 999.94, 12_345.6, 1.2e9,
-    ];
-    let said = figures.map(four_digits);
-    let expected = [
-        "0", "1e-7", "0.0123", "0.500", "3.212", "42.42", "999.9", "12,346", "1.2e9",
-    ];
-    assert_eq!(said, expected);
-    let ratios = [1.0, 0.123, 12.34, 567.8, 0.0].map(|ratio| ratio_of(ratio, 1.0));
-    assert_eq!(ratios, ["×1.00", "×0.12", "×12.3", "×568", "×0"]);
-    assert_eq!(ratio_of(1.0, 0.0), "");
-}
-
-#[test]
-fn figures_that_are_all_the_same_have_no_best() {
-    let best = |numbers: &[Option<f64>]| best(numbers, Form::Real);
-    assert_eq!(best(&[Some(1.0), None, Some(1.000_01)]), None);
-    assert_eq!(
-        best(&[Some(2.0), None, Some(1.0)]),
-        Some("1.000".to_owned())
-    );
-    assert_eq!(best(&[Some(f64::NAN), Some(1.0)]), None);
 }

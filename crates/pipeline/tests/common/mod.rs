@@ -295,6 +295,7 @@ impl Job {
             refine: self.refined,
             time_steps: self.time_steps,
             lead: self.lead,
+            covers_centre: false,
         };
         let outcome = run(&chain, &prepared, making, &mut kept, &Quiet)?;
         Ok((kept, outcome))

@@ -46,8 +46,8 @@ pub struct AbiTraits {
     compensates_nose: bool,
 }
 
-/// Curvature, contact angle, angle along the cut: value, θ and ρ of each.
-type Extremes = [[f64; 3]; 3];
+/// Value, θ and ρ of each, in the order of [`Interference::extremes`].
+type Extremes = [[f64; 3]; 5];
 
 #[sabi_trait]
 pub trait AbiCompensator: Send + Sync {
@@ -156,11 +156,7 @@ impl AbiCompensator for OutgoingCompensator {
         answer(|| {
             let found = cut.receive(|cut| self.0.interference(cut, region.into()))?;
             let flat = |extreme: Extreme| [extreme.value, extreme.theta, extreme.rho];
-            Ok([
-                flat(found.curvature),
-                flat(found.contact_angle),
-                flat(found.cut_angle),
-            ])
+            Ok(found.extremes().map(flat))
         })
     }
 }
@@ -275,12 +271,7 @@ impl Compensator for IncomingCompensator {
         let found = result(lend_cut(cut, |cut| {
             self.compensator.interference(cut, region.into())
         }))?;
-        let [curvature, contact_angle, cut_angle] =
-            found.map(|[value, theta, rho]| Extreme { value, theta, rho });
-        Ok(Interference {
-            curvature,
-            contact_angle,
-            cut_angle,
-        })
+        let extreme = |[value, theta, rho]: [f64; 3]| Extreme { value, theta, rho };
+        Ok(Interference::from_extremes(found.map(extreme)))
     }
 }

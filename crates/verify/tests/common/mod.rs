@@ -135,7 +135,7 @@ pub fn figures(touch: &FirstTouch, points: &PathBlock) -> PathFigures {
     let mut meter = Meter::new(touch.clone());
     let measured = Meter::measure(touch, points).expect("a measure");
     meter.append(&measured).expect("a measure");
-    meter.figures().clone()
+    meter.figures().expect("a measure")
 }
 
 /// Z, ∂Z/∂θ and ∂Z/∂X of a nose over k ρ² sin 2θ, by Newton's method for its foot.
