@@ -7,8 +7,8 @@ use crate::ablate::columns::{Column, Form, number};
 
 use super::words::{NONE, ratio_of, written};
 
-/// Figures below this are rounding: 1e-9 nm, or mm/s².
-const ROUNDING: f64 = 1e-9;
+/// Figures below this are rounding: 1e-8 nm, or mm/s².
+const ROUNDING: f64 = 1e-8;
 /// Marks the smallest figure of a column.
 const BEST: &str = "*";
 /// Marks a figure that exceeds its tolerance.
