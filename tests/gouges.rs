@@ -13,8 +13,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use turnpath_core::interference::Conflict;
 use turnpath_core::{
-    Compensator, DEG, Direction, Machine, Overrun, ParamValue, Params, Part, Radial, Result,
-    Scalar, Slot, SpindleLaw, Strategy, SurfaceModel, Tolerance, Tool,
+    Compensator, DEG, Direction, Machine, Misfit, Overrun, ParamValue, Params, Part, Radial,
+    Result, Scalar, Slot, SpindleLaw, Strategy, SurfaceModel, Tolerance, Tool,
 };
 use turnpath_pipeline::{Chain, Link, PipelineError, Prepared, Wanted, largest_nose, prepare};
 use turnpath_surfaces::{
@@ -374,6 +374,7 @@ fn nose_of(nose_radius: f64) -> Tool {
         nose_radius,
         included_angle: None,
         clearance_angle: None,
+        misfit: Misfit::Refuse,
     }
 }
 
@@ -446,6 +447,7 @@ fn edges_and_flanks_that_are_too_short_are_found() {
                     nose_radius: nose,
                     included_angle: Some(2.0 * edge),
                     clearance_angle: Some(flank),
+                    misfit: Misfit::Refuse,
                 },
             ))
         };

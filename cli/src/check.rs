@@ -10,6 +10,7 @@ use crate::machine::MachineAsked;
 use crate::programs::asked;
 use crate::run::print;
 use crate::summary::to_json;
+use crate::unreached::Unreached;
 use crate::{Done, Verdict, figures};
 
 /// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
@@ -22,6 +23,7 @@ struct Checked {
     interference: Report,
     /// Limits that the path will be held against; null without any.
     machine: Option<MachineAsked>,
+    unreached: Option<Unreached>,
     expected: Expected,
 }
 
@@ -53,6 +55,7 @@ pub fn check(args: &CheckArgs) -> Done {
         name: job.recipe.name.clone(),
         interference: Report::new(&job.prepared, &nose),
         machine: MachineAsked::new(&job.recipe),
+        unreached: Unreached::of_job(&job)?,
         expected: Expected {
             revolutions: expected.revolutions,
             cutting_time_s: expected.cutting_time,
@@ -77,6 +80,9 @@ pub fn check(args: &CheckArgs) -> Done {
 fn human(job: &Job, checked: &Checked) -> String {
     let mut text = format!("{}\n", checked.name);
     text += &checked.interference.lines();
+    if let Some(unreached) = &checked.unreached {
+        text += &unreached.lines();
+    }
     if let Some(machine) = &checked.machine {
         text += &machine.lines(&job.recipe);
     }

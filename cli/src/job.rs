@@ -1,7 +1,7 @@
 //! A recipe made ready: its chain, and the job with a tool that fits.
 
 use turnpath_core::interference::Conflict;
-use turnpath_core::{Slot, SpindleLaw, StrategyError};
+use turnpath_core::{Misfit, Slot, SpindleLaw, StrategyError};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Chain, PipelineError, Prepared, Wanted, prepare};
 use turnpath_recipe::{Diagnostic, Recipe};
@@ -158,10 +158,29 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         ),
     };
     let title = format!("the tool would gouge: {what}");
+    let cuts_rest = recipe.tool.misfit == Misfit::CutWhatFits
+        && !matches!(conflict, Conflict::Clearance { .. });
+    if cuts_rest {
+        return cannot_cut_what_fits(recipe, title, help);
+    }
     recipe.complaint(
         recipe.nearest_place(key),
         title,
         "does not fit",
         [help.to_owned()],
+    )
+}
+
+/// The message for a compensator that would gouge where it should leave something standing.
+fn cannot_cut_what_fits(recipe: &Recipe, title: String, help: &str) -> Diagnostic {
+    let compensator = &recipe.choice(Slot::Compensator).name;
+    recipe.complaint(
+        compensator.place.clone(),
+        title,
+        format!("`{}` cannot cut what fits", compensator.value),
+        [
+            "choose the compensator `z-direction`, which stops at the first touch".to_owned(),
+            format!("or {help}"),
+        ],
     )
 }

@@ -20,6 +20,7 @@ mod run;
 mod sag;
 mod strategies;
 mod summary;
+mod unreached;
 mod verify;
 
 // A plugin that nothing names is dropped by the linker.

@@ -19,6 +19,7 @@ use crate::job::{Job, of_pipeline};
 use crate::programs::{asked, not_carried};
 use crate::progress::Bar;
 use crate::summary::{ProgramSummary, Summary};
+use crate::unreached::Unreached;
 use crate::{Done, Verdict};
 
 /// Runs a recipe and writes its files.
@@ -41,7 +42,7 @@ pub fn run(args: &RunArgs) -> Done {
     })?;
     let programs = files.read_back(&job, &args.recipe.set, &outcome, &bar);
     bar.clear();
-    let summary = summary(&job, files.rows, &outcome, programs?);
+    let summary = summary(&job, files.rows, &outcome, programs?)?;
     let written = files.complete(&summary.json())?;
     match args.work.format {
         Format::Json => print(&summary.json())?,
@@ -65,9 +66,26 @@ pub fn making(job: &Job) -> Making {
 }
 
 /// What the path of a job gave.
-pub fn summary(job: &Job, rows: u64, outcome: &Outcome, programs: Vec<ProgramSummary>) -> Summary {
+///
+/// # Errors
+/// When the surface fails while it is looked at.
+pub fn summary(
+    job: &Job,
+    rows: u64,
+    outcome: &Outcome,
+    programs: Vec<ProgramSummary>,
+) -> Result<Summary, Failure> {
     let plugins = used_plugins(&job.recipe, &job.catalogue);
-    Summary::new(&job.recipe, &job.chain, &plugins, rows, outcome, programs)
+    let unreached = Unreached::of_job(job)?;
+    Ok(Summary::new(
+        &job.recipe,
+        &job.chain,
+        &plugins,
+        rows,
+        outcome,
+        unreached,
+        programs,
+    ))
 }
 
 /// How the path comes and goes, where the recipe wants leads.
@@ -125,6 +143,9 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::measured(&summary.measured, &job.recipe);
     if let Some(lead) = &summary.measured.lead {
         text += &lead.lines(summary.measured.within.lead);
+    }
+    if let Some(unreached) = &summary.unreached {
+        text += &unreached.lines();
     }
     for program in &summary.programs {
         let (error, holds) = (program.interpolation_error_nm, program.within_interpolation);

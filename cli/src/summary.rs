@@ -10,6 +10,7 @@ use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak};
 use crate::coverage::{AxisCrossing, Coverage, Promise, largest_uncut};
 use crate::lead::Lead;
 use crate::machine::{HighestSpindle, MachineFigures};
+use crate::unreached::Unreached;
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
@@ -33,6 +34,7 @@ pub struct Summary {
     tolerance_nm: ToleranceNm,
     #[serde(flatten)]
     pub measured: Measured,
+    pub unreached: Option<Unreached>,
     pub programs: Vec<ProgramSummary>,
     plugins: Vec<PluginFile>,
 }
@@ -177,6 +179,7 @@ impl Summary {
         plugins: &[&Plugin],
         rows: u64,
         outcome: &Outcome,
+        unreached: Option<Unreached>,
         programs: Vec<ProgramSummary>,
     ) -> Self {
         Self {
@@ -201,6 +204,7 @@ impl Summary {
                 outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),
                 &recipe.tolerance,
             ),
+            unreached,
             programs,
             plugins: plugins
                 .iter()

@@ -23,6 +23,7 @@ use crate::programs::{PMAC_EXTENSION, pmac_format};
 use crate::reach::Reach;
 use crate::run::print;
 use crate::summary::{Measured, to_json};
+use crate::unreached::Unreached;
 use crate::{Done, Verdict, figures, strategies};
 
 /// Rows that are measured in one go, and how many such blocks at a time.
@@ -38,6 +39,7 @@ struct Verified {
     reach_mm: Reach,
     #[serde(flatten)]
     measured: Measured,
+    unreached: Option<Unreached>,
 }
 
 /// What a file is measured against, and how it is played.
@@ -73,6 +75,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         .figures()
         .map(|figures| Lead::measured(figures, &recipe));
     let figures = meter.figures().map_err(failed)?;
+    let unreached = Unreached::of(meter.touch(), &recipe.tolerance).map_err(failed)?;
     let measured = Measured::new(&figures, &recipe);
     let mut measured = measured.with_lead(lead, &recipe.tolerance);
     measured.within.reach = Some(reach.covers(&recipe.part));
@@ -83,6 +86,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         rows: read.count(),
         reach_mm: reach,
         measured,
+        unreached,
     };
     print(&match args.work.format {
         Format::Json => to_json(&verified),
@@ -221,6 +225,9 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     text += &figures::measured(&verified.measured, recipe);
     if let Some(lead) = &verified.measured.lead {
         text += &lead.lines(verified.measured.within.lead);
+    }
+    if let Some(unreached) = &verified.unreached {
+        text += &unreached.lines();
     }
     text
 }

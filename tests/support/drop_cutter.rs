@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use serde_json::Value;
-use turnpath_core::{ParamValue, Params, Strategy, SurfaceModel, Tool};
+use turnpath_core::{Misfit, ParamValue, Params, Strategy, SurfaceModel, Tool};
 use turnpath_surfaces::{Astigmatic, OffAxisParaboloid, SinusoidalArray, Toric, XyPolynomial};
 
 const REFERENCE: &str = include_str!("../reference/dropcutter.json");
@@ -62,6 +62,7 @@ fn case(value: &Value) -> Case {
     let numbers = |key: &str| serde_json::from_value(value[key].clone()).unwrap();
     let (surface, given) = (value["surface"].as_str().unwrap(), &value["parameters"]);
     let (theta, x): (f64, Vec<f64>) = (number("theta"), numbers("x"));
+    let fits = value["fits"].as_bool().unwrap();
     Case {
         name: format!("{surface} {given} at {theta} rad"),
         surface: model(surface, &params(given)),
@@ -70,8 +71,12 @@ fn case(value: &Value) -> Case {
             nose_radius: value["tool"]["nose_radius_mm"].as_f64().unwrap(),
             included_angle: None,
             clearance_angle: None,
+            misfit: match fits {
+                true => Misfit::Refuse,
+                false => Misfit::CutWhatFits,
+            },
         },
-        fits: value["fits"].as_bool().unwrap(),
+        fits,
         theta: vec![theta; x.len()],
         x,
         z_centre: numbers("z_centre"),

@@ -37,7 +37,7 @@ pub fn make(recipe: &Recipe, catalogue: &Catalogue) -> Result<Made, Failure> {
     let mut sizes = Sizes::of(&job);
     let outcome = run_pipeline(&job.chain, &job.prepared, making(&job), &mut sizes, &Quiet);
     let outcome = outcome.map_err(|error| of_pipeline(&job.recipe, error))?;
-    let summary = summary(&job, sizes.rows, &outcome, Vec::new());
+    let summary = summary(&job, sizes.rows, &outcome, Vec::new())?;
     let summary = serde_json::to_value(summary).map_err(|error| {
         Failure::File(format!(
             "error: the summary cannot be put into JSON: {error}"

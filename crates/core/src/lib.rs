@@ -37,7 +37,7 @@ pub use laws::{SpindleLaw, SpiralLaw, per_radian};
 pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use machine::{Axis, AxisLimits, Derivative, Limit, Machine};
 pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Slot, Strategy, StrategyInfo};
-pub use part::{DEG, Direction, Job, NM, Overrun, Part, RadialRange, Tolerance, Tool, UM};
+pub use part::{DEG, Direction, Job, Misfit, NM, Overrun, Part, RadialRange, Tolerance, Tool, UM};
 pub use piecewise::{Piece, PiecewisePolynomial, quintic};
 pub use quantity::{Quantity, QuantityError};
 pub use sampler::{Dependence, Path, Revolutions, Sampler, Turn, angle};

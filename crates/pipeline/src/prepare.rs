@@ -6,8 +6,8 @@ use std::sync::Arc;
 use turnpath_core::interference::{Conflict, Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Overrun, Part, RadialRange,
-    SpindleLaw, StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Misfit, Overrun, Part,
+    RadialRange, SpindleLaw, StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
@@ -96,12 +96,9 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
         };
         fit.largest_nose(on_part.curvature)
     };
-    refuse(
-        &on_part,
-        |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
-        &tool,
-        largest,
-    )?;
+    let conflicts = |found: &Interference| conflicts(found, &tool, compensator.as_ref());
+    let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });
+    refuse(&on_part, conflicts(&on_part), of_nose, largest)?;
     let range = range(
         overrun,
         &part,
@@ -127,7 +124,7 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
     let interference = check(contact_range(chain, &locus, &tool, range)?)?;
-    refuse(&interference, |_| true, &tool, largest)?;
+    refuse(&interference, conflicts(&interference), |_| true, largest)?;
     Ok(Prepared {
         job,
         overrun,
@@ -180,15 +177,24 @@ pub(crate) fn interference(
     Ok(found)
 }
 
+/// In which ways the tool does not fit, but for those that leave something standing where that is
+/// what the recipe asks for and the compensator can do.
+fn conflicts(found: &Interference, tool: &Tool, compensator: &dyn Compensator) -> Vec<Conflict> {
+    let mut conflicts = found.conflicts(tool);
+    if tool.misfit == Misfit::CutWhatFits && compensator.cuts_what_fits() {
+        conflicts.retain(|conflict| matches!(conflict, Conflict::Clearance { .. }));
+    }
+    conflicts
+}
+
 /// Refuses a tool that does not fit; of a nose that is too large the message tells the one that
 /// would really do.
 fn refuse(
     found: &Interference,
+    mut conflicts: Vec<Conflict>,
     which: impl Fn(&Conflict) -> bool,
-    tool: &Tool,
     largest: impl FnOnce() -> Result<LargestNose>,
 ) -> Result<()> {
-    let mut conflicts = found.conflicts(tool);
     if !conflicts.iter().any(which) {
         return Ok(());
     }

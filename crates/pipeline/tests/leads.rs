@@ -10,8 +10,8 @@ use common::solvers::{Area, Disjoint, Exact, Resting, Spline};
 use common::{Bare, Job, K, Kept, RIM, Saddle, even, feed_of, inward, straight};
 use turnpath_core::toolpath::{PathBlock, Section, Segment, SegmentShape};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, Nodes, Part, Radial, Result, Scalar, Tool,
-    Velocities, VelocitySolver,
+    Centres, Compensator, Cut, Dependence, Direction, Misfit, Nodes, Part, Radial, Result, Scalar,
+    Tool, Velocities, VelocitySolver,
 };
 use turnpath_pipeline::{AxisLimits, LeadLimits, LeadSettings, Leads, Outcome, PipelineError};
 use turnpath_verify::{FirstTouch, Subject, Touch};
@@ -100,6 +100,7 @@ fn touch_of(compensator: &dyn Compensator) -> FirstTouch {
             nose_radius: NOSE,
             included_angle: None,
             clearance_angle: None,
+            misfit: Misfit::Refuse,
         },
         compensates_nose: compensator.compensates_nose(),
     };

@@ -50,10 +50,11 @@ pub mod prelude {
     pub use turnpath_core::{
         AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence,
         Direction, Dual, FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus,
-        Machine, Mask, NM, Nodes, Onward, Param, Params, Part, Path, Piece, PiecewisePolynomial,
-        Radial, RadialRange, Rates, Result, Revolutions, Sampler, Scalar, Series, Setup,
-        SpindleLaw, SpiralLaw, Strategy, StrategyError, Stretch, Surface, SurfaceModel, Taylor,
-        Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
+        Machine, Mask, Misfit, NM, Nodes, Onward, Param, Params, Part, Path, Piece,
+        PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler, Scalar,
+        Series, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Stretch, Surface,
+        SurfaceModel, Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle,
+        per_radian, quintic,
     };
 }
 

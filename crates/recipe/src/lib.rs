@@ -66,4 +66,4 @@ pub use document::{Entry, Node, Table, Value};
 pub use place::{Located, Place, Source};
 pub use presets::{PRESETS, Preset};
 pub use recipe::{FileProblem, Recipe, RecipeError};
-pub use tables::{DataFormat, Interference, Output, PmacPvt, ZReference};
+pub use tables::{DataFormat, Output, PmacPvt, ZReference};

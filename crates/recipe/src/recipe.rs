@@ -15,7 +15,7 @@ use crate::place::{Located, Place, Source};
 use crate::presets::Preset;
 use crate::read::Sections;
 use crate::set;
-use crate::tables::{self, Interference, Output, PmacPvt};
+use crate::tables::{self, Output, PmacPvt};
 
 /// Largest recipe, in bytes; a hundred times any that a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -29,8 +29,6 @@ pub struct Recipe {
     pub part: Part,
     /// With what.
     pub tool: Tool,
-    /// What happens where the nose does not fit.
-    pub interference: Interference,
     /// How exactly.
     pub tolerance: Tolerance,
     /// Speed of the spindle, rad/s.
@@ -311,8 +309,7 @@ pub(crate) fn build(
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
         part: part?,
-        tool: tool.tool,
-        interference: tool.interference,
+        tool,
         tolerance: tolerance?,
         spindle_speed: speed?,
         machine: machine.machine,

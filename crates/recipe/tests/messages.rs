@@ -86,7 +86,7 @@ says! {
     machine_limit_unit_unknown: "[output]" => "[machine]\nc_acceleration = \"100 mm/s^2\"\nc_jerk = \"3 rad/s3\"\n\n[output]";
     machine_slower_than_the_spindle: "[output]" => "[machine]\nc_velocity = \"400 rpm\"\n\n[output]";
     machine_no_table: "format = 1" => "format = 1\nmachine = \"generic-sts\"";
-    interference_cut_what_fits: "\"refuse\"" => "\"cut-what-fits\"";
+    interference_misspelt: "\"refuse\"" => "\"cut-what-fit\"";
     post_twice: "posts = []" => "posts = [\"pmac-pvt\", \"pmac-pvt\"]";
     post_unknown: "posts = []" => "posts = [\"pmac-pwt\"]";
     post_key_unknown: "[ablation]" => "[output.pmac-pvt]\nposition_decimal = 7\n\n[ablation]";

@@ -7,8 +7,10 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::FULL;
-use turnpath_core::{DEG, Direction, Machine, Overrun, Param, ParamValue, Slot, StrategyInfo};
-use turnpath_recipe::{DataFormat, FileProblem, Interference, Recipe, RecipeError, ZReference};
+use turnpath_core::{
+    DEG, Direction, Machine, Misfit, Overrun, Param, ParamValue, Slot, StrategyInfo,
+};
+use turnpath_recipe::{DataFormat, FileProblem, Recipe, RecipeError, ZReference};
 
 fn parse(text: &str, sets: &[&str]) -> Recipe {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
@@ -71,7 +73,7 @@ fn the_full_example_is_read() {
     assert_eq!(recipe.tool.nose_radius, 1.0);
     assert_eq!(recipe.tool.included_angle, Some(120.0 * DEG));
     assert_eq!(recipe.tool.clearance_angle, Some(30.0 * DEG));
-    assert_eq!(recipe.interference, Interference::Refuse);
+    assert_eq!(recipe.tool.misfit, Misfit::Refuse);
     assert_eq!(
         (recipe.tolerance.interpolation, recipe.tolerance.residual),
         (1e-4, 1e-4)

@@ -207,7 +207,7 @@ fn around_axis(touch: &FirstTouch, passes: &Passes) -> Result<ResidualFigures> {
         passes.sort_by(|a, b| a.foot.total_cmp(&b.foot));
         for pair in passes.windows(2).filter(|p| p[0].centre != p[1].centre) {
             theta.push(angle_of(line));
-            cusps.push(pair[0].cusp(&pair[1], touch.subject().tool.nose_radius));
+            cusps.push(pair[0].cusp(&pair[1], &touch.subject().tool));
         }
     }
     highest(touch, &theta, &cusps)

@@ -6,6 +6,8 @@
 //! ([`Meter::append`]): the figures do not depend on how many threads there were.
 
 mod axes;
+mod closing;
+mod corners;
 mod coverage;
 mod cusp;
 mod lead;
@@ -17,6 +19,7 @@ mod residual;
 mod scan;
 mod subject;
 mod touch;
+mod unreached;
 
 pub use axes::{AxesMotion, AxisMotion, Peak};
 pub use coverage::{CoverageFigures, Uncut};
@@ -27,3 +30,4 @@ pub use playback::{INSTANTS, PlaybackFigures};
 pub use residual::{ResidualFigures, SECTIONS};
 pub use subject::Subject;
 pub use touch::{FirstTouch, Touch};
+pub use unreached::{UnreachedFigures, unreached};

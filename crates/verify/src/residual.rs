@@ -1,14 +1,16 @@
 //! The residual: cusps between neighbouring passes along radial sections.
 //!
 //! The tool centres are at the played X with their true Z, so the figure is the spiral's own and
-//! does not mix with the interpolation error. The innermost turn is left out: the pair of passes
+//! does not mix with the interpolation error. Where the nose may leave seams, cusps count from what it
+//! can reach at best ([`crate::closing`]). The innermost turn is left out: the pair of passes
 //! that would close it lies on both sides of the axis ([`crate::coverage`]).
 
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{PathBlock, Segment};
-use turnpath_core::{Gradients, Result, Scalar, SurfaceModel};
+use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
+use crate::closing::{self, Raised};
 use crate::cusp::{self, Point};
 use crate::touch::{FirstTouch, Touch};
 
@@ -65,8 +67,8 @@ pub(crate) struct Cusp {
     place: Point,
     /// Whether they meet at all.
     meet: bool,
-    /// X in the middle between them.
-    between: f64,
+    /// X of both, the lower one first.
+    ends: [f64; 2],
 }
 
 impl Pass {
@@ -79,12 +81,13 @@ impl Pass {
         }
     }
 
-    pub(crate) fn cusp(&self, other: &Self, radius: f64) -> Cusp {
-        let tip = cusp::between(self.centre, other.centre, radius);
+    pub(crate) fn cusp(&self, other: &Self, tool: &Tool) -> Cusp {
+        let (radius, reach) = (tool.nose_radius, tool.reach());
+        let tip = cusp::between_edges(self.centre, other.centre, radius, reach);
         Cusp {
             place: tip.unwrap_or(self.centre),
             meet: tip.is_some(),
-            between: 0.5 * (self.x + other.x),
+            ends: [self.x.min(other.x), self.x.max(other.x)],
         }
     }
 }
@@ -222,7 +225,7 @@ fn residual_between(
             continue;
         }
         theta.push(angle_of(number));
-        cusps.push(one.cusp(other, subject.tool.nose_radius));
+        cusps.push(one.cusp(other, &subject.tool));
     }
     highest(touch, &theta, &cusps)
 }
@@ -237,12 +240,26 @@ pub(crate) fn highest(
     let part = subject.part.inner_radius..=subject.part.aperture_radius;
     let mut figures = ResidualFigures::default();
     let places: Vec<Point> = cusps.iter().map(|cusp| cusp.place).collect();
-    let (heights, feet) = heights(subject.surface.as_ref(), theta, &places)?;
+    let (heights, feet) = match touch.leaves_seams() {
+        false => heights(subject.surface.as_ref(), theta, &places)?,
+        true => {
+            let raised = |(theta, cusp): (&f64, &Cusp)| Raised {
+                theta: *theta,
+                place: cusp.place,
+                lower: cusp.ends[0],
+                upper: cusp.ends[1],
+                counts: cusp.meet && part.contains(&cusp.place.x.abs()),
+            };
+            let raised: Vec<Raised> = theta.iter().zip(cusps).map(raised).collect();
+            let feet = places.iter().map(|place| place.x).collect();
+            (closing::heights(touch, &raised)?, feet)
+        }
+    };
     for (((theta, cusp), height), foot) in theta.iter().zip(cusps).zip(heights).zip(feet) {
         let cut = cusp.meet && height.is_finite();
         let (max, at_rho) = match cut {
             true => (height, foot),
-            false => (f64::INFINITY, cusp.between),
+            false => (f64::INFINITY, 0.5 * (cusp.ends[0] + cusp.ends[1])),
         };
         if part.contains(&at_rho.abs()) {
             let here = ResidualFigures {

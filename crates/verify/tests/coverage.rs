@@ -5,7 +5,7 @@ mod common;
 
 use common::{AST5, Ball, Plane, bare_spiral, figures, touch_of, touch_on};
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{DEG, Part, Scalar, Tool, UM};
+use turnpath_core::{DEG, Misfit, Part, Scalar, Tool, UM};
 use turnpath_verify::{CoverageFigures, FirstTouch, Meter, PathFigures, Subject};
 
 const FLAT: Plane = Plane { slope: 0.0 };
@@ -89,6 +89,7 @@ fn an_edge_that_no_pass_reaches_is_uncut_without_end() {
         nose_radius: 1.0,
         included_angle: Some(degrees * DEG),
         clearance_angle: None,
+        misfit: Misfit::Refuse,
     };
     let path = bare_spiral(121.0, |n| 0.02 * n);
     // From the pass at 2.4 mm to the rim: within sin 6 degrees, beyond sin 5.

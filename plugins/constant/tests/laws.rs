@@ -29,6 +29,7 @@ fn job(inner: f64, direction: Direction) -> Job {
             nose_radius: NOSE,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         },
         tolerance: Tolerance {
             interpolation: RESIDUAL,

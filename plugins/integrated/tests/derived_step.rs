@@ -44,6 +44,7 @@ impl Case {
             nose_radius: self.nose_radius,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         };
         let part = Part {
             aperture_radius: self.rim,

@@ -21,6 +21,7 @@ fn job() -> Job {
             nose_radius: 1.0,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         },
         tolerance: Tolerance {
             interpolation: 1e-4,

@@ -17,6 +17,7 @@ fn tool(nose_radius: f64) -> Tool {
         nose_radius,
         included_angle: Some(120.0 * DEG),
         clearance_angle: Some(30.0 * DEG),
+        misfit: turnpath_core::Misfit::Refuse,
     }
 }
 
@@ -75,6 +76,7 @@ fn every_way_not_to_fit_is_listed_with_what_would_do() {
         nose_radius: 7.0,
         included_angle: Some(40.0 * DEG),
         clearance_angle: Some(20.0 * DEG),
+        misfit: turnpath_core::Misfit::Refuse,
     };
     let surface = saddle();
     let cut = Cut {

@@ -13,7 +13,9 @@ A point of the part is (theta, rho), rho signed, with x = rho cos(theta), y = rh
 prints JSON: the error of interpolation (played minus true Z, along z), the residual (cusp
 height along the profile's normal in the XZ plane, tool centres at their true Z), what stays
 uncut at the part's edges and around the axis (null: not reached, or no such place), the rows of
-the file and the revolutions of section 1. Only section 1 (cutting) is measured.
+the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
+cut what fits, cusps count from the closing of the profile by the nose, and what stays between
+closing and surface is a figure of its own.
 """
 
 import argparse
@@ -28,6 +30,7 @@ from surfaces import ANGLE_RAD, LENGTH_MM, SURFACES, quantity
 COLUMNS = "time_s,c_deg,x_mm,z_mm,vc_deg_per_s,vx_mm_per_s,vz_mm_per_s,section"
 NM_PER_MM = 1e6
 INSTANTS_PER_CHUNK = 24_000  # bounds memory, and keeps a chunk's arrays in the cache
+SEAM_SCAN = 513
 COMPENSATORS = ("z-direction", "normal", "none")
 
 # --- recipe -------------------------------------------------------------------------------
@@ -42,6 +45,7 @@ class Recipe:
         self.nose_radius = quantity(tool, "nose_radius", LENGTH_MM)
         included = quantity(tool, "included_angle", ANGLE_RAD, math.pi)
         self.nose_half_angle = min(included / 2, math.pi / 2)
+        self.cuts_what_fits = tool.get("interference", "refuse") == "cut-what-fits"
         self.compensator = table["compensator"]["use"]
         if self.compensator not in COMPENSATORS:
             raise SystemExit(f"no reference for the compensator `{self.compensator}`")
@@ -206,11 +210,30 @@ def interpolation_error(recipe, path, stride=1, instants=48, scan=129):
         place = np.unravel_index(np.argmax(np.abs(error)), error.shape)
         if abs(error[place]) > worst:
             worst, at = abs(error[place]), {"c_deg": float(c_deg[place]), "x_mm": float(x[place])}
+        if recipe.cuts_what_fits:
+            worst, at, low, high = sharpen(recipe, path, segment[:, 0], error, scan, (worst, at, low, high))
         h = path.durations[segment[:, 0]]
         squares += float(h @ (error**2 @ simpson))
         duration += float(h.sum())
     return {"max": float(worst * NM_PER_MM), "rms": math.sqrt(squares / duration) * NM_PER_MM,
             "lowest": float(low * NM_PER_MM), "highest": float(high * NM_PER_MM), "at": at}
+
+
+def sharpen(recipe, path, segment, error, scan, known, worst_segments=40, instants=1500):
+    """The extremes so far, with the worst segments of a chunk played back more finely: where the
+    contact jumps over a seam the error has a corner."""
+    worst, at, low, high = known
+    chosen = segment[np.argsort(np.abs(error).max(axis=1))[-worst_segments:]]
+    tau = np.arange(instants + 1) / instants
+    for one in chosen:
+        one = np.array([one])[:, None]
+        c_deg, x = path.play("c", one, tau)[0], path.play("x", one, tau)[0]
+        fine = path.play("z", one, tau)[0] - true_z(recipe, radians(c_deg), x, scan)
+        low, high = min(low, fine.min()), max(high, fine.max())
+        k = int(np.argmax(np.abs(fine)))
+        if abs(fine[k]) > worst:
+            worst, at = abs(fine[k]), {"c_deg": float(c_deg[k]), "x_mm": float(x[k])}
+    return worst, at, low, high
 
 
 def nose_centres(recipe, theta, x, scan):
@@ -221,6 +244,17 @@ def nose_centres(recipe, theta, x, scan):
     g, s = profile(x), slope(profile, x)
     w = np.sqrt(1 + s * s)
     return x - radius * s / w, g + radius / w
+
+
+def cusps(recipe, x, z):
+    """The highest places that neighbouring noses at (x, z) leave between them: where their circles
+    cross, or where the edge of one ends before that, the other's circle there."""
+    radius, reach = recipe.nose_radius, recipe.nose_radius * math.sin(recipe.nose_half_angle)
+    cusp_x, cusp_z = lower_intersection(radius, x, z)
+    lower, upper = np.minimum(x[1:], x[:-1]), np.maximum(x[1:], x[:-1])
+    at = np.clip(cusp_x, upper - reach, lower + reach)
+    sides = [c - np.sqrt(np.maximum(radius**2 - (at - a)**2, 0)) for a, c in ((x[1:], z[1:]), (x[:-1], z[:-1]))]
+    return at, np.where(at == cusp_x, cusp_z, np.maximum(*sides))
 
 
 def lower_intersection(radius, x, z):
@@ -242,6 +276,39 @@ def height_above(profile, x, z):
     return ((z - profile(foot)) - s * (x - foot)) / np.sqrt(1 + s * s), foot
 
 
+def height_above_closing(recipe, theta, x, z, first, second, scan):
+    """Distance of cusps at (x, z) from the lowest that the nose can leave there, along the normal.
+
+    That is the least over X, from pass to pass, of the lower side of the nose at X: one valley,
+    found by golden section. The normal is that of the surface where the nose touches it there,
+    else that of the nose.
+    """
+    profile, radius = recipe.profile(theta), recipe.nose_radius
+
+    def lift(at):
+        return np.sqrt(np.maximum(radius**2 - (at - x)**2, 0))
+
+    def under(at):
+        return first_touch(recipe, theta, at, scan) - lift(at)
+
+    low, high = np.minimum(first, second), np.maximum(first, second)
+    golden = (math.sqrt(5) - 1) / 2
+    a, b = high - golden * (high - low), low + golden * (high - low)
+    at_a, at_b = under(a), under(b)
+    for _ in range(40):
+        left = at_a < at_b
+        low, high = np.where(left, low, a), np.where(left, b, high)
+        new = np.where(left, high - golden * (high - low), low + golden * (high - low))
+        at_new = under(new)
+        a, b = np.where(left, new, b), np.where(left, a, new)
+        at_a, at_b = np.where(left, at_new, at_b), np.where(left, at_a, at_new)
+    at = np.where(at_a < at_b, a, b)
+    closing = np.minimum(at_a, at_b)
+    touches = closing - profile(x) < 1e-8
+    normal = np.where(touches, 1 / np.sqrt(1 + slope(profile, x)**2), lift(at) / radius)
+    return (z - closing) * normal
+
+
 def section_residual(recipe, path, section_deg, scan):
     """The highest cusp at one section angle and its place; (-inf, None) where there is none.
 
@@ -254,9 +321,14 @@ def section_residual(recipe, path, section_deg, scan):
     theta = math.radians(section_deg)
     with np.errstate(invalid="ignore", divide="ignore"):  # a formula may end beyond the part
         x, z = nose_centres(recipe, theta, played, scan)
-        cusp_x, cusp_z = lower_intersection(recipe.nose_radius, x, z)
+        cusp_x, cusp_z = cusps(recipe, x, z)
         index = np.flatnonzero((played[1:] * played[:-1] > -1e-12) & (np.abs(np.diff(x)) > 1e-9))
-        height, foot = height_above(recipe.profile(theta), cusp_x[index], cusp_z[index])
+        if recipe.cuts_what_fits and recipe.compensator != "none":
+            foot = cusp_x[index]
+            height = height_above_closing(recipe, theta, foot, cusp_z[index], x[index],
+                                          x[index + 1], scan)
+        else:
+            height, foot = height_above(recipe.profile(theta), cusp_x[index], cusp_z[index])
     if np.any(np.isnan(height) & (np.abs(cusp_x[index]) <= recipe.part_radius)):
         raise SystemExit(f"a pass or its cusp at C = {section_deg} deg leaves the surface's domain")
     on_part = (np.abs(foot) <= recipe.part_radius) & (np.abs(foot) >= recipe.hole_radius)
@@ -368,13 +440,67 @@ def coverage(recipe, path, scan=129):
         heights["centre"] = uncut_at_centre(sections)
     return {place: None if height is None or math.isinf(height) else float(height * NM_PER_MM)
             for place, height in heights.items()}
+# --- what the nose cannot reach -----------------------------------------------------------
+
+def section_closing(recipe, theta, step):
+    """Places from rim to rim a `step` apart, and how far the closing of the section by the nose lies
+    above it there: the nose is put on the section at every place, and the lowest of all kept."""
+    radius, rim = recipe.nose_radius, recipe.part_radius
+    profile = recipe.profile(theta)
+    sample = np.linspace(-rim - radius, rim + radius, 4001)
+    steepest = np.abs(slope(profile, sample)).max() * 1.05
+    reach = radius * min(steepest / math.hypot(1, steepest), math.sin(recipe.nose_half_angle))
+    arm = math.ceil(reach / step)
+    inside = math.ceil(rim / step)
+    places = step * np.arange(-inside - 2 * arm, inside + 2 * arm + 1)
+    section = profile(places)
+    offsets = np.arange(-arm, arm + 1)
+    lift = np.sqrt(radius**2 - (step * offsets)**2)
+    centres = np.full(len(places) - 2 * arm, -np.inf)
+    for k, up in zip(offsets, lift):
+        np.maximum(centres, section[arm + k:arm + k + len(centres)] + up, out=centres)
+    closing = np.full(len(centres) - 2 * arm, np.inf)
+    for k, up in zip(offsets, lift):
+        np.minimum(closing, centres[arm + k:arm + k + len(closing)] - up, out=closing)
+    return places[2 * arm:-2 * arm], closing - section[2 * arm:-2 * arm]
+
+
+def unreached(recipe, sections=180, step=2e-4):
+    """Largest height (along z) and volume between the surface and its closing by the nose.
+
+    Putting the nose at steps of X misses the lowest place over a seam by a part of the step: the
+    volume is extrapolated from two steps, the highest section made again with a finer one.
+    """
+    if not recipe.cuts_what_fits or recipe.compensator == "none":
+        return None
+    volumes, sections_heights = [], []
+    thetas = math.pi * (np.arange(sections) + 0.37) / sections
+    for width in (2 * step, step):
+        volume, heights = 0.0, []
+        for theta in thetas:
+            rho, height = section_closing(recipe, theta, width)
+            on_part = (np.abs(rho) <= recipe.part_radius) & (np.abs(rho) >= recipe.hole_radius)
+            volume += math.pi / sections * width * float(np.sum((height * np.abs(rho))[on_part]))
+            heights.append(float(height[on_part].max()))
+        volumes.append(volume)
+        sections_heights.append(heights)
+    low, high = thetas[np.argmax(sections_heights[-1])] + math.pi / sections * np.array([-1, 1])
+    highest = 0.0
+    for theta in np.linspace(low, high, 9):
+        rho, height = section_closing(recipe, theta, step / 5)
+        on_part = (np.abs(rho) <= recipe.part_radius) & (np.abs(rho) >= recipe.hole_radius)
+        highest = max(highest, float(height[on_part].max()))
+    return {"height_um": highest * 1e3, "volume_mm3": 2 * volumes[1] - volumes[0]}
 
 
 def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
     """All figures of a path, as printed."""
+    if recipe.cuts_what_fits:  # hills of nearly one height are told apart on a finer scan
+        scan = max(scan, SEAM_SCAN)
     return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
             "residual_nm": residual(recipe, path, sections, scan),
             "coverage_nm": coverage(recipe, path, scan),
+            "unreached": unreached(recipe),
             "rows": path.rows, "control_points": path.segments + 1,
             "revolutions": float(path.revolutions)}
 

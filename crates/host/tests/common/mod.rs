@@ -58,6 +58,7 @@ pub const TOOL: Tool = Tool {
     nose_radius: 0.5,
     included_angle: None,
     clearance_angle: None,
+    misfit: turnpath_core::Misfit::Refuse,
 };
 
 /// From 2 mm inwards, 10 µm a revolution.

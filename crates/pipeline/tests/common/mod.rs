@@ -275,6 +275,7 @@ impl Job {
             nose_radius: 1.0,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         };
         let tolerance = Tolerance {
             interpolation: self.interpolation,

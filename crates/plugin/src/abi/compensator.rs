@@ -44,6 +44,7 @@ impl AbiCut<'_> {
 pub struct AbiTraits {
     centre_radial: bool,
     compensates_nose: bool,
+    cuts_what_fits: bool,
 }
 
 /// Value, θ and ρ of each, in the order of [`Interference::extremes`].
@@ -97,6 +98,7 @@ impl AbiCompensator for OutgoingCompensator {
             Ok(AbiTraits {
                 centre_radial: self.0.radial() == Radial::Centre,
                 compensates_nose: self.0.compensates_nose(),
+                cuts_what_fits: self.0.cuts_what_fits(),
             })
         })
     }
@@ -201,6 +203,10 @@ impl Compensator for IncomingCompensator {
 
     fn compensates_nose(&self) -> bool {
         self.traits.compensates_nose
+    }
+
+    fn cuts_what_fits(&self) -> bool {
+        self.traits.cuts_what_fits
     }
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {

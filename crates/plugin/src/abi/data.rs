@@ -3,8 +3,8 @@
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
-    AxisLimits, Direction, Job, Machine, ParamValue, Params, Part, Piece, PiecewisePolynomial,
-    RadialRange, Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
+    AxisLimits, Direction, Job, Machine, Misfit, ParamValue, Params, Part, Piece,
+    PiecewisePolynomial, RadialRange, Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
 };
 
 use crate::guarded;
@@ -137,6 +137,7 @@ pub struct AbiTool {
     nose_radius: f64,
     included_angle: ROption<f64>,
     clearance_angle: ROption<f64>,
+    cut_what_fits: bool,
 }
 
 impl From<&Tool> for AbiTool {
@@ -145,6 +146,7 @@ impl From<&Tool> for AbiTool {
             nose_radius: tool.nose_radius,
             included_angle: tool.included_angle.into(),
             clearance_angle: tool.clearance_angle.into(),
+            cut_what_fits: tool.misfit == Misfit::CutWhatFits,
         }
     }
 }
@@ -155,6 +157,11 @@ impl From<AbiTool> for Tool {
             nose_radius: tool.nose_radius,
             included_angle: tool.included_angle.into(),
             clearance_angle: tool.clearance_angle.into(),
+            misfit: if tool.cut_what_fits {
+                Misfit::CutWhatFits
+            } else {
+                Misfit::Refuse
+            },
         }
     }
 }
@@ -362,6 +369,7 @@ mod tests {
                 nose_radius: 0.5,
                 included_angle: Some(2.0),
                 clearance_angle: None,
+                misfit: Misfit::Refuse,
             },
             tolerance: Tolerance {
                 interpolation: 1e-4,

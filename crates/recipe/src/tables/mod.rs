@@ -10,7 +10,6 @@ mod work;
 
 pub use output::{DataFormat, Output, ZReference};
 pub use pmac_pvt::PmacPvt;
-pub use work::Interference;
 
 pub(crate) use cutting::{spindle, tolerance};
 pub(crate) use machine::{check_spindle, machine};

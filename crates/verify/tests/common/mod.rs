@@ -99,6 +99,7 @@ pub fn touch_on(
         nose_radius,
         included_angle: None,
         clearance_angle: None,
+        misfit: turnpath_core::Misfit::Refuse,
     };
     touch_of(surface, aperture_radius, tool, compensates_nose)
 }

@@ -32,6 +32,7 @@ impl Case {
             nose_radius,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         };
         let job = Job {
             part: Part {
