@@ -26,8 +26,9 @@ mod verify;
 // A plugin that nothing names is dropped by the linker.
 #[cfg(feature = "built-ins")]
 use {
-    turnpath_atpg as _, turnpath_constant as _, turnpath_integrated as _,
-    turnpath_nose_radius as _, turnpath_surfaces as _, turnpath_triangle_rotary as _,
+    turnpath_atpg as _, turnpath_ats as _, turnpath_constant as _, turnpath_fft_adaptive as _,
+    turnpath_integrated as _, turnpath_nose_radius as _, turnpath_surfaces as _,
+    turnpath_triangle_rotary as _,
 };
 
 use std::process::ExitCode;
