@@ -1,5 +1,6 @@
 //! The program `turnpath`: a recipe in, a measured tool path out.
 
+mod ablate;
 mod args;
 mod check;
 mod coverage;
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
     let Program { command } = Program::parse();
     let done = match command {
         Command::Run(args) => run::run(&args),
+        Command::Ablate(args) => ablate::ablate(&args),
         Command::Check(args) => check::check(&args),
         Command::Verify(args) => verify::verify(&args),
         Command::Sag(args) => sag::sag(&args),
