@@ -149,15 +149,17 @@ pub struct PathMeters {
 
 /// A block of a path, measured.
 enum Stretch {
-    Cut(Box<CutStretch>, PathBlock),
-    Lead(LeadStretch),
+    Cut(Box<(CutStretch, PathBlock)>),
+    Lead(Box<LeadStretch>),
 }
 
 impl Stretch {
     fn of(touch: &FirstTouch, section: Section, block: PathBlock) -> Result<Self, StrategyError> {
         Ok(match section {
-            Section::Cutting => Self::Cut(Box::new(Meter::measure(touch, &block)?), block),
-            Section::LeadIn | Section::LeadOut => Self::Lead(LeadMeter::measure(touch, &block)?),
+            Section::Cutting => Self::Cut(Box::new((Meter::measure(touch, &block)?, block))),
+            Section::LeadIn | Section::LeadOut => {
+                Self::Lead(Box::new(LeadMeter::measure(touch, &block)?))
+            }
         })
     }
 }
@@ -165,7 +167,8 @@ impl Stretch {
 impl PathMeters {
     fn append(&mut self, stretch: &Stretch) -> Result<(), StrategyError> {
         match stretch {
-            Stretch::Cut(measured, block) => {
+            Stretch::Cut(cut) => {
+                let (measured, block) = cut.as_ref();
                 self.lead.pass(block);
                 self.cut.append(measured)
             }
