@@ -104,7 +104,7 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
             None => format!("not measured: {}", residual.left_out),
         },
     );
-    text
+    text + &measured.surface_error.lines()
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ mod run;
 mod sag;
 mod strategies;
 mod summary;
+mod surface_error;
 mod verify;
 
 // A plugin that nothing names is dropped by the linker.

@@ -5,7 +5,10 @@ use turnpath_core::{DEG, Direction, Tolerance};
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
+use turnpath_verify::machined::MachinedFigures;
 use turnpath_verify::{AxisMotion, PathFigures};
+
+use crate::surface_error::SurfaceError;
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
@@ -38,7 +41,8 @@ pub struct Summary {
 pub struct Measured {
     pub interpolation_error_nm: InterpolationError,
     pub residual_nm: Residual,
-    pub surface_error_nm: SurfaceError,
+    #[serde(flatten)]
+    pub surface_error: SurfaceError,
     pub axes: Axes,
     pub within: Within,
 }
@@ -85,13 +89,6 @@ pub struct Residual {
     at: Place,
     /// What the figure does not speak of.
     pub left_out: &'static str,
-}
-
-/// The machined surface as a whole: not measured yet.
-#[derive(Debug, Serialize, Default)]
-pub struct SurfaceError {
-    pv: Option<f64>,
-    rms: Option<f64>,
 }
 
 /// C in deg and s, X and Z in mm and s.
@@ -166,7 +163,11 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(&outcome.figures, &recipe.tolerance),
+            measured: Measured::new(
+                &outcome.figures,
+                outcome.machined.as_ref(),
+                &recipe.tolerance,
+            ),
             programs,
             plugins: plugins
                 .iter()
@@ -212,7 +213,11 @@ impl ChainNames {
 
 impl Measured {
     /// Figures against tolerances, in the units of the file.
-    pub fn new(figures: &PathFigures, tolerance: &Tolerance) -> Self {
+    pub fn new(
+        figures: &PathFigures,
+        machined: Option<&MachinedFigures>,
+        tolerance: &Tolerance,
+    ) -> Self {
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
         let at = Place {
             c_deg: playback.at_c / DEG,
@@ -235,7 +240,7 @@ impl Measured {
                     _ => "the innermost turn",
                 },
             },
-            surface_error_nm: SurfaceError::default(),
+            surface_error: SurfaceError::of(machined),
             axes: Axes {
                 x: Axis::of(&axes.x, 1.0),
                 z: Axis::of(&axes.z, 1.0),

@@ -67,7 +67,8 @@ pub fn verify(args: &VerifyArgs) -> Done {
         return Err(Failure::File(message));
     };
     let reach = Reach::new(range);
-    let mut measured = Measured::new(meter.figures(), &recipe.tolerance);
+    let machined = meter.machined().map_err(failed)?;
+    let mut measured = Measured::new(meter.figures(), machined.as_ref(), &recipe.tolerance);
     measured.within.reach = Some(reach.covers(&recipe.part));
     let verified = Verified {
         name: recipe.name.clone(),

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{ControlPoint, PathStretch, Section};
+use turnpath_verify::machined::MachinedFigures;
 use turnpath_verify::{FirstTouch, Measured, Meter, PathFigures};
 
 use crate::make::{Depths, Made, join, make};
@@ -49,6 +50,8 @@ pub struct Outcome {
     pub cutting_time: f64,
     /// What the path as played would cut.
     pub figures: PathFigures,
+    /// The surface that it would leave; `None` where nothing of the part is cut.
+    pub machined: Option<MachinedFigures>,
 }
 
 /// What a run will give, without making it.
@@ -135,6 +138,7 @@ fn write(
         revolutions,
         cutting_time: plan.prepared.job.spindle.time_at(revolutions),
         figures: meter.figures().clone(),
+        machined: meter.machined().map_err(PipelineError::Measure)?,
     })
 }
 

@@ -7,6 +7,7 @@
 
 mod axes;
 mod cusp;
+pub mod machined;
 mod meter;
 mod playback;
 mod profiles;

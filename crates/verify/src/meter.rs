@@ -4,6 +4,7 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
+use crate::machined::{Fan, Lines, MachinedFigures, SectionPasses};
 use crate::playback::{PlaybackFigures, play_back};
 use crate::residual::{Passes, ResidualFigures};
 use crate::touch::FirstTouch;
@@ -20,6 +21,7 @@ pub struct Measured {
     /// Motion of the axes.
     pub axes: AxesMotion,
     passes: Passes,
+    sections: SectionPasses,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -39,6 +41,7 @@ pub struct Meter {
     touch: FirstTouch,
     figures: PathFigures,
     passes: Passes,
+    lines: Lines,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -49,6 +52,7 @@ impl Meter {
             touch,
             figures: PathFigures::default(),
             passes: Passes::default(),
+            lines: Lines::new(Fan::WHOLE),
             ends: None,
         }
     }
@@ -68,6 +72,7 @@ impl Meter {
         measured.playback = play_back(touch, points, &mut measured.per_segment)?;
         measured.passes = Passes::of(touch, points)?;
         measured.residual = measured.passes.residual(touch)?;
+        measured.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
         Ok(measured)
     }
 
@@ -86,6 +91,7 @@ impl Meter {
         self.figures.residual.append(&next.residual);
         let seam = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&seam);
+        self.lines.append(&next.sections);
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
             (own, next) => own.or(next),
@@ -112,6 +118,14 @@ impl Meter {
             inner: rho[0].min(rho[1]),
             outer: rho[0].max(rho[1]),
         }))
+    }
+
+    /// The machined surface in figures; `None` where nothing of the part was cut.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn machined(&self) -> Result<Option<MachinedFigures>> {
+        self.lines.figures(self.touch.subject())
     }
 
     /// The figures so far.
