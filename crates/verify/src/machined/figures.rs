@@ -134,11 +134,7 @@ impl Lines {
         let of_line = |strip: &mut Strip, (angle, passes): (f64, &[_])| {
             strip.take(subject, angle, passes);
             strip.look_up_heights(subject.surface.as_ref())?;
-            let amount = |sample: Sample| -> f64 {
-                let each = sample.weight.iter().zip(&sample.error);
-                each.map(|(weight, error)| weight * (error - mean).abs())
-                    .sum()
-            };
+            let amount = |sample: Sample| sample.amount_about(mean);
             Ok(strip.samples().map(amount).sum())
         };
         let amounts: Vec<f64> = self
