@@ -7,8 +7,8 @@ use super::sections::sort;
 use crate::Subject;
 use crate::cusp::Point;
 
-/// Longest piece, as a part of the nose radius. Feeds are a tenth of it at the most.
-const LONGEST: f64 = 0.125;
+/// Longest piece, as a part of the nose radius: on steep flanks a cubic follows an arc no further.
+const LONGEST: f64 = 1.0 / 32.0;
 /// Gauss-Lobatto places of four: the ends of −1 … 1 and ±1/√5, with weights 1/6 and 5/6. Exact to
 /// degree 5, and neighbours share their ends.
 const INNER: f64 = 0.447_213_595_499_957_94;
