@@ -5,9 +5,11 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::{AST5, Astigmatic, Ball, Plane, SPEED, astigmatic_path, touch_on};
-use turnpath_core::toolpath::{ControlPoint, PathBlock};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Segment};
 use turnpath_core::{DEG, NM, Scalar};
-use turnpath_verify::machined::MachinedFigures;
+use turnpath_verify::machined::{
+    Grid, MachinedFigures, Map, Nose, ProfileLine, SpectrumLine, power_spectrum,
+};
 use turnpath_verify::{FirstTouch, Meter};
 
 fn machined(touch: &FirstTouch, points: &PathBlock) -> MachinedFigures {
@@ -52,7 +54,10 @@ fn a_flat_part_is_left_with_the_scallop_of_the_closed_form() {
     );
     assert!((found.pv() / scallop - 1.0).abs() < 0.01);
     assert!(found.lowest.error.abs() < 1e-5 * scallop);
-    assert!((found.mean / (scallop / 3.0) - 1.0).abs() < 0.01, "{found:?}");
+    assert!(
+        (found.mean / (scallop / 3.0) - 1.0).abs() < 0.01,
+        "{found:?}"
+    );
     assert!(
         (found.rms / (scallop * (0.2f64).sqrt()) - 1.0).abs() < 0.01,
         "{found:?}"
@@ -191,4 +196,149 @@ fn stretches_give_what_one_piece_gives() {
         meter.append(&measured).expect("a measure");
     }
     assert_eq!(meter.machined().expect("figures"), Some(whole));
+}
+
+fn map_of(touch: &FirstTouch, grid: Grid, blocks: &[PathBlock], error: f64) -> Vec<f32> {
+    let mut map = Map::new(grid, touch.subject().part);
+    let nose = Nose::new(touch, error);
+    for block in blocks {
+        map.cut(&nose, block).expect("a cut");
+    }
+    (0..grid.rows())
+        .flat_map(|row| map.row(row).collect::<Vec<_>>())
+        .collect()
+}
+
+/// A path in pieces that overlap by one point.
+fn pieces(points: &PathBlock, length: usize) -> Vec<PathBlock> {
+    let all: Vec<ControlPoint> = points.points().collect();
+    let block = |begin: usize| {
+        let mut block = PathBlock::default();
+        let end = (begin + length + 1).min(all.len());
+        all[begin..end].iter().for_each(|point| block.push(*point));
+        block
+    };
+    (0..all.len() - 1).step_by(length).map(block).collect()
+}
+
+/// The lowest of all passes over a place, of a path whose C runs evenly in steps of 9 deg.
+fn brute_force(touch: &FirstTouch, segments: &[Segment], x: f64, y: f64) -> f64 {
+    let (rho, angle) = (Scalar::hypot(x, y), Scalar::atan2(y, x));
+    let mut lowest = f64::INFINITY;
+    for half_turn in -1..=200 {
+        let c = angle + 0.5 * TAU * f64::from(half_turn);
+        let step = c / (9.0 * DEG);
+        let Some(segment) = segments.get(step.floor().max(0.0) as usize) else {
+            break;
+        };
+        if c < 0.0 {
+            continue;
+        }
+        let side = if half_turn % 2 == 0 { rho } else { -rho };
+        let off = side - segment.x.value(step - step.floor());
+        if off.abs() < 1.0 {
+            lowest = lowest.min(segment.z.value(step - step.floor()) - (1.0 - off * off).sqrt());
+        }
+    }
+    let mut wanted = [0.0];
+    let surface = &touch.subject().surface;
+    surface.heights(&[x], &[y], &mut wanted).expect("a height");
+    lowest - wanted[0]
+}
+
+#[test]
+fn maps_agree_with_the_lowest_of_all_passes() {
+    let law = |theta: f64| (2.9 - 0.03 * theta / TAU, -0.03 / TAU);
+    let points = astigmatic_path(AST5, 1.0, 98 * 40, 9.0 * DEG, law);
+    let segments: Vec<Segment> = points.segments().collect();
+    let touch = touch_on(AST5, 2.5, 1.0, true);
+    for grid in [
+        Grid::cartesian(&touch.subject().part, 41),
+        Grid::polar(&touch.subject().part, 20, 30),
+    ] {
+        let whole = map_of(&touch, grid, &[points.clone()], 100.0 * NM);
+        let in_pieces = map_of(&touch, grid, &pieces(&points, 170), 100.0 * NM);
+        let all_passes = map_of(&touch, grid, &[points.clone()], f64::INFINITY);
+        assert_eq!(format!("{whole:?}"), format!("{in_pieces:?}"));
+        assert_eq!(format!("{whole:?}"), format!("{all_passes:?}"));
+        let mut compared = 0;
+        for row in 0..grid.rows() {
+            for column in 0..grid.columns() {
+                let found = f64::from(whole[row * grid.columns() + column]);
+                let (x, y) = grid.place(row, column);
+                if Scalar::hypot(x, y) > 2.5 {
+                    assert!(found.is_nan());
+                    continue;
+                }
+                let expected = brute_force(&touch, &segments, x, y);
+                assert!(
+                    (found - expected).abs() < 1e-5 * NM + 1e-7 * expected,
+                    "{x} {y}: {found:e} {expected:e}"
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared > 500);
+    }
+}
+
+/// A path of the contact: the nearest passes give what all give, and the map what the lines give.
+#[test]
+fn maps_of_contact_paths_agree_with_figures() {
+    let surface = Astigmatic { k: 0.02 };
+    let touch = touch_on(surface, 2.5, 1.0, false);
+    let law = |theta: f64| (2.6 - 0.03 * theta / TAU, -0.03 / TAU);
+    let mut points = PathBlock::default();
+    for i in 0..=88 * 40 {
+        let theta = 9.0 * DEG * f64::from(i);
+        let (x, rate) = law(theta);
+        let (sin, cos) = Scalar::sin_cos(2.0 * theta);
+        points.push(ControlPoint {
+            t: theta / SPEED,
+            c: theta,
+            x,
+            z: surface.k * x * x * sin,
+            vc: SPEED,
+            vx: rate * SPEED,
+            vz: surface.k * (2.0 * x * rate * sin + 2.0 * x * x * cos) * SPEED,
+        });
+    }
+    let figures = machined(&touch, &points);
+    let grid = Grid::polar(&touch.subject().part, 200, 97);
+    let near = map_of(&touch, grid, &[points.clone()], 100.0 * NM);
+    let all = map_of(&touch, grid, &pieces(&points, 333), f64::INFINITY);
+    assert_eq!(format!("{near:?}"), format!("{all:?}"));
+    let (mut area, mut squares) = (0.0, 0.0);
+    for (i, error) in near.iter().enumerate() {
+        let ring = (i / 97) as f64 + 0.5;
+        area += ring;
+        squares += ring * f64::from(*error) * f64::from(*error);
+        assert!(f64::from(*error) <= figures.highest.error * 1.0001);
+        assert!(f64::from(*error) >= figures.lowest.error * 1.0001);
+    }
+    let rms = (squares / area).sqrt();
+    assert!(
+        (rms / figures.rms - 1.0).abs() < 0.02,
+        "{rms:e} {:e}",
+        figures.rms
+    );
+}
+
+#[test]
+fn a_profile_has_the_feed_as_its_period() {
+    let (feed, rim) = (0.02, 5.0);
+    let touch = touch_on(Plane { slope: 0.0 }, rim, 1.0, true);
+    let path = spiral(feed, rim, 2.0, |_| (1.0, 0.0));
+    let mut line = ProfileLine::new(30.0 * DEG);
+    for block in pieces(&path, 1000) {
+        line.append(&touch, &block).expect("passes");
+    }
+    let places = line.places(&touch).expect("places");
+    let errors: Vec<f64> = places.iter().map(|place| place.error).collect();
+    let highest = errors.iter().copied().fold(0.0, f64::max);
+    assert!((highest / (feed * feed / 8.0) - 1.0).abs() < 0.01);
+    let spectrum = power_spectrum(&errors, places[1].s - places[0].s);
+    let higher = |a: &&SpectrumLine, b: &&SpectrumLine| a.density.total_cmp(&b.density);
+    let top = spectrum.iter().max_by(higher).expect("a line");
+    assert!((top.frequency * feed - 1.0).abs() < 0.01, "{top:?}");
 }

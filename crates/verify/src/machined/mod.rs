@@ -8,9 +8,18 @@
 
 mod envelope;
 mod figures;
+mod grid;
+mod map;
+mod profile;
 mod sections;
+mod spectrum;
 mod strip;
+mod turns;
 
 pub use envelope::{Arc, lower_envelope};
 pub use figures::{MachinedFigures, PlaceOnPart};
+pub use grid::{Grid, Place};
+pub use map::{Map, Nose};
+pub use profile::{ProfileLine, ProfilePlace};
 pub use sections::{Fan, Lines, SectionPasses};
+pub use spectrum::{SpectrumLine, power_spectrum};
