@@ -8,6 +8,8 @@ mod figures;
 mod files;
 mod job;
 mod list;
+mod plots;
+mod plotting;
 mod programs;
 mod progress;
 mod reach;

@@ -14,6 +14,7 @@ use crate::failure::Failure;
 use crate::figures;
 use crate::files::Files;
 use crate::job::{Job, of_pipeline};
+use crate::plots::Wishes;
 use crate::programs::{asked, not_carried};
 use crate::progress::Bar;
 use crate::summary::Summary;
@@ -28,6 +29,7 @@ pub fn run(args: &RunArgs) -> Done {
     };
     let programs = asked(&job.recipe, job.compensates_nose())?;
     refuse_straight_lines(&job)?;
+    let wishes = wishes(args, &job, &folder)?;
     let making = Making {
         refine: job.recipe.refine,
         time_steps: (!programs.is_empty()).then_some(PMAC_TIME_STEPS),
@@ -41,10 +43,15 @@ pub fn run(args: &RunArgs) -> Done {
         of_pipeline(&job.recipe, error)
     })?;
     let programs = files.read_back(&job, &args.recipe.set, &outcome, &bar);
+    let plotted = match programs {
+        Ok(_) => files.plot(&job, &wishes, &outcome, &bar),
+        Err(_) => Ok(()),
+    };
     bar.clear();
     let plugins = used_plugins(&job);
     let (recipe, chain) = (&job.recipe, &job.chain);
     let summary = Summary::new(recipe, chain, &plugins, files.rows, &outcome, programs?);
+    plotted?;
     let written = files.complete(&summary.json())?;
     match args.work.format {
         Format::Json => print(&summary.json())?,
@@ -55,6 +62,18 @@ pub fn run(args: &RunArgs) -> Done {
     } else {
         Verdict::Exceeded
     })
+}
+
+/// Maps and the like are measured on `toolpath.csv`.
+fn wishes(args: &RunArgs, job: &Job, folder: &Path) -> Result<Wishes, Failure> {
+    let wishes = Wishes::of(&args.plots, &job.recipe.part, folder)?;
+    if !wishes.is_empty() && job.recipe.output.data.is_empty() {
+        return Err(Failure::call(
+            "--map, --profile and --circle are measured on toolpath.csv, which this recipe does \
+             not write: add \"csv\" to `data` in [output]",
+        ));
+    }
+    Ok(wishes)
 }
 
 /// A program in PVT mode plays cubics; a path of straight lines is another one.

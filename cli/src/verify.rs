@@ -17,6 +17,8 @@ use turnpath_verify::{FirstTouch, Measured as Stretch, Meter, Subject};
 use crate::args::{Format, VerifyArgs};
 use crate::failure::Failure;
 use crate::job::{of_pipeline, use_threads};
+use crate::plots::{Wishes, make_folder};
+use crate::plotting::{Played, plot};
 use crate::programs::{PMAC_EXTENSION, pmac_format};
 use crate::reach::Reach;
 use crate::run::print;
@@ -36,6 +38,8 @@ struct Verified {
     reach_mm: Reach,
     #[serde(flatten)]
     measured: Measured,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<String>,
 }
 
 /// What a file is measured against, and how it is played.
@@ -55,7 +59,9 @@ pub fn verify(args: &VerifyArgs) -> Done {
         shape,
         radial,
     } = held(&recipe, args)?;
-    let mut reader = open(&args.file, &recipe, subject.compensates_nose)?;
+    let compensates_nose = subject.compensates_nose;
+    let wishes = wishes(args, &recipe)?;
+    let mut reader = open(&args.file, &recipe, compensates_nose)?;
     let failed = |error| of_pipeline(&recipe, PipelineError::Measure(error));
     let touch = FirstTouch::new(subject).map_err(failed)?;
     let meter = measure(&recipe, touch, shape, reader.as_mut(), &Quiet)?;
@@ -70,6 +76,20 @@ pub fn verify(args: &VerifyArgs) -> Done {
     let machined = meter.machined().map_err(failed)?;
     let mut measured = Measured::new(meter.figures(), machined.as_ref(), &recipe.tolerance);
     measured.within.reach = Some(reach.covers(&recipe.part));
+    let played = Played {
+        recipe: &recipe,
+        touch: meter.touch(),
+        shape,
+        largest_error: meter.figures().playback.max(),
+        points: read.count(),
+    };
+    let mut files = Vec::new();
+    if !wishes.is_empty() {
+        let mut again = open(&args.file, &recipe, compensates_nose)?;
+        for draft in plot(&wishes, &played, again.as_mut(), &Quiet)? {
+            files.push(draft.complete()?.display().to_string());
+        }
+    }
     let verified = Verified {
         name: recipe.name.clone(),
         file: args.file.display().to_string(),
@@ -77,6 +97,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         rows: read.count(),
         reach_mm: reach,
         measured,
+        files,
     };
     print(&match args.work.format {
         Format::Json => to_json(&verified),
@@ -88,6 +109,16 @@ pub fn verify(args: &VerifyArgs) -> Done {
     } else {
         Verdict::Exceeded
     })
+}
+
+/// Maps and the like that are asked for; their folder is made.
+fn wishes(args: &VerifyArgs, recipe: &Recipe) -> Result<Wishes, Failure> {
+    let folder = args.output.as_deref().unwrap_or(Path::new("."));
+    let wishes = Wishes::of(&args.plots, &recipe.part, folder)?;
+    if !wishes.is_empty() {
+        make_folder(folder)?;
+    }
+    Ok(wishes)
 }
 
 fn held(recipe: &Recipe, args: &VerifyArgs) -> Result<Held, Failure> {
@@ -171,5 +202,9 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     let rows = figures::grouped(verified.rows);
     text += &figures::line("points", format!("{cutting} that cut, of {rows} rows"));
     text += &verified.reach_mm.line(radial, &recipe.part);
-    text + &figures::measured(&verified.measured, &recipe.tolerance)
+    text += &figures::measured(&verified.measured, &recipe.tolerance);
+    for file in &verified.files {
+        text += &figures::line("file", file);
+    }
+    text
 }
