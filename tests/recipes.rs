@@ -146,6 +146,8 @@ fn compare(summary: &Value, reference: &Value, rows: u64) -> Vec<String> {
         "/interpolation_error_nm/max",
         "/interpolation_error_nm/rms",
         "/residual_nm/max",
+        "/surface_error_nm/pv",
+        "/surface_error_nm/rms",
     ] {
         let figure = |of: &Value| of.pointer(pointer).and_then(Value::as_f64);
         let (here, there) = (figure(summary), figure(reference));
