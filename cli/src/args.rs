@@ -81,7 +81,8 @@ pub enum Format {
 /// What is drawn of the machined surface: machined − wanted along z.
 #[derive(Debug, Args)]
 pub struct PlotArgs {
-    /// Write a map of the surface error: .gsf (Gwyddion) or .xyz (lines x y z), both in metres
+    /// Write a map of the surface error: .gsf (Gwyddion) or .xyz (lines x y z), both in metres; a
+    /// relative name is taken from DIR, as with the files below
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
     /// Cells of the map along each side; on a polar grid N rings of N angles

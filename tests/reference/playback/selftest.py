@@ -213,6 +213,16 @@ def check_residual():
     print("     ", found)
 
 
+def check_surface_error():
+    """A flat part's scallops: f²/8R high, a parabola's RMS."""
+    flat = recipe({"use": "xy-polynomial", "terms": [[1, 0, 0.0]]}, "none")
+    feed = 0.02
+    path = playback.ToolPath(bare_rows(lambda theta: feed * (theta / TAU - 2), 130))
+    found = playback.surface_error(flat, path)
+    check("scallop of a flat part, PV, nm", found["pv"], feed**2 / 8 * 1e6, 0.02)
+    check("scallop of a flat part, RMS, nm", found["rms"], feed**2 / 8 * 1e6 * math.sqrt(0.2), 0.05)
+
+
 def bowl(law, radius=1.25):
     """Residual in a spherical bowl: as measured, and in closed form (nose 1 mm, 100 nm held).
 
@@ -259,5 +269,6 @@ if __name__ == "__main__":
     check_sign_and_place()
     check_interpolation()
     check_residual()
+    check_surface_error()
     check_file()
     sys.exit(1 if FAILED else 0)

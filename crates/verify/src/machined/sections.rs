@@ -18,7 +18,9 @@ const FEWEST: i64 = 2 * 23;
 /// whole degrees would have points on all sections.
 const FIRST: f64 = 0.37;
 /// Passes that are kept, 16 bytes each; beyond, every other section is dropped.
-const MOST_PASSES: usize = 6_000_000;
+const MOST_PASSES: usize = 4_000_000;
+/// Part of a line's passes for which room is made at a time: doubling would take twice the memory.
+const MORE_ROOM: usize = 8;
 
 /// Sections of equal distance around the axis. Their count is even, so that each has one opposite.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,6 +165,9 @@ impl Lines {
                 false => (section - half, -1.0),
             };
             if let Some(line) = self.lines.get_mut((section / self.stride) as usize) {
+                if line.len() == line.capacity() {
+                    line.reserve_exact(line.len() / MORE_ROOM + FEWEST as usize);
+                }
                 line.push(Point::new(sign * centre.x, centre.y));
                 self.kept += 1;
             }
