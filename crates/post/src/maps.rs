@@ -1,8 +1,9 @@
 //! Writers of maps: `.gsf` (Gwyddion Simple Field) and `.xyz`. Lengths in metres, as Gwyddion
 //! takes them where nothing else is said.
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::PathBuf;
 
 use crate::{Draft, FileError};
 
@@ -45,7 +46,7 @@ impl GsfWriter {
         let mut draft = Draft::begin(path)?;
         let mut bytes = header.into_bytes();
         bytes.extend(std::iter::repeat_n(0, padding));
-        written(&draft.path().to_owned(), draft.write_all(&bytes))?;
+        put(&mut draft, &bytes)?;
         Ok(Self { draft })
     }
 
@@ -56,7 +57,7 @@ impl GsfWriter {
     pub fn row(&mut self, values: impl Iterator<Item = f32>) -> Result<(), FileError> {
         let metres = values.map(|value| (f64::from(value) * M_PER_MM) as f32);
         let bytes: Vec<u8> = metres.flat_map(f32::to_le_bytes).collect();
-        written(&self.draft.path().to_owned(), self.draft.write_all(&bytes))
+        put(&mut self.draft, &bytes)
     }
 
     /// The file, whole but without its name.
@@ -69,6 +70,7 @@ impl GsfWriter {
 #[derive(Debug)]
 pub struct XyzWriter {
     draft: Draft,
+    line: String,
 }
 
 impl XyzWriter {
@@ -78,7 +80,8 @@ impl XyzWriter {
     /// When the file cannot be begun.
     pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let draft = Draft::begin(path)?;
-        Ok(Self { draft })
+        let line = String::new();
+        Ok(Self { draft, line })
     }
 
     /// The next place and its value, mm.
@@ -87,11 +90,10 @@ impl XyzWriter {
     /// When the file cannot be written.
     pub fn place(&mut self, x: f64, y: f64, value: f32) -> Result<(), FileError> {
         let [x, y, z] = [x, y, f64::from(value)].map(|mm| mm * M_PER_MM);
-        let done = writeln!(self.draft, "{x:.9e} {y:.9e} {z:.6e}");
-        if done.is_err() {
-            return written(&self.draft.path().to_owned(), done);
-        }
-        Ok(())
+        self.line.clear();
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.line, "{x:.9e} {y:.9e} {z:.6e}");
+        put(&mut self.draft, self.line.as_bytes())
     }
 
     /// The file, whole but without its name.
@@ -100,9 +102,9 @@ impl XyzWriter {
     }
 }
 
-fn written(path: &Path, done: io::Result<()>) -> Result<(), FileError> {
-    done.map_err(|error| FileError {
-        path: path.to_owned(),
+fn put(draft: &mut Draft, bytes: &[u8]) -> Result<(), FileError> {
+    draft.write_all(bytes).map_err(|error| FileError {
+        path: draft.path().to_owned(),
         error,
     })
 }

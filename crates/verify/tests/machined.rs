@@ -1,4 +1,5 @@
 //! The machined surface against closed forms.
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 mod common;
 
@@ -151,7 +152,7 @@ fn a_coarse_path_leaves_the_bound_of_its_fourth_derivative() {
         });
     }
     let found = machined(&touch, &points);
-    let bound = 16.0 * surface.k * rim * rim * step.powi(4) / 384.0;
+    let bound = 16.0 * surface.k * rim * rim * Scalar::powi(step, 4) / 384.0;
     for place in [found.highest, found.lowest] {
         let rho = Scalar::hypot(place.x, place.y);
         assert!(rho > 0.98 * rim, "{place:?}");
@@ -256,9 +257,9 @@ fn maps_agree_with_the_lowest_of_all_passes() {
         Grid::cartesian(&touch.subject().part, 41),
         Grid::polar(&touch.subject().part, 20, 30),
     ] {
-        let whole = map_of(&touch, grid, &[points.clone()], 100.0 * NM);
+        let whole = map_of(&touch, grid, std::slice::from_ref(&points), 100.0 * NM);
         let in_pieces = map_of(&touch, grid, &pieces(&points, 170), 100.0 * NM);
-        let all_passes = map_of(&touch, grid, &[points.clone()], f64::INFINITY);
+        let all_passes = map_of(&touch, grid, std::slice::from_ref(&points), f64::INFINITY);
         assert_eq!(format!("{whole:?}"), format!("{in_pieces:?}"));
         assert_eq!(format!("{whole:?}"), format!("{all_passes:?}"));
         let mut compared = 0;
@@ -305,7 +306,7 @@ fn maps_of_contact_paths_agree_with_figures() {
     }
     let figures = machined(&touch, &points);
     let grid = Grid::polar(&touch.subject().part, 200, 97);
-    let near = map_of(&touch, grid, &[points.clone()], 100.0 * NM);
+    let near = map_of(&touch, grid, std::slice::from_ref(&points), 100.0 * NM);
     let all = map_of(&touch, grid, &pieces(&points, 333), f64::INFINITY);
     assert_eq!(format!("{near:?}"), format!("{all:?}"));
     let (mut area, mut squares) = (0.0, 0.0);

@@ -11,10 +11,10 @@ use crate::cusp::Point;
 const LONGEST: f64 = 1.0 / 32.0;
 /// Gauss-Lobatto places of four: the ends of −1 … 1 and ±1/√5, with weights 1/6 and 5/6. Exact to
 /// degree 5, and neighbours share their ends.
-const INNER: f64 = 0.447_213_595_499_957_94;
+const INNER: f64 = 0.447_213_595_499_957_9;
+const WEIGHTS: [f64; 4] = [1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0];
 /// Steps of a piece in the mean amount: kinks between them cost 1e-3 of it.
 const AMOUNT_STEPS: usize = 32;
-const WEIGHTS: [f64; 4] = [1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0];
 
 /// A part of an arc on the part.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +54,7 @@ pub(super) struct Strip {
 }
 
 impl Strip {
-    /// Takes a line: its envelope in pieces over the part.
+    /// Takes the line at `angle`, rad: its envelope in pieces over the part.
     pub fn take(&mut self, subject: &Subject, angle: f64, passes: &[Point]) {
         let (tool, part) = (&subject.tool, &subject.part);
         self.radius = tool.nose_radius;
