@@ -19,7 +19,11 @@ const RULES: &[Rule] = &[
     rule("turnpath-core", &[], &[]),
     rule("turnpath-plugin", &["turnpath-core"], &[]),
     rule("turnpath-recipe", &["turnpath-core"], &[]),
-    rule("turnpath-verify", &["turnpath-core"], &[]),
+    rule(
+        "turnpath-verify",
+        &["turnpath-core"],
+        &["turnpath-surfaces"],
+    ),
     rule("turnpath-post", &["turnpath-core"], &[]),
     rule(
         "turnpath-pipeline",

@@ -192,8 +192,9 @@ fn an_overrun_for_which_the_surface_ends_too_early() {
 }
 
 #[test]
-fn a_lead_that_this_version_does_not_make() {
-    insta::assert_snapshot!(with_change("lead = false", "lead = true"));
+fn a_lead_that_cannot_be_made() {
+    let lead = "lead = true\nclearance = \"1e12 mm\"";
+    insta::assert_snapshot!(with_change("lead = false", lead));
 }
 
 #[test]
@@ -216,9 +217,15 @@ fn data_that_this_version_does_not_write() {
 }
 
 #[test]
-fn limits_that_this_version_does_not_check() {
-    let recipe = format!("{SADDLE}\n[machine]\npreset = \"generic-sts\"\n");
+fn a_machine_that_is_not_known() {
+    let recipe = format!("{SADDLE}\n[machine]\npreset = \"generic-fts\"\n");
     insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
+}
+
+#[test]
+fn a_spindle_faster_than_the_machine() {
+    let recipe = format!("{SADDLE}\n[machine]\nc_velocity = \"300 rpm\"\n");
+    insta::assert_snapshot!(answer(recipe, "check recipe.toml"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::process::Stdio;
 
 use serde_json::Value;
 use support::bench::Bench;
-use support::recipe::{SADDLE, changed};
+use support::recipe::{SADDLE, changed, with_table};
 
 fn close(found: &Value, expected: f64, relative: f64) {
     let found = found.as_f64().unwrap();
@@ -284,4 +284,39 @@ fn every_example_in_the_docs_passes_its_check() {
         }
     }
     assert!(seen > 0, "there are no recipes in docs/recipes");
+}
+
+/// z = 0.16 x y cut to X = 2.5 mm: contact ends at 2.17 mm where the profile falls outward.
+#[test]
+fn what_stays_uncut_is_told_and_judged_only_where_the_path_covers_the_part() {
+    let bench = Bench::with(SADDLE);
+    let said = bench.line("run recipe.toml -o out").ends(0);
+    assert!(said.stdout.contains("coverage        rim "), "{said}");
+    assert!(said.stdout.contains("(overrun = \"none\")"), "{said}");
+    assert!(!said.stdout.contains("warning"), "{said}");
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    let coverage = &summary["coverage_nm"];
+    let rim = coverage["rim"].as_f64().unwrap();
+    assert!((67e3..77e3).contains(&rim), "{rim} nm");
+    assert_eq!(coverage["hole"], Value::Null);
+    assert!(coverage["centre"].as_f64().unwrap() > 100.0);
+    assert_eq!(coverage["never_cut"], serde_json::json!([]));
+    assert_eq!(summary["within"]["coverage"], Value::Null);
+    assert_eq!(summary["axis_crossing_um"]["x"], 0.0);
+}
+
+#[test]
+fn x_beyond_the_axis_is_a_warning() {
+    let tilted = "use = \"xy-polynomial\"\nterms = [[1, 0, 0.1]]";
+    let recipe = with_table(SADDLE, "surface", tilted);
+    let bench = Bench::with(&with_table(&recipe, "compensator", "use = \"normal\""));
+    let said = bench.line("run recipe.toml -o out").ends(0);
+    let warning = "  warning         X crosses the axis by ";
+    assert!(said.stdout.contains(warning), "{said}");
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    // At ρ = 0 X is 0.1/sqrt(1.01) mm beyond the axis; the last pass on that side lies up to a
+    // feed of 28 um further out.
+    let crossing = summary["axis_crossing_um"]["x"].as_f64().unwrap();
+    assert!((71.0..99.6).contains(&crossing), "{crossing} um");
+    assert!(summary["axis_crossing_um"]["contact"].as_f64().unwrap() < 1e-6);
 }

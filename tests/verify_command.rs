@@ -85,6 +85,8 @@ fn a_file_of_the_program_gives_the_figures_of_its_summary() {
             "/interpolation_error_nm/at/c_deg",
             "/interpolation_error_nm/at/x_mm",
             "/residual_nm/max",
+            "/coverage_nm/rim",
+            "/coverage_nm/centre",
             "/axes/x/max_velocity",
             "/axes/z/max_velocity",
             "/axes/z/max_acceleration",

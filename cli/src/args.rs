@@ -8,8 +8,9 @@ use turnpath_core::Slot;
 
 /// Tool paths for slow-tool-servo diamond turning of freeform optics.
 ///
-/// Exit status: 0 done, and all tolerances hold; 1 done, and a tolerance does not hold; 2 the
-/// recipe or the call is wrong; 3 a plugin failed; 4 a file could not be written or read.
+/// Exit status: 0 done, and all tolerances hold; 1 done, and a tolerance or a limit of the
+/// machine does not hold; 2 the recipe or the call is wrong; 3 a plugin failed; 4 a file could not
+/// be written or read.
 #[derive(Debug, Parser)]
 #[command(name = "turnpath", version, propagate_version = true)]
 pub struct Program {

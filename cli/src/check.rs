@@ -1,15 +1,16 @@
 //! `turnpath check`: everything but the path.
 
 use serde::Serialize;
-use turnpath_core::DEG;
-use turnpath_core::interference::Interference;
-use turnpath_pipeline::expect;
+use turnpath_pipeline::{expect, largest_nose};
 
 use crate::args::{CheckArgs, Format};
+use crate::interference::Report;
 use crate::job::{Job, of_pipeline};
+use crate::machine::MachineAsked;
 use crate::programs::asked;
 use crate::run::print;
 use crate::summary::to_json;
+use crate::unreached::Unreached;
 use crate::{Done, Verdict, figures};
 
 /// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
@@ -18,9 +19,11 @@ const ROW_BYTES: f64 = 125.0;
 #[derive(Debug, Serialize)]
 struct Checked {
     name: String,
-    largest_nose_radius_mm: Option<f64>,
-    least_included_angle_deg: f64,
-    least_clearance_angle_deg: f64,
+    #[serde(flatten)]
+    interference: Report,
+    /// Limits that the path will be held against; null without any.
+    machine: Option<MachineAsked>,
+    unreached: Option<Unreached>,
     expected: Expected,
 }
 
@@ -46,12 +49,13 @@ pub fn check(args: &CheckArgs) -> Done {
     let expected = expect(&job.chain, &job.prepared).map_err(|e| of_pipeline(&job.recipe, e))?;
     let programs = asked(&job.recipe, job.compensates_nose())?;
     let radius = job.prepared.job.range.outer;
-    let found = &job.prepared.interference;
+    let nose = largest_nose(&job.chain, &job.prepared);
+    let nose = nose.map_err(|e| of_pipeline(&job.recipe, e))?;
     let checked = Checked {
         name: job.recipe.name.clone(),
-        largest_nose_radius_mm: Some(found.largest_nose_radius()).filter(|r| r.is_finite()),
-        least_included_angle_deg: 2.0 * found.contact_angle.value / DEG,
-        least_clearance_angle_deg: found.cut_angle.value / DEG,
+        interference: Report::new(&job.prepared, &nose),
+        machine: MachineAsked::new(&job.recipe),
+        unreached: Unreached::of_job(&job)?,
         expected: Expected {
             revolutions: expected.revolutions,
             cutting_time_s: expected.cutting_time,
@@ -68,35 +72,20 @@ pub fn check(args: &CheckArgs) -> Done {
     };
     print(&match args.work.format {
         Format::Json => to_json(&checked),
-        Format::Human => human(&job, &checked, found),
+        Format::Human => human(&job, &checked),
     })?;
     Ok(Verdict::Holds)
 }
 
-fn human(job: &Job, checked: &Checked, found: &Interference) -> String {
-    let tool = &job.recipe.tool;
+fn human(job: &Job, checked: &Checked) -> String {
     let mut text = format!("{}\n", checked.name);
-    let at = found.curvature.place();
-    let largest = match checked.largest_nose_radius_mm {
-        Some(largest) => {
-            let largest = figures::millimetres(largest, 4);
-            let (x, y) = (figures::millimetres(at.x, 3), figures::millimetres(at.y, 3));
-            format!("at most {largest} (at x = {x}, y = {y})")
-        }
-        None => "any: the part has no hollow".to_owned(),
-    };
-    text += &figures::line(
-        "nose radius",
-        format!("{}; {largest}", figures::millimetres(tool.nose_radius, 4)),
-    );
-    let angle = |given: Option<f64>, least: f64| match given {
-        Some(given) => format!("{:.2} deg; at least {least:.2} deg", given / DEG),
-        None => format!("not given, check not made; it takes {least:.2} deg"),
-    };
-    let included = angle(tool.included_angle, checked.least_included_angle_deg);
-    text += &figures::line("included angle", included);
-    let clearance = angle(tool.clearance_angle, checked.least_clearance_angle_deg);
-    text += &figures::line("clearance angle", clearance);
+    text += &checked.interference.lines();
+    if let Some(unreached) = &checked.unreached {
+        text += &unreached.lines();
+    }
+    if let Some(machine) = &checked.machine {
+        text += &machine.lines(&job.recipe);
+    }
     let expected = &checked.expected;
     let points = figures::grouped(expected.control_points as u64);
     text += &figures::line("points", format!("about {points}, before refinement"));

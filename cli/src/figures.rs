@@ -1,6 +1,6 @@
 //! Figures as a person reads them at a glance.
 
-use turnpath_core::Tolerance;
+use turnpath_recipe::Recipe;
 
 use crate::summary::{Measured, NM_PER_MM};
 
@@ -68,9 +68,21 @@ const LONG: f64 = 1e6;
 pub fn millimetres(mm: f64, decimals: usize) -> String {
     match mm {
         v if !v.is_finite() => "no number".to_owned(),
-        v if v.abs() < LONG => format!("{v:.decimals$} mm"),
+        v if v.abs() < LONG => format!("{:.decimals$} mm", unsigned_zero(v, decimals)),
         v => format!("{v:.decimals$e} mm"),
     }
+}
+
+/// The value without the sign of what rounds to nothing.
+fn unsigned_zero(value: f64, decimals: usize) -> f64 {
+    let half = (0..decimals).fold(0.5, |step, _| 0.1 * step);
+    if value.abs() < half { 0.0 } else { value }
+}
+
+/// A nose radius: three decimals, or more where they would tell less than four digits.
+pub fn nose_radius(mm: f64) -> String {
+    let decimals = [1.0, 0.1, 1e-2, 1e-3].iter().filter(|step| mm < **step);
+    millimetres(mm, 3 + decimals.count())
 }
 
 /// A figure in nm against its tolerance in mm.
@@ -80,8 +92,9 @@ pub fn against(value: f64, tolerance: f64, holds: bool) -> String {
     format!("{value:>12} of {limit:<11} {verdict}")
 }
 
-/// The lines on what was measured, each error against its tolerance.
-pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
+/// The lines on what was measured, each error against its tolerance, motion against limits.
+pub fn measured(measured: &Measured, recipe: &Recipe) -> String {
+    let tolerance = &recipe.tolerance;
     let (error, residual) = (&measured.interpolation_error_nm, &measured.residual_nm);
     let within = &measured.within;
     let mut text = line(
@@ -104,7 +117,13 @@ pub fn measured(measured: &Measured, tolerance: &Tolerance) -> String {
             None => format!("not measured: {}", residual.left_out),
         },
     );
-    text + &measured.surface_error.lines()
+    text += &measured.surface_error.lines();
+    text += &measured.coverage_nm.lines(recipe, within.coverage);
+    text += &measured.axis_crossing_um.line();
+    if let Some(machine) = &measured.machine {
+        text += &machine.lines();
+    }
+    text + &measured.highest_spindle.line()
 }
 
 #[cfg(test)]
@@ -125,6 +144,10 @@ mod tests {
         assert_eq!(nanometres(f64::NAN), "no number");
         assert_eq!(nanometres(1e300), "1.000e294 mm");
         assert_eq!(millimetres(2.49733, 4), "2.4973 mm");
+        assert_eq!(millimetres(-0.0049, 2), "0.00 mm");
+        assert_eq!(millimetres(-0.0051, 2), "-0.01 mm");
+        assert_eq!(nose_radius(6.25), "6.250 mm");
+        assert_eq!(nose_radius(0.0123456), "0.01235 mm");
         assert_eq!(millimetres(-1e300, 4), "-1.0000e300 mm");
     }
 

@@ -1,14 +1,14 @@
 //! A recipe made ready: its chain, and the job with a tool that fits.
 
 use turnpath_core::interference::Conflict;
-use turnpath_core::{Slot, SpindleLaw, StrategyError};
+use turnpath_core::{Misfit, Slot, SpindleLaw, StrategyError};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Chain, PipelineError, Prepared, Wanted, prepare};
 use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
 use crate::failure::Failure;
-use crate::figures::millimetres;
+use crate::figures::{millimetres, nose_radius};
 use crate::programs::not_carried;
 use crate::strategies;
 
@@ -38,6 +38,7 @@ impl Job {
             overrun: recipe.overrun,
             direction: recipe.direction,
             spindle: SpindleLaw::constant(recipe.spindle_speed),
+            machine: recipe.machine,
         };
         let prepared = prepare(&chain, wanted).map_err(|error| of_pipeline(&recipe, error))?;
         Ok(Self {
@@ -85,6 +86,13 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
                 .complaint(place, title, "the part reaches there", [])
                 .into()
         }
+        PipelineError::Lead { .. } => {
+            let place = recipe.nearest_place("path.lead");
+            let help = "choose another `clearance`, or write lead = false under [path]";
+            recipe
+                .complaint(place, title, "leads are made here", [help.to_owned()])
+                .into()
+        }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
         PipelineError::Sink(error) => {
             let inner = error.get_ref().and_then(|inner| inner.downcast_ref());
@@ -114,8 +122,8 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
             format!(
                 "nose radius {} exceeds the smallest concave radius {}, at x = {}, y = {} in the \
                  radial direction",
-                millimetres(recipe.tool.nose_radius, 3),
-                millimetres(*largest, 3),
+                nose_radius(recipe.tool.nose_radius),
+                nose_radius(*largest),
                 millimetres(at.x, 2),
                 millimetres(at.y, 2)
             ),
@@ -132,22 +140,42 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
             ),
             "choose a tool with a larger included angle, or a smaller aperture",
         ),
-        Conflict::Clearance { least, at } => (
+        Conflict::Clearance { least, at, uphill } => (
             "tool.clearance_angle",
             format!(
-                "the flank rubs: at x = {}, y = {} the surface falls along the cut by {:.2} deg",
+                "the flank rubs: at x = {}, y = {} the surface {} along the cut by {:.2} deg",
                 millimetres(at.x, 2),
                 millimetres(at.y, 2),
+                if *uphill { "rises" } else { "falls" },
                 least.to_degrees()
             ),
             "choose a tool with a larger clearance angle, or a smaller aperture",
         ),
     };
     let title = format!("the tool would gouge: {what}");
+    let cuts_rest = recipe.tool.misfit == Misfit::CutWhatFits
+        && !matches!(conflict, Conflict::Clearance { .. });
+    if cuts_rest {
+        return cannot_cut_what_fits(recipe, title, help);
+    }
     recipe.complaint(
         recipe.nearest_place(key),
         title,
         "does not fit",
         [help.to_owned()],
+    )
+}
+
+/// The message for a compensator that would gouge where it should leave something standing.
+fn cannot_cut_what_fits(recipe: &Recipe, title: String, help: &str) -> Diagnostic {
+    let compensator = &recipe.choice(Slot::Compensator).name;
+    recipe.complaint(
+        compensator.place.clone(),
+        title,
+        format!("`{}` cannot cut what fits", compensator.value),
+        [
+            "choose the compensator `z-direction`, which stops at the first touch".to_owned(),
+            format!("or {help}"),
+        ],
     )
 }

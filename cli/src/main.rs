@@ -2,12 +2,16 @@
 
 mod args;
 mod check;
+mod coverage;
 mod explain;
 mod failure;
 mod figures;
 mod files;
+mod interference;
 mod job;
+mod lead;
 mod list;
+mod machine;
 mod plots;
 mod plotting;
 mod programs;
@@ -18,6 +22,7 @@ mod sag;
 mod strategies;
 mod summary;
 mod surface_error;
+mod unreached;
 mod verify;
 
 // A plugin that nothing names is dropped by the linker.
@@ -37,9 +42,9 @@ use failure::Failure;
 /// How a command ended that did what it was asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Verdict {
-    /// All tolerances hold.
+    /// All tolerances hold, and all limits of the machine.
     Holds,
-    /// A tolerance does not hold.
+    /// A tolerance or a limit of the machine does not hold.
     Exceeded,
 }
 

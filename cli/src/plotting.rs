@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use turnpath_core::Result as Evaluated;
-use turnpath_core::toolpath::{PathBlock, SegmentShape};
+use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
 use turnpath_pipeline::{PipelineError, Progress, Stage};
 use turnpath_post::{Draft, FileError, GsfWriter, ReadPath, XyzWriter};
 use turnpath_recipe::Recipe;
@@ -47,7 +47,10 @@ pub fn plot(
     let failed = |error| of_pipeline(played.recipe, PipelineError::Measure(error));
     let mut plots = Plots::of(wishes, played.touch);
     progress.begin(Stage::Map, played.points.div_ceil(BLOCK_ROWS as u64));
-    while let Some(block) = reader.next_block(BLOCK_ROWS)? {
+    while let Some((section, block)) = reader.next_block(BLOCK_ROWS)? {
+        if section != Section::Cutting {
+            continue;
+        }
         let shape = played.shape;
         plots
             .take(played, &PathBlock { shape, ..block })

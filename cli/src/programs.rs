@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use turnpath_core::toolpath::{PathStretch, SegmentShape};
-use turnpath_pipeline::{Outcome, Progress, Stage};
+use turnpath_pipeline::{Leads, Outcome, PipelineError, Progress, Stage};
 use turnpath_post::{
     Draft, FileError, PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacReader,
     PmacWriter, ReadPath, Template,
@@ -14,6 +14,7 @@ use turnpath_recipe::{Located, Recipe, ZReference};
 use turnpath_verify::FirstTouch;
 
 use crate::failure::Failure;
+use crate::job::of_pipeline;
 use crate::summary::ProgramSummary;
 use crate::verify::{BLOCK_ROWS, measure};
 
@@ -113,6 +114,8 @@ impl Program {
             chosen.to_owned()
         };
         let tip = recipe.output.z_reference == ZReference::Tip;
+        let lead = outcome.lead.as_ref();
+        let with_leads = |cut: f64, leads: fn(&Leads) -> f64| cut + lead.map_or(0.0, leads);
         let file = || recipe.path().file_name().unwrap_or_default();
         match placeholder {
             "name" => recipe.name.clone(),
@@ -121,9 +124,19 @@ impl Program {
             "changes" if sets.is_empty() => "nothing".to_owned(),
             "changes" => sets.join(", "),
             "turnpath" => env!("CARGO_PKG_VERSION").to_owned(),
-            "points" => outcome.control_points.to_string(),
-            "revolutions" => format!("{:.2}", outcome.revolutions),
-            "time_s" => format!("{:.3}", outcome.cutting_time),
+            "points" => {
+                let points = outcome.control_points + lead.map_or(0, |lead| lead.points);
+                points.to_string()
+            }
+            "revolutions" => {
+                let turns = with_leads(outcome.revolutions, |l| l.turns_in + l.turns_out);
+                format!("{turns:.2}")
+            }
+            "time_s" => {
+                let time = with_leads(outcome.cutting_time, |l| l.in_time + l.out_time);
+                format!("{time:.3}")
+            }
+            "ends" => either(lead.is_some(), "at rest", "in motion"),
             "z_reference" => either(tip, "tool tip", "nose centre"),
             "c_range" => either(self.format.c_wrapped, "within 0 to 360", "unwrapped"),
             "velocity_unit" => either(self.format.per_minute, "min", "s"),
@@ -145,18 +158,21 @@ impl Program {
         let reader = PmacReader::open(draft.readable()?, self.format);
         let mut reader = reader.map_err(|error| error.named(&name))?.named(&name);
         progress.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
-        let meter = measure(recipe, touch, SegmentShape::Cubic, &mut reader, progress)?;
+        let measured = measure(recipe, touch, SegmentShape::Cubic, &mut reader, progress)?;
         let count = reader.counted().count();
         if count != points {
             let name = name.display();
             let message = format!("error: {name} has {count} points of the path's {points}");
             return Err(Failure::File(message));
         }
+        let figures = measured.cut.figures();
+        let figures = figures.map_err(|e| of_pipeline(recipe, PipelineError::Measure(e)))?;
         let file = self.file.clone();
         Ok(ProgramSummary::new(
             file,
             PMAC_PVT,
-            meter.figures(),
+            &figures,
+            measured.lead.figures(),
             &recipe.tolerance,
         ))
     }

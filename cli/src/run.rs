@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use turnpath_core::Slot;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Plugin;
-use turnpath_pipeline::{Making, run as run_pipeline};
+use turnpath_pipeline::{LeadLimits, LeadSettings, Making, run as run_pipeline};
 use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 
 use crate::args::{Format, RunArgs};
+use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::figures;
 use crate::files::Files;
@@ -18,6 +19,7 @@ use crate::plots::Wishes;
 use crate::programs::{asked, not_carried};
 use crate::progress::Bar;
 use crate::summary::Summary;
+use crate::unreached::Unreached;
 use crate::{Done, Verdict};
 
 /// Runs a recipe and writes its files.
@@ -33,6 +35,8 @@ pub fn run(args: &RunArgs) -> Done {
     let making = Making {
         refine: job.recipe.refine,
         time_steps: (!programs.is_empty()).then_some(PMAC_TIME_STEPS),
+        lead: lead(&job),
+        covers_centre: Promise::of(job.recipe.overrun).covers_centre,
     };
     let wants_path = !job.recipe.output.data.is_empty();
     let mut files = Files::new(folder, wants_path, programs)?;
@@ -50,7 +54,11 @@ pub fn run(args: &RunArgs) -> Done {
     bar.clear();
     let plugins = used_plugins(&job);
     let (recipe, chain) = (&job.recipe, &job.chain);
-    let summary = Summary::new(recipe, chain, &plugins, files.rows, &outcome, programs?);
+    let programs = programs?;
+    let unreached = Unreached::of_job(&job)?;
+    let summary = Summary::new(
+        recipe, chain, &plugins, files.rows, &outcome, unreached, programs,
+    );
     plotted?;
     let written = files.complete(&summary.json())?;
     match args.work.format {
@@ -74,6 +82,14 @@ fn wishes(args: &RunArgs, job: &Job, folder: &Path) -> Result<Wishes, Failure> {
         ));
     }
     Ok(wishes)
+}
+
+/// How the path comes and goes, where the recipe wants leads.
+fn lead(job: &Job) -> Option<LeadSettings> {
+    job.recipe.lead.then(|| LeadSettings {
+        clearance: job.recipe.clearance,
+        limits: LeadLimits::within(job.recipe.machine),
+    })
 }
 
 /// A program in PVT mode plays cubics; a path of straight lines is another one.
@@ -120,7 +136,13 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::line("points", format!("{points} ({added})"));
     text += &figures::line("revolutions", format!("{:.2}", summary.revolutions));
     text += &figures::line("cutting time", figures::duration(summary.cutting_time_s));
-    text += &figures::measured(&summary.measured, &job.recipe.tolerance);
+    text += &figures::measured(&summary.measured, &job.recipe);
+    if let Some(lead) = &summary.measured.lead {
+        text += &lead.lines(summary.measured.within.lead);
+    }
+    if let Some(unreached) = &summary.unreached {
+        text += &unreached.lines();
+    }
     for program in &summary.programs {
         let (error, holds) = (program.interpolation_error_nm, program.within_interpolation);
         let tolerance = job.recipe.tolerance.interpolation;

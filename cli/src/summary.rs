@@ -6,9 +6,13 @@ use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
 use turnpath_verify::machined::MachinedFigures;
-use turnpath_verify::{AxisMotion, PathFigures};
+use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak};
 
+use crate::coverage::{AxisCrossing, Coverage, Promise, largest_uncut};
+use crate::lead::Lead;
+use crate::machine::{HighestSpindle, MachineFigures};
 use crate::surface_error::SurfaceError;
+use crate::unreached::Unreached;
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
@@ -32,6 +36,7 @@ pub struct Summary {
     tolerance_nm: ToleranceNm,
     #[serde(flatten)]
     pub measured: Measured,
+    pub unreached: Option<Unreached>,
     pub programs: Vec<ProgramSummary>,
     plugins: Vec<PluginFile>,
 }
@@ -41,9 +46,17 @@ pub struct Summary {
 pub struct Measured {
     pub interpolation_error_nm: InterpolationError,
     pub residual_nm: Residual,
+    pub coverage_nm: Coverage,
+    pub axis_crossing_um: AxisCrossing,
     #[serde(flatten)]
     pub surface_error: SurfaceError,
     pub axes: Axes,
+    /// The machine's limits; null without any.
+    pub machine: Option<MachineFigures>,
+    #[serde(flatten)]
+    pub highest_spindle: HighestSpindle,
+    /// Null without leads.
+    pub lead: Option<Lead>,
     pub within: Within,
 }
 
@@ -102,17 +115,34 @@ pub struct Axes {
 #[derive(Debug, Serialize)]
 pub struct Axis {
     max_velocity: f64,
+    rms_velocity: f64,
     max_acceleration: f64,
     rms_acceleration: f64,
     max_jerk: f64,
+    rms_jerk: f64,
+    at: AxisPlaces,
 }
 
-/// Which tolerances hold; `machine` is null without limits to hold.
+/// Where an axis' largest amounts are.
+#[derive(Debug, Serialize)]
+struct AxisPlaces {
+    max_velocity: Place,
+    max_acceleration: Place,
+    max_jerk: Place,
+}
+
+/// Which tolerances hold; `machine` is null without limits of which there are figures, `lead` without
+/// leads.
 #[derive(Debug, Serialize)]
 pub struct Within {
     pub interpolation: bool,
     pub residual: bool,
+    /// Whether no more than the residual stays uncut at the part's edges and around the axis;
+    /// null where the path is not meant to cover the part.
+    pub coverage: Option<bool>,
     machine: Option<bool>,
+    /// Whether the leads stay above the first touch, to the interpolation tolerance.
+    pub lead: Option<bool>,
     /// Whether the path covers the part; only of a file, since a run's law is held to that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<bool>,
@@ -125,6 +155,8 @@ pub struct ProgramSummary {
     pub post: &'static str,
     pub interpolation_error_nm: f64,
     pub within_interpolation: bool,
+    /// Null without leads.
+    pub within_lead: Option<bool>,
 }
 
 #[derive(Debug, Serialize)]
@@ -143,6 +175,7 @@ impl Summary {
         plugins: &[&Plugin],
         rows: u64,
         outcome: &Outcome,
+        unreached: Option<Unreached>,
         programs: Vec<ProgramSummary>,
     ) -> Self {
         Self {
@@ -163,11 +196,11 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(
-                &outcome.figures,
-                outcome.machined.as_ref(),
+            measured: Measured::new(&outcome.figures, outcome.machined.as_ref(), recipe).with_lead(
+                outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),
                 &recipe.tolerance,
             ),
+            unreached,
             programs,
             plugins: plugins
                 .iter()
@@ -181,7 +214,7 @@ impl Summary {
         let programs = || {
             self.programs
                 .iter()
-                .all(|program| program.within_interpolation)
+                .all(|program| program.within_interpolation && program.within_lead.unwrap_or(true))
         };
         self.measured.all_hold() && programs()
     }
@@ -212,13 +245,12 @@ impl ChainNames {
 }
 
 impl Measured {
-    /// Figures against tolerances, in the units of the file.
-    pub fn new(
-        figures: &PathFigures,
-        machined: Option<&MachinedFigures>,
-        tolerance: &Tolerance,
-    ) -> Self {
+    /// Figures against the recipe's tolerances and limits, in the units of the file.
+    pub fn new(figures: &PathFigures, machined: Option<&MachinedFigures>, recipe: &Recipe) -> Self {
+        let promise = Promise::of(recipe.overrun);
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
+        let tolerance = &recipe.tolerance;
+        let machine = MachineFigures::new(axes, recipe);
         let at = Place {
             c_deg: playback.at_c / DEG,
             x_mm: playback.at_x,
@@ -237,24 +269,42 @@ impl Measured {
                 },
                 left_out: match residual.cusps {
                     0 => "no turn has a neighbour",
+                    _ if promise.covers_centre => "nothing",
                     _ => "the innermost turn",
                 },
             },
+            coverage_nm: Coverage::new(&figures.coverage),
+            axis_crossing_um: AxisCrossing::new(&figures.coverage),
             surface_error: SurfaceError::of(machined),
-            axes: Axes {
-                x: Axis::of(&axes.x, 1.0),
-                z: Axis::of(&axes.z, 1.0),
-                c: Axis::of(&axes.c, DEG),
-            },
+            axes: Axes::of(axes),
+            lead: None,
             within: Within {
                 interpolation: holds(playback.max(), tolerance.interpolation),
                 residual: residual
                     .highest()
                     .is_some_and(|height| holds(height, tolerance.residual)),
-                machine: None,
+                coverage: promise
+                    .covers_part
+                    .then(|| holds(largest_uncut(&figures.coverage), tolerance.residual)),
+                machine: machine.as_ref().and_then(MachineFigures::hold),
+                lead: None,
                 reach: None,
             },
+            machine,
+            highest_spindle: HighestSpindle::new(axes, recipe),
         }
+    }
+
+    /// The same with what was measured on leads.
+    pub fn with_lead(mut self, lead: Option<Lead>, tolerance: &Tolerance) -> Self {
+        self.within.lead = lead.as_ref().map(|lead| lead.clears(tolerance));
+        let within_machine = lead.as_ref().and_then(Lead::within_machine);
+        self.within.machine = match (self.within.machine, within_machine) {
+            (Some(cut), Some(lead)) => Some(cut && lead),
+            (cut, lead) => cut.or(lead),
+        };
+        self.lead = lead;
+        self
     }
 
     /// Whether all that is measured holds.
@@ -262,10 +312,23 @@ impl Measured {
         let Within {
             interpolation,
             residual,
+            coverage,
             machine,
+            lead,
             reach,
         } = self.within;
-        interpolation && residual && machine.unwrap_or(true) && reach.unwrap_or(true)
+        let asked = [coverage, machine, lead, reach];
+        interpolation && residual && asked.into_iter().flatten().all(|holds| holds)
+    }
+}
+
+impl Place {
+    /// Where a largest amount is.
+    pub fn of(peak: &Peak) -> Self {
+        Self {
+            c_deg: peak.at_c / DEG,
+            x_mm: peak.at_x,
+        }
     }
 }
 
@@ -275,6 +338,7 @@ impl ProgramSummary {
         file: String,
         post: &'static str,
         figures: &PathFigures,
+        lead: Option<&LeadFigures>,
         tolerance: &Tolerance,
     ) -> Self {
         let error = figures.playback.max();
@@ -283,22 +347,41 @@ impl ProgramSummary {
             post,
             interpolation_error_nm: error * NM_PER_MM,
             within_interpolation: holds(error, tolerance.interpolation),
+            within_lead: lead.map(|lead| holds(-lead.clearance, tolerance.interpolation)),
         }
     }
 }
 
-/// Whether a measured figure holds a tolerance.
-fn holds(measured: f64, tolerance: f64) -> bool {
+/// Whether a measured figure holds a tolerance or a limit.
+pub fn holds(measured: f64, tolerance: f64) -> bool {
     measured <= ALLOWED * tolerance
+}
+
+impl Axes {
+    /// Motion in the units of the file.
+    pub fn of(axes: &AxesMotion) -> Self {
+        Self {
+            x: Axis::of(&axes.x, 1.0),
+            z: Axis::of(&axes.z, 1.0),
+            c: Axis::of(&axes.c, DEG),
+        }
+    }
 }
 
 impl Axis {
     fn of(motion: &AxisMotion, unit: f64) -> Self {
         Self {
-            max_velocity: motion.max_velocity / unit,
-            max_acceleration: motion.max_acceleration / unit,
+            max_velocity: motion.velocity.amount / unit,
+            rms_velocity: motion.rms_velocity() / unit,
+            max_acceleration: motion.acceleration.amount / unit,
             rms_acceleration: motion.rms_acceleration() / unit,
-            max_jerk: motion.max_jerk / unit,
+            max_jerk: motion.jerk.amount / unit,
+            rms_jerk: motion.rms_jerk() / unit,
+            at: AxisPlaces {
+                max_velocity: Place::of(&motion.velocity),
+                max_acceleration: Place::of(&motion.acceleration),
+                max_jerk: Place::of(&motion.jerk),
+            },
         }
     }
 }

@@ -7,22 +7,25 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use turnpath_core::toolpath::{PathBlock, SegmentShape};
+use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
 use turnpath_core::{Radial, Slot, StrategyError};
 use turnpath_pipeline::{PipelineError, Progress, Quiet};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
-use turnpath_verify::{FirstTouch, Measured as Stretch, Meter, Subject};
+use turnpath_verify::{FirstTouch, LeadMeter, LeadStretch, Measured as CutStretch, Meter, Subject};
 
 use crate::args::{Format, VerifyArgs};
+use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::job::{of_pipeline, use_threads};
+use crate::lead::Lead;
 use crate::plots::{Wishes, make_folder};
 use crate::plotting::{Played, plot};
 use crate::programs::{PMAC_EXTENSION, pmac_format};
 use crate::reach::Reach;
 use crate::run::print;
 use crate::summary::{Measured, to_json};
+use crate::unreached::Unreached;
 use crate::{Done, Verdict, figures, strategies};
 
 /// Rows that are measured in one go, and how many such blocks at a time.
@@ -40,6 +43,7 @@ struct Verified {
     measured: Measured,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
+    unreached: Option<Unreached>,
 }
 
 /// What a file is measured against, and how it is played.
@@ -64,7 +68,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
     let mut reader = open(&args.file, &recipe, compensates_nose)?;
     let failed = |error| of_pipeline(&recipe, PipelineError::Measure(error));
     let touch = FirstTouch::new(subject).map_err(failed)?;
-    let meter = measure(&recipe, touch, shape, reader.as_mut(), &Quiet)?;
+    let PathMeters { cut: meter, lead } = measure(&recipe, touch, shape, reader.as_mut(), &Quiet)?;
     let read = reader.counted();
     let range = meter.reach(radial).map_err(failed)?;
     let Some(range) = range.filter(|_| read.cutting() >= 2) else {
@@ -74,13 +78,19 @@ pub fn verify(args: &VerifyArgs) -> Done {
     };
     let reach = Reach::new(range);
     let machined = meter.machined().map_err(failed)?;
-    let mut measured = Measured::new(meter.figures(), machined.as_ref(), &recipe.tolerance);
+    let lead = lead
+        .figures()
+        .map(|figures| Lead::measured(figures, &recipe));
+    let figures = meter.figures().map_err(failed)?;
+    let unreached = Unreached::of(meter.touch(), &recipe.tolerance).map_err(failed)?;
+    let measured = Measured::new(&figures, machined.as_ref(), &recipe);
+    let mut measured = measured.with_lead(lead, &recipe.tolerance);
     measured.within.reach = Some(reach.covers(&recipe.part));
     let played = Played {
         recipe: &recipe,
         touch: meter.touch(),
         shape,
-        largest_error: meter.figures().playback.max(),
+        largest_error: figures.playback.max(),
         points: read.count(),
     };
     let mut files = Vec::new();
@@ -98,6 +108,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         reach_mm: reach,
         measured,
         files,
+        unreached,
     };
     print(&match args.work.format {
         Format::Json => to_json(&verified),
@@ -160,6 +171,44 @@ fn open(
     })
 }
 
+/// What measures a path.
+pub struct PathMeters {
+    /// Its cutting section.
+    pub cut: Meter,
+    /// Its leads.
+    pub lead: LeadMeter,
+}
+
+/// A block of a path, measured.
+enum Stretch {
+    Cut(Box<CutStretch>, PathBlock),
+    Lead(LeadStretch),
+}
+
+impl Stretch {
+    fn of(touch: &FirstTouch, section: Section, block: PathBlock) -> Result<Self, StrategyError> {
+        Ok(match section {
+            Section::Cutting => Self::Cut(Box::new(Meter::measure(touch, &block)?), block),
+            Section::LeadIn | Section::LeadOut => Self::Lead(LeadMeter::measure(touch, &block)?),
+        })
+    }
+}
+
+impl PathMeters {
+    fn append(&mut self, stretch: &Stretch) -> Result<(), StrategyError> {
+        match stretch {
+            Stretch::Cut(measured, block) => {
+                self.lead.pass(block);
+                self.cut.append(measured)
+            }
+            Stretch::Lead(measured) => {
+                self.lead.append(measured);
+                Ok(())
+            }
+        }
+    }
+}
+
 /// Reads a path and measures it, in blocks, in parallel.
 pub fn measure(
     recipe: &Recipe,
@@ -167,30 +216,33 @@ pub fn measure(
     shape: SegmentShape,
     reader: &mut dyn ReadPath,
     progress: &dyn Progress,
-) -> Result<Meter, Failure> {
+) -> Result<PathMeters, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
-    let mut meter = Meter::new(touch);
+    let mut meters = PathMeters {
+        cut: Meter::new(touch).counting_centre(Promise::of(recipe.overrun).covers_centre),
+        lead: LeadMeter::default(),
+    };
     loop {
-        let mut blocks: Vec<PathBlock> = Vec::new();
+        let mut blocks: Vec<(Section, PathBlock)> = Vec::new();
         while blocks.len() < BLOCKS {
             match reader.next_block(BLOCK_ROWS)? {
-                Some(block) => blocks.push(PathBlock { shape, ..block }),
+                Some((section, block)) => blocks.push((section, PathBlock { shape, ..block })),
                 None => break,
             }
         }
         if blocks.is_empty() {
-            return Ok(meter);
+            return Ok(meters);
         }
-        let touch = meter.touch();
+        let (touch, count) = (meters.cut.touch(), blocks.len() as u64);
         let stretches: Vec<Stretch> = blocks
-            .par_iter()
-            .map(|block| Meter::measure(touch, block))
+            .into_par_iter()
+            .map(|(section, block)| Stretch::of(touch, section, block))
             .collect::<Result<_, _>>()
             .map_err(failed)?;
         for stretch in &stretches {
-            meter.append(stretch).map_err(failed)?;
+            meters.append(stretch).map_err(failed)?;
         }
-        progress.advance(blocks.len() as u64);
+        progress.advance(count);
     }
 }
 
@@ -202,7 +254,13 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     let rows = figures::grouped(verified.rows);
     text += &figures::line("points", format!("{cutting} that cut, of {rows} rows"));
     text += &verified.reach_mm.line(radial, &recipe.part);
-    text += &figures::measured(&verified.measured, &recipe.tolerance);
+    text += &figures::measured(&verified.measured, recipe);
+    if let Some(lead) = &verified.measured.lead {
+        text += &lead.lines(verified.measured.within.lead);
+    }
+    if let Some(unreached) = &verified.unreached {
+        text += &unreached.lines();
+    }
     for file in &verified.files {
         text += &figures::line("file", file);
     }

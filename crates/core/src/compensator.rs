@@ -67,6 +67,14 @@ pub trait Compensator: Send + Sync {
         true
     }
 
+    /// Whether the nose goes no further than where it first touches with any part of its edge, so
+    /// that it cuts into nothing where it does not fit. Without this a job that asks for
+    /// [`Misfit::CutWhatFits`](crate::Misfit) is refused on a part into which the nose does not
+    /// fit.
+    fn cuts_what_fits(&self) -> bool {
+        false
+    }
+
     /// The nose centre and the contact for each (θ, ρ); NaN where there is none.
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()>;
 

@@ -1,51 +1,31 @@
 //! The interference check: can this tool cut this surface at all?
 //!
 //! Sectional curves (Fang et al. 2008): in the radial section through every place the nose must
-//! fit the hollow and the contact stay on the edge; along the cut the flank must clear the slope.
-
-use std::f64::consts::{FRAC_PI_2, TAU};
+//! fit the hollow and the contact stay on the edge, rising outward and falling; along the cut the
+//! flank must clear the slope, up and down.
 
 use nalgebra::Vector2;
 
+use crate::extreme;
+pub use crate::extreme::Extreme;
 use crate::locus::{Profile, profile_at};
 use crate::{Cut, Gradients, RadialRange, Result, Scalar, StrategyError, Tool};
 
-/// Angles of the first, coarse look.
-const ANGLES: usize = 180;
-/// Radii of the first, coarse look.
-const RADII: usize = 128;
-/// Halvings of the coarse grid's step when an extreme is closed in on: 2⁻⁴⁰ of 2° and of the
-/// aperture are far below what a curvature can tell.
-const HALVINGS: usize = 40;
-
-/// The largest value of something on the part, and where.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extreme {
-    /// The value.
-    pub value: f64,
-    /// C angle, rad.
-    pub theta: f64,
-    /// Radius, mm.
-    pub rho: f64,
-}
-
-impl Extreme {
-    /// The place as (x, y), mm.
-    pub fn place(&self) -> Vector2<f64> {
-        let (s, c) = Scalar::sin_cos(self.theta);
-        Vector2::new(self.rho * c, self.rho * s)
-    }
-}
-
-/// What the part asks of a tool.
+/// What the part asks of a tool: its steepest sectional curves, each with its place.
+///
+/// Slopes are angles to the horizontal, rad; below 0 where the section rises, or falls, nowhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interference {
     /// Largest curvature of a radial section, 1/mm; positive: a hollow.
     pub curvature: Extreme,
-    /// Largest angle of a radial section to the horizontal, rad.
-    pub contact_angle: Extreme,
-    /// Largest angle of the surface along the cut to the horizontal, up or down, rad.
-    pub cut_angle: Extreme,
+    /// Steepest rise of a radial section outward.
+    pub rise: Extreme,
+    /// Steepest fall of a radial section outward.
+    pub fall: Extreme,
+    /// Steepest rise along the cut, the way C turns.
+    pub uphill: Extreme,
+    /// Steepest fall along the cut.
+    pub downhill: Extreme,
 }
 
 /// One way in which a tool does not fit.
@@ -53,9 +33,9 @@ pub struct Interference {
 pub enum Conflict {
     /// The nose is larger than the smallest hollow: Rκ ≥ 1.
     NoseRadius {
-        /// The smallest concave radius, mm.
+        /// The largest nose radius that fits, mm.
         largest: f64,
-        /// Where it is.
+        /// What limits it.
         at: Vector2<f64>,
     },
     /// The contact would leave the edge.
@@ -71,11 +51,47 @@ pub enum Conflict {
         least: f64,
         /// Where it is needed.
         at: Vector2<f64>,
+        /// Whether the surface rises along the cut there; it falls if not.
+        uphill: bool,
     },
 }
 
 impl Interference {
-    /// The largest nose radius that fits, mm; infinite on a part without hollows.
+    /// The five extremes in a fixed order: curvature, rise, fall, uphill, downhill.
+    pub fn extremes(&self) -> [Extreme; 5] {
+        [
+            self.curvature,
+            self.rise,
+            self.fall,
+            self.uphill,
+            self.downhill,
+        ]
+    }
+
+    /// From extremes in the order of [`extremes`](Interference::extremes).
+    pub fn from_extremes([curvature, rise, fall, uphill, downhill]: [Extreme; 5]) -> Self {
+        Self {
+            curvature,
+            rise,
+            fall,
+            uphill,
+            downhill,
+        }
+    }
+
+    /// Largest angle of a radial section to the horizontal, either way, rad.
+    pub fn contact_angle(&self) -> Extreme {
+        larger(self.fall, self.rise)
+    }
+
+    /// Largest angle of the surface along the cut to the horizontal, up or down, rad.
+    pub fn cut_angle(&self) -> Extreme {
+        larger(self.downhill, self.uphill)
+    }
+
+    /// The largest nose radius that fits where the check looked, mm; infinite on a part without
+    /// hollows. A larger nose touches other places, so it may find less: see
+    /// [`largest_nose`](crate::largest_nose).
     pub fn largest_nose_radius(&self) -> f64 {
         if self.curvature.value > 0.0 {
             self.curvature.value.recip()
@@ -88,185 +104,71 @@ impl Interference {
     pub fn conflicts(&self, tool: &Tool) -> Vec<Conflict> {
         let mut found = Vec::new();
         if tool.nose_radius * self.curvature.value >= 1.0 {
-            let largest = self.largest_nose_radius();
             found.push(Conflict::NoseRadius {
-                largest,
+                largest: self.largest_nose_radius(),
                 at: self.curvature.place(),
             });
         }
-        if tool
-            .included_angle
-            .is_some_and(|angle| self.contact_angle.value > 0.5 * angle)
-        {
-            let least = 2.0 * self.contact_angle.value;
+        let contact = self.contact_angle();
+        let exceeded = |angle: f64| contact.value > 0.5 * angle;
+        if tool.included_angle.is_some_and(exceeded) {
             found.push(Conflict::IncludedAngle {
-                least,
-                at: self.contact_angle.place(),
+                least: 2.0 * contact.value,
+                at: contact.place(),
             });
         }
-        if tool
-            .clearance_angle
-            .is_some_and(|angle| self.cut_angle.value > angle)
-        {
-            let least = self.cut_angle.value;
+        let cut = self.cut_angle();
+        if tool.clearance_angle.is_some_and(|angle| cut.value > angle) {
             found.push(Conflict::Clearance {
-                least,
-                at: self.cut_angle.place(),
+                least: cut.value,
+                at: cut.place(),
+                uphill: self.uphill.value > self.downhill.value,
             });
         }
         found
     }
 }
 
-/// Looks for the extremes within `region`: on a grid, then closing in on the largest.
+/// The first where they are equal.
+fn larger(first: Extreme, second: Extreme) -> Extreme {
+    if second.value > first.value {
+        second
+    } else {
+        first
+    }
+}
+
+/// Looks for the extremes within `region`, on a grid, then closing in on its highest places.
 ///
 /// # Errors
 /// Where the surface has no height.
 pub fn check(cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
-    let grid = Grid::new(region);
-    let mut best: [Option<Extreme>; 3] = [None; 3];
-    for row in grid.rows() {
-        for (theta, rho, measures) in measure(cut, &row)? {
-            for (best, value) in best.iter_mut().zip(measures) {
-                if best.is_none_or(|best| value > best.value) {
-                    *best = Some(Extreme { value, theta, rho });
-                }
-            }
-        }
-    }
-    let mut closed_in = [Extreme {
-        value: 0.0,
-        theta: 0.0,
-        rho: region.inner,
-    }; 3];
-    for (which, best) in best.into_iter().enumerate() {
-        if let Some(best) = best {
-            closed_in[which] = grid.close_in(cut, which, best)?;
-        }
-    }
-    let [curvature, contact_angle, cut_angle] = closed_in;
-    Ok(Interference {
-        curvature,
-        contact_angle,
-        cut_angle,
-    })
+    let mut measure =
+        |theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]| sections(cut, theta, rho, out);
+    extreme::largest(region, &mut measure).map(Interference::from_extremes)
 }
 
-struct Grid {
-    region: RadialRange,
-    theta_step: f64,
-    rho_step: f64,
-}
-
-impl Grid {
-    fn new(region: RadialRange) -> Self {
-        let rho_step = (region.outer - region.inner) / RADII as f64;
-        Self {
-            region,
-            theta_step: TAU / ANGLES as f64,
-            rho_step,
+/// The sectional curves at each (θ, ρ), in the order of [`Interference::extremes`].
+fn sections(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]) -> Result<()> {
+    let mut profiles = vec![Profile::default(); theta.len()];
+    profile_at(cut.surface, theta, rho, &mut profiles)?;
+    let along = slopes_along_cut(cut, theta, rho)?;
+    for (i, (profile, along)) in profiles.iter().zip(along).enumerate() {
+        let (radial, along) = (Scalar::atan(profile.slope), Scalar::atan(along));
+        out[i] = [profile.curvature(), radial, -radial, along, -along];
+        if out[i].iter().any(|value| !value.is_finite()) {
+            return Err(no_height(theta[i], rho[i]));
         }
     }
-
-    /// The grid as one batch a radius.
-    fn rows(&self) -> impl Iterator<Item = Vec<(f64, f64)>> + '_ {
-        (0..=RADII).map(|i| {
-            let rho = self.region.inner + i as f64 * self.rho_step;
-            (0..ANGLES)
-                .map(|j| (j as f64 * self.theta_step, rho))
-                .collect()
-        })
-    }
-
-    /// Compass search: the best of eight neighbours, at half the step when none is better.
-    fn close_in(&self, cut: Cut<'_>, which: usize, mut best: Extreme) -> Result<Extreme> {
-        let mut scale = 0.5;
-        for _ in 0..HALVINGS {
-            let around: Vec<(f64, f64)> = NEIGHBOURS
-                .iter()
-                .map(|(turn, out)| {
-                    let theta = best.theta + turn * scale * self.theta_step;
-                    let rho = best.rho + out * scale * self.rho_step;
-                    (theta, rho.clamp(self.region.inner, self.region.outer))
-                })
-                .collect();
-            let before = best.value;
-            for (theta, rho, measures) in measure(cut, &around)? {
-                if measures[which] > best.value {
-                    best = Extreme {
-                        value: measures[which],
-                        theta,
-                        rho,
-                    };
-                }
-            }
-            if best.value == before {
-                scale *= 0.5;
-            }
-        }
-        Ok(best)
-    }
-}
-
-const NEIGHBOURS: [(f64, f64); 8] = [
-    (-1.0, -1.0),
-    (-1.0, 0.0),
-    (-1.0, 1.0),
-    (0.0, -1.0),
-    (0.0, 1.0),
-    (1.0, -1.0),
-    (1.0, 0.0),
-    (1.0, 1.0),
-];
-
-/// Curvature, contact angle and angle along the cut at each (θ, ρ).
-fn measure(cut: Cut<'_>, places: &[(f64, f64)]) -> Result<Vec<(f64, f64, [f64; 3])>> {
-    let theta: Vec<f64> = places.iter().map(|place| place.0).collect();
-    let rho: Vec<f64> = places.iter().map(|place| place.1).collect();
-    let mut profiles = vec![Profile::default(); places.len()];
-    profile_at(cut.surface, &theta, &rho, &mut profiles)?;
-    let along = slopes_along_cut(cut, places)?;
-    let mut measured = Vec::with_capacity(places.len());
-    for (((theta, rho), profile), along) in places.iter().zip(&profiles).zip(&along) {
-        let values = [
-            profile.curvature(),
-            steepness(profile.slope),
-            steepness(*along),
-        ];
-        if values.iter().any(|value| !value.is_finite()) {
-            return Err(no_height(*theta, *rho));
-        }
-        measured.push((*theta, *rho, values));
-    }
-    Ok(measured)
-}
-
-fn steepness(slope: f64) -> f64 {
-    let angle = Scalar::atan(slope.abs());
-    if slope.is_infinite() {
-        FRAC_PI_2
-    } else {
-        angle
-    }
+    Ok(())
 }
 
 /// g_θ/ρ at each (θ, ρ): the gradient's part across the radius, which the centre has too.
-fn slopes_along_cut(cut: Cut<'_>, places: &[(f64, f64)]) -> Result<Vec<f64>> {
-    let turned: Vec<(f64, f64)> = places
-        .iter()
-        .map(|place| Scalar::sin_cos(place.0))
-        .collect();
-    let x: Vec<f64> = places
-        .iter()
-        .zip(&turned)
-        .map(|(place, (_, c))| place.1 * c)
-        .collect();
-    let y: Vec<f64> = places
-        .iter()
-        .zip(&turned)
-        .map(|(place, (s, _))| place.1 * s)
-        .collect();
-    let mut z = vec![0.0; places.len()];
+fn slopes_along_cut(cut: Cut<'_>, theta: &[f64], rho: &[f64]) -> Result<Vec<f64>> {
+    let turned: Vec<(f64, f64)> = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
+    let places = rho.iter().zip(&turned);
+    let (x, y): (Vec<f64>, Vec<f64>) = places.map(|(rho, (s, c))| (rho * c, rho * s)).unzip();
+    let mut z = vec![0.0; theta.len()];
     let (mut zx, mut zy) = (z.clone(), z.clone());
     cut.surface.gradient(
         &x,

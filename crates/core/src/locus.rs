@@ -3,13 +3,19 @@
 use std::sync::Arc;
 
 use crate::{
-    CentreSeries, Centres, Compensator, Cut, Radial, Rates, Result, Scalar, Series, SurfaceModel,
-    Tool, fit,
+    CentreSeries, Centres, Compensator, Cut, Misfit, Radial, Rates, Result, Scalar, Series,
+    SurfaceModel, Tool, fit,
 };
 
 /// The largest feed is this part of the nose radius, however concave the part is: where Rκ comes
 /// near 1 the held feed would grow without bound, and its formula stops being true.
 pub const LARGEST_FEED: f64 = 0.1;
+
+/// With [`Misfit::CutWhatFits`] the held feed takes 1 − Rκ for this where it is less, a seventh of
+/// the feed on a flat. The formula goes to zero where the nose touches a hollow of its own radius,
+/// at one place; a seam beside it leaves cusps that grow with the feed itself, not with its
+/// square, and those no formula of the curvature knows.
+pub const LEAST_GAP: f64 = 0.02;
 
 /// The locus as strategies see it, and through it the bare surface. Batches; all slices of one
 /// call have the same length.
@@ -32,7 +38,7 @@ pub trait Locus: Send + Sync {
     /// The feed dρ/dN, mm, that leaves cusps of height `residual` (mm) at each (θ, ρ):
     /// sqrt(8Rε/(1 − Rκ))/w where ρ is the contact's radius and sqrt(8Rε(1 − Rκ))/w where it is
     /// the centre's X, with κ and w at the contact, and never above R/10; NaN where the surface
-    /// has no curvature.
+    /// has no curvature. A tool that cuts what fits takes 1 − Rκ for [`LEAST_GAP`] at least.
     ///
     /// `radial` overrides what ρ is taken for.
     fn held_feed(
@@ -209,7 +215,7 @@ impl Locus for ToolLocus {
         let mut profile = vec![Profile::default(); theta.len()];
         profile_at(self.surface.as_ref(), theta, &room.foot, &mut profile)?;
         for (feed, profile) in feed.iter_mut().zip(&profile) {
-            *feed = profile.held_feed(residual, radial, self.tool.nose_radius);
+            *feed = profile.held_feed(residual, radial, &self.tool);
         }
         Ok(())
     }
@@ -239,8 +245,12 @@ impl Profile {
     }
 
     /// See [`Locus::held_feed`].
-    pub fn held_feed(&self, residual: f64, radial: Radial, nose_radius: f64) -> f64 {
-        let gap = 1.0 - nose_radius * self.curvature();
+    pub fn held_feed(&self, residual: f64, radial: Radial, tool: &Tool) -> f64 {
+        let nose_radius = tool.nose_radius;
+        let gap = match (1.0 - nose_radius * self.curvature(), tool.misfit) {
+            (gap, Misfit::CutWhatFits) if gap < LEAST_GAP => LEAST_GAP,
+            (gap, _) => gap,
+        };
         let cap = LARGEST_FEED * nose_radius;
         if gap <= 0.0 {
             return cap;

@@ -1,6 +1,6 @@
 //! What is cut, with what, how exactly, and in which direction.
 
-use crate::SpindleLaw;
+use crate::{Machine, SpindleLaw};
 
 /// A degree in rad.
 pub const DEG: f64 = std::f64::consts::PI / 180.0;
@@ -18,6 +18,17 @@ pub struct Part {
     pub inner_radius: f64,
 }
 
+/// What happens where the nose does not fit: in hollows tighter than it, and on slopes where the
+/// contact would leave the edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Misfit {
+    /// The job is refused.
+    #[default]
+    Refuse,
+    /// The tool goes where it first touches, and the part stays higher where it cannot go.
+    CutWhatFits,
+}
+
 /// The tool: a round nose in the XZ plane, zero rake.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tool {
@@ -27,6 +38,8 @@ pub struct Tool {
     pub included_angle: Option<f64>,
     /// Clearance angle below the edge, rad: the largest slope along the cut.
     pub clearance_angle: Option<f64>,
+    /// What happens where the nose does not fit.
+    pub misfit: Misfit,
 }
 
 impl Tool {
@@ -94,4 +107,6 @@ pub struct Job {
     pub direction: Direction,
     /// How fast the spindle turns.
     pub spindle: SpindleLaw,
+    /// What the machine can do; a strategy may keep to it.
+    pub machine: Machine,
 }

@@ -1,4 +1,4 @@
-//! Quantities with units: the text of a recipe to inner units (mm, rad, 1/mm, rad/s), and back.
+//! Quantities with units: the text of a recipe to inner units (mm, rad, 1/mm, rad/s, mm/s²), and back.
 //!
 //! Decimal prefixes move the decimal point of the text before it becomes a double, so `"100 nm"`
 //! is exactly the double `1e-4` and `"1 in"` exactly `25.4`.
@@ -22,8 +22,16 @@ pub enum Quantity {
     RotationSpeed,
     /// A time; inside in s. Known so that a message can name it.
     Time,
-    /// A speed along a line; inside in mm/s. Known so that a message can name it.
+    /// A speed along a line; inside in mm/s.
     Velocity,
+    /// An acceleration along a line; inside in mm/s².
+    Acceleration,
+    /// A jerk along a line; inside in mm/s³.
+    Jerk,
+    /// An acceleration of rotation; inside in rad/s².
+    AngularAcceleration,
+    /// A jerk of rotation; inside in rad/s³.
+    AngularJerk,
 }
 
 /// Why a text is not a quantity of the kind that is wanted.
@@ -93,6 +101,10 @@ impl Quantity {
             Self::RotationSpeed => "a speed of rotation",
             Self::Time => "a time",
             Self::Velocity => "a speed along a line",
+            Self::Acceleration => "an acceleration along a line",
+            Self::Jerk => "a jerk along a line",
+            Self::AngularAcceleration => "an acceleration of rotation",
+            Self::AngularJerk => "a jerk of rotation",
         }
     }
 
@@ -113,7 +125,11 @@ impl Quantity {
             Self::Feed => "10 um/rev",
             Self::RotationSpeed => "500 rpm",
             Self::Time => "1 s",
-            Self::Velocity => "1 mm/s",
+            Self::Velocity => "50 mm/s",
+            Self::Acceleration => "500 mm/s^2",
+            Self::Jerk => "200 m/s^3",
+            Self::AngularAcceleration => "100 rad/s^2",
+            Self::AngularJerk => "1000 rad/s^3",
         }
     }
 
@@ -213,6 +229,12 @@ impl Quantity {
             Self::RotationSpeed => "rpm",
             Self::Time => "s",
             Self::Velocity => "mm/s",
+            Self::Acceleration if size < 1e3 => "mm/s^2",
+            Self::Acceleration => "m/s^2",
+            Self::Jerk if size < 1e3 => "mm/s^3",
+            Self::Jerk => "m/s^3",
+            Self::AngularAcceleration => "rad/s^2",
+            Self::AngularJerk => "rad/s^3",
         }
     }
 }
@@ -297,6 +319,39 @@ mod tests {
     }
 
     #[test]
+    fn what_an_axis_does_converts_with_signs_and_with_powers_as_people_write_them() {
+        for (text, quantity, inner) in [
+            ("3000 mm/min", Quantity::Velocity, 50.0),
+            ("0.5 m/s^2", Quantity::Acceleration, 500.0),
+            ("0.5 m/s²", Quantity::Acceleration, 500.0),
+            ("500 mm/s²", Quantity::Acceleration, 500.0),
+            ("500000 µm / s^2", Quantity::Acceleration, 500.0),
+            ("1 g", Quantity::Acceleration, 9806.65),
+            ("0.2 m/s³", Quantity::Jerk, 200.0),
+            ("200 mm/s^3", Quantity::Jerk, 200.0),
+            ("200 mm/s³", Quantity::Jerk, 200.0),
+            ("2 rad/s²", Quantity::AngularAcceleration, 2.0),
+            ("90 deg/s^2", Quantity::AngularAcceleration, 90.0 * DEG),
+            ("60 rpm/s", Quantity::AngularAcceleration, 60.0 * TAU / 60.0),
+            ("2 rad/s^3", Quantity::AngularJerk, 2.0),
+            ("90 deg/s³", Quantity::AngularJerk, 90.0 * DEG),
+        ] {
+            assert_eq!(quantity.parse(text), Ok(inner), "{text}");
+        }
+        assert_eq!(Quantity::Acceleration.format(500.0), "500 mm/s^2");
+        assert_eq!(Quantity::Acceleration.format(1500.0), "1.5 m/s^2");
+        assert_eq!(Quantity::Jerk.format(2e5), "200 m/s^3");
+        assert_eq!(Quantity::Jerk.format(2.5), "2.5 mm/s^3");
+        assert_eq!(Quantity::AngularAcceleration.format(2.0), "2 rad/s^2");
+        assert_eq!(unknown("5 mm/s2", Quantity::Acceleration).1, Some("mm/s^2"));
+        assert_eq!(unknown("5 G", Quantity::Acceleration).1, Some("g"));
+        assert_eq!(unknown("5 mm/s4", Quantity::Jerk).1, None);
+        let power = Quantity::Acceleration.parse("5 mm/s");
+        let found = Quantity::Velocity;
+        assert!(matches!(power, Err(QuantityError::OtherKind { found: f, .. }) if f == found));
+    }
+
+    #[test]
     fn half_a_turn_is_not_above_pi() {
         assert_eq!(Quantity::Angle.parse("180 deg"), Ok(PI));
         assert_eq!(Quantity::Angle.parse("45 deg"), Ok(45.0 * DEG));
@@ -375,7 +430,13 @@ mod tests {
     fn what_is_written_reads_back() {
         let mut value = 1.234_567_89e-9;
         while value < 1e9 {
-            for quantity in [Quantity::Length, Quantity::Feed, Quantity::PerLength] {
+            for quantity in [
+                Quantity::Length,
+                Quantity::Feed,
+                Quantity::PerLength,
+                Quantity::Acceleration,
+                Quantity::Jerk,
+            ] {
                 assert_eq!(quantity.parse(&quantity.format(value)), Ok(value));
             }
             let angle = Quantity::Angle

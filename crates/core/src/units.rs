@@ -5,6 +5,9 @@ use std::f64::consts::TAU;
 use crate::decimal::Decimal;
 use crate::{DEG, Quantity};
 
+/// The acceleration of free fall, by definition, mm/s².
+const STANDARD_GRAVITY: f64 = 9806.65;
+
 /// How a number in a unit becomes one in inner units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scale {
@@ -57,7 +60,10 @@ const fn unit(quantity: Quantity, symbol: &'static str, scale: Scale) -> Unit {
 
 /// All units, the usual one of each kind first.
 pub(crate) const UNITS: &[Unit] = {
-    use Quantity::{Angle, Feed, Length, PerLength, RotationSpeed, Time, Velocity};
+    use Quantity::{
+        Acceleration, Angle, AngularAcceleration, AngularJerk, Feed, Jerk, Length, PerLength,
+        RotationSpeed, Time, Velocity,
+    };
     use Scale::{Factor, Inches, PerInch, Shift};
     &[
         unit(Length, "mm", Shift(0)),
@@ -96,15 +102,32 @@ pub(crate) const UNITS: &[Unit] = {
         unit(Velocity, "m/s", Shift(3)),
         unit(Velocity, "mm/min", Factor(1.0, 60.0)),
         unit(Velocity, "m/min", Factor(1000.0, 60.0)),
+        unit(Acceleration, "mm/s^2", Shift(0)),
+        unit(Acceleration, "m/s^2", Shift(3)),
+        unit(Acceleration, "um/s^2", Shift(-3)),
+        unit(Acceleration, "g", Factor(STANDARD_GRAVITY, 1.0)),
+        unit(Jerk, "mm/s^3", Shift(0)),
+        unit(Jerk, "m/s^3", Shift(3)),
+        unit(AngularAcceleration, "rad/s^2", Shift(0)),
+        unit(AngularAcceleration, "deg/s^2", Factor(DEG, 1.0)),
+        unit(AngularAcceleration, "rpm/s", Factor(TAU, 60.0)),
+        unit(AngularJerk, "rad/s^3", Shift(0)),
+        unit(AngularJerk, "deg/s^3", Factor(DEG, 1.0)),
     ]
 };
 
-/// A unit in the spelling of the table: no spaces, `u` for µ, `/mm` for `1/mm` and `mm^-1`.
+/// A unit in the spelling of the table: no spaces, `u` for µ, `^2` for ², `/mm` for `1/mm` and
+/// `mm^-1`.
 pub(crate) fn tidy_unit(written: &str) -> String {
-    let spaceless = written.chars().filter(|c| !c.is_whitespace());
-    let plain: String = spaceless
-        .map(|c| if matches!(c, 'µ' | 'μ') { 'u' } else { c })
-        .collect();
+    let mut plain = String::new();
+    for c in written.chars().filter(|c| !c.is_whitespace()) {
+        match c {
+            'µ' | 'μ' => plain.push('u'),
+            '²' => plain.push_str("^2"),
+            '³' => plain.push_str("^3"),
+            other => plain.push(other),
+        }
+    }
     if let Some(rest) = plain.strip_prefix("1/") {
         return format!("/{rest}");
     }

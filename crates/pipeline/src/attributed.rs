@@ -104,6 +104,10 @@ impl Compensator for AttributedCompensator {
         self.compensator.compensates_nose()
     }
 
+    fn cuts_what_fits(&self) -> bool {
+        self.compensator.cuts_what_fits()
+    }
+
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
         self.name.put(self.compensator.centre(cut, theta, rho, out))
     }

@@ -51,11 +51,19 @@ pub enum PipelineError {
         /// In which ways; at least one.
         conflicts: Vec<Conflict>,
         /// What the part asks for.
-        interference: Interference,
+        interference: Box<Interference>,
     },
     /// The surface has no height on a part of the part.
     #[error("{0}")]
     NoSurface(StrategyError),
+    /// There is no lead-in or no lead-out that keeps to what it must.
+    #[error("no {which} could be made: {what}")]
+    Lead {
+        /// `lead-in` or `lead-out`.
+        which: &'static str,
+        /// Why not.
+        what: String,
+    },
     /// The path's measure could not be taken.
     #[error("the path could not be measured: {0}")]
     Measure(StrategyError),

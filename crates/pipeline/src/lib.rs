@@ -7,7 +7,9 @@
 mod attributed;
 mod chain;
 mod error;
+mod largest_nose;
 mod law;
+mod lead;
 mod make;
 mod order;
 mod plan;
@@ -20,6 +22,8 @@ mod taper;
 
 pub use chain::{Chain, Link};
 pub use error::{PipelineError, Result};
+pub use largest_nose::largest_nose;
+pub use lead::{AxisLimits, LeadLimits, LeadSettings, Leads};
 pub use plan::BLOCK;
 pub use prepare::{Prepared, Wanted, prepare};
 pub use progress::{Progress, Quiet, Stage};

@@ -268,7 +268,7 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
         .collect();
     let columns = Columns {
         t,
-        c: n.iter().map(|n| TAU * n).collect(),
+        c: n.iter().map(|n| TAU * (n + plan.start.turns)).collect(),
         x: centres.x,
         z: centres.z,
         c_rate,

@@ -22,6 +22,15 @@ const MOST_OVERLAP: usize = 10_000;
 /// between them would be rounding.
 pub const CLOSEST_NODES: f64 = 1e-9;
 
+/// Where and when the cutting section begins: behind the lead-in, if there is one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Start {
+    /// Whole revolutions of C before it, so that C stays θ.
+    pub turns: f64,
+    /// Time before it: whole steps where the controller counts such, else s.
+    pub time: f64,
+}
+
 /// A job with its law.
 pub struct Plan<'a> {
     /// The strategies.
@@ -32,6 +41,8 @@ pub struct Plan<'a> {
     pub law: SpiralLaw,
     /// Steps of time a second at which control points must lie, if the controller has such.
     pub time_steps: Option<f64>,
+    /// Where and when the cutting section begins.
+    pub start: Start,
     /// Revolutions of a block: [`BLOCK`], fewer where nodes are very many.
     block: f64,
     /// What the sampler found on the whole path.
@@ -57,6 +68,7 @@ impl<'a> Plan<'a> {
             prepared,
             law,
             time_steps: None,
+            start: Start::default(),
             block: BLOCK,
             prepared_sampler: Vec::new(),
             sampler_states: Vec::new(),
@@ -123,22 +135,21 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// A node and its time, moved to the nearest step of the controller's time if it has such; the
+    /// A node and its time in the path, moved to the nearest step of the controller's time if it has such; the
     /// path's end to the one before, so that the path does not run beyond it.
     pub fn on_time(&self, n: f64) -> (f64, f64) {
         let spindle = &self.prepared.job.spindle;
         let t = spindle.time_at(n);
         let Some(steps) = self.time_steps else {
-            return (n, t);
+            return (n, self.start.time + t);
         };
         let whole = if n < self.law.end() {
             (t * steps).round()
         } else {
             (t * steps).floor()
         };
-        let on_step = whole / steps;
-        let moved = (on_step - t) * spindle.speed_at(n) / TAU;
-        (n + moved, on_step)
+        let moved = (whole / steps - t) * spindle.speed_at(n) / TAU;
+        (n + moved, (self.start.time + whole) / steps)
     }
 
     /// Revolutions of every block but the last.

@@ -4,13 +4,15 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
+use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Overrun, Part, RadialRange, SpindleLaw,
-    StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Misfit, Overrun, Part,
+    RadialRange, SpindleLaw, StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::attributed::{AttributedCompensator, AttributedSurface};
+use crate::largest_nose::Fit;
 use crate::range::range;
 use crate::{Chain, PipelineError, Result};
 
@@ -34,11 +36,13 @@ pub struct Wanted {
     pub direction: Direction,
     /// How fast the spindle turns.
     pub spindle: SpindleLaw,
+    /// What the machine can do.
+    pub machine: Machine,
 }
 
 /// A job whose tool fits its part.
 pub struct Prepared {
-    /// Part, tool, tolerances, range of ρ, direction, spindle.
+    /// Part, tool, tolerances, range of ρ, direction, spindle, machine.
     pub job: Job,
     /// How far the path runs beyond the part.
     pub overrun: Overrun,
@@ -63,6 +67,7 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
         overrun,
         direction,
         spindle,
+        machine,
     } = wanted;
     let surface: Arc<dyn SurfaceModel> = Arc::new(AttributedSurface::new(&chain.surface));
     let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));
@@ -80,11 +85,20 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
         inner: part.inner_radius,
         outer: part.aperture_radius,
     })?;
-    refuse(
-        &on_part,
-        |conflict| matches!(conflict, Conflict::NoseRadius { .. }),
-        &tool,
-    )?;
+    let largest = || {
+        let fit = Fit {
+            chain,
+            surface: surface.clone(),
+            compensator: compensator.clone(),
+            part,
+            tool,
+            overrun,
+        };
+        fit.largest_nose(on_part.curvature)
+    };
+    let conflicts = |found: &Interference| conflicts(found, &tool, compensator.as_ref());
+    let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });
+    refuse(&on_part, conflicts(&on_part), of_nose, largest)?;
     let range = range(
         overrun,
         &part,
@@ -100,6 +114,7 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
         range,
         direction,
         spindle,
+        machine,
     };
     let subject = Subject {
         surface: surface.clone(),
@@ -109,7 +124,7 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
     let interference = check(contact_range(chain, &locus, &tool, range)?)?;
-    refuse(&interference, |_| true, &tool)?;
+    refuse(&interference, conflicts(&interference), |_| true, largest)?;
     Ok(Prepared {
         job,
         overrun,
@@ -139,7 +154,7 @@ fn turn(eighths: usize) -> (f64, f64) {
     turnpath_core::Scalar::sin_cos(TAU * eighths as f64 / 8.0)
 }
 
-fn interference(
+pub(crate) fn interference(
     chain: &Chain,
     compensator: &dyn Compensator,
     cut: Cut<'_>,
@@ -155,31 +170,52 @@ fn interference(
         let all = [extreme.value, extreme.theta, extreme.rho];
         all.iter().all(|number| number.is_finite())
     };
-    if ![found.curvature, found.contact_angle, found.cut_angle]
-        .iter()
-        .all(numbers)
-    {
+    if !found.extremes().iter().all(numbers) {
         let what = format!("no numbers in its interference check: {found:?}");
         return Err(chain.compensator.bad_answer(what));
     }
     Ok(found)
 }
 
-fn refuse(found: &Interference, which: impl Fn(&Conflict) -> bool, tool: &Tool) -> Result<()> {
-    let conflicts = found.conflicts(tool);
-    if conflicts.iter().any(which) {
-        let interference = *found;
-        return Err(PipelineError::Gouge {
-            conflicts,
-            interference,
-        });
+/// In which ways the tool does not fit, but for those that leave something standing where that is
+/// what the recipe asks for and the compensator can do.
+fn conflicts(found: &Interference, tool: &Tool, compensator: &dyn Compensator) -> Vec<Conflict> {
+    let mut conflicts = found.conflicts(tool);
+    if tool.misfit == Misfit::CutWhatFits && compensator.cuts_what_fits() {
+        conflicts.retain(|conflict| matches!(conflict, Conflict::Clearance { .. }));
     }
-    Ok(())
+    conflicts
+}
+
+/// Refuses a tool that does not fit; of a nose that is too large the message tells the one that
+/// would really do.
+fn refuse(
+    found: &Interference,
+    mut conflicts: Vec<Conflict>,
+    which: impl Fn(&Conflict) -> bool,
+    largest: impl FnOnce() -> Result<LargestNose>,
+) -> Result<()> {
+    if !conflicts.iter().any(which) {
+        return Ok(());
+    }
+    let noses = conflicts.iter_mut().find_map(|conflict| match conflict {
+        Conflict::NoseRadius { largest, at } => Some((largest, at)),
+        _ => None,
+    });
+    if let Some((radius, at)) = noses {
+        let nose = largest()?;
+        (*radius, *at) = (nose.radius, nose.at.place());
+    }
+    let interference = Box::new(*found);
+    Err(PipelineError::Gouge {
+        conflicts,
+        interference,
+    })
 }
 
 /// The radii of contact while ρ runs over `range`: where ρ is the centre's X, contact reaches
 /// beyond it on slopes.
-fn contact_range(
+pub(crate) fn contact_range(
     chain: &Chain,
     locus: &ToolLocus,
     tool: &Tool,

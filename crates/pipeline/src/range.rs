@@ -145,7 +145,7 @@ impl Rim<'_> {
 
 #[cfg(test)]
 mod tests {
-    use turnpath_core::{Centres, Cut, Scalar, Surface};
+    use turnpath_core::{Centres, Cut, Misfit, Scalar, Surface};
 
     use super::*;
 
@@ -189,6 +189,7 @@ mod tests {
             nose_radius: 1.0,
             included_angle,
             clearance_angle: None,
+            misfit: Misfit::Refuse,
         };
         let found = range(overrun, &part, &tool, &Saddle, &Placed(radial)).unwrap();
         [found.inner, found.outer]
@@ -224,7 +225,7 @@ mod tests {
             Radial::Centre,
             Some(20f64.to_radians()),
         );
-        near(narrow, [0.0, 2.5 + 10f64.to_radians().sin()]);
+        near(narrow, [0.0, 2.5 + Scalar::sin(10f64.to_radians())]);
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! The whole run: law, refinement, then every block made, measured and handed on in order.
 
 use rayon::prelude::*;
-use turnpath_core::toolpath::{ControlPoint, PathStretch, Section};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
 use turnpath_verify::machined::MachinedFigures;
-use turnpath_verify::{FirstTouch, Measured, Meter, PathFigures};
+use turnpath_verify::{AxesMotion, FirstTouch, Measured, Meter, PathFigures};
 
+use crate::lead::{LeadRun, LeadSettings, Leads};
 use crate::make::{Depths, Made, join, make};
 use crate::order::in_order;
 use crate::plan::Plan;
@@ -52,6 +53,8 @@ pub struct Outcome {
     pub figures: PathFigures,
     /// The surface that it would leave; `None` where nothing of the part is cut.
     pub machined: Option<MachinedFigures>,
+    /// The leads, where the path has some.
+    pub lead: Option<Leads>,
 }
 
 /// What a run will give, without making it.
@@ -73,6 +76,10 @@ pub struct Making {
     /// Steps of time a second to which the controller rounds: every control point is then put
     /// where the path is at such a step, so that program and path have the same points.
     pub time_steps: Option<f64>,
+    /// How the path comes from rest and goes to rest; it begins and ends in motion without.
+    pub lead: Option<LeadSettings>,
+    /// Whether the path covers the axis on purpose: the cusps there are then residual too.
+    pub covers_centre: bool,
 }
 
 /// Makes, measures and hands on the path.
@@ -91,21 +98,31 @@ pub fn run(
         true => refine(&plan, batch, progress)?,
         false => Vec::new(),
     };
-    write(&plan, batch, &depths, sink, progress)
+    let leads = making
+        .lead
+        .map(|settings| LeadRun::begin(&mut plan, &depths, settings))
+        .transpose()?;
+    let meter = Meter::new(prepared.touch.clone()).counting_centre(making.covers_centre);
+    write(&plan, batch, &depths, leads, meter, sink, progress)
 }
 
 fn write(
     plan: &Plan<'_>,
     batch: usize,
     depths: &[Depths],
+    leads: Option<LeadRun>,
+    mut meter: Meter,
     sink: &mut dyn Sink,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
     let touch = &plan.prepared.touch;
-    let mut meter = Meter::new(touch.clone());
     let (mut made_points, mut sampled) = (0, 0);
+    let mut last_motion = AxesMotion::default();
     let mut state = first_state(plan);
-    let mut tail = Vec::new();
+    let mut trail = Trail::default();
+    if let Some(leads) = &leads {
+        trail.hand_on(Section::LeadIn, &leads.lead_in(), sink)?;
+    }
     let blocks: Vec<usize> = (0..plan.blocks()).collect();
     progress.begin(Stage::Write, blocks.len() as u64);
     let mut held = Vec::new();
@@ -115,56 +132,103 @@ fn write(
         join(&mut made);
         // The last block waits for the first point of the next one.
         held = made.split_off(made.len() - usize::from(range.end < plan.blocks()));
-        let before: Vec<Vec<ControlPoint>> =
-            made.iter().map(|made| follow(&mut tail, made)).collect();
+        let behind: Vec<Behind> = made.iter().map(|made| trail.behind_cut(made)).collect();
         let encoder: &dyn Sink = sink;
-        let each = made.into_par_iter().zip(before);
-        let ready = in_order(each.map(|(made, before)| ready(touch, made, &before, encoder)))?;
+        let each = made.into_par_iter().zip(behind);
+        let ready = in_order(each.map(|(made, behind)| ready(touch, made, &behind, encoder)))?;
         for block in ready {
             meter
                 .append(&block.measured)
                 .map_err(PipelineError::Measure)?;
             made_points += block.points as u64;
             sampled += block.sampled as u64;
+            last_motion = block.measured.axes;
             sink.take(block.points, &block.encoded)
                 .map_err(PipelineError::Sink)?;
         }
         progress.advance(range.len() as u64);
     }
+    let lead = match leads.zip(trail.last_two()) {
+        None => None,
+        Some((leads, pair)) => {
+            let (points, leads) = leads.end(plan, &pair, last_motion)?;
+            trail.hand_on(Section::LeadOut, &points, sink)?;
+            Some(leads)
+        }
+    };
     let revolutions = plan.law.end();
     Ok(Outcome {
         control_points: made_points,
         added_by_refine: made_points - sampled,
         revolutions,
         cutting_time: plan.prepared.job.spindle.time_at(revolutions),
-        figures: meter.figures().clone(),
         machined: meter.machined().map_err(PipelineError::Measure)?,
+        figures: meter.figures().map_err(PipelineError::Measure)?,
+        lead,
     })
 }
 
-/// The points before a block; its own last two take their place in `tail`.
-fn follow(tail: &mut Vec<ControlPoint>, made: &Made) -> Vec<ControlPoint> {
-    let before = tail.clone();
-    let own = made.owner.len();
-    tail.extend((own.saturating_sub(2)..own).filter_map(|index| made.points.get(index)));
-    tail.drain(..tail.len().saturating_sub(2));
-    before
+/// What came before a stretch.
+struct Behind {
+    /// The last two points, as far as there are any.
+    before: Vec<ControlPoint>,
+    opens_section: bool,
+}
+
+/// What the next stretch comes behind.
+#[derive(Default)]
+struct Trail {
+    tail: Vec<ControlPoint>,
+    section: Option<Section>,
+}
+
+impl Trail {
+    /// What is before the first `own` of these points; the last two of them take their place.
+    fn behind(&mut self, section: Section, points: &PathBlock, own: usize) -> Behind {
+        let before = self.tail.clone();
+        let last = (own.saturating_sub(2)..own).filter_map(|index| points.get(index));
+        self.tail.extend(last);
+        self.tail.drain(..self.tail.len().saturating_sub(2));
+        let opens_section = self.section.replace(section) != Some(section);
+        Behind {
+            before,
+            opens_section,
+        }
+    }
+
+    fn behind_cut(&mut self, made: &Made) -> Behind {
+        self.behind(Section::Cutting, &made.points, made.owner.len())
+    }
+
+    /// The last two points so far.
+    fn last_two(&self) -> Option<[ControlPoint; 2]> {
+        self.tail.as_slice().try_into().ok()
+    }
+
+    /// Hands a whole section on.
+    fn hand_on(&mut self, section: Section, points: &PathBlock, sink: &mut dyn Sink) -> Result<()> {
+        let behind = self.behind(section, points, points.len());
+        let stretch = PathStretch {
+            section,
+            opens_section: behind.opens_section,
+            before: &behind.before,
+            points,
+        };
+        let encoded = sink.encode(&stretch).map_err(PipelineError::Sink)?;
+        sink.take(points.len(), &encoded)
+            .map_err(PipelineError::Sink)
+    }
 }
 
 /// Measures a block and puts it into the form of each file, the joint with the next one left out.
-fn ready(
-    touch: &FirstTouch,
-    made: Made,
-    before: &[ControlPoint],
-    sink: &dyn Sink,
-) -> Result<Ready> {
+fn ready(touch: &FirstTouch, made: Made, behind: &Behind, sink: &dyn Sink) -> Result<Ready> {
     let measured = Meter::measure(touch, &made.points).map_err(PipelineError::Measure)?;
     let mut points = made.points;
     points.truncate(made.owner.len());
     let stretch = PathStretch {
         section: Section::Cutting,
-        opens_section: before.is_empty(),
-        before,
+        opens_section: behind.opens_section,
+        before: &behind.before,
         points: &points,
     };
     let encoded = sink.encode(&stretch).map_err(PipelineError::Sink)?;

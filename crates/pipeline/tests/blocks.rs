@@ -246,6 +246,7 @@ fn measured_whole(path: &PathBlock) -> f64 {
             nose_radius: 1.0,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         },
         compensates_nose: false,
     };

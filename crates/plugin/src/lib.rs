@@ -44,15 +44,17 @@ pub use registration::{Build, Registration};
 /// Everything that a strategy's author needs.
 pub mod prelude {
     pub use std::f64::consts::{PI, TAU};
+    pub use turnpath_core::extreme;
     pub use turnpath_core::interference::{self, Interference};
     pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{
-        CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence, Direction, Dual,
-        FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus, Mask, NM, Nodes,
-        Onward, Param, Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates,
-        Result, Revolutions, Sampler, Scalar, Series, Setup, SpindleLaw, SpiralLaw, Strategy,
-        StrategyError, Stretch, Surface, SurfaceModel, Taylor, Tolerance, Tool, Turn, UM,
-        Velocities, VelocitySolver, angle, per_radian, quintic,
+        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence,
+        Direction, Dual, FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus,
+        Machine, Mask, Misfit, NM, Nodes, Onward, Param, Params, Part, Path, Piece,
+        PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler, Scalar,
+        Series, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Stretch, Surface,
+        SurfaceModel, Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle,
+        per_radian, quintic,
     };
 }
 

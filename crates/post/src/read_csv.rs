@@ -88,6 +88,10 @@ impl ReadPath for PathReader {
         &self.counted
     }
 
+    fn counted_mut(&mut self) -> &mut Counted {
+        &mut self.counted
+    }
+
     fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
         let mut record = csv::StringRecord::new();
         let read = self.rows.read_record(&mut record);

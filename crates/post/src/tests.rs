@@ -50,7 +50,8 @@ fn with_line(text: &str, index: usize, line: &str) -> String {
 fn doubles_come_back_as_they_were() {
     let (_folder, path) = written(str::to_owned);
     let mut reader = PathReader::open(path).unwrap();
-    let block = reader.next_block(100).unwrap().unwrap();
+    let (section, block) = reader.next_block(100).unwrap().unwrap();
+    assert_eq!(section, Section::Cutting);
     let made = path_of(10);
     assert_eq!((&block.t, &block.x, &block.z), (&made.t, &made.x, &made.z));
     assert_eq!((&block.vx, &block.vz), (&made.vx, &made.vz));
@@ -64,13 +65,56 @@ fn doubles_come_back_as_they_were() {
 fn blocks_share_the_point_between_them() {
     let (_folder, path) = written(str::to_owned);
     let mut reader = PathReader::open(path).unwrap();
-    let first = reader.next_block(4).unwrap().unwrap();
-    let second = reader.next_block(4).unwrap().unwrap();
-    assert_eq!((first.len(), second.len()), (4, 5));
-    assert_eq!(first.t[3], second.t[0]);
-    assert_eq!(reader.next_block(4).unwrap().unwrap().len(), 3);
+    let mut next = || reader.next_block(4).unwrap().unwrap().1;
+    let (first, second) = (next(), next());
+    assert_eq!((first.len(), second.len()), (5, 5));
+    assert_eq!(first.t[4], second.t[0]);
+    assert_eq!(next().len(), 2);
     assert!(reader.next_block(4).unwrap().is_none());
     assert_eq!(reader.counted().count(), 10);
+}
+
+#[test]
+fn what_joins_a_lead_to_the_cut_is_the_leads() {
+    use Section::{Cutting, LeadIn, LeadOut};
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("toolpath.csv");
+    let points: Vec<ControlPoint> = path_of(10).points().collect();
+    let sections = [
+        LeadIn, LeadIn, LeadIn, Cutting, Cutting, Cutting, Cutting, LeadOut, LeadOut, LeadOut,
+    ];
+    let blocks = |leave_out: &[Section]| {
+        let mut writer = PathWriter::begin(&path).unwrap();
+        for (point, section) in points.iter().zip(sections) {
+            if leave_out.contains(&section) {
+                continue;
+            }
+            let mut block = PathBlock::default();
+            block.push(*point);
+            writer
+                .append(&PathWriter::rows(section, &block).unwrap())
+                .unwrap();
+        }
+        writer.complete().unwrap();
+        let mut reader = PathReader::open(&path).unwrap();
+        let mut found = Vec::new();
+        while let Some((section, block)) = reader.next_block(3).unwrap() {
+            let number = |t: f64| points.iter().position(|point| point.t == t).unwrap();
+            let numbers: Vec<usize> = block.t.iter().map(|t| number(*t)).collect();
+            found.push((section, numbers));
+        }
+        found
+    };
+    let whole = [
+        (LeadIn, vec![0, 1, 2, 3]),
+        (Cutting, vec![3, 4, 5, 6]),
+        (LeadOut, vec![6, 7, 8, 9]),
+    ];
+    assert_eq!(blocks(&[]), whole);
+    assert_eq!(blocks(&[LeadIn]), whole[1..]);
+    assert_eq!(blocks(&[LeadOut]), whole[..2]);
+    assert_eq!(blocks(&[LeadIn, LeadOut]), whole[1..2]);
+    assert_eq!(blocks(&[Cutting, LeadOut]), [(LeadIn, vec![0, 1, 2])]);
 }
 
 #[test]

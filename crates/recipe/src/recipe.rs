@@ -6,15 +6,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::de::DeTable;
-use turnpath_core::{Direction, Overrun, Part, Slot, Tolerance, Tool};
+use turnpath_core::{Direction, Machine, Overrun, Part, Slot, Tolerance, Tool};
 
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Reader, Table};
 use crate::place::{Located, Place, Source};
+use crate::presets::Preset;
 use crate::read::Sections;
 use crate::set;
-use crate::tables::{self, Interference, Output, PmacPvt};
+use crate::tables::{self, Output, PmacPvt};
 
 /// Largest recipe, in bytes; a hundred times any that a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -28,18 +29,22 @@ pub struct Recipe {
     pub part: Part,
     /// With what.
     pub tool: Tool,
-    /// What happens where the nose does not fit.
-    pub interference: Interference,
     /// How exactly.
     pub tolerance: Tolerance,
     /// Speed of the spindle, rad/s.
     pub spindle_speed: f64,
+    /// What the machine can do; no limits unless the recipe says so.
+    pub machine: Machine,
+    /// The machine that the recipe names; its own limits go before those of the preset.
+    pub preset: Option<&'static Preset>,
     /// Which way the tool feeds.
     pub direction: Direction,
     /// How far the path runs beyond the aperture.
     pub overrun: Overrun,
     /// Whether the path runs from rest to rest.
     pub lead: bool,
+    /// How far it rests above the highest place of the part, mm.
+    pub clearance: f64,
     /// Whether segments whose error exceeds the tolerance are halved. `place("refine")` tells
     /// whether the recipe says so itself.
     pub refine: bool,
@@ -281,11 +286,14 @@ fn build(
         return None;
     }
     let top = tables::top(&mut sections.top());
-    tables::machine(&mut sections.open("machine"));
     let part = tables::part(&mut sections.open("part"));
     let tool = tables::tool(&mut sections.open("tool"));
     let tolerance = tables::tolerance(&mut sections.open("tolerance"));
     let speed = tables::spindle(&mut sections.open("spindle"));
+    let machine = tables::machine(&mut sections.open("machine"));
+    if let Some(speed) = speed {
+        tables::check_spindle(&mut sections.open("spindle"), speed, &machine.machine);
+    }
     let way = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
@@ -295,13 +303,15 @@ fn build(
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
         part: part?,
-        tool: tool.tool,
-        interference: tool.interference,
+        tool,
         tolerance: tolerance?,
         spindle_speed: speed?,
+        machine: machine.machine,
+        preset: machine.preset,
         direction: way.direction,
         overrun: way.overrun,
         lead: way.lead,
+        clearance: way.clearance,
         refine: top.refine,
         output,
         pmac_pvt,

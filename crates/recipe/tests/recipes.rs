@@ -7,8 +7,10 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::FULL;
-use turnpath_core::{DEG, Direction, Overrun, Param, ParamValue, Slot, StrategyInfo};
-use turnpath_recipe::{DataFormat, FileProblem, Interference, Recipe, RecipeError, ZReference};
+use turnpath_core::{
+    DEG, Direction, Machine, Misfit, Overrun, Param, ParamValue, Slot, StrategyInfo,
+};
+use turnpath_recipe::{DataFormat, FileProblem, Recipe, RecipeError, ZReference};
 
 fn parse(text: &str, sets: &[&str]) -> Recipe {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
@@ -23,6 +25,43 @@ fn underlined(recipe: &Recipe, path: &str) -> String {
     place.source().text[place.span()].to_owned()
 }
 
+fn with_machine(lines: &str) -> Recipe {
+    parse(&format!("{FULL}\n[machine]\n{lines}\n"), &[])
+}
+
+#[test]
+fn a_machine_is_a_preset_its_own_limits_or_both() {
+    let without = parse(FULL, &[]);
+    assert_eq!(
+        (without.machine, without.preset),
+        (Machine::default(), None)
+    );
+
+    let preset = with_machine("preset = \"generic-sts\"");
+    assert_eq!(preset.preset.map(|preset| preset.name), Some("generic-sts"));
+    assert_eq!(preset.machine.z.acceleration, Some(500.0));
+    assert_eq!(preset.machine.x, without.machine.x);
+
+    let own = with_machine(
+        "x_velocity = \"3 m/min\"\nx_acceleration = \"0.5 m/s²\"\nx_jerk = \"20 m/s^3\"\n\
+         c_velocity = \"1000 rpm\"\nc_acceleration = \"600 rpm/s\"\nc_jerk = \"9 rad/s^3\"",
+    );
+    let (x, c) = (own.machine.x, own.machine.c);
+    assert_eq!(x.velocity, Some(50.0));
+    assert_eq!((x.acceleration, x.jerk), (Some(500.0), Some(20e3)));
+    assert_eq!(c.velocity, Some(1000.0 * TAU / 60.0));
+    assert_eq!(
+        (c.acceleration, c.jerk),
+        (Some(600.0 * TAU / 60.0), Some(9.0))
+    );
+    assert_eq!((own.machine.z, own.preset), (without.machine.z, None));
+
+    let both = with_machine("preset = \"generic-sts\"\nz_velocity = \"10 mm/s\"");
+    assert_eq!(both.machine.z.velocity, Some(10.0));
+    assert_eq!(both.machine.z.jerk, preset.machine.z.jerk);
+    assert_eq!(both.preset, preset.preset);
+}
+
 #[test]
 fn the_full_example_is_read() {
     let recipe = parse(FULL, &[]);
@@ -34,7 +73,7 @@ fn the_full_example_is_read() {
     assert_eq!(recipe.tool.nose_radius, 1.0);
     assert_eq!(recipe.tool.included_angle, Some(120.0 * DEG));
     assert_eq!(recipe.tool.clearance_angle, Some(30.0 * DEG));
-    assert_eq!(recipe.interference, Interference::Refuse);
+    assert_eq!(recipe.tool.misfit, Misfit::Refuse);
     assert_eq!(
         (recipe.tolerance.interpolation, recipe.tolerance.residual),
         (1e-4, 1e-4)
@@ -43,6 +82,7 @@ fn the_full_example_is_read() {
     assert_eq!(recipe.direction, Direction::Inward);
     assert_eq!(recipe.overrun, Overrun::None);
     assert!(!recipe.lead && recipe.refine);
+    assert_eq!(recipe.clearance, 1.0);
     assert!(recipe.output.posts.is_empty());
     assert_eq!(recipe.output.data, [DataFormat::Csv]);
     assert_eq!(recipe.output.z_reference, ZReference::Tip);
@@ -225,6 +265,15 @@ fn set_overrides_and_adds_and_the_later_one_wins() {
     assert_eq!(keys, ["max_step", "spacing"]);
     assert_eq!(recipe.choice(Slot::Surface).name(), "flat");
     assert!(recipe.choice(Slot::Surface).params.is_empty());
+}
+
+#[test]
+fn a_lead_is_made_unless_the_recipe_says_otherwise() {
+    let without = FULL.replace("lead = false\n", "");
+    let recipe = parse(&without, &["path.clearance=2.5mm"]);
+    assert!(recipe.lead);
+    assert_eq!(recipe.clearance, 2.5);
+    assert!(parse(FULL, &["path.lead=true"]).lead);
 }
 
 #[test]

@@ -5,20 +5,53 @@
 //! both segments' times: the least acceleration that a blend can do with, from one segment's
 //! middle to the other's.
 
-use turnpath_core::toolpath::{Cubic, PathBlock, SegmentShape};
+use turnpath_core::toolpath::{Cubic, PathBlock, Segment, SegmentShape};
+
+/// A largest amount, and where on the path it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// The amount, never negative.
+    pub amount: f64,
+    /// C where it is, unwrapped, rad.
+    pub at_c: f64,
+    /// X where it is, mm.
+    pub at_x: f64,
+}
+
+impl Peak {
+    /// An amount at `s` of a segment.
+    fn on(segment: &Segment, s: f64, amount: f64) -> Self {
+        Self {
+            amount,
+            at_c: segment.c.value(s),
+            at_x: segment.x.value(s),
+        }
+    }
+
+    /// The larger of both; the earlier one if they are equal.
+    fn or(self, next: Self) -> Self {
+        if next.amount > self.amount {
+            next
+        } else {
+            self
+        }
+    }
+}
 
 /// One axis over a path, in its own unit (mm or rad) and seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisMotion {
     /// Largest speed.
-    pub max_velocity: f64,
+    pub velocity: Peak,
     /// Largest acceleration; between straight segments that of the slowest blend.
-    pub max_acceleration: f64,
+    pub acceleration: Peak,
     /// Largest jerk within segments; the steps of acceleration between them are not in it, so
     /// straight segments have none.
-    pub max_jerk: f64,
-    /// Time integral of the acceleration's square.
-    square: f64,
+    pub jerk: Peak,
+    /// Time integrals of the squares of velocity, acceleration and jerk.
+    squares: [f64; 3],
+    /// How far it went, with its sign.
+    travel: f64,
     /// Time measured, s.
     time: f64,
     /// The first and the last straight segment, where there are such.
@@ -30,40 +63,82 @@ pub struct AxisMotion {
 struct Straight {
     rate: f64,
     duration: f64,
+    /// Where it begins.
+    start: Peak,
 }
 
 impl AxisMotion {
+    /// Root of the mean square of the velocity over time.
+    pub fn rms_velocity(&self) -> f64 {
+        self.rms(0)
+    }
+
     /// Root of the mean square of the acceleration over time.
     pub fn rms_acceleration(&self) -> f64 {
+        self.rms(1)
+    }
+
+    /// Root of the mean square of the jerk over time.
+    pub fn rms_jerk(&self) -> f64 {
+        self.rms(2)
+    }
+
+    /// Mean of the velocity over time, with its sign.
+    pub fn mean_velocity(&self) -> f64 {
         if self.time > 0.0 {
-            (self.square / self.time).sqrt()
+            self.travel / self.time
         } else {
             0.0
         }
     }
 
-    fn see(&mut self, cubic: &Cubic, duration: f64) {
-        let (first, last) = (cubic.bend(0.0), cubic.bend(1.0));
-        let mut fastest = cubic.slope(0.0).abs().max(cubic.slope(1.0).abs());
-        let turning = first / (first - last);
-        if (0.0..1.0).contains(&turning) {
-            fastest = fastest.max(cubic.slope(turning).abs());
+    /// Whether straight segments were played.
+    pub fn is_straight(&self) -> bool {
+        self.outer.is_some()
+    }
+
+    fn rms(&self, which: usize) -> f64 {
+        if self.time > 0.0 {
+            (self.squares[which] / self.time).sqrt()
+        } else {
+            0.0
         }
-        let (once, twice) = (duration.recip(), (duration * duration).recip());
-        self.max_velocity = self.max_velocity.max(fastest * once);
-        self.max_acceleration = self
-            .max_acceleration
-            .max(first.abs().max(last.abs()) * twice);
-        self.max_jerk = self.max_jerk.max(cubic.jerk().abs() * twice * once);
-        let mean_square = (first * first + first * last + last * last) / 3.0;
-        self.square += mean_square * twice * twice * duration;
+    }
+
+    fn see(&mut self, cubic: &Cubic, segment: &Segment) {
+        let (once, duration) = (segment.duration.recip(), segment.duration);
+        let (twice, thrice) = (once * once, once * once * once);
+        let (first, last) = (cubic.bend(0.0), cubic.bend(1.0));
+        let turning = first / (first - last);
+        let peak = |s: f64, amount: f64| Peak::on(segment, s, amount.abs());
+        for s in [0.0, turning, 1.0] {
+            if (0.0..=1.0).contains(&s) {
+                self.velocity = self.velocity.or(peak(s, cubic.slope(s) * once));
+            }
+        }
+        for (s, bend) in [(0.0, first), (1.0, last)] {
+            self.acceleration = self.acceleration.or(peak(s, bend * twice));
+        }
+        self.jerk = self.jerk.or(peak(0.5, cubic.jerk() * thrice));
+        let bends = (first * first + first * last + last * last) / 3.0;
+        self.squares[0] += mean_square_slope(cubic) * twice * duration;
+        self.squares[1] += bends * twice * twice * duration;
+        self.squares[2] += cubic.jerk() * cubic.jerk() * thrice * thrice * duration;
+        self.travel += cubic.value(1.0) - cubic.value(0.0);
         self.time += duration;
     }
 
-    fn see_straight(&mut self, rise: f64, duration: f64) {
+    fn see_straight(&mut self, line: &Cubic, segment: &Segment) {
+        let (rise, duration) = (line.slope(0.0), segment.duration);
         let rate = rise / duration;
-        let here = Straight { rate, duration };
-        self.max_velocity = self.max_velocity.max(rate.abs());
+        let here = Straight {
+            rate,
+            duration,
+            start: Peak::on(segment, 0.0, 0.0),
+        };
+        self.velocity = self.velocity.or(Peak::on(segment, 0.5, rate.abs()));
+        self.squares[0] += rate * rate * duration;
+        self.travel += rise;
         self.time += duration;
         self.join([here, here]);
     }
@@ -76,8 +151,11 @@ impl AxisMotion {
         };
         let blend = 0.5 * (before.duration + first.duration);
         let acceleration = (first.rate - before.rate) / blend;
-        self.max_acceleration = self.max_acceleration.max(acceleration.abs());
-        self.square += acceleration * acceleration * blend;
+        self.acceleration = self.acceleration.or(Peak {
+            amount: acceleration.abs(),
+            ..first.start
+        });
+        self.squares[1] += acceleration * acceleration * blend;
         self.outer = Some([begin, last]);
     }
 
@@ -85,12 +163,21 @@ impl AxisMotion {
         if let Some(straight) = next.outer {
             self.join(straight);
         }
-        self.max_velocity = self.max_velocity.max(next.max_velocity);
-        self.max_acceleration = self.max_acceleration.max(next.max_acceleration);
-        self.max_jerk = self.max_jerk.max(next.max_jerk);
-        self.square += next.square;
+        self.velocity = self.velocity.or(next.velocity);
+        self.acceleration = self.acceleration.or(next.acceleration);
+        self.jerk = self.jerk.or(next.jerk);
+        for (own, next) in self.squares.iter_mut().zip(next.squares) {
+            *own += next;
+        }
+        self.travel += next.travel;
         self.time += next.time;
     }
+}
+
+/// ∫ (dp/ds)² over s = 0 … 1.
+fn mean_square_slope(cubic: &Cubic) -> f64 {
+    let [_, b, c, d] = cubic.0;
+    b * b + 2.0 * b * c + (4.0 * c * c + 6.0 * b * d) / 3.0 + 3.0 * c * d + 1.8 * d * d
 }
 
 /// All three axes over a path.
@@ -116,8 +203,8 @@ impl AxesMotion {
             ];
             for (axis, played) in axes {
                 match points.shape {
-                    SegmentShape::Cubic => axis.see(played, segment.duration),
-                    SegmentShape::Linear => axis.see_straight(played.slope(0.0), segment.duration),
+                    SegmentShape::Cubic => axis.see(played, &segment),
+                    SegmentShape::Linear => axis.see_straight(played, &segment),
                 }
             }
         }
@@ -139,9 +226,11 @@ mod tests {
 
     #[test]
     fn a_known_cubic_has_its_own_derivatives() {
-        // z = t³ − t on 0 … 2: v from −1 to 11, turning at 0, a to 12, jerk 6.
+        // z = t³ − t on 0 … 2: v from −1 to 11, turning at 0, a to 12, jerk 6; C = 10 + 3t.
         let point = |t: f64| ControlPoint {
             t,
+            c: 10.0 + 3.0 * t,
+            vc: 3.0,
             z: t * t * t - t,
             vz: 3.0 * t * t - 1.0,
             ..ControlPoint::default()
@@ -150,10 +239,41 @@ mod tests {
         points.push(point(0.0));
         points.push(point(2.0));
         let z = AxesMotion::of(&points).z;
-        assert!((z.max_velocity - 11.0).abs() < 1e-12);
-        assert!((z.max_acceleration - 12.0).abs() < 1e-12);
-        assert!((z.max_jerk - 6.0).abs() < 1e-12);
+        for (peak, amount, at_c) in [
+            (z.velocity, 11.0, 16.0),
+            (z.acceleration, 12.0, 16.0),
+            (z.jerk, 6.0, 13.0),
+        ] {
+            assert!((peak.amount - amount).abs() < 1e-12, "{peak:?}");
+            assert!((peak.at_c - at_c).abs() < 1e-12, "{peak:?}");
+        }
+        // ∫ (3t² − 1)² dt over 2 s.
+        let mean_square = (9.0 * 32.0 / 5.0 - 16.0 + 2.0) / 2.0;
+        assert!((z.rms_velocity() - f64::sqrt(mean_square)).abs() < 1e-12);
         assert!((z.rms_acceleration() - 48f64.sqrt()).abs() < 1e-12);
+        assert!((z.rms_jerk() - 6.0).abs() < 1e-12);
+        assert!((z.mean_velocity() - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_speed_that_is_largest_within_a_segment_is_found_there() {
+        // z = t − t³/3 on −1 … 2: v = 1 − t², largest 1 at 0 but for |v(2)| = 3.
+        let point = |t: f64| ControlPoint {
+            t,
+            x: 5.0 - t,
+            vx: -1.0,
+            z: t - t * t * t / 3.0,
+            vz: 1.0 - t * t,
+            ..ControlPoint::default()
+        };
+        for (end, amount, at_x) in [(1.0, 1.0, 5.0), (2.0, 3.0, 3.0)] {
+            let mut points = PathBlock::default();
+            points.push(point(-1.0));
+            points.push(point(end));
+            let peak = AxesMotion::of(&points).z.velocity;
+            assert!((peak.amount - amount).abs() < 1e-12, "{peak:?}");
+            assert!((peak.at_x - at_x).abs() < 1e-12, "{peak:?}");
+        }
     }
 
     #[test]
@@ -166,6 +286,7 @@ mod tests {
             for (t, z) in points {
                 block.push(ControlPoint {
                     t: *t,
+                    c: *t,
                     z: *z,
                     vz: 1e9,
                     ..ControlPoint::default()
@@ -176,9 +297,11 @@ mod tests {
         let points = [(0.0, 0.0), (1.0, 2.0), (4.0, 2.0), (5.0, -1.0)];
         let whole = polygon(&points);
         // Rates 2, 0, −3; blends of 2 s each: 1 and 1.5 mm/s².
-        assert_eq!(whole.z.max_velocity, 3.0);
-        assert_eq!(whole.z.max_acceleration, 1.5);
-        assert_eq!(whole.z.max_jerk, 0.0);
+        assert_eq!(whole.z.velocity.amount, 3.0);
+        assert_eq!(whole.z.acceleration.amount, 1.5);
+        assert_eq!(whole.z.acceleration.at_c, 4.0);
+        assert_eq!(whole.z.jerk.amount, 0.0);
+        assert_eq!(whole.z.rms_velocity(), f64::sqrt(13.0 / 5.0));
         let mean_square: f64 = (1.0 * 2.0 + 2.25 * 2.0) / 5.0;
         assert!((whole.z.rms_acceleration() - mean_square.sqrt()).abs() < 1e-15);
         for joint in [1, 2] {

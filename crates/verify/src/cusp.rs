@@ -18,6 +18,22 @@ pub fn between(first: Point, second: Point, radius: f64) -> Option<Point> {
     Some(0.5 * (first + second) + depth * down)
 }
 
+/// Where two neighbouring passes leave a cusp when the edge reaches no further than `reach` to
+/// either side: the crossing of their circles, or where one's edge ends before that, on the other.
+pub fn between_edges(first: Point, second: Point, radius: f64, reach: f64) -> Option<Point> {
+    let crossing = between(first, second, radius)?;
+    let (lower, upper) = (first.x.min(second.x) + reach, first.x.max(second.x) - reach);
+    if (upper..=lower).contains(&crossing.x) {
+        return Some(crossing);
+    }
+    let x = if crossing.x > lower { lower } else { upper };
+    let under = |centre: Point| {
+        let offset = x - centre.x;
+        centre.y - (radius * radius - offset * offset).max(0.0).sqrt()
+    };
+    (upper <= lower).then(|| Point::new(x, under(first).max(under(second))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

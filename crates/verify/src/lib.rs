@@ -6,7 +6,12 @@
 //! ([`Meter::append`]): the figures do not depend on how many threads there were.
 
 mod axes;
+mod closing;
+mod corners;
+mod coverage;
 mod cusp;
+mod lead;
+mod limits;
 pub mod machined;
 mod meter;
 mod playback;
@@ -15,10 +20,15 @@ mod residual;
 mod scan;
 mod subject;
 mod touch;
+mod unreached;
 
-pub use axes::{AxesMotion, AxisMotion};
+pub use axes::{AxesMotion, AxisMotion, Peak};
+pub use coverage::{CoverageFigures, Uncut};
+pub use lead::{Jumps, LeadFigures, LeadMeter, LeadStretch};
+pub use limits::{HighestSpeed, LimitFigure};
 pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
 pub use residual::{ResidualFigures, SECTIONS};
 pub use subject::Subject;
 pub use touch::{FirstTouch, Touch};
+pub use unreached::{UnreachedFigures, unreached};

@@ -4,6 +4,7 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
+use crate::coverage::{Coverage, CoverageFigures};
 use crate::machined::{Fan, Lines, MachinedFigures, SectionPasses};
 use crate::playback::{PlaybackFigures, play_back};
 use crate::residual::{Passes, ResidualFigures};
@@ -22,6 +23,7 @@ pub struct Measured {
     pub axes: AxesMotion,
     passes: Passes,
     sections: SectionPasses,
+    coverage: Coverage,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -30,8 +32,10 @@ pub struct Measured {
 pub struct PathFigures {
     /// Interpolation error.
     pub playback: PlaybackFigures,
-    /// Residual.
+    /// Residual; the cusps around the axis are in it where [`Meter::counting_centre`] says so.
     pub residual: ResidualFigures,
+    /// What stays uncut at the part's edges and around the axis.
+    pub coverage: CoverageFigures,
     /// Motion of the axes.
     pub axes: AxesMotion,
 }
@@ -42,6 +46,8 @@ pub struct Meter {
     figures: PathFigures,
     passes: Passes,
     lines: Lines,
+    coverage: Coverage,
+    counts_centre: bool,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -53,8 +59,18 @@ impl Meter {
             figures: PathFigures::default(),
             passes: Passes::default(),
             lines: Lines::new(Fan::WHOLE),
+            coverage: Coverage::default(),
+            counts_centre: false,
             ends: None,
         }
+    }
+
+    /// Whether the path covers the axis on purpose. The cusps between the passes of its both
+    /// sides are then residual like any other; if not, they are told by the coverage alone.
+    #[must_use]
+    pub fn counting_centre(mut self, counts: bool) -> Self {
+        self.counts_centre = counts;
+        self
     }
 
     /// Finds first touches as this meter does.
@@ -73,6 +89,7 @@ impl Meter {
         measured.passes = Passes::of(touch, points)?;
         measured.residual = measured.passes.residual(touch)?;
         measured.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
+        measured.coverage = Coverage::of(touch, points, &measured.passes)?;
         Ok(measured)
     }
 
@@ -92,6 +109,7 @@ impl Meter {
         let seam = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&seam);
         self.lines.append(&next.sections);
+        self.coverage.append(&next.coverage);
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
             (own, next) => own.or(next),
@@ -129,8 +147,14 @@ impl Meter {
     }
 
     /// The figures so far.
-    pub fn figures(&self) -> &PathFigures {
-        &self.figures
+    pub fn figures(&self) -> Result<PathFigures> {
+        let mut figures = self.figures.clone();
+        let (coverage, around_axis) = self.coverage.figures(&self.touch)?;
+        figures.coverage = coverage;
+        if self.counts_centre {
+            figures.residual.append(&around_axis);
+        }
+        Ok(figures)
     }
 }
 

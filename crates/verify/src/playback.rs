@@ -3,6 +3,7 @@
 use turnpath_core::Result;
 use turnpath_core::toolpath::{PathBlock, Segment};
 
+use crate::corners::at_corners;
 use crate::touch::{FirstTouch, Touch};
 
 /// Instants of each segment at which the played position is compared, its start among them and
@@ -10,7 +11,7 @@ use crate::touch::{FirstTouch, Touch};
 /// places misses its top by up to 1 %, the parabola through it and its neighbours by 0.1 %.
 pub const INSTANTS: usize = 16;
 /// Segments that are played back in one batch.
-const BATCH: usize = 64;
+pub(crate) const BATCH: usize = 64;
 
 /// The interpolation error of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -82,12 +83,16 @@ pub fn play_back(
     per_segment.clear();
     for batch in segments.chunks(BATCH) {
         room.play(batch, touch)?;
+        let corners = match touch.leaves_seams() {
+            true => at_corners(touch, batch, &room.touches)?,
+            false => Vec::new(),
+        };
         for (i, segment) in batch.iter().enumerate() {
             let errors = room.errors(i);
             let square: f64 = errors.iter().map(|error| error * error).sum();
             figures.square += square * segment.duration / INSTANTS as f64;
             figures.time += segment.duration;
-            let worst = Worst::of(&errors);
+            let worst = Worst::of(&errors).or(corners.get(i).copied().flatten());
             figures.see(worst, segment);
             per_segment.push(worst.amount());
         }
@@ -97,13 +102,21 @@ pub fn play_back(
 
 /// The largest error of one segment.
 #[derive(Debug, Clone, Copy)]
-struct Worst {
-    error: f64,
+pub(crate) struct Worst {
+    /// Signed, played − true, mm.
+    pub error: f64,
     /// Where in the segment, 0 to 1.
-    at: f64,
+    pub at: f64,
 }
 
 impl Worst {
+    fn or(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if other.amount() > self.amount() => other,
+            _ => self,
+        }
+    }
+
     fn of(errors: &[f64; INSTANTS]) -> Self {
         let mut worst = 0;
         for (k, error) in errors.iter().enumerate() {
@@ -124,7 +137,8 @@ impl Worst {
         }
     }
 
-    fn amount(&self) -> f64 {
+    /// Its amount; infinite where it is no number.
+    pub fn amount(&self) -> f64 {
         if self.error.is_nan() {
             f64::INFINITY
         } else {
@@ -147,7 +161,7 @@ fn beyond_sample(before: f64, top: f64, after: f64) -> (f64, f64) {
 
 /// Room for a batch of instants.
 #[derive(Default)]
-struct Room {
+pub(crate) struct Room {
     theta: Vec<f64>,
     x: Vec<f64>,
     z: Vec<f64>,
@@ -156,14 +170,20 @@ struct Room {
 
 impl Room {
     /// Played − true Z of a segment of the batch, mm.
-    fn errors(&self, segment: usize) -> [f64; INSTANTS] {
+    pub(crate) fn errors(&self, segment: usize) -> [f64; INSTANTS] {
         std::array::from_fn(|k| {
             let instant = segment * INSTANTS + k;
             self.z[instant] - self.touches[instant].z
         })
     }
 
-    fn play(&mut self, batch: &[Segment], touch: &FirstTouch) -> Result<()> {
+    /// X played at an instant of a segment of the batch, mm.
+    pub(crate) fn x(&self, segment: usize, instant: usize) -> f64 {
+        self.x[segment * INSTANTS + instant]
+    }
+
+    /// Plays segments, and finds the first touch at each instant.
+    pub(crate) fn play(&mut self, batch: &[Segment], touch: &FirstTouch) -> Result<()> {
         for places in [&mut self.theta, &mut self.x, &mut self.z] {
             places.clear();
         }

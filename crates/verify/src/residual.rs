@@ -1,14 +1,16 @@
 //! The residual: cusps between neighbouring passes along radial sections.
 //!
 //! The tool centres are at the played X with their true Z, so the figure is the spiral's own and
-//! does not mix with the interpolation error. The innermost turn is left out: the pair of passes
-//! that would close it lies on both sides of the axis.
+//! does not mix with the interpolation error. Where the nose may leave seams, cusps count from what it
+//! can reach at best ([`crate::closing`]). The innermost turn is left out: the pair of passes
+//! that would close it lies on both sides of the axis ([`crate::coverage`]).
 
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{PathBlock, Segment};
-use turnpath_core::{Gradients, Result, Scalar, SurfaceModel};
+use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
+use crate::closing::{self, Raised};
 use crate::cusp::{self, Point};
 use crate::touch::{FirstTouch, Touch};
 
@@ -52,28 +54,40 @@ impl ResidualFigures {
 
 /// Where the tool stood when C passed one section.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Pass {
+pub(crate) struct Pass {
     x: f64,
-    centre: Point,
+    pub(crate) centre: Point,
+    /// Radius of the contact, mm.
+    pub(crate) foot: f64,
 }
 
 /// What two passes leave between them.
-struct Cusp {
+pub(crate) struct Cusp {
     /// Its tip.
     place: Point,
     /// Whether they meet at all.
     meet: bool,
-    /// X in the middle between them.
-    between: f64,
+    /// X of both, the lower one first.
+    ends: [f64; 2],
 }
 
 impl Pass {
-    fn cusp(&self, other: &Self, radius: f64) -> Cusp {
-        let tip = cusp::between(self.centre, other.centre, radius);
+    /// The same as seen from the opposite half of the section.
+    pub(crate) fn mirrored(self) -> Self {
+        Self {
+            x: -self.x,
+            centre: Point::new(-self.centre.x, self.centre.y),
+            foot: -self.foot,
+        }
+    }
+
+    pub(crate) fn cusp(&self, other: &Self, tool: &Tool) -> Cusp {
+        let (radius, reach) = (tool.nose_radius, tool.reach());
+        let tip = cusp::between_edges(self.centre, other.centre, radius, reach);
         Cusp {
             place: tip.unwrap_or(self.centre),
             meet: tip.is_some(),
-            between: 0.5 * (self.x + other.x),
+            ends: [self.x.min(other.x), self.x.max(other.x)],
         }
     }
 }
@@ -82,8 +96,8 @@ impl Pass {
 /// C = 0 on, [`SECTIONS`] a revolution.
 #[derive(Debug, Clone, Default)]
 pub struct Passes {
-    first: i64,
-    passes: Vec<Pass>,
+    pub(crate) first: i64,
+    pub(crate) passes: Vec<Pass>,
 }
 
 impl Passes {
@@ -113,6 +127,7 @@ impl Passes {
                 true => Point::new(x, touch.z),
                 false => tangent_centre(touch, radius),
             },
+            foot: touch.foot,
         };
         Ok(Self {
             first,
@@ -136,22 +151,41 @@ impl Passes {
     pub fn follow(&mut self, touch: &FirstTouch, next: &Passes) -> Result<ResidualFigures> {
         let kept = self.passes.len();
         let turn = SECTIONS as usize;
-        self.passes.extend_from_slice(&next.passes);
-        if kept == 0 {
-            self.first = next.first;
-        }
+        self.extend(next);
         let start = kept.saturating_sub(turn);
         let seam = &self.passes[start..(kept + turn).min(self.passes.len())];
         let earlier = &self.passes[start..kept];
         let figures = residual_between(touch, earlier, seam, self.first + start as i64, turn)?;
-        let drop = self.passes.len().saturating_sub(turn);
-        self.passes.drain(..drop);
-        self.first += drop as i64;
+        *self = self.last_few(turn);
         Ok(figures)
+    }
+
+    /// Puts the passes of the sections that follow behind these.
+    pub(crate) fn extend(&mut self, next: &Passes) {
+        if self.passes.is_empty() {
+            self.first = next.first;
+        }
+        self.passes.extend_from_slice(&next.passes);
+    }
+
+    /// The first so many of them.
+    pub(crate) fn first_few(&self, count: usize) -> Self {
+        let passes = self.passes.iter().take(count).copied().collect();
+        let first = self.first;
+        Self { first, passes }
+    }
+
+    /// The last so many of them.
+    pub(crate) fn last_few(&self, count: usize) -> Self {
+        let dropped = self.passes.len().saturating_sub(count);
+        Self {
+            first: self.first + dropped as i64,
+            passes: self.passes.iter().skip(dropped).copied().collect(),
+        }
     }
 }
 
-fn angle_of(number: i64) -> f64 {
+pub(crate) fn angle_of(number: i64) -> f64 {
     TAU * number.rem_euclid(SECTIONS) as f64 / SECTIONS as f64
 }
 
@@ -188,8 +222,6 @@ fn residual_between(
     turn: usize,
 ) -> Result<ResidualFigures> {
     let subject = touch.subject();
-    let part = subject.part.inner_radius..=subject.part.aperture_radius;
-    let mut figures = ResidualFigures::default();
     let (mut theta, mut cusps) = (Vec::new(), Vec::new());
     for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
         let same_side = one.x * other.x >= 0.0;
@@ -197,15 +229,41 @@ fn residual_between(
             continue;
         }
         theta.push(angle_of(number));
-        cusps.push(one.cusp(other, subject.tool.nose_radius));
+        cusps.push(one.cusp(other, &subject.tool));
     }
+    highest(touch, &theta, &cusps)
+}
+
+/// The highest of these cusps that stand on the part, each at its angle.
+pub(crate) fn highest(
+    touch: &FirstTouch,
+    theta: &[f64],
+    cusps: &[Cusp],
+) -> Result<ResidualFigures> {
+    let subject = touch.subject();
+    let part = subject.part.inner_radius..=subject.part.aperture_radius;
+    let mut figures = ResidualFigures::default();
     let places: Vec<Point> = cusps.iter().map(|cusp| cusp.place).collect();
-    let (heights, feet) = heights(subject.surface.as_ref(), &theta, &places)?;
-    for (((theta, cusp), height), foot) in theta.iter().zip(&cusps).zip(heights).zip(feet) {
+    let (heights, feet) = match touch.leaves_seams() {
+        false => heights(subject.surface.as_ref(), theta, &places)?,
+        true => {
+            let raised = |(theta, cusp): (&f64, &Cusp)| Raised {
+                theta: *theta,
+                place: cusp.place,
+                lower: cusp.ends[0],
+                upper: cusp.ends[1],
+                counts: cusp.meet && part.contains(&cusp.place.x.abs()),
+            };
+            let raised: Vec<Raised> = theta.iter().zip(cusps).map(raised).collect();
+            let feet = places.iter().map(|place| place.x).collect();
+            (closing::heights(touch, &raised)?, feet)
+        }
+    };
+    for (((theta, cusp), height), foot) in theta.iter().zip(cusps).zip(heights).zip(feet) {
         let cut = cusp.meet && height.is_finite();
         let (max, at_rho) = match cut {
             true => (height, foot),
-            false => (f64::INFINITY, cusp.between),
+            false => (f64::INFINITY, 0.5 * (cusp.ends[0] + cusp.ends[1])),
         };
         if part.contains(&at_rho.abs()) {
             let here = ResidualFigures {

@@ -5,7 +5,7 @@
 //! tool's reach, H has a single maximum, which a bracketed secant finds; elsewhere a scan of the
 //! whole reach ([`crate::scan`]) brackets every maximum that can be the largest.
 
-use turnpath_core::{Result, SurfaceModel, Tool};
+use turnpath_core::{Misfit, Result, SurfaceModel, Tool};
 
 use crate::Subject;
 use crate::profiles::Profiles;
@@ -57,9 +57,16 @@ impl FirstTouch {
     /// to the rim takes: the nose radius.
     pub fn new(subject: Subject) -> Result<Self> {
         let (radius, rim) = (subject.tool.nose_radius, subject.part.aperture_radius);
-        let single = !subject.compensates_nose
-            || largest_curvature(subject.surface.as_ref(), rim + 2.0 * radius)?
-                .is_some_and(|curvature| radius * curvature < LARGEST_FIT);
+        let fits = || -> Result<bool> {
+            let found = largest_curvature(subject.surface.as_ref(), rim + 2.0 * radius)?;
+            Ok(found.is_some_and(|curvature| radius * curvature < LARGEST_FIT))
+        };
+        let single = match (subject.compensates_nose, subject.tool.misfit) {
+            (false, _) => true,
+            (true, Misfit::Refuse) => fits()?,
+            // Seams may be sharper than any look at curvatures sees.
+            (true, Misfit::CutWhatFits) => false,
+        };
         let single_to = if single { rim + radius } else { -1.0 };
         Ok(Self { subject, single_to })
     }
@@ -72,6 +79,11 @@ impl FirstTouch {
     /// Whether the profile leaves a single maximum everywhere, so that no scan is needed.
     pub fn is_single(&self) -> bool {
         self.single_to >= 0.0
+    }
+
+    /// Whether the nose may leave something standing that no pass of it reaches.
+    pub fn leaves_seams(&self) -> bool {
+        self.subject.tool.misfit == Misfit::CutWhatFits && self.subject.compensates_nose
     }
 
     /// The first touch at each (θ, X); NaN where the surface has no height below the nose.

@@ -68,6 +68,7 @@ fn where_the_edge_ends_before_the_normal_its_end_touches() {
         nose_radius: 1.0,
         included_angle: Some(60.0 * DEG),
         clearance_angle: None,
+        misfit: turnpath_core::Misfit::Refuse,
     };
     let (sin, cos) = Scalar::sin_cos(30.0 * DEG);
     // A plane, and waves that are scanned, with the same slope of 1 at the edge's end.

@@ -27,8 +27,16 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
     let whole = figures(&touch, &path);
     // Half of the contacts lie beyond the rim.
     assert!(whole.residual.cusps > 1000);
-    // Within a section, many to a turn, a turn, more than a turn, all but one.
-    for lengths in [&[1][..], &[1, 2, 50, 3], &[7, 49, 50], &[130, 1], &[399, 1]] {
+    // Within a section, many to a turn, a turn, more than a turn, four turns, all but one.
+    let all: [&[usize]; 6] = [
+        &[1],
+        &[1, 2, 50, 3],
+        &[7, 49, 50],
+        &[130, 1],
+        &[200],
+        &[399, 1],
+    ];
+    for lengths in all {
         let mut meter = Meter::new(touch.clone());
         let (mut from, mut next) = (0, lengths.iter().cycle());
         while from < 400 {
@@ -38,12 +46,15 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
             meter.append(&measured).unwrap();
             from = to;
         }
-        let found = meter.figures();
+        let found = meter.figures().unwrap();
         assert_eq!(found.playback.extreme, whole.playback.extreme);
         assert_eq!(found.playback.at_c, whole.playback.at_c);
         assert!((found.playback.rms() / whole.playback.rms() - 1.0).abs() < 1e-12);
         assert_eq!(found.residual, whole.residual, "{lengths:?}");
-        assert_eq!(found.axes.z.max_jerk, whole.axes.z.max_jerk);
+        assert_eq!(found.coverage, whole.coverage, "{lengths:?}");
+        assert_eq!(found.axes.z.velocity, whole.axes.z.velocity);
+        assert_eq!(found.axes.z.acceleration, whole.axes.z.acceleration);
+        assert_eq!(found.axes.z.jerk, whole.axes.z.jerk);
         let rms = |axes: &turnpath_verify::AxesMotion| axes.z.rms_acceleration();
         assert!((rms(&found.axes) / rms(&whole.axes) - 1.0).abs() < 1e-12);
     }
@@ -59,19 +70,19 @@ fn axes_move_as_the_closed_form_says() {
     let near = |found: f64, exact: f64, part: f64| {
         assert!((found / exact - 1.0).abs() < part, "{found}, not {exact}");
     };
-    near(axes.c.max_velocity, SPEED, 1e-12);
-    assert!(axes.c.max_acceleration < 1e-6 * SPEED * SPEED);
+    near(axes.c.velocity.amount, SPEED, 1e-12);
+    assert!(axes.c.acceleration.amount < 1e-6 * SPEED * SPEED);
     // X of 2.5 mm in steps of 3e-8 mm has no more digits.
-    near(axes.x.max_velocity, feed / TAU * SPEED, 1e-7);
+    near(axes.x.velocity.amount, feed / TAU * SPEED, 1e-7);
     let height = AST5.k * rim * rim;
-    near(axes.z.max_velocity, height * 2.0 * SPEED, 1e-3);
+    near(axes.z.velocity.amount, height * 2.0 * SPEED, 1e-3);
     let squared = SPEED * SPEED;
-    near(axes.z.max_acceleration, height * 4.0 * squared, 1e-3);
+    near(axes.z.acceleration.amount, height * 4.0 * squared, 1e-3);
     let mean = 0.5f64.sqrt();
     near(
         axes.z.rms_acceleration(),
         height * 4.0 * squared * mean,
         1e-3,
     );
-    near(axes.z.max_jerk, height * 8.0 * squared * SPEED, 1e-3);
+    near(axes.z.jerk.amount, height * 8.0 * squared * SPEED, 1e-3);
 }

@@ -2,6 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
+use crate::acceleration::largest_acceleration;
 use crate::cubic::{CubicFit, explicit_pairs};
 use crate::pieces::{pieces, revolutions};
 use crate::smooth::SmoothFeed;
@@ -15,6 +16,12 @@ const WINDOW: f64 = 0.01;
 const LARGEST_COST: f64 = 0.01;
 /// The narrowest window, in feeds: narrower, X would change its speed within a turn.
 const NARROWEST: f64 = 0.25;
+
+/// By how much the window grows at a time while X accelerates more than the machine can.
+const GROWTH: f64 = 1.5;
+/// What part of the machine's limit the law may take: played cubics follow it up to some
+/// thousandths.
+const SHARE: f64 = 0.99;
 
 /// How the law follows F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,10 +79,7 @@ impl FeedStrategy for AtpgFeed {
         let job = setup.job;
         let table = FeedTable::new(setup, self.residual)?;
         let stretches = match self.fit {
-            Fit::Smooth => {
-                let smooth = smoothed(&table, WINDOW * 2.0 * job.part.aperture_radius);
-                pieces(&smooth, job.range, job.direction)?
-            }
+            Fit::Smooth => smooth_law(&table, job)?,
             Fit::Cubic => {
                 let pairs = explicit_pairs(&table, job.range)?;
                 let turns = (pairs.len() - 1) as f64;
@@ -84,6 +88,22 @@ impl FeedStrategy for AtpgFeed {
         };
         Ok(Box::new(Planned(stretches)))
     }
+}
+
+/// The law of the smooth feed; where the machine has a limit for X, of the first feed whose law
+/// keeps to it: a wider average changes less. At most it is as wide as the part.
+fn smooth_law(table: &FeedTable, job: &Job) -> Result<Vec<Stretch>> {
+    let aperture = 2.0 * job.part.aperture_radius;
+    let mut smooth = smoothed(table, WINDOW * aperture);
+    let mut law = pieces(&smooth, job.range, job.direction)?;
+    let Some(limit) = job.machine.x.acceleration else {
+        return Ok(law);
+    };
+    while largest_acceleration(&law, &job.spindle) > SHARE * limit && smooth.window() < aperture {
+        smooth = SmoothFeed::new(table, (GROWTH * smooth.window()).min(aperture));
+        law = pieces(&smooth, job.range, job.direction)?;
+    }
+    Ok(law)
 }
 
 /// The smooth feed with the widest window that is not too dear.

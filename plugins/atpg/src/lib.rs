@@ -2,6 +2,7 @@
 //! alone and holds the residual at every angle, and points as far apart as the interpolation
 //! tolerance allows.
 
+mod acceleration;
 mod bound;
 mod cubic;
 mod feed;

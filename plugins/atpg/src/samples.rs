@@ -17,6 +17,11 @@ const X_PART: f64 = 1e-4;
 /// It does not where it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
+/// With [`Misfit::CutWhatFits`] steps are no shorter than this, rad: where the nose passes from one
+/// side of a seam to the other the path has a kink, and no step of any length is right. Refinement
+/// halves there what is too long.
+const LEAST_NEAR_SEAMS: f64 = 0.1 * DEG;
+
 /// A knot of the law: |φ⁗| before and after it, and what jumps there.
 #[derive(Debug, Clone, Copy)]
 pub struct Knot {
@@ -38,6 +43,8 @@ struct Played<'a> {
     still: f64,
     /// Largest error of φ, mm.
     allowed: f64,
+    /// |φ⁗| counts as no more than this, mm/rad⁴.
+    sharpest: f64,
     theta: Vec<f64>,
     rho: Vec<f64>,
     x: Vec<Series>,
@@ -93,7 +100,7 @@ impl Played<'_> {
     fn fourth(&self, i: usize, n: f64) -> f64 {
         let x_allowed = X_PART * pitch(&self.path, n);
         let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
-        24.0 * phi.max(x * self.allowed / x_allowed)
+        (24.0 * phi.max(x * self.allowed / x_allowed)).min(self.sharpest)
     }
 
     /// The series of φ at place `i` of the last look.
@@ -137,6 +144,7 @@ impl<'a> Samples<'a> {
             path: *path,
             still: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
             allowed,
+            sharpest: sharpest(path.job.tool.misfit, allowed),
             theta: Vec::new(),
             rho: Vec::new(),
             x: Vec::new(),
@@ -226,7 +234,7 @@ impl<'a> Samples<'a> {
             let after = self.played.both();
             self.played.look_before(batch)?;
             for ((n, before), after) in batch.iter().zip(self.played.both()).zip(after) {
-                knots.push(Knot::between(*n, before, after));
+                knots.push(Knot::between(*n, before, after, self.played.sharpest));
             }
         }
         Ok(knots)
@@ -263,20 +271,31 @@ impl Played<'_> {
 impl Knot {
     /// From φ and Z on both sides. A jump counts as that of φ or of Z, whichever is larger: in φ
     /// those of Z and X cancel at the knot's own slope, which is not the slope all over the step.
-    fn between(n: f64, before: [Series; 2], after: [Series; 2]) -> Self {
+    fn between(n: f64, before: [Series; 2], after: [Series; 2], sharpest: f64) -> Self {
         let jump = |k: usize, factorial: f64| {
             let of = |which: usize| (after[which][k] - before[which][k]).abs();
             factorial * of(0).max(of(1))
         };
         Self {
             n,
-            before: 24.0 * before[0][4].abs(),
-            after: 24.0 * after[0][4].abs(),
+            before: (24.0 * before[0][4].abs()).min(sharpest),
+            after: (24.0 * after[0][4].abs()).min(sharpest),
             jumps: Jumps {
                 first: jump(1, 1.0),
                 second: jump(2, 2.0),
                 third: jump(3, 6.0),
             },
+        }
+    }
+}
+
+/// The largest |φ⁗| that counts, mm/rad⁴: that of the least step where there may be seams.
+fn sharpest(misfit: Misfit, allowed: f64) -> f64 {
+    match misfit {
+        Misfit::Refuse => f64::INFINITY,
+        Misfit::CutWhatFits => {
+            let squared = LEAST_NEAR_SEAMS * LEAST_NEAR_SEAMS;
+            384.0 * allowed / (squared * squared)
         }
     }
 }

@@ -54,6 +54,11 @@ impl SmoothFeed {
         }
     }
 
+    /// Half the width h of the average, mm.
+    pub fn window(&self) -> f64 {
+        self.window
+    }
+
     /// A length over which it is as good as a polynomial of low degree, mm.
     pub fn scale(&self) -> f64 {
         0.125 * self.window

@@ -11,7 +11,8 @@ use common::{Case, ast_5, ast_50, joints, oap_213, rate_at, words};
 use proptest::prelude::{ProptestConfig, Strategy as Generator, any, prop, prop_assert, proptest};
 use turnpath_atpg::{AtpgFeed, CubicFit, FeedTable, Residual, explicit_pairs};
 use turnpath_core::{
-    Compensator, Locus, ParamValue, Params, Radial, RadialRange, Strategy, SurfaceModel, UM,
+    Compensator, Locus, ParamValue, Params, Radial, RadialRange, SpiralLaw, Strategy, SurfaceModel,
+    UM,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Conic, SinusoidalArray, XyPolynomial};
@@ -135,6 +136,67 @@ fn on_arrays_the_smooth_law_costs_little_against_the_fastest() {
         let cost = found / fastest - 1.0;
         assert!((0.0..allowed).contains(&cost), "{name}: {found}, {cost:.4}");
     }
+}
+
+fn with_limit(case: Case, acceleration: f64) -> Case {
+    let mut case = case;
+    case.job.machine.x.acceleration = Some(acceleration);
+    case
+}
+
+/// The largest |d²ρ/dt²| on a dense grid, mm/s².
+fn acceleration(case: &Case, law: &SpiralLaw) -> f64 {
+    let turning = case.job.spindle.speed_at(0.0) / TAU;
+    let second = |i: u32| -> f64 { 2.0 * law.series(law.end() * f64::from(i) / 20_000.0)[2] };
+    let largest = (0..=20_000).fold(0.0, |most: f64, i| most.max(second(i).abs()));
+    largest * turning * turning
+}
+
+/// MLA-5 and lenses ten times as high: F goes up and down with every lens.
+#[test]
+fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_held_feed() {
+    for (amplitude, inward) in [(5.0 * UM, false), (50.0 * UM, false), (50.0 * UM, true)] {
+        let case = || {
+            let form = if amplitude < 10.0 * UM {
+                "sum"
+            } else {
+                "product"
+            };
+            let case = Case::new(
+                array(amplitude, 0.4, form),
+                Arc::new(ZDirection),
+                10.0,
+                1.0,
+                100.0,
+            );
+            if inward { case.inward() } else { case }
+        };
+        let free = case().law("held", "smooth").unwrap();
+        let unlimited = acceleration(&case(), &free);
+        for part in [0.7, 0.3, 0.1] {
+            let limited = with_limit(case(), part * unlimited);
+            let law = limited.law("held", "smooth").unwrap();
+            let found = acceleration(&limited, &law);
+            assert!(found <= part * unlimited, "{found} of {part} · {unlimited}");
+            assert!(law.end() > free.end());
+            if !inward {
+                check(&limited, 0.3);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_limit_that_is_kept_anyway_changes_no_bit_and_one_that_no_law_keeps_ends_the_search() {
+    for case in [ast_5, |compensator| ast_5(compensator).inward()] {
+        let free = case(ZDirection).law("held", "smooth").unwrap();
+        let wide = with_limit(case(ZDirection), 1e6);
+        assert_eq!(wide.law("held", "smooth").unwrap(), free);
+    }
+    let impossible = with_limit(ast_5(ZDirection), 1e-12);
+    check(&impossible, 0.5);
+    let cubic = ast_5(ZDirection).law("held", "cubic").unwrap();
+    assert_eq!(impossible.law("held", "cubic").unwrap(), cubic);
 }
 
 /// Everything that a smooth law promises, on a dense grid.

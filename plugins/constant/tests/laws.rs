@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use turnpath_constant::Constant;
 use turnpath_core::{
-    Compensator, Direction, FeedStrategy, Job, NM, Onward, Params, Part, RadialRange, Result,
-    Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Tolerance, Tool, ToolLocus, UM,
+    Compensator, Direction, FeedStrategy, Job, Machine, NM, Onward, Params, Part, RadialRange,
+    Result, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Tolerance, Tool, ToolLocus, UM,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic};
@@ -29,6 +29,7 @@ fn job(inner: f64, direction: Direction) -> Job {
             nose_radius: NOSE,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         },
         tolerance: Tolerance {
             interpolation: RESIDUAL,
@@ -37,6 +38,7 @@ fn job(inner: f64, direction: Direction) -> Job {
         range: RadialRange { inner, outer: RIM },
         direction,
         spindle: SpindleLaw::constant(52.0),
+        machine: Machine::default(),
     }
 }
 

@@ -16,6 +16,9 @@ const AIM: f64 = 0.98;
 /// of the surface, not what somebody wants, and finer ones fill the memory: a block of 64 revolutions
 /// is 23 million points already.
 const SMALLEST_STEP: f64 = 1e-3 * DEG;
+/// With [`Misfit::CutWhatFits`] a derived step is no smaller than this: where the nose passes from one
+/// side of a seam to the other no step is right, and refinement halves those that are too long.
+const LEAST_NEAR_SEAMS: f64 = 0.25 * DEG;
 
 /// Node k lies at k steps of the C angle from the path's start, on whatever revolution that is.
 ///
@@ -69,7 +72,11 @@ impl EqualAngle {
     fn derive(&self, path: &Path<'_>) -> Result<f64> {
         let Spot { n, sharpness } = sharpest(path)?;
         let fourth_power = 384.0 * AIM * path.job.tolerance.interpolation / sharpness;
-        let step = fourth_power.sqrt().sqrt().min(self.largest);
+        let step = match path.job.tool.misfit {
+            Misfit::Refuse => fourth_power.sqrt().sqrt(),
+            Misfit::CutWhatFits => fourth_power.sqrt().sqrt().max(LEAST_NEAR_SEAMS),
+        };
+        let step = step.min(self.largest);
         if step < SMALLEST_STEP {
             return Err(StrategyError::failed(format!(
                 "tolerance.interpolation would take steps of {:.2e} deg: the tool centre's path \

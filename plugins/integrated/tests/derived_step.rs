@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, DEG, Direction, Job, NM, ParamValue, Params, Part, Path, RadialRange, Result,
-    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Strategy, SurfaceModel, Tolerance, Tool,
-    ToolLocus,
+    Compensator, DEG, Direction, Job, Machine, NM, ParamValue, Params, Part, Path, RadialRange,
+    Result, Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Strategy, SurfaceModel, Tolerance,
+    Tool, ToolLocus,
 };
 use turnpath_integrated::EqualAngle;
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
@@ -44,6 +44,7 @@ impl Case {
             nose_radius: self.nose_radius,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         };
         let part = Part {
             aperture_radius: self.rim,
@@ -62,6 +63,7 @@ impl Case {
             },
             direction: Direction::Inward,
             spindle: SpindleLaw::constant(52.0),
+            machine: Machine::default(),
         };
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
         let mut law = SpiralLaw::new();

@@ -4,8 +4,8 @@
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
 use std::sync::Arc;
 use turnpath_core::{
-    DEG, Direction, Job, Params, Part, Path, RadialRange, Revolutions, Sampler, SpindleLaw,
-    SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
+    DEG, Direction, Job, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler,
+    SpindleLaw, SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::EqualAngle;
 use turnpath_nose_radius::Uncompensated;
@@ -21,6 +21,7 @@ fn job() -> Job {
             nose_radius: 1.0,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         },
         tolerance: Tolerance {
             interpolation: 1e-4,
@@ -32,6 +33,7 @@ fn job() -> Job {
         },
         direction: Direction::Inward,
         spindle: SpindleLaw::constant(52.0),
+        machine: Machine::default(),
     }
 }
 

@@ -3,10 +3,12 @@
 //! With d = the foot's distance from the centre's X, the touching circle has d = R g_ρ/w at the
 //! foot, so the root of G(d) = d − R g_ρ(ρ + d)/w is sought. G' = 1 − Rκ: where the nose fits
 //! (Rκ < 1 over its reach) G grows, the root is the only one, and G(−R) < 0 < G(R) brackets it.
+//! Where the nose need not fit, a scan brackets all roots that may be the highest place.
 
 use turnpath_plugin::prelude::*;
 
 use crate::polar::{Ray, Room};
+use crate::scan::{Hill, scan};
 
 /// A step below this part of ρ and R is no more than the rounding of the foot itself.
 const FINEST: f64 = 4.0 * f64::EPSILON;
@@ -19,6 +21,15 @@ const NOISE: f64 = 1e-12;
 const PATIENCE: usize = 12;
 /// Trials enough to halve any bracket down to rounding.
 const MOST_TRIALS: usize = 160;
+
+/// A top this part of R below the highest place of a scan still counts as that place: more than
+/// rounding, and than what hills differ by that lie closer together than a scan can tell.
+const UNSEEN: f64 = 1e-11;
+
+/// sqrt(R² − d²): how far the centre lies above the contact.
+pub fn rise<S: Scalar>(radius: f64, offset: S) -> S {
+    ((-offset + radius) * (offset + radius)).sqrt()
+}
 
 /// Where the nose touches.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +45,15 @@ pub struct Touch {
 }
 
 impl Touch {
+    fn unknown(theta: f64, rho: f64) -> Self {
+        Self {
+            ray: Ray::at(theta),
+            rho,
+            offset: f64::NAN,
+            at_edge_end: false,
+        }
+    }
+
     /// Radius of the foot, mm.
     pub fn foot(&self) -> f64 {
         self.rho + self.offset
@@ -56,23 +76,65 @@ impl FootFinder {
             reach: cut.tool.reach(),
         };
         self.touches.clear();
+        let places = theta.iter().zip(rho);
+        self.touches
+            .extend(places.map(|(theta, rho)| Touch::unknown(*theta, *rho)));
         self.active.clear();
-        for (point, (theta, rho)) in theta.iter().zip(rho).enumerate() {
-            self.touches.push(Touch {
-                ray: Ray::at(*theta),
-                rho: *rho,
-                offset: f64::NAN,
-                at_edge_end: false,
-            });
-            self.active.push(Search::new(point, nose));
+        match cut.tool.misfit {
+            Misfit::Refuse => {
+                let searches = (0..theta.len()).map(|point| Search::new(point, nose));
+                self.active.extend(searches);
+                self.search(cut.surface, nose)?;
+            }
+            Misfit::CutWhatFits => self.find_highest(cut.surface, nose)?,
         }
+        Ok(&self.touches)
+    }
+
+    /// The touch on the highest of all hills. None where the surface goes on rising towards a
+    /// border of its own within the reach: what would be touched there is not known.
+    fn find_highest(&mut self, surface: &dyn SurfaceModel, nose: Nose) -> Result<()> {
+        let scan = scan(surface, nose, &self.touches, &mut self.room)?;
+        let points = std::mem::take(&mut self.touches);
+        for (rival, candidate) in scan.candidates.iter().enumerate() {
+            let mut touch = points[candidate.point];
+            match candidate.hill {
+                Hill::Between { lower, upper } => {
+                    self.active.push(Search::between(rival, lower, upper));
+                }
+                Hill::EdgeEnd(offset) => (touch.offset, touch.at_edge_end) = (offset, true),
+            }
+            self.touches.push(touch);
+        }
+        self.search(surface, nose)?;
+        let rivals = std::mem::replace(&mut self.touches, points);
+        let (touches, room) = (&mut self.touches, &mut self.room);
+        room.hold(rivals.iter().map(|rival| rival.ray.place(rival.foot())));
+        room.gradient(surface)?;
+        let mut tops: Vec<f64> = scan
+            .highest
+            .iter()
+            .map(|highest| highest - UNSEEN * nose.radius)
+            .collect();
+        for ((rival, candidate), height) in rivals.iter().zip(&scan.candidates).zip(&room.z) {
+            let top = height + rise(nose.radius, rival.offset);
+            if top > tops[candidate.point] {
+                tops[candidate.point] = top;
+                touches[candidate.point] = *rival;
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on until every search has ended.
+    fn search(&mut self, surface: &dyn SurfaceModel, nose: Nose) -> Result<()> {
         for trial in 0..MOST_TRIALS {
             if self.active.is_empty() {
                 break;
             }
-            self.try_all(cut.surface, nose, trial)?;
+            self.try_all(surface, nose, trial)?;
         }
-        Ok(&self.touches)
+        Ok(())
     }
 
     /// One more trial for every search that goes on; those that are done leave.
@@ -107,9 +169,11 @@ impl FootFinder {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Nose {
-    radius: f64,
-    reach: f64,
+pub struct Nose {
+    /// Its radius, mm.
+    pub radius: f64,
+    /// How far from the centre's X the edge reaches, mm.
+    pub reach: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -139,15 +203,35 @@ struct Search {
 impl Search {
     fn new(point: usize, nose: Nose) -> Self {
         Self {
-            point,
-            trial: 0.0,
             lower: -nose.reach,
             upper: nose.reach,
+            ..Self::at(point)
+        }
+    }
+
+    /// Nothing tried yet, no bracket.
+    fn at(point: usize) -> Self {
+        Self {
+            point,
+            trial: 0.0,
+            lower: f64::NEG_INFINITY,
+            upper: f64::INFINITY,
             ends_tried: [false; 2],
             last: f64::NAN,
             gap: f64::NAN,
             rate: 1.0,
             step: f64::INFINITY,
+        }
+    }
+
+    /// The search for the one root between two offsets, G below zero at the lower one.
+    fn between(point: usize, lower: f64, upper: f64) -> Self {
+        Self {
+            trial: 0.5 * (lower + upper),
+            lower,
+            upper,
+            ends_tried: [true; 2],
+            ..Self::at(point)
         }
     }
 

@@ -7,6 +7,7 @@ mod foot;
 mod none;
 mod normal;
 mod polar;
+mod scan;
 mod z_direction;
 
 pub use none::Uncompensated;

@@ -27,6 +27,11 @@ impl Compensator for Uncompensated {
         false
     }
 
+    /// A point fits anywhere.
+    fn cuts_what_fits(&self) -> bool {
+        true
+    }
+
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
         let mut room = Room::default();
         for batch in batches(theta.len()) {

@@ -2,14 +2,18 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::foot::{FootFinder, Touch};
+use crate::foot::{FootFinder, Touch, rise};
 use crate::polar::{Room, TurningRay, batches};
+
+/// Least −F_d·R that the foot's motion is reckoned with. It is 1/cos³φ − Rκ, above zero at a highest
+/// place but where the section osculates the nose: there the foot moves without bound.
+const LEAST_STEEPNESS: f64 = 1e-6;
 
 /// X = ρ; Z = max over ρ' of g(θ, ρ') + sqrt(R² − (ρ − ρ')²), ρ' within the edge's reach.
 ///
 /// X does not follow the surface, so the X axis moves as smoothly as the feed. The foot is the
-/// only one where Rκ < 1 over the reach; where the edge ends before the normal does, it touches
-/// with its end.
+/// only one where Rκ < 1 over the reach; with [`Misfit::CutWhatFits`] the whole reach is scanned
+/// for it. Where the edge ends before the normal does, it touches with its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ZDirection;
 
@@ -27,6 +31,10 @@ impl Strategy for ZDirection {
 impl Compensator for ZDirection {
     fn radial(&self) -> Radial {
         Radial::Centre
+    }
+
+    fn cuts_what_fits(&self) -> bool {
+        true
     }
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
@@ -64,11 +72,6 @@ impl Compensator for ZDirection {
     ) -> Option<Result<()>> {
         Some(rates(cut, theta, rho, out))
     }
-}
-
-/// sqrt(R² − d²): how far the centre lies above the contact.
-fn rise<S: Scalar>(radius: f64, offset: S) -> S {
-    ((-offset + radius) * (offset + radius)).sqrt()
 }
 
 fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
@@ -176,7 +179,8 @@ impl Descent {
         if !self.touch.at_edge_end {
             let rise = rise(radius, self.touch.offset);
             let second = self.touch.ray.along(zx_rho, zy_rho);
-            self.steepness = second - radius * radius / (rise * rise * rise);
+            let steepness = second - radius * radius / (rise * rise * rise);
+            self.steepness = steepness.min(-LEAST_STEEPNESS / radius);
         }
     }
 

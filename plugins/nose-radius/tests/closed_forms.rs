@@ -21,6 +21,7 @@ fn tool() -> Tool {
         nose_radius: NOSE,
         included_angle: None,
         clearance_angle: None,
+        misfit: turnpath_core::Misfit::Refuse,
     }
 }
 

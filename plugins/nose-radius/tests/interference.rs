@@ -17,6 +17,7 @@ fn tool(nose_radius: f64) -> Tool {
         nose_radius,
         included_angle: Some(120.0 * DEG),
         clearance_angle: Some(30.0 * DEG),
+        misfit: turnpath_core::Misfit::Refuse,
     }
 }
 
@@ -37,10 +38,10 @@ fn extremes_of_the_saddle_are_those_of_the_closed_form() {
         let steepest = Scalar::atan(2.0 * K * REGION.outer);
         assert!((found.curvature.value - 2.0 * K).abs() < 1e-14);
         assert!((found.largest_nose_radius() - 6.25).abs() < 1e-11);
-        assert!((found.contact_angle.value - steepest).abs() < 1e-14);
-        assert!((found.cut_angle.value - steepest).abs() < 1e-14);
-        assert!((found.cut_angle.value / DEG - 21.8).abs() < 0.01);
-        assert!((found.cut_angle.rho - REGION.outer).abs() < 1e-12);
+        assert!((found.contact_angle().value - steepest).abs() < 1e-14);
+        assert!((found.cut_angle().value - steepest).abs() < 1e-14);
+        assert!((found.cut_angle().value / DEG - 21.8).abs() < 0.01);
+        assert!((found.cut_angle().rho - REGION.outer).abs() < 1e-12);
         assert!(found.conflicts(&tool).is_empty());
     }
 }
@@ -75,6 +76,7 @@ fn every_way_not_to_fit_is_listed_with_what_would_do() {
         nose_radius: 7.0,
         included_angle: Some(40.0 * DEG),
         clearance_angle: Some(20.0 * DEG),
+        misfit: turnpath_core::Misfit::Refuse,
     };
     let surface = saddle();
     let cut = Cut {

@@ -20,6 +20,7 @@ const TOOL: Tool = Tool {
     nose_radius: 1.0,
     included_angle: None,
     clearance_angle: None,
+    misfit: turnpath_core::Misfit::Refuse,
 };
 
 fn surface(name: &str, params: &Value) -> Arc<dyn SurfaceModel> {

@@ -44,6 +44,7 @@ fn tool() -> Tool {
         nose_radius: NOSE,
         included_angle: None,
         clearance_angle: None,
+        misfit: turnpath_core::Misfit::Refuse,
     }
 }
 
@@ -91,6 +92,112 @@ proptest! {
         points in prop::collection::vec((0.0..6.3f64, -1.0..4.0f64), 1..600),
     ) {
         let locus = ToolLocus::new(Arc::new(rippled()), Arc::new(ZDirection), tool());
+        let (theta, rho): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        let all = centres(&locus, &theta, &rho);
+        let last = theta.len() - 1;
+        let alone = centres(&locus, &theta[last..], &rho[last..]);
+        prop_assert_eq!((all.z[last], all.foot[last]), (alone.z[0], alone.foot[0]));
+    }
+}
+
+/// Waves that are too narrow for the nose, along x; their hollows have radii down to 0.25 mm.
+#[derive(Clone, Copy)]
+struct Waves;
+
+impl Surface for Waves {
+    fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+        (x * 20.0).cos() * 0.01
+    }
+}
+
+/// The highest of the nose's places on the waves, by brute force.
+fn first_touch_on_waves(theta: f64, x: f64, reach: f64) -> f64 {
+    let (_, cos) = Scalar::sin_cos(theta);
+    let place = |i: i32| f64::from(i) * 1e-5 * reach;
+    let height = |d: f64| Waves.sag((x + d) * cos, 0.0) + (NOSE * NOSE - d * d).sqrt();
+    (-100_000..=100_000)
+        .map(|i| height(place(i)))
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
+fn cuts_what_fits(included_angle: Option<f64>) -> Tool {
+    Tool {
+        included_angle,
+        misfit: turnpath_core::Misfit::CutWhatFits,
+        ..tool()
+    }
+}
+
+#[test]
+fn over_waves_too_narrow_for_the_nose_it_stops_at_the_first_touch() {
+    for included_angle in [None, Some(0.1)] {
+        let tool = cuts_what_fits(included_angle);
+        let locus = ToolLocus::new(Arc::new(Waves), Arc::new(ZDirection), tool);
+        for i in 0..60 {
+            let (theta, x) = (0.1 * f64::from(i), 0.037 * f64::from(i));
+            let z = centres(&locus, &[theta], &[x]).z[0];
+            let exact = first_touch_on_waves(theta, x, tool.reach());
+            assert!(z >= exact - 1e-15 && z < exact + 2e-10, "{z} {exact}");
+        }
+    }
+}
+
+/// A lattice of hollows; where a seam begins between a nose of 3 mm and one of them, two hills lie
+/// within a fraction of a degree of the edge.
+#[derive(Clone, Copy)]
+struct Lattice;
+
+impl Surface for Lattice {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let wave = std::f64::consts::TAU;
+        ((x * wave).cos() + (y * wave).cos()) * 0.01
+    }
+}
+
+#[test]
+fn where_a_seam_begins_there_is_a_centre_and_a_series() {
+    let tool = Tool {
+        nose_radius: 3.0,
+        ..cuts_what_fits(None)
+    };
+    let locus = ToolLocus::new(Arc::new(Lattice), Arc::new(ZDirection), tool);
+    let near = |i: i32| f64::from(i) * 2e-5;
+    for i in -40..40 {
+        let theta: Vec<f64> = (-40..40).map(|j| 0.3284 + near(i + j)).collect();
+        let rho: Vec<f64> = (-40..40).map(|j| 0.5816 + near(j)).collect();
+        let found = centres(&locus, &theta, &rho);
+        assert!(found.z.iter().chain(&found.foot).all(|z| z.is_finite()));
+        let curve = |values: &[f64], rate: f64| -> Vec<turnpath_core::Series> {
+            values.iter().map(|v| [*v, rate, 0.0, 0.0, 0.0]).collect()
+        };
+        let [x, z] = common::series(&locus, &curve(&theta, 1.0), &curve(&rho, 0.003));
+        assert!(x.iter().chain(&z).flatten().all(|c| c.is_finite()));
+    }
+}
+
+#[test]
+fn where_the_nose_fits_the_first_touch_is_the_only_one() {
+    let find = |tool| {
+        let locus = ToolLocus::new(Arc::new(rippled()), Arc::new(ZDirection), tool);
+        let theta: Vec<f64> = (0..600).map(|i| 0.1 * f64::from(i)).collect();
+        let rho: Vec<f64> = (0..600).map(|i| 0.005 * f64::from(i)).collect();
+        centres(&locus, &theta, &rho)
+    };
+    let (only, first) = (find(tool()), find(cuts_what_fits(None)));
+    for i in 0..600 {
+        assert!((only.z[i] - first.z[i]).abs() < 1e-15);
+        assert!((only.foot[i] - first.foot[i]).abs() < 1e-12);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn a_first_touch_does_not_depend_on_its_batch(
+        points in prop::collection::vec((0.0..6.3f64, -1.0..4.0f64), 1..600),
+    ) {
+        let locus = ToolLocus::new(Arc::new(Waves), Arc::new(ZDirection), cuts_what_fits(None));
         let (theta, rho): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
         let all = centres(&locus, &theta, &rho);
         let last = theta.len() - 1;

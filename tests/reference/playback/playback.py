@@ -11,8 +11,11 @@ A point of the part is (theta, rho), rho signed, with x = rho cos(theta), y = rh
     playback.py RECIPE.toml toolpath.csv [--stride N] [--instants M] [--sections S] [--scan P]
 
 prints JSON: the error of interpolation (played minus true Z, along z), the residual (cusp
-height along the profile's normal in the XZ plane, tool centres at their true Z), the error of
-the machined surface (what the played nose leaves, along z), the rows of the file and the revolutions of section 1. Only section 1 (cutting) is measured.
+height along the profile's normal in the XZ plane, tool centres at their true Z), what stays
+uncut at the part's edges and around the axis (null: not reached, or no such place), the error of
+the machined surface (what the played nose leaves, along z), the rows of the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
+cut what fits, cusps count from the closing of the profile by the nose, and what stays between
+closing and surface is a figure of its own.
 """
 
 import argparse
@@ -27,6 +30,7 @@ from surfaces import ANGLE_RAD, LENGTH_MM, SURFACES, quantity
 COLUMNS = "time_s,c_deg,x_mm,z_mm,vc_deg_per_s,vx_mm_per_s,vz_mm_per_s,section"
 NM_PER_MM = 1e6
 INSTANTS_PER_CHUNK = 24_000  # bounds memory, and keeps a chunk's arrays in the cache
+SEAM_SCAN = 513
 COMPENSATORS = ("z-direction", "normal", "none")
 
 # --- recipe -------------------------------------------------------------------------------
@@ -41,6 +45,7 @@ class Recipe:
         self.nose_radius = quantity(tool, "nose_radius", LENGTH_MM)
         included = quantity(tool, "included_angle", ANGLE_RAD, math.pi)
         self.nose_half_angle = min(included / 2, math.pi / 2)
+        self.cuts_what_fits = tool.get("interference", "refuse") == "cut-what-fits"
         self.compensator = table["compensator"]["use"]
         if self.compensator not in COMPENSATORS:
             raise SystemExit(f"no reference for the compensator `{self.compensator}`")
@@ -209,11 +214,30 @@ def interpolation_error(recipe, path, stride=1, instants=48, scan=129):
         place = np.unravel_index(np.argmax(np.abs(error)), error.shape)
         if abs(error[place]) > worst:
             worst, at = abs(error[place]), {"c_deg": float(c_deg[place]), "x_mm": float(x[place])}
+        if recipe.cuts_what_fits:
+            worst, at, low, high = sharpen(recipe, path, segment[:, 0], error, scan, (worst, at, low, high))
         h = path.durations[segment[:, 0]]
         squares += float(h @ (error**2 @ simpson))
         duration += float(h.sum())
     return {"max": float(worst * NM_PER_MM), "rms": math.sqrt(squares / duration) * NM_PER_MM,
             "lowest": float(low * NM_PER_MM), "highest": float(high * NM_PER_MM), "at": at}
+
+
+def sharpen(recipe, path, segment, error, scan, known, worst_segments=40, instants=1500):
+    """The extremes so far, with the worst segments of a chunk played back more finely: where the
+    contact jumps over a seam the error has a corner."""
+    worst, at, low, high = known
+    chosen = segment[np.argsort(np.abs(error).max(axis=1))[-worst_segments:]]
+    tau = np.arange(instants + 1) / instants
+    for one in chosen:
+        one = np.array([one])[:, None]
+        c_deg, x = path.play("c", one, tau)[0], path.play("x", one, tau)[0]
+        fine = path.play("z", one, tau)[0] - true_z(recipe, radians(c_deg), x, scan)
+        low, high = min(low, fine.min()), max(high, fine.max())
+        k = int(np.argmax(np.abs(fine)))
+        if abs(fine[k]) > worst:
+            worst, at = abs(fine[k]), {"c_deg": float(c_deg[k]), "x_mm": float(x[k])}
+    return worst, at, low, high
 
 
 def nose_centres(recipe, theta, x, scan):
@@ -224,6 +248,17 @@ def nose_centres(recipe, theta, x, scan):
     g, s = profile(x), slope(profile, x)
     w = np.sqrt(1 + s * s)
     return x - radius * s / w, g + radius / w
+
+
+def cusps(recipe, x, z):
+    """The highest places that neighbouring noses at (x, z) leave between them: where their circles
+    cross, or where the edge of one ends before that, the other's circle there."""
+    radius, reach = recipe.nose_radius, recipe.nose_radius * math.sin(recipe.nose_half_angle)
+    cusp_x, cusp_z = lower_intersection(radius, x, z)
+    lower, upper = np.minimum(x[1:], x[:-1]), np.maximum(x[1:], x[:-1])
+    at = np.clip(cusp_x, upper - reach, lower + reach)
+    sides = [c - np.sqrt(np.maximum(radius**2 - (at - a)**2, 0)) for a, c in ((x[1:], z[1:]), (x[:-1], z[:-1]))]
+    return at, np.where(at == cusp_x, cusp_z, np.maximum(*sides))
 
 
 def lower_intersection(radius, x, z):
@@ -245,6 +280,39 @@ def height_above(profile, x, z):
     return ((z - profile(foot)) - s * (x - foot)) / np.sqrt(1 + s * s), foot
 
 
+def height_above_closing(recipe, theta, x, z, first, second, scan):
+    """Distance of cusps at (x, z) from the lowest that the nose can leave there, along the normal.
+
+    That is the least over X, from pass to pass, of the lower side of the nose at X: one valley,
+    found by golden section. The normal is that of the surface where the nose touches it there,
+    else that of the nose.
+    """
+    profile, radius = recipe.profile(theta), recipe.nose_radius
+
+    def lift(at):
+        return np.sqrt(np.maximum(radius**2 - (at - x)**2, 0))
+
+    def under(at):
+        return first_touch(recipe, theta, at, scan) - lift(at)
+
+    low, high = np.minimum(first, second), np.maximum(first, second)
+    golden = (math.sqrt(5) - 1) / 2
+    a, b = high - golden * (high - low), low + golden * (high - low)
+    at_a, at_b = under(a), under(b)
+    for _ in range(40):
+        left = at_a < at_b
+        low, high = np.where(left, low, a), np.where(left, b, high)
+        new = np.where(left, high - golden * (high - low), low + golden * (high - low))
+        at_new = under(new)
+        a, b = np.where(left, new, b), np.where(left, a, new)
+        at_a, at_b = np.where(left, at_new, at_b), np.where(left, at_a, at_new)
+    at = np.where(at_a < at_b, a, b)
+    closing = np.minimum(at_a, at_b)
+    touches = closing - profile(x) < 1e-8
+    normal = np.where(touches, 1 / np.sqrt(1 + slope(profile, x)**2), lift(at) / radius)
+    return (z - closing) * normal
+
+
 def section_residual(recipe, path, section_deg, scan):
     """The highest cusp at one section angle and its place; (-inf, None) where there is none.
 
@@ -257,9 +325,14 @@ def section_residual(recipe, path, section_deg, scan):
     theta = math.radians(section_deg)
     with np.errstate(invalid="ignore", divide="ignore"):  # a formula may end beyond the part
         x, z = nose_centres(recipe, theta, played, scan)
-        cusp_x, cusp_z = lower_intersection(recipe.nose_radius, x, z)
+        cusp_x, cusp_z = cusps(recipe, x, z)
         index = np.flatnonzero((played[1:] * played[:-1] > -1e-12) & (np.abs(np.diff(x)) > 1e-9))
-        height, foot = height_above(recipe.profile(theta), cusp_x[index], cusp_z[index])
+        if recipe.cuts_what_fits and recipe.compensator != "none":
+            foot = cusp_x[index]
+            height = height_above_closing(recipe, theta, foot, cusp_z[index], x[index],
+                                          x[index + 1], scan)
+        else:
+            height, foot = height_above(recipe.profile(theta), cusp_x[index], cusp_z[index])
     if np.any(np.isnan(height) & (np.abs(cusp_x[index]) <= recipe.part_radius)):
         raise SystemExit(f"a pass or its cusp at C = {section_deg} deg leaves the surface's domain")
     on_part = (np.abs(foot) <= recipe.part_radius) & (np.abs(foot) >= recipe.hole_radius)
@@ -286,9 +359,149 @@ def residual(recipe, path, sections=90, scan=129):
     return {"max": worst[0] * NM_PER_MM, "at": worst[1]}
 
 
+class Sections:
+    """X as played at evenly spaced angles, a turn in each place; none on a degree."""
+
+    COUNT = 360
+
+    def __init__(self, recipe, path, scan):
+        self.recipe, self.scan = recipe, scan
+        self.degrees = (np.arange(self.COUNT) + 0.37) * 360 / self.COUNT
+        self.played = [self.turns(path, c) for c in self.degrees]
+
+    @staticmethod
+    def turns(path, section_deg):
+        """X of every pass of one section, in the order of time."""
+        first = math.ceil((path.nodes[0, 1] - section_deg) / 360)
+        last = math.floor((path.nodes[-1, 1] - section_deg) / 360)
+        return path.pass_x(section_deg + 360.0 * np.arange(first, last + 1))
+
+    def line(self, i, chosen):
+        """True nose centres (x, z) along the line of section i: its own passes, and those of the
+        opposite half mirrored. `chosen` takes the passes' X and gives the ones that count."""
+        j = (i + self.COUNT // 2) % self.COUNT
+        found = []
+        for section, sign in ((i, 1.0), (j, -1.0)):
+            played = chosen(self.played[section], sign)
+            theta = math.radians(self.degrees[section])
+            with np.errstate(invalid="ignore"):
+                x, z = nose_centres(self.recipe, theta, played, self.scan)
+            found.append((sign * x, z))
+        return found
+
+
+def uncut_at_edge(sections, radius):
+    """The largest distance of the wanted surface at `radius` from all that the nose cuts there,
+    over all angles; infinite where the nose stands above it nowhere."""
+    recipe = sections.recipe
+    nose, reach = recipe.nose_radius, recipe.nose_radius * math.sin(recipe.nose_half_angle)
+    worst = -math.inf
+    for i, degrees in enumerate(sections.degrees):
+        near = lambda x, sign: x[np.abs(sign * x - radius) < 2 * nose]
+        place = float(recipe.profile(math.radians(degrees))(np.float64(radius)))
+        uncut = math.inf
+        for x, z in sections.line(i, near):
+            away = np.hypot(x - radius, z - place)[np.abs(x - radius) < reach]
+            uncut = min(uncut, away.min(initial=math.inf) - nose)
+        worst = max(worst, uncut)
+    return worst
+
+
+def uncut_at_centre(sections):
+    """The highest cusp between neighbouring passes of the innermost three turns, both halves of
+    each line together; infinite where they do not meet, or one half has none."""
+    recipe, worst = sections.recipe, -math.inf
+    played = [x for x in sections.played if len(x)]
+    ends = [abs(np.mean([x[at] for x in played])) for at in (0, -1)]
+    innermost = (lambda x, _: x[:3]) if ends[0] < ends[1] else (lambda x, _: x[-3:])
+    for i in range(sections.COUNT // 2):
+        sides = sections.line(i, innermost)
+        if any(len(x) == 0 for x, _ in sides):
+            return math.inf
+        x, z = (np.concatenate(both) for both in zip(*sides))
+        order = np.argsort(x)
+        x, z = x[order], z[order]
+        apart = np.hypot(np.diff(x), np.diff(z))
+        if np.any(apart > 2 * recipe.nose_radius):
+            return math.inf
+        with np.errstate(invalid="ignore", divide="ignore"):
+            cusp_x, cusp_z = lower_intersection(recipe.nose_radius, x, z)
+        differ = apart > 1e-9
+        profile = recipe.profile(math.radians(sections.degrees[i]))
+        height, foot = height_above(profile, cusp_x[differ], cusp_z[differ])
+        on_part = np.abs(foot) <= recipe.part_radius
+        worst = max(worst, height[on_part].max(initial=-math.inf))
+    return worst if worst > -math.inf else math.inf
+
+
+def coverage(recipe, path, scan=129):
+    """What stays uncut at the rim, at the hole or around the axis."""
+    sections = Sections(recipe, path, scan)
+    heights = {"rim": uncut_at_edge(sections, recipe.part_radius), "hole": None, "centre": None}
+    if recipe.hole_radius > 0:
+        heights["hole"] = uncut_at_edge(sections, recipe.hole_radius)
+    else:
+        heights["centre"] = uncut_at_centre(sections)
+    return {place: None if height is None or math.isinf(height) else float(height * NM_PER_MM)
+            for place, height in heights.items()}
+
+
+# --- what the nose cannot reach -----------------------------------------------------------
+
+def section_closing(recipe, theta, step):
+    """Places from rim to rim a `step` apart, and how far the closing of the section by the nose lies
+    above it there: the nose is put on the section at every place, and the lowest of all kept."""
+    radius, rim = recipe.nose_radius, recipe.part_radius
+    profile = recipe.profile(theta)
+    sample = np.linspace(-rim - radius, rim + radius, 4001)
+    steepest = np.abs(slope(profile, sample)).max() * 1.05
+    reach = radius * min(steepest / math.hypot(1, steepest), math.sin(recipe.nose_half_angle))
+    arm = math.ceil(reach / step)
+    inside = math.ceil(rim / step)
+    places = step * np.arange(-inside - 2 * arm, inside + 2 * arm + 1)
+    section = profile(places)
+    offsets = np.arange(-arm, arm + 1)
+    lift = np.sqrt(radius**2 - (step * offsets)**2)
+    centres = np.full(len(places) - 2 * arm, -np.inf)
+    for k, up in zip(offsets, lift):
+        np.maximum(centres, section[arm + k:arm + k + len(centres)] + up, out=centres)
+    closing = np.full(len(centres) - 2 * arm, np.inf)
+    for k, up in zip(offsets, lift):
+        np.minimum(closing, centres[arm + k:arm + k + len(closing)] - up, out=closing)
+    return places[2 * arm:-2 * arm], closing - section[2 * arm:-2 * arm]
+
+
+def unreached(recipe, sections=180, step=2e-4):
+    """Largest height (along z) and volume between the surface and its closing by the nose.
+
+    Putting the nose at steps of X misses the lowest place over a seam by a part of the step: the
+    volume is extrapolated from two steps, the highest section made again with a finer one.
+    """
+    if not recipe.cuts_what_fits or recipe.compensator == "none":
+        return None
+    volumes, sections_heights = [], []
+    thetas = math.pi * (np.arange(sections) + 0.37) / sections
+    for width in (2 * step, step):
+        volume, heights = 0.0, []
+        for theta in thetas:
+            rho, height = section_closing(recipe, theta, width)
+            on_part = (np.abs(rho) <= recipe.part_radius) & (np.abs(rho) >= recipe.hole_radius)
+            volume += math.pi / sections * width * float(np.sum((height * np.abs(rho))[on_part]))
+            heights.append(float(height[on_part].max()))
+        volumes.append(volume)
+        sections_heights.append(heights)
+    low, high = thetas[np.argmax(sections_heights[-1])] + math.pi / sections * np.array([-1, 1])
+    highest = 0.0
+    for theta in np.linspace(low, high, 9):
+        rho, height = section_closing(recipe, theta, step / 5)
+        on_part = (np.abs(rho) <= recipe.part_radius) & (np.abs(rho) >= recipe.hole_radius)
+        highest = max(highest, float(height[on_part].max()))
+    return {"height_um": highest * 1e3, "volume_mm3": 2 * volumes[1] - volumes[0]}
+
+
 # --- the machined surface -----------------------------------------------------------------
 
-NEIGHBOURS = 12     # passes to either side of a place that may cut it
+NEIGHBOURS = 12     # passes to either side of a place that may cut it, where the nose fits
 PLACES_A_PASS = 8   # places of the grid for each pass, along a line through the axis
 FEWEST_PLACES = 2000
 ZOOMED = 8          # lines around which the highest and the lowest place are looked for again
@@ -324,7 +537,10 @@ def line_error(recipe, path, section_deg, s):
     nearest = np.searchsorted(x, touching)
     reach = radius * math.sin(recipe.nose_half_angle)
     lowest = np.full(len(s), np.inf)
-    for step in range(-NEIGHBOURS, NEIGHBOURS):
+    neighbours = NEIGHBOURS
+    if recipe.cuts_what_fits:  # over a seam any pass within reach may be the lowest
+        neighbours += int(2 * reach * len(x) / (x[-1] - x[0]))
+    for step in range(-neighbours, neighbours):
         index = nearest + step
         there = (index >= 0) & (index < len(x))
         index = np.clip(index, 0, len(x) - 1)
@@ -388,8 +604,12 @@ def zoom(recipe, path, angle, s, step, pitch, extreme):
 
 def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
     """All figures of a path, as printed."""
+    if recipe.cuts_what_fits:  # hills of nearly one height are told apart on a finer scan
+        scan = max(scan, SEAM_SCAN)
     return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
             "residual_nm": residual(recipe, path, sections, scan),
+            "coverage_nm": coverage(recipe, path, scan),
+            "unreached": unreached(recipe),
             "surface_error_nm": surface_error(recipe, path),
             "rows": path.rows, "control_points": path.segments + 1,
             "revolutions": float(path.revolutions)}

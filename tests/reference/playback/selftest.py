@@ -223,6 +223,19 @@ def check_surface_error():
     check("scallop of a flat part, RMS, nm", found["rms"], feed**2 / 8 * 1e6 * math.sqrt(0.2), 0.05)
 
 
+def check_coverage():
+    """A flat, a spiral from the axis: what its last pass leaves at the rim, 1.5 feeds at the axis."""
+    flat, feed, turns = {"use": "xy-polynomial", "terms": []}, 0.02, 120
+    path = playback.ToolPath(bare_rows(lambda t: feed * t / TAU, turns))
+    for comp in ("z-direction", "none"):
+        found = playback.coverage(recipe(flat, comp), path)
+        # on the first section past the end the last pass lies nearly a turn further in
+        away = 2.5 - feed * (turns - 1 + 0.37 / 360)
+        check(f"rim of a flat, {comp}, nm", found["rim"], (math.hypot(1, away) - 1) * 1e6, 0.01)
+        gap = feed * (0.5 + (179.37) / 180)
+        check(f"centre of a flat, {comp}, nm", found["centre"], (1 - math.sqrt(1 - gap**2 / 4)) * 1e6, 0.01)
+
+
 def bowl(law, radius=1.25):
     """Residual in a spherical bowl: as measured, and in closed form (nose 1 mm, 100 nm held).
 
@@ -270,5 +283,6 @@ if __name__ == "__main__":
     check_interpolation()
     check_residual()
     check_surface_error()
+    check_coverage()
     check_file()
     sys.exit(1 if FAILED else 0)

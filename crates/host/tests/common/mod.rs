@@ -8,7 +8,7 @@ use std::path::Path as FilePath;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Centres, Compensator, Cut, Direction, Job, Part, Path, Radial, RadialRange, Result,
+    Centres, Compensator, Cut, Direction, Job, Machine, Part, Path, Radial, RadialRange, Result,
     Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Tolerance, Tool, ToolLocus,
 };
 use turnpath_host::{Catalogue, LoadError};
@@ -58,6 +58,7 @@ pub const TOOL: Tool = Tool {
     nose_radius: 0.5,
     included_angle: None,
     clearance_angle: None,
+    misfit: turnpath_core::Misfit::Refuse,
 };
 
 /// From 2 mm inwards, 10 µm a revolution.
@@ -78,6 +79,7 @@ pub fn job() -> Job {
         },
         direction: Direction::Inward,
         spindle: SpindleLaw::constant(50.0),
+        machine: Machine::default(),
     }
 }
 

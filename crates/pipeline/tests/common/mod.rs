@@ -8,14 +8,14 @@ use std::f64::consts::TAU;
 use std::io;
 use std::sync::Arc;
 
-use turnpath_core::toolpath::{PathBlock, PathStretch};
+use turnpath_core::toolpath::{PathBlock, PathStretch, Section};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Onward, Overrun,
-    Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot, SpindleLaw,
-    StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Machine, Onward,
+    Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot,
+    SpindleLaw, StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
-    Chain, Link, Making, Outcome, PipelineError, Quiet, Sink, Wanted, prepare, run,
+    Chain, LeadSettings, Link, Making, Outcome, PipelineError, Quiet, Sink, Wanted, prepare, run,
 };
 
 /// The rim, mm.
@@ -219,6 +219,7 @@ pub struct Job {
     pub rpm: f64,
     pub refined: bool,
     pub time_steps: Option<f64>,
+    pub lead: Option<LeadSettings>,
 }
 
 impl Default for Job {
@@ -234,6 +235,7 @@ impl Default for Job {
             rpm: 60.0,
             refined: false,
             time_steps: None,
+            lead: None,
         }
     }
 }
@@ -251,6 +253,12 @@ fn link<T: ?Sized>(slot: Slot, strategy: Arc<T>) -> Link<T> {
 impl Job {
     /// The path and its outcome.
     pub fn run(&self) -> std::result::Result<(PathBlock, Outcome), Box<PipelineError>> {
+        self.run_whole()
+            .map(|(kept, outcome)| (kept.points, outcome))
+    }
+
+    /// The path with its sections, and its outcome.
+    pub fn run_whole(&self) -> std::result::Result<(Kept, Outcome), Box<PipelineError>> {
         let surface: Arc<dyn SurfaceModel> = Arc::new(Saddle);
         let chain = Chain {
             surface: link(Slot::Surface, surface),
@@ -267,6 +275,7 @@ impl Job {
             nose_radius: 1.0,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         };
         let tolerance = Tolerance {
             interpolation: self.interpolation,
@@ -279,15 +288,18 @@ impl Job {
             overrun: self.overrun,
             direction: self.direction,
             spindle: SpindleLaw::constant(self.rpm / 60.0 * TAU),
+            machine: Machine::default(),
         };
         let prepared = prepare(&chain, wanted)?;
         let mut kept = Kept::default();
         let making = Making {
             refine: self.refined,
             time_steps: self.time_steps,
+            lead: self.lead,
+            covers_centre: false,
         };
         let outcome = run(&chain, &prepared, making, &mut kept, &Quiet)?;
-        Ok((kept.points, outcome))
+        Ok((kept, outcome))
     }
 
     /// The path and its outcome of a job that works.
@@ -298,8 +310,25 @@ impl Job {
 
 /// Keeps the path.
 #[derive(Default)]
-struct Kept {
-    points: PathBlock,
+pub struct Kept {
+    /// All control points.
+    pub points: PathBlock,
+    /// What each stretch was told: its section, its points, those before it, and whether it opens
+    /// its section.
+    pub stretches: Vec<(Section, usize, usize, bool)>,
+}
+
+impl Kept {
+    /// Where the points of a section are.
+    pub fn section(&self, section: Section) -> std::ops::Range<usize> {
+        let count = |wanted: &dyn Fn(Section) -> bool| -> usize {
+            let stretches = self.stretches.iter();
+            let chosen = stretches.filter(|stretch| wanted(stretch.0));
+            chosen.map(|stretch| stretch.1).sum()
+        };
+        let before = count(&|s| s < section);
+        before..before + count(&|s| s == section)
+    }
 }
 
 impl Sink for Kept {
@@ -308,11 +337,22 @@ impl Sink for Kept {
             .points
             .points()
             .flat_map(|p| [p.t, p.c, p.x, p.z, p.vc, p.vx, p.vz]);
-        Ok(vec![numbers.flat_map(f64::to_le_bytes).collect()])
+        let told = [
+            stretch.section as u8,
+            stretch.before.len() as u8,
+            u8::from(stretch.opens_section),
+        ];
+        Ok(vec![
+            told.to_vec(),
+            numbers.flat_map(f64::to_le_bytes).collect(),
+        ])
     }
 
-    fn take(&mut self, _: usize, encoded: &[Vec<u8>]) -> io::Result<()> {
-        let encoded = encoded.concat();
+    fn take(&mut self, points: usize, encoded: &[Vec<u8>]) -> io::Result<()> {
+        let (told, encoded) = (&encoded[0], &encoded[1]);
+        let section = [Section::LeadIn, Section::Cutting, Section::LeadOut][usize::from(told[0])];
+        self.stretches
+            .push((section, points, usize::from(told[1]), told[2] == 1));
         let (bytes, _) = encoded.as_chunks::<8>();
         let numbers: Vec<f64> = bytes.iter().map(|b| f64::from_le_bytes(*b)).collect();
         for [t, c, x, z, vc, vx, vz] in numbers.as_chunks::<7>().0 {

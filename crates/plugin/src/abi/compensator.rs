@@ -44,10 +44,11 @@ impl AbiCut<'_> {
 pub struct AbiTraits {
     centre_radial: bool,
     compensates_nose: bool,
+    cuts_what_fits: bool,
 }
 
-/// Curvature, contact angle, angle along the cut: value, θ and ρ of each.
-type Extremes = [[f64; 3]; 3];
+/// Value, θ and ρ of each, in the order of [`Interference::extremes`].
+type Extremes = [[f64; 3]; 5];
 
 #[sabi_trait]
 pub trait AbiCompensator: Send + Sync {
@@ -97,6 +98,7 @@ impl AbiCompensator for OutgoingCompensator {
             Ok(AbiTraits {
                 centre_radial: self.0.radial() == Radial::Centre,
                 compensates_nose: self.0.compensates_nose(),
+                cuts_what_fits: self.0.cuts_what_fits(),
             })
         })
     }
@@ -156,11 +158,7 @@ impl AbiCompensator for OutgoingCompensator {
         answer(|| {
             let found = cut.receive(|cut| self.0.interference(cut, region.into()))?;
             let flat = |extreme: Extreme| [extreme.value, extreme.theta, extreme.rho];
-            Ok([
-                flat(found.curvature),
-                flat(found.contact_angle),
-                flat(found.cut_angle),
-            ])
+            Ok(found.extremes().map(flat))
         })
     }
 }
@@ -205,6 +203,10 @@ impl Compensator for IncomingCompensator {
 
     fn compensates_nose(&self) -> bool {
         self.traits.compensates_nose
+    }
+
+    fn cuts_what_fits(&self) -> bool {
+        self.traits.cuts_what_fits
     }
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
@@ -275,12 +277,7 @@ impl Compensator for IncomingCompensator {
         let found = result(lend_cut(cut, |cut| {
             self.compensator.interference(cut, region.into())
         }))?;
-        let [curvature, contact_angle, cut_angle] =
-            found.map(|[value, theta, rho]| Extreme { value, theta, rho });
-        Ok(Interference {
-            curvature,
-            contact_angle,
-            cut_angle,
-        })
+        let extreme = |[value, theta, rho]: [f64; 3]| Extreme { value, theta, rho };
+        Ok(Interference::from_extremes(found.map(extreme)))
     }
 }

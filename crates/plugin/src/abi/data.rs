@@ -3,8 +3,8 @@
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
-    Direction, Job, ParamValue, Params, Part, Piece, PiecewisePolynomial, RadialRange, Result,
-    Slot, SpindleLaw, StrategyError, Tolerance, Tool,
+    AxisLimits, Direction, Job, Machine, Misfit, ParamValue, Params, Part, Piece,
+    PiecewisePolynomial, RadialRange, Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
 };
 
 use crate::guarded;
@@ -137,6 +137,7 @@ pub struct AbiTool {
     nose_radius: f64,
     included_angle: ROption<f64>,
     clearance_angle: ROption<f64>,
+    cut_what_fits: bool,
 }
 
 impl From<&Tool> for AbiTool {
@@ -145,6 +146,7 @@ impl From<&Tool> for AbiTool {
             nose_radius: tool.nose_radius,
             included_angle: tool.included_angle.into(),
             clearance_angle: tool.clearance_angle.into(),
+            cut_what_fits: tool.misfit == Misfit::CutWhatFits,
         }
     }
 }
@@ -155,6 +157,11 @@ impl From<AbiTool> for Tool {
             nose_radius: tool.nose_radius,
             included_angle: tool.included_angle.into(),
             clearance_angle: tool.clearance_angle.into(),
+            misfit: if tool.cut_what_fits {
+                Misfit::CutWhatFits
+            } else {
+                Misfit::Refuse
+            },
         }
     }
 }
@@ -222,6 +229,62 @@ impl From<&AbiLaw> for PiecewisePolynomial {
 }
 
 #[repr(C)]
+#[derive(StableAbi, Clone, Copy)]
+pub struct AbiAxisLimits {
+    velocity: ROption<f64>,
+    acceleration: ROption<f64>,
+    jerk: ROption<f64>,
+}
+
+impl From<AxisLimits> for AbiAxisLimits {
+    fn from(limits: AxisLimits) -> Self {
+        Self {
+            velocity: limits.velocity.into(),
+            acceleration: limits.acceleration.into(),
+            jerk: limits.jerk.into(),
+        }
+    }
+}
+
+impl From<AbiAxisLimits> for AxisLimits {
+    fn from(limits: AbiAxisLimits) -> Self {
+        Self {
+            velocity: limits.velocity.into(),
+            acceleration: limits.acceleration.into(),
+            jerk: limits.jerk.into(),
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(StableAbi, Clone, Copy)]
+pub struct AbiMachine {
+    x: AbiAxisLimits,
+    z: AbiAxisLimits,
+    c: AbiAxisLimits,
+}
+
+impl From<Machine> for AbiMachine {
+    fn from(machine: Machine) -> Self {
+        Self {
+            x: machine.x.into(),
+            z: machine.z.into(),
+            c: machine.c.into(),
+        }
+    }
+}
+
+impl From<AbiMachine> for Machine {
+    fn from(machine: AbiMachine) -> Self {
+        Self {
+            x: machine.x.into(),
+            z: machine.z.into(),
+            c: machine.c.into(),
+        }
+    }
+}
+
+#[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiJob {
     aperture_radius: f64,
@@ -232,6 +295,7 @@ pub struct AbiJob {
     range: AbiRange,
     inward: bool,
     spindle: AbiLaw,
+    machine: AbiMachine,
 }
 
 impl From<&Job> for AbiJob {
@@ -245,6 +309,7 @@ impl From<&Job> for AbiJob {
             range: job.range.into(),
             inward: job.direction == Direction::Inward,
             spindle: job.spindle.as_time().into(),
+            machine: job.machine.into(),
         }
     }
 }
@@ -269,6 +334,7 @@ impl From<&AbiJob> for Job {
                 Direction::Outward
             },
             spindle: SpindleLaw::from_time((&job.spindle).into()),
+            machine: job.machine.into(),
         }
     }
 }
@@ -280,5 +346,47 @@ pub fn same_length(lengths: &[usize]) -> Result<()> {
             StrategyError::failed("the slices of a call differ in length"),
         ),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_job_comes_back_as_it_went() {
+        let limits = |velocity: f64| AxisLimits {
+            velocity: Some(velocity),
+            acceleration: None,
+            jerk: Some(3.0 * velocity),
+        };
+        let job = Job {
+            part: Part {
+                aperture_radius: 4.0,
+                inner_radius: 1.0,
+            },
+            tool: Tool {
+                nose_radius: 0.5,
+                included_angle: Some(2.0),
+                clearance_angle: None,
+                misfit: Misfit::Refuse,
+            },
+            tolerance: Tolerance {
+                interpolation: 1e-4,
+                residual: 2e-4,
+            },
+            range: RadialRange {
+                inner: 0.9,
+                outer: 4.1,
+            },
+            direction: Direction::Outward,
+            spindle: SpindleLaw::constant(50.0),
+            machine: Machine {
+                x: limits(1.0),
+                z: limits(2.0),
+                c: limits(5.0),
+            },
+        };
+        assert_eq!(Job::from(&AbiJob::from(&job)), job);
     }
 }

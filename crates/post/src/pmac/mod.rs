@@ -13,7 +13,9 @@
 //!
 //! What stands before the first mark and behind the last is the header's and the footer's, and
 //! not the path's. The first move brings the axes to the first control point at its velocity, from
-//! where they stand, within [`ENTRY_MS`]; every other one is a segment of the path.
+//! where they stand, within [`ENTRY_MS`]: to rest above the part where the path has a lead-in.
+//! Every other one is a segment of the path. Sections follow one another without a break; a mark
+//! stands before each.
 //!
 //! **Times.** The controller counts times in 1/4096 ms. The time of each point since the path's
 //! start is rounded, not the segment's, so nothing adds up; and a point that does not lie on such a

@@ -18,7 +18,7 @@ pub const HEADER: &str = "\
 ; turnpath {turnpath}, post pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Ix90 = {ix90}
 ; segment times in steps of 1/4096 ms: I42 = 0
-; the path begins and ends in motion
+; the path begins and ends {ends}
 CLOSE
 OPEN PROG 1 CLEAR
 ";

@@ -267,6 +267,10 @@ impl ReadPath for PmacReader {
     fn counted(&self) -> &Counted {
         &self.counted
     }
+
+    fn counted_mut(&mut self) -> &mut Counted {
+        &mut self.counted
+    }
 }
 
 fn put(line: &mut Line, axis: Axis, position: i128, velocity: Option<i128>) -> Result<(), String> {

@@ -14,6 +14,7 @@ pub const PLACEHOLDERS: &[&str] = &[
     "c_range",
     "velocity_unit",
     "ix90",
+    "ends",
 ];
 
 /// Placeholders whose values are a person's words: they may stand in comments alone, where no

@@ -46,19 +46,37 @@ fn step() -> impl Strategy<Value = [f64; 6]> {
 
 /// The program's lines, made of stretches that end at `cuts`.
 fn lines(format: &PmacFormat, points: &[ControlPoint], cuts: &[usize]) -> Vec<u8> {
+    lines_in_sections(format, points, cuts, 0..points.len())
+}
+
+/// The same of a path whose cutting section is `cut`, with leads around it.
+fn lines_in_sections(
+    format: &PmacFormat,
+    points: &[ControlPoint],
+    cuts: &[usize],
+    cut: std::ops::Range<usize>,
+) -> Vec<u8> {
+    let ends = [cut.start, cut.end, points.len()];
+    let mut cuts: Vec<usize> = cuts.iter().copied().chain(ends).collect();
+    cuts.sort_unstable();
     let mut text = Vec::new();
     let mut begin = 0;
-    for end in cuts.iter().copied().chain([points.len()]) {
+    for end in cuts {
         if end <= begin {
             continue;
         }
+        let (section, opens_section) = match begin {
+            _ if begin >= cut.end => (Section::LeadOut, begin == cut.end),
+            _ if begin >= cut.start => (Section::Cutting, begin == cut.start),
+            _ => (Section::LeadIn, begin == 0),
+        };
         let mut block = PathBlock::default();
         points[begin..end]
             .iter()
             .for_each(|point| block.push(*point));
         let stretch = PathStretch {
-            section: Section::Cutting,
-            opens_section: begin == 0,
+            section,
+            opens_section,
             before: &points[begin.saturating_sub(2)..begin],
             points: &block,
         };
@@ -69,27 +87,37 @@ fn lines(format: &PmacFormat, points: &[ControlPoint], cuts: &[usize]) -> Vec<u8
 }
 
 fn program(format: &PmacFormat, points: &[ControlPoint]) -> String {
+    assembled(points.len(), &lines(format, points, &[]))
+}
+
+fn assembled(points: usize, lines: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.pmc");
     let mut writer = PmacWriter::begin(&path).unwrap();
-    writer
-        .append(points.len(), &lines(format, points, &[]))
-        .unwrap();
+    writer.append(points, lines).unwrap();
     let draft = writer.assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n").unwrap();
     draft.complete().unwrap();
     std::fs::read_to_string(path).unwrap()
 }
 
 fn read(format: &PmacFormat, text: &[u8]) -> Result<Vec<ControlPoint>, String> {
+    Ok(read_sections(format, text)?.0)
+}
+
+fn read_sections(
+    format: &PmacFormat,
+    text: &[u8],
+) -> Result<(Vec<ControlPoint>, Vec<Section>), String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.pmc");
     std::fs::write(&path, text).unwrap();
     let mut reader = PmacReader::open(&path, *format).unwrap().named("p");
-    let mut points = Vec::new();
-    while let Some((point, _)) = reader.next_point().map_err(|error| error.to_string())? {
+    let (mut points, mut sections) = (Vec::new(), Vec::new());
+    while let Some((point, section)) = reader.next_point().map_err(|error| error.to_string())? {
         points.push(point);
+        sections.push(section);
     }
-    Ok(points)
+    Ok((points, sections))
 }
 
 /// Where the played path is at a time near the point: on the cubic that ends there.
@@ -190,6 +218,32 @@ proptest! {
         let points = path_of(&steps);
         let cuts: Vec<usize> = cuts.into_iter().filter(|cut| *cut < points.len()).collect();
         prop_assert_eq!(lines(&format, &points, &cuts), lines(&format, &points, &[]));
+    }
+
+    #[test]
+    fn leads_come_back_in_their_sections_whatever_the_settings(
+        format in format(),
+        steps in prop::collection::vec(step(), 2..40),
+        (start, end) in (0..20usize, 1..20usize),
+        cuts in prop::collection::btree_set(1..40usize, 0..6),
+    ) {
+        let points = path_of(&steps);
+        let start = start.min(points.len() - 1);
+        let cut = start..(start + end).min(points.len());
+        let cuts: Vec<usize> = cuts.into_iter().filter(|cut| *cut < points.len()).collect();
+        let lines = lines_in_sections(&format, &points, &cuts, cut.clone());
+        prop_assert_eq!(&lines, &lines_in_sections(&format, &points, &[], cut.clone()));
+        let text = assembled(points.len(), &lines);
+        let (read, sections) = read_sections(&format, text.as_bytes()).unwrap();
+        assert_same(&format, &points, &read);
+        for (k, section) in sections.into_iter().enumerate() {
+            let wanted = match k {
+                _ if k < cut.start => Section::LeadIn,
+                _ if k < cut.end => Section::Cutting,
+                _ => Section::LeadOut,
+            };
+            prop_assert_eq!(section, wanted);
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The tables of a recipe that are not a strategy's: their keys, and how each is read.
 
 mod cutting;
+mod machine;
 mod output;
 mod path;
 mod pmac_pvt;
@@ -9,10 +10,10 @@ mod work;
 
 pub use output::{DataFormat, Output, ZReference};
 pub use pmac_pvt::PmacPvt;
-pub use work::Interference;
 
 pub(crate) use cutting::{spindle, tolerance};
-pub(crate) use output::{machine, output};
+pub(crate) use machine::{check_spindle, machine};
+pub(crate) use output::output;
 pub(crate) use path::path;
 pub(crate) use pmac_pvt::pmac_pvt;
 pub(crate) use top::{format_is_one, top};
@@ -27,6 +28,6 @@ pub(crate) const SCHEMA: &[(&str, &[&str])] = &[
     ("path", path::KEYS),
     ("output", output::KEYS),
     (pmac_pvt::NAME, pmac_pvt::KEYS),
-    ("machine", &["preset"]),
+    ("machine", machine::KEYS),
     ("ablation", &["mode"]),
 ];

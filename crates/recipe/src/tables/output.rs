@@ -1,4 +1,4 @@
-//! `[output]`: the files to write. `[machine]` too, so far only to refuse it.
+//! `[output]`: the files to write.
 
 use crate::diagnostic::Diagnostic;
 use crate::place::Located;
@@ -93,16 +93,5 @@ fn check_posts(section: &mut Section<'_>, posts: &[Located<String>]) {
                 .help("each post writes one program: name it once");
             section.complain(diagnostic);
         }
-    }
-}
-
-/// Refuses `[machine]`.
-pub(crate) fn machine(section: &mut Section<'_>) {
-    if section.table.is_some() {
-        let title = "limits of a machine are not checked by this version yet";
-        let diagnostic = Diagnostic::new(section.place.clone(), title)
-            .label("not yet")
-            .help("leave the table [machine] out");
-        section.complain(diagnostic);
     }
 }

@@ -2,18 +2,20 @@
 
 use turnpath_core::{Direction, Overrun, Quantity};
 
-use crate::diagnostic::Diagnostic;
 use crate::document::Value;
-use crate::place::Place;
-use crate::read::{NOT_NEGATIVE, Section};
+use crate::read::{NOT_NEGATIVE, POSITIVE, Section};
 
-pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead"];
+pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead", "clearance"];
+
+/// How far the path rests above the part where the recipe does not say it, mm.
+const CLEARANCE: f64 = 1.0;
 
 /// `[path]`.
 pub(crate) struct PathTable {
     pub(crate) direction: Direction,
     pub(crate) overrun: Overrun,
     pub(crate) lead: bool,
+    pub(crate) clearance: f64,
 }
 
 /// Reads `[path]`.
@@ -23,7 +25,8 @@ pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
         return PathTable {
             direction: Direction::Inward,
             overrun: Overrun::Contact,
-            lead: false,
+            lead: true,
+            clearance: CLEARANCE,
         };
     }
     let direction = match section.word("direction", &["inward", "outward"]) {
@@ -33,7 +36,10 @@ pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
     PathTable {
         direction,
         overrun: overrun(section),
-        lead: lead(section),
+        lead: section.flag("lead").is_none_or(|lead| lead.value),
+        clearance: section
+            .quantity("clearance", Quantity::Length, POSITIVE)
+            .map_or(CLEARANCE, |clearance| clearance.value),
     }
 }
 
@@ -52,34 +58,4 @@ fn overrun(section: &mut Section<'_>) -> Overrun {
     }
     let length = section.quantity("overrun", Quantity::Length, NOT_NEGATIVE);
     length.map_or(Overrun::Contact, |length| Overrun::Length(length.value))
-}
-
-fn lead(section: &mut Section<'_>) -> bool {
-    if section.node("lead").is_none() {
-        refuse_default(section, "lead", "true", "false");
-        return false;
-    }
-    if let Some(lead) = section.flag("lead").filter(|lead| lead.value) {
-        refuse(section, "lead", lead.place, "false");
-    }
-    false
-}
-
-fn refuse(section: &mut Section<'_>, key: &str, place: Place, instead: &str) {
-    let title = format!("this version makes paths with {key} = {instead} only");
-    let diagnostic = Diagnostic::new(place, title)
-        .label("not made yet")
-        .help(format!("write {key} = {instead} under [path]"));
-    section.complain(diagnostic);
-}
-
-fn refuse_default(section: &mut Section<'_>, key: &str, default: &str, instead: &str) {
-    let title = format!("this version makes paths with {key} = {instead} only");
-    let mut diagnostic = Diagnostic::new(section.place.clone(), title);
-    if section.table.is_some() {
-        diagnostic = diagnostic.label(format!("without `{key}` it is {default}, not made yet"));
-    }
-    section.complain(diagnostic.help(format!(
-        "write {key} = {instead} under [path]; the default {default} is not made yet"
-    )));
 }

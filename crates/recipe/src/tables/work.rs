@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use turnpath_core::{Part, Quantity, Tool};
+use turnpath_core::{Misfit, Part, Quantity, Tool};
 
 use crate::diagnostic::Diagnostic;
 use crate::read::{Bound, NOT_NEGATIVE, POSITIVE, Section};
@@ -23,19 +23,6 @@ const CLEARANCE: Bound = Bound {
     holds: |angle| angle > 0.0 && angle < 0.5 * PI,
     words: "between 0 and 90 deg",
 };
-
-/// What happens where the nose does not fit into the surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Interference {
-    /// The recipe is refused.
-    Refuse,
-}
-
-/// `[tool]`.
-pub(crate) struct ToolTable {
-    pub(crate) tool: Tool,
-    pub(crate) interference: Interference,
-}
 
 /// Reads `[part]`.
 pub(crate) fn part(section: &mut Section<'_>) -> Option<Part> {
@@ -62,7 +49,7 @@ pub(crate) fn part(section: &mut Section<'_>) -> Option<Part> {
 }
 
 /// Reads `[tool]`.
-pub(crate) fn tool(section: &mut Section<'_>) -> Option<ToolTable> {
+pub(crate) fn tool(section: &mut Section<'_>) -> Option<Tool> {
     if section.table.is_none() {
         section.missing_table("nose_radius = \"1 mm\"");
         return None;
@@ -71,23 +58,19 @@ pub(crate) fn tool(section: &mut Section<'_>) -> Option<ToolTable> {
     let radius = section.required_quantity("nose_radius", Quantity::Length, POSITIVE, "1 mm");
     let included = section.quantity("included_angle", Quantity::Angle, INCLUDED);
     let clearance = section.quantity("clearance_angle", Quantity::Angle, CLEARANCE);
-    let interference = interference(section);
-    let tool = Tool {
+    let misfit = misfit(section);
+    Some(Tool {
         nose_radius: radius?.value,
         included_angle: included.map(|angle| angle.value),
         clearance_angle: clearance.map(|angle| angle.value),
-    };
-    Some(ToolTable { tool, interference })
+        misfit,
+    })
 }
 
-fn interference(section: &mut Section<'_>) -> Interference {
+fn misfit(section: &mut Section<'_>) -> Misfit {
     let word = section.word("interference", &["refuse", "cut-what-fits"]);
-    if let Some(word) = word.filter(|word| word.value == "cut-what-fits") {
-        let title = "`interference = \"cut-what-fits\"` is not made by this version yet";
-        let diagnostic = Diagnostic::new(word.place, title)
-            .label("not yet")
-            .help("write interference = \"refuse\", or leave the line out");
-        section.complain(diagnostic);
+    match word {
+        Some(word) if word.value == "cut-what-fits" => Misfit::CutWhatFits,
+        _ => Misfit::Refuse,
     }
-    Interference::Refuse
 }

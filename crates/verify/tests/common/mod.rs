@@ -99,6 +99,7 @@ pub fn touch_on(
         nose_radius,
         included_angle: None,
         clearance_angle: None,
+        misfit: turnpath_core::Misfit::Refuse,
     };
     touch_of(surface, aperture_radius, tool, compensates_nose)
 }
@@ -135,7 +136,7 @@ pub fn figures(touch: &FirstTouch, points: &PathBlock) -> PathFigures {
     let mut meter = Meter::new(touch.clone());
     let measured = Meter::measure(touch, points).expect("a measure");
     meter.append(&measured).expect("a measure");
-    meter.figures().clone()
+    meter.figures().expect("a measure")
 }
 
 /// Z, ∂Z/∂θ and ∂Z/∂X of a nose over k ρ² sin 2θ, by Newton's method for its foot.

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use turnpath_atpg::AtpgFeed;
 use turnpath_core::{
-    CentreBuffers, Compensator, Direction, FeedStrategy, Job, Locus, NM, Onward, ParamValue,
-    Params, Part, Piece, RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy, SurfaceModel,
-    Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Direction, FeedStrategy, Job, Locus, Machine, NM, Onward,
+    ParamValue, Params, Part, Piece, RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy,
+    SurfaceModel, Tolerance, Tool, ToolLocus,
 };
 use turnpath_surfaces::{Astigmatic, OffAxisParaboloid};
 
@@ -32,6 +32,7 @@ impl Case {
             nose_radius,
             included_angle: None,
             clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
         };
         let job = Job {
             part: Part {
@@ -46,6 +47,7 @@ impl Case {
             range: RadialRange { inner: 0.0, outer },
             direction: Direction::Outward,
             spindle: SpindleLaw::constant(500.0 * TAU / 60.0),
+            machine: Machine::default(),
         };
         Self {
             job,

@@ -1,0 +1,280 @@
+//! The largest values that quantities have over a ring of the part, and where.
+//!
+//! A look at a polar grid, then closing in on several of its highest places at once, by a compass
+//! search of their own step each. One candidate would not do: a crest that lies between the grid's
+//! places may look lower there than a lesser one that lies on them. What is narrower than the
+//! grid's spacing can still be missed.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector2;
+
+use crate::{RadialRange, Result, Scalar};
+
+/// Angles of the grid: a wave with 36 periods on a revolution still has 10 of them.
+const ANGLES: usize = 360;
+/// Steps of the grid along the radius.
+const RADII: usize = 256;
+/// How many of the grid's highest places are closed in on: a lattice of equal hollows has many
+/// that look alike.
+const CANDIDATES: usize = 24;
+/// How many of these may lie on one radius: a surface of revolution has its crest on all angles.
+const ON_ONE_RADIUS: usize = 8;
+/// Rounds of closing in; a step is halved where none of its neighbours is higher. 2⁻²⁰ of a grid
+/// step changes a value, flat at its largest, by less than rounding.
+const ROUNDS: usize = 40;
+
+/// The eight neighbours of a place, in steps of the grid.
+const NEIGHBOURS: [(f64, f64); 8] = [
+    (-1.0, -1.0),
+    (-1.0, 0.0),
+    (-1.0, 1.0),
+    (0.0, -1.0),
+    (0.0, 1.0),
+    (1.0, -1.0),
+    (1.0, 0.0),
+    (1.0, 1.0),
+];
+
+/// The largest value of something on the part, and where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extreme {
+    /// The value.
+    pub value: f64,
+    /// C angle, rad.
+    pub theta: f64,
+    /// Radius, mm.
+    pub rho: f64,
+}
+
+impl Extreme {
+    /// The place as (x, y), mm.
+    pub fn place(&self) -> Vector2<f64> {
+        let (s, c) = Scalar::sin_cos(self.theta);
+        Vector2::new(self.rho * c, self.rho * s)
+    }
+}
+
+/// Measures K quantities at each (θ, ρ) of a batch, all slices of one length. Where there is no
+/// number it is its own matter to complain: NaN is never the largest.
+pub type Measure<'a, const K: usize> =
+    dyn FnMut(&[f64], &[f64], &mut [[f64; K]]) -> Result<()> + 'a;
+
+/// The largest value of each of K quantities within `region`.
+///
+/// # Errors
+/// Those of `measure`.
+///
+/// ```
+/// use turnpath_core::{RadialRange, extreme};
+/// let region = RadialRange { inner: 0.0, outer: 2.0 };
+/// let [highest] = extreme::largest(region, &mut |_theta, rho, out| {
+///     for (out, rho) in out.iter_mut().zip(rho) {
+///         *out = [rho * (3.0 - rho)];
+///     }
+///     Ok(())
+/// })?;
+/// assert!((highest.value - 2.25).abs() < 1e-15);
+/// assert!((highest.rho - 1.5).abs() < 1e-7);
+/// # turnpath_core::Result::Ok(())
+/// ```
+pub fn largest<const K: usize>(
+    region: RadialRange,
+    measure: &mut Measure<'_, K>,
+) -> Result<[Extreme; K]> {
+    let grid = Grid::new(region);
+    let rows = grid.look(measure)?;
+    let mut found = [Extreme {
+        value: f64::NEG_INFINITY,
+        theta: 0.0,
+        rho: region.inner,
+    }; K];
+    for (which, found) in found.iter_mut().enumerate() {
+        let candidates = grid.highest(&rows, which);
+        let closed_in = grid.close_in(candidates, which, measure)?;
+        let highest = closed_in.into_iter().max_by(by_value);
+        *found = highest.unwrap_or(*found);
+    }
+    Ok(found)
+}
+
+fn by_value(one: &Extreme, other: &Extreme) -> std::cmp::Ordering {
+    one.value.total_cmp(&other.value)
+}
+
+struct Grid {
+    region: RadialRange,
+    theta_step: f64,
+    rho_step: f64,
+}
+
+impl Grid {
+    fn new(region: RadialRange) -> Self {
+        Self {
+            region,
+            theta_step: TAU / ANGLES as f64,
+            rho_step: (region.outer - region.inner) / RADII as f64,
+        }
+    }
+
+    fn theta(&self, j: usize) -> f64 {
+        j as f64 * self.theta_step
+    }
+
+    fn rho(&self, i: usize) -> f64 {
+        self.region.inner + i as f64 * self.rho_step
+    }
+
+    /// All values, a row for each radius.
+    fn look<const K: usize>(&self, measure: &mut Measure<'_, K>) -> Result<Vec<Vec<[f64; K]>>> {
+        let theta: Vec<f64> = (0..ANGLES).map(|j| self.theta(j)).collect();
+        let row = |i| {
+            let mut values = vec![[f64::NAN; K]; ANGLES];
+            measure(&theta, &[self.rho(i); ANGLES], &mut values)?;
+            Ok(values)
+        };
+        (0..=RADII).map(row).collect()
+    }
+
+    /// The highest of the grid's places that are no lower than the four next to them.
+    fn highest<const K: usize>(&self, rows: &[Vec<[f64; K]>], which: usize) -> Vec<Extreme> {
+        let mut found = Vec::new();
+        for (i, row) in rows.iter().enumerate() {
+            let (inside, outside) = (&rows[i.saturating_sub(1)], &rows[(i + 1).min(RADII)]);
+            let mut on_row = Vec::new();
+            for (j, values) in row.iter().enumerate() {
+                let (before, after) = ((j + ANGLES - 1) % ANGLES, (j + 1) % ANGLES);
+                let next = [row[before], row[after], inside[j], outside[j]];
+                if next.iter().all(|next| values[which] >= next[which]) {
+                    on_row.push(Extreme {
+                        value: values[which],
+                        theta: self.theta(j),
+                        rho: self.rho(i),
+                    });
+                }
+            }
+            keep_highest(&mut on_row, ON_ONE_RADIUS);
+            found.append(&mut on_row);
+        }
+        keep_highest(&mut found, CANDIDATES);
+        found
+    }
+
+    /// Compass search from each candidate: the best of its eight neighbours, at half the step
+    /// where none is better.
+    fn close_in<const K: usize>(
+        &self,
+        mut candidates: Vec<Extreme>,
+        which: usize,
+        measure: &mut Measure<'_, K>,
+    ) -> Result<Vec<Extreme>> {
+        let mut scales = vec![0.5; candidates.len()];
+        let mut values = vec![[f64::NAN; K]; candidates.len() * NEIGHBOURS.len()];
+        for _ in 0..ROUNDS {
+            let (theta, rho) = self.neighbours(&candidates, &scales);
+            measure(&theta, &rho, &mut values)?;
+            let tried = theta.iter().zip(&rho).zip(&values);
+            let tried: Vec<Extreme> = tried
+                .map(|((&theta, &rho), values)| Extreme {
+                    value: values[which],
+                    theta,
+                    rho,
+                })
+                .collect();
+            let around = tried.chunks(NEIGHBOURS.len());
+            for ((candidate, scale), around) in candidates.iter_mut().zip(&mut scales).zip(around) {
+                let better = around.iter().filter(|tried| tried.value > candidate.value);
+                match better.max_by(|one, other| by_value(one, other)) {
+                    Some(better) => *candidate = *better,
+                    None => *scale *= 0.5,
+                }
+            }
+        }
+        Ok(candidates)
+    }
+
+    /// θ and ρ of the eight neighbours of each candidate, at its own part of the grid's step.
+    fn neighbours(&self, candidates: &[Extreme], scales: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let around = candidates
+            .iter()
+            .zip(scales)
+            .flat_map(|(candidate, scale)| {
+                NEIGHBOURS.iter().map(move |(turn, out)| {
+                    let theta = candidate.theta + turn * scale * self.theta_step;
+                    let rho = candidate.rho + out * scale * self.rho_step;
+                    (theta, rho.clamp(self.region.inner, self.region.outer))
+                })
+            });
+        around.unzip()
+    }
+}
+
+fn keep_highest(found: &mut Vec<Extreme>, count: usize) {
+    found.sort_by(|one, other| by_value(other, one));
+    found.truncate(count);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DISC: RadialRange = RadialRange {
+        inner: 0.0,
+        outer: 2.5,
+    };
+
+    fn one(value: impl Fn(f64, f64) -> f64) -> Extreme {
+        let [found] = largest(DISC, &mut |theta, rho, out| {
+            for ((out, theta), rho) in out.iter_mut().zip(theta).zip(rho) {
+                *out = [value(*theta, *rho)];
+            }
+            Ok(())
+        })
+        .unwrap();
+        found
+    }
+
+    /// A Gaussian hill of this height at (θ, ρ), `wide` mm wide.
+    fn hill(height: f64, wide: f64, at: (f64, f64)) -> impl Fn(f64, f64) -> f64 {
+        move |theta, rho| {
+            let (sin, cos) = Scalar::sin_cos(theta);
+            let (at_sin, at_cos) = Scalar::sin_cos(at.0);
+            let (x, y) = (rho * cos - at.1 * at_cos, rho * sin - at.1 * at_sin);
+            height * Scalar::exp(-(x * x + y * y) / (wide * wide))
+        }
+    }
+
+    /// Narrow hills between the grid's places look lower there than a lower one that lies on them.
+    #[test]
+    fn the_higher_of_hills_is_found_wherever_it_lies_between_the_grid() {
+        let (theta_step, rho_step) = (TAU / 360.0, 2.5 / 256.0);
+        for (turn, out) in [(0.5, 0.5), (0.5, 0.0), (0.3, 0.6), (0.1, 0.9)] {
+            let at = ((40.0 + turn) * theta_step, (100.0 + out) * rho_step);
+            let narrow = hill(1.0, 0.02, at);
+            let on_grid = hill(0.97, 0.02, (90.0 * theta_step, 128.0 * rho_step));
+            let found = one(|theta, rho| narrow(theta, rho).max(on_grid(theta, rho)));
+            assert!((found.value - 1.0).abs() < 1e-12, "{found:?}");
+        }
+    }
+
+    /// A crest that runs all around, a hundredth lower than a hill elsewhere.
+    #[test]
+    fn a_crest_on_all_angles_does_not_hide_a_hill() {
+        let peak = hill(1.0, 0.03, (1.234, 1.2345));
+        let found = one(|theta, rho| peak(theta, rho).max(0.99 - (rho - 2.0) * (rho - 2.0)));
+        assert!((found.value - 1.0).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn each_quantity_has_its_own_place() {
+        let [out, turned] = largest(DISC, &mut |theta, rho, out| {
+            for ((out, theta), rho) in out.iter_mut().zip(theta).zip(rho) {
+                *out = [*rho, Scalar::cos(theta - 0.123)];
+            }
+            Ok(())
+        })
+        .unwrap();
+        assert_eq!((out.value, out.rho), (2.5, 2.5));
+        assert!((turned.value - 1.0).abs() < 1e-15 && (turned.theta - 0.123).abs() < 1e-7);
+    }
+}

@@ -1,0 +1,195 @@
+//! Leads: from rest to the cut, and from the cut to rest.
+//!
+//! Away from the join a lead keeps to the tool's own locus: Z is a mean, moved smoothly from one
+//! to the other, of the first touch at C and X and of a height above the whole part. Both clear
+//! the part, so every mean of them does. C first goes on at the cut's speed, until X and Z rest,
+//! then its speed changes. The cubic spline through the nodes takes position, velocity and
+//! acceleration of the cut as played, so all three are continuous at every control point. Between
+//! nodes near the part a cubic is not the locus: each lead is played back and its steps are halved
+//! until it clears the part to half the interpolation tolerance, or as well as the cut does where
+//! they join.
+//!
+//! The control point of a join belongs to the cutting section: the lead-in ends with the point
+//! before it, the lead-out begins with the point after it. Leads of straight segments have the same
+//! nodes and, as such paths have, jumps of the velocity at all of them, ends included.
+
+mod clock;
+mod height;
+mod join;
+mod limits;
+mod maker;
+mod nodes;
+mod phases;
+mod spline;
+mod target;
+
+use turnpath_core::toolpath::{ControlPoint, PathBlock};
+use turnpath_verify::{AxesMotion, LeadFigures, LeadMeter};
+
+use crate::make::{Depths, make};
+use crate::plan::{Plan, Start};
+use crate::refine::first_state;
+use crate::{PipelineError, Result};
+
+use clock::Clock;
+use join::{Join, Side};
+pub use limits::{AxisLimits, LeadLimits, LeadSettings};
+use maker::Maker;
+
+/// What leads a path has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leads {
+    /// How long the lead-in takes, s.
+    pub in_time: f64,
+    /// How long the lead-out takes, s.
+    pub out_time: f64,
+    /// Whole revolutions of C before the cut.
+    pub turns_in: f64,
+    /// Revolutions of C behind the cut.
+    pub turns_out: f64,
+    /// Z of the nose centre at rest, mm.
+    pub rest_z: f64,
+    /// Z of the nose centre where it stands highest on the part, mm.
+    pub highest_z: f64,
+    /// Control points of both leads; those of the joins are the cut's.
+    pub points: u64,
+    /// What was measured on them.
+    pub figures: LeadFigures,
+}
+
+impl Leads {
+    /// By how much the path rests above the highest place of the part, mm.
+    pub fn rest_clearance(&self) -> f64 {
+        self.rest_z - self.highest_z
+    }
+}
+
+/// The leads of one path, made one after the other.
+pub struct LeadRun {
+    settings: LeadSettings,
+    highest_z: f64,
+    meter: LeadMeter,
+    made: Option<PathBlock>,
+    turns_in: f64,
+}
+
+impl LeadRun {
+    /// Makes the lead-in and moves the cut behind it. The cut's first block is made twice for it:
+    /// once to learn what the lead-in takes, and once more where it then stands.
+    pub fn begin(plan: &mut Plan<'_>, depths: &[Depths], settings: LeadSettings) -> Result<Self> {
+        let highest_z = height::highest(plan)?;
+        if !highest_z.is_finite() {
+            return Err(PipelineError::Lead {
+                which: Side::In.name(),
+                what: "the nose finds no height anywhere on the part".to_owned(),
+            });
+        }
+        let mut run = Self {
+            settings,
+            highest_z,
+            meter: LeadMeter::default(),
+            made: None,
+            turns_in: 0.0,
+        };
+        let (join, _) = first_join(plan, depths)?;
+        let laid = run.maker(plan).lay(Side::In, &join)?;
+        plan.start = Start {
+            turns: laid.turns,
+            time: laid.ticks(),
+        };
+        let (join, cut) = first_join(plan, depths)?;
+        let maker = run.maker(plan);
+        let points = maker.points(&laid, &join)?;
+        let stretch = maker.measure(&points)?;
+        run.turns_in = laid.turns;
+        run.meter.append(&stretch);
+        run.meter.pass(&block_of(&cut));
+        run.made = Some(points);
+        Ok(run)
+    }
+
+    /// The lead-in's points, without that of the join.
+    pub fn lead_in(&self) -> PathBlock {
+        let mut points = self.made.clone().unwrap_or_default();
+        points.truncate(points.len().saturating_sub(1));
+        points
+    }
+
+    /// Makes the lead-out behind a cut that ends with `pair` and whose last block moves so; gives
+    /// its points, without that of the join, and what leads the path has.
+    pub fn end(
+        mut self,
+        plan: &Plan<'_>,
+        pair: &[ControlPoint; 2],
+        cut: AxesMotion,
+    ) -> Result<(PathBlock, Leads)> {
+        let join = Join::new(plan, Side::Out, pair, cut)?;
+        let maker = self.maker(plan);
+        let laid = maker.lay(Side::Out, &join)?;
+        let points = maker.points(&laid, &join)?;
+        let stretch = maker.measure(&points)?;
+        let mut meter = std::mem::take(&mut self.meter);
+        meter.pass(&block_of(pair));
+        meter.append(&stretch);
+        let time = |points: &PathBlock| span(&points.t);
+        let lead_in = self.made.take().unwrap_or_default();
+        let leads = Leads {
+            in_time: time(&lead_in),
+            out_time: time(&points),
+            turns_in: self.turns_in,
+            turns_out: span(&points.c) / std::f64::consts::TAU,
+            rest_z: self.highest_z + self.settings.clearance,
+            highest_z: self.highest_z,
+            points: (lead_in.len() + points.len()).saturating_sub(2) as u64,
+            figures: meter.figures().copied().unwrap_or_default(),
+        };
+        Ok((without_first(&points), leads))
+    }
+
+    fn maker<'a>(&self, plan: &'a Plan<'a>) -> Maker<'a> {
+        Maker {
+            plan,
+            settings: self.settings,
+            clock: Clock::new(plan.time_steps),
+            rest_z: self.highest_z + self.settings.clearance,
+            shape: plan.chain.velocity.strategy.segments(),
+        }
+    }
+}
+
+/// The cut's first join as the plan now makes it, and its first two points.
+fn first_join(plan: &Plan<'_>, depths: &[Depths]) -> Result<(Join, [ControlPoint; 2])> {
+    let made = make(plan, 0..1, depths, first_state(plan).as_mut())?;
+    let points = made.first().map(|made| &made.points);
+    let pair = points.and_then(|points| Some([points.get(0)?, points.get(1)?]));
+    let Some((points, pair)) = points.zip(pair) else {
+        return Err(PipelineError::Lead {
+            which: Side::In.name(),
+            what: "the cut has no segment".to_owned(),
+        });
+    };
+    let join = Join::new(plan, Side::In, &pair, AxesMotion::of(points))?;
+    Ok((join, pair))
+}
+
+fn span(values: &[f64]) -> f64 {
+    match (values.first(), values.last()) {
+        (Some(first), Some(last)) => last - first,
+        _ => 0.0,
+    }
+}
+
+fn block_of(pair: &[ControlPoint; 2]) -> PathBlock {
+    let mut block = PathBlock::default();
+    pair.iter().for_each(|point| block.push(*point));
+    block
+}
+
+fn without_first(points: &PathBlock) -> PathBlock {
+    let mut rest = PathBlock {
+        shape: points.shape,
+        ..PathBlock::default()
+    };
+    points.points().skip(1).for_each(|point| rest.push(point));
+    rest
+}

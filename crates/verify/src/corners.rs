@@ -1,0 +1,104 @@
+//! Corners of the true path: where the contact jumps over a seam, and the error has a sharp peak
+//! that lies between the instants of a playback.
+
+use turnpath_core::Result;
+use turnpath_core::toolpath::Segment;
+
+use crate::playback::{INSTANTS, Worst};
+use crate::touch::{FirstTouch, Touch};
+
+/// A contact that moves further than this part of the nose radius from one instant to the next may
+/// have jumped. Taking a smooth motion for a jump costs time alone.
+const JUMP: f64 = 2e-3;
+/// Halvings of the time between two instants.
+const HALVINGS: usize = 14;
+
+/// The time between two instants of a segment, and the contacts at both.
+struct Span {
+    segment: usize,
+    time: [f64; 2],
+    foot: [f64; 2],
+}
+
+/// The largest error at the corners of each segment, of those that have any. `touches` are those at
+/// the instants of all segments, one segment after the other.
+pub(crate) fn at_corners(
+    touch: &FirstTouch,
+    segments: &[Segment],
+    touches: &[Touch],
+) -> Result<Vec<Option<Worst>>> {
+    let mut found = vec![None; segments.len()];
+    let ends: Vec<(usize, f64)> = (0..segments.len()).map(|segment| (segment, 1.0)).collect();
+    let (ends, _) = play(touch, segments, &ends)?;
+    let mut spans = spans(touch, touches, &ends);
+    for _ in 0..HALVINGS {
+        let middle = |span: &Span| (span.segment, 0.5 * (span.time[0] + span.time[1]));
+        let middles: Vec<(usize, f64)> = spans.iter().map(middle).collect();
+        let (touches, errors) = play(touch, segments, &middles)?;
+        let seen = middles.iter().zip(touches.iter().zip(errors));
+        for (span, ((segment, at), (touch, error))) in spans.iter_mut().zip(seen) {
+            span.keep_jump(*at, touch.foot);
+            let here = Worst { error, at: *at };
+            let worst: &mut Option<Worst> = &mut found[*segment];
+            if worst.is_none_or(|worst| here.amount() > worst.amount()) {
+                *worst = Some(here);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The spans on which the contact may jump.
+fn spans(touch: &FirstTouch, touches: &[Touch], ends: &[Touch]) -> Vec<Span> {
+    let jump = JUMP * touch.subject().tool.nose_radius;
+    let mut spans = Vec::new();
+    for (segment, (touches, end)) in touches.chunks(INSTANTS).zip(ends).enumerate() {
+        let after = touches.iter().skip(1).chain([end]);
+        for (k, (first, second)) in touches.iter().zip(after).enumerate() {
+            if (second.foot - first.foot).abs() > jump {
+                let time = [k, k + 1].map(|k| k as f64 / INSTANTS as f64);
+                spans.push(Span {
+                    segment,
+                    time,
+                    foot: [first.foot, second.foot],
+                });
+            }
+        }
+    }
+    spans
+}
+
+impl Span {
+    /// Keeps the half on which the contact moves further.
+    fn keep_jump(&mut self, at: f64, foot: f64) {
+        let half = usize::from((foot - self.foot[0]).abs() >= (self.foot[1] - foot).abs());
+        (self.time[half], self.foot[half]) = (at, foot);
+    }
+}
+
+/// The touches at instants of segments, and played − true Z there, mm.
+fn play(
+    touch: &FirstTouch,
+    segments: &[Segment],
+    instants: &[(usize, f64)],
+) -> Result<(Vec<Touch>, Vec<f64>)> {
+    let of = |axis: fn(&Segment, f64) -> f64| -> Vec<f64> {
+        instants
+            .iter()
+            .map(|(segment, at)| axis(&segments[*segment], *at))
+            .collect()
+    };
+    let theta = of(|segment, at| segment.c.value(at).rem_euclid(std::f64::consts::TAU));
+    let (x, z) = (
+        of(|segment, at| segment.x.value(at)),
+        of(|segment, at| segment.z.value(at)),
+    );
+    let mut touches = Vec::new();
+    touch.find(&theta, &x, &mut touches)?;
+    let errors = z
+        .iter()
+        .zip(&touches)
+        .map(|(z, touch)| z - touch.z)
+        .collect();
+    Ok((touches, errors))
+}

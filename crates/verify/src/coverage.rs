@@ -1,0 +1,251 @@
+//! Coverage: what no pass has cut at the rim, at the hole and around the axis.
+//!
+//! At an edge of the part the figure is the way from the wanted surface to the nearest cut, all
+//! passes of the section and of its opposite half together. It is a cusp's height where cusps are
+//! all that stands there, and does not grow with the slope. A pass counts where its edge stands
+//! above the place: within the reach of half the included angle.
+//!
+//! Around the axis the figure is the highest cusp between the passes of the path's innermost three
+//! turns, those of θ and of θ + π together on one line through the axis.
+
+use turnpath_core::toolpath::{Cubic, PathBlock};
+use turnpath_core::{Result, Scalar};
+
+use crate::cusp::Point;
+use crate::profiles::Profiles;
+use crate::residual::{Pass, Passes, ResidualFigures, SECTIONS, angle_of, highest};
+use crate::touch::FirstTouch;
+
+/// Sections of a revolution, and how many lie half a revolution further.
+const TURN: usize = SECTIONS as usize;
+const HALF_TURN: usize = TURN / 2;
+/// Passes of the innermost turns: a spiral that ends at the axis has its widest gap between the
+/// second and the third pass of a line, and one that runs out there somewhat further out.
+const INNERMOST: usize = 3 * TURN;
+
+/// The largest height that stays uncut somewhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Uncut {
+    /// Its height, mm; infinite where no pass reaches.
+    pub height: f64,
+    /// Angle of its section, rad.
+    pub at_theta: f64,
+}
+
+/// What a path leaves uncut, and how far it goes beyond the axis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CoverageFigures {
+    /// At the rim of the aperture.
+    pub rim: Option<Uncut>,
+    /// At the hole; `None` on a part without one.
+    pub hole: Option<Uncut>,
+    /// Between the passes of both sides of the axis; `None` on a part with a hole.
+    pub centre: Option<Uncut>,
+    /// How far X as played goes below 0, mm.
+    pub x_beyond_axis: f64,
+    /// How far the contact goes beyond the axis, mm.
+    pub contact_beyond_axis: f64,
+}
+
+/// What has been seen of a path so far; bounded, however long the path is.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Coverage {
+    rim: Edge,
+    hole: Edge,
+    first: Passes,
+    last: Passes,
+    x_beyond_axis: f64,
+    contact_beyond_axis: f64,
+}
+
+impl Coverage {
+    /// What a stretch cuts.
+    pub fn of(touch: &FirstTouch, points: &PathBlock, passes: &Passes) -> Result<Self> {
+        let part = touch.subject().part;
+        let hole = match part.inner_radius > 0.0 {
+            true => Edge::of(touch, part.inner_radius, passes)?,
+            false => Edge::default(),
+        };
+        let beyond = |least: f64, here: f64| least.max(-here);
+        let played = points.segments().map(|segment| lowest(&segment.x));
+        let contacts = passes.passes.iter().map(|pass| pass.foot);
+        Ok(Self {
+            rim: Edge::of(touch, part.aperture_radius, passes)?,
+            hole,
+            first: passes.first_few(INNERMOST),
+            last: passes.last_few(INNERMOST),
+            x_beyond_axis: played.fold(0.0, beyond),
+            contact_beyond_axis: contacts.fold(0.0, beyond),
+        })
+    }
+
+    /// Puts the path's next stretch behind what has been seen.
+    pub fn append(&mut self, next: &Self) {
+        self.rim.append(&next.rim);
+        self.hole.append(&next.hole);
+        self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
+        self.contact_beyond_axis = self.contact_beyond_axis.max(next.contact_beyond_axis);
+        self.first.extend(&next.first);
+        self.first = self.first.first_few(INNERMOST);
+        if next.last.passes.len() == INNERMOST {
+            self.last = next.last.clone();
+        } else {
+            self.last.extend(&next.last);
+            self.last = self.last.last_few(INNERMOST);
+        }
+    }
+
+    /// What the whole path leaves uncut, and the cusps around the axis.
+    pub fn figures(&self, touch: &FirstTouch) -> Result<(CoverageFigures, ResidualFigures)> {
+        let mut figures = CoverageFigures {
+            rim: Some(self.rim.uncut()),
+            x_beyond_axis: self.x_beyond_axis,
+            contact_beyond_axis: self.contact_beyond_axis,
+            ..CoverageFigures::default()
+        };
+        if touch.subject().part.inner_radius > 0.0 {
+            figures.hole = Some(self.hole.uncut());
+            return Ok((figures, ResidualFigures::default()));
+        }
+        let cusps = around_axis(touch, self.innermost())?;
+        figures.centre = Some(Uncut {
+            height: cusps.highest().unwrap_or(f64::INFINITY),
+            at_theta: cusps.at_theta,
+        });
+        Ok((figures, cusps))
+    }
+
+    /// The passes of the end that lies nearer to the axis.
+    fn innermost(&self) -> &Passes {
+        let first = self.first.passes.first().map(|pass| pass.foot.abs());
+        let last = self.last.passes.last().map(|pass| pass.foot.abs());
+        match (first, last) {
+            (Some(first), Some(last)) if first < last => &self.first,
+            _ => &self.last,
+        }
+    }
+}
+
+/// The nearest cut to one edge of the part, on each section.
+#[derive(Debug, Clone, Default)]
+struct Edge {
+    /// mm; infinite where there is none; empty where nothing was looked at.
+    nearest: Vec<f64>,
+}
+
+impl Edge {
+    /// What `passes` leave at one radius.
+    fn of(touch: &FirstTouch, radius: f64, passes: &Passes) -> Result<Self> {
+        let tool = touch.subject().tool;
+        let places = ring(touch, radius)?;
+        let mut nearest = vec![f64::INFINITY; TURN];
+        for (number, pass) in (passes.first..).zip(&passes.passes) {
+            let section = number.rem_euclid(SECTIONS) as usize;
+            let across = (section + HALF_TURN) % TURN;
+            for (section, pass) in [(section, *pass), (across, pass.mirrored())] {
+                let off = places[section] - pass.centre;
+                let uncut = off.norm() - tool.nose_radius;
+                if off.x.abs() < tool.reach() && uncut < nearest[section] {
+                    nearest[section] = uncut.max(0.0);
+                }
+            }
+        }
+        Ok(Self { nearest })
+    }
+
+    fn append(&mut self, next: &Self) {
+        if self.nearest.is_empty() {
+            self.nearest.clone_from(&next.nearest);
+        }
+        for (nearest, next) in self.nearest.iter_mut().zip(&next.nearest) {
+            *nearest = nearest.min(*next);
+        }
+    }
+
+    /// The largest over all sections; infinite where nothing was looked at.
+    fn uncut(&self) -> Uncut {
+        let sections = self.nearest.iter().zip(0..);
+        let highest = sections.max_by(|a, b| a.0.total_cmp(b.0));
+        let (height, section) = highest.map_or((f64::INFINITY, 0), |(h, s)| (*h, s));
+        Uncut {
+            height,
+            at_theta: angle_of(section),
+        }
+    }
+}
+
+/// The wanted surface at one radius on every section.
+fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
+    let theta: Vec<f64> = (0..SECTIONS).map(angle_of).collect();
+    let mut profiles = Profiles::new(touch.subject().surface.as_ref(), &theta);
+    profiles.at_all(&vec![radius; TURN])?;
+    let places = profiles.height.iter().map(|z| Point::new(radius, *z));
+    Ok(places.collect())
+}
+
+/// The highest cusp between neighbours on every line through the axis; infinite where a line has
+/// passes on one side of the axis only.
+fn around_axis(touch: &FirstTouch, passes: &Passes) -> Result<ResidualFigures> {
+    let mut lines: Vec<Vec<Pass>> = vec![Vec::new(); HALF_TURN];
+    let mut sides = [[false; 2]; HALF_TURN];
+    for (number, pass) in (passes.first..).zip(&passes.passes) {
+        let section = number.rem_euclid(SECTIONS) as usize;
+        let (line, far) = (section % HALF_TURN, section >= HALF_TURN);
+        sides[line][usize::from(far)] = true;
+        lines[line].push(if far { pass.mirrored() } else { *pass });
+    }
+    if let Some(open) = sides.iter().position(|sides| *sides != [true; 2]) {
+        return Ok(ResidualFigures {
+            max: f64::INFINITY,
+            at_theta: angle_of(open as i64),
+            at_rho: 0.0,
+            cusps: 1,
+        });
+    }
+    let (mut theta, mut cusps) = (Vec::new(), Vec::new());
+    for (line, passes) in (0..).zip(&mut lines) {
+        passes.sort_by(|a, b| a.foot.total_cmp(&b.foot));
+        for pair in passes.windows(2).filter(|p| p[0].centre != p[1].centre) {
+            theta.push(angle_of(line));
+            cusps.push(pair[0].cusp(&pair[1], &touch.subject().tool));
+        }
+    }
+    highest(touch, &theta, &cusps)
+}
+
+/// The lowest value of a cubic on 0 … 1.
+fn lowest(cubic: &Cubic) -> f64 {
+    let [_, b, c, d] = cubic.0;
+    // The slope b + 2cs + 3ds² is zero at q/3d and b/q.
+    let root = Scalar::sqrt(c * c - 3.0 * b * d);
+    let q = -(c + root.copysign(c));
+    let turning = [q / (3.0 * d), b / q];
+    let inside = turning.into_iter().filter(|s| (0.0..1.0).contains(s));
+    inside
+        .chain([0.0, 1.0])
+        .map(|s| cubic.value(s))
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lowest_value_of_a_cubic_is_that_of_a_fine_table() {
+        for coefficients in [
+            [1.0, -2.0, 3.0, 0.0],
+            [0.5, 1.0, -4.0, 3.5],
+            [0.0, 0.3, 0.0, 0.0],
+            [0.2, -1.0, 0.0, 1.0],
+            [1.0, 0.0, 0.0, 0.0],
+            [1.0, 0.0, -3.0, 2.5],
+        ] {
+            let cubic = Cubic(coefficients);
+            let table = (0..=10_000).map(|i| cubic.value(f64::from(i) * 1e-4));
+            let found = lowest(&cubic);
+            let least = table.fold(f64::INFINITY, f64::min);
+            assert!((found - least).abs() < 1e-7 && found <= least + 1e-15);
+        }
+    }
+}

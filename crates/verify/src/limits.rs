@@ -1,0 +1,152 @@
+//! A path's motion against a machine's limits, and how fast it can be played within them.
+
+use turnpath_core::{Axis, Derivative, Limit, Machine, Scalar};
+
+use crate::axes::{AxesMotion, Peak};
+
+/// One limit and the largest amount on the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LimitFigure {
+    /// What the machine can do.
+    pub limit: Limit,
+    /// The largest amount; none where there is no such figure: the jerk of straight segments.
+    pub peak: Option<Peak>,
+}
+
+/// How fast a path can be played.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HighestSpeed {
+    /// Mean speed of C, rad/s.
+    pub speed: f64,
+    /// The limit that is reached there.
+    pub bound_by: Limit,
+}
+
+impl LimitFigure {
+    /// The largest amount over the limit; 0 where there is no figure.
+    pub fn ratio(&self) -> f64 {
+        self.peak.map_or(0.0, |peak| peak.amount / self.limit.value)
+    }
+
+    /// By how much faster the path can be played until the limit is reached: the n-th derivative
+    /// in time grows with the n-th power of the speed, since C alone says where the axes are.
+    /// Infinite where nothing moves.
+    pub fn speed_factor(&self) -> f64 {
+        let order = f64::from(self.limit.derivative.order());
+        Scalar::powf(self.ratio().recip(), order.recip())
+    }
+}
+
+impl AxesMotion {
+    /// Each limit of the machine with the path's own figure.
+    pub fn against(&self, machine: &Machine) -> Vec<LimitFigure> {
+        let figure = |limit: Limit| LimitFigure {
+            limit,
+            peak: self.peak(limit.axis, limit.derivative),
+        };
+        machine.limits().map(figure).collect()
+    }
+
+    /// The highest speed of the spindle at which all limits hold, everything else of the path
+    /// left as it is. None without a limit that bounds it.
+    pub fn highest_speed(&self, machine: &Machine) -> Option<HighestSpeed> {
+        let figures = self.against(machine).into_iter();
+        let factors = figures.map(|figure| (figure.speed_factor(), figure.limit));
+        let least = factors.min_by(|one, other| one.0.total_cmp(&other.0));
+        least
+            .map(|(factor, bound_by)| HighestSpeed {
+                speed: factor * self.c.mean_velocity().abs(),
+                bound_by,
+            })
+            .filter(|highest| highest.speed.is_finite())
+    }
+
+    /// The largest amount of a derivative; none of the jerk of straight segments.
+    pub fn peak(&self, axis: Axis, derivative: Derivative) -> Option<Peak> {
+        let motion = match axis {
+            Axis::X => &self.x,
+            Axis::Z => &self.z,
+            Axis::C => &self.c,
+        };
+        match derivative {
+            Derivative::Velocity => Some(motion.velocity),
+            Derivative::Acceleration => Some(motion.acceleration),
+            Derivative::Jerk => Some(motion.jerk).filter(|_| !motion.is_straight()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
+
+    /// z = t³ − t on 0 … 2 while C turns at `speed` times 3 rad/s, all of it `speed` times as fast.
+    fn played(speed: f64, shape: SegmentShape) -> AxesMotion {
+        let point = |t: f64| ControlPoint {
+            t: t / speed,
+            c: 3.0 * t,
+            vc: 3.0 * speed,
+            z: t * t * t - t,
+            vz: (3.0 * t * t - 1.0) * speed,
+            ..ControlPoint::default()
+        };
+        let mut points = PathBlock {
+            shape,
+            ..PathBlock::default()
+        };
+        points.push(point(0.0));
+        points.push(point(2.0));
+        AxesMotion::of(&points)
+    }
+
+    fn machine(axis: Axis, derivative: Derivative, value: f64) -> Machine {
+        let mut machine = Machine::default();
+        *machine.limit_mut(axis, derivative) = Some(value);
+        machine
+    }
+
+    #[test]
+    fn at_the_highest_speed_the_limit_is_just_reached() {
+        // Velocity 11, acceleration 12, jerk 6 at 3 rad/s.
+        for (axis, derivative, limit) in [
+            (Axis::Z, Derivative::Velocity, 22.0),
+            (Axis::Z, Derivative::Acceleration, 3.0),
+            (Axis::Z, Derivative::Jerk, 48.0),
+            (Axis::C, Derivative::Velocity, 4.5),
+        ] {
+            let machine = machine(axis, derivative, limit);
+            let highest = played(1.0, SegmentShape::Cubic).highest_speed(&machine);
+            let highest = highest.expect("a bound");
+            assert_eq!(highest.bound_by.axis, axis);
+            let again = played(highest.speed / 3.0, SegmentShape::Cubic);
+            let ratio = again.against(&machine)[0].ratio();
+            assert!((ratio - 1.0).abs() < 1e-12, "{derivative:?}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn of_several_limits_the_tightest_for_its_order_binds() {
+        let mut machine = machine(Axis::Z, Derivative::Velocity, 5.5);
+        machine.z.acceleration = Some(6.0);
+        machine.z.jerk = Some(3.0);
+        // Factors 1/2, 1/√2, 1/∛2.
+        let highest = played(1.0, SegmentShape::Cubic).highest_speed(&machine);
+        let highest = highest.expect("a bound");
+        assert_eq!(highest.bound_by.derivative, Derivative::Velocity);
+        assert!((highest.speed - 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_binds_where_there_is_no_limit_no_motion_or_no_figure() {
+        let cubic = played(1.0, SegmentShape::Cubic);
+        assert_eq!(cubic.highest_speed(&Machine::default()), None);
+        let at_rest = machine(Axis::X, Derivative::Acceleration, 1.0);
+        assert_eq!(cubic.highest_speed(&at_rest), None);
+        assert_eq!(cubic.against(&at_rest)[0].ratio(), 0.0);
+        let jerk = machine(Axis::Z, Derivative::Jerk, 1e-3);
+        let straight = played(1.0, SegmentShape::Linear);
+        assert_eq!(straight.against(&jerk)[0].peak, None);
+        assert_eq!(straight.highest_speed(&jerk), None);
+    }
+}

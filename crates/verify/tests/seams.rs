@@ -1,0 +1,139 @@
+//! Parts into which the nose does not fit: what stays, and cusps above it, against plane geometry.
+
+mod common;
+
+use std::f64::consts::{PI, TAU};
+
+use common::{Groove, Plane, bare_spiral, figures, touch_of};
+use turnpath_core::{DEG, Misfit, Scalar, Surface, Tool};
+use turnpath_verify::{FirstTouch, unreached};
+
+const NOSE: f64 = 0.5;
+
+/// A ring-shaped groove with straight flanks: z = slope · |ρ − radius|.
+struct Ring {
+    slope: f64,
+    radius: f64,
+}
+
+impl Surface for Ring {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let off = (x.squared() + y.squared() + 1e-24).sqrt() - self.radius;
+        (off.squared() + 1e-24).sqrt() * self.slope
+    }
+}
+
+fn tool(included_angle: Option<f64>) -> Tool {
+    Tool {
+        nose_radius: NOSE,
+        included_angle,
+        clearance_angle: None,
+        misfit: Misfit::CutWhatFits,
+    }
+}
+
+fn ring(slope: f64) -> FirstTouch {
+    touch_of(Ring { slope, radius: 1.0 }, 1.6, tool(None), true)
+}
+
+fn close(value: f64, expected: f64, part: f64) {
+    let off = value / expected - 1.0;
+    assert!(off.abs() < part, "{value} against {expected}: {off:e}");
+}
+
+#[test]
+fn in_a_ring_groove_stays_what_lies_between_circle_and_flanks() {
+    for slope in [0.02, 0.3, 1.0] {
+        let w = (1.0 + slope * slope).sqrt();
+        let contact = NOSE * slope / w;
+        let bottom = NOSE * w;
+        let threshold = 0.3 * (bottom - NOSE);
+        let found = unreached(&ring(slope), threshold).expect("figures");
+        close(found.height, bottom - NOSE, 1e-6);
+        assert!((found.at_rho.abs() - 1.0).abs() < 1e-6);
+        let under_circle = contact * NOSE / w + NOSE * NOSE * Scalar::atan(slope);
+        let area = 2.0 * bottom * contact - slope * contact * contact - under_circle;
+        close(found.volume, area * TAU, 2e-3);
+        let b = bottom - threshold;
+        let root = b * b * slope * slope - w * w * (b * b - NOSE * NOSE);
+        let half_width = (b * slope - root.sqrt()) / (w * w);
+        close(
+            found.area_fraction,
+            2.0 * half_width * TAU / (PI * 2.56),
+            5e-3,
+        );
+    }
+}
+
+#[test]
+fn in_a_straight_groove_across_the_axis_stays_the_sum_over_all_sections() {
+    let slope = 0.4;
+    let groove = Groove {
+        slope,
+        width: 1e-12,
+    };
+    let found = unreached(&touch_of(groove, 1.0, tool(None), true), 1.0).expect("figures");
+    let section = |theta: f64| {
+        let m = slope * Scalar::cos(theta).abs();
+        let w = (1.0 + m * m).sqrt();
+        let c = NOSE * m / w;
+        let lift = NOSE / w;
+        let cap = (NOSE * NOSE * NOSE - lift * lift * lift) / 3.0;
+        2.0 * (0.5 * NOSE * w * c * c - cap - m * c * c * c / 3.0)
+    };
+    let sum: f64 = (0..10_000).map(|i| section(PI * f64::from(i) / 1e4)).sum();
+    close(found.volume, sum * PI / 1e4, 5e-3);
+    let w = (1.0f64 + slope * slope).sqrt();
+    close(found.height, NOSE * (w - 1.0), 1e-5);
+    assert_eq!(found.area_fraction, 0.0);
+}
+
+#[test]
+fn on_a_rim_or_a_hole_only_what_lies_on_the_part_counts() {
+    let slope = 0.3;
+    let half = touch_of(Ring { slope, radius: 1.0 }, 1.0, tool(None), true);
+    let (whole, half) = (
+        unreached(&ring(slope), 1.0).expect("figures").volume,
+        unreached(&half, 1.0).expect("figures").volume,
+    );
+    // The inner half of the section, its centroid a little nearer to the axis.
+    assert!(
+        half < 0.5 * whole && half > 0.46 * whole,
+        "{half} of {whole}"
+    );
+}
+
+#[test]
+fn a_nose_that_fits_leaves_nothing() {
+    let found = unreached(
+        &touch_of(Plane { slope: 0.5 }, 4.0, tool(Some(120.0 * DEG)), true),
+        0.0,
+    );
+    assert_eq!(
+        found.expect("figures"),
+        turnpath_verify::UnreachedFigures::default()
+    );
+}
+
+/// Two passes that stand as far from the seam on either side are higher by half the feed times the
+/// slope, and their cusp by what is left of the flat one.
+#[test]
+fn over_a_seam_cusps_are_measured_from_what_the_nose_can_reach() {
+    let (slope, feed) = (0.3, 0.01);
+    let spiral = bare_spiral(1.6 / feed, |n| feed * n);
+    let found = figures(&ring(slope), &spiral).residual;
+    let flat = NOSE - (NOSE * NOSE - 0.25 * feed * feed).sqrt();
+    close(found.max, 0.5 * slope * feed + flat, 1e-4);
+    assert!((found.at_rho - 1.0).abs() < 0.01);
+}
+
+/// On a slope of 45 deg an edge that ends at 30 deg cuts steps with its end.
+#[test]
+fn an_edge_that_ends_before_the_slope_leaves_steps() {
+    let feed = 0.004;
+    let touch = touch_of(Plane { slope: 1.0 }, 2.5, tool(Some(60.0 * DEG)), true);
+    let found = figures(&touch, &bare_spiral(2.4 / feed, |n| feed * n)).residual;
+    let end = 0.5 * NOSE - feed;
+    let step = feed + NOSE * 0.75f64.sqrt() - (NOSE * NOSE - end * end).sqrt();
+    close(found.max, step * 0.5f64.sqrt(), 1e-3);
+}
