@@ -117,7 +117,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("map.gsf");
         let mut writer = GsfWriter::begin(&path, title, 2, 2.5).unwrap();
-        writer.row([1e-4, f32::NAN].into_iter()).unwrap();
+        writer.row([0.5, f32::NAN].into_iter()).unwrap();
         writer.row([0.0, -2e-4].into_iter()).unwrap();
         writer.whole().complete().unwrap();
         std::fs::read(&path).unwrap()
@@ -134,7 +134,7 @@ mod tests {
             assert!((1..=4).contains(&nuls), "{nuls}");
             assert_eq!((text + nuls) % 4, 0);
             let data = &bytes[bytes.len() - 16..];
-            assert_eq!(data[..4], 1e-7f32.to_le_bytes());
+            assert_eq!(data[..4], 5e-4f32.to_le_bytes());
             assert!(f32::from_le_bytes([data[4], data[5], data[6], data[7]]).is_nan());
         }
     }

@@ -608,9 +608,9 @@ def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
         scan = max(scan, SEAM_SCAN)
     return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
             "residual_nm": residual(recipe, path, sections, scan),
+            "surface_error_nm": surface_error(recipe, path),
             "coverage_nm": coverage(recipe, path, scan),
             "unreached": unreached(recipe),
-            "surface_error_nm": surface_error(recipe, path),
             "rows": path.rows, "control_points": path.segments + 1,
             "revolutions": float(path.revolutions)}
 
