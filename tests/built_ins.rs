@@ -18,8 +18,18 @@ const BUILT_INS: [(&str, &[&str]); 5] = [
             "xy-polynomial",
         ],
     ),
-    ("feed", &["atpg", "constant"]),
-    ("sampler", &["atpg", "equal-angle"]),
+    ("feed", &["atpg", "ats", "constant", "fft-adaptive"]),
+    (
+        "sampler",
+        &[
+            "atpg",
+            "ats",
+            "equal-angle",
+            "equal-arc",
+            "fft-adaptive",
+            "integrated",
+        ],
+    ),
     ("compensator", &["none", "normal", "z-direction"]),
     (
         "velocity",

@@ -142,9 +142,11 @@ fn compare_verdicts(summary: &Value, reference: &Value, status: Option<i32>) -> 
 fn compare(summary: &Value, reference: &Value, rows: u64) -> Vec<String> {
     let mut complaints = Vec::new();
     let points = summary["control_points"].as_u64();
-    if points != reference["control_points"].as_u64() || points != Some(rows) {
+    let all = summary["rows"].as_u64();
+    if points != reference["control_points"].as_u64() || all != Some(rows) {
         let expected = &reference["control_points"];
-        complaints.push(format!("{points:?} points, {rows} rows, not {expected}"));
+        let said = format!("{points:?} points and {all:?} rows");
+        complaints.push(format!("{said}, not {expected} and {rows}"));
     }
     for pointer in [
         "/interpolation_error_nm/max",

@@ -36,6 +36,24 @@ fn jobs() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ),
         ("waves", waves, vec!["tool.nose_radius=0.5mm"]),
         ("normal", normal, vec!["tool.nose_radius=0.2mm"]),
+        (
+            "FFT-adaptive",
+            SADDLE.to_owned(),
+            vec![
+                "feed.use=fft-adaptive",
+                "sampler={ use = \"fft-adaptive\" }",
+            ],
+        ),
+        (
+            "arcs",
+            SADDLE.to_owned(),
+            vec!["sampler={ use = \"integrated\", spacing = \"0.3 mm\" }"],
+        ),
+        (
+            "ATS",
+            SADDLE.to_owned(),
+            vec!["feed.use=ats", "sampler={ use = \"ats\" }"],
+        ),
     ]
 }
 
@@ -144,10 +162,8 @@ fn the_summary_names_file_and_hash_of_every_plugin_that_was_loaded() {
         names.push(name);
     }
     names.sort_unstable();
-    // This job takes nothing of ATPG.
-    let used = BUILT_INS
-        .into_iter()
-        .filter(|name| *name != "turnpath-atpg");
+    let idle = ["turnpath-atpg", "turnpath-ats", "turnpath-fft-adaptive"];
+    let used = BUILT_INS.into_iter().filter(|name| !idle.contains(name));
     assert!(names.into_iter().eq(used), "{plugins:?}");
 }
 

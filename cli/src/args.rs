@@ -6,6 +6,8 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use turnpath_core::Slot;
 
+use crate::ablate::columns;
+
 /// Tool paths for slow-tool-servo diamond turning of freeform optics.
 ///
 /// Exit status: 0 done, and all tolerances hold; 1 done, and a tolerance or a limit of the
@@ -24,6 +26,8 @@ pub enum Command {
     Run(RunArgs),
     /// Check a recipe without making its path: parameters, interference, expected size
     Check(CheckArgs),
+    /// Make the variants of a recipe that its `[ablation]` lists, and set their figures side by side
+    Ablate(AblateArgs),
     /// Measure a tool path against a recipe's surface, tool and tolerances
     Verify(VerifyArgs),
     /// Write the surface of a recipe on a grid, as CSV
@@ -128,6 +132,24 @@ pub struct RunArgs {
 pub struct CheckArgs {
     #[command(flatten)]
     pub recipe: RecipeArgs,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct AblateArgs {
+    #[command(flatten)]
+    pub recipe: RecipeArgs,
+    /// Where the figures go; `out/<name>-ablation` unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// The columns of the table, in this order
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    #[arg(value_parser = PossibleValuesParser::new(columns::names()))]
+    pub columns: Vec<String>,
+    /// Make all runs anew, also those that were made before
+    #[arg(long)]
+    pub fresh: bool,
     #[command(flatten)]
     pub work: WorkArgs,
 }

@@ -29,8 +29,20 @@ impl Failure {
 
     /// Tells the user.
     pub fn report(&self) {
+        eprintln!("{}", self.text());
+    }
+
+    /// The text as the user sees it.
+    pub fn text(&self) -> &str {
         let (Self::Wrong(text) | Self::Plugin(text) | Self::File(text)) = self;
-        eprintln!("{text}");
+        text
+    }
+
+    /// What is wrong in one line, without colours.
+    pub fn title(&self) -> String {
+        let plain = anstream::adapter::strip_str(self.text()).to_string();
+        let line = plain.lines().next().unwrap_or_default();
+        line.strip_prefix("error: ").unwrap_or(line).to_owned()
     }
 
     /// A plugin's failure that has a place in the recipe.

@@ -30,6 +30,11 @@ impl Job {
         use_threads(work);
         let recipe = Recipe::load(&args.recipe, &args.set)?;
         let catalogue = strategies::catalogue_for(&recipe, args)?;
+        Self::of(recipe, catalogue)
+    }
+
+    /// Makes the strategies of a recipe, checks tool against part.
+    pub fn of(recipe: Recipe, catalogue: Catalogue) -> Result<Self, Failure> {
         let chain = strategies::chain(&recipe, &catalogue)?;
         let wanted = Wanted {
             part: recipe.part,

@@ -1,5 +1,6 @@
 //! The program `turnpath`: a recipe in, a measured tool path out.
 
+mod ablate;
 mod args;
 mod check;
 mod coverage;
@@ -28,8 +29,9 @@ mod verify;
 // A plugin that nothing names is dropped by the linker.
 #[cfg(feature = "built-ins")]
 use {
-    turnpath_atpg as _, turnpath_constant as _, turnpath_integrated as _,
-    turnpath_nose_radius as _, turnpath_surfaces as _, turnpath_triangle_rotary as _,
+    turnpath_atpg as _, turnpath_ats as _, turnpath_constant as _, turnpath_fft_adaptive as _,
+    turnpath_integrated as _, turnpath_nose_radius as _, turnpath_surfaces as _,
+    turnpath_triangle_rotary as _,
 };
 
 use std::process::ExitCode;
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
     let Program { command } = Program::parse();
     let done = match command {
         Command::Run(args) => run::run(&args),
+        Command::Ablate(args) => ablate::ablate(&args),
         Command::Check(args) => check::check(&args),
         Command::Verify(args) => verify::verify(&args),
         Command::Sag(args) => sag::sag(&args),

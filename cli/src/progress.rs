@@ -59,3 +59,35 @@ impl Progress for Bar {
         self.with(|bar| bar.inc(blocks));
     }
 }
+
+/// How the bar of several runs looks.
+const RUNS_STYLE: &str = "{pos} of {len} runs made {bar:30} {eta} left";
+
+/// A bar over several runs on standard error, or nothing where that is no terminal.
+pub struct RunsBar(ProgressBar);
+
+impl RunsBar {
+    /// So many runs are to be made.
+    pub fn new(runs: usize) -> Self {
+        if runs == 0 || !std::io::stderr().is_terminal() {
+            return Self(ProgressBar::hidden());
+        }
+        let runs = u64::try_from(runs).ok();
+        let bar = ProgressBar::with_draw_target(runs, ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template(RUNS_STYLE) {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(TICK);
+        Self(bar)
+    }
+
+    /// One more is made.
+    pub fn advance(&self) {
+        self.0.inc(1);
+    }
+
+    /// Takes the bar off the screen.
+    pub fn clear(&self) {
+        self.0.finish_and_clear();
+    }
+}

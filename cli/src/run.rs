@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::Slot;
 use turnpath_core::toolpath::SegmentShape;
-use turnpath_host::Plugin;
-use turnpath_pipeline::{LeadLimits, LeadSettings, Making, run as run_pipeline};
+use turnpath_host::{Catalogue, Plugin};
+use turnpath_pipeline::{LeadLimits, LeadSettings, Making, Outcome, run as run_pipeline};
 use turnpath_post::{PMAC_TIME_STEPS, PmacError};
+use turnpath_recipe::Recipe;
 
 use crate::args::{Format, RunArgs};
 use crate::coverage::Promise;
@@ -18,7 +19,7 @@ use crate::job::{Job, of_pipeline};
 use crate::plots::Wishes;
 use crate::programs::{asked, not_carried};
 use crate::progress::Bar;
-use crate::summary::Summary;
+use crate::summary::{ProgramSummary, Summary};
 use crate::unreached::Unreached;
 use crate::{Done, Verdict};
 
@@ -32,12 +33,7 @@ pub fn run(args: &RunArgs) -> Done {
     let programs = asked(&job.recipe, job.compensates_nose())?;
     refuse_straight_lines(&job)?;
     let wishes = wishes(args, &job, &folder)?;
-    let making = Making {
-        refine: job.recipe.refine,
-        time_steps: (!programs.is_empty()).then_some(PMAC_TIME_STEPS),
-        lead: lead(&job),
-        covers_centre: Promise::of(job.recipe.overrun).covers_centre,
-    };
+    let making = making(&job);
     let wants_path = !job.recipe.output.data.is_empty();
     let mut files = Files::new(folder, wants_path, programs)?;
     let bar = Bar::new();
@@ -52,13 +48,7 @@ pub fn run(args: &RunArgs) -> Done {
         Err(_) => Ok(()),
     };
     bar.clear();
-    let plugins = used_plugins(&job);
-    let (recipe, chain) = (&job.recipe, &job.chain);
-    let programs = programs?;
-    let unreached = Unreached::of_job(&job)?;
-    let summary = Summary::new(
-        recipe, chain, &plugins, files.rows, &outcome, unreached, programs,
-    );
+    let summary = summary(&job, files.rows, &outcome, programs?)?;
     plotted?;
     let written = files.complete(&summary.json())?;
     match args.work.format {
@@ -84,6 +74,39 @@ fn wishes(args: &RunArgs, job: &Job, folder: &Path) -> Result<Wishes, Failure> {
     Ok(wishes)
 }
 
+/// How the path of a job is made.
+pub fn making(job: &Job) -> Making {
+    Making {
+        refine: job.recipe.refine,
+        time_steps: (!job.recipe.output.posts.is_empty()).then_some(PMAC_TIME_STEPS),
+        lead: lead(job),
+        covers_centre: Promise::of(job.recipe.overrun).covers_centre,
+    }
+}
+
+/// What the path of a job gave.
+///
+/// # Errors
+/// When the surface fails while it is looked at.
+pub fn summary(
+    job: &Job,
+    rows: u64,
+    outcome: &Outcome,
+    programs: Vec<ProgramSummary>,
+) -> Result<Summary, Failure> {
+    let plugins = used_plugins(&job.recipe, &job.catalogue);
+    let unreached = Unreached::of_job(job)?;
+    Ok(Summary::new(
+        &job.recipe,
+        &job.chain,
+        &plugins,
+        rows,
+        outcome,
+        unreached,
+        programs,
+    ))
+}
+
 /// How the path comes and goes, where the recipe wants leads.
 fn lead(job: &Job) -> Option<LeadSettings> {
     job.recipe.lead.then(|| LeadSettings {
@@ -93,7 +116,7 @@ fn lead(job: &Job) -> Option<LeadSettings> {
 }
 
 /// A program in PVT mode plays cubics; a path of straight lines is another one.
-fn refuse_straight_lines(job: &Job) -> Result<(), Failure> {
+pub fn refuse_straight_lines(job: &Job) -> Result<(), Failure> {
     let straight = job.chain.velocity.strategy.segments() == SegmentShape::Linear;
     if straight && !job.recipe.output.posts.is_empty() {
         return Err(not_carried(&job.recipe, &PmacError::Straight));
@@ -102,11 +125,11 @@ fn refuse_straight_lines(job: &Job) -> Result<(), Failure> {
 }
 
 /// The plugins of the five strategies, each once.
-fn used_plugins(job: &Job) -> Vec<&Plugin> {
+pub fn used_plugins<'a>(recipe: &Recipe, catalogue: &'a Catalogue) -> Vec<&'a Plugin> {
     let mut used: Vec<&Plugin> = Vec::new();
     for slot in Slot::ALL {
-        let name = job.recipe.choice(slot).name();
-        if let Some(strategy) = job.catalogue.find(slot, name) {
+        let name = recipe.choice(slot).name();
+        if let Some(strategy) = catalogue.find(slot, name) {
             let plugin = strategy.plugin().as_ref();
             if !used.contains(&plugin) {
                 used.push(plugin);

@@ -78,6 +78,13 @@ fn chosen<'a>(
     Ok((strategy, params))
 }
 
+/// Whether the strategies that a recipe chooses are there, and take its parameters: all that is
+/// wrong with them, as far as it is known before they are made.
+pub fn complaints(recipe: &Recipe, catalogue: &Catalogue) -> Vec<Failure> {
+    let wrong = |slot| chosen(recipe, catalogue, slot).err();
+    Slot::ALL.into_iter().filter_map(wrong).collect()
+}
+
 fn link<T: ?Sized>(
     recipe: &Recipe,
     catalogue: &Catalogue,

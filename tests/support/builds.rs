@@ -10,9 +10,11 @@ use tempfile::TempDir;
 use super::fixtures::file_name;
 
 /// The packages whose plugins the program has inside.
-pub const BUILT_INS: [&str; 6] = [
+pub const BUILT_INS: [&str; 8] = [
     "turnpath-atpg",
+    "turnpath-ats",
     "turnpath-constant",
+    "turnpath-fft-adaptive",
     "turnpath-integrated",
     "turnpath-nose-radius",
     "turnpath-surfaces",

@@ -1,6 +1,6 @@
 //! The feed strategy: the spiral law, block by block.
 
-use crate::{Job, Locus, Result};
+use crate::{Job, Locus, Result, quintic};
 
 /// The job and the locus, before there is a law.
 #[derive(Clone, Copy)]
@@ -33,6 +33,21 @@ pub struct Stretch {
     pub length: f64,
     /// Coefficients of ρ in mm against the revolutions since its start, lowest first.
     pub coefficients: [f64; 6],
+}
+
+impl Stretch {
+    /// The polynomial of degree 5 with a given ρ, dρ/dN and d²ρ/dN² at each of its ends.
+    ///
+    /// ```
+    /// let smooth = turnpath_core::Stretch::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
+    /// assert_eq!(smooth.coefficients, [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]);
+    /// ```
+    pub fn between(from: [f64; 3], to: [f64; 3], length: f64) -> Self {
+        Self {
+            length,
+            coefficients: quintic(from, to, length),
+        }
+    }
 }
 
 /// A law in the making: a state of one's own, asked for the next pieces until it is done.

@@ -60,7 +60,7 @@ impl<'a> Plan<'a> {
         }
         let law = crate::law::plan(chain, &prepared.job, &prepared.locus)?;
         let law = match prepared.overrun {
-            Overrun::Contact => taper(&law),
+            Overrun::Contact => taper(&law, &prepared.job),
             Overrun::None | Overrun::Length(_) => law,
         };
         let mut plan = Self {

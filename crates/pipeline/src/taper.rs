@@ -5,15 +5,16 @@
 //! turns, ρ(m) = f n (s³ − s⁴/2) with s = m/n, has its passes within ρ(1) of its end at every
 //! angle.
 
-use turnpath_core::{Piece, SpiralLaw, quintic};
+use turnpath_core::{Direction, Job, Piece, SpiralLaw, quintic};
 
 /// Turns n over which the feed runs out: ρ(1) is 0.38 feeds, so that what stays at a rim is 0.6 of
 /// a cusp, and 0.45 feeds lie between the passes of both sides of the axis. It costs n/2 turns;
 /// n = 1 would leave a whole cusp at the rim.
 const TURNS: f64 = 1.25;
-/// A law whose passes are no further from its end than this part of its pitch closes by itself,
-/// as one does that follows the angle until every angle has passed the rim.
-const CLOSED: f64 = 0.4;
+/// A law whose outermost passes are no further inside of the range's end than this part of the way to
+/// the next pass closes by itself, as one does that follows the angle until every angle has passed
+/// the rim. It must not be touched: a taper turns the rest of the law by a part of a turn.
+const CLOSED: f64 = 0.41;
 /// A law that moves by less than this part of its pitch a turn at its end is at rest there.
 const REST: f64 = 0.01;
 /// Turns that a law stays where it ends at rest: with the C² start of a turn that follows, the
@@ -25,8 +26,8 @@ const ANGLES: usize = 72;
 const HALVINGS: usize = 60;
 
 /// The law with its feed running out at both ends, where it does not close by itself.
-pub fn taper(law: &SpiralLaw) -> SpiralLaw {
-    let (start, end) = (End::of(law, false), End::of(law, true));
+pub fn taper(law: &SpiralLaw, job: &Job) -> SpiralLaw {
+    let (start, end) = (End::of(law, job, false), End::of(law, job, true));
     let mut pieces = Vec::new();
     let mut at = 0.0;
     let mut put = |length: f64, coefficients: [f64; 6]| {
@@ -72,11 +73,16 @@ struct End {
 }
 
 impl End {
-    fn of(law: &SpiralLaw, last: bool) -> Self {
+    fn of(law: &SpiralLaw, job: &Job, last: bool) -> Self {
         let side = Side { law, last };
+        let outer = last == (job.direction == Direction::Outward);
+        let inside = |rho: f64| match outer {
+            true => job.range.outer - rho,
+            false => rho - job.range.inner,
+        };
         Self {
             last,
-            close: side.close(),
+            close: side.close(inside),
         }
     }
 
@@ -123,15 +129,19 @@ impl Side<'_> {
         self.law.rate(self.at(m)).abs()
     }
 
-    fn close(&self) -> Close {
+    /// What is done here; `inside` says how far a pass lies inside of the range's end.
+    fn close(&self, inside: impl Fn(f64) -> f64) -> Close {
         // Both ends have half of the law to themselves.
         let half = 0.5 * self.law.end();
         if half < 1.0 {
             return Close::Not;
         }
         let pitch = (self.rho(1.0) - self.rho(0.0)).abs();
-        let away = |m: f64| (self.rho(m) - self.rho(0.0)) / (self.rho(1.0) - self.rho(0.0));
-        let closed = (0..ANGLES).all(|i| away(i as f64 / ANGLES as f64) <= CLOSED);
+        let closes = |m: f64| {
+            let next = (self.rho(m + 1.0) - self.rho(m)).abs();
+            inside(self.rho(m)) <= CLOSED * next
+        };
+        let closed = (0..ANGLES).all(|i| closes(i as f64 / ANGLES as f64));
         if closed || !pitch.is_normal() {
             Close::Not
         } else if self.speed(0.0) <= REST * pitch {
@@ -174,6 +184,8 @@ impl Side<'_> {
 
 #[cfg(test)]
 mod tests {
+    use turnpath_core::{Machine, Misfit, Part, RadialRange, SpindleLaw, Tolerance, Tool};
+
     use super::*;
 
     /// From 1 mm outward by 0.1 mm a turn, faster with time, in two pieces.
@@ -193,10 +205,39 @@ mod tests {
         back
     }
 
+    /// The job whose range the law runs over.
+    fn job(law: &SpiralLaw) -> Job {
+        let (start, end) = (law.value(0.0), law.value(law.end()));
+        let (direction, inner, outer) = match start < end {
+            true => (Direction::Outward, start, end),
+            false => (Direction::Inward, end, start),
+        };
+        Job {
+            part: Part {
+                aperture_radius: outer,
+                inner_radius: inner,
+            },
+            tool: Tool {
+                nose_radius: 1.0,
+                included_angle: None,
+                clearance_angle: None,
+                misfit: Misfit::Refuse,
+            },
+            tolerance: Tolerance {
+                interpolation: 1e-4,
+                residual: 1e-4,
+            },
+            range: RadialRange { inner, outer },
+            direction,
+            machine: Machine::default(),
+            spindle: SpindleLaw::constant(52.0),
+        }
+    }
+
     #[test]
     fn both_ends_stay_where_they_were_and_come_to_rest() {
         for law in [law(), inward()] {
-            let tapered = taper(&law);
+            let tapered = taper(&law, &job(&law));
             for (n, whole) in [(0.0, 0.0), (tapered.end(), law.end())] {
                 let [value, rate, second, ..] = tapered.series_before(n);
                 assert!((value - law.value(whole)).abs() < 1e-13);
@@ -212,7 +253,7 @@ mod tests {
 
     #[test]
     fn value_and_two_derivatives_are_continuous() {
-        let tapered = taper(&law());
+        let tapered = taper(&law(), &job(&law()));
         let knots: Vec<f64> = tapered.knots(0.0, tapered.end()).collect();
         assert_eq!(knots.len(), 3);
         for knot in knots {
@@ -226,7 +267,7 @@ mod tests {
     #[test]
     fn passes_close_at_rim_and_axis() {
         for law in [law(), inward()] {
-            let tapered = taper(&law);
+            let tapered = taper(&law, &job(&law));
             for last in [false, true] {
                 let side = Side {
                     law: &tapered,
@@ -252,9 +293,20 @@ mod tests {
         let mut law = SpiralLaw::new();
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(9.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        let held = taper(&law);
+        let held = taper(&law, &job(&law));
         assert_eq!(held.value(HOLD), 1.0);
         assert!((held.value(HOLD + 3.0) - law.value(3.0)).abs() < 1e-15);
+    }
+
+    /// One whose every turn has its own angle: it goes on until the slowest has passed the rim.
+    #[test]
+    fn an_end_that_lies_beyond_the_range_at_every_angle_is_left_alone() {
+        let law = law();
+        let mut job = job(&law);
+        job.range.outer = law.value(law.end() - 1.0);
+        assert_eq!(End::of(&law, &job, true).close, Close::Not);
+        job.range.outer = law.value(law.end() - 0.5);
+        assert_ne!(End::of(&law, &job, true).close, Close::Not);
     }
 
     #[test]
@@ -263,9 +315,9 @@ mod tests {
         law.push(1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(7.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(End::of(&law, false).close, Close::Not);
+        assert_eq!(End::of(&law, &job(&law), false).close, Close::Not);
         let mut short = SpiralLaw::new();
         short.push(1.5, [1.0, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(taper(&short), short);
+        assert_eq!(taper(&short, &job(&short)), short);
     }
 }

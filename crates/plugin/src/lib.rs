@@ -41,6 +41,10 @@ pub use guard::guarded;
 pub use offer::{Offer, linked};
 pub use registration::{Build, Registration};
 
+/// For samplers and feeds of one's own: steps from the error of cubic segments, radial profiles, and
+/// the smallest of a quantity over a ring of angles.
+pub use turnpath_core::{hermite, locus, ring};
+
 /// Everything that a strategy's author needs.
 pub mod prelude {
     pub use std::f64::consts::{PI, TAU};

@@ -98,6 +98,11 @@ impl Table {
         }
     }
 
+    /// Takes an entry out.
+    pub(crate) fn remove(&mut self, key: &str) {
+        self.entries.retain(|entry| entry.key != key);
+    }
+
     /// The entry at a path of keys, `["tool", "nose_radius"]`.
     pub fn find<'k>(&self, path: impl IntoIterator<Item = &'k str>) -> Option<&Entry> {
         let mut keys = path.into_iter();

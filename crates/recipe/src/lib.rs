@@ -44,6 +44,7 @@
 //! # Ok::<(), turnpath_recipe::RecipeError>(())
 //! ```
 
+mod ablation;
 mod bind;
 mod choice;
 mod declared;
@@ -58,6 +59,7 @@ mod suggest;
 mod tables;
 mod value;
 
+pub use ablation::{MOST_RUNS, Variant, Varied};
 pub use choice::Choice;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::{Entry, Node, Table, Value};

@@ -176,6 +176,11 @@ impl Recipe {
         &self.document
     }
 
+    /// The recipe as a whole, for messages that have no place in it.
+    pub(crate) fn everywhere(&self) -> &Place {
+        &self.whole
+    }
+
     /// The recipe's text as it stands in its file.
     pub fn text(&self) -> &str {
         &self.whole.source().text
@@ -271,7 +276,8 @@ fn read_document(source: &Arc<Source>) -> Result<Table, Diagnostics> {
     }
 }
 
-fn build(
+/// A recipe from its values, and what is wrong with them.
+pub(crate) fn build(
     document: Table,
     whole: Place,
     path: &Path,

@@ -12,10 +12,12 @@ use crate::suggest::quoted;
 /// Longest path of keys; no recipe nests deeper.
 const DEEPEST: usize = 8;
 
-/// One `--set` argument, taken apart.
-struct Setting {
-    keys: Vec<(String, Place)>,
-    node: Node,
+/// A value for a key, such as one `--set` argument.
+pub(crate) struct Setting {
+    /// The path to the key, each part with its place.
+    pub(crate) keys: Vec<(String, Place)>,
+    /// The value.
+    pub(crate) node: Node,
 }
 
 /// Applies the arguments in their order, so that a later one wins.
@@ -90,7 +92,8 @@ fn read_value(source: &Arc<Source>, start: usize) -> Node {
     }
 }
 
-fn put(table: &mut Table, setting: Setting) -> Result<(), Diagnostic> {
+/// Puts the value in the place of the key's own, or adds the key.
+pub(crate) fn put(table: &mut Table, setting: Setting) -> Result<(), Diagnostic> {
     let mut keys = setting.keys.into_iter();
     let Some((mut key, mut place)) = keys.next() else {
         return Ok(());

@@ -74,7 +74,6 @@ says! {
     overrun_misspelt: "overrun = \"none\"" => "overrun = \"contacts\"";
     lead_as_text: "lead = false" => "lead = \"yes\"";
     clearance_zero: "lead = false" => "clearance = \"0 mm\"";
-    path_left_out: "[path]\ndirection = \"inward\"\noverrun = \"none\"\nlead = false\n" => "";
     machine_empty: "[output]" => "[machine]\n\n[output]";
     machine_preset_misspelt: "[output]" => "[machine]\npreset = \"genric-sts\"\n\n[output]";
     machine_preset_unknown: "[output]" => "[machine]\npreset = \"my lathe\"\n\n[output]";

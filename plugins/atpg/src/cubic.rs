@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use turnpath_plugin::prelude::*;
 
-use crate::table::FeedTable;
+use turnpath_plugin::ring::FeedTable;
 
 /// More revolutions than a part has.
 const MOST_PAIRS: usize = 1_000_000;

@@ -1,12 +1,13 @@
 //! The feed strategy `atpg`.
 
 use turnpath_plugin::prelude::*;
+use turnpath_plugin::ring::FeedTable;
 
 use crate::acceleration::largest_acceleration;
 use crate::cubic::{CubicFit, explicit_pairs};
 use crate::pieces::{pieces, revolutions};
+use crate::residual::Residual;
 use crate::smooth::SmoothFeed;
-use crate::table::{FeedTable, Residual};
 
 /// Half width h of the average over ρ, as a part of the aperture: wider makes X smoother, and
 /// costs revolutions where the feed varies (AST-5: 0.2 % at this width).
@@ -77,7 +78,7 @@ impl Strategy for AtpgFeed {
 impl FeedStrategy for AtpgFeed {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
         let job = setup.job;
-        let table = FeedTable::new(setup, self.residual)?;
+        let table = self.residual.table(setup)?;
         let stretches = match self.fit {
             Fit::Smooth => smooth_law(&table, job)?,
             Fit::Cubic => {

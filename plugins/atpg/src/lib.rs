@@ -3,19 +3,16 @@
 //! tolerance allows.
 
 mod acceleration;
-mod bound;
 mod cubic;
 mod feed;
-mod least;
 mod pieces;
+mod residual;
 mod sampler;
-mod samples;
 mod smooth;
-mod table;
 
 pub use cubic::{CubicFit, explicit_pairs};
 pub use feed::AtpgFeed;
+pub use residual::Residual;
 pub use sampler::AtpgSampler;
-pub use table::{FeedTable, Residual};
 
 turnpath_plugin::export!(feeds: [AtpgFeed], samplers: [AtpgSampler]);

@@ -39,6 +39,10 @@ impl State {
         }
     }
 
+    fn ends(self) -> [f64; 3] {
+        [self.rho, self.rate, self.second]
+    }
+
     /// The same place when the law runs backwards.
     fn reversed(self) -> Self {
         Self {
@@ -122,11 +126,15 @@ pub fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
 
 impl Span {
     fn stretch(&self) -> Stretch {
-        between(self.from, self.to, self.length)
+        Stretch::between(self.from.ends(), self.to.ends(), self.length)
     }
 
     fn reversed_stretch(&self) -> Stretch {
-        between(self.to.reversed(), self.from.reversed(), self.length)
+        Stretch::between(
+            self.to.reversed().ends(),
+            self.from.reversed().ends(),
+            self.length,
+        )
     }
 
     /// Whether the piece's rate is the feed's, to half the margin that the feed leaves.
@@ -139,13 +147,5 @@ impl Span {
             let wanted = feed.at(rho).0;
             (rate - wanted).abs() <= 0.5 * MARGIN * wanted
         })
-    }
-}
-
-fn between(from: State, to: State, length: f64) -> Stretch {
-    let ends = [from, to].map(|state| [state.rho, state.rate, state.second]);
-    Stretch {
-        length,
-        coefficients: quintic(ends[0], ends[1], length),
     }
 }

@@ -10,7 +10,7 @@
 
 use std::collections::VecDeque;
 
-use crate::table::{FLOORS, FeedTable};
+use turnpath_plugin::ring::{FLOORS, FeedTable};
 
 /// By how much the smooth feed stays below what is proven: room for the polynomial pieces, whose
 /// rate follows it to half of this. It costs a ten-thousandth more revolutions.

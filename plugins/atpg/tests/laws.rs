@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use common::{Case, ast_5, ast_50, joints, oap_213, rate_at, words};
 use proptest::prelude::{ProptestConfig, Strategy as Generator, any, prop, prop_assert, proptest};
-use turnpath_atpg::{AtpgFeed, CubicFit, FeedTable, Residual, explicit_pairs};
+use turnpath_atpg::{AtpgFeed, CubicFit, Residual, explicit_pairs};
 use turnpath_core::{
     Compensator, Locus, ParamValue, Params, Radial, RadialRange, SpiralLaw, Strategy, SurfaceModel,
     UM,
@@ -25,7 +25,7 @@ fn off(found: f64, expected: f64) -> f64 {
 #[test]
 fn the_cubic_on_the_saddle_is_the_papers_equation_19() {
     let case = ast_5(ZDirection);
-    let table = FeedTable::new(case.setup(), Residual::Paper).unwrap();
+    let table = Residual::Paper.table(case.setup()).unwrap();
     let pairs = explicit_pairs(&table, case.job.range).unwrap();
     assert_eq!(pairs.len(), 99);
     let fit = CubicFit::through(&pairs).unwrap();

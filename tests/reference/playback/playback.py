@@ -360,13 +360,15 @@ def residual(recipe, path, sections=90, scan=129):
 
 
 class Sections:
-    """X as played at evenly spaced angles, a turn in each place; none on a degree."""
+    """X as played just behind every degree, a turn in each place. At an edge the height goes up
+    and down between cusp and pass with the angle, so turnpath's own sections are the ones to take;
+    on a degree itself a point where the path begins or ends would count or not by rounding."""
 
     COUNT = 360
 
     def __init__(self, recipe, path, scan):
         self.recipe, self.scan = recipe, scan
-        self.degrees = (np.arange(self.COUNT) + 0.37) * 360 / self.COUNT
+        self.degrees = np.arange(self.COUNT) * 360 / self.COUNT + 1e-7
         self.played = [self.turns(path, c) for c in self.degrees]
 
     @staticmethod

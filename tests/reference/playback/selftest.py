@@ -230,9 +230,9 @@ def check_coverage():
     for comp in ("z-direction", "none"):
         found = playback.coverage(recipe(flat, comp), path)
         # on the first section past the end the last pass lies nearly a turn further in
-        away = 2.5 - feed * (turns - 1 + 0.37 / 360)
+        away = 2.5 - feed * (turns - 1 + 1e-7 / 360)
         check(f"rim of a flat, {comp}, nm", found["rim"], (math.hypot(1, away) - 1) * 1e6, 0.01)
-        gap = feed * (0.5 + (179.37) / 180)
+        gap = feed * (0.5 + 179 / 180)
         check(f"centre of a flat, {comp}, nm", found["centre"], (1 - math.sqrt(1 - gap**2 / 4)) * 1e6, 0.01)
 
 

@@ -16,7 +16,7 @@ pub(crate) use machine::{check_spindle, machine};
 pub(crate) use output::output;
 pub(crate) use path::path;
 pub(crate) use pmac_pvt::pmac_pvt;
-pub(crate) use top::{format_is_one, top};
+pub(crate) use top::{KEYS as TOP_KEYS, format_is_one, top};
 pub(crate) use work::{part, tool};
 
 /// The tables with fixed keys.

@@ -11,7 +11,7 @@ use crate::tables::SCHEMA;
 use crate::value;
 
 /// Keys above the first table.
-const KEYS: &[&str] = &["format", "name", "plugins", "refine"];
+pub(crate) const KEYS: &[&str] = &["format", "name", "plugins", "refine"];
 
 /// The only format so far.
 const FORMAT: f64 = 1.0;

@@ -1,6 +1,8 @@
 //! The smallest of a quantity over all angles at one radius: rings of angles, then closing in.
 
-use turnpath_plugin::prelude::*;
+use std::f64::consts::TAU;
+
+use crate::{Result, Scalar, StrategyError};
 
 /// Angles of one ring.
 const ANGLES: usize = 180;

@@ -1,11 +1,8 @@
 //! F(ρ), the feed that holds the residual at every angle, tabulated over the radius.
 
-use turnpath_plugin::prelude::*;
+use super::{Measure, least_over_angles};
+use crate::{RadialRange, Result, Setup, StrategyError};
 
-use crate::least::{Measure, least_over_angles};
-
-/// The largest feed is this part of the nose radius, as for the held feed of the locus.
-const LARGEST_FEED: f64 = 0.1;
 /// Cells of the table at first.
 const FEWEST_CELLS: usize = 256;
 /// Cells at which the table is no longer halved.
@@ -18,15 +15,8 @@ const PROBE: f64 = 0.381_966;
 /// Parts of a cell, each with a floor of its own: more borders without more angles to look at.
 pub const FLOORS: usize = 8;
 
-/// Which feed F is the smallest of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Residual {
-    /// The feed that holds the residual for what ρ is, curvature and slope at the contact.
-    Held,
-    /// Wang et al. 2019, eq. 1–4: that of a contact's radius whatever ρ is, with the smallest
-    /// curvature and the largest slope on the bare surface at ρ, each at its own angle.
-    Paper,
-}
+/// F at one radius, mm.
+pub type FeedAt<'a> = dyn Fn(f64) -> Result<f64> + 'a;
 
 /// F at equal steps of ρ, and a floor under it in every cell between them.
 #[derive(Debug, Clone)]
@@ -44,12 +34,24 @@ pub struct FeedTable {
 }
 
 impl FeedTable {
-    /// Tabulates F over the job's range.
+    /// Tabulates the feed that holds the residual at every angle, over the job's range.
     ///
     /// # Errors
     /// Where the range has no length, or surface or locus no value.
-    pub fn new(setup: Setup<'_>, residual: Residual) -> Result<Self> {
-        let RadialRange { inner, outer } = setup.job.range;
+    pub fn held(setup: Setup<'_>) -> Result<Self> {
+        let (locus, radial) = (setup.locus, setup.locus.radial());
+        let cusp = setup.job.tolerance.residual;
+        let measure: &Measure<'_> =
+            &|theta, rho, out| locus.held_feed(cusp, radial, theta, rho, out);
+        Self::of(setup.job.range, &|rho| least_over_angles(measure, rho))
+    }
+
+    /// Tabulates a feed of one value a radius over a range.
+    ///
+    /// # Errors
+    /// Where the range has no length; those of `feed_at`.
+    pub fn of(range: RadialRange, feed_at: &FeedAt<'_>) -> Result<Self> {
+        let RadialRange { inner, outer } = range;
         if !(inner.is_finite() && outer.is_finite() && inner < outer) {
             return Err(StrategyError::failed(format!(
                 "there is nothing to cut: ρ runs from {inner} mm to {outer} mm"
@@ -64,34 +66,29 @@ impl FeedTable {
         let mut table = Self {
             from,
             step: to - from,
-            feed: vec![
-                feed_at(setup, residual, from)?,
-                feed_at(setup, residual, to)?,
-            ],
+            feed: vec![feed_at(from)?, feed_at(to)?],
             floor: Vec::new(),
             even,
         };
         while table.cells() < FEWEST_CELLS {
-            table.halve(setup, residual)?;
+            table.halve(feed_at)?;
         }
         table.lay_floor();
-        while table.cells() < MOST_CELLS
-            && (table.cost() > TABLE_COST || table.sink(setup, residual)?)
-        {
-            table.halve(setup, residual)?;
+        while table.cells() < MOST_CELLS && (table.cost() > TABLE_COST || table.sink(feed_at)?) {
+            table.halve(feed_at)?;
             table.lay_floor();
         }
-        table.sink(setup, residual)?;
+        table.sink(feed_at)?;
         Ok(table)
     }
 
     /// Probes every cell at an inner place, off the borders' rhythm: a ripple in step with the
     /// cells shows there. Sinks the floors of cells that F falls through; whether there were any.
-    fn sink(&mut self, setup: Setup<'_>, residual: Residual) -> Result<bool> {
+    fn sink(&mut self, feed_at: &FeedAt<'_>) -> Result<bool> {
         let mut any = false;
         for (cell, floors) in self.floor.chunks_mut(FLOORS).enumerate() {
             let rho = self.from + (cell as f64 + PROBE) * self.step;
-            let found = feed_at(setup, residual, rho)?;
+            let found = feed_at(rho)?;
             let floor = floors.get((PROBE * FLOORS as f64) as usize).copied();
             if let Some(through) = floor.map(|floor| floor - found).filter(|by| *by > 0.0) {
                 any = true;
@@ -119,6 +116,22 @@ impl FeedTable {
         (self.from, self.from + self.step * self.cells() as f64)
     }
 
+    /// The least of the floors from one radius to another, as far as the table goes, mm.
+    pub fn least(&self, from: f64, to: f64) -> f64 {
+        let width = self.step / FLOORS as f64;
+        let last = self.floor.len().saturating_sub(1);
+        let cell = |rho: f64| (((rho - self.from) / width).floor().max(0.0) as usize).min(last);
+        let (from, to) = match self.even {
+            // F(−ρ) = F(ρ).
+            true if from < 0.0 => (0.0, to.max(-from)),
+            _ => (from, to),
+        };
+        let floors = self.floor.get(cell(from)..=cell(to)).unwrap_or_default();
+        floors
+            .iter()
+            .fold(f64::INFINITY, |least, floor| floor.min(least))
+    }
+
     /// ∫ dρ/F over the table: revolutions of the fastest law that holds.
     pub fn fewest_revolutions(&self) -> f64 {
         let turns = |pair: &[f64]| 0.5 / pair[0] + 0.5 / pair[1];
@@ -139,13 +152,13 @@ impl FeedTable {
         (d * t * t1 * t2 - a * t1 * t2 * t3) / 6.0 + (b * t * t2 * t3 - c * t * t1 * t3) / 2.0
     }
 
-    fn halve(&mut self, setup: Setup<'_>, residual: Residual) -> Result<()> {
+    fn halve(&mut self, feed_at: &FeedAt<'_>) -> Result<()> {
         self.step *= 0.5;
         let mut feed = Vec::with_capacity(2 * self.feed.len() - 1);
         for (i, known) in self.feed.iter().enumerate() {
             if i > 0 {
                 let between = self.from + (2 * i - 1) as f64 * self.step;
-                feed.push(feed_at(setup, residual, between)?);
+                feed.push(feed_at(between)?);
             }
             feed.push(*known);
         }
@@ -185,73 +198,5 @@ impl FeedTable {
             .map(|(cell, ends)| 0.5 * self.bend(cell) / (ends[0] + ends[1]))
             .sum();
         lost / self.cells() as f64
-    }
-}
-
-/// F at one radius, mm.
-fn feed_at(setup: Setup<'_>, residual: Residual, rho: f64) -> Result<f64> {
-    match residual {
-        Residual::Held => {
-            let (locus, radial) = (setup.locus, setup.locus.radial());
-            let cusp = setup.job.tolerance.residual;
-            let measure: &Measure<'_> =
-                &|theta, rho, out| locus.held_feed(cusp, radial, theta, rho, out);
-            least_over_angles(measure, rho)
-        }
-        Residual::Paper => paper_feed(setup, rho),
-    }
-}
-
-/// Eq. 1–4: f = sqrt(8Rε/(1 − R·min κ))/sqrt(1 + max g_ρ²).
-fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
-    let surface = setup.locus.surface();
-    let curvature = |profile: Section| profile.curvature();
-    let flatness = |profile: Section| -profile.slope.abs();
-    let curvature = least_over_angles(&sections(surface, &curvature), rho)?;
-    let slope = least_over_angles(&sections(surface, &flatness), rho)?;
-    let radius = setup.job.tool.nose_radius;
-    let (gap, cap) = (1.0 - radius * curvature, LARGEST_FEED * radius);
-    if gap <= 0.0 {
-        return Ok(cap);
-    }
-    let along = (8.0 * radius * setup.job.tolerance.residual / gap).sqrt();
-    Ok((along / (1.0 + slope * slope).sqrt()).min(cap))
-}
-
-/// The radial section at one place of the bare surface.
-#[derive(Clone, Copy)]
-struct Section {
-    slope: f64,
-    second: f64,
-}
-
-impl Section {
-    fn curvature(self) -> f64 {
-        let w = (1.0 + self.slope * self.slope).sqrt();
-        self.second / (w * w * w)
-    }
-}
-
-/// What `of` says of the radial sections.
-fn sections<'a>(
-    surface: &'a dyn SurfaceModel,
-    of: &'a dyn Fn(Section) -> f64,
-) -> impl Fn(&[f64], &[f64], &mut [f64]) -> Result<()> + 'a {
-    move |theta, rho, out| {
-        let ray = |(theta, rho): (&f64, &f64)| -> (Series, Series) {
-            let (sin, cos) = Scalar::sin_cos(*theta);
-            let along = |unit: f64| [rho * unit, unit, 0.0, 0.0, 0.0];
-            (along(cos), along(sin))
-        };
-        let (x, y): (Vec<Series>, Vec<Series>) = theta.iter().zip(rho).map(ray).unzip();
-        let mut z = vec![[f64::NAN; 5]; x.len()];
-        surface.height_series(&x, &y, &mut z)?;
-        for (out, z) in out.iter_mut().zip(&z) {
-            *out = of(Section {
-                slope: z[1],
-                second: 2.0 * z[2],
-            });
-        }
-        Ok(())
     }
 }

@@ -1,8 +1,13 @@
 //! |φ⁗| along the path on an even grid of angles, in batches that follow the steps.
 
-use turnpath_plugin::prelude::*;
+use std::f64::consts::TAU;
 
-use crate::bound::Jumps;
+use super::Steps;
+use super::bound::Jumps;
+use crate::{
+    CentreSeries, DEG, Misfit, Path, Rates, Result, Revolutions, Series, StrategyError, angle,
+    per_radian,
+};
 
 /// Samples a revolution on the coarsest grid. A prime, so that no array of equal features on a
 /// ring has all its samples at the same phase.
@@ -11,9 +16,6 @@ const COARSEST: f64 = 367.0;
 const BATCH: u64 = 256;
 /// Slopes up to this count when it is judged whether X's own interpolation matters.
 const STEEPEST: f64 = 10.0;
-/// Part of the pitch that X's own interpolation may take. Two neighbouring passes may err apart, and
-/// the cusp grows with the square of their distance: by 4e-4 of itself at the most.
-const X_PART: f64 = 1e-4;
 /// It does not where it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
@@ -43,6 +45,8 @@ struct Played<'a> {
     still: f64,
     /// Largest error of φ, mm.
     allowed: f64,
+    /// Part of the distance between passes that X's own error may take.
+    feed_part: f64,
     /// |φ⁗| counts as no more than this, mm/rad⁴.
     sharpest: f64,
     theta: Vec<f64>,
@@ -98,8 +102,11 @@ impl Played<'_> {
     /// |φ⁗| at place `i` of the last look, `n` revolutions on; or |X⁗| in the measure in which X's
     /// own error may be as large as φ's, where that is more.
     fn fourth(&self, i: usize, n: f64) -> f64 {
-        let x_allowed = X_PART * pitch(&self.path, n);
         let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
+        if x == 0.0 {
+            return (24.0 * phi).min(self.sharpest);
+        }
+        let x_allowed = self.feed_part * pitch(&self.path, n);
         (24.0 * phi.max(x * self.allowed / x_allowed)).min(self.sharpest)
     }
 
@@ -110,8 +117,8 @@ impl Played<'_> {
     }
 }
 
-/// How far the next turn lies, mm; at the path's last turn, the one before. A law may come to rest
-/// at its ends, where its rate tells nothing of that.
+/// How far the next turn lies, mm; at the path's last turn, the one before. The rate is no measure of
+/// it: a law may come to rest at its ends, and one that follows the angle moves back and forth.
 fn pitch(path: &Path<'_>, n: f64) -> f64 {
     let law = path.law;
     let to = |other: f64| (law.value(other) - law.value(n)).abs();
@@ -137,13 +144,14 @@ pub struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    /// None yet. Steps will be at most `max_step` rad, errors at most `allowed` mm.
-    pub fn new(path: &Path<'a>, block: Revolutions, max_step: f64, allowed: f64) -> Self {
-        let squared = max_step * max_step;
+    /// None yet. Steps will be at most those of `steps`, errors at most `allowed` mm.
+    pub fn new(path: &Path<'a>, block: Revolutions, steps: &Steps, allowed: f64) -> Self {
+        let squared = steps.max_step * steps.max_step;
         let played = Played {
             path: *path,
             still: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
             allowed,
+            feed_part: steps.feed_part,
             sharpest: sharpest(path.job.tool.misfit, allowed),
             theta: Vec::new(),
             rho: Vec::new(),

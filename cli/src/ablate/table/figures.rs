@@ -1,0 +1,134 @@
+//! A column of the table: the figures of all runs, their ratios and marks.
+
+use serde_json::Value;
+use unicode_width::UnicodeWidthStr;
+
+use crate::ablate::columns::{Column, Form, number};
+
+use super::words::{NONE, ratio_of, written};
+
+/// Figures below this are rounding: 1e-8 nm, or mm/s².
+const ROUNDING: f64 = 1e-8;
+/// Marks the smallest figure of a column.
+const BEST: &str = "*";
+/// Marks a figure that exceeds its tolerance.
+const EXCEEDS: &str = "!";
+
+/// A run's figure in words.
+pub struct Cell {
+    text: String,
+    /// To the first run; empty without.
+    pub ratio: String,
+    pub is_best: bool,
+    pub exceeds: bool,
+}
+
+/// A column in words.
+pub struct Figures {
+    pub head: &'static [&'static str],
+    pub form: Form,
+    /// A cell a run.
+    pub cells: Vec<Cell>,
+    width: usize,
+}
+
+impl Figures {
+    /// The figures of all runs.
+    pub fn of(entries: &[Value], column: &Column) -> Self {
+        let tidy = |number: f64| if number.abs() < ROUNDING { 0.0 } else { number };
+        let figures = entries.iter().map(|entry| number(entry, column));
+        let numbers: Vec<Option<f64>> = figures.map(|number| number.map(tidy)).collect();
+        let best = best(&numbers, column.form).filter(|_| column.has_best());
+        let first = numbers.first().copied().flatten();
+        let cell = |(row, (entry, number)): (usize, (&Value, &Option<f64>))| {
+            let fails = |pointer| entry.pointer(pointer) == Some(&Value::Bool(false));
+            let ratio = number.zip(first).filter(|_| row > 0);
+            let text = number.map(|number| written(number, column.form));
+            Cell {
+                is_best: best.is_some() && best == text,
+                text: text.unwrap_or_else(|| NONE.to_owned()),
+                ratio: ratio.map_or(String::new(), |(number, first)| ratio_of(number, first)),
+                exceeds: column.within.is_some_and(fails),
+            }
+        };
+        let cells: Vec<Cell> = entries.iter().zip(&numbers).enumerate().map(cell).collect();
+        let widths = cells.iter().flat_map(Cell::widths);
+        let head = column.head.iter().map(|line| line.width());
+        Self {
+            width: widths.chain(head).max().unwrap_or(0),
+            head: column.head,
+            form: column.form,
+            cells,
+        }
+    }
+
+    /// Columns of the terminal that it takes: a space, the figure, its mark.
+    pub fn whole_width(&self) -> usize {
+        self.width + 2
+    }
+
+    /// Line `line` of a head of `height` lines, the unit on the last.
+    pub fn head_line(&self, line: usize, height: usize) -> String {
+        let skipped = height.saturating_sub(self.head.len());
+        let line = line.checked_sub(skipped);
+        let line = line.and_then(|line| self.head.get(line));
+        self.aligned(line.unwrap_or(&""), "")
+    }
+
+    /// A run's figure with its marks.
+    pub fn figure(&self, run: usize) -> String {
+        let Some(cell) = self.cells.get(run) else {
+            return self.aligned("", "");
+        };
+        let mark = if cell.is_best { BEST } else { "" };
+        self.aligned(&cell.marked(), mark)
+    }
+
+    /// Its ratio to the first run.
+    pub fn ratio(&self, run: usize) -> String {
+        let ratio = self.cells.get(run).map_or("", |cell| cell.ratio.as_str());
+        self.aligned(ratio, "")
+    }
+
+    fn aligned(&self, text: &str, mark: &str) -> String {
+        let before = " ".repeat(1 + self.width.saturating_sub(text.width()));
+        format!("{before}{text}{mark:1}")
+    }
+}
+
+impl Cell {
+    fn marked(&self) -> String {
+        let mark = if self.exceeds { EXCEEDS } else { "" };
+        format!("{mark}{}", self.text)
+    }
+
+    fn widths(&self) -> [usize; 2] {
+        [self.marked().width(), self.ratio.width()]
+    }
+}
+
+/// The smallest number as it is written, unless all are the same.
+fn best(numbers: &[Option<f64>], form: Form) -> Option<String> {
+    let finite = |number: &f64| number.is_finite();
+    let there = || numbers.iter().flatten().copied().filter(finite);
+    let least = written(there().fold(f64::INFINITY, f64::min), form);
+    let differ = there().any(|number| written(number, form) != least);
+    differ.then_some(least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_that_are_all_the_same_have_no_best() {
+        let best = |numbers: &[Option<f64>]| best(numbers, Form::Real);
+        assert_eq!(best(&[Some(1.0), None, Some(1.000_01)]), None);
+        assert_eq!(
+            best(&[Some(2.0), None, Some(1.0)]),
+            Some("1.000".to_owned())
+        );
+        assert_eq!(best(&[Some(f64::NAN), Some(1.0)]), None);
+        assert_eq!(best(&[None, None]), None);
+    }
+}

@@ -1,0 +1,81 @@
+//! Widths, marks and figures.
+
+use serde_json::json;
+
+use crate::ablate::columns::{ALL, chosen};
+
+use super::*;
+
+fn entry(label: &str, points: u64, error: f64) -> Value {
+    json!({
+        "varied": { "sampler": label, "tolerance.residual": "100 nm" },
+        "control_points": points,
+        "points_added_by_refine": 0,
+        "revolutions": 104.166,
+        "cutting_time_s": 1.25e6,
+        "interpolation_error_nm": { "max": error, "rms": error / 3.0 },
+        "residual_nm": { "max": 99.96 },
+        "axes": {
+            "x": { "rms_acceleration": 0.0123 },
+            "z": { "rms_acceleration": 12_345.6 },
+        },
+        "within": { "interpolation": error < 100.0, "residual": true, "machine": error < 100.0 },
+        "program_bytes": 1_234_567,
+        "planning_time_s": 0.0042,
+    })
+}
+
+fn failed(label: &str, reason: &str) -> Value {
+    json!({
+        "varied": { "sampler": label, "tolerance.residual": "100 nm" },
+        "error": reason,
+    })
+}
+
+#[track_caller]
+fn assert_narrow(text: &str) {
+    for line in text.lines() {
+        assert!(line.width() <= WIDEST, "{}: {line}", line.width());
+    }
+}
+
+#[test]
+fn no_label_reason_or_choice_of_columns_makes_it_wider_than_100() {
+    let long = "a-strategy-of-a-long-name (parameter = 3 um, other = 度度度度度度度度度度度度)";
+    let reason = "the tool would gouge: ".repeat(20);
+    let entries = [
+        entry(long, 123_456_789, 1e-9),
+        entry("atpg", 2_655, 98.78),
+        failed(long, &reason),
+        entry("x", 5, 1e12),
+    ];
+    for columns in [
+        chosen(&[]),
+        ALL.iter().collect(),
+        ALL.iter().rev().collect(),
+    ] {
+        let text = table(&entries, &columns);
+        assert_narrow(&text);
+        assert!(text.contains("failed: the tool would gouge"), "{text}");
+    }
+}
+
+#[test]
+fn the_smallest_of_a_column_is_marked_and_what_exceeds_its_tolerance() {
+    let entries = [
+        entry("equal-angle", 2_655, 98.78),
+        failed("panics", "the sampler panicked"),
+        entry("equal-arc", 1_300, 198.0),
+    ];
+    insta::assert_snapshot!(table(&entries, &chosen(&[])));
+}
+
+#[test]
+fn a_first_run_that_failed_leaves_no_ratios() {
+    let entries = [
+        failed("panics", "it panicked"),
+        entry("equal-arc", 1_300, 98.0),
+    ];
+    let text = table(&entries, &chosen(&[]));
+    assert!(!text.contains('×'), "{text}");
+}

@@ -1,0 +1,194 @@
+//! Steps along one block, each as long as the bound allows.
+
+use std::f64::consts::TAU;
+
+use super::bound::Bound;
+use super::samples::{Knot, Samples};
+use crate::{DEG, Path, Result, Revolutions, StrategyError};
+
+/// Part of the tolerance that is aimed at: below refinement's own aim of 0.99, so that a
+/// prediction that is right is never halved for what samples and rounding miss. A step shrinks
+/// by 0.5 % for it.
+const AIM: f64 = 0.98;
+/// Samples within the length of a step, at least.
+const LOOKS: f64 = 16.0;
+/// The grid is made coarser again where steps are this many times longer than it asks for.
+const TOO_FINE: f64 = 4.0;
+/// See [`SHORTEST`].
+const SHORTEST_DEG: f64 = 0.004;
+/// The part of the tolerance that knots within a step may take; a step ends on one that might
+/// take more.
+const KNOTS_SHARE: f64 = 0.1;
+/// A node closer to the block's end than this part of its step is left out.
+const SLACK: f64 = 1e-3;
+
+/// Steps as long as the interpolation tolerance allows on the path that is played: the core of
+/// the samplers that go by the error of a cubic Hermite segment.
+///
+/// Each step is as long as ε ≥ L⁴/384 max|φ⁗| holds over all of it, where
+/// φ⁗ = Z⁗ − ∂Z/∂X·X⁗ of the tool centre along the true spiral; X's own error stays a part of the
+/// distance between passes. See [`Bound`] for what happens at knots of the law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steps {
+    /// Largest step, rad.
+    pub max_step: f64,
+    /// Part of the distance between neighbouring passes that X's own interpolation may take. Two
+    /// passes may err apart, and the cusp grows with the square of their distance: by four times
+    /// this part of itself at the most.
+    pub feed_part: f64,
+}
+
+/// The shortest step, rad: 90,000 points a revolution. What asks for less is no smooth surface.
+pub const SHORTEST: f64 = SHORTEST_DEG * DEG;
+
+impl Steps {
+    /// Appends the nodes of `block`: as [`Sampler::place`](crate::Sampler::place) asks for.
+    ///
+    /// # Errors
+    /// Where the path has no 4th derivative, or one that asks for steps below [`SHORTEST`].
+    pub fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+        let mut walk = Walk::new(path, block, self)?;
+        let mut n = block.start;
+        while n < block.end {
+            nodes.push(n);
+            let next = walk.step_from(n)?;
+            n = if block.end - next < SLACK * (next - n) {
+                block.end
+            } else {
+                next
+            };
+        }
+        Ok(())
+    }
+}
+
+/// A walk along one block.
+struct Walk<'a> {
+    samples: Samples<'a>,
+    knots: Vec<Knot>,
+    next_knot: usize,
+    end: f64,
+    max_step: f64,
+    allowed: f64,
+}
+
+/// How far a step goes.
+struct Step {
+    /// Where it ends, in revolutions.
+    end: f64,
+    /// max |φ⁗| on it.
+    bound: Bound,
+}
+
+impl<'a> Walk<'a> {
+    fn new(path: &Path<'a>, block: Revolutions, steps: &Steps) -> Result<Self> {
+        let allowed = AIM * path.job.tolerance.interpolation;
+        let mut samples = Samples::new(path, block, steps, allowed);
+        let knots = samples.knots()?;
+        Ok(Self {
+            samples,
+            knots,
+            next_knot: 0,
+            end: block.end,
+            max_step: steps.max_step,
+            allowed,
+        })
+    }
+
+    /// Where the step from `n` ends, on a grid as fine as it asks for.
+    fn step_from(&mut self, n: f64) -> Result<f64> {
+        while self
+            .knots
+            .get(self.next_knot)
+            .is_some_and(|knot| knot.n <= n)
+        {
+            self.next_knot += 1;
+        }
+        loop {
+            let step = self.longest(n)?;
+            let natural = step.bound.natural_length(self.allowed);
+            if natural < SHORTEST {
+                return Err(too_short(n, natural));
+            }
+            let looks = natural / self.samples.spacing();
+            if looks < LOOKS {
+                self.samples.rescale(0.5);
+                continue;
+            }
+            if looks > TOO_FINE * LOOKS && !self.samples.is_coarsest() {
+                self.samples.rescale(2.0);
+            }
+            return Ok(step.end);
+        }
+    }
+
+    /// The longest step from `n` on the grid as it is: mark by mark, a sample or a knot, until
+    /// the bound is met.
+    fn longest(&mut self, n: f64) -> Result<Step> {
+        let limit = (n + self.max_step / TAU).min(self.end);
+        let length = |to: f64| TAU * (to - n);
+        let (mut sample, mut knot) = (self.samples.begin(n), self.next_knot);
+        let mut bound = Bound {
+            fourth: self.samples.fourth(sample)?,
+            ..Bound::default()
+        };
+        let mut reached = n;
+        sample += 1;
+        loop {
+            let place = self.samples.place(sample);
+            let crossed = self.knots.get(knot).filter(|knot| knot.n <= place);
+            let (mark, fourth) = match crossed {
+                Some(knot) => (knot.n, knot.before),
+                None => (place, self.samples.fourth(sample)?),
+            };
+            bound.fourth = bound.fourth.max(fourth);
+            let to = mark.min(limit);
+            if bound.error(length(to)) > self.allowed {
+                let length = bound.length_between(self.allowed, length(reached), length(to));
+                let end = if length > TAU * (reached - n) {
+                    n + length / TAU
+                } else {
+                    reached
+                };
+                return Ok(Step { end, bound });
+            }
+            if to >= limit {
+                return Ok(Step { end: limit, bound });
+            }
+            if crossed.is_some_and(|knot| self.is_hard(knot, &bound, length(limit))) {
+                return Ok(Step { end: to, bound });
+            }
+            reached = to;
+            match crossed {
+                Some(crossed) => {
+                    bound.fourth = bound.fourth.max(crossed.after);
+                    bound.jumps = bound.jumps.and(crossed.jumps);
+                    knot += 1;
+                }
+                None => sample += 1,
+            }
+        }
+    }
+}
+
+impl Walk<'_> {
+    /// Whether the jumps of a knot could take more than their share on a step over it.
+    fn is_hard(&self, knot: &Knot, bound: &Bound, limit: f64) -> bool {
+        let jumps = Bound {
+            fourth: 0.0,
+            jumps: bound.jumps.and(knot.jumps),
+        };
+        let longest = bound.natural_length(self.allowed).min(limit);
+        jumps.error(longest) > KNOTS_SHARE * self.allowed
+    }
+}
+
+fn too_short(n: f64, natural: f64) -> StrategyError {
+    StrategyError::failed(format!(
+        "the tolerance asks for steps of {:.2e} deg at C = {:.3} deg, and the shortest is \
+         {SHORTEST_DEG} deg: the tool centre's path is not smooth there; choose a larger \
+         interpolation tolerance, a smaller tool, or another sampler",
+        natural / DEG,
+        360.0 * n
+    ))
+}

@@ -1,0 +1,165 @@
+//! Orders, labels and values of variants.
+
+use turnpath_core::Slot;
+
+use super::*;
+
+const BASE: &str = r#"format = 1
+[part]
+aperture = "5 mm"
+[surface]
+use = "astigmatic"
+k = "0.08 /mm"
+[tool]
+nose_radius = "1 mm"
+[tolerance]
+interpolation = "100 nm"
+residual = "100 nm"
+[spindle]
+speed = "500 rpm"
+[path]
+overrun = "none"
+lead = false
+[feed]
+use = "atpg"
+[sampler]
+use = "atpg"
+max_step = "45 deg"
+[compensator]
+use = "z-direction"
+[velocity]
+use = "triangle-rotary"
+"#;
+
+fn variants(ablation: &str) -> Vec<Variant> {
+    let text = format!("{BASE}[ablation]\n{ablation}\n");
+    let recipe = Recipe::parse(&text, "mirror.toml", &[]).unwrap();
+    recipe
+        .variants()
+        .unwrap_or_else(|error| panic!("{}", error.render(false)))
+}
+
+fn labels(variants: &[Variant]) -> Vec<String> {
+    let one = |variant: &Variant| {
+        let values = variant.varied.iter().map(|varied| varied.value.as_str());
+        values.collect::<Vec<_>>().join(" | ")
+    };
+    variants.iter().map(one).collect()
+}
+
+#[test]
+fn the_product_begins_with_the_recipe_and_its_last_list_turns_fastest() {
+    let made = variants(
+        "feed = [{ use = \"constant\" }]\ntolerance.residual = [\"50 nm\", \"100 nm\", \"20 nm\"]",
+    );
+    let expected = [
+        "atpg | 100 nm",
+        "atpg | 50 nm",
+        "atpg | 20 nm",
+        "constant | 100 nm",
+        "constant | 50 nm",
+        "constant | 20 nm",
+    ];
+    assert_eq!(labels(&made), expected);
+    assert_eq!(made[4].recipe.choice(Slot::Feed).name(), "constant");
+    assert!((made[4].recipe.tolerance.residual - 50e-6).abs() < 1e-18);
+    let keys: Vec<&str> = made[0].varied.iter().map(|one| one.key.as_str()).collect();
+    assert_eq!(keys, ["feed", "tolerance.residual"]);
+}
+
+#[test]
+fn one_at_a_time_changes_one_value_of_the_recipe_each() {
+    let made = variants(
+        "mode = \"one-at-a-time\"\nfeed = [{ use = \"constant\" }]\nvelocity = [{ use = \"area\" }, \
+         { use = \"linear\" }]",
+    );
+    let expected = [
+        "atpg | triangle-rotary",
+        "constant | triangle-rotary",
+        "atpg | area",
+        "atpg | linear",
+    ];
+    assert_eq!(labels(&made), expected);
+}
+
+#[test]
+fn lists_keep_the_order_of_the_text_whatever_tables_they_lie_in() {
+    let made = variants(
+        "tolerance.residual = [\"50 nm\"]\nfeed = [{ use = \"constant\" }]\n\
+         tolerance.interpolation = [\"10 nm\"]",
+    );
+    let keys: Vec<&str> = made[0].varied.iter().map(|one| one.key.as_str()).collect();
+    assert_eq!(
+        keys,
+        ["tolerance.residual", "feed", "tolerance.interpolation"]
+    );
+}
+
+#[test]
+fn a_strategy_takes_the_whole_table_and_a_key_keeps_the_rest() {
+    let made = variants("sampler = [{ use = \"equal-angle\", step = \"6 deg\" }]");
+    let sampler = made[1].recipe.choice(Slot::Sampler);
+    assert!(sampler.param("step").is_some() && sampler.param("max_step").is_none());
+    let made = variants("sampler.max_step = [\"90 deg\"]\nsurface.k = [\"0.04 /mm\"]");
+    let sampler = made[3].recipe.choice(Slot::Sampler);
+    assert_eq!((sampler.name(), sampler.params.len()), ("atpg", 1));
+    assert_eq!(labels(&made)[3], "90 deg | 0.04 /mm");
+}
+
+#[test]
+fn parameters_are_shown_where_the_name_alone_does_not_tell() {
+    let made = variants(
+        "sampler = [{ use = \"atpg\", max_step = \"9 deg\" }, { use = \"equal-angle\", step = \"6 \
+         deg\" }]",
+    );
+    let expected = [
+        "atpg (max_step = 45 deg)",
+        "atpg (max_step = 9 deg)",
+        "equal-angle",
+    ];
+    assert_eq!(labels(&made), expected);
+}
+
+#[test]
+fn what_the_recipe_has_already_is_not_repeated_in_whatever_order_it_is_written() {
+    let made = variants(
+        "sampler = [{ max_step = \"45 deg\", use = \"atpg\" }, { use = \"ats\" }, { use = \"ats\" }]",
+    );
+    assert_eq!(labels(&made), ["atpg", "ats"]);
+}
+
+#[test]
+fn refine_is_off_unless_the_recipe_speaks_of_it() {
+    let made = variants("velocity = [{ use = \"area\" }]");
+    assert!(made.iter().all(|variant| !variant.recipe.refine));
+    let made = variants("refine = [true, false]");
+    assert_eq!(labels(&made), ["false", "true"]);
+    let text = format!("refine = true\n{BASE}[ablation]\nvelocity = [{{ use = \"area\" }}]\n");
+    let made = Recipe::parse(&text, "m.toml", &[]).unwrap().variants();
+    assert!(made.unwrap().iter().all(|variant| variant.recipe.refine));
+}
+
+#[test]
+fn a_key_that_the_recipe_leaves_out_is_a_default_first() {
+    let made = variants("path.direction = [\"outward\"]");
+    assert_eq!(labels(&made), ["(default)", "outward"]);
+}
+
+#[test]
+fn a_set_adds_a_list() {
+    let sets = ["ablation.tolerance.residual=[\"50 nm\"]".to_owned()];
+    let recipe = Recipe::parse(BASE, "mirror.toml", &sets).unwrap();
+    assert_eq!(labels(&recipe.variants().unwrap()), ["100 nm", "50 nm"]);
+}
+
+#[test]
+fn a_thousand_thousands_of_runs_are_refused() {
+    let values: Vec<String> = (1..100).map(|i| format!("\"{i} nm\"")).collect();
+    let list = values.join(", ");
+    let text = format!(
+        "{BASE}[ablation]\ntolerance.residual = [{list}]\ntolerance.interpolation = [{list}]\n"
+    );
+    let recipe = Recipe::parse(&text, "mirror.toml", &[]).unwrap();
+    let said = recipe.variants().unwrap_err().render(false);
+    assert!(said.contains("more than 4096 runs"), "{said}");
+}

@@ -1,0 +1,59 @@
+//! Which feed the law keeps to: the one that holds the residual, or the paper's.
+
+use turnpath_plugin::locus::{LARGEST_FEED, Profile, profile_at};
+use turnpath_plugin::prelude::*;
+use turnpath_plugin::ring::{FeedTable, least_over_angles};
+
+/// Which feed F is the smallest of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Residual {
+    /// The feed that holds the residual for what ρ is, curvature and slope at the contact.
+    Held,
+    /// Wang et al. 2019, eq. 1–4: that of a contact's radius whatever ρ is, with the smallest
+    /// curvature and the largest slope on the bare surface at ρ, each at its own angle.
+    Paper,
+}
+
+impl Residual {
+    /// F over the job's range.
+    ///
+    /// # Errors
+    /// Where the range has no length, or surface or locus no value.
+    pub fn table(self, setup: Setup<'_>) -> Result<FeedTable> {
+        match self {
+            Residual::Held => FeedTable::held(setup),
+            Residual::Paper => FeedTable::of(setup.job.range, &|rho| paper_feed(setup, rho)),
+        }
+    }
+}
+
+/// Eq. 1–4: f = sqrt(8Rε/(1 − R·min κ))/sqrt(1 + max g_ρ²).
+fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
+    let surface = setup.locus.surface();
+    let curvature = |profile: &Profile| profile.curvature();
+    let flatness = |profile: &Profile| -profile.slope.abs();
+    let curvature = least_over_angles(&sections(surface, &curvature), rho)?;
+    let slope = least_over_angles(&sections(surface, &flatness), rho)?;
+    let radius = setup.job.tool.nose_radius;
+    let (gap, cap) = (1.0 - radius * curvature, LARGEST_FEED * radius);
+    if gap <= 0.0 {
+        return Ok(cap);
+    }
+    let along = (8.0 * radius * setup.job.tolerance.residual / gap).sqrt();
+    Ok((along / (1.0 + slope * slope).sqrt()).min(cap))
+}
+
+/// What `of` says of the radial profiles of the bare surface.
+fn sections<'a>(
+    surface: &'a dyn SurfaceModel,
+    of: &'a dyn Fn(&Profile) -> f64,
+) -> impl Fn(&[f64], &[f64], &mut [f64]) -> Result<()> + 'a {
+    move |theta, rho, out| {
+        let mut profiles = vec![Profile::default(); theta.len()];
+        profile_at(surface, theta, rho, &mut profiles)?;
+        for (out, profile) in out.iter_mut().zip(&profiles) {
+            *out = of(profile);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,41 @@
+//! The sampler `ats`.
+
+use turnpath_plugin::hermite::{SHORTEST, Steps};
+use turnpath_plugin::prelude::*;
+
+/// Part of the distance between passes that X's own interpolation may take. X moves all the time
+/// here, and it is often what binds: with five times ATPG's part steps are half as long again. The
+/// feed's margin has room for two passes that err apart by it.
+const FEED_PART: f64 = 5e-4;
+
+/// Steps as long as the error of a cubic segment allows on a path whose X moves too.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtsSampler {
+    steps: Steps,
+}
+
+impl Strategy for AtsSampler {
+    const NAME: &'static str = "ats";
+    const SUMMARY: &'static str = "steps as long as the interpolation tolerance allows on a path \
+        whose X moves within the turn";
+    const SOURCE: &'static str = "after Zhu and To 2015, whose angle follows the shape at every \
+        point; the bound is Wang et al. 2019, eq. 10, for Z and X together";
+    const PARAMS: &'static [Param] = &[Param::angle("max_step", "largest angle step")
+        .default(45.0 * DEG)
+        .min(SHORTEST)
+        .max(90.0 * DEG)];
+
+    fn new(params: &Params) -> Result<Self> {
+        let steps = Steps {
+            max_step: params.angle_rad("max_step"),
+            feed_part: FEED_PART,
+        };
+        Ok(Self { steps })
+    }
+}
+
+impl Sampler for AtsSampler {
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+        self.steps.place(path, block, nodes)
+    }
+}

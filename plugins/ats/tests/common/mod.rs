@@ -1,0 +1,130 @@
+//! Parts of the papers, and laws of the feed strategy on them.
+#![allow(dead_code, reason = "every test program uses its own part")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use turnpath_core::{
+    CentreBuffers, Compensator, Direction, FeedStrategy, Job, Locus, Machine, NM, Onward,
+    ParamValue, Params, Part, RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy,
+    SurfaceModel, Tolerance, Tool, ToolLocus,
+};
+use turnpath_surfaces::{Astigmatic, SinusoidalArray};
+
+/// A job and the locus that it is cut on.
+pub struct Case {
+    pub job: Job,
+    pub locus: ToolLocus,
+    pub surface: Arc<dyn SurfaceModel>,
+}
+
+impl Case {
+    pub fn new(
+        surface: Arc<dyn SurfaceModel>,
+        compensator: Arc<dyn Compensator>,
+        aperture: f64,
+        nose_radius: f64,
+        tolerance_nm: f64,
+    ) -> Self {
+        let outer = 0.5 * aperture;
+        let tool = Tool {
+            nose_radius,
+            included_angle: None,
+            clearance_angle: None,
+            misfit: turnpath_core::Misfit::Refuse,
+        };
+        let job = Job {
+            part: Part {
+                aperture_radius: outer,
+                inner_radius: 0.0,
+            },
+            tool,
+            tolerance: Tolerance {
+                interpolation: tolerance_nm * NM,
+                residual: tolerance_nm * NM,
+            },
+            range: RadialRange { inner: 0.0, outer },
+            direction: Direction::Outward,
+            machine: Machine::default(),
+            spindle: SpindleLaw::constant(500.0 * TAU / 60.0),
+        };
+        Self {
+            job,
+            locus: ToolLocus::new(surface.clone(), compensator, tool),
+            surface,
+        }
+    }
+
+    pub fn inward(mut self) -> Self {
+        self.job.direction = Direction::Inward;
+        self
+    }
+
+    /// With a hole of the given radius.
+    pub fn with_hole(mut self, inner: f64) -> Self {
+        self.job.part.inner_radius = inner;
+        self.job.range.inner = inner;
+        self
+    }
+
+    pub fn setup(&self) -> Setup<'_> {
+        Setup {
+            job: &self.job,
+            locus: &self.locus,
+        }
+    }
+
+    /// The law of a feed strategy, if it ends within a thousand calls.
+    pub fn law(&self, feed: &dyn FeedStrategy) -> Result<SpiralLaw> {
+        let mut plan = feed.plan(self.setup())?;
+        let (mut law, mut pieces) = (SpiralLaw::new(), Vec::new());
+        for _ in 0..1000 {
+            let onward = plan.extend(self.setup(), &mut pieces)?;
+            if onward == Onward::Done {
+                for piece in pieces {
+                    law.push(piece.length, piece.coefficients);
+                }
+                return Ok(law);
+            }
+        }
+        panic!("a law without end");
+    }
+
+    /// The held feed at one place.
+    pub fn held(&self, theta: f64, rho: f64) -> f64 {
+        let mut feed = [f64::NAN];
+        let residual = self.job.tolerance.residual;
+        let radial = self.locus.radial();
+        self.locus
+            .held_feed(residual, radial, &[theta], &[rho], &mut feed)
+            .unwrap();
+        feed[0]
+    }
+
+    /// The nose centre (X, Z) at one place.
+    pub fn centre(&self, theta: f64, rho: f64) -> [f64; 2] {
+        let mut room = CentreBuffers::default();
+        room.resize(1);
+        self.locus
+            .centre(&[theta], &[rho], room.as_centres())
+            .unwrap();
+        [room.x[0], room.z[0]]
+    }
+}
+
+/// AST-5: z = 0.08 ρ² sin 2θ, aperture 5 mm, R = 1 mm, 100 nm.
+pub fn ast_5(compensator: impl Compensator + 'static) -> Case {
+    let surface = Astigmatic::new(&Params::new().with("k", 0.08)).unwrap();
+    Case::new(Arc::new(surface), Arc::new(compensator), 5.0, 1.0, 100.0)
+}
+
+/// MLA-5: 5 µm (cos 2π0.4x + cos 2π0.4y), radius 5 mm, R = 1 mm, 100 nm.
+pub fn mla_5(compensator: impl Compensator + 'static) -> Case {
+    let mut params = Params::new()
+        .with("amplitude_x", 5e-3)
+        .with("frequency_x", 0.4);
+    params.set("form", ParamValue::Text("sum".to_owned()));
+    let surface = SinusoidalArray::new(&params).unwrap();
+    Case::new(Arc::new(surface), Arc::new(compensator), 10.0, 1.0, 100.0)
+}

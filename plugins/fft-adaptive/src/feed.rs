@@ -1,0 +1,220 @@
+//! The feed strategy `fft-adaptive`: eq. 1 to 3 and 5, one feed a revolution.
+
+use turnpath_plugin::locus::{Profile, profile_at};
+use turnpath_plugin::prelude::*;
+use turnpath_plugin::ring::FeedTable;
+
+use crate::chord::Chord;
+
+/// Fewest radial profiles of a revolution: with 36 the feed that they allow is not yet settled
+/// (121 revolutions instead of 122 on the paper's part).
+const FEWEST_ANGLES: f64 = 72.0;
+/// Most of them: one every 36 arc seconds.
+const MOST_ANGLES: f64 = 36_000.0;
+/// The largest feed, as a part of the range: where nothing is curved the chord has no end.
+const LARGEST_PART: f64 = 0.1;
+/// By how much a feed that is capped stays below what holds: between the floors of the table and
+/// the passes of two feeds that meet.
+const MARGIN: f64 = 2e-4;
+/// Revolutions handed out together.
+const BATCH: usize = 64;
+/// Most revolutions: two weeks at 500 rpm.
+const MOST_REVOLUTIONS: usize = 10_000_000;
+
+/// The largest feed whose chord stays within a tolerance on every radial profile of the revolution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FftAdaptiveFeed {
+    chord: Chord,
+    tolerance: Option<f64>,
+    limit_residual: bool,
+    angles: f64,
+}
+
+impl Strategy for FftAdaptiveFeed {
+    const NAME: &'static str = "fft-adaptive";
+    const SUMMARY: &'static str = "one feed a revolution, whose chord stays within a tolerance on \
+        every radial profile";
+    const SOURCE: &'static str = "Zhong et al., adaptive toolpath planning for diamond face \
+        turning, eq. 1–3 and 5; limit_residual is not the paper's";
+    const PARAMS: &'static [Param] = &[
+        Param::choice(
+            "chord",
+            &["full", "half"],
+            "half: a chord of half the length, which gives the paper's 122 revolutions; full: eq. 1 \
+             as printed, which gives 61",
+        )
+        .default_choice("half"),
+        Param::length(
+            "tolerance",
+            "sagitta of the chord along the radius; left out: tolerance.interpolation",
+        )
+        .positive()
+        .optional(),
+        Param::flag(
+            "limit_residual",
+            "never above the feed that holds tolerance.residual at every angle: the chord knows no \
+             nose and promises no residual",
+        )
+        .default_flag(true),
+        Param::count("angles", "radial profiles of a revolution")
+            .default(FEWEST_ANGLES)
+            .min(FEWEST_ANGLES)
+            .max(MOST_ANGLES),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        Ok(Self {
+            chord: Chord::from_word(params.choice("chord")),
+            tolerance: params.given("tolerance"),
+            limit_residual: params.flag("limit_residual"),
+            angles: params.count("angles"),
+        })
+    }
+}
+
+impl FeedStrategy for FftAdaptiveFeed {
+    fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
+        let RadialRange { inner, outer } = setup.job.range;
+        if !(inner.is_finite() && outer.is_finite() && inner < outer) {
+            return Err(StrategyError::failed(format!(
+                "there is nothing to cut: ρ runs from {inner} mm to {outer} mm"
+            )));
+        }
+        let (rho, outward) = match setup.job.direction {
+            Direction::Outward => (inner, 1.0),
+            Direction::Inward => (outer, -1.0),
+        };
+        let held = match self.limit_residual {
+            true => Some(FeedTable::held(setup)?),
+            false => None,
+        };
+        Ok(Box::new(FftAdaptivePlan {
+            rays: Rays::new(self.angles as usize),
+            chord: self.chord,
+            tolerance: self.tolerance.unwrap_or(setup.job.tolerance.interpolation),
+            held,
+            largest: LARGEST_PART * (outer - inner),
+            rho,
+            outward,
+            revolutions: 0,
+        }))
+    }
+}
+
+/// The law up to the radius ρ.
+struct FftAdaptivePlan {
+    rays: Rays,
+    chord: Chord,
+    tolerance: f64,
+    held: Option<FeedTable>,
+    largest: f64,
+    rho: f64,
+    outward: f64,
+    revolutions: usize,
+}
+
+impl FeedPlan for FftAdaptivePlan {
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+        let RadialRange { inner, outer } = setup.job.range;
+        let end = if self.outward > 0.0 { outer } else { inner };
+        for _ in 0..BATCH {
+            let feed = self.feed(setup.locus.surface())?;
+            let left = self.outward * (end - self.rho);
+            let length = (left / feed).min(1.0);
+            pieces.push(Stretch {
+                length,
+                coefficients: [self.rho, self.outward * feed, 0.0, 0.0, 0.0, 0.0],
+            });
+            self.rho += self.outward * feed;
+            self.revolutions += 1;
+            if left <= feed {
+                return Ok(Onward::Done);
+            }
+        }
+        if self.revolutions > MOST_REVOLUTIONS {
+            return Err(too_many(self.rho));
+        }
+        Ok(Onward::More)
+    }
+}
+
+impl FftAdaptivePlan {
+    /// Δr_max of the revolution that begins at ρ (eq. 3), and not above the held feed anywhere that
+    /// the tool is from the revolution before to the one after.
+    fn feed(&mut self, surface: &dyn SurfaceModel) -> Result<f64> {
+        let chord = self.rays.largest_feed(surface, self.rho, |profile| {
+            self.chord.length(profile.curvature(), self.tolerance) / profile.stretch()
+        })?;
+        let feed = chord.min(self.largest);
+        Ok(match &self.held {
+            None => feed,
+            Some(held) => feed.min(self.held_around(held)),
+        })
+    }
+
+    fn held_around(&self, held: &FeedTable) -> f64 {
+        let reach = held.largest();
+        let (behind, ahead) = (
+            self.rho - self.outward * reach,
+            self.rho + self.outward * 2.0 * reach,
+        );
+        held.least(behind.min(ahead), behind.max(ahead)) * (1.0 - MARGIN)
+    }
+}
+
+/// The radial profiles of a revolution: θ_i = 2πi/n, i = 1 to n.
+struct Rays {
+    theta: Vec<f64>,
+    rho: Vec<f64>,
+    profiles: Vec<Profile>,
+}
+
+impl Rays {
+    fn new(count: usize) -> Self {
+        let theta = (1..=count).map(|i| TAU * i as f64 / count as f64);
+        Self {
+            theta: theta.collect(),
+            rho: vec![0.0; count],
+            profiles: vec![Profile::default(); count],
+        }
+    }
+
+    /// min over i of (2π/θ_i)·Δr_i, all at the radius `rho`: by θ_i only so much of the feed is done.
+    fn largest_feed(
+        &mut self,
+        surface: &dyn SurfaceModel,
+        rho: f64,
+        allowed: impl Fn(&Profile) -> f64,
+    ) -> Result<f64> {
+        self.rho.fill(rho);
+        profile_at(surface, &self.theta, &self.rho, &mut self.profiles)?;
+        let mut least = f64::INFINITY;
+        for (profile, theta) in self.profiles.iter().zip(&self.theta) {
+            let feed = TAU / theta * allowed(profile);
+            if feed.is_nan() {
+                return Err(no_profile(*theta, rho));
+            }
+            least = least.min(feed);
+        }
+        Ok(least)
+    }
+}
+
+fn no_profile(theta: f64, rho: f64) -> StrategyError {
+    let (sin, cos) = Scalar::sin_cos(theta);
+    StrategyError::failed(format!(
+        "the surface has no curvature at x = {:.4} mm, y = {:.4} mm; choose a smaller aperture",
+        rho * cos,
+        rho * sin
+    ))
+}
+
+fn too_many(rho: f64) -> StrategyError {
+    StrategyError::parameter(
+        "tolerance",
+        format!(
+            "more than {MOST_REVOLUTIONS:.0e} revolutions and still at ρ = {rho:.4} mm; allow a \
+             larger one"
+        ),
+    )
+}

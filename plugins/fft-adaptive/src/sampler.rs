@@ -1,0 +1,121 @@
+//! The sampler `fft-adaptive`: eq. 1 and 4, and the critical rate from a spectrum.
+
+use turnpath_plugin::hermite::SHORTEST;
+use turnpath_plugin::prelude::*;
+
+use crate::chord::Chord;
+use crate::harmonics::Harmonics;
+use crate::revolution::Revolution;
+
+/// A node closer to the revolution's end than this part of its step is left out.
+const SLACK: f64 = 1e-3;
+
+/// Which curvature a step goes by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Curvature {
+    /// The largest on the step.
+    Step,
+    /// That at its start.
+    Start,
+}
+
+/// Steps whose chord stays within the interpolation tolerance, and two of them in the shortest
+/// wave that is as high as it.
+#[derive(Clone)]
+pub struct FftAdaptiveSampler {
+    chord: Chord,
+    curvature: Curvature,
+    max_step: f64,
+    harmonics: Harmonics,
+}
+
+impl Strategy for FftAdaptiveSampler {
+    const NAME: &'static str = "fft-adaptive";
+    const SUMMARY: &'static str = "steps whose chord stays within the tolerance, and never longer \
+        than half the shortest wave that is as high as it";
+    const SOURCE: &'static str = "Zhong et al., adaptive toolpath planning for diamond face \
+        turning, eq. 1 and 4; the printed rule is curvature = \"start\"";
+    const PARAMS: &'static [Param] = &[
+        Param::choice(
+            "chord",
+            &["full", "half"],
+            "full: eq. 1 as printed, the chord whose sagitta is tolerance.interpolation; half: half \
+             of it",
+        )
+        .default_choice("full"),
+        Param::choice(
+            "curvature",
+            &["step", "start"],
+            "step: the largest curvature on the step; start: that at its start, as printed, which \
+             steps over crests from inflections",
+        )
+        .default_choice("step"),
+        Param::angle("max_step", "largest angle step")
+            .default(45.0 * DEG)
+            .min(SHORTEST)
+            .max(90.0 * DEG),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        let curvature = match params.choice("curvature") {
+            "start" => Curvature::Start,
+            _ => Curvature::Step,
+        };
+        Ok(Self {
+            chord: Chord::from_word(params.choice("chord")),
+            curvature,
+            max_step: params.angle_rad("max_step"),
+            harmonics: Harmonics::default(),
+        })
+    }
+}
+
+impl Sampler for FftAdaptiveSampler {
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+        for turn in block.turns() {
+            let longest = self.critical_step(path, turn.start)?;
+            let revolution = Revolution::look(path, turn, self.chord, longest)?;
+            let mut n = turn.start;
+            while n < turn.end {
+                nodes.push(n);
+                let step = match self.curvature {
+                    Curvature::Step => revolution.step_over(n),
+                    Curvature::Start => revolution.step_at(n),
+                } / TAU;
+                n = if turn.end - n < (1.0 + SLACK) * step {
+                    turn.end
+                } else {
+                    n + step
+                };
+            }
+        }
+        Ok(())
+    }
+}
+
+impl FftAdaptiveSampler {
+    /// Δθ_ct = π/k, rad: two steps in a period of the highest harmonic that the tool centre has on
+    /// the circle of the revolution's starting radius; and never more than `max_step`.
+    fn critical_step(&self, path: &Path<'_>, start: f64) -> Result<f64> {
+        let rho = path.radius_at(start);
+        let tolerance = path.job.tolerance.interpolation;
+        let highest = self
+            .harmonics
+            .highest(tolerance, |z| heights(path, rho, z))?;
+        let critical = match highest {
+            0 => f64::INFINITY,
+            k => PI / k as f64,
+        };
+        Ok(critical.min(self.max_step))
+    }
+}
+
+/// The tool centre's Z on the circle of radius `rho`, at even angles.
+fn heights(path: &Path<'_>, rho: f64, z: &mut [f64]) -> Result<()> {
+    let count = z.len();
+    let theta: Vec<f64> = (0..count).map(|j| TAU * j as f64 / count as f64).collect();
+    let mut room = vec![f64::NAN; 2 * count];
+    let (x, foot) = room.split_at_mut(count);
+    let rho = vec![rho; count];
+    path.locus.centre(&theta, &rho, Centres { x, z, foot })
+}

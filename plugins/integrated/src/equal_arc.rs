@@ -1,0 +1,54 @@
+//! The sampler `equal-arc`.
+
+use turnpath_plugin::prelude::*;
+
+use crate::arc::ArcSteps;
+
+/// Largest angle of a step: near the centre the arc of one turn is shorter than any spacing.
+const LARGEST_STEP: f64 = 90.0 * DEG;
+
+/// Neighbouring nodes lie one arc apart along the spiral, as seen from above.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EqualArc {
+    steps: ArcSteps,
+}
+
+impl Strategy for EqualArc {
+    const NAME: &'static str = "equal-arc";
+    const SUMMARY: &'static str = "equal arcs along the spiral, at most 90 deg apart";
+    const SOURCE: &'static str = "the equal arc length discretization of the integrated \
+        discretization paper: worst near the centre";
+    const PARAMS: &'static [Param] = &[Param::length(
+        "spacing",
+        "arc between neighbouring points, in the plane of the part",
+    )
+    .positive()];
+
+    fn new(params: &Params) -> Result<Self> {
+        let steps = ArcSteps {
+            spacing: params.length_mm("spacing"),
+            max_step: LARGEST_STEP,
+        };
+        Ok(Self { steps })
+    }
+}
+
+impl Sampler for EqualArc {
+    fn dependence(&self) -> Dependence {
+        Dependence::Sequential
+    }
+
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+        self.steps.place(path, block, &mut Vec::new(), nodes)
+    }
+
+    fn place_onward(
+        &self,
+        path: &Path<'_>,
+        block: Revolutions,
+        state: &mut Vec<f64>,
+        nodes: &mut Vec<f64>,
+    ) -> Result<()> {
+        self.steps.place(path, block, state, nodes)
+    }
+}

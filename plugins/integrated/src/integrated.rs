@@ -1,0 +1,62 @@
+//! The sampler `integrated`.
+
+use turnpath_plugin::prelude::*;
+
+use crate::arc::{ArcSteps, SMALLEST_STEP};
+
+/// Equal arcs outside; from where they would span more than the largest angle on inwards, equal
+/// angles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Integrated {
+    steps: ArcSteps,
+}
+
+impl Strategy for Integrated {
+    const NAME: &'static str = "integrated";
+    const SUMMARY: &'static str = "equal arcs outside, and equal angles from where those would be \
+        larger than max_step on inwards";
+    const SOURCE: &'static str = "the integrated discretization paper: the smaller of its two \
+        steps everywhere";
+    const PARAMS: &'static [Param] = &[
+        Param::length(
+            "spacing",
+            "largest arc between neighbouring points, in the plane of the part",
+        )
+        .positive(),
+        Param::angle(
+            "max_step",
+            "largest angle step, which binds near the centre",
+        )
+        .default(45.0 * DEG)
+        .min(SMALLEST_STEP)
+        .max(90.0 * DEG),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        let steps = ArcSteps {
+            spacing: params.length_mm("spacing"),
+            max_step: params.angle_rad("max_step"),
+        };
+        Ok(Self { steps })
+    }
+}
+
+impl Sampler for Integrated {
+    fn dependence(&self) -> Dependence {
+        Dependence::Sequential
+    }
+
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+        self.steps.place(path, block, &mut Vec::new(), nodes)
+    }
+
+    fn place_onward(
+        &self,
+        path: &Path<'_>,
+        block: Revolutions,
+        state: &mut Vec<f64>,
+        nodes: &mut Vec<f64>,
+    ) -> Result<()> {
+        self.steps.place(path, block, state, nodes)
+    }
+}
