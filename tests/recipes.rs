@@ -152,6 +152,8 @@ fn compare(summary: &Value, reference: &Value, rows: u64) -> Vec<String> {
         "/interpolation_error_nm/max",
         "/interpolation_error_nm/rms",
         "/residual_nm/max",
+        "/surface_error_nm/pv",
+        "/surface_error_nm/rms",
         "/coverage_nm/rim",
         "/coverage_nm/hole",
         "/coverage_nm/centre",

@@ -83,6 +83,38 @@ pub enum Format {
     Json,
 }
 
+/// What is drawn of the machined surface: machined − wanted along z.
+#[derive(Debug, Args)]
+pub struct PlotArgs {
+    /// Write a map of the surface error: .gsf (Gwyddion) or .xyz (lines x y z), both in metres; a
+    /// relative name is taken from DIR, as with the files below
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// Cells of the map along each side; on a polar grid N rings of N angles
+    #[arg(long, value_name = "N", default_value_t = 1024,
+          value_parser = clap::value_parser!(u32).range(2..=20_000))]
+    pub map_size: u32,
+    /// How the map's cells lie; a .gsf has a Cartesian grid
+    #[arg(long, value_enum, default_value_t = MapGrid::Cartesian)]
+    pub map_grid: MapGrid,
+    /// Write the profile through the axis at this angle, such as "45 deg", and its power spectrum;
+    /// may be given several times
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    pub profile: Vec<String>,
+    /// Write the surface error around a circle of this radius, such as "2 mm"; may be given
+    /// several times
+    #[arg(long, value_name = "RADIUS", allow_hyphen_values = true)]
+    pub circle: Vec<String>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MapGrid {
+    /// Squares over the square around the part
+    Cartesian,
+    /// Rings and angles
+    Polar,
+}
+
 #[derive(Debug, Args)]
 pub struct RunArgs {
     #[command(flatten)]
@@ -90,6 +122,8 @@ pub struct RunArgs {
     /// Where the files go; `out/<name>` unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub plots: PlotArgs,
     #[command(flatten)]
     pub work: WorkArgs,
 }
@@ -126,6 +160,11 @@ pub struct VerifyArgs {
     pub recipe: RecipeArgs,
     /// The tool path to measure: a toolpath.csv, or a program of the post pmac-pvt (.pmc)
     pub file: PathBuf,
+    /// Where maps, profiles and circles go; the present folder unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub plots: PlotArgs,
     #[command(flatten)]
     pub work: WorkArgs,
 }

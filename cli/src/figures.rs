@@ -117,6 +117,7 @@ pub fn measured(measured: &Measured, recipe: &Recipe) -> String {
             None => format!("not measured: {}", residual.left_out),
         },
     );
+    text += &measured.surface_error.lines();
     text += &measured.coverage_nm.lines(recipe, within.coverage);
     text += &measured.axis_crossing_um.line();
     if let Some(machine) = &measured.machine {

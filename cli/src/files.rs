@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::PathStretch;
 use turnpath_pipeline::{Outcome, Sink};
-use turnpath_post::{Draft, FileError, PathWriter, PmacWriter};
+use turnpath_post::{Draft, FileError, PathReader, PathWriter, PmacWriter};
 
 use crate::failure::Failure;
 use crate::job::Job;
+use crate::plots::Wishes;
+use crate::plotting::{Played, plot};
 use crate::programs::Program;
 use crate::progress::Bar;
 use crate::summary::ProgramSummary;
@@ -100,6 +102,33 @@ impl Files {
             begun.whole.push(draft);
         }
         Ok(measured)
+    }
+
+    /// Maps, profiles and circles of `toolpath.csv` as it stands.
+    pub fn plot(
+        &mut self,
+        job: &Job,
+        wishes: &Wishes,
+        outcome: &Outcome,
+        bar: &Bar,
+    ) -> Result<(), Failure> {
+        let Some(begun) = self.begun.as_mut().filter(|_| !wishes.is_empty()) else {
+            return Ok(());
+        };
+        if let Some(path) = &mut begun.path {
+            let name = self.folder.join(TOOLPATH);
+            let reader = PathReader::open(path.readable()?);
+            let mut reader = reader.map_err(|error| error.named(&name))?;
+            let played = Played {
+                recipe: &job.recipe,
+                touch: &job.prepared.touch,
+                shape: job.chain.velocity.strategy.segments(),
+                largest_error: outcome.figures.playback.max(),
+                points: self.rows,
+            };
+            begun.whole.extend(plot(wishes, &played, &mut reader, bar)?);
+        }
+        Ok(())
     }
 
     /// Gives the files their names; the summary comes last, so that where it is, all is.

@@ -13,6 +13,8 @@ mod job;
 mod lead;
 mod list;
 mod machine;
+mod plots;
+mod plotting;
 mod programs;
 mod progress;
 mod reach;
@@ -20,6 +22,7 @@ mod run;
 mod sag;
 mod strategies;
 mod summary;
+mod surface_error;
 mod unreached;
 mod verify;
 

@@ -49,6 +49,7 @@ impl Progress for Bar {
                 Stage::Refine(round) => format!("playing back, round {round}"),
                 Stage::Write => "measuring and writing".to_owned(),
                 Stage::ReadBack => "reading programs back".to_owned(),
+                Stage::Map => "mapping what is cut".to_owned(),
             });
             bar.enable_steady_tick(TICK);
         });

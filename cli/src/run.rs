@@ -16,6 +16,7 @@ use crate::failure::Failure;
 use crate::figures;
 use crate::files::Files;
 use crate::job::{Job, of_pipeline};
+use crate::plots::Wishes;
 use crate::programs::{asked, not_carried};
 use crate::progress::Bar;
 use crate::summary::{ProgramSummary, Summary};
@@ -31,6 +32,7 @@ pub fn run(args: &RunArgs) -> Done {
     };
     let programs = asked(&job.recipe, job.compensates_nose())?;
     refuse_straight_lines(&job)?;
+    let wishes = wishes(args, &job, &folder)?;
     let making = making(&job);
     let wants_path = !job.recipe.output.data.is_empty();
     let mut files = Files::new(folder, wants_path, programs)?;
@@ -41,8 +43,13 @@ pub fn run(args: &RunArgs) -> Done {
         of_pipeline(&job.recipe, error)
     })?;
     let programs = files.read_back(&job, &args.recipe.set, &outcome, &bar);
+    let plotted = match programs {
+        Ok(_) => files.plot(&job, &wishes, &outcome, &bar),
+        Err(_) => Ok(()),
+    };
     bar.clear();
     let summary = summary(&job, files.rows, &outcome, programs?)?;
+    plotted?;
     let written = files.complete(&summary.json())?;
     match args.work.format {
         Format::Json => print(&summary.json())?,
@@ -53,6 +60,18 @@ pub fn run(args: &RunArgs) -> Done {
     } else {
         Verdict::Exceeded
     })
+}
+
+/// Maps and the like are measured on `toolpath.csv`.
+fn wishes(args: &RunArgs, job: &Job, folder: &Path) -> Result<Wishes, Failure> {
+    let wishes = Wishes::of(&args.plots, &job.recipe.part, folder)?;
+    if !wishes.is_empty() && job.recipe.output.data.is_empty() {
+        return Err(Failure::call(
+            "--map, --profile and --circle are measured on toolpath.csv, which this recipe does \
+             not write: add \"csv\" to `data` in [output]",
+        ));
+    }
+    Ok(wishes)
 }
 
 /// How the path of a job is made.

@@ -5,11 +5,13 @@ use turnpath_core::{DEG, Direction, Tolerance};
 use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
+use turnpath_verify::machined::MachinedFigures;
 use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak};
 
 use crate::coverage::{AxisCrossing, Coverage, Promise, largest_uncut};
 use crate::lead::Lead;
 use crate::machine::{HighestSpindle, MachineFigures};
+use crate::surface_error::SurfaceError;
 use crate::unreached::Unreached;
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
@@ -46,7 +48,8 @@ pub struct Measured {
     pub residual_nm: Residual,
     pub coverage_nm: Coverage,
     pub axis_crossing_um: AxisCrossing,
-    pub surface_error_nm: SurfaceError,
+    #[serde(flatten)]
+    pub surface_error: SurfaceError,
     pub axes: Axes,
     /// The machine's limits; null without any.
     pub machine: Option<MachineFigures>,
@@ -99,13 +102,6 @@ pub struct Residual {
     at: Place,
     /// What the figure does not speak of.
     pub left_out: &'static str,
-}
-
-/// The machined surface as a whole: not measured yet.
-#[derive(Debug, Serialize, Default)]
-pub struct SurfaceError {
-    pv: Option<f64>,
-    rms: Option<f64>,
 }
 
 /// C in deg and s, X and Z in mm and s.
@@ -200,7 +196,7 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(&outcome.figures, recipe).with_lead(
+            measured: Measured::new(&outcome.figures, outcome.machined.as_ref(), recipe).with_lead(
                 outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),
                 &recipe.tolerance,
             ),
@@ -250,7 +246,7 @@ impl ChainNames {
 
 impl Measured {
     /// Figures against the recipe's tolerances and limits, in the units of the file.
-    pub fn new(figures: &PathFigures, recipe: &Recipe) -> Self {
+    pub fn new(figures: &PathFigures, machined: Option<&MachinedFigures>, recipe: &Recipe) -> Self {
         let promise = Promise::of(recipe.overrun);
         let (playback, residual, axes) = (&figures.playback, &figures.residual, &figures.axes);
         let tolerance = &recipe.tolerance;
@@ -279,7 +275,7 @@ impl Measured {
             },
             coverage_nm: Coverage::new(&figures.coverage),
             axis_crossing_um: AxisCrossing::new(&figures.coverage),
-            surface_error_nm: SurfaceError::default(),
+            surface_error: SurfaceError::of(machined),
             axes: Axes::of(axes),
             lead: None,
             within: Within {

@@ -19,6 +19,8 @@ use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::job::{of_pipeline, use_threads};
 use crate::lead::Lead;
+use crate::plots::{Wishes, make_folder};
+use crate::plotting::{Played, plot};
 use crate::programs::{PMAC_EXTENSION, pmac_format};
 use crate::reach::Reach;
 use crate::run::print;
@@ -39,6 +41,8 @@ struct Verified {
     reach_mm: Reach,
     #[serde(flatten)]
     measured: Measured,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<String>,
     unreached: Option<Unreached>,
 }
 
@@ -59,7 +63,9 @@ pub fn verify(args: &VerifyArgs) -> Done {
         shape,
         radial,
     } = held(&recipe, args)?;
-    let mut reader = open(&args.file, &recipe, subject.compensates_nose)?;
+    let compensates_nose = subject.compensates_nose;
+    let wishes = wishes(args, &recipe)?;
+    let mut reader = open(&args.file, &recipe, compensates_nose)?;
     let failed = |error| of_pipeline(&recipe, PipelineError::Measure(error));
     let touch = FirstTouch::new(subject).map_err(failed)?;
     let PathMeters { cut: meter, lead } = measure(&recipe, touch, shape, reader.as_mut(), &Quiet)?;
@@ -71,14 +77,29 @@ pub fn verify(args: &VerifyArgs) -> Done {
         return Err(Failure::File(message));
     };
     let reach = Reach::new(range);
+    let machined = meter.machined().map_err(failed)?;
     let lead = lead
         .figures()
         .map(|figures| Lead::measured(figures, &recipe));
     let figures = meter.figures().map_err(failed)?;
     let unreached = Unreached::of(meter.touch(), &recipe.tolerance).map_err(failed)?;
-    let measured = Measured::new(&figures, &recipe);
+    let measured = Measured::new(&figures, machined.as_ref(), &recipe);
     let mut measured = measured.with_lead(lead, &recipe.tolerance);
     measured.within.reach = Some(reach.covers(&recipe.part));
+    let played = Played {
+        recipe: &recipe,
+        touch: meter.touch(),
+        shape,
+        largest_error: figures.playback.max(),
+        points: read.count(),
+    };
+    let mut files = Vec::new();
+    if !wishes.is_empty() {
+        let mut again = open(&args.file, &recipe, compensates_nose)?;
+        for draft in plot(&wishes, &played, again.as_mut(), &Quiet)? {
+            files.push(draft.complete()?.display().to_string());
+        }
+    }
     let verified = Verified {
         name: recipe.name.clone(),
         file: args.file.display().to_string(),
@@ -86,6 +107,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         rows: read.count(),
         reach_mm: reach,
         measured,
+        files,
         unreached,
     };
     print(&match args.work.format {
@@ -98,6 +120,16 @@ pub fn verify(args: &VerifyArgs) -> Done {
     } else {
         Verdict::Exceeded
     })
+}
+
+/// Maps and the like that are asked for; their folder is made.
+fn wishes(args: &VerifyArgs, recipe: &Recipe) -> Result<Wishes, Failure> {
+    let folder = args.output.as_deref().unwrap_or(Path::new("."));
+    let wishes = Wishes::of(&args.plots, &recipe.part, folder)?;
+    if !wishes.is_empty() {
+        make_folder(folder)?;
+    }
+    Ok(wishes)
 }
 
 fn held(recipe: &Recipe, args: &VerifyArgs) -> Result<Held, Failure> {
@@ -149,15 +181,17 @@ pub struct PathMeters {
 
 /// A block of a path, measured.
 enum Stretch {
-    Cut(Box<CutStretch>, PathBlock),
-    Lead(LeadStretch),
+    Cut(Box<(CutStretch, PathBlock)>),
+    Lead(Box<LeadStretch>),
 }
 
 impl Stretch {
     fn of(touch: &FirstTouch, section: Section, block: PathBlock) -> Result<Self, StrategyError> {
         Ok(match section {
-            Section::Cutting => Self::Cut(Box::new(Meter::measure(touch, &block)?), block),
-            Section::LeadIn | Section::LeadOut => Self::Lead(LeadMeter::measure(touch, &block)?),
+            Section::Cutting => Self::Cut(Box::new((Meter::measure(touch, &block)?, block))),
+            Section::LeadIn | Section::LeadOut => {
+                Self::Lead(Box::new(LeadMeter::measure(touch, &block)?))
+            }
         })
     }
 }
@@ -165,7 +199,8 @@ impl Stretch {
 impl PathMeters {
     fn append(&mut self, stretch: &Stretch) -> Result<(), StrategyError> {
         match stretch {
-            Stretch::Cut(measured, block) => {
+            Stretch::Cut(cut) => {
+                let (measured, block) = cut.as_ref();
                 self.lead.pass(block);
                 self.cut.append(measured)
             }
@@ -228,6 +263,9 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     }
     if let Some(unreached) = &verified.unreached {
         text += &unreached.lines();
+    }
+    for file in &verified.files {
+        text += &figures::line("file", file);
     }
     text
 }

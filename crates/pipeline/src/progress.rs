@@ -11,6 +11,8 @@ pub enum Stage {
     Write,
     /// What was written is read back and measured.
     ReadBack,
+    /// Maps and profiles of what is cut.
+    Map,
 }
 
 /// Is told how far a run is. Counts are blocks, of revolutions or of points.

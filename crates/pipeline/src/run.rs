@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
+use turnpath_verify::machined::MachinedFigures;
 use turnpath_verify::{AxesMotion, FirstTouch, Measured, Meter, PathFigures};
 
 use crate::lead::{LeadRun, LeadSettings, Leads};
@@ -50,6 +51,8 @@ pub struct Outcome {
     pub cutting_time: f64,
     /// What the path as played would cut.
     pub figures: PathFigures,
+    /// The surface that it would leave; `None` where nothing of the part is cut.
+    pub machined: Option<MachinedFigures>,
     /// The leads, where the path has some.
     pub lead: Option<Leads>,
 }
@@ -159,6 +162,7 @@ fn write(
         added_by_refine: made_points - sampled,
         revolutions,
         cutting_time: plan.prepared.job.spindle.time_at(revolutions),
+        machined: meter.machined().map_err(PipelineError::Measure)?,
         figures: meter.figures().map_err(PipelineError::Measure)?,
         lead,
     })

@@ -5,6 +5,7 @@
 //! A reader shares no code with the writer of its format.
 
 mod draft;
+mod maps;
 mod path_reader;
 mod pmac;
 mod read_csv;
@@ -14,6 +15,7 @@ mod tests;
 mod write_csv;
 
 pub use draft::{Draft, FileError};
+pub use maps::{GsfWriter, XyzWriter};
 pub use path_reader::{Counted, ReadPath};
 pub use pmac::{
     ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError, PmacFormat,

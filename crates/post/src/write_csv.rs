@@ -43,6 +43,11 @@ impl PathWriter {
         self.draft.write_all(rows)
     }
 
+    /// What has been written so far, as a file that can be read under another name.
+    pub fn readable(&mut self) -> Result<&std::path::Path, FileError> {
+        self.draft.readable()
+    }
+
     /// The file is whole and takes its name.
     pub fn complete(self) -> Result<PathBuf, FileError> {
         self.draft.complete()

@@ -12,6 +12,7 @@ mod coverage;
 mod cusp;
 mod lead;
 mod limits;
+pub mod machined;
 mod meter;
 mod playback;
 mod profiles;

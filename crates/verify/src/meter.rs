@@ -5,6 +5,7 @@ use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
 use crate::coverage::{Coverage, CoverageFigures};
+use crate::machined::{Fan, Lines, MachinedFigures, SectionPasses};
 use crate::playback::{PlaybackFigures, play_back};
 use crate::residual::{Passes, ResidualFigures};
 use crate::touch::FirstTouch;
@@ -21,6 +22,7 @@ pub struct Measured {
     /// Motion of the axes.
     pub axes: AxesMotion,
     passes: Passes,
+    sections: SectionPasses,
     coverage: Coverage,
     ends: Option<[ControlPoint; 2]>,
 }
@@ -43,6 +45,7 @@ pub struct Meter {
     touch: FirstTouch,
     figures: PathFigures,
     passes: Passes,
+    lines: Lines,
     coverage: Coverage,
     counts_centre: bool,
     ends: Option<[ControlPoint; 2]>,
@@ -55,6 +58,7 @@ impl Meter {
             touch,
             figures: PathFigures::default(),
             passes: Passes::default(),
+            lines: Lines::new(Fan::WHOLE),
             coverage: Coverage::default(),
             counts_centre: false,
             ends: None,
@@ -84,6 +88,7 @@ impl Meter {
         measured.playback = play_back(touch, points, &mut measured.per_segment)?;
         measured.passes = Passes::of(touch, points)?;
         measured.residual = measured.passes.residual(touch)?;
+        measured.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
         measured.coverage = Coverage::of(touch, points, &measured.passes)?;
         Ok(measured)
     }
@@ -103,6 +108,7 @@ impl Meter {
         self.figures.residual.append(&next.residual);
         let seam = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&seam);
+        self.lines.append(&next.sections);
         self.coverage.append(&next.coverage);
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
@@ -130,6 +136,14 @@ impl Meter {
             inner: rho[0].min(rho[1]),
             outer: rho[0].max(rho[1]),
         }))
+    }
+
+    /// The machined surface in figures; `None` where nothing of the part was cut.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn machined(&self) -> Result<Option<MachinedFigures>> {
+        self.lines.figures(self.touch.subject())
     }
 
     /// The figures so far.

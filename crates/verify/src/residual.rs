@@ -190,7 +190,7 @@ pub(crate) fn angle_of(number: i64) -> f64 {
 }
 
 /// When C passes `angle`, as a part of the segment.
-fn crossing(segment: &Segment, angle: f64) -> f64 {
+pub(crate) fn crossing(segment: &Segment, angle: f64) -> f64 {
     let (from, to) = (segment.c.value(0.0), segment.c.value(1.0));
     let mut s = (angle - from) / (to - from);
     for _ in 0..CROSSING_STEPS {
@@ -198,7 +198,11 @@ fn crossing(segment: &Segment, angle: f64) -> f64 {
         if !step.is_finite() {
             break;
         }
-        s = (s - step).clamp(0.0, 1.0);
+        let next = (s - step).clamp(0.0, 1.0);
+        if next == s {
+            break;
+        }
+        s = next;
     }
     s
 }

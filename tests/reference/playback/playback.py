@@ -12,8 +12,8 @@ A point of the part is (theta, rho), rho signed, with x = rho cos(theta), y = rh
 
 prints JSON: the error of interpolation (played minus true Z, along z), the residual (cusp
 height along the profile's normal in the XZ plane, tool centres at their true Z), what stays
-uncut at the part's edges and around the axis (null: not reached, or no such place), the rows of
-the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
+uncut at the part's edges and around the axis (null: not reached, or no such place), the error of
+the machined surface (what the played nose leaves, along z), the rows of the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
 cut what fits, cusps count from the closing of the profile by the nose, and what stays between
 closing and surface is a figure of its own.
 """
@@ -174,6 +174,10 @@ class ToolPath:
 
     def pass_x(self, target_deg):
         """X as played where C passes `target_deg` (increasing C), by bisection."""
+        return self.play("x", *self.when(target_deg))
+
+    def when(self, target_deg):
+        """Segment and fraction at which C passes `target_deg` (increasing C), by bisection."""
         segment = np.searchsorted(self.nodes[:, 1], target_deg, side="right") - 1
         segment = np.clip(segment, 0, self.segments - 1)
         low, high = np.zeros(len(target_deg)), np.ones(len(target_deg))
@@ -181,7 +185,7 @@ class ToolPath:
             middle = (low + high) / 2
             before = self.play("c", segment, middle) < target_deg
             low, high = np.where(before, middle, low), np.where(before, high, middle)
-        return self.play("x", segment, (low + high) / 2)
+        return segment, (low + high) / 2
 
 
 # --- measurements -------------------------------------------------------------------------
@@ -442,6 +446,8 @@ def coverage(recipe, path, scan=129):
         heights["centre"] = uncut_at_centre(sections)
     return {place: None if height is None or math.isinf(height) else float(height * NM_PER_MM)
             for place, height in heights.items()}
+
+
 # --- what the nose cannot reach -----------------------------------------------------------
 
 def section_closing(recipe, theta, step):
@@ -495,12 +501,116 @@ def unreached(recipe, sections=180, step=2e-4):
     return {"height_um": highest * 1e3, "volume_mm3": 2 * volumes[1] - volumes[0]}
 
 
+# --- the machined surface -----------------------------------------------------------------
+
+NEIGHBOURS = 12     # passes to either side of a place that may cut it, where the nose fits
+PLACES_A_PASS = 8   # places of the grid for each pass, along a line through the axis
+FEWEST_PLACES = 2000
+ZOOMED = 8          # lines around which the highest and the lowest place are looked for again
+
+
+def played_circles(recipe, path, section_deg):
+    """Nose centres (signed place, Z) on the line through the axis at an angle, as played."""
+    places, heights = [], []
+    for turned, sign in ((0.0, 1.0), (180.0, -1.0)):
+        section = section_deg + turned
+        first = math.ceil((path.nodes[0, 1] - section) / 360)
+        last = math.floor((path.nodes[-1, 1] - section) / 360)
+        when = path.when(section + 360.0 * np.arange(first, last + 1))
+        x, z = path.play("x", *when), path.play("z", *when)
+        if recipe.compensator == "none":
+            tilt = slope(recipe.profile(math.radians(section)), x)
+            w = np.sqrt(1 + tilt * tilt)
+            x, z = x - recipe.nose_radius * tilt / w, z + recipe.nose_radius / w
+        places.append(sign * x)
+        heights.append(z)
+    places, heights = np.concatenate(places), np.concatenate(heights)
+    order = np.argsort(places, kind="stable")
+    return places[order], heights[order]
+
+
+def line_error(recipe, path, section_deg, s):
+    """Machined minus wanted at the places `s` of a line: the minimum over circles near where the
+    nose would touch each place; infinite where none reaches."""
+    x, z = played_circles(recipe, path, section_deg)
+    profile, radius = recipe.profile(math.radians(section_deg)), recipe.nose_radius
+    tilt = slope(profile, s)
+    touching = s - radius * tilt / np.sqrt(1 + tilt * tilt)
+    nearest = np.searchsorted(x, touching)
+    reach = radius * math.sin(recipe.nose_half_angle)
+    lowest = np.full(len(s), np.inf)
+    neighbours = NEIGHBOURS
+    if recipe.cuts_what_fits:  # over a seam any pass within reach may be the lowest
+        neighbours += int(2 * reach * len(x) / (x[-1] - x[0]))
+    for step in range(-neighbours, neighbours):
+        index = nearest + step
+        there = (index >= 0) & (index < len(x))
+        index = np.clip(index, 0, len(x) - 1)
+        off = s - x[index]
+        depth = np.sqrt(np.maximum(radius**2 - off * off, 0))
+        cut = np.where(there & (np.abs(off) <= reach), z[index] - depth, np.inf)
+        lowest = np.minimum(lowest, cut)
+    return lowest - profile(s)
+
+
+def line_places(recipe, count, shift):
+    """`count` signed places on the part with the edges; `shift` of a step from line to line."""
+    half = max(count, FEWEST_PLACES) // 2
+    ring = recipe.part_radius - recipe.hole_radius
+    inner = recipe.hole_radius + ring * (np.arange(half) + shift) / half
+    side = np.concatenate([[recipe.hole_radius], inner, [recipe.part_radius]])
+    return np.concatenate([-side[::-1], side])
+
+
+def surface_error(recipe, path, sections=None):
+    """PV and RMS of machined minus wanted along z, on a polar grid; the RMS weighted by area.
+
+    PV is looked for again around the extremes of the grid, in angle and along the line.
+    """
+    passes = 2 * path.revolutions
+    sections = sections or (240 if passes < 4000 else 48)
+    step = 180 / sections
+    area = squares = 0.0
+    found = []
+    for i in range(sections):
+        angle = (i + 0.41) * step
+        s = line_places(recipe, int(PLACES_A_PASS * passes), (0.5 + 0.618 * i) % 1.0)
+        error = line_error(recipe, path, angle, s)
+        weight = np.where(np.isfinite(error), np.abs(s), 0.0)
+        weight[np.abs(s) == recipe.part_radius] = 0.0  # an edge is no part of the area
+        weight[np.abs(s) == recipe.hole_radius] = 0.0
+        area += weight.sum()
+        squares += float(weight @ np.where(weight > 0, error, 0.0) ** 2)
+        cut = np.where(np.isfinite(error), error, np.nan)
+        high, low = int(np.nanargmax(cut)), int(np.nanargmin(cut))
+        found.append((angle, s[high], cut[high], s[low], cut[low]))
+    pitch = 2 * recipe.part_radius / passes
+    highest = max(zoom(recipe, path, angle, s, step, pitch, np.nanmax)
+                  for angle, s, _, _, _ in sorted(found, key=lambda one: -one[2])[:ZOOMED])
+    lowest = min(zoom(recipe, path, angle, s, step, pitch, np.nanmin)
+                 for angle, _, _, s, _ in sorted(found, key=lambda one: one[4])[:ZOOMED])
+    return {"pv": (highest - lowest) * NM_PER_MM, "highest": highest * NM_PER_MM,
+            "lowest": lowest * NM_PER_MM, "rms": math.sqrt(squares / area) * NM_PER_MM}
+
+
+def zoom(recipe, path, angle, s, step, pitch, extreme):
+    """The extreme error within a section's width and three passes of a place."""
+    s = s + pitch * np.linspace(-3, 3, 1201)
+    s = np.clip(s, -recipe.part_radius, recipe.part_radius)
+    s = s[np.abs(s) >= recipe.hole_radius]
+    errors = [line_error(recipe, path, angle + step * share, s)
+              for share in np.linspace(-0.5, 0.5, 41)]
+    errors = np.array(errors)
+    return float(extreme(np.where(np.isfinite(errors), errors, np.nan)))
+
+
 def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
     """All figures of a path, as printed."""
     if recipe.cuts_what_fits:  # hills of nearly one height are told apart on a finer scan
         scan = max(scan, SEAM_SCAN)
     return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
             "residual_nm": residual(recipe, path, sections, scan),
+            "surface_error_nm": surface_error(recipe, path),
             "coverage_nm": coverage(recipe, path, scan),
             "unreached": unreached(recipe),
             "rows": path.rows, "control_points": path.segments + 1,

@@ -213,6 +213,16 @@ def check_residual():
     print("     ", found)
 
 
+def check_surface_error():
+    """A flat part's scallops: f²/8R high, a parabola's RMS."""
+    flat = recipe({"use": "xy-polynomial", "terms": [[1, 0, 0.0]]}, "none")
+    feed = 0.02
+    path = playback.ToolPath(bare_rows(lambda theta: feed * (theta / TAU - 2), 130))
+    found = playback.surface_error(flat, path)
+    check("scallop of a flat part, PV, nm", found["pv"], feed**2 / 8 * 1e6, 0.02)
+    check("scallop of a flat part, RMS, nm", found["rms"], feed**2 / 8 * 1e6 * math.sqrt(0.2), 0.05)
+
+
 def check_coverage():
     """A flat, a spiral from the axis: what its last pass leaves at the rim, 1.5 feeds at the axis."""
     flat, feed, turns = {"use": "xy-polynomial", "terms": []}, 0.02, 120
@@ -272,6 +282,7 @@ if __name__ == "__main__":
     check_sign_and_place()
     check_interpolation()
     check_residual()
+    check_surface_error()
     check_coverage()
     check_file()
     sys.exit(1 if FAILED else 0)

@@ -1,0 +1,159 @@
+//! Writers of maps: `.gsf` (Gwyddion Simple Field) and `.xyz`. Lengths in metres, as Gwyddion
+//! takes them where nothing else is said.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use crate::{Draft, FileError};
+
+/// Metres in a millimetre.
+const M_PER_MM: f64 = 1e-3;
+/// The first line of a simple field.
+const MAGIC: &str = "Gwyddion Simple Field 1.0";
+/// The data begin at a multiple of this many bytes.
+const ALIGNMENT: usize = 4;
+
+/// A map on a square grid around the axis, as Gwyddion Simple Field: a header in text, then
+/// 32-bit floats, row after row from the top, from the left. What has no value is NaN.
+#[derive(Debug)]
+pub struct GsfWriter {
+    draft: Draft,
+}
+
+impl GsfWriter {
+    /// Begins a map of `count` × `count` cells over a square of side 2 · `half` mm.
+    ///
+    /// # Errors
+    /// When the file cannot be begun.
+    pub fn begin(
+        path: impl Into<PathBuf>,
+        title: &str,
+        count: usize,
+        half: f64,
+    ) -> Result<Self, FileError> {
+        let title: String = title
+            .chars()
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .collect();
+        let (side, corner) = (2.0 * half * M_PER_MM, -half * M_PER_MM);
+        let header = format!(
+            "{MAGIC}\nXRes = {count}\nYRes = {count}\nXReal = {side:e}\nYReal = {side:e}\n\
+             XOffset = {corner:e}\nYOffset = {corner:e}\nTitle = {title}\nXYUnits = m\n\
+             ZUnits = m\n"
+        );
+        let padding = ALIGNMENT - header.len() % ALIGNMENT;
+        let mut draft = Draft::begin(path)?;
+        let mut bytes = header.into_bytes();
+        bytes.extend(std::iter::repeat_n(0, padding));
+        put(&mut draft, &bytes)?;
+        Ok(Self { draft })
+    }
+
+    /// The next row: errors in mm.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn row(&mut self, values: impl Iterator<Item = f32>) -> Result<(), FileError> {
+        let metres = values.map(|value| (f64::from(value) * M_PER_MM) as f32);
+        let bytes: Vec<u8> = metres.flat_map(f32::to_le_bytes).collect();
+        put(&mut self.draft, &bytes)
+    }
+
+    /// The file, whole but without its name.
+    pub fn whole(self) -> Draft {
+        self.draft
+    }
+}
+
+/// A map as lines `x y z` of plain numbers.
+#[derive(Debug)]
+pub struct XyzWriter {
+    draft: Draft,
+    line: String,
+}
+
+impl XyzWriter {
+    /// Begins the file.
+    ///
+    /// # Errors
+    /// When the file cannot be begun.
+    pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
+        let draft = Draft::begin(path)?;
+        let line = String::new();
+        Ok(Self { draft, line })
+    }
+
+    /// The next place and its value, mm.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn place(&mut self, x: f64, y: f64, value: f32) -> Result<(), FileError> {
+        let [x, y, z] = [x, y, f64::from(value)].map(|mm| mm * M_PER_MM);
+        self.line.clear();
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.line, "{x:.9e} {y:.9e} {z:.6e}");
+        put(&mut self.draft, self.line.as_bytes())
+    }
+
+    /// The file, whole but without its name.
+    pub fn whole(self) -> Draft {
+        self.draft
+    }
+}
+
+fn put(draft: &mut Draft, bytes: &[u8]) -> Result<(), FileError> {
+    draft.write_all(bytes).map_err(|error| FileError {
+        path: draft.path().to_owned(),
+        error,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_title(title: &str) -> Vec<u8> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.gsf");
+        let mut writer = GsfWriter::begin(&path, title, 2, 2.5).unwrap();
+        writer.row([0.5, f32::NAN].into_iter()).unwrap();
+        writer.row([0.0, -2e-4].into_iter()).unwrap();
+        writer.whole().complete().unwrap();
+        std::fs::read(&path).unwrap()
+    }
+
+    /// The format asks for one to four NULs after the header, so that data begin at a multiple of
+    /// four.
+    #[test]
+    fn data_begin_at_a_multiple_of_four_whatever_the_title() {
+        for title in ["", "a", "ab", "abc", "abcd", "Spiegel, 5 mm: Ø"] {
+            let bytes = of_title(title);
+            let text = bytes.iter().position(|byte| *byte == 0).unwrap();
+            let nuls = bytes.len() - 16 - text;
+            assert!((1..=4).contains(&nuls), "{nuls}");
+            assert_eq!((text + nuls) % 4, 0);
+            let data = &bytes[bytes.len() - 16..];
+            assert_eq!(data[..4], 5e-4f32.to_le_bytes());
+            assert!(f32::from_le_bytes([data[4], data[5], data[6], data[7]]).is_nan());
+        }
+    }
+
+    #[test]
+    fn a_title_of_two_lines_stays_on_its_line() {
+        let bytes = of_title("one\nXRes = 7\0");
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(text.contains("Title = one XRes = 7 \n"), "{text}");
+    }
+
+    #[test]
+    fn an_xyz_file_has_metres() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.xyz");
+        let mut writer = XyzWriter::begin(&path).unwrap();
+        writer.place(2.5, -1.0, 1e-4).unwrap();
+        writer.whole().complete().unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(text, "2.500000000e-3 -1.000000000e-3 1.000000e-7\n");
+    }
+}

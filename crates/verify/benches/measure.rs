@@ -1,0 +1,102 @@
+//! How fast a path is measured: `cargo bench -p turnpath-verify`. Items are positions, segments,
+//! passes or cells; `docs/benchmarks.md` has what was measured.
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+
+use common::{AST5, astigmatic_path, touch_on};
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use turnpath_core::toolpath::PathBlock;
+use turnpath_core::{DEG, NM};
+use turnpath_verify::machined::{Grid, Map, Nose};
+use turnpath_verify::{FirstTouch, Meter};
+
+/// AST-5 in 110 turns of 25 µm and steps of 9 deg.
+const TURNS: usize = 110;
+const FEED: f64 = 0.025;
+/// Largest error of that path, which a map is told.
+const LARGEST_ERROR: f64 = 100.0 * NM;
+/// Cells of a map along each side.
+const CELLS: usize = 300;
+
+fn main() {
+    divan::main();
+}
+
+fn path() -> PathBlock {
+    let law = |theta: f64| (2.75 - FEED * theta / TAU, -FEED / TAU);
+    astigmatic_path(AST5, 1.0, TURNS * 40, 9.0 * DEG, law)
+}
+
+fn touch() -> FirstTouch {
+    touch_on(AST5, 2.5, 1.0, true)
+}
+
+#[divan::bench]
+fn first_touch(bencher: Bencher<'_, '_>) {
+    let touch = touch();
+    let theta: Vec<f64> = (0..10_000).map(|i| 0.001 * f64::from(i)).collect();
+    let x: Vec<f64> = (0..10_000).map(|i| 2.5e-4 * f64::from(i)).collect();
+    let mut found = Vec::new();
+    bencher
+        .counter(ItemsCount::new(x.len()))
+        .bench_local(|| touch.find(black_box(&theta), black_box(&x), &mut found));
+}
+
+#[divan::bench]
+fn playback(bencher: Bencher<'_, '_>) {
+    let (touch, path) = (touch(), path());
+    bencher
+        .counter(ItemsCount::new(path.len() - 1))
+        .bench_local(|| Meter::segment_errors(&touch, black_box(&path)));
+}
+
+/// The surface's figures once the passes are known; one thread.
+#[divan::bench]
+fn surface_figures(bencher: Bencher<'_, '_>) {
+    let (touch, path) = (touch(), path());
+    let mut meter = Meter::new(touch.clone());
+    let measured = Meter::measure(&touch, &path);
+    let appended = measured.and_then(|measured| meter.append(&measured));
+    assert!(appended.is_ok());
+    let passes = TURNS * 736;
+    bencher
+        .counter(ItemsCount::new(passes))
+        .bench_local(|| one_thread(|| meter.machined()));
+}
+
+/// A map of 300 × 300 cells in one thread.
+fn map(bencher: Bencher<'_, '_>, largest_error: f64) {
+    let (touch, path) = (touch(), path());
+    let part = touch.subject().part;
+    let nose = Nose::new(&touch, largest_error);
+    bencher
+        .counter(ItemsCount::new(CELLS * CELLS))
+        .bench_local(|| {
+            let mut map = Map::new(Grid::cartesian(&part, CELLS), part);
+            one_thread(|| map.cut(&nose, black_box(&path)))
+        });
+}
+
+/// Only the passes that can be the lowest.
+#[divan::bench]
+fn map_cells(bencher: Bencher<'_, '_>) {
+    map(bencher, LARGEST_ERROR);
+}
+
+/// Every pass within reach of a cell.
+#[divan::bench]
+fn map_cells_by_brute_force(bencher: Bencher<'_, '_>) {
+    map(bencher, f64::INFINITY);
+}
+
+fn one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}

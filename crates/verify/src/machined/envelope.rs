@@ -1,0 +1,146 @@
+//! The lower envelope of the lower arcs of equal circles: what passes of a nose leave in a plane.
+
+use crate::cusp::{self, Point};
+
+/// A part of the envelope: the lower arc of one circle, from one place to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arc {
+    /// The circle's centre, mm.
+    pub centre: Point,
+    /// Where it begins, mm.
+    pub from: f64,
+    /// Where it ends, mm.
+    pub to: f64,
+}
+
+/// The lower arc of a circle of radius `radius` around `centre`, at `s`; level with the centre
+/// beyond the circle, where only rounding leads.
+pub(super) fn lower_arc(centre: Point, radius: f64, s: f64) -> f64 {
+    let off = s - centre.x;
+    centre.y - (radius * radius - off * off).max(0.0).sqrt()
+}
+
+/// Of two circles whose first lies to the left: from where on the second is the lower one. Their
+/// difference grows along the line, so that there is one such place. Where they do not overlap
+/// it is the end of the first; what then follows up to the begin of the second is not cut.
+fn border(first: Point, second: Point, radius: f64, reach: f64) -> f64 {
+    let (begin, end) = (second.x - reach, first.x + reach);
+    if begin >= end {
+        return end;
+    }
+    match cusp::between(first, second, radius) {
+        Some(tip) if tip.y < first.y.min(second.y) && (begin..=end).contains(&tip.x) => tip.x,
+        _ if lower_arc(second, radius, begin) <= lower_arc(first, radius, begin) => begin,
+        _ => end,
+    }
+}
+
+/// The lower envelope of the circles around `centres`, sorted from left to right, each limited to
+/// ±`reach`: arcs from left to right. They meet where nothing is left uncut between them.
+///
+/// Two lower arcs cross once at the most, so that a stack does it, in one go.
+pub fn lower_envelope(centres: &[Point], radius: f64, reach: f64, arcs: &mut Vec<Arc>) {
+    arcs.clear();
+    for centre in centres {
+        let mut from = centre.x - reach;
+        while let Some(last) = arcs.last_mut() {
+            if last.centre.x == centre.x && last.centre.y <= centre.y {
+                from = f64::INFINITY;
+                break;
+            }
+            let border = match last.centre.x == centre.x {
+                true => last.from,
+                false => border(last.centre, *centre, radius, reach),
+            };
+            if border > last.from {
+                last.to = border.min(last.to);
+                from = from.max(border);
+                break;
+            }
+            arcs.pop();
+        }
+        if from < centre.x + reach {
+            arcs.push(Arc {
+                centre: *centre,
+                from,
+                to: centre.x + reach,
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn brute_force(centres: &[Point], radius: f64, reach: f64, s: f64) -> f64 {
+        let within = centres.iter().filter(|c| (s - c.x).abs() <= reach);
+        let heights = within.map(|c| lower_arc(*c, radius, s));
+        heights.fold(f64::INFINITY, f64::min)
+    }
+
+    fn of_arcs(arcs: &[Arc], radius: f64, s: f64) -> f64 {
+        let over = arcs.iter().filter(|arc| (arc.from..=arc.to).contains(&s));
+        over.map(|arc| lower_arc(arc.centre, radius, s))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    fn sorted(mut centres: Vec<Point>) -> Vec<Point> {
+        centres.sort_by(|a, b| a.x.total_cmp(&b.x));
+        centres
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(600))]
+        #[test]
+        fn it_is_the_minimum_of_all_arcs(
+            places in prop::collection::vec((-3.0f64..3.0, -1.0f64..1.0), 1..30),
+            flat in prop::sample::select(vec![1.0, 0.1, 1e-3, 1e-6]),
+            reach in prop::sample::select(vec![1.0, 0.7, 0.2]),
+        ) {
+            let centres = sorted(places.iter().map(|(x, z)| Point::new(*x, z * flat)).collect());
+            let mut arcs = Vec::new();
+            lower_envelope(&centres, 1.0, reach, &mut arcs);
+            prop_assert!(arcs.windows(2).all(|pair| pair[0].to <= pair[1].from));
+            prop_assert!(arcs.iter().all(|arc| arc.from < arc.to));
+            for i in 0..=4000 {
+                let s = -4.1 + 0.00205 * f64::from(i);
+                let ends = |arc: &Arc| (arc.from - s).abs() < 1e-9 || (arc.to - s).abs() < 1e-9;
+                if arcs.iter().any(ends) {
+                    continue;
+                }
+                let (found, expected) = (of_arcs(&arcs, 1.0, s), brute_force(&centres, 1.0, reach, s));
+                let same = found == expected || (found - expected).abs() < 1e-12;
+                prop_assert!(same, "at {s}: {found}, not {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn of_passes_at_one_place_the_lowest_counts() {
+        let centres = [
+            Point::new(0.0, 1.0),
+            Point::new(0.0, 0.9),
+            Point::new(0.0, 1.1),
+        ];
+        let mut arcs = Vec::new();
+        lower_envelope(&centres, 1.0, 0.5, &mut arcs);
+        let lowest = Arc {
+            centre: centres[1],
+            from: -0.5,
+            to: 0.5,
+        };
+        assert_eq!(arcs, [lowest]);
+    }
+
+    #[test]
+    fn what_no_circle_reaches_lies_between_two_arcs() {
+        let centres = [Point::new(0.0, 1.0), Point::new(2.0, 1.0)];
+        let mut arcs = Vec::new();
+        lower_envelope(&centres, 1.0, 0.5, &mut arcs);
+        let ends: Vec<(f64, f64)> = arcs.iter().map(|arc| (arc.from, arc.to)).collect();
+        assert_eq!(ends, [(-0.5, 0.5), (1.5, 2.5)]);
+    }
+}

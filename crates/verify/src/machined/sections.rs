@@ -1,0 +1,226 @@
+//! Passes of the nose at a fan of angles, put together into lines through the axis.
+
+use std::f64::consts::TAU;
+
+use turnpath_core::toolpath::PathBlock;
+use turnpath_core::{Gradients, Result, Scalar};
+
+use crate::cusp::Point;
+use crate::residual::crossing;
+use crate::touch::FirstTouch;
+
+/// Sections that a path's figures begin with. 23 is prime, so that sections fall everywhere
+/// between the points of whatever divides a turn; 32 lets every other one be dropped.
+const SECTIONS: i64 = 23 * 32;
+/// Fewest sections: half of them are lines through the axis.
+const FEWEST: i64 = 2 * 23;
+/// Where the first section lies, in widths of a section after C = 0: paths that begin there with
+/// whole degrees would have points on all sections.
+const FIRST: f64 = 0.37;
+/// Passes that are kept, 16 bytes each; beyond, every other section is dropped.
+const MOST_PASSES: usize = 4_000_000;
+/// Part of a line's passes for which room is made at a time: doubling would take twice the memory.
+const MORE_ROOM: usize = 8;
+
+/// Sections of equal distance around the axis. Their count is even, so that each has one opposite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fan {
+    count: i64,
+    offset: f64,
+}
+
+impl Fan {
+    /// What a path's figures are measured on.
+    pub const WHOLE: Self = Self {
+        count: SECTIONS,
+        offset: FIRST * TAU / SECTIONS as f64,
+    };
+
+    /// One line through the axis at an angle, rad.
+    pub const fn line(angle: f64) -> Self {
+        Self {
+            count: 2,
+            offset: angle,
+        }
+    }
+
+    fn width(&self) -> f64 {
+        TAU / self.count as f64
+    }
+
+    /// The angle of a section within its turn, rad.
+    fn angle(&self, number: i64) -> f64 {
+        self.offset + number.rem_euclid(self.count) as f64 * self.width()
+    }
+}
+
+/// The nose centres where C passed successive sections.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SectionPasses {
+    /// The section of the first one, counted from C = offset on.
+    first: i64,
+    centres: Vec<Point>,
+}
+
+impl SectionPasses {
+    /// The passes of a stretch of control points as played, its last point excluded.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn of(touch: &FirstTouch, fan: &Fan, points: &PathBlock) -> Result<Self> {
+        let (mut first, mut centres) = (None, Vec::new());
+        let width = fan.width();
+        for (segment, c) in points.segments().zip(points.c.windows(2)) {
+            let section = |c: f64| (c - fan.offset) / width;
+            let (mut number, end) = (section(c[0]).ceil(), section(c[1]));
+            while number < end {
+                let instant = crossing(&segment, fan.offset + number * width);
+                centres.push(Point::new(
+                    segment.x.value(instant),
+                    segment.z.value(instant),
+                ));
+                first.get_or_insert(number as i64);
+                number += 1.0;
+            }
+        }
+        let first = first.unwrap_or_default();
+        let angles = (first..).map(|number| fan.angle(number));
+        to_centres(touch, angles, &mut centres)?;
+        Ok(Self { first, centres })
+    }
+}
+
+/// Where the nose stands whose path was played: at the point itself, or, where the path is that
+/// of the contact, on the surface's normal there.
+pub(super) fn to_centres(
+    touch: &FirstTouch,
+    angles: impl Iterator<Item = f64>,
+    played: &mut [Point],
+) -> Result<()> {
+    let subject = touch.subject();
+    if subject.compensates_nose {
+        return Ok(());
+    }
+    let turned: Vec<(f64, f64)> = angles
+        .zip(played.iter())
+        .map(|(angle, _)| Scalar::sin_cos(angle))
+        .collect();
+    let place = |(point, turned): (&Point, &(f64, f64))| (point.x * turned.1, point.x * turned.0);
+    let (x, y): (Vec<f64>, Vec<f64>) = played.iter().zip(&turned).map(place).unzip();
+    let blank = vec![0.0; x.len()];
+    let (mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank);
+    let out = Gradients {
+        z: &mut z,
+        zx: &mut zx,
+        zy: &mut zy,
+    };
+    subject.surface.gradient(&x, &y, out)?;
+    let radius = subject.tool.nose_radius;
+    for (i, point) in played.iter_mut().enumerate() {
+        let (sin, cos) = turned[i];
+        let slope = zx[i] * cos + zy[i] * sin;
+        let w = (1.0 + slope * slope).sqrt();
+        *point += Point::new(-radius * slope, radius) / w;
+    }
+    Ok(())
+}
+
+/// Passes along lines through the axis, each with a signed place: those of the section itself
+/// at X, those of the opposite one at −X.
+#[derive(Debug, Clone)]
+pub struct Lines {
+    fan: Fan,
+    /// Every which section is kept.
+    stride: i64,
+    lines: Vec<Vec<Point>>,
+    kept: usize,
+}
+
+impl Lines {
+    /// No passes yet.
+    pub fn new(fan: Fan) -> Self {
+        Self {
+            fan,
+            stride: 1,
+            lines: vec![Vec::new(); (fan.count / 2) as usize],
+            kept: 0,
+        }
+    }
+
+    /// The sections that they are made of.
+    pub fn fan(&self) -> &Fan {
+        &self.fan
+    }
+
+    /// Puts the passes of the path's next stretch behind these.
+    pub fn append(&mut self, next: &SectionPasses) {
+        for (number, centre) in (next.first..).zip(&next.centres) {
+            if number.rem_euclid(self.stride) != 0 {
+                continue;
+            }
+            let half = self.fan.count / 2;
+            let section = number.rem_euclid(self.fan.count);
+            let (section, sign) = match section < half {
+                true => (section, 1.0),
+                false => (section - half, -1.0),
+            };
+            if let Some(line) = self.lines.get_mut((section / self.stride) as usize) {
+                if line.len() == line.capacity() {
+                    line.reserve_exact(line.len() / MORE_ROOM + FEWEST as usize);
+                }
+                line.push(Point::new(sign * centre.x, centre.y));
+                self.kept += 1;
+            }
+        }
+        while self.kept > MOST_PASSES && self.fan.count / self.stride > FEWEST {
+            self.thin_out();
+        }
+    }
+
+    /// Drops every other section.
+    fn thin_out(&mut self) {
+        let mut index = 0;
+        self.lines.retain(|_| {
+            index += 1;
+            index % 2 == 1
+        });
+        self.stride *= 2;
+        self.kept = self.lines.iter().map(Vec::len).sum();
+    }
+
+    /// Angle and passes of each line.
+    pub(super) fn all(&self) -> Vec<(f64, &[Point])> {
+        let angle = |index: usize| self.fan.angle(index as i64 * self.stride);
+        let lines = self.lines.iter().enumerate();
+        lines
+            .map(|(index, line)| (angle(index).rem_euclid(TAU), line.as_slice()))
+            .collect()
+    }
+}
+
+/// Passes from left to right, of those at one place the lowest first.
+pub(super) fn sort(passes: &mut [Point]) {
+    passes.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dropping_sections_keeps_what_would_have_been_kept_from_the_start() {
+        let passes = SectionPasses {
+            first: -5,
+            centres: (0..3000).map(|i| Point::new(f64::from(i), 0.5)).collect(),
+        };
+        let mut late = Lines::new(Fan::WHOLE);
+        late.append(&passes);
+        late.thin_out();
+        let mut early = Lines::new(Fan::WHOLE);
+        early.thin_out();
+        early.append(&passes);
+        assert_eq!(late.lines, early.lines);
+        assert_eq!((late.kept, late.stride), (early.kept, 2));
+        assert_eq!(late.all()[3].0, Fan::WHOLE.angle(6));
+    }
+}

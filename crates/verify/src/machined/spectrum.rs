@@ -1,0 +1,105 @@
+//! Power spectral density of a profile.
+
+use std::f64::consts::TAU;
+
+use rustfft::FftPlannerScalar;
+use rustfft::num_complex::Complex;
+use turnpath_core::Scalar;
+
+/// One line of a spectrum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpectrumLine {
+    /// Periods a mm.
+    pub frequency: f64,
+    /// One-sided density, mm² mm: its integral over the frequency is the mean square about the
+    /// mean.
+    pub density: f64,
+}
+
+/// The one-sided power spectral density of values at distances of `step` mm, mean removed, under
+/// a Hann window. Places without a number split the profile: the longest piece on each side of
+/// them counts, cut to one length, and the spectra of the pieces are averaged.
+pub fn power_spectrum(values: &[f64], step: f64) -> Vec<SpectrumLine> {
+    let pieces: Vec<&[f64]> = values
+        .split(|value| !value.is_finite())
+        .filter(|piece| !piece.is_empty())
+        .collect();
+    let longest = pieces.iter().map(|piece| piece.len()).max().unwrap_or(0);
+    // Two sides of a hole are of equal length but for a place or two.
+    let alike = |piece: &&&[f64]| piece.len() + 2 >= longest;
+    let alike: Vec<&[f64]> = pieces.iter().filter(alike).copied().collect();
+    let length = alike.iter().map(|piece| piece.len()).min().unwrap_or(0);
+    if length < 3 {
+        return Vec::new();
+    }
+    let spectra: Vec<Vec<f64>> = alike
+        .iter()
+        .map(|piece| densities(&piece[..length], step))
+        .collect();
+    let mean = |k: usize| spectra.iter().map(|one| one[k]).sum::<f64>() / spectra.len() as f64;
+    let line = |k: usize| SpectrumLine {
+        frequency: k as f64 / (length as f64 * step),
+        density: mean(k),
+    };
+    (1..=length / 2).map(line).collect()
+}
+
+/// Density at k = 0 … n/2.
+fn densities(values: &[f64], step: f64) -> Vec<f64> {
+    let count = values.len();
+    let mean = values.iter().sum::<f64>() / count as f64;
+    let window = |i: usize| 0.5 - 0.5 * Scalar::cos(TAU * i as f64 / count as f64);
+    let mut series: Vec<Complex<f64>> = values
+        .iter()
+        .enumerate()
+        .map(|(i, value)| Complex::new((value - mean) * window(i), 0.0))
+        .collect();
+    // Without the vector instructions that a CPU may have or not have.
+    FftPlannerScalar::new()
+        .plan_fft_forward(count)
+        .process(&mut series);
+    let power: f64 = (0..count).map(|i| window(i) * window(i)).sum();
+    let one_sided = |k: usize| if 2 * k == count { 1.0 } else { 2.0 };
+    (0..=count / 2)
+        .map(|k| one_sided(k) * step * series[k].norm_sqr() / power)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(count: usize, step: f64, frequency: f64) -> Vec<f64> {
+        let value = |i: usize| 3.0 * Scalar::sin(TAU * frequency * step * i as f64) + 50.0;
+        (0..count).map(value).collect()
+    }
+
+    fn top(lines: &[SpectrumLine]) -> f64 {
+        let higher = |a: &&SpectrumLine, b: &&SpectrumLine| a.density.total_cmp(&b.density);
+        lines.iter().max_by(higher).unwrap().frequency
+    }
+
+    #[test]
+    fn a_wave_has_its_frequency_and_half_its_amplitudes_square() {
+        let lines = power_spectrum(&wave(1000, 0.01, 4.0), 0.01);
+        assert_eq!(top(&lines), 4.0);
+        let width = lines[1].frequency - lines[0].frequency;
+        let power: f64 = lines.iter().map(|line| line.density * width).sum();
+        assert!((power / 4.5 - 1.0).abs() < 1e-9, "{power}");
+    }
+
+    #[test]
+    fn both_sides_of_a_hole_are_averaged() {
+        let mut values = wave(1001, 0.01, 4.0);
+        values[400..600].fill(f64::NAN);
+        let lines = power_spectrum(&values, 0.01);
+        assert_eq!(top(&lines), 4.0);
+        assert_eq!(lines.len(), 200);
+    }
+
+    #[test]
+    fn of_nothing_there_is_no_spectrum() {
+        assert!(power_spectrum(&[f64::NAN; 9], 0.1).is_empty());
+        assert!(power_spectrum(&[], 0.1).is_empty());
+    }
+}
