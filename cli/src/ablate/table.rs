@@ -21,7 +21,7 @@ const WIDEST: usize = 100;
 /// What labels have at least.
 const LEAST_LABEL: usize = 14;
 /// How far the rows of a group stand to the right.
-const INDENT: &str = "  ";
+const INDENT: &str = " ";
 /// Tolerances that have a column of their own.
 const WITH_COLUMN: [&str; 2] = ["interpolation", "residual"];
 
