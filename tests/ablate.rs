@@ -419,7 +419,7 @@ fn the_table_has_all_columns_within_100() {
     // All in one table, the last with its unit.
     assert_eq!(said.stdout.matches("───\n").count(), 1, "{said}");
     assert!(
-        said.stdout.lines().nth(4).unwrap().ends_with(" s"),
+        said.stdout.lines().nth(5).unwrap().ends_with(" s"),
         "{said}"
     );
     insta::assert_snapshot!(ablate(&bench, COLUMNS).ends(0).stdout);

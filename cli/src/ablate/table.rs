@@ -1,8 +1,9 @@
 //! The table of an ablation on a terminal: never wider than 100 columns.
 //!
-//! A row begins with the values that vary, one a line; beside them stand the figures, below these
-//! their ratios to the first run, below that what else does not hold. Where the figures do not fit,
-//! several tables follow each other.
+//! A row begins with the value that varies; beside it stand the figures, below these their ratios
+//! to the first run, below that what else does not hold. Where several keys vary, a row begins with
+//! the last one's value, and the rows that share all others stand below a line with those. Where the
+//! figures do not fit, several tables follow each other.
 
 mod figures;
 mod words;
@@ -19,6 +20,8 @@ use words::{cut, padded, printable};
 const WIDEST: usize = 100;
 /// What labels have at least.
 const LEAST_LABEL: usize = 14;
+/// How far the rows of a group stand to the right.
+const INDENT: &str = " ";
 /// Tolerances that have a column of their own.
 const WITH_COLUMN: [&str; 2] = ["interpolation", "residual"];
 
@@ -84,9 +87,38 @@ fn legend(columns: &[Figures]) -> String {
 
 /// What stands on the left.
 struct Labels {
-    keys: Vec<String>,
-    /// The values of each run, a line each.
-    rows: Vec<Vec<String>>,
+    keys: Label,
+    /// One a run.
+    rows: Vec<Label>,
+}
+
+/// Values that vary, or their keys.
+struct Label {
+    /// All but the last, which rows may share; empty where one key varies.
+    group: String,
+    /// The last.
+    own: String,
+}
+
+impl Label {
+    fn of(values: &[String]) -> Self {
+        let (last, others) = values
+            .split_last()
+            .map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
+        let indent = if others.is_empty() { "" } else { INDENT };
+        Self {
+            group: others.join(", "),
+            own: format!("{indent}{last}"),
+        }
+    }
+
+    /// The line above a group.
+    fn title(&self) -> String {
+        match self.group.as_str() {
+            "" => String::new(),
+            group => cut(group, WIDEST) + "\n",
+        }
+    }
 }
 
 impl Labels {
@@ -98,34 +130,58 @@ impl Labels {
             .collect();
         let first = all.first();
         let keys = first.map(|first| first.keys().map(|key| printable(key)).collect());
+        let keys: Vec<String> = keys.unwrap_or_default();
         let value = |value: &Value| printable(value.as_str().unwrap_or_default());
-        let rows = all.iter();
-        let rows = rows.map(|varied| varied.values().map(value).collect());
+        let values = all.iter();
+        let values = values.map(|varied| varied.values().map(value).collect::<Vec<_>>());
         Self {
-            keys: keys.unwrap_or_default(),
-            rows: rows.collect(),
+            keys: Label::of(&keys),
+            rows: values.map(|values| Label::of(&values)).collect(),
         }
     }
 
     /// A table of some columns.
     fn beside(&self, columns: &[Figures], entries: &[Value]) -> String {
         let taken: usize = columns.iter().map(Figures::whole_width).sum();
-        let labels = self.rows.iter().flatten().chain(&self.keys);
-        let needed = labels.map(|label| label.width()).max().unwrap_or(0);
+        let labels = self.rows.iter().chain([&self.keys]);
+        let needed = labels.map(|label| label.own.width()).max().unwrap_or(0);
         let width = needed.min(WIDEST.saturating_sub(taken));
-        let mut text = lines(&self.keys, &self.head(columns), width);
+        let mut text = self.heading(columns, width);
         text += &"─".repeat(width + taken);
         text.push('\n');
-        let rows = self.rows.iter().zip(entries).enumerate();
-        let rows = rows.map(|(run, (labels, entry))| {
-            lines(labels, &said(run, entry, columns, WIDEST - width), width)
-        });
-        text + &rows.collect::<Vec<_>>().join("\n")
+        let mut group = None;
+        for (run, (label, entry)) in self.rows.iter().zip(entries).enumerate() {
+            let is_new = group != Some(&label.group);
+            if is_new || label.group.is_empty() {
+                text += if run > 0 { "\n" } else { "" };
+                text += &label.title();
+            }
+            group = Some(&label.group);
+            text += &lines(
+                &label.own,
+                &said(run, entry, columns, WIDEST - width),
+                width,
+            );
+        }
+        text
+    }
+
+    /// The names of keys and columns.
+    fn heading(&self, columns: &[Figures], width: usize) -> String {
+        let head = self.head(columns);
+        let (last, others) = head
+            .split_last()
+            .map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
+        let beside = |label: &str, line: &str| format!("{}{line}", padded(label, width));
+        let others = others.iter().map(|line| beside("", line));
+        let all = others.chain([beside(&self.keys.own, last)]);
+        let all: Vec<String> = all.map(|line| line.trim_end().to_owned()).collect();
+        format!("{}{}\n", self.keys.title(), all.join("\n"))
     }
 
     fn head(&self, columns: &[Figures]) -> Vec<String> {
         let heights = columns.iter().map(|column| column.head.len());
-        let height = heights.max().unwrap_or(0).max(self.keys.len());
+        let height = heights.max().unwrap_or(0);
         let line = |line| columns.iter().map(move |one| one.head_line(line, height));
         (0..height).map(|index| line(index).collect()).collect()
     }
@@ -160,17 +216,17 @@ fn beyond(entry: &Value) -> Vec<&str> {
     names.filter(|name| !WITH_COLUMN.contains(name)).collect()
 }
 
-/// Labels with what stands beside them, line by line.
-fn lines(labels: &[String], beside: &[String], width: usize) -> String {
+/// A label with what stands beside it, line by line.
+fn lines(label: &str, beside: &[String], width: usize) -> String {
     let line = |index: usize| {
-        let label = labels.get(index).map_or("", String::as_str);
+        let label = if index == 0 { label } else { "" };
         let beside = beside.get(index).map_or("", String::as_str);
         format!("{}{beside}", padded(label, width))
     };
-    let last = (0..labels.len().max(beside.len())).map(line);
-    let lines = last.map(|line| line.trim_end().to_owned());
-    let lines: Vec<String> = lines.filter(|line| !line.is_empty()).collect();
-    lines.join("\n") + "\n"
+    let all = (0..beside.len().max(1)).map(line);
+    let all = all.map(|line| line.trim_end().to_owned());
+    let all: Vec<String> = all.filter(|line| !line.is_empty()).collect();
+    all.join("\n") + "\n"
 }
 
 #[cfg(test)]
