@@ -5,8 +5,9 @@
 //! all that stands there, and does not grow with the slope. A pass counts where its edge stands
 //! above the place: within the reach of half the included angle.
 //!
-//! Around the axis the figure is the highest cusp between the passes of the path's innermost three
-//! turns, those of θ and of θ + π together on one line through the axis.
+//! Around the axis the figure is the highest cusp between the passes nearest to it, three on either
+//! side of it a section, those of θ and of θ + π together on one line through the axis. So a path
+//! that runs on beyond the axis is judged where the axis is, not where it ends.
 
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
@@ -19,9 +20,10 @@ use crate::touch::FirstTouch;
 /// Sections of a revolution, and how many lie half a revolution further.
 const TURN: usize = SECTIONS as usize;
 const HALF_TURN: usize = TURN / 2;
-/// Passes of the innermost turns: a spiral that ends at the axis has its widest gap between the
-/// second and the third pass of a line, and one that runs out there somewhat further out.
-const INNERMOST: usize = 3 * TURN;
+/// Passes of a section that are kept on either side of the axis: a spiral that ends at the axis has
+/// its widest gap between the second and the third pass of a line, and one that runs out there
+/// somewhat further out.
+const NEAREST: usize = 3;
 
 /// The largest height that stays uncut somewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,8 +54,7 @@ pub struct CoverageFigures {
 pub(crate) struct Coverage {
     rim: Edge,
     hole: Edge,
-    first: Passes,
-    last: Passes,
+    near: NearAxis,
     x_beyond_axis: f64,
     contact_beyond_axis: f64,
 }
@@ -72,8 +73,7 @@ impl Coverage {
         Ok(Self {
             rim: Edge::of(touch, part.aperture_radius, passes)?,
             hole,
-            first: passes.first_few(INNERMOST),
-            last: passes.last_few(INNERMOST),
+            near: NearAxis::of(passes),
             x_beyond_axis: played.fold(0.0, beyond),
             contact_beyond_axis: contacts.fold(0.0, beyond),
         })
@@ -85,14 +85,7 @@ impl Coverage {
         self.hole.append(&next.hole);
         self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
         self.contact_beyond_axis = self.contact_beyond_axis.max(next.contact_beyond_axis);
-        self.first.extend(&next.first);
-        self.first = self.first.first_few(INNERMOST);
-        if next.last.passes.len() == INNERMOST {
-            self.last = next.last.clone();
-        } else {
-            self.last.extend(&next.last);
-            self.last = self.last.last_few(INNERMOST);
-        }
+        self.near.append(&next.near);
     }
 
     /// What the whole path leaves uncut, and the cusps around the axis.
@@ -107,22 +100,46 @@ impl Coverage {
             figures.hole = Some(self.hole.uncut());
             return Ok((figures, ResidualFigures::default()));
         }
-        let cusps = around_axis(touch, self.innermost())?;
+        let cusps = around_axis(touch, &self.near)?;
         figures.centre = Some(Uncut {
             height: cusps.highest().unwrap_or(f64::INFINITY),
             at_theta: cusps.at_theta,
         });
         Ok((figures, cusps))
     }
+}
 
-    /// The passes of the end that lies nearer to the axis.
-    fn innermost(&self) -> &Passes {
-        let first = self.first.passes.first().map(|pass| pass.foot.abs());
-        let last = self.last.passes.last().map(|pass| pass.foot.abs());
-        match (first, last) {
-            (Some(first), Some(last)) if first < last => &self.first,
-            _ => &self.last,
+/// The passes nearest to the axis: on each section, the nearest first, those that touch beyond the
+/// axis apart.
+#[derive(Debug, Clone, Default)]
+struct NearAxis {
+    /// Empty where nothing was looked at.
+    sections: Vec<[Vec<Pass>; 2]>,
+}
+
+impl NearAxis {
+    fn of(passes: &Passes) -> Self {
+        let mut near = Self::default();
+        for (number, pass) in (passes.first..).zip(&passes.passes) {
+            near.take(number.rem_euclid(SECTIONS) as usize, *pass);
         }
+        near
+    }
+
+    fn append(&mut self, next: &Self) {
+        for (section, sides) in next.sections.iter().enumerate() {
+            for pass in sides.iter().flatten() {
+                self.take(section, *pass);
+            }
+        }
+    }
+
+    fn take(&mut self, section: usize, pass: Pass) {
+        self.sections.resize_with(TURN, Default::default);
+        let side = &mut self.sections[section][usize::from(pass.foot < 0.0)];
+        let nearer = |kept: &Pass| kept.foot.abs().total_cmp(&pass.foot.abs()).is_le();
+        side.insert(side.partition_point(nearer), pass);
+        side.truncate(NEAREST);
     }
 }
 
@@ -185,14 +202,15 @@ fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
 
 /// The highest cusp between neighbours on every line through the axis; infinite where a line has
 /// passes on one side of the axis only.
-fn around_axis(touch: &FirstTouch, passes: &Passes) -> Result<ResidualFigures> {
+fn around_axis(touch: &FirstTouch, near: &NearAxis) -> Result<ResidualFigures> {
     let mut lines: Vec<Vec<Pass>> = vec![Vec::new(); HALF_TURN];
     let mut sides = [[false; 2]; HALF_TURN];
-    for (number, pass) in (passes.first..).zip(&passes.passes) {
-        let section = number.rem_euclid(SECTIONS) as usize;
+    for (section, passes) in near.sections.iter().enumerate() {
         let (line, far) = (section % HALF_TURN, section >= HALF_TURN);
-        sides[line][usize::from(far)] = true;
-        lines[line].push(if far { pass.mirrored() } else { *pass });
+        for pass in passes.iter().flatten() {
+            sides[line][usize::from(far)] = true;
+            lines[line].push(if far { pass.mirrored() } else { *pass });
+        }
     }
     if let Some(open) = sides.iter().position(|sides| *sides != [true; 2]) {
         return Ok(ResidualFigures {

@@ -158,6 +158,23 @@ fn a_turn_on_the_axis_closes_the_gap() {
     assert_eq!(found.residual.max, centre);
 }
 
+/// The axis lies between many turns then, whose passes from both sides halve the gaps.
+#[test]
+fn a_path_that_runs_on_beyond_the_axis_is_judged_at_the_axis() {
+    let feed = 0.02;
+    let touch = touch_on(FLAT, 2.5, 1.0, true);
+    for path in [
+        bare_spiral(130.0, |n| 2.4 - feed * n),
+        bare_spiral(130.0, |n| feed * (n - 10.0)),
+        bare_spiral(240.0, |n| 2.4 - feed * n),
+    ] {
+        let found = with_centre(&touch, &path);
+        let centre = found.coverage.centre.unwrap().height;
+        assert!(centre <= 1.0001 * cusp(feed), "{centre}");
+        assert!((found.residual.max / cusp(feed) - 1.0).abs() < 1e-4);
+    }
+}
+
 #[test]
 fn around_the_axis_of_a_tilted_plane_cusps_are_those_between_contacts() {
     let feed = 0.02;
