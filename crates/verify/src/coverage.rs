@@ -5,13 +5,16 @@
 //! all that stands there, and does not grow with the slope. A pass counts where its edge stands
 //! above the place: within the reach of half the included angle.
 //!
-//! Around the axis the figure is the highest cusp between the passes nearest to it, three on either
-//! side of it a section, those of θ and of θ + π together on one line through the axis. So a path
-//! that runs on beyond the axis is judged where the axis is, not where it ends.
+//! Where the nose may leave seams, it is the way from what the nose can reach at best.
+//!
+//! Around the axis the figure is the highest cusp between the passes of the turns nearest to it,
+//! those of θ and of θ + π together on one line through the axis: of a path that ends there its
+//! last three, of one that runs on beyond it five.
 
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
 
+use crate::closing;
 use crate::cusp::Point;
 use crate::profiles::Profiles;
 use crate::residual::{Pass, Passes, ResidualFigures, SECTIONS, angle_of, highest};
@@ -20,10 +23,11 @@ use crate::touch::FirstTouch;
 /// Sections of a revolution, and how many lie half a revolution further.
 const TURN: usize = SECTIONS as usize;
 const HALF_TURN: usize = TURN / 2;
-/// Passes of a section that are kept on either side of the axis: a spiral that ends at the axis has
-/// its widest gap between the second and the third pass of a line, and one that runs out there
-/// somewhat further out.
-const NEAREST: usize = 3;
+/// Passes of the innermost turns: a spiral that ends at the axis has its widest gap between the
+/// second and the third pass of a line, and one that runs out there somewhat further out.
+const INNERMOST: usize = 3 * TURN;
+/// Passes behind the innermost turn that are kept too, where the path goes on so far.
+const BEYOND: usize = 2 * TURN;
 
 /// The largest height that stays uncut somewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,19 +77,19 @@ impl Coverage {
         Ok(Self {
             rim: Edge::of(touch, part.aperture_radius, passes)?,
             hole,
-            near: NearAxis::of(passes),
+            near: NearAxis::default(),
             x_beyond_axis: played.fold(0.0, beyond),
             contact_beyond_axis: contacts.fold(0.0, beyond),
         })
     }
 
-    /// Puts the path's next stretch behind what has been seen.
-    pub fn append(&mut self, next: &Self) {
+    /// Puts the path's next stretch, with these passes, behind what has been seen.
+    pub fn append(&mut self, next: &Self, passes: &Passes) {
         self.rim.append(&next.rim);
         self.hole.append(&next.hole);
         self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
         self.contact_beyond_axis = self.contact_beyond_axis.max(next.contact_beyond_axis);
-        self.near.append(&next.near);
+        self.near.append(passes);
     }
 
     /// What the whole path leaves uncut, and the cusps around the axis.
@@ -100,7 +104,7 @@ impl Coverage {
             figures.hole = Some(self.hole.uncut());
             return Ok((figures, ResidualFigures::default()));
         }
-        let cusps = around_axis(touch, &self.near)?;
+        let cusps = around_axis(touch, &self.near.innermost())?;
         figures.centre = Some(Uncut {
             height: cusps.highest().unwrap_or(f64::INFINITY),
             at_theta: cusps.at_theta,
@@ -109,37 +113,74 @@ impl Coverage {
     }
 }
 
-/// The passes nearest to the axis: on each section, the nearest first, those that touch beyond the
-/// axis apart.
-#[derive(Debug, Clone, Default)]
+/// The passes of the turns nearest to the axis. A turn's mean X tells how far it is: on it neither
+/// a tilt counts, nor whether ρ is the centre's or the contact's.
+#[derive(Debug, Clone)]
 struct NearAxis {
-    /// Empty where nothing was looked at.
-    sections: Vec<[Vec<Pass>; 2]>,
+    /// The last turns, three or a little more.
+    recent: Passes,
+    /// Passes of the turn in hand, and the sum of their X.
+    taken: usize,
+    sum: f64,
+    /// |sum| of the innermost turn so far.
+    least: f64,
+    innermost: Passes,
+    /// Passes that are still to come to it.
+    wanted: usize,
+}
+
+impl Default for NearAxis {
+    fn default() -> Self {
+        Self {
+            recent: Passes::default(),
+            taken: 0,
+            sum: 0.0,
+            least: f64::INFINITY,
+            innermost: Passes::default(),
+            wanted: BEYOND,
+        }
+    }
 }
 
 impl NearAxis {
-    fn of(passes: &Passes) -> Self {
-        let mut near = Self::default();
-        for (number, pass) in (passes.first..).zip(&passes.passes) {
-            near.take(number.rem_euclid(SECTIONS) as usize, *pass);
+    fn append(&mut self, next: &Passes) {
+        if self.recent.passes.is_empty() {
+            self.recent.first = next.first;
         }
-        near
-    }
-
-    fn append(&mut self, next: &Self) {
-        for (section, sides) in next.sections.iter().enumerate() {
-            for pass in sides.iter().flatten() {
-                self.take(section, *pass);
-            }
+        for pass in &next.passes {
+            self.take(*pass);
         }
     }
 
-    fn take(&mut self, section: usize, pass: Pass) {
-        self.sections.resize_with(TURN, Default::default);
-        let side = &mut self.sections[section][usize::from(pass.foot < 0.0)];
-        let nearer = |kept: &Pass| kept.foot.abs().total_cmp(&pass.foot.abs()).is_le();
-        side.insert(side.partition_point(nearer), pass);
-        side.truncate(NEAREST);
+    fn take(&mut self, pass: Pass) {
+        self.recent.passes.push(pass);
+        if self.wanted > 0 {
+            self.innermost.passes.push(pass);
+            self.wanted -= 1;
+        }
+        self.sum += pass.centre.x;
+        self.taken += 1;
+        if self.taken == TURN {
+            self.end_turn();
+        }
+    }
+
+    fn end_turn(&mut self) {
+        self.recent = self.recent.last_few(INNERMOST);
+        if self.sum.abs() < self.least {
+            self.least = self.sum.abs();
+            self.innermost = self.recent.clone();
+            self.wanted = BEYOND;
+        }
+        (self.taken, self.sum) = (0, 0.0);
+    }
+
+    /// Those of a path that ends here.
+    fn innermost(&self) -> Passes {
+        match self.wanted > 0 {
+            true => self.recent.last_few(INNERMOST),
+            false => self.innermost.clone(),
+        }
     }
 }
 
@@ -154,8 +195,12 @@ impl Edge {
     /// What `passes` leave at one radius.
     fn of(touch: &FirstTouch, radius: f64, passes: &Passes) -> Result<Self> {
         let tool = touch.subject().tool;
-        let places = ring(touch, radius)?;
         let mut nearest = vec![f64::INFINITY; TURN];
+        let comes_near = |pass: &Pass| (pass.centre.x.abs() - radius).abs() < tool.reach();
+        if !passes.passes.iter().any(comes_near) {
+            return Ok(Self { nearest });
+        }
+        let places = ring(touch, radius)?;
         for (number, pass) in (passes.first..).zip(&passes.passes) {
             let section = number.rem_euclid(SECTIONS) as usize;
             let across = (section + HALF_TURN) % TURN;
@@ -191,26 +236,33 @@ impl Edge {
     }
 }
 
-/// The wanted surface at one radius on every section.
+/// The wanted surface at one radius on every section; the closing above it where there may be
+/// seams.
 fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
     let theta: Vec<f64> = (0..SECTIONS).map(angle_of).collect();
     let mut profiles = Profiles::new(touch.subject().surface.as_ref(), &theta);
     profiles.at_all(&vec![radius; TURN])?;
-    let places = profiles.height.iter().map(|z| Point::new(radius, *z));
+    let mut heights = profiles.height.clone();
+    if touch.leaves_seams() {
+        let closing = closing::at_radius(touch, &theta, radius)?;
+        for (height, closing) in heights.iter_mut().zip(closing) {
+            *height = height.max(closing);
+        }
+    }
+    let places = heights.into_iter().map(|z| Point::new(radius, z));
     Ok(places.collect())
 }
 
 /// The highest cusp between neighbours on every line through the axis; infinite where a line has
 /// passes on one side of the axis only.
-fn around_axis(touch: &FirstTouch, near: &NearAxis) -> Result<ResidualFigures> {
+fn around_axis(touch: &FirstTouch, passes: &Passes) -> Result<ResidualFigures> {
     let mut lines: Vec<Vec<Pass>> = vec![Vec::new(); HALF_TURN];
     let mut sides = [[false; 2]; HALF_TURN];
-    for (section, passes) in near.sections.iter().enumerate() {
+    for (number, pass) in (passes.first..).zip(&passes.passes) {
+        let section = number.rem_euclid(SECTIONS) as usize;
         let (line, far) = (section % HALF_TURN, section >= HALF_TURN);
-        for pass in passes.iter().flatten() {
-            sides[line][usize::from(far)] = true;
-            lines[line].push(if far { pass.mirrored() } else { *pass });
-        }
+        sides[line][usize::from(far)] = true;
+        lines[line].push(if far { pass.mirrored() } else { *pass });
     }
     if let Some(open) = sides.iter().position(|sides| *sides != [true; 2]) {
         return Ok(ResidualFigures {

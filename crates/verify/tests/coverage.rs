@@ -195,6 +195,19 @@ fn around_the_axis_of_a_tilted_plane_cusps_are_those_between_contacts() {
     assert!(found.contact_beyond_axis < 1e-3 * feed);
 }
 
+/// Then contacts around the axis come of passes far from it: on this slope 0.7 mm.
+#[test]
+fn around_the_axis_of_a_tilted_plane_the_innermost_turns_count_wherever_they_touch() {
+    let feed = 0.02;
+    let touch = touch_on(TILTED, 2.5, 1.0, true);
+    let centre = |path: PathBlock| coverage(&touch, &path).centre.unwrap().height;
+    let known = cusp(2f64.sqrt() * 1.5 * feed);
+    let ends = centre(bare_spiral(100.0, |n| feed * n));
+    assert!(ends < 1.01 * known, "{ends} of {known}");
+    let crosses = centre(bare_spiral(150.0, |n| 2.0 - feed * n));
+    assert!(crosses < 1.01 * cusp(2f64.sqrt() * feed), "{crosses}");
+}
+
 #[test]
 fn a_path_that_ends_before_the_axis_leaves_it_uncut() {
     let touch = touch_on(FLAT, 2.5, 0.2, true);
