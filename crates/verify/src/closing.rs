@@ -63,45 +63,17 @@ pub(crate) fn heights(touch: &FirstTouch, cusps: &[Raised]) -> Result<Vec<f64>> 
     Ok(heights)
 }
 
-/// How high the closing lies at one radius, on each section.
-pub(crate) fn at_radius(touch: &FirstTouch, theta: &[f64], radius: f64) -> Result<Vec<f64>> {
-    let reach = touch.subject().tool.reach();
-    let between = vec![(radius - reach, radius + reach); theta.len()];
-    let (x, touches) = over(touch, theta, &vec![radius; theta.len()], between)?;
-    let nose = touch.subject().tool.nose_radius;
-    let lift = |x: f64| (nose * nose - (radius - x) * (radius - x)).max(0.0).sqrt();
-    let heights = x.iter().zip(&touches).map(|(x, touch)| touch.z - lift(*x));
-    Ok(heights.collect())
-}
-
 /// How far each cusp stands above the closing, along the normal of the nose that leaves it.
 fn over_closing(touch: &FirstTouch, cusps: &[Raised]) -> Result<Vec<f64>> {
     let theta: Vec<f64> = cusps.iter().map(|cusp| cusp.theta).collect();
-    let places: Vec<f64> = cusps.iter().map(|cusp| cusp.place.x).collect();
-    let between: Vec<(f64, f64)> = cusps.iter().map(|cusp| (cusp.lower, cusp.upper)).collect();
-    let (middle, touches) = over(touch, &theta, &places, between)?;
-    let radius = touch.subject().tool.nose_radius;
-    let all = cusps.iter().zip(&touches).zip(&middle);
-    Ok(all
-        .map(|((cusp, touch), x)| above_nose(cusp.place, *x, touch, radius))
-        .collect())
-}
-
-/// X, between two positions, where the contact passes each place or jumps over it, and the touch
-/// there.
-fn over(
-    touch: &FirstTouch,
-    theta: &[f64],
-    places: &[f64],
-    mut between: Vec<(f64, f64)>,
-) -> Result<(Vec<f64>, Vec<Touch>)> {
+    let mut between: Vec<(f64, f64)> = cusps.iter().map(|cusp| (cusp.lower, cusp.upper)).collect();
     let mut touches = Vec::new();
     for _ in 0..HALVINGS {
         let middle = middles(&between);
-        touch.find(theta, &middle, &mut touches)?;
-        let halves = between.iter_mut().zip(&touches).zip(places).zip(middle);
-        for (((between, touch), place), middle) in halves {
-            if touch.foot < *place {
+        touch.find(&theta, &middle, &mut touches)?;
+        let halves = between.iter_mut().zip(&touches).zip(cusps).zip(middle);
+        for (((between, touch), cusp), middle) in halves {
+            if touch.foot < cusp.place.x {
                 between.0 = middle;
             } else {
                 between.1 = middle;
@@ -109,8 +81,12 @@ fn over(
         }
     }
     let middle = middles(&between);
-    touch.find(theta, &middle, &mut touches)?;
-    Ok((middle, touches))
+    touch.find(&theta, &middle, &mut touches)?;
+    let radius = touch.subject().tool.nose_radius;
+    let all = cusps.iter().zip(&touches).zip(&middle);
+    Ok(all
+        .map(|((cusp, touch), x)| above_nose(cusp.place, *x, touch, radius))
+        .collect())
 }
 
 fn middles(between: &[(f64, f64)]) -> Vec<f64> {

@@ -5,8 +5,6 @@
 //! all that stands there, and does not grow with the slope. A pass counts where its edge stands
 //! above the place: within the reach of half the included angle.
 //!
-//! Where the nose may leave seams, it is the way from what the nose can reach at best.
-//!
 //! Around the axis the figure is the highest cusp between the passes of the turns nearest to it,
 //! those of θ and of θ + π together on one line through the axis: of a path that ends there its
 //! last three, of one that runs on beyond it five.
@@ -14,7 +12,6 @@
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
 
-use crate::closing;
 use crate::cusp::Point;
 use crate::profiles::Profiles;
 use crate::residual::{Pass, Passes, ResidualFigures, SECTIONS, angle_of, highest};
@@ -236,20 +233,12 @@ impl Edge {
     }
 }
 
-/// The wanted surface at one radius on every section; the closing above it where there may be
-/// seams.
+/// The wanted surface at one radius on every section.
 fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
     let theta: Vec<f64> = (0..SECTIONS).map(angle_of).collect();
     let mut profiles = Profiles::new(touch.subject().surface.as_ref(), &theta);
     profiles.at_all(&vec![radius; TURN])?;
-    let mut heights = profiles.height.clone();
-    if touch.leaves_seams() {
-        let closing = closing::at_radius(touch, &theta, radius)?;
-        for (height, closing) in heights.iter_mut().zip(closing) {
-            *height = height.max(closing);
-        }
-    }
-    let places = heights.into_iter().map(|z| Point::new(radius, z));
+    let places = profiles.height.iter().map(|z| Point::new(radius, *z));
     Ok(places.collect())
 }
 

@@ -127,20 +127,6 @@ fn over_a_seam_cusps_are_measured_from_what_the_nose_can_reach() {
     assert!((found.at_rho - 1.0).abs() < 0.01);
 }
 
-/// The rim runs along the bottom of a groove: the nose stands over it on both flanks, and what it
-/// leaves there is not uncut.
-#[test]
-fn coverage_of_a_rim_in_a_seam_counts_from_what_the_nose_can_reach() {
-    let (slope, feed) = (0.3, 0.01);
-    let touch = touch_of(Ring { slope, radius: 1.0 }, 1.0, tool(None), true);
-    let found = figures(&touch, &bare_spiral(1.3 / feed, |n| feed * n)).coverage;
-    let rim = found.rim.expect("a rim").height;
-    let cusp = 0.5 * slope * feed + NOSE - (NOSE * NOSE - 0.25 * feed * feed).sqrt();
-    assert!(rim < 1.001 * cusp, "{rim} of {cusp}");
-    let unreached = NOSE * ((1.0 + slope * slope).sqrt() - 1.0);
-    assert!(unreached > 10.0 * cusp);
-}
-
 /// On a slope of 45 deg an edge that ends at 30 deg cuts steps with its end.
 #[test]
 fn an_edge_that_ends_before_the_slope_leaves_steps() {
