@@ -1,7 +1,7 @@
 //! A recipe made ready: its chain, and the job with a tool that fits.
 
 use turnpath_core::interference::Conflict;
-use turnpath_core::{Misfit, Slot, SpindleLaw, StrategyError};
+use turnpath_core::{Misfit, Overrun, Slot, SpindleLaw, StrategyError};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Chain, PipelineError, Prepared, Wanted, prepare};
 use turnpath_recipe::{Diagnostic, Recipe};
@@ -87,15 +87,21 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
         }
         PipelineError::NoSurface(_) => {
             let place = recipe.nearest_place("part.aperture");
+            let longer = matches!(recipe.overrun, Overrun::Length(length) if length > 0.0);
+            let help = longer.then(|| "or choose a shorter `overrun` under [path]".to_owned());
             recipe
-                .complaint(place, title, "the part reaches there", [])
+                .complaint(place, title, "the part reaches there", help)
                 .into()
         }
         PipelineError::Lead { .. } => {
             let place = recipe.nearest_place("path.lead");
-            let help = "choose another `clearance`, or write lead = false under [path]";
+            let what = match recipe.machine.has_limits() {
+                true => "choose another `clearance`, wider limits under [machine]",
+                false => "choose another `clearance`, a slower spindle",
+            };
+            let help = format!("{what}, or write lead = false under [path]");
             recipe
-                .complaint(place, title, "leads are made here", [help.to_owned()])
+                .complaint(place, title, "leads are made here", [help])
                 .into()
         }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),

@@ -20,6 +20,16 @@ const REST: f64 = 0.01;
 /// Turns that a law stays where it ends at rest: with the C² start of a turn that follows, the
 /// passes lie within 0.32 feeds of the end.
 const HOLD: f64 = 0.6;
+/// A law of fewer turns has no room for a taper at either end.
+const SHORT: f64 = 2.0;
+/// Fewest turns of what takes its place: within the first and the last of them it moves by a fifth
+/// of its way, which is 0.42 feeds at the most.
+const AROUND: f64 = 3.0;
+/// The largest rate of a quintic from rest to rest, of its mean.
+const STEEPEST: f64 = 1.875;
+/// Least part of its mean that a short law's slowest rate is taken for: one that rests somewhere
+/// would take for ever.
+const SLOWEST: f64 = 0.25;
 /// Angles of a turn at which passes are looked at.
 const ANGLES: usize = 72;
 /// Halvings of the interval in which the taper begins: down to rounding.
@@ -27,6 +37,9 @@ const HALVINGS: usize = 60;
 
 /// The law with its feed running out at both ends, where it does not close by itself.
 pub fn taper(law: &SpiralLaw, job: &Job) -> SpiralLaw {
+    if law.end() < SHORT {
+        return around(law);
+    }
     let (start, end) = (End::of(law, job, false), End::of(law, job, true));
     let mut pieces = Vec::new();
     let mut at = 0.0;
@@ -54,10 +67,27 @@ pub fn taper(law: &SpiralLaw, job: &Job) -> SpiralLaw {
     SpiralLaw::from_pieces(pieces, at)
 }
 
+/// In place of a law so short that it does not come to every angle of its ends: one from rest to
+/// rest, nowhere faster than it was where it was slowest.
+fn around(law: &SpiralLaw) -> SpiralLaw {
+    let (from, to) = (law.value(0.0), law.value(law.end()));
+    let mean = (to - from).abs() / law.end();
+    if !mean.is_normal() {
+        return law.clone();
+    }
+    let rate = |i: usize| law.rate(law.end() * i as f64 / ANGLES as f64).abs();
+    let slowest = (0..=ANGLES).map(rate).fold(mean, f64::min);
+    let gentle = STEEPEST * law.end() * mean / slowest.max(SLOWEST * mean);
+    let turns = gentle.max(AROUND);
+    let mut around = SpiralLaw::new();
+    around.push(turns, quintic([from, 0.0, 0.0], [to, 0.0, 0.0], turns));
+    around
+}
+
 /// What is done at one end of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Close {
-    /// Nothing: it closes by itself, or is too short for it.
+    /// Nothing: it closes by itself.
     Not,
     /// It stays where it is.
     Hold,
@@ -133,9 +163,6 @@ impl Side<'_> {
     fn close(&self, inside: impl Fn(f64) -> f64) -> Close {
         // Both ends have half of the law to themselves.
         let half = 0.5 * self.law.end();
-        if half < 1.0 {
-            return Close::Not;
-        }
         let pitch = (self.rho(1.0) - self.rho(0.0)).abs();
         let closes = |m: f64| {
             let next = (self.rho(m + 1.0) - self.rho(m)).abs();
@@ -310,14 +337,38 @@ mod tests {
     }
 
     #[test]
-    fn a_law_that_closes_by_itself_or_is_short_is_left_alone() {
+    fn a_law_that_closes_by_itself_is_left_alone() {
         let mut law = SpiralLaw::new();
         law.push(1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(7.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(End::of(&law, &job(&law), false).close, Close::Not);
-        let mut short = SpiralLaw::new();
-        short.push(1.5, [1.0, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(taper(&short, &job(&short)), short);
+    }
+
+    #[test]
+    fn a_short_law_comes_around_at_both_ends_no_faster_than_it_was() {
+        for (turns, pieces) in [
+            (1.9, [1.0, 0.1, 0.002]),
+            (1.5, [1.0, 0.1, 0.02]),
+            (0.3, [2.0, -0.1, 0.05]),
+        ] {
+            let [start, rate, bend] = pieces;
+            let mut short = SpiralLaw::new();
+            short.push(turns, [start, rate, bend, 0.0, 0.0, 0.0]);
+            let slowest = short.rate(0.0).abs().min(short.rate(turns).abs());
+            let round = taper(&short, &job(&short));
+            let end = round.end();
+            let (from, to) = (short.value(0.0), short.value(turns));
+            for i in 0..=100 {
+                let n = f64::from(i) / 100.0;
+                let away = [round.value(n) - from, round.value(end - n) - to];
+                assert!(away.iter().all(|away| away.abs() < 0.42 * slowest));
+                assert!(round.rate(n * end).abs() <= 1.0001 * slowest);
+            }
+            for (n, place) in [(0.0, from), (end, to)] {
+                let [value, rate, bend, ..] = round.series_before(n);
+                assert!((value - place).abs() < 1e-15 && rate.abs() + bend.abs() < 1e-13);
+            }
+        }
     }
 }

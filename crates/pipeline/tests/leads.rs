@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use common::solvers::{Area, Disjoint, Exact, Resting, Spline};
 use common::{Bare, Job, K, Kept, RIM, Saddle, even, feed_of, inward, straight};
-use turnpath_core::toolpath::{PathBlock, Section, Segment, SegmentShape};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, Segment, SegmentShape};
 use turnpath_core::{
     Centres, Compensator, Cut, Dependence, Direction, Misfit, Nodes, Part, Radial, Result, Scalar,
     Tool, Velocities, VelocitySolver,
@@ -135,6 +135,27 @@ fn smallest_clearance(job: &Job, kept: &Kept, shape: SegmentShape) -> f64 {
     each.fold(f64::INFINITY, f64::min)
 }
 
+/// Smallest control point − first touch, mm, of the points that do not cut.
+fn smallest_at_points(job: &Job, kept: &Kept) -> f64 {
+    let touch = touch_of(job.compensator.as_ref());
+    let cut = kept.section(Section::Cutting);
+    let all = kept.points.points().enumerate();
+    let of_leads: Vec<_> = all.filter(|(k, _)| !cut.contains(k)).collect();
+    let of = |value: fn(&ControlPoint) -> f64| -> Vec<f64> {
+        of_leads.iter().map(|(_, point)| value(point)).collect()
+    };
+    let mut touches: Vec<Touch> = Vec::new();
+    let theta = of(|point| point.c.rem_euclid(TAU));
+    touch
+        .find(&theta, &of(|point| point.x), &mut touches)
+        .unwrap();
+    let each = of_leads
+        .iter()
+        .zip(&touches)
+        .map(|((_, point), touch)| point.z - touch.z);
+    each.fold(f64::INFINITY, f64::min)
+}
+
 type Column = fn(&PathBlock) -> (&Vec<f64>, &Vec<f64>);
 
 /// Accelerations of all points that are not within the cut agree on both sides, by the Hermite
@@ -196,6 +217,8 @@ fn check(job: &Job) -> (Kept, Outcome, Leads) {
         // C never turns back.
         assert!(path.vc.iter().all(|vc| *vc >= 0.0));
     }
+    let lowest = smallest_at_points(job, &kept);
+    assert!(lowest >= -2e-8, "{lowest}");
     let smallest = smallest_clearance(job, &kept, job.velocity.segments());
     let missed = outcome.figures.playback.max().max(job.interpolation);
     assert!(smallest >= -missed, "{smallest}");

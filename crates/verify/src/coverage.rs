@@ -5,8 +5,9 @@
 //! all that stands there, and does not grow with the slope. A pass counts where its edge stands
 //! above the place: within the reach of half the included angle.
 //!
-//! Around the axis the figure is the highest cusp between the passes of the path's innermost three
-//! turns, those of θ and of θ + π together on one line through the axis.
+//! Around the axis the figure is the highest cusp between the passes of the turns nearest to it,
+//! those of θ and of θ + π together on one line through the axis: of a path that ends there its
+//! last three, of one that runs on beyond it five.
 
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
@@ -22,6 +23,8 @@ const HALF_TURN: usize = TURN / 2;
 /// Passes of the innermost turns: a spiral that ends at the axis has its widest gap between the
 /// second and the third pass of a line, and one that runs out there somewhat further out.
 const INNERMOST: usize = 3 * TURN;
+/// Passes behind the innermost turn that are kept too, where the path goes on so far.
+const BEYOND: usize = 2 * TURN;
 
 /// The largest height that stays uncut somewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,8 +55,7 @@ pub struct CoverageFigures {
 pub(crate) struct Coverage {
     rim: Edge,
     hole: Edge,
-    first: Passes,
-    last: Passes,
+    near: NearAxis,
     x_beyond_axis: f64,
     contact_beyond_axis: f64,
 }
@@ -72,27 +74,19 @@ impl Coverage {
         Ok(Self {
             rim: Edge::of(touch, part.aperture_radius, passes)?,
             hole,
-            first: passes.first_few(INNERMOST),
-            last: passes.last_few(INNERMOST),
+            near: NearAxis::default(),
             x_beyond_axis: played.fold(0.0, beyond),
             contact_beyond_axis: contacts.fold(0.0, beyond),
         })
     }
 
-    /// Puts the path's next stretch behind what has been seen.
-    pub fn append(&mut self, next: &Self) {
+    /// Puts the path's next stretch, with these passes, behind what has been seen.
+    pub fn append(&mut self, next: &Self, passes: &Passes) {
         self.rim.append(&next.rim);
         self.hole.append(&next.hole);
         self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
         self.contact_beyond_axis = self.contact_beyond_axis.max(next.contact_beyond_axis);
-        self.first.extend(&next.first);
-        self.first = self.first.first_few(INNERMOST);
-        if next.last.passes.len() == INNERMOST {
-            self.last = next.last.clone();
-        } else {
-            self.last.extend(&next.last);
-            self.last = self.last.last_few(INNERMOST);
-        }
+        self.near.append(passes);
     }
 
     /// What the whole path leaves uncut, and the cusps around the axis.
@@ -107,21 +101,82 @@ impl Coverage {
             figures.hole = Some(self.hole.uncut());
             return Ok((figures, ResidualFigures::default()));
         }
-        let cusps = around_axis(touch, self.innermost())?;
+        let cusps = around_axis(touch, &self.near.innermost())?;
         figures.centre = Some(Uncut {
             height: cusps.highest().unwrap_or(f64::INFINITY),
             at_theta: cusps.at_theta,
         });
         Ok((figures, cusps))
     }
+}
 
-    /// The passes of the end that lies nearer to the axis.
-    fn innermost(&self) -> &Passes {
-        let first = self.first.passes.first().map(|pass| pass.foot.abs());
-        let last = self.last.passes.last().map(|pass| pass.foot.abs());
-        match (first, last) {
-            (Some(first), Some(last)) if first < last => &self.first,
-            _ => &self.last,
+/// The passes of the turns nearest to the axis. A turn's mean X tells how far it is: on it neither
+/// a tilt counts, nor whether ρ is the centre's or the contact's.
+#[derive(Debug, Clone)]
+struct NearAxis {
+    /// The last turns, three or a little more.
+    recent: Passes,
+    /// Passes of the turn in hand, and the sum of their X.
+    taken: usize,
+    sum: f64,
+    /// |sum| of the innermost turn so far.
+    least: f64,
+    innermost: Passes,
+    /// Passes that are still to come to it.
+    wanted: usize,
+}
+
+impl Default for NearAxis {
+    fn default() -> Self {
+        Self {
+            recent: Passes::default(),
+            taken: 0,
+            sum: 0.0,
+            least: f64::INFINITY,
+            innermost: Passes::default(),
+            wanted: BEYOND,
+        }
+    }
+}
+
+impl NearAxis {
+    fn append(&mut self, next: &Passes) {
+        if self.recent.passes.is_empty() {
+            self.recent.first = next.first;
+        }
+        for pass in &next.passes {
+            self.take(*pass);
+        }
+    }
+
+    fn take(&mut self, pass: Pass) {
+        self.recent.passes.push(pass);
+        if self.wanted > 0 {
+            self.innermost.passes.push(pass);
+            self.wanted -= 1;
+        }
+        self.sum += pass.centre.x;
+        self.taken += 1;
+        if self.taken == TURN {
+            self.end_turn();
+        }
+    }
+
+    fn end_turn(&mut self) {
+        self.recent = self.recent.last_few(INNERMOST);
+        if self.sum.abs() < self.least {
+            self.least = self.sum.abs();
+            self.innermost = self.recent.clone();
+            self.wanted = BEYOND;
+        }
+        (self.taken, self.sum) = (0, 0.0);
+    }
+
+    /// Those of a path that ends here.
+    fn innermost(&self) -> Passes {
+        match self.wanted > 0 {
+            true => self.recent.last_few(INNERMOST),
+            false => self.innermost.clone(),
         }
     }
 }
@@ -137,8 +192,12 @@ impl Edge {
     /// What `passes` leave at one radius.
     fn of(touch: &FirstTouch, radius: f64, passes: &Passes) -> Result<Self> {
         let tool = touch.subject().tool;
-        let places = ring(touch, radius)?;
         let mut nearest = vec![f64::INFINITY; TURN];
+        let comes_near = |pass: &Pass| (pass.centre.x.abs() - radius).abs() < tool.reach();
+        if !passes.passes.iter().any(comes_near) {
+            return Ok(Self { nearest });
+        }
+        let places = ring(touch, radius)?;
         for (number, pass) in (passes.first..).zip(&passes.passes) {
             let section = number.rem_euclid(SECTIONS) as usize;
             let across = (section + HALF_TURN) % TURN;

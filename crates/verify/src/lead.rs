@@ -92,6 +92,9 @@ pub struct LeadStretch {
     pub figures: LeadFigures,
     /// Smallest clearance of each segment, mm.
     pub per_segment: Vec<f64>,
+    /// Clearance of the control point with which each segment begins, mm; infinite where there is
+    /// nothing to touch.
+    pub per_start: Vec<f64>,
     ends: Option<[Acceleration; 2]>,
 }
 
@@ -127,6 +130,7 @@ impl LeadMeter {
             for (i, segment) in batch.iter().enumerate() {
                 let smallest = stretch.figures.play(touch, &room, i, segment);
                 stretch.per_segment.push(smallest);
+                stretch.per_start.push(at_start(touch, &room, i));
             }
         }
         stretch.figures.segments = segments.len() as u64;
@@ -170,8 +174,7 @@ impl LeadMeter {
 impl LeadFigures {
     /// Takes the instants of one segment of a batch; gives the smallest clearance of them.
     fn play(&mut self, touch: &FirstTouch, room: &Room, index: usize, segment: &Segment) -> f64 {
-        let subject = touch.subject();
-        let part_ends = subject.part.aperture_radius + subject.tool.reach();
+        let part_ends = part_ends(touch);
         let mut smallest = f64::INFINITY;
         for (k, clearance) in room.errors(index).into_iter().enumerate() {
             let x = room.x(index, k);
@@ -187,6 +190,20 @@ impl LeadFigures {
             }
         }
         smallest
+    }
+}
+
+/// |X| beyond which the nose has nothing of the part below it.
+fn part_ends(touch: &FirstTouch) -> f64 {
+    let subject = touch.subject();
+    subject.part.aperture_radius + subject.tool.reach()
+}
+
+/// The clearance with which a segment of a batch begins.
+fn at_start(touch: &FirstTouch, room: &Room, index: usize) -> f64 {
+    match room.x(index, 0).abs() > part_ends(touch) {
+        true => f64::INFINITY,
+        false => room.errors(index)[0],
     }
 }
 

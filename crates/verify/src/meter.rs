@@ -109,7 +109,7 @@ impl Meter {
         let seam = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&seam);
         self.lines.append(&next.sections);
-        self.coverage.append(&next.coverage);
+        self.coverage.append(&next.coverage, &next.passes);
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
             (own, next) => own.or(next),

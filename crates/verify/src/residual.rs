@@ -168,13 +168,6 @@ impl Passes {
         self.passes.extend_from_slice(&next.passes);
     }
 
-    /// The first so many of them.
-    pub(crate) fn first_few(&self, count: usize) -> Self {
-        let passes = self.passes.iter().take(count).copied().collect();
-        let first = self.first;
-        Self { first, passes }
-    }
-
     /// The last so many of them.
     pub(crate) fn last_few(&self, count: usize) -> Self {
         let dropped = self.passes.len().saturating_sub(count);

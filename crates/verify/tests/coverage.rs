@@ -158,6 +158,23 @@ fn a_turn_on_the_axis_closes_the_gap() {
     assert_eq!(found.residual.max, centre);
 }
 
+/// The axis lies between many turns then, whose passes from both sides halve the gaps.
+#[test]
+fn a_path_that_runs_on_beyond_the_axis_is_judged_at_the_axis() {
+    let feed = 0.02;
+    let touch = touch_on(FLAT, 2.5, 1.0, true);
+    for path in [
+        bare_spiral(130.0, |n| 2.4 - feed * n),
+        bare_spiral(130.0, |n| feed * (n - 10.0)),
+        bare_spiral(240.0, |n| 2.4 - feed * n),
+    ] {
+        let found = with_centre(&touch, &path);
+        let centre = found.coverage.centre.unwrap().height;
+        assert!(centre <= 1.0001 * cusp(feed), "{centre}");
+        assert!((found.residual.max / cusp(feed) - 1.0).abs() < 1e-4);
+    }
+}
+
 #[test]
 fn around_the_axis_of_a_tilted_plane_cusps_are_those_between_contacts() {
     let feed = 0.02;
@@ -176,6 +193,19 @@ fn around_the_axis_of_a_tilted_plane_cusps_are_those_between_contacts() {
     let beyond = 0.5f64.sqrt();
     assert!((found.x_beyond_axis - beyond).abs() < 1e-3 * beyond);
     assert!(found.contact_beyond_axis < 1e-3 * feed);
+}
+
+/// Then contacts around the axis come of passes far from it: on this slope 0.7 mm.
+#[test]
+fn around_the_axis_of_a_tilted_plane_the_innermost_turns_count_wherever_they_touch() {
+    let feed = 0.02;
+    let touch = touch_on(TILTED, 2.5, 1.0, true);
+    let centre = |path: PathBlock| coverage(&touch, &path).centre.unwrap().height;
+    let known = cusp(2f64.sqrt() * 1.5 * feed);
+    let ends = centre(bare_spiral(100.0, |n| feed * n));
+    assert!(ends < 1.01 * known, "{ends} of {known}");
+    let crosses = centre(bare_spiral(150.0, |n| 2.0 - feed * n));
+    assert!(crosses < 1.01 * cusp(2f64.sqrt() * feed), "{crosses}");
 }
 
 #[test]

@@ -25,6 +25,13 @@ const HALVINGS: u32 = 8;
 /// Part of the interpolation tolerance by which a lead may come below the first touch between
 /// its control points; by as much as the cut where that misses its own beside the join.
 const BELOW: f64 = 0.5;
+/// Control points come below the first touch by no more than this, mm: a hundredth of a nanometre.
+const POINTS_BELOW: f64 = 1e-8;
+/// How much higher the way is laid for each length by which a control point comes too low: the
+/// point beside the join, which the spline places, follows it by 0.21.
+const RAISE: f64 = 5.0;
+/// How often it is raised at the most.
+const RAISES: u32 = 8;
 /// Segments beside the join of which the axes' limits are not asked: there a spline gets from what
 /// the cut plays to the locus itself, by a quarter of it a node, and a cut that plays badly has
 /// accelerations that are far from the locus'.
@@ -52,6 +59,8 @@ pub struct Laid {
     drift: f64,
     /// From the join to rest, in ticks away from the join.
     nodes: Vec<f64>,
+    /// How much higher than the locus its way begins, mm.
+    raised: f64,
     /// Whole revolutions of a lead-in.
     pub turns: f64,
 }
@@ -127,7 +136,8 @@ impl Maker<'_> {
         })
     }
 
-    /// Halves steps until the lead clears the part.
+    /// Halves steps until the lead clears the part, then raises its way until its control points
+    /// do.
     fn clear(&self, side: Side, join: &Join, longer: Longer) -> Result<(Laid, PathBlock)> {
         let mut laid = self.first(side, join, longer)?;
         let join = match side {
@@ -141,7 +151,7 @@ impl Maker<'_> {
             false => BELOW * tolerance,
         };
         let floor = join.above_touch.min(0.0) - below;
-        let mut halvings = 0;
+        let (mut halvings, mut raises) = (0, 0);
         loop {
             let points = self.points(&laid, &join)?;
             let stretch = self.measure(&points)?;
@@ -149,7 +159,14 @@ impl Maker<'_> {
             let clears = |clearance: &f64| *clearance >= floor;
             let mut below: Vec<bool> = stretch.per_segment.iter().map(|c| !clears(c)).collect();
             if !below.contains(&true) {
-                return Ok((laid, points));
+                let lowest = stretch.per_start.iter().copied().fold(0.0, f64::min);
+                let missing = join.above_touch.min(0.0) - POINTS_BELOW - lowest;
+                if missing <= 0.0 || raises == RAISES {
+                    return Ok((laid, points));
+                }
+                laid.raised += RAISE * missing;
+                raises += 1;
+                continue;
             }
             if halvings == HALVINGS {
                 let figures = &stretch.figures;
@@ -199,6 +216,7 @@ impl Maker<'_> {
             phases,
             drift: longer.drift * gentle,
             nodes,
+            raised: 0.0,
             turns,
         })
     }
@@ -224,7 +242,7 @@ impl Maker<'_> {
             .iter()
             .map(|ticks| self.clock.seconds(joined + side.sign() * ticks))
             .collect();
-        let places = target.places(&away)?;
+        let places = target.places(&away, laid.raised)?;
         let rest = [target.rest_c(), target.rest_x, target.rest_z];
         let ends = Ends::new(join, rest);
         let mut points = PathBlock {

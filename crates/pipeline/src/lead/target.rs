@@ -112,8 +112,9 @@ impl<'a> Target<'a> {
         self.join.point.c + self.side.sign() * self.phases.turned(sigma)
     }
 
-    /// Where the axes are to be at times away from the join, s.
-    pub fn places(&self, sigma: &[f64]) -> Result<Places> {
+    /// Where the axes are to be at times away from the join, s, on a way that begins higher by
+    /// `raised` mm.
+    pub fn places(&self, sigma: &[f64], raised: f64) -> Result<Places> {
         let c: Vec<f64> = sigma.iter().map(|sigma| self.c(*sigma)).collect();
         let theta: Vec<f64> = c.iter().map(|c| c.rem_euclid(TAU)).collect();
         let rho: Vec<f64> = sigma.iter().map(|sigma| self.drift.rho(*sigma)).collect();
@@ -124,7 +125,7 @@ impl<'a> Target<'a> {
         let touches = self.touches(&theta, &x)?;
         let height = |(sigma, touch): (&f64, &Touch)| {
             let lifted = self.phases.lifted(*sigma);
-            let above = self.join.above_touch * (1.0 - lifted);
+            let above = (self.join.above_touch + raised) * (1.0 - lifted);
             touch.z + lifted * (self.rest_z - touch.z) + above
         };
         let z: Vec<f64> = sigma.iter().zip(&touches).map(height).collect();
