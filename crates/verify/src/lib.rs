@@ -32,7 +32,7 @@ pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
 pub use points::PointFigures;
 pub use residual::{ResidualFigures, SECTIONS};
-pub use servo::{AxisServo, Following, Servo, ServoFigures, ServoMeter, ServoStart, ServoStretch};
+pub use servo::{Following, ServoFigures, ServoMeter, ServoStart, ServoStretch};
 pub use subject::Subject;
 pub use suspects::{Oddity, Suspect, Suspects};
 pub use touch::{FirstTouch, Touch};

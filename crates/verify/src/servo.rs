@@ -11,36 +11,10 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{Cubic, PathBlock, Segment};
-use turnpath_core::{Result, Scalar};
+use turnpath_core::{AxisServo, Result, Scalar, Servo};
 
 use crate::playback::{BATCH, INSTANTS};
 use crate::touch::FirstTouch;
-
-/// How one axis answers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AxisServo {
-    /// ω₀, rad/s: above zero.
-    pub frequency: f64,
-    /// ζ: above zero.
-    pub damping: f64,
-    /// τ, s: not below zero.
-    pub delay: f64,
-    /// k_v, 0 to 1.
-    pub velocity_forward: f64,
-    /// k_a, 0 to 1.
-    pub acceleration_forward: f64,
-}
-
-/// How the machine's axes answer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Servo {
-    /// The spindle.
-    pub c: AxisServo,
-    /// The radial slide.
-    pub x: AxisServo,
-    /// The slide that sets the depth.
-    pub z: AxisServo,
-}
 
 /// The lag of one axis at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -49,18 +23,25 @@ struct Lag {
     rate: f64,
 }
 
-impl AxisServo {
+/// How one axis answers.
+#[derive(Debug, Clone, Copy)]
+struct Answer(AxisServo);
+
+impl Answer {
     /// 2ζ/ω₀: the time by which a ramp is followed late without feed-forward, s.
     fn lateness(&self) -> f64 {
-        2.0 * self.damping / self.frequency
+        2.0 * self.0.damping / self.0.frequency
     }
 
     /// The part of the lag that follows the command, Σ p_i t^i, from r = Σ r_i t^i.
     fn forced(&self, r: [f64; 4]) -> [f64; 3] {
-        let (late, slack) = (self.lateness(), (self.frequency * self.frequency).recip());
+        let (late, slack) = (
+            self.lateness(),
+            (self.0.frequency * self.0.frequency).recip(),
+        );
         let missing = (
-            (1.0 - self.velocity_forward) * late,
-            (1.0 - self.acceleration_forward) * slack,
+            (1.0 - self.0.velocity_forward) * late,
+            (1.0 - self.0.acceleration_forward) * slack,
         );
         let f0 = -missing.0 * r[1] - missing.1 * 2.0 * r[2];
         let f1 = -missing.0 * 2.0 * r[2] - missing.1 * 6.0 * r[3];
@@ -71,7 +52,7 @@ impl AxisServo {
 
     /// How a lag dies away in `time` where nothing forces it.
     fn decay(&self, from: Lag, time: f64) -> Lag {
-        let (w, zeta) = (self.frequency, self.damping);
+        let (w, zeta) = (self.0.frequency, self.0.damping);
         let s = zeta * w;
         let d = w * (zeta * zeta - 1.0).abs().sqrt();
         // cosh and sinh/d of d·t, or cos and sin/d, each times exp(−s t).
@@ -83,10 +64,7 @@ impl AxisServo {
             let (sin, cos) = Scalar::sin_cos(d * time);
             (fall * cos, fall * sin / d)
         } else {
-            let (slow, fast) = (
-                Scalar::exp((d - s) * time),
-                Scalar::exp((-d - s) * time),
-            );
+            let (slow, fast) = (Scalar::exp((d - s) * time), Scalar::exp((-d - s) * time));
             (0.5 * (slow + fast), 0.5 * (slow - fast) / d)
         };
         Lag {
@@ -129,7 +107,7 @@ impl Piece {
     }
 
     /// The lag `t` after the start.
-    fn lag(&self, servo: &AxisServo, from: Lag, t: f64) -> Lag {
+    fn lag(&self, servo: Answer, from: Lag, t: f64) -> Lag {
         let [p0, p1, p2] = servo.forced(self.r);
         let free = Lag {
             e: from.e - p0,
@@ -147,7 +125,7 @@ impl Piece {
 /// of them begins.
 #[derive(Debug, Clone)]
 struct Follower {
-    servo: AxisServo,
+    servo: Answer,
     pieces: VecDeque<Piece>,
     lag: Lag,
     begun: bool,
@@ -156,7 +134,7 @@ struct Follower {
 impl Follower {
     fn new(servo: AxisServo) -> Self {
         Self {
-            servo,
+            servo: Answer(servo),
             pieces: VecDeque::new(),
             lag: Lag::default(),
             begun: false,
@@ -175,15 +153,15 @@ impl Follower {
 
     /// Leaves behind what the axis has done `time` before.
     fn pass(&mut self, time: f64) {
-        let until = time - self.servo.delay;
+        let until = time - self.servo.0.delay;
         while let [Some(piece), Some(next)] = [self.pieces.front(), self.pieces.get(1)] {
             if piece.end() > until {
                 break;
             }
-            self.lag = piece.lag(&self.servo, self.lag, piece.duration);
+            self.lag = piece.lag(self.servo, self.lag, piece.duration);
             // Straight segments change their rate at once, and y' only by what is fed forward.
             let jump = next.rate(0.0) - piece.rate(piece.duration);
-            self.lag.rate -= (1.0 - self.servo.acceleration_forward) * jump;
+            self.lag.rate -= (1.0 - self.servo.0.acceleration_forward) * jump;
             self.pieces.pop_front();
         }
     }
@@ -195,11 +173,11 @@ impl Follower {
         let Some(piece) = self.pieces.front() else {
             return f64::NAN;
         };
-        let t = time - self.servo.delay - piece.start;
+        let t = time - self.servo.0.delay - piece.start;
         if t < 0.0 {
             return piece.place(0.0) + piece.rate(0.0) * t + self.lag.e + self.lag.rate * t;
         }
-        piece.place(t) + piece.lag(&self.servo, self.lag, t).e
+        piece.place(t) + piece.lag(self.servo, self.lag, t).e
     }
 }
 

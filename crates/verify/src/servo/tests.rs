@@ -97,7 +97,10 @@ fn a_sine_has_amplitude_and_phase_of_the_transfer_function() {
                 .take(400)
             {
                 let expected = amplitude * Scalar::sin(omega * time + phase);
-                assert!((y - expected).abs() < 1e-8, "{servo:?}, {ratio}: {y}, {expected}");
+                assert!(
+                    (y - expected).abs() < 1e-8,
+                    "{servo:?}, {ratio}: {y}, {expected}"
+                );
             }
         }
     }
@@ -135,7 +138,7 @@ fn a_ramp_from_rest_rises_as_the_closed_form_says() {
     for segment in &segments {
         follower.push(Piece::new(segment, &segment.z));
     }
-    let (v, late, s) = (30.0, servo.lateness(), 0.7 * BANDWIDTH);
+    let (v, late, s) = (30.0, Answer(servo).lateness(), 0.7 * BANDWIDTH);
     let d = BANDWIDTH * (1.0f64 - 0.49).sqrt();
     for k in 0..=20 {
         let t = 0.001 * f64::from(k);
@@ -256,15 +259,21 @@ mod on_a_surface {
         let parts = blocks(&points, settled);
         meter.pass(&parts[0]);
         let start = meter.pass(&parts[1]);
-        let figures = ServoMeter::measure(&touch(), &start, &parts[1]).expect("a measure").0;
+        let figures = ServoMeter::measure(&touch(), &start, &parts[1])
+            .expect("a measure")
+            .0;
         let (amplitude, phase) = transfer(servo, 2.0 * SPINDLE);
-        let turned = 2.0 * SPINDLE * servo.lateness();
+        let turned = 2.0 * SPINDLE * Answer(servo).lateness();
         // |H sin(φ + p) − sin(φ − turned)| over all φ.
         let (sin, cos) = Scalar::sin_cos(phase + turned);
         let expected = K * 4.0 * Scalar::hypot(amplitude * cos - 1.0, amplitude * sin);
-        assert!((figures.max() / expected - 1.0).abs() < 1e-3, "{}", figures.max() / expected);
+        assert!(
+            (figures.max() / expected - 1.0).abs() < 1e-3,
+            "{}",
+            figures.max() / expected
+        );
         assert!((figures.rms() / (expected / 2f64.sqrt()) - 1.0).abs() < 1e-3);
-        assert!((figures.c.max / (SPINDLE * servo.lateness()) - 1.0).abs() < 1e-9);
+        assert!((figures.c.max / (SPINDLE * Answer(servo).lateness()) - 1.0).abs() < 1e-9);
         assert!(figures.x.max < 1e-12);
     }
 
@@ -284,7 +293,9 @@ mod on_a_surface {
         let parts = blocks(&points, 400);
         meter.pass(&parts[0]);
         let start = meter.pass(&parts[1]);
-        let later = ServoMeter::measure(&touch(), &start, &parts[1]).expect("a measure").0;
+        let later = ServoMeter::measure(&touch(), &start, &parts[1])
+            .expect("a measure")
+            .0;
         assert!(later.max() < 1e-7, "{}", later.max());
     }
 
