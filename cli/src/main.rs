@@ -18,8 +18,10 @@ mod progress;
 mod reach;
 mod run;
 mod sag;
+mod servo;
 mod strategies;
 mod summary;
+mod suspects;
 mod unreached;
 mod verify;
 
