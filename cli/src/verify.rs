@@ -198,7 +198,7 @@ impl PathMeters {
             cut: Meter::new(touch).counting_centre(Promise::of(recipe.overrun).covers_centre),
             lead: LeadMeter::default(),
             servo: None,
-            suspects: Suspects::new(recipe.tolerance.interpolation),
+            suspects: Suspects::new(recipe.tolerance.interpolation, recipe.part.aperture_radius),
         }
     }
 

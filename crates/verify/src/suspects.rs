@@ -21,7 +21,7 @@ const FEWEST: usize = 8;
 const FACTOR: f64 = 8.0;
 /// What stands out by less than this part of the interpolation tolerance is let pass: rounding to
 /// the digits of a program, and how splines are closed at their ends.
-const FLOOR: f64 = 2e-3;
+const FLOOR: f64 = 1e-3;
 /// Places that are kept; all are counted.
 const KEPT: usize = 10;
 /// Suspicious points no further apart than this are one place.
@@ -32,7 +32,7 @@ const TOGETHER: u64 = 4;
 pub enum Oddity {
     /// Z is off the first touch.
     Height,
-    /// The acceleration of C steps; amounts are along the arc.
+    /// The acceleration of C steps; amounts are along the part's rim.
     TurnsOfC,
     /// The acceleration of X steps.
     MotionOfX,
@@ -85,6 +85,7 @@ struct Seen {
 #[derive(Debug, Clone)]
 pub struct Suspects {
     floor: f64,
+    rim: f64,
     count: u64,
     window: VecDeque<Seen>,
     /// Which of the window is judged next.
@@ -97,10 +98,12 @@ pub struct Suspects {
 }
 
 impl Suspects {
-    /// Nothing seen yet, of a path that is to hold an interpolation tolerance, mm.
-    pub fn new(tolerance: f64) -> Self {
+    /// Nothing seen yet, of a path that is to hold an interpolation tolerance, mm, on a part of
+    /// this radius, mm.
+    pub fn new(tolerance: f64, rim: f64) -> Self {
         Self {
             floor: FLOOR * tolerance,
+            rim,
             count: 0,
             window: VecDeque::new(),
             next: 0,
@@ -133,7 +136,7 @@ impl Suspects {
                 SegmentShape::Cubic => Some(Segment::between(&last, &point)),
                 SegmentShape::Linear => None,
             };
-            let kinks = kinks(self.before.as_ref(), segment.as_ref(), last.x);
+            let kinks = kinks(self.before.as_ref(), segment.as_ref(), self.rim);
             self.before = segment;
             self.enter(self.count - 1, &last, left, kinks);
         }
@@ -243,8 +246,8 @@ impl Suspects {
 
 /// The steps of the accelerations of C, X and Z between two segments, as the displacements that a
 /// wrong velocity there would make: 8δ/h for a step, and 4/27 δh for the displacement. C's is along
-/// the arc.
-fn kinks(before: Option<&Segment>, after: Option<&Segment>, x: f64) -> [f64; 3] {
+/// the rim: at the axis it does nothing, and is as wrong.
+fn kinks(before: Option<&Segment>, after: Option<&Segment>, rim: f64) -> [f64; 3] {
     let (Some(before), Some(after)) = (before, after) else {
         return [0.0; 3];
     };
@@ -254,7 +257,7 @@ fn kinks(before: Option<&Segment>, after: Option<&Segment>, x: f64) -> [f64; 3] 
         (step * h0 * h1 / 54.0).abs()
     };
     [
-        x.abs() * of(&before.c, &after.c),
+        rim * of(&before.c, &after.c),
         of(&before.x, &after.x),
         of(&before.z, &after.z),
     ]
@@ -287,7 +290,7 @@ mod tests {
     }
 
     fn suspects(points: &PathBlock, heights: &[f64]) -> Vec<Suspect> {
-        let mut suspects = Suspects::new(TOLERANCE);
+        let mut suspects = Suspects::new(TOLERANCE, 3.0);
         suspects.pass(points, heights);
         suspects.end().1
     }
@@ -357,7 +360,7 @@ mod tests {
                     .for_each(|point| part.push(point));
                 part
             };
-            let mut suspects = Suspects::new(TOLERANCE);
+            let mut suspects = Suspects::new(TOLERANCE, 3.0);
             suspects.pass(&part(0..joint + 1), &heights[..=joint]);
             suspects.pass(&part(joint..300), &heights[joint..]);
             assert_eq!(suspects.end(), (2, whole.clone()));
@@ -370,7 +373,7 @@ mod tests {
         for row in (5..300).step_by(20) {
             points.vz[row] += 0.01;
         }
-        let mut suspects = Suspects::new(TOLERANCE);
+        let mut suspects = Suspects::new(TOLERANCE, 3.0);
         suspects.pass(&points, &[]);
         let (found, kept) = suspects.end();
         assert_eq!((found, kept.len()), (15, KEPT));
