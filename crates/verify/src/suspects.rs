@@ -245,16 +245,18 @@ impl Suspects {
 }
 
 /// The steps of the accelerations of C, X and Z between two segments, as the displacements that a
-/// wrong velocity there would make: 8δ/h for a step, and 4/27 δh for the displacement. C's is along
+/// wrong velocity there would make: 8δ/h for a step, and 4/27 δh for the displacement,
+/// with the shorter of both segments. C's is along
 /// the rim: at the axis it does nothing, and is as wrong.
 fn kinks(before: Option<&Segment>, after: Option<&Segment>, rim: f64) -> [f64; 3] {
     let (Some(before), Some(after)) = (before, after) else {
         return [0.0; 3];
     };
     let (h0, h1) = (before.duration, after.duration);
+    let shorter = h0.min(h1);
     let of = |one: &Cubic, other: &Cubic| {
         let step = other.bend(0.0) / (h1 * h1) - one.bend(1.0) / (h0 * h0);
-        (step * h0 * h1 / 54.0).abs()
+        (step * shorter * shorter / 54.0).abs()
     };
     [
         rim * of(&before.c, &after.c),
