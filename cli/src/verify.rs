@@ -168,7 +168,7 @@ pub struct PathMeters {
 /// A block of a path, measured.
 enum Stretch {
     Cut(Box<CutStretch>, Option<ServoStretch>, PathBlock),
-    Lead(LeadStretch, PathBlock),
+    Lead(Box<LeadStretch>, PathBlock),
 }
 
 impl Stretch {
@@ -185,7 +185,7 @@ impl Stretch {
                 Self::Cut(Box::new(measured), served.transpose()?, block)
             }
             Section::LeadIn | Section::LeadOut => {
-                Self::Lead(LeadMeter::measure(touch, &block)?, block)
+                Self::Lead(Box::new(LeadMeter::measure(touch, &block)?), block)
             }
         })
     }
