@@ -93,26 +93,34 @@ pub(crate) fn servo(section: &mut Section<'_>, preset: Option<&Preset>) -> Optio
     all.frequency = all
         .frequency
         .or(preset.and_then(|preset| preset.servo_bandwidth));
-    let given = |key: &str| section.node(key).is_some();
-    let each = ["x_bandwidth", "z_bandwidth", "c_bandwidth"];
-    let open = all.frequency.is_none() && !given("bandwidth") && !each.into_iter().all(given);
-    if open
-        && !section
-            .table
-            .is_some_and(|table| table.has_like("bandwidth"))
-    {
-        section.missing("bandwidth", "\"70 Hz\"");
-    } else if open {
-        let diagnostic = Diagnostic::new(section.place.clone(), "an axis has no bandwidth")
-            .label("`bandwidth`, or that of each axis, must be given")
-            .help("bandwidth = \"70 Hz\" is for all axes that have none of their own");
-        section.complain(diagnostic);
+    if all.frequency.is_none() {
+        check_bandwidths(section);
     }
     Some(Servo {
         c: c.axis(&all)?,
         x: x.axis(&all)?,
         z: z.axis(&all)?,
     })
+}
+
+/// Complains where axes are left without a bandwidth, unless another message says why.
+fn check_bandwidths(section: &mut Section<'_>) {
+    let given = |key: &str| section.node(key).is_some();
+    let each = ["x_bandwidth", "z_bandwidth", "c_bandwidth"];
+    let misspelt = section
+        .table
+        .is_some_and(|table| table.has_like("bandwidth"));
+    if given("bandwidth") || each.into_iter().all(given) {
+        return;
+    }
+    if each.into_iter().any(given) {
+        let diagnostic = Diagnostic::new(section.place.clone(), "an axis has no bandwidth")
+            .label("`bandwidth`, or that of each axis, must be given")
+            .help("bandwidth = \"70 Hz\" is for all axes that have none of their own");
+        section.complain(diagnostic);
+    } else if !misspelt {
+        section.missing("bandwidth", "\"70 Hz\"");
+    }
 }
 
 fn number(section: &mut Section<'_>, key: &str, bound: Bound) -> Option<f64> {

@@ -286,7 +286,7 @@ mod on_a_surface {
             ..axis(0.7)
         };
         let points = circles();
-        let figures = cut(&same(late), &[points.clone()]);
+        let figures = cut(&same(late), std::slice::from_ref(&points));
         assert!((figures.c.max - SPINDLE * 2e-3).abs() < 1e-9);
         // Before the path it is taken to go straight on, so its first moments do not count.
         let mut meter = ServoMeter::new(&same(late));
@@ -309,7 +309,7 @@ mod on_a_surface {
             ..same(axis(0.7))
         };
         let points = circles();
-        let whole = cut(&servo, &[points.clone()]);
+        let whole = cut(&servo, std::slice::from_ref(&points));
         for most in [1, 7, 400] {
             let parts = cut(&servo, &blocks(&points, most));
             assert_eq!((parts.max(), parts.at_c), (whole.max(), whole.at_c));
