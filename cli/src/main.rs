@@ -20,9 +20,11 @@ mod progress;
 mod reach;
 mod run;
 mod sag;
+mod servo;
 mod strategies;
 mod summary;
 mod surface_error;
+mod suspects;
 mod unreached;
 mod verify;
 

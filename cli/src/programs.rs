@@ -16,7 +16,7 @@ use turnpath_verify::FirstTouch;
 use crate::failure::Failure;
 use crate::job::of_pipeline;
 use crate::summary::ProgramSummary;
-use crate::verify::{BLOCK_ROWS, measure};
+use crate::verify::{BLOCK_ROWS, PathMeters, measure};
 
 /// The post's name in recipes.
 pub const PMAC_PVT: &str = "pmac-pvt";
@@ -158,7 +158,8 @@ impl Program {
         let reader = PmacReader::open(draft.readable()?, self.format);
         let mut reader = reader.map_err(|error| error.named(&name))?.named(&name);
         progress.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
-        let measured = measure(recipe, touch, SegmentShape::Cubic, &mut reader, progress)?;
+        let meters = PathMeters::new(recipe, touch);
+        let measured = measure(recipe, meters, SegmentShape::Cubic, &mut reader, progress)?;
         let count = reader.counted().count();
         if count != points {
             let name = name.display();

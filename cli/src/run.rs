@@ -80,6 +80,7 @@ pub fn making(job: &Job) -> Making {
         refine: job.recipe.refine,
         time_steps: (!job.recipe.output.posts.is_empty()).then_some(PMAC_TIME_STEPS),
         lead: lead(job),
+        servo: job.recipe.servo,
         covers_centre: Promise::of(job.recipe.overrun).covers_centre,
     }
 }
@@ -162,6 +163,9 @@ fn human(job: &Job, summary: &Summary, written: &[PathBuf]) -> String {
     text += &figures::measured(&summary.measured, &job.recipe);
     if let Some(lead) = &summary.measured.lead {
         text += &lead.lines(summary.measured.within.lead);
+    }
+    if let Some(servo) = &summary.measured.servo {
+        text += &servo.lines();
     }
     if let Some(unreached) = &summary.unreached {
         text += &unreached.lines();

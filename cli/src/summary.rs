@@ -6,11 +6,12 @@ use turnpath_host::Plugin;
 use turnpath_pipeline::{Chain, Outcome};
 use turnpath_recipe::Recipe;
 use turnpath_verify::machined::MachinedFigures;
-use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak};
+use turnpath_verify::{AxesMotion, AxisMotion, LeadFigures, PathFigures, Peak, ServoFigures};
 
 use crate::coverage::{AxisCrossing, Coverage, Promise, largest_uncut};
 use crate::lead::Lead;
 use crate::machine::{HighestSpindle, MachineFigures};
+use crate::servo::ServoSummary;
 use crate::surface_error::SurfaceError;
 use crate::unreached::Unreached;
 
@@ -45,6 +46,7 @@ pub struct Summary {
 #[derive(Debug, Serialize)]
 pub struct Measured {
     pub interpolation_error_nm: InterpolationError,
+    pub control_point_error_nm: PointError,
     pub residual_nm: Residual,
     pub coverage_nm: Coverage,
     pub axis_crossing_um: AxisCrossing,
@@ -57,6 +59,8 @@ pub struct Measured {
     pub highest_spindle: HighestSpindle,
     /// Null without leads.
     pub lead: Option<Lead>,
+    /// Null where the recipe asks for none.
+    pub servo: Option<ServoSummary>,
     pub within: Within,
 }
 
@@ -84,6 +88,15 @@ pub struct InterpolationError {
     /// Root mean square over time.
     pub rms: f64,
     /// Where the largest is.
+    pub at: Place,
+}
+
+/// Control points − true tool centre along z.
+#[derive(Debug, Serialize)]
+pub struct PointError {
+    /// Largest amount.
+    pub max: f64,
+    /// Where it is.
     pub at: Place,
 }
 
@@ -196,10 +209,12 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
-            measured: Measured::new(&outcome.figures, outcome.machined.as_ref(), recipe).with_lead(
-                outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),
-                &recipe.tolerance,
-            ),
+            measured: Measured::new(&outcome.figures, outcome.machined.as_ref(), recipe)
+                .with_lead(
+                    outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),
+                    &recipe.tolerance,
+                )
+                .with_servo(outcome.servo.as_ref()),
             unreached,
             programs,
             plugins: plugins
@@ -261,6 +276,13 @@ impl Measured {
                 rms: playback.rms() * NM_PER_MM,
                 at,
             },
+            control_point_error_nm: PointError {
+                max: figures.points.max() * NM_PER_MM,
+                at: Place {
+                    c_deg: figures.points.at_c / DEG,
+                    x_mm: figures.points.at_x,
+                },
+            },
             residual_nm: Residual {
                 max: residual.highest().map(|height| height * NM_PER_MM),
                 at: Place {
@@ -278,6 +300,7 @@ impl Measured {
             surface_error: SurfaceError::of(machined),
             axes: Axes::of(axes),
             lead: None,
+            servo: None,
             within: Within {
                 interpolation: holds(playback.max(), tolerance.interpolation),
                 residual: residual
@@ -304,6 +327,12 @@ impl Measured {
             (cut, lead) => cut.or(lead),
         };
         self.lead = lead;
+        self
+    }
+
+    /// The same with what the servo makes of the path.
+    pub fn with_servo(mut self, servo: Option<&ServoFigures>) -> Self {
+        self.servo = servo.map(ServoSummary::of);
         self
     }
 

@@ -12,7 +12,10 @@ use turnpath_core::{Radial, Slot, StrategyError};
 use turnpath_pipeline::{PipelineError, Progress, Quiet};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
-use turnpath_verify::{FirstTouch, LeadMeter, LeadStretch, Measured as CutStretch, Meter, Subject};
+use turnpath_verify::{
+    FirstTouch, LeadMeter, LeadStretch, Measured as CutStretch, Meter, ServoMeter, ServoStart,
+    ServoStretch, Subject, Suspects,
+};
 
 use crate::args::{Format, VerifyArgs};
 use crate::coverage::Promise;
@@ -25,6 +28,7 @@ use crate::programs::{PMAC_EXTENSION, pmac_format};
 use crate::reach::Reach;
 use crate::run::print;
 use crate::summary::{Measured, to_json};
+use crate::suspects::Suspicious;
 use crate::unreached::Unreached;
 use crate::{Done, Verdict, figures, strategies};
 
@@ -43,6 +47,7 @@ struct Verified {
     measured: Measured,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
+    suspicious: Suspicious,
     unreached: Option<Unreached>,
 }
 
@@ -68,7 +73,13 @@ pub fn verify(args: &VerifyArgs) -> Done {
     let mut reader = open(&args.file, &recipe, compensates_nose)?;
     let failed = |error| of_pipeline(&recipe, PipelineError::Measure(error));
     let touch = FirstTouch::new(subject).map_err(failed)?;
-    let PathMeters { cut: meter, lead } = measure(&recipe, touch, shape, reader.as_mut(), &Quiet)?;
+    let meters = PathMeters::new(&recipe, touch).with_servo(&recipe);
+    let PathMeters {
+        cut: meter,
+        lead,
+        servo,
+        suspects,
+    } = measure(&recipe, meters, shape, reader.as_mut(), &Quiet)?;
     let read = reader.counted();
     let range = meter.reach(radial).map_err(failed)?;
     let Some(range) = range.filter(|_| read.cutting() >= 2) else {
@@ -84,7 +95,9 @@ pub fn verify(args: &VerifyArgs) -> Done {
     let figures = meter.figures().map_err(failed)?;
     let unreached = Unreached::of(meter.touch(), &recipe.tolerance).map_err(failed)?;
     let measured = Measured::new(&figures, machined.as_ref(), &recipe);
-    let mut measured = measured.with_lead(lead, &recipe.tolerance);
+    let servo = servo.as_ref().map(ServoMeter::figures);
+    let measured = measured.with_lead(lead, &recipe.tolerance);
+    let mut measured = measured.with_servo(servo);
     measured.within.reach = Some(reach.covers(&recipe.part));
     let played = Played {
         recipe: &recipe,
@@ -108,6 +121,7 @@ pub fn verify(args: &VerifyArgs) -> Done {
         reach_mm: reach,
         measured,
         files,
+        suspicious: Suspicious::of(suspects.end()),
         unreached,
     };
     print(&match args.work.format {
@@ -177,34 +191,69 @@ pub struct PathMeters {
     pub cut: Meter,
     /// Its leads.
     pub lead: LeadMeter,
+    /// What the servo makes of it, where that is asked.
+    pub servo: Option<ServoMeter>,
+    /// Points that stand out.
+    pub suspects: Suspects,
 }
 
 /// A block of a path, measured.
 enum Stretch {
-    Cut(Box<(CutStretch, PathBlock)>),
-    Lead(Box<LeadStretch>),
+    Cut(Box<(CutStretch, Option<ServoStretch>, PathBlock)>),
+    Lead(Box<(LeadStretch, PathBlock)>),
 }
 
 impl Stretch {
-    fn of(touch: &FirstTouch, section: Section, block: PathBlock) -> Result<Self, StrategyError> {
+    fn of(
+        touch: &FirstTouch,
+        section: Section,
+        block: PathBlock,
+        start: Option<ServoStart>,
+    ) -> Result<Self, StrategyError> {
         Ok(match section {
-            Section::Cutting => Self::Cut(Box::new((Meter::measure(touch, &block)?, block))),
+            Section::Cutting => {
+                let served = start.map(|start| ServoMeter::measure(touch, &start, &block));
+                let measured = Meter::measure(touch, &block)?;
+                Self::Cut(Box::new((measured, served.transpose()?, block)))
+            }
             Section::LeadIn | Section::LeadOut => {
-                Self::Lead(Box::new(LeadMeter::measure(touch, &block)?))
+                Self::Lead(Box::new((LeadMeter::measure(touch, &block)?, block)))
             }
         })
     }
 }
 
 impl PathMeters {
+    /// Nothing measured yet.
+    pub fn new(recipe: &Recipe, touch: FirstTouch) -> Self {
+        Self {
+            cut: Meter::new(touch).counting_centre(Promise::of(recipe.overrun).covers_centre),
+            lead: LeadMeter::default(),
+            servo: None,
+            suspects: Suspects::new(recipe.tolerance.interpolation, recipe.part.aperture_radius),
+        }
+    }
+
+    /// The same with the servo that the recipe asks for.
+    pub fn with_servo(mut self, recipe: &Recipe) -> Self {
+        self.servo = recipe.servo.as_ref().map(ServoMeter::new);
+        self
+    }
+
     fn append(&mut self, stretch: &Stretch) -> Result<(), StrategyError> {
         match stretch {
             Stretch::Cut(cut) => {
-                let (measured, block) = cut.as_ref();
+                let (measured, served, block) = cut.as_ref();
                 self.lead.pass(block);
+                self.suspects.pass(block, &measured.per_point);
+                if let (Some(servo), Some(served)) = (&mut self.servo, served) {
+                    servo.append(served);
+                }
                 self.cut.append(measured)
             }
-            Stretch::Lead(measured) => {
+            Stretch::Lead(lead) => {
+                let (measured, block) = lead.as_ref();
+                self.suspects.pass(block, &[]);
                 self.lead.append(measured);
                 Ok(())
             }
@@ -215,16 +264,12 @@ impl PathMeters {
 /// Reads a path and measures it, in blocks, in parallel.
 pub fn measure(
     recipe: &Recipe,
-    touch: FirstTouch,
+    mut meters: PathMeters,
     shape: SegmentShape,
     reader: &mut dyn ReadPath,
     progress: &dyn Progress,
 ) -> Result<PathMeters, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
-    let mut meters = PathMeters {
-        cut: Meter::new(touch).counting_centre(Promise::of(recipe.overrun).covers_centre),
-        lead: LeadMeter::default(),
-    };
     loop {
         let mut blocks: Vec<(Section, PathBlock)> = Vec::new();
         while blocks.len() < BLOCKS {
@@ -236,10 +281,15 @@ pub fn measure(
         if blocks.is_empty() {
             return Ok(meters);
         }
+        let starts: Vec<Option<ServoStart>> = blocks
+            .iter()
+            .map(|(_, block)| meters.servo.as_mut().map(|servo| servo.pass(block)))
+            .collect();
         let (touch, count) = (meters.cut.touch(), blocks.len() as u64);
         let stretches: Vec<Stretch> = blocks
             .into_par_iter()
-            .map(|(section, block)| Stretch::of(touch, section, block))
+            .zip(starts)
+            .map(|((section, block), start)| Stretch::of(touch, section, block, start))
             .collect::<Result<_, _>>()
             .map_err(failed)?;
         for stretch in &stretches {
@@ -260,6 +310,10 @@ fn human(recipe: &Recipe, radial: Radial, verified: &Verified) -> String {
     text += &figures::measured(&verified.measured, recipe);
     if let Some(lead) = &verified.measured.lead {
         text += &lead.lines(verified.measured.within.lead);
+    }
+    text += &verified.suspicious.lines();
+    if let Some(servo) = &verified.measured.servo {
+        text += &servo.lines();
     }
     if let Some(unreached) = &verified.unreached {
         text += &unreached.lines();

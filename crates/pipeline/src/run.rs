@@ -1,9 +1,13 @@
 //! The whole run: law, refinement, then every block made, measured and handed on in order.
 
 use rayon::prelude::*;
+use turnpath_core::Servo;
 use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
 use turnpath_verify::machined::MachinedFigures;
-use turnpath_verify::{AxesMotion, FirstTouch, Measured, Meter, PathFigures};
+use turnpath_verify::{
+    AxesMotion, FirstTouch, Measured, Meter, PathFigures, ServoFigures, ServoMeter, ServoStart,
+    ServoStretch,
+};
 
 use crate::lead::{LeadRun, LeadSettings, Leads};
 use crate::make::{Depths, Made, join, make};
@@ -33,6 +37,7 @@ pub trait Sink: Sync {
 /// A block, measured and in the form of each file.
 struct Ready {
     measured: Measured,
+    served: Option<ServoStretch>,
     points: usize,
     sampled: usize,
     encoded: Vec<Vec<u8>>,
@@ -55,6 +60,8 @@ pub struct Outcome {
     pub machined: Option<MachinedFigures>,
     /// The leads, where the path has some.
     pub lead: Option<Leads>,
+    /// What the servo makes of it, where that is asked.
+    pub servo: Option<ServoFigures>,
 }
 
 /// What a run will give, without making it.
@@ -80,6 +87,8 @@ pub struct Making {
     pub lead: Option<LeadSettings>,
     /// Whether the path covers the axis on purpose: the cusps there are then residual too.
     pub covers_centre: bool,
+    /// How the axes answer, where it is asked what that comes to.
+    pub servo: Option<Servo>,
 }
 
 /// Makes, measures and hands on the path.
@@ -103,7 +112,9 @@ pub fn run(
         .map(|settings| LeadRun::begin(&mut plan, &depths, settings))
         .transpose()?;
     let meter = Meter::new(prepared.touch.clone()).counting_centre(making.covers_centre);
-    write(&plan, batch, &depths, leads, meter, sink, progress)
+    let servo = making.servo.as_ref().map(ServoMeter::new);
+    let meters = (meter, servo);
+    write(&plan, batch, &depths, leads, meters, sink, progress)
 }
 
 fn write(
@@ -111,7 +122,7 @@ fn write(
     batch: usize,
     depths: &[Depths],
     leads: Option<LeadRun>,
-    mut meter: Meter,
+    (mut meter, mut servo): (Meter, Option<ServoMeter>),
     sink: &mut dyn Sink,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
@@ -121,6 +132,9 @@ fn write(
     let mut state = first_state(plan);
     let mut trail = Trail::default();
     if let Some(leads) = &leads {
+        if let Some(servo) = &mut servo {
+            servo.pass(&leads.lead_in_and_join());
+        }
         trail.hand_on(Section::LeadIn, &leads.lead_in(), sink)?;
     }
     let blocks: Vec<usize> = (0..plan.blocks()).collect();
@@ -134,12 +148,21 @@ fn write(
         held = made.split_off(made.len() - usize::from(range.end < plan.blocks()));
         let behind: Vec<Behind> = made.iter().map(|made| trail.behind_cut(made)).collect();
         let encoder: &dyn Sink = sink;
-        let each = made.into_par_iter().zip(behind);
-        let ready = in_order(each.map(|(made, behind)| ready(touch, made, &behind, encoder)))?;
+        let starts: Vec<Option<ServoStart>> = made
+            .iter()
+            .map(|made| servo.as_mut().map(|servo| servo.pass(&made.points)))
+            .collect();
+        let each = made.into_par_iter().zip(behind).zip(starts);
+        let ready = in_order(
+            each.map(|((made, behind), start)| ready(touch, made, &behind, start, encoder)),
+        )?;
         for block in ready {
             meter
                 .append(&block.measured)
                 .map_err(PipelineError::Measure)?;
+            if let (Some(servo), Some(served)) = (&mut servo, &block.served) {
+                servo.append(served);
+            }
             made_points += block.points as u64;
             sampled += block.sampled as u64;
             last_motion = block.measured.axes;
@@ -165,6 +188,7 @@ fn write(
         machined: meter.machined().map_err(PipelineError::Measure)?,
         figures: meter.figures().map_err(PipelineError::Measure)?,
         lead,
+        servo: servo.map(|servo| *servo.figures()),
     })
 }
 
@@ -221,8 +245,16 @@ impl Trail {
 }
 
 /// Measures a block and puts it into the form of each file, the joint with the next one left out.
-fn ready(touch: &FirstTouch, made: Made, behind: &Behind, sink: &dyn Sink) -> Result<Ready> {
+fn ready(
+    touch: &FirstTouch,
+    made: Made,
+    behind: &Behind,
+    start: Option<ServoStart>,
+    sink: &dyn Sink,
+) -> Result<Ready> {
     let measured = Meter::measure(touch, &made.points).map_err(PipelineError::Measure)?;
+    let served = start.map(|start| ServoMeter::measure(touch, &start, &made.points));
+    let served = served.transpose().map_err(PipelineError::Measure)?;
     let mut points = made.points;
     points.truncate(made.owner.len());
     let stretch = PathStretch {
@@ -234,6 +266,7 @@ fn ready(touch: &FirstTouch, made: Made, behind: &Behind, sink: &dyn Sink) -> Re
     let encoded = sink.encode(&stretch).map_err(PipelineError::Sink)?;
     Ok(Ready {
         measured,
+        served,
         points: points.len(),
         sampled: made.sampled,
         encoded,

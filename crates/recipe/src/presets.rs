@@ -15,6 +15,8 @@ pub struct Preset {
     pub name: &'static str,
     /// Its limits, as far as they are known.
     pub machine: Machine,
+    /// The bandwidth of its servo as ω, rad/s: what `[servo]` takes where it gives none.
+    pub servo_bandwidth: Option<f64>,
     /// Where the figures come from.
     pub source: &'static str,
 }
@@ -48,6 +50,7 @@ pub const PRESETS: &[Preset] = &[
             },
             c: UNKNOWN,
         },
+        servo_bandwidth: None,
         source: "no machine of its own: round figures below those of precitech-sts, for a first \
             look; X and C not limited",
     },
@@ -62,6 +65,7 @@ pub const PRESETS: &[Preset] = &[
             },
             c: UNKNOWN,
         },
+        servo_bandwidth: Some(STS_BANDWIDTH),
         source: "slow tool servo of the lathes Precitech Nanoform 200, 350 and 700, from \
             Precitech's table of servo tools (AZoM, article 11751): 10 mm travel at 2 Hz, \
             bandwidth 70 Hz. Derived: velocity and acceleration of a sine of 5 mm at 2 Hz, a \

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::de::DeTable;
-use turnpath_core::{Direction, Machine, Overrun, Part, Slot, Tolerance, Tool};
+use turnpath_core::{Direction, Machine, Overrun, Part, Servo, Slot, Tolerance, Tool};
 
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -37,6 +37,8 @@ pub struct Recipe {
     pub machine: Machine,
     /// The machine that the recipe names; its own limits go before those of the preset.
     pub preset: Option<&'static Preset>,
+    /// How its axes answer, where the recipe asks what that comes to.
+    pub servo: Option<Servo>,
     /// Which way the tool feeds.
     pub direction: Direction,
     /// How far the path runs beyond the aperture.
@@ -300,6 +302,7 @@ pub(crate) fn build(
     if let Some(speed) = speed {
         tables::check_spindle(&mut sections.open("spindle"), speed, &machine.machine);
     }
+    let servo = tables::servo(&mut sections.open("servo"), machine.preset);
     let way = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
@@ -314,6 +317,7 @@ pub(crate) fn build(
         spindle_speed: speed?,
         machine: machine.machine,
         preset: machine.preset,
+        servo,
         direction: way.direction,
         overrun: way.overrun,
         lead: way.lead,

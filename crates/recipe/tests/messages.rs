@@ -84,6 +84,11 @@ says! {
     machine_limit_without_unit: "[output]" => "[machine]\nz_velocity = 50\n\n[output]";
     machine_limit_unit_unknown: "[output]" => "[machine]\nc_acceleration = \"100 mm/s^2\"\nc_jerk = \"3 rad/s3\"\n\n[output]";
     machine_slower_than_the_spindle: "[output]" => "[machine]\nc_velocity = \"400 rpm\"\n\n[output]";
+    servo_without_bandwidth: "[output]" => "[servo]\ndamping = 0.7\n\n[output]";
+    servo_axis_without_bandwidth: "[output]" => "[servo]\nz_bandwidth = \"70 Hz\"\n\n[output]";
+    servo_key_misspelt: "[output]" => "[servo]\nbandwith = \"70 Hz\"\n\n[output]";
+    servo_bandwidth_of_another_kind: "[output]" => "[servo]\nbandwidth = \"70 mm\"\n\n[output]";
+    servo_more_than_whole: "[output]" => "[servo]\nbandwidth = \"70 Hz\"\nvelocity_feed_forward = 1.2\ndelay = \"2 s\"\n\n[output]";
     machine_no_table: "format = 1" => "format = 1\nmachine = \"generic-sts\"";
     interference_misspelt: "\"refuse\"" => "\"cut-what-fit\"";
     post_twice: "posts = []" => "posts = [\"pmac-pvt\", \"pmac-pvt\"]";

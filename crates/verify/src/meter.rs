@@ -7,6 +7,7 @@ use crate::axes::AxesMotion;
 use crate::coverage::{Coverage, CoverageFigures};
 use crate::machined::{Fan, Lines, MachinedFigures, SectionPasses};
 use crate::playback::{PlaybackFigures, play_back};
+use crate::points::{PointFigures, point_errors};
 use crate::residual::{Passes, ResidualFigures};
 use crate::touch::FirstTouch;
 
@@ -17,6 +18,10 @@ pub struct Measured {
     pub playback: PlaybackFigures,
     /// Largest |error| of each segment, mm.
     pub per_segment: Vec<f64>,
+    /// Error of the control points.
+    pub points: PointFigures,
+    /// Z − first touch at each control point, mm.
+    pub per_point: Vec<f64>,
     /// Residual within the stretch.
     pub residual: ResidualFigures,
     /// Motion of the axes.
@@ -32,6 +37,8 @@ pub struct Measured {
 pub struct PathFigures {
     /// Interpolation error.
     pub playback: PlaybackFigures,
+    /// Error of the control points.
+    pub points: PointFigures,
     /// Residual; the cusps around the axis are in it where [`Meter::counting_centre`] says so.
     pub residual: ResidualFigures,
     /// What stays uncut at the part's edges and around the axis.
@@ -86,6 +93,8 @@ impl Meter {
             ..Measured::default()
         };
         measured.playback = play_back(touch, points, &mut measured.per_segment)?;
+        measured.per_point = point_errors(touch, points)?;
+        measured.points = PointFigures::of(points, &measured.per_point);
         measured.passes = Passes::of(touch, points)?;
         measured.residual = measured.passes.residual(touch)?;
         measured.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
@@ -104,6 +113,7 @@ impl Meter {
     /// point with which the one before ended.
     pub fn append(&mut self, next: &Measured) -> Result<()> {
         self.figures.playback.append(&next.playback);
+        self.figures.points.see(&next.points);
         self.figures.axes.append(&next.axes);
         self.figures.residual.append(&next.residual);
         let seam = self.passes.follow(&self.touch, &next.passes)?;

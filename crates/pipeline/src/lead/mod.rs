@@ -115,6 +115,11 @@ impl LeadRun {
         points
     }
 
+    /// The lead-in with the point of the join.
+    pub fn lead_in_and_join(&self) -> PathBlock {
+        self.made.clone().unwrap_or_default()
+    }
+
     /// Makes the lead-out behind a cut that ends with `pair` and whose last block moves so; gives
     /// its points, without that of the join, and what leads the path has.
     pub fn end(

@@ -297,6 +297,7 @@ impl Job {
             time_steps: self.time_steps,
             lead: self.lead,
             covers_centre: false,
+            servo: None,
         };
         let outcome = run(&chain, &prepared, making, &mut kept, &Quiet)?;
         Ok((kept, outcome))

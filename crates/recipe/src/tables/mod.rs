@@ -5,6 +5,7 @@ mod machine;
 mod output;
 mod path;
 mod pmac_pvt;
+mod servo;
 mod top;
 mod work;
 
@@ -16,6 +17,7 @@ pub(crate) use machine::{check_spindle, machine};
 pub(crate) use output::output;
 pub(crate) use path::path;
 pub(crate) use pmac_pvt::pmac_pvt;
+pub(crate) use servo::servo;
 pub(crate) use top::{KEYS as TOP_KEYS, format_is_one, top};
 pub(crate) use work::{part, tool};
 
@@ -29,5 +31,6 @@ pub(crate) const SCHEMA: &[(&str, &[&str])] = &[
     ("output", output::KEYS),
     (pmac_pvt::NAME, pmac_pvt::KEYS),
     ("machine", machine::KEYS),
+    ("servo", servo::KEYS),
     ("ablation", &["mode"]),
 ];

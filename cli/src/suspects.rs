@@ -1,0 +1,90 @@
+//! Control points of a file that stand out among their neighbours: told, and held against nothing.
+
+use serde::Serialize;
+use turnpath_core::DEG;
+use turnpath_verify::{Oddity, Suspect};
+
+use crate::figures::{grouped, line, millimetres, nanometres};
+use crate::summary::{NM_PER_MM, Place};
+
+/// Suspicious places of a path.
+#[derive(Debug, Serialize)]
+pub struct Suspicious {
+    /// How many there are.
+    pub count: u64,
+    /// The first of them.
+    pub places: Vec<SuspectPlace>,
+}
+
+/// One of them.
+#[derive(Debug, Serialize)]
+pub struct SuspectPlace {
+    /// Which control point of the file, counted from 1.
+    pub point: u64,
+    at: Place,
+    /// `z_position`, or `c_motion`, `x_motion`, `z_motion`: the acceleration steps.
+    what: &'static str,
+    by_nm: f64,
+    neighbours_nm: f64,
+}
+
+impl Suspicious {
+    /// In the units of the file.
+    pub fn of((count, suspects): (u64, Vec<Suspect>)) -> Self {
+        let places = suspects.iter().map(SuspectPlace::of).collect();
+        Self { count, places }
+    }
+
+    /// The lines for a person; empty where nothing is suspicious.
+    pub fn lines(&self) -> String {
+        let Some(first) = self.places.first() else {
+            return String::new();
+        };
+        let mut text = line("suspicious", first.told());
+        for place in self.places.iter().skip(1) {
+            text += &line("", place.told());
+        }
+        let more = self.count - self.places.len() as u64;
+        if more > 0 {
+            text += &line("", format!("and {} places more", grouped(more)));
+        }
+        text
+    }
+}
+
+impl SuspectPlace {
+    fn of(suspect: &Suspect) -> Self {
+        Self {
+            point: suspect.point,
+            at: Place {
+                c_deg: suspect.c / DEG,
+                x_mm: suspect.x,
+            },
+            what: match suspect.what {
+                Oddity::Height => "z_position",
+                Oddity::TurnsOfC => "c_motion",
+                Oddity::MotionOfX => "x_motion",
+                Oddity::MotionOfZ => "z_motion",
+            },
+            by_nm: suspect.by * NM_PER_MM,
+            neighbours_nm: suspect.usual * NM_PER_MM,
+        }
+    }
+
+    fn told(&self) -> String {
+        let what = match self.what {
+            "z_position" => "Z is off the first touch by",
+            "c_motion" => "C does not run on: as if off by",
+            "x_motion" => "X does not run on: as if off by",
+            _ => "Z does not run on: as if off by",
+        };
+        format!(
+            "point {}, C = {:.2} deg, X = {}: {what} {}, {} around",
+            grouped(self.point),
+            self.at.c_deg,
+            millimetres(self.at.x_mm, 4),
+            nanometres(self.by_nm),
+            nanometres(self.neighbours_nm)
+        )
+    }
+}

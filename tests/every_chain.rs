@@ -1,0 +1,193 @@
+//! Every chain of built-in feeds, samplers, compensators and velocity solvers, on the middle of
+//! AST-5 and MLA-5 with their tolerances: what holds after refinement, and what says that it does
+//! not.
+//!
+//! Refinement holds the error along z at the played X. Where X itself moves within a turn (normal
+//! compensation, and the feed `ats`) its own error between control points moves passes apart, and
+//! refinement does not close that in: cusps may then exceed the residual, which the run tells.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+mod support;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde_json::Value;
+use support::bench::{Bench, Said};
+
+const FEEDS: [&str; 4] = ["constant", "atpg", "ats", "fft-adaptive"];
+const SAMPLERS: [&str; 6] = [
+    "use = \"equal-angle\"",
+    "use = \"equal-arc\"\nspacing = \"50 um\"",
+    "use = \"integrated\"\nspacing = \"50 um\"",
+    "use = \"atpg\"",
+    "use = \"ats\"",
+    "use = \"fft-adaptive\"",
+];
+const COMPENSATORS: [&str; 3] = ["z-direction", "normal", "none"];
+const SOLVERS: [&str; 6] = [
+    "use = \"analytic\"",
+    "use = \"triangle-rotary\"",
+    "use = \"three-point\"",
+    "use = \"area\"\nc = 0.6666666666666666",
+    "use = \"area\"\nc = 0.5",
+    "use = \"linear\"",
+];
+
+/// The middle of a part: as much of it as some hundreds of runs can afford.
+struct Part {
+    recipe: &'static str,
+    aperture: &'static str,
+}
+
+const PARTS: [Part; 2] = [
+    Part {
+        recipe: include_str!("../docs/recipes/astigmatic-5mm.toml"),
+        aperture: "1.2 mm",
+    },
+    Part {
+        recipe: include_str!("../docs/recipes/sinusoidal-array-10mm.toml"),
+        aperture: "1.6 mm",
+    },
+];
+
+#[derive(Debug, Clone, Copy)]
+struct Chain {
+    part: usize,
+    feed: &'static str,
+    sampler: &'static str,
+    compensator: &'static str,
+    solver: &'static str,
+}
+
+impl Chain {
+    fn all() -> Vec<Self> {
+        let mut chains = Vec::new();
+        for part in 0..PARTS.len() {
+            for feed in FEEDS {
+                for sampler in SAMPLERS {
+                    for compensator in COMPENSATORS {
+                        chains.extend(SOLVERS.map(|solver| Self {
+                            part,
+                            feed,
+                            sampler,
+                            compensator,
+                            solver,
+                        }));
+                    }
+                }
+            }
+        }
+        chains
+    }
+
+    /// Whether X goes evenly while C turns: the passes are as far apart as the law says.
+    fn feeds_evenly(&self) -> bool {
+        self.compensator != "normal" && self.feed != "ats"
+    }
+
+    /// The part's recipe with this chain, over the aperture alone.
+    fn recipe(&self) -> String {
+        let recipe = PARTS[self.part].recipe;
+        let (head, _) = recipe.split_once("[path]").unwrap();
+        let Self {
+            feed,
+            sampler,
+            compensator,
+            solver,
+            ..
+        } = self;
+        format!(
+            "{head}[path]\noverrun = \"none\"\nlead = false\n\n[feed]\nuse = \"{feed}\"\n\n\
+             [sampler]\n{sampler}\n\n[compensator]\nuse = \"{compensator}\"\n\n\
+             [velocity]\n{solver}\n\n[output]\ndata = []\n"
+        )
+    }
+
+    fn run(&self, bench: &Bench, sets: &str) -> Said {
+        let aperture = PARTS[self.part].aperture.replace(' ', "");
+        bench.write("recipe.toml", self.recipe());
+        bench.line(&format!(
+            "run recipe.toml -o out --threads 1 --format json --set part.aperture={aperture} {sets}"
+        ))
+    }
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    value.pointer(pointer).and_then(Value::as_f64).unwrap()
+}
+
+/// What a chain does that it should not; empty if all is well.
+fn complaint(chain: &Chain, said: &Said) -> Option<String> {
+    if !matches!(said.status, Some(0 | 1)) {
+        return Some(said.to_string());
+    }
+    let summary = said.json();
+    let holds = |what: &str| summary["within"][what] == true;
+    let told = (said.status == Some(0)) == (holds("interpolation") && holds("residual"));
+    let kept = holds("interpolation") && (holds("residual") || !chain.feeds_evenly());
+    (!told || !kept).then(|| {
+        let figures = [
+            &summary["interpolation_error_nm"]["max"],
+            &summary["residual_nm"]["max"],
+        ];
+        format!(
+            "status {:?}, interpolation and residual {figures:?}",
+            said.status
+        )
+    })
+}
+
+#[test]
+fn every_chain_holds_both_tolerances_or_says_that_it_does_not() {
+    let chains = Chain::all();
+    assert_eq!(chains.len(), 2 * 4 * 6 * 3 * 6);
+    let (next, wrong) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        let bench = Bench::empty();
+        while let Some(chain) = chains.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if let Some(complaint) = complaint(chain, &chain.run(&bench, "")) {
+                wrong
+                    .lock()
+                    .unwrap()
+                    .push(format!("{chain:?}: {complaint}"));
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        let workers = std::thread::available_parallelism().map_or(2, usize::from);
+        (0..workers).for_each(|_| drop(scope.spawn(work)));
+    });
+    let wrong = wrong.into_inner().unwrap();
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// The residual that such chains exceed is X's own error between control points: with an
+/// interpolation tolerance that asks for closer points it holds.
+#[test]
+fn where_x_moves_within_a_turn_closer_points_hold_the_residual() {
+    let bench = Bench::empty();
+    for (feed, compensator, solver) in [
+        ("constant", "normal", SOLVERS[0]),
+        ("atpg", "normal", SOLVERS[1]),
+        ("ats", "z-direction", SOLVERS[1]),
+    ] {
+        let chain = Chain {
+            part: 0,
+            feed,
+            sampler: SAMPLERS[0],
+            compensator,
+            solver,
+        };
+        let coarse = chain.run(&bench, "").ends(1).json();
+        let fine = chain
+            .run(&bench, "--set tolerance.interpolation=5nm")
+            .ends(0)
+            .json();
+        let residual = |summary: &Value| number(summary, "/residual_nm/max");
+        assert!(
+            residual(&coarse) > 100.1 && residual(&fine) < 100.0,
+            "{chain:?}"
+        );
+    }
+}
