@@ -7,6 +7,9 @@ use turnpath_verify::{Oddity, Suspect};
 use crate::figures::{grouped, line, millimetres, nanometres};
 use crate::summary::{NM_PER_MM, Place};
 
+/// Places that a person is shown.
+const SHOWN: usize = 3;
+
 /// Suspicious places of a path.
 #[derive(Debug, Serialize)]
 pub struct Suspicious {
@@ -37,14 +40,15 @@ impl Suspicious {
 
     /// The lines for a person; empty where nothing is suspicious.
     pub fn lines(&self) -> String {
-        let Some(first) = self.places.first() else {
-            return String::new();
-        };
-        let mut text = line("suspicious", first.told());
-        for place in self.places.iter().skip(1) {
-            text += &line("", place.told());
+        let mut text = String::new();
+        let shown = self.places.iter().take(SHOWN);
+        for (i, place) in shown.clone().enumerate() {
+            let label = if i == 0 { "suspicious" } else { "" };
+            let [whereabouts, what] = place.told();
+            text += &line(label, whereabouts);
+            text += &line("", what);
         }
-        let more = self.count - self.places.len() as u64;
+        let more = self.count - shown.len() as u64;
         if more > 0 {
             text += &line("", format!("and {} places more", grouped(more)));
         }
@@ -71,20 +75,21 @@ impl SuspectPlace {
         }
     }
 
-    fn told(&self) -> String {
+    /// Where it is, and what.
+    fn told(&self) -> [String; 2] {
         let what = match self.what {
             "z_position" => "Z is off the first touch by",
             "c_motion" => "C does not run on: as if off by",
             "x_motion" => "X does not run on: as if off by",
             _ => "Z does not run on: as if off by",
         };
-        format!(
-            "point {}, C = {:.2} deg, X = {}: {what} {}, {} around",
+        let whereabouts = format!(
+            "point {}, C = {:.2} deg, X = {}",
             grouped(self.point),
             self.at.c_deg,
-            millimetres(self.at.x_mm, 4),
-            nanometres(self.by_nm),
-            nanometres(self.neighbours_nm)
-        )
+            millimetres(self.at.x_mm, 4)
+        );
+        let (by, usual) = (nanometres(self.by_nm), nanometres(self.neighbours_nm));
+        [whereabouts, format!("{what} {by}, {usual} around")]
     }
 }
