@@ -1,7 +1,7 @@
 //! What the nose leaves standing where it does not fit, for the summary.
 
 use serde::Serialize;
-use turnpath_core::{DEG, StrategyError, Tolerance, UM};
+use turnpath_core::{DEG, Misfit, StrategyError, Tolerance, UM};
 use turnpath_pipeline::PipelineError;
 use turnpath_verify::{FirstTouch, UnreachedFigures, unreached};
 
@@ -24,6 +24,10 @@ pub struct Unreached {
 impl Unreached {
     /// What stays on a job's part; none unless the recipe asks for what fits of a nose.
     pub fn of_job(job: &Job) -> Result<Option<Self>, Failure> {
+        let asked = job.recipe.tool.misfit == Misfit::CutWhatFits && job.compensates_nose();
+        if asked && !job.prepared.touch.leaves_seams() {
+            return Ok(Some(Self::new(&UnreachedFigures::default())));
+        }
         Self::of(&job.prepared.touch, &job.recipe.tolerance)
             .map_err(|error| of_pipeline(&job.recipe, PipelineError::Measure(error)))
     }

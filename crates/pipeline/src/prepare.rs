@@ -60,6 +60,19 @@ pub struct Prepared {
 /// When the tool does not fit, when the surface has no height somewhere on the part or on its
 /// overrun, or when a strategy fails.
 pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
+    if wanted.tool.misfit == Misfit::Refuse {
+        return settle(chain, wanted);
+    }
+    // Where all fits after all, the touch is where it is for any tool: no edge need be scanned.
+    let mut strict = wanted.clone();
+    strict.tool.misfit = Misfit::Refuse;
+    match settle(chain, strict) {
+        Err(PipelineError::Gouge { .. }) => settle(chain, wanted),
+        settled => settled,
+    }
+}
+
+fn settle(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
     let Wanted {
         part,
         tool,

@@ -1,12 +1,15 @@
 //! F(ρ), the feed that holds the residual at every angle, tabulated over the radius.
 
 use super::{Measure, least_over_angles};
-use crate::{RadialRange, Result, Setup, StrategyError};
+use crate::{Misfit, RadialRange, Result, Setup, StrategyError};
 
 /// Cells of the table at first.
 const FEWEST_CELLS: usize = 256;
 /// Cells at which the table is no longer halved.
 const MOST_CELLS: usize = 4096;
+/// The same where the nose may leave seams: the feed has kinks there that no table resolves, and
+/// every look at it is a scan of the edge.
+const MOST_CELLS_OVER_SEAMS: usize = FEWEST_CELLS;
 /// Cells are halved while their floors lie this much below the feed, over the whole table: it is
 /// what the table costs in revolutions.
 const TABLE_COST: f64 = 1e-4;
@@ -43,7 +46,13 @@ impl FeedTable {
         let cusp = setup.job.tolerance.residual;
         let measure: &Measure<'_> =
             &|theta, rho, out| locus.held_feed(cusp, radial, theta, rho, out);
-        Self::of(setup.job.range, &|rho| least_over_angles(measure, rho))
+        let most = match setup.job.tool.misfit {
+            Misfit::Refuse => MOST_CELLS,
+            Misfit::CutWhatFits => MOST_CELLS_OVER_SEAMS,
+        };
+        Self::within(setup.job.range, most, &|rho| {
+            least_over_angles(measure, rho)
+        })
     }
 
     /// Tabulates a feed of one value a radius over a range.
@@ -51,6 +60,10 @@ impl FeedTable {
     /// # Errors
     /// Where the range has no length; those of `feed_at`.
     pub fn of(range: RadialRange, feed_at: &FeedAt<'_>) -> Result<Self> {
+        Self::within(range, MOST_CELLS, feed_at)
+    }
+
+    fn within(range: RadialRange, most: usize, feed_at: &FeedAt<'_>) -> Result<Self> {
         let RadialRange { inner, outer } = range;
         if !(inner.is_finite() && outer.is_finite() && inner < outer) {
             return Err(StrategyError::failed(format!(
@@ -74,7 +87,7 @@ impl FeedTable {
             table.halve(feed_at)?;
         }
         table.lay_floor();
-        while table.cells() < MOST_CELLS && (table.cost() > TABLE_COST || table.sink(feed_at)?) {
+        while table.cells() < most && (table.cost() > TABLE_COST || table.sink(feed_at)?) {
             table.halve(feed_at)?;
             table.lay_floor();
         }
