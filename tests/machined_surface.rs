@@ -98,6 +98,22 @@ fn a_map_has_the_figures_of_the_summary() {
 
 /// The saddle rises along y = x: what the nose cannot reach at the rim of a path that ends at
 /// X = 2.5 mm lies where it falls, along y = −x.
+/// z = k ρ² sin 2θ goes up and down twice a turn; X only feeds.
+#[test]
+fn z_of_the_saddle_moves_at_twice_the_spindle() {
+    let (bench, _) = mapped(SADDLE, "--spectrum");
+    let written = bench.read("out/spectrum.csv");
+    assert!(written.starts_with("frequency_hz,x_um2_per_hz,z_um2_per_hz\n"));
+    let lines = table(&written, ',');
+    let top = lines.iter().max_by(|a, b| a[2].total_cmp(&b[2])).unwrap();
+    assert!(
+        (top[0] / (2.0 * 500.0 / 60.0) - 1.0).abs() < 1e-6,
+        "{top:?}"
+    );
+    bench.line("verify recipe.toml out/toolpath.csv --spectrum -o again");
+    assert_eq!(bench.read("again/spectrum.csv"), written);
+}
+
 #[test]
 fn a_map_has_x_to_the_right_and_y_up() {
     let tilted = saddle_with(

@@ -105,6 +105,9 @@ pub struct PlotArgs {
     /// several times
     #[arg(long, value_name = "RADIUS", allow_hyphen_values = true)]
     pub circle: Vec<String>,
+    /// Write the power spectrum of the played X and Z over the cut, spectrum.csv
+    #[arg(long)]
+    pub spectrum: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -1,4 +1,4 @@
-//! `--map`, `--profile`, `--circle`: what is asked for, checked before the work.
+//! `--map`, `--profile`, `--circle`, `--spectrum`: what is asked for, checked before the work.
 
 use std::fs;
 use std::io;
@@ -17,6 +17,8 @@ const GSF: &str = "gsf";
 const XYZ: &str = "xyz";
 /// Places of a circle: every hundredth of a degree.
 const CIRCLE_PLACES: usize = 36_000;
+/// The spectrum of the axes.
+const SPECTRUM: &str = "spectrum.csv";
 /// Digits after the point of angles and radii in the names of files.
 const NAME_DIGITS: f64 = 1e6;
 
@@ -59,6 +61,7 @@ pub struct Wishes {
     pub map: Option<MapWish>,
     pub profiles: Vec<ProfileWish>,
     pub circles: Vec<CircleWish>,
+    pub spectrum: Option<PathBuf>,
 }
 
 impl Wishes {
@@ -74,6 +77,7 @@ impl Wishes {
                 .transpose()?,
             profiles: each(&args.profile, |text| profile_wish(text, folder))?,
             circles: each(&args.circle, |text| circle_wish(text, part, folder))?,
+            spectrum: args.spectrum.then(|| folder.join(SPECTRUM)),
         };
         for file in wishes.files() {
             can_be_made(file, folder)?;
@@ -92,7 +96,8 @@ impl Wishes {
         let profiles = self.profiles.iter();
         let profiles = profiles.flat_map(|profile| [&profile.file, &profile.spectrum]);
         let circles = self.circles.iter().map(|circle| &circle.file);
-        maps.chain(profiles).chain(circles).map(PathBuf::as_path)
+        let files = maps.chain(profiles).chain(circles);
+        files.chain(&self.spectrum).map(PathBuf::as_path)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Maps, profiles and circles of the path in a file, read once, block by block.
+//! Maps, profiles, circles and the axes' spectrum of the path in a file, read once, block by block.
 
 use std::io::Write;
 use std::path::Path;
@@ -8,8 +8,8 @@ use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
 use turnpath_pipeline::{PipelineError, Progress, Stage};
 use turnpath_post::{Draft, FileError, GsfWriter, ReadPath, XyzWriter};
 use turnpath_recipe::Recipe;
-use turnpath_verify::FirstTouch;
 use turnpath_verify::machined::{Grid, Map, Nose, ProfileLine, power_spectrum};
+use turnpath_verify::{AxesSpectrum, FirstTouch};
 
 use crate::failure::Failure;
 use crate::job::of_pipeline;
@@ -35,6 +35,7 @@ pub struct Played<'a> {
 struct Plots {
     maps: Vec<Map>,
     profiles: Vec<ProfileLine>,
+    spectrum: Option<AxesSpectrum>,
 }
 
 /// Makes what is asked for: files that are whole, still without their names.
@@ -45,7 +46,7 @@ pub fn plot(
     progress: &dyn Progress,
 ) -> Result<Vec<Draft>, Failure> {
     let failed = |error| of_pipeline(played.recipe, PipelineError::Measure(error));
-    let mut plots = Plots::of(wishes, played.touch);
+    let mut plots = Plots::of(wishes, played);
     progress.begin(Stage::Map, played.points.div_ceil(BLOCK_ROWS as u64));
     while let Some((section, block)) = reader.next_block(BLOCK_ROWS)? {
         if section != Section::Cutting {
@@ -61,16 +62,18 @@ pub fn plot(
 }
 
 impl Plots {
-    fn of(wishes: &Wishes, touch: &FirstTouch) -> Self {
-        let part = touch.subject().part;
+    fn of(wishes: &Wishes, played: &Played<'_>) -> Self {
+        let part = played.touch.subject().part;
         let map = wishes.map.iter().map(|map| map.grid);
         let grids = map.chain(wishes.circles.iter().map(|circle| circle.grid));
         let profiles = wishes.profiles.iter();
+        let speed = played.recipe.spindle_speed;
         Self {
             maps: grids.map(|grid| Map::new(grid, part)).collect(),
             profiles: profiles
                 .map(|profile| ProfileLine::new(profile.angle))
                 .collect(),
+            spectrum: wishes.spectrum.as_ref().map(|_| AxesSpectrum::new(speed)),
         }
     }
 
@@ -81,6 +84,9 @@ impl Plots {
         }
         for profile in &mut self.profiles {
             profile.append(played.touch, block)?;
+        }
+        if let Some(spectrum) = &mut self.spectrum {
+            spectrum.append(block);
         }
         Ok(())
     }
@@ -96,6 +102,9 @@ impl Plots {
         }
         for (wish, map) in wishes.circles.iter().zip(&mut maps) {
             written.push(write_circle(&wish.file, map, played)?);
+        }
+        for (file, spectrum) in wishes.spectrum.iter().zip(&self.spectrum) {
+            written.push(write_spectrum(file, spectrum)?);
         }
         Ok(written)
     }
@@ -165,6 +174,17 @@ fn write_circle(file: &Path, map: &Map, played: &Played<'_>) -> Result<Draft, Fa
     let degrees = |column: usize| 360.0 * column as f64 / grid.columns() as f64;
     let rows = rows.map(|(column, (error, wanted))| [degrees(column), f64::from(error), *wanted]);
     Ok(write_errors(file, "c_deg", rows)?)
+}
+
+fn write_spectrum(file: &Path, spectrum: &AxesSpectrum) -> Result<Draft, FileError> {
+    let mut draft = Draft::begin(file)?;
+    let mut text = "frequency_hz,x_um2_per_hz,z_um2_per_hz\n".to_owned();
+    for line in spectrum.lines() {
+        let [x, z] = [line.x, line.z].map(|density| density * UM_PER_MM * UM_PER_MM);
+        text += &format!("{:.9e},{x:.6e},{z:.6e}\n", line.frequency);
+    }
+    put(&mut draft, &text)?;
+    Ok(draft)
 }
 
 /// A table of (place, error in mm, wanted z): places without an error are left out.

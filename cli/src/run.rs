@@ -67,8 +67,8 @@ fn wishes(args: &RunArgs, job: &Job, folder: &Path) -> Result<Wishes, Failure> {
     let wishes = Wishes::of(&args.plots, &job.recipe.part, folder)?;
     if !wishes.is_empty() && job.recipe.output.data.is_empty() {
         return Err(Failure::call(
-            "--map, --profile and --circle are measured on toolpath.csv, which this recipe does \
-             not write: add \"csv\" to `data` in [output]",
+            "--map, --profile, --circle and --spectrum are measured on toolpath.csv, which this \
+             recipe does not write: add \"csv\" to `data` in [output]",
         ));
     }
     Ok(wishes)

@@ -1,10 +1,6 @@
 //! Power spectral density of a profile.
 
-use std::f64::consts::TAU;
-
-use rustfft::FftPlannerScalar;
-use rustfft::num_complex::Complex;
-use turnpath_core::Scalar;
+use crate::periodogram::Periodogram;
 
 /// One line of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,10 +28,13 @@ pub fn power_spectrum(values: &[f64], step: f64) -> Vec<SpectrumLine> {
     if length < 3 {
         return Vec::new();
     }
-    let spectra: Vec<Vec<f64>> = alike
-        .iter()
-        .map(|piece| densities(&piece[..length], step))
-        .collect();
+    let periodogram = Periodogram::new(length);
+    let densities = |piece: &[f64]| {
+        let mean = mean_of(piece);
+        periodogram.densities(piece, |_| mean, step)
+    };
+    let pieces = alike.iter().map(|piece| &piece[..length]);
+    let spectra: Vec<Vec<f64>> = pieces.map(densities).collect();
     let mean = |k: usize| spectra.iter().map(|one| one[k]).sum::<f64>() / spectra.len() as f64;
     let line = |k: usize| SpectrumLine {
         frequency: k as f64 / (length as f64 * step),
@@ -44,29 +43,16 @@ pub fn power_spectrum(values: &[f64], step: f64) -> Vec<SpectrumLine> {
     (1..=length / 2).map(line).collect()
 }
 
-/// Density at k = 0 … n/2.
-fn densities(values: &[f64], step: f64) -> Vec<f64> {
-    let count = values.len();
-    let mean = values.iter().sum::<f64>() / count as f64;
-    let window = |i: usize| 0.5 - 0.5 * Scalar::cos(TAU * i as f64 / count as f64);
-    let mut series: Vec<Complex<f64>> = values
-        .iter()
-        .enumerate()
-        .map(|(i, value)| Complex::new((value - mean) * window(i), 0.0))
-        .collect();
-    // Without the vector instructions that a CPU may have or not have.
-    FftPlannerScalar::new()
-        .plan_fft_forward(count)
-        .process(&mut series);
-    let power: f64 = (0..count).map(|i| window(i) * window(i)).sum();
-    let one_sided = |k: usize| if 2 * k == count { 1.0 } else { 2.0 };
-    (0..=count / 2)
-        .map(|k| one_sided(k) * step * series[k].norm_sqr() / power)
-        .collect()
+fn mean_of(piece: &[f64]) -> f64 {
+    piece.iter().sum::<f64>() / piece.len() as f64
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
+    use turnpath_core::Scalar;
+
     use super::*;
 
     fn wave(count: usize, step: f64, frequency: f64) -> Vec<f64> {

@@ -1,0 +1,50 @@
+//! Power spectral density of one window of values, under a Hann window.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlannerScalar};
+use turnpath_core::Scalar;
+
+/// What windows of one length have in common.
+pub(crate) struct Periodogram {
+    window: Vec<f64>,
+    /// Sum of the window's squares.
+    power: f64,
+    fft: Arc<dyn Fft<f64>>,
+}
+
+impl Periodogram {
+    /// For windows of `count` values.
+    pub(crate) fn new(count: usize) -> Self {
+        let hann = |i: usize| 0.5 - 0.5 * Scalar::cos(TAU * i as f64 / count as f64);
+        let window: Vec<f64> = (0..count).map(hann).collect();
+        Self {
+            power: window.iter().map(|weight| weight * weight).sum(),
+            window,
+            // Without the vector instructions that a CPU may have or not have.
+            fft: FftPlannerScalar::new().plan_fft_forward(count),
+        }
+    }
+
+    /// The one-sided density at k = 0 … n/2 of values at distances of `step`, less their `trend`.
+    pub(crate) fn densities(
+        &self,
+        values: &[f64],
+        trend: impl Fn(usize) -> f64,
+        step: f64,
+    ) -> Vec<f64> {
+        let count = self.window.len();
+        let weighted = values.iter().zip(&self.window).enumerate();
+        let mut series: Vec<Complex<f64>> = weighted
+            .map(|(i, (value, weight))| Complex::new((value - trend(i)) * weight, 0.0))
+            .collect();
+        self.fft.process(&mut series);
+        let one_sided = |k: usize| if 2 * k == count { 1.0 } else { 2.0 };
+        let lines = series.iter().take(count / 2 + 1).enumerate();
+        lines
+            .map(|(k, line)| one_sided(k) * step * line.norm_sqr() / self.power)
+            .collect()
+    }
+}
