@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::{AST5, Astigmatic, Ball, Plane, SPEED, astigmatic_path, touch_on};
+use common::{AST5, Astigmatic, Ball, Paraboloid, Plane, SPEED, astigmatic_path, touch_on};
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Segment};
 use turnpath_core::{DEG, NM, Scalar};
 use turnpath_verify::machined::{
@@ -122,6 +122,43 @@ fn in_a_ball_the_cusps_are_those_of_circles_on_a_circle() {
         (found.rms / (middle * 0.2f64.sqrt()) - 1.0).abs() < 0.01,
         "{found:?} {middle:e}"
     );
+    assert_eq!(found.uncut, 0.0);
+}
+
+/// Passes at equal distances of their contacts ρ on z = ρ²/(2r): along the normal the cusps are
+/// f²w²(1 − Rκ)/(8R) high, w = √(1 + (ρ/r)²) and κ = 1/(r w³), along z w times that.
+#[test]
+fn in_a_paraboloid_the_cusps_are_those_of_its_slope_and_curvature() {
+    let (vertex, nose, feed, rim) = (10.0f64, 1.0f64, 0.02, 5.0);
+    let touch = touch_on(Paraboloid { radius: vertex }, rim, nose, true);
+    let stretch = |rho: f64| (1.0 + (rho / vertex) * (rho / vertex)).sqrt();
+    let left = |rho: f64| 1.0 - nose / (vertex * stretch(rho) * stretch(rho) * stretch(rho));
+    let mut points = PathBlock::default();
+    let beyond = 3.0;
+    for i in 0..=((rim / feed + 2.0 * beyond) * 72.0) as usize {
+        let n = i as f64 / 72.0;
+        let rho = feed * (n - beyond);
+        let slope = rho / vertex;
+        let (w, rate) = (stretch(rho), feed * SPEED / TAU * left(rho));
+        points.push(ControlPoint {
+            t: n * TAU / SPEED,
+            c: n * TAU,
+            x: rho - nose * slope / w,
+            z: 0.5 * rho * slope + nose / w,
+            vc: SPEED,
+            vx: rate,
+            vz: slope * rate,
+        });
+    }
+    let found = machined(&touch, &points);
+    let w = stretch(rim);
+    let expected = feed * feed * w * w * left(rim) / (8.0 * nose) * w;
+    assert!(
+        (found.pv() / expected - 1.0).abs() < 0.02,
+        "{found:?} {expected:e}"
+    );
+    let rho = Scalar::hypot(found.highest.x, found.highest.y);
+    assert!(rho > rim - feed, "{found:?}");
     assert_eq!(found.uncut, 0.0);
 }
 

@@ -53,6 +53,17 @@ impl Surface for Ball {
     }
 }
 
+/// z = ρ²/(2 radius).
+pub struct Paraboloid {
+    pub radius: f64,
+}
+
+impl Surface for Paraboloid {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        (x.squared() + y.squared()) * (0.5 / self.radius)
+    }
+}
+
 /// A trough along y.
 pub struct Trough {
     pub radius: f64,
