@@ -163,7 +163,7 @@ pub struct VerifyArgs {
     pub recipe: RecipeArgs,
     /// The tool path to measure: a toolpath.csv, or a program of the post pmac-pvt (.pmc)
     pub file: PathBuf,
-    /// Where maps, profiles and circles go; the present folder unless given
+    /// Where maps, profiles, circles and the spectrum go; the present folder unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     #[command(flatten)]

@@ -6,10 +6,8 @@ use turnpath_recipe::Recipe;
 use turnpath_verify::{CoverageFigures, Uncut};
 
 use crate::figures::{against, line, nanometres};
-use crate::summary::{NM_PER_MM, holds};
+use crate::summary::{NM_PER_MM, UM_PER_MM, holds};
 
-/// Micrometres in a millimetre.
-const UM_PER_MM: f64 = 1e3;
 /// X below 0 that is told as a crossing, µm: less is rounding of a path that ends on the axis.
 const CROSSES: f64 = 1e-3;
 

@@ -14,7 +14,7 @@ use turnpath_verify::{AxesSpectrum, FirstTouch};
 use crate::failure::Failure;
 use crate::job::of_pipeline;
 use crate::plots::{MapFormat, MapWish, Wishes};
-use crate::summary::NM_PER_MM;
+use crate::summary::{NM_PER_MM, UM_PER_MM};
 
 /// Control points of a block: some 30 MB with their segments, and few blocks, since each one looks
 /// at every cell within reach of it.

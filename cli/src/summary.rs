@@ -17,6 +17,8 @@ use crate::unreached::Unreached;
 
 /// Nanometres in a millimetre; multiplying keeps round figures round.
 pub const NM_PER_MM: f64 = 1e6;
+/// Micrometres in a millimetre.
+pub const UM_PER_MM: f64 = 1e3;
 /// A tolerance holds when measured ≤ this × tolerance: rounding in the last digit of a figure
 /// that was aimed exactly at it does not count.
 const ALLOWED: f64 = 1.001;
