@@ -88,18 +88,25 @@ fn revolutions_beside_atpgs() {
 }
 
 /// With `overrun = "contact"` the host leaves ATS's law alone, at the angles that it was made for: it
-/// covers rim and axis by itself.
+/// covers rim and axis by itself. Inward its angles reach the axis at different turns, and fast
+/// ones end far beyond it.
 #[test]
 fn over_the_whole_part_it_covers_and_holds_by_itself() {
     for recipe in [AST_5, MLA_5] {
-        let contact = [
-            "path.overrun=contact",
-            DIRECTIONS[0],
-            "velocity.use=analytic",
-        ];
-        let (status, summary) = run(recipe, "ats", &contact);
-        assert_eq!(status, 0, "{recipe}: {summary}");
-        assert_eq!(summary["within"]["coverage"], true, "{recipe}");
+        for direction in DIRECTIONS {
+            for compensator in ["z-direction", "normal"] {
+                let compensator = format!("compensator.use={compensator}");
+                let contact = [
+                    "path.overrun=contact",
+                    direction,
+                    "velocity.use=analytic",
+                    &compensator,
+                ];
+                let (status, summary) = run(recipe, "ats", &contact);
+                assert_eq!(status, 0, "{recipe}, {contact:?}: {summary}");
+                assert_eq!(summary["within"]["coverage"], true, "{recipe}");
+            }
+        }
     }
 }
 

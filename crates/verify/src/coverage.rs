@@ -5,9 +5,9 @@
 //! all that stands there, and does not grow with the slope. A pass counts where its edge stands
 //! above the place: within the reach of half the included angle.
 //!
-//! Around the axis the figure is the highest cusp between the passes of the turns nearest to it,
-//! those of θ and of θ + π together on one line through the axis: of a path that ends there its
-//! last three, of one that runs on beyond it five.
+//! Around the axis the figure is the highest cusp between the passes of θ and of θ + π together on
+//! one line through the axis, where they meet: of a path that ends there its last three turns, of
+//! one that runs on beyond it five.
 
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
@@ -20,11 +20,12 @@ use crate::touch::FirstTouch;
 /// Sections of a revolution, and how many lie half a revolution further.
 const TURN: usize = SECTIONS as usize;
 const HALF_TURN: usize = TURN / 2;
-/// Passes of the innermost turns: a spiral that ends at the axis has its widest gap between the
-/// second and the third pass of a line, and one that runs out there somewhat further out.
-const INNERMOST: usize = 3 * TURN;
-/// Passes behind the innermost turn that are kept too, where the path goes on so far.
-const BEYOND: usize = 2 * TURN;
+/// Passes of a line, two a turn, up to where its sides meet: a spiral that ends at the axis has its
+/// widest gap between the second and the third pass of a line, and one that runs out there somewhat
+/// further out.
+const INNERMOST: usize = 6;
+/// Passes of a line behind that are kept too, where the path goes on so far.
+const BEYOND: usize = 4;
 
 /// The largest height that stays uncut somewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,7 +102,7 @@ impl Coverage {
             figures.hole = Some(self.hole.uncut());
             return Ok((figures, ResidualFigures::default()));
         }
-        let cusps = around_axis(touch, &self.near.innermost())?;
+        let cusps = around_axis(touch, &self.near)?;
         figures.centre = Some(Uncut {
             height: cusps.highest().unwrap_or(f64::INFINITY),
             at_theta: cusps.at_theta,
@@ -110,73 +111,80 @@ impl Coverage {
     }
 }
 
-/// The passes of the turns nearest to the axis. A turn's mean X tells how far it is: on it neither
-/// a tilt counts, nor whether ρ is the centre's or the contact's.
+/// The passes around the axis, on each line through it.
 #[derive(Debug, Clone)]
 struct NearAxis {
-    /// The last turns, three or a little more.
-    recent: Passes,
-    /// Passes of the turn in hand, and the sum of their X.
-    taken: usize,
-    sum: f64,
-    /// |sum| of the innermost turn so far.
-    least: f64,
-    innermost: Passes,
-    /// Passes that are still to come to it.
-    wanted: usize,
+    lines: Vec<NearLine>,
 }
 
 impl Default for NearAxis {
     fn default() -> Self {
         Self {
-            recent: Passes::default(),
-            taken: 0,
-            sum: 0.0,
-            least: f64::INFINITY,
-            innermost: Passes::default(),
-            wanted: BEYOND,
+            lines: vec![NearLine::default(); HALF_TURN],
         }
     }
 }
 
 impl NearAxis {
     fn append(&mut self, next: &Passes) {
-        if self.recent.passes.is_empty() {
-            self.recent.first = next.first;
-        }
-        for pass in &next.passes {
-            self.take(*pass);
+        for (number, pass) in (next.first..).zip(&next.passes) {
+            let section = number.rem_euclid(SECTIONS) as usize;
+            if let Some(line) = self.lines.get_mut(section % HALF_TURN) {
+                line.take(section >= HALF_TURN, *pass);
+            }
         }
     }
+}
 
-    fn take(&mut self, pass: Pass) {
-        self.recent.passes.push(pass);
+/// The passes of one line where its two sides meet: where neighbours in time, one of either side,
+/// have X that add up to 0. On the sum neither a tilt counts, nor whether ρ is the centre's or the
+/// contact's; and where X moves within the turn, each line meets in a turn of its own.
+#[derive(Debug, Clone)]
+struct NearLine {
+    /// The last turns, three at most; whether of θ + π, and the pass.
+    recent: Vec<(bool, Pass)>,
+    /// Least |sum| so far.
+    least: f64,
+    meeting: Vec<(bool, Pass)>,
+    /// Passes that are still to come to it.
+    wanted: usize,
+}
+
+impl Default for NearLine {
+    fn default() -> Self {
+        Self {
+            recent: Vec::new(),
+            least: f64::INFINITY,
+            meeting: Vec::new(),
+            wanted: BEYOND,
+        }
+    }
+}
+
+impl NearLine {
+    fn take(&mut self, far: bool, pass: Pass) {
+        let before = self.recent.last().map(|(_, before)| before.centre.x);
+        if self.recent.len() == INNERMOST {
+            self.recent.remove(0);
+        }
+        self.recent.push((far, pass));
         if self.wanted > 0 {
-            self.innermost.passes.push(pass);
+            self.meeting.push((far, pass));
             self.wanted -= 1;
         }
-        self.sum += pass.centre.x;
-        self.taken += 1;
-        if self.taken == TURN {
-            self.end_turn();
-        }
-    }
-
-    fn end_turn(&mut self) {
-        self.recent = self.recent.last_few(INNERMOST);
-        if self.sum.abs() < self.least {
-            self.least = self.sum.abs();
-            self.innermost = self.recent.clone();
+        let sum = before.map_or(f64::INFINITY, |before| (before + pass.centre.x).abs());
+        if sum < self.least {
+            self.least = sum;
+            self.meeting.clone_from(&self.recent);
             self.wanted = BEYOND;
         }
-        (self.taken, self.sum) = (0, 0.0);
     }
 
     /// Those of a path that ends here.
-    fn innermost(&self) -> Passes {
+    fn meeting(&self) -> &[(bool, Pass)] {
         match self.wanted > 0 {
-            true => self.recent.last_few(INNERMOST),
-            false => self.innermost.clone(),
+            true => &self.recent,
+            false => &self.meeting,
         }
     }
 }
@@ -244,14 +252,14 @@ fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
 
 /// The highest cusp between neighbours on every line through the axis; infinite where a line has
 /// passes on one side of the axis only.
-fn around_axis(touch: &FirstTouch, passes: &Passes) -> Result<ResidualFigures> {
+fn around_axis(touch: &FirstTouch, near: &NearAxis) -> Result<ResidualFigures> {
     let mut lines: Vec<Vec<Pass>> = vec![Vec::new(); HALF_TURN];
     let mut sides = [[false; 2]; HALF_TURN];
-    for (number, pass) in (passes.first..).zip(&passes.passes) {
-        let section = number.rem_euclid(SECTIONS) as usize;
-        let (line, far) = (section % HALF_TURN, section >= HALF_TURN);
-        sides[line][usize::from(far)] = true;
-        lines[line].push(if far { pass.mirrored() } else { *pass });
+    for ((line, sides), near) in lines.iter_mut().zip(&mut sides).zip(&near.lines) {
+        for (far, pass) in near.meeting() {
+            sides[usize::from(*far)] = true;
+            line.push(if *far { pass.mirrored() } else { *pass });
+        }
     }
     if let Some(open) = sides.iter().position(|sides| *sides != [true; 2]) {
         return Ok(ResidualFigures {

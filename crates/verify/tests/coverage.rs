@@ -3,6 +3,8 @@
 
 mod common;
 
+use std::f64::consts::TAU;
+
 use common::{AST5, Ball, Plane, bare_spiral, figures, touch_of, touch_on};
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{DEG, Misfit, Part, Scalar, Tool, UM};
@@ -206,6 +208,24 @@ fn around_the_axis_of_a_tilted_plane_the_innermost_turns_count_wherever_they_tou
     assert!(ends < 1.01 * known, "{ends} of {known}");
     let crosses = centre(bare_spiral(150.0, |n| 2.0 - feed * n));
     assert!(crosses < 1.01 * cusp(2f64.sqrt() * feed), "{crosses}");
+}
+
+/// Where X moves within the turn, fast angles reach the axis many turns before slow ones, and have
+/// gone far beyond it when the path ends. The widest gap is the fastest angle's feed.
+#[test]
+fn each_line_is_judged_by_the_turns_that_meet_on_it() {
+    let feed = 0.02;
+    for harmonic in [1.0, 2.0] {
+        let rate = |n: f64| feed * (1.0 + 0.3 * Scalar::sin(harmonic * TAU * n));
+        let inward = bare_spiral(180.0, |n| 2.5 - rate(n) * n);
+        let outward = bare_spiral(180.0, |n| rate(n) * n - 0.5);
+        for path in [inward, outward] {
+            let touch = touch_on(FLAT, 2.5, 1.0, true);
+            let height = coverage(&touch, &path).centre.unwrap().height;
+            assert!(height < 1.01 * cusp(1.3 * feed), "{height}, {harmonic}");
+            assert!(height > cusp(0.65 * feed), "{height}, {harmonic}");
+        }
+    }
 }
 
 #[test]
