@@ -99,6 +99,19 @@ fn wrong_values_are_shown_at_their_place() {
     assert!(said.stderr.contains("[servo] lacks `bandwidth`"), "{said}");
     for (set, told) in [
         ("servo.damping=0", "`damping` must be above zero"),
+        (
+            "servo.damping=1e300",
+            "`damping` must be above zero, and 100 at",
+        ),
+        (
+            "servo.bandwidth=1e300Hz",
+            "must be between 0.001 and 1e6 Hz",
+        ),
+        (
+            "servo.x_bandwidth=1e-300Hz",
+            "must be between 0.001 and 1e6 Hz",
+        ),
+        ("servo.c_bandwidth=0Hz", "must be between 0.001 and 1e6 Hz"),
         ("servo.z_delay=2s", "`z_delay` must be between 0 and 1 s"),
         ("servo.velocity_feed_forward=1.2", "must be between 0 and 1"),
         ("servo.bandwith=70Hz", "did you mean `bandwidth`?"),
@@ -106,5 +119,18 @@ fn wrong_values_are_shown_at_their_place() {
         let words = format!("check recipe.toml --set servo.bandwidth=70Hz --set {set}");
         let said = bench.line(&words).ends(2);
         assert!(said.stderr.contains(told), "{said}");
+    }
+}
+
+/// Whatever a recipe may ask for, every figure is a number.
+#[test]
+fn at_the_ends_of_what_is_allowed_every_figure_is_a_number() {
+    for bandwidth in ["0.001Hz", "1e6Hz"] {
+        for damping in ["1e-300", "1", "100"] {
+            let sets = format!("--set servo.bandwidth={bandwidth} --set servo.damping={damping}");
+            let (_, summary) = run(&sets);
+            let servo = serde_json::to_string(&summary["servo"]).unwrap();
+            assert!(!servo.contains("null"), "{sets}: {servo}");
+        }
     }
 }

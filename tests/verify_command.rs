@@ -319,3 +319,15 @@ fn a_path_beyond_the_surface_gives_no_number_and_does_not_hold() {
     assert!(said.stdout.contains("no number"), "{said}");
     assert!(!said.stdout.contains("NaN"), "{said}");
 }
+
+/// Such a Z overflows the squares of the surface error.
+#[test]
+fn figures_that_overflow_are_null_and_not_nought() {
+    let (_, said) = spoiled(|lines| {
+        let middle = lines.len() / 2;
+        edit(&mut lines[middle], Z, |_| "1e308".to_owned());
+    });
+    let error = &said.ends(1).json()["surface_error_nm"];
+    assert_eq!(error["rms"], Value::Null, "{error}");
+    assert_eq!(error["sq"], Value::Null, "{error}");
+}

@@ -1,10 +1,12 @@
 //! `[servo]`: how the machine's axes answer their commands, for all of them or one by one.
 
+use std::f64::consts::TAU;
+
 use turnpath_core::{Axis, AxisServo, Quantity, Servo};
 
 use crate::diagnostic::Diagnostic;
 use crate::presets::Preset;
-use crate::read::{Bound, NOT_NEGATIVE, POSITIVE, Section};
+use crate::read::{Bound, NOT_NEGATIVE, Section};
 
 pub(super) const KEYS: &[&str] = &[
     "bandwidth",
@@ -43,6 +45,17 @@ const SHORT: Bound = Bound {
     words: "between 0 and 1 s",
 };
 
+/// Far beyond every axis on both sides, and within what the model can do the sums for.
+const BANDWIDTH: Bound = Bound {
+    holds: |omega| (TAU * 1e-3..=TAU * 1e6).contains(&omega),
+    words: "between 0.001 and 1e6 Hz",
+};
+/// An axis that is damped more than this is none; the model would be left without a number.
+const DAMPED: Bound = Bound {
+    holds: |damping| damping > 0.0 && damping <= 100.0,
+    words: "above zero, and 100 at the most",
+};
+
 /// What one axis, or all of them, are told to be.
 #[derive(Clone, Copy, Default)]
 struct Asked {
@@ -56,11 +69,11 @@ struct Asked {
 impl Asked {
     fn read(section: &mut Section<'_>, prefix: &str) -> Self {
         let key = |name: &str| format!("{prefix}{name}");
-        let frequency = section.quantity(&key("bandwidth"), Quantity::RotationSpeed, POSITIVE);
+        let frequency = section.quantity(&key("bandwidth"), Quantity::RotationSpeed, BANDWIDTH);
         let delay = section.quantity(&key("delay"), Quantity::Time, SHORT);
         Self {
             frequency: frequency.map(|frequency| frequency.value),
-            damping: number(section, &key("damping"), POSITIVE),
+            damping: number(section, &key("damping"), DAMPED),
             delay: delay.map(|delay| delay.value),
             velocity_forward: number(section, &key("velocity_feed_forward"), PART),
             acceleration_forward: number(section, &key("acceleration_feed_forward"), PART),

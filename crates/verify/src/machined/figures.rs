@@ -121,7 +121,8 @@ impl Lines {
             lowest,
             mean,
             rms: mean_square.sqrt(),
-            sq: (mean_square - mean * mean).max(0.0).sqrt(),
+            // Rounding may lead below zero; what is no number stays none.
+            sq: (mean_square - mean * mean).clamp(0.0, f64::INFINITY).sqrt(),
             sa: self.amount_about(subject, mean)? / area,
             rms_slope: (total(|line| line.slope_square) / area).sqrt(),
             uncut: uncut(&subject.part, &sums),
