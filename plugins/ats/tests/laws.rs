@@ -1,6 +1,7 @@
 //! Feed `ats` against its own recursion, against cusps by brute force, and against ATPG's price.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+#[path = "../../../tests/support/planned.rs"]
 mod common;
 
 use std::sync::Arc;

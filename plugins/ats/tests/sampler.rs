@@ -1,6 +1,7 @@
 //! Sampler `ats` on ATS's own paths: what cubics with exact rates leave of X and of Z.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+#[path = "../../../tests/support/planned.rs"]
 mod common;
 
 use std::f64::consts::TAU;

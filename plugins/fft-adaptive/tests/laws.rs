@@ -2,6 +2,7 @@
 //! feed of surfaces at random.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+#[path = "../../../tests/support/planned.rs"]
 mod common;
 
 use std::f64::consts::TAU;

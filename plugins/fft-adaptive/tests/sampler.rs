@@ -1,6 +1,7 @@
 //! Sampler `fft-adaptive` against closed forms, and on paths at random.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+#[path = "../../../tests/support/planned.rs"]
 mod common;
 
 use std::f64::consts::TAU;
