@@ -106,8 +106,12 @@ impl Played<'_> {
         if x == 0.0 {
             return (24.0 * phi).min(self.sharpest);
         }
-        let x_allowed = self.feed_part * pitch(&self.path, n);
-        (24.0 * phi.max(x * self.allowed / x_allowed)).min(self.sharpest)
+        (24.0 * phi.max(x * self.x_measure(n))).min(self.sharpest)
+    }
+
+    /// What X's own error counts against φ's, `n` revolutions on.
+    fn x_measure(&self, n: f64) -> f64 {
+        self.allowed / (self.feed_part * pitch(&self.path, n))
     }
 
     /// The series of φ at place `i` of the last look.
@@ -239,9 +243,10 @@ impl<'a> Samples<'a> {
         let mut knots = Vec::with_capacity(places.len());
         for batch in places.chunks(BATCH as usize) {
             self.played.look(batch)?;
-            let after = self.played.both();
+            let after = self.played.watched(batch);
             self.played.look_before(batch)?;
-            for ((n, before), after) in batch.iter().zip(self.played.both()).zip(after) {
+            let before = self.played.watched(batch);
+            for ((n, before), after) in batch.iter().zip(before).zip(after) {
                 knots.push(Knot::between(*n, before, after, self.played.sharpest));
             }
         }
@@ -250,10 +255,15 @@ impl<'a> Samples<'a> {
 }
 
 impl Played<'_> {
-    /// The series of φ and of Z at every place of the last look.
-    fn both(&self) -> Vec<[Series; 2]> {
-        (0..self.z.len())
-            .map(|i| [self.phi(i), self.z[i]])
+    /// The series of φ, of Z, and of X in φ's measure, at every place `n` of the last look.
+    fn watched(&self, n: &[f64]) -> Vec<[Series; 3]> {
+        n.iter()
+            .enumerate()
+            .map(|(i, n)| {
+                let measure = self.x_measure(*n);
+                let x = self.x[i].map(|c| if c == 0.0 { 0.0 } else { c * measure });
+                [self.phi(i), self.z[i], x]
+            })
             .collect()
     }
 
@@ -277,17 +287,21 @@ impl Played<'_> {
 }
 
 impl Knot {
-    /// From φ and Z on both sides. A jump counts as that of φ or of Z, whichever is larger: in φ
-    /// those of Z and X cancel at the knot's own slope, which is not the slope all over the step.
-    fn between(n: f64, before: [Series; 2], after: [Series; 2], sharpest: f64) -> Self {
+    /// From φ, Z and X on both sides. A jump counts as the largest of theirs: in φ those of Z and X
+    /// cancel at the knot's own slope, which is not the slope all over the step.
+    fn between(n: f64, before: [Series; 3], after: [Series; 3], sharpest: f64) -> Self {
         let jump = |k: usize, factorial: f64| {
             let of = |which: usize| (after[which][k] - before[which][k]).abs();
-            factorial * of(0).max(of(1))
+            factorial * of(0).max(of(1)).max(of(2))
+        };
+        let fourth = |[phi, _, x]: [Series; 3]| {
+            let larger = phi[4].abs().max(x[4].abs());
+            (24.0 * larger).min(sharpest)
         };
         Self {
             n,
-            before: (24.0 * before[0][4].abs()).min(sharpest),
-            after: (24.0 * after[0][4].abs()).min(sharpest),
+            before: fourth(before),
+            after: fourth(after),
             jumps: Jumps {
                 first: jump(1, 1.0),
                 second: jump(2, 2.0),
