@@ -149,7 +149,9 @@ impl PrivateCopy {
         let mut folder = tempfile::Builder::new().prefix("turnpath-").tempdir()?;
         // Windows keeps a loaded library's file; its folder for temporary files is the user's own.
         folder.disable_cleanup(cfg!(windows));
-        let file = fs::canonicalize(folder.path())?.join("plugin");
+        // Windows takes a name without an ending for one that ends in .dll.
+        let name = format!("plugin{}", std::env::consts::DLL_SUFFIX);
+        let file = fs::canonicalize(folder.path())?.join(name);
         let mut options = OpenOptions::new();
         options.write(true).create_new(true);
         #[cfg(unix)]

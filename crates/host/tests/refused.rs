@@ -46,14 +46,6 @@ fn refusal_of(bytes: &[u8]) -> Refusal {
     }
 }
 
-fn good() -> Vec<u8> {
-    fs::read(fixtures::library("constant-arc")).unwrap()
-}
-
-fn word(bytes: &[u8], at: usize) -> usize {
-    u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize
-}
-
 #[test]
 fn a_text_file() {
     let (_folder, file) = file_of(b"a plugin should be here\n");
@@ -210,6 +202,14 @@ mod elf {
     const PROGRAM_HEADERS: usize = 32;
     const PROGRAM_HEADER_SIZE: usize = 56;
     const LOADABLE: [u8; 4] = [1, 0, 0, 0];
+
+    fn good() -> Vec<u8> {
+        fs::read(fixtures::library("constant-arc")).unwrap()
+    }
+
+    fn word(bytes: &[u8], at: usize) -> usize {
+        u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize
+    }
 
     /// The places of the program headers in a library.
     fn program_headers(bytes: &[u8]) -> Vec<usize> {

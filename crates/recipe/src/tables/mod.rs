@@ -6,6 +6,8 @@ mod output;
 mod path;
 mod pmac_pvt;
 mod servo;
+#[cfg(test)]
+mod tests;
 mod top;
 mod work;
 
