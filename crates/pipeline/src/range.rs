@@ -1,4 +1,8 @@
 //! The range of ρ: how far the path runs beyond the part.
+//!
+//! With `overrun = "contact"` it ends where the contact reaches the rim at every angle. Where ρ is
+//! the contact's radius that is the rim itself; where it is the centre's X, the largest of
+//! a − R g_ρ/w over the angles, a the rim's radius, and the smallest of the same at a hole.
 
 use std::f64::consts::TAU;
 

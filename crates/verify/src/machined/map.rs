@@ -1,5 +1,9 @@
 //! Surface error cell by cell, for paths of any length: block after block, each cell the lowest
 //! of what the passes near it leave.
+//!
+//! A cell asks only the passes that can matter. One that leaves it higher than the lowest so far by
+//! twice the largest interpolation error is further off than any that could be lower, and what lies
+//! behind it is not looked at. Where the first touch may jump, every pass within reach is.
 
 use std::f64::consts::{PI, TAU};
 
