@@ -309,7 +309,6 @@ impl Params {
     }
 }
 
-#[allow(clippy::panic)]
 fn undeclared(name: &str, kind: &str) -> ! {
     panic!(
         "the strategy asks for a {kind} `{name}` that it does not declare as one, or that is optional"

@@ -1,6 +1,6 @@
 //! The sampler: where the control points lie along the spiral.
 
-use crate::locus::{CentreBuffers, Locus};
+use crate::locus::Locus;
 use crate::{Job, Result, Series, SpiralLaw, per_radian};
 use std::f64::consts::TAU;
 
@@ -32,14 +32,6 @@ impl Path<'_> {
     /// ρ after `n` revolutions, mm.
     pub fn radius_at(&self, n: f64) -> f64 {
         self.law.value(n)
-    }
-
-    /// The nose centre and the contact after each of `n` revolutions.
-    pub fn centres_at(&self, n: &[f64], out: &mut CentreBuffers) -> Result<()> {
-        let theta: Vec<f64> = n.iter().map(|n| angle(*n)).collect();
-        let rho: Vec<f64> = n.iter().map(|n| self.law.value(*n)).collect();
-        out.resize(n.len());
-        self.locus.centre(&theta, &rho, out.as_centres())
     }
 
     /// The order-4 series in θ of the nose centre's (X, Z) along the true spiral, at each of `n`

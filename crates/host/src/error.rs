@@ -1,5 +1,6 @@
 //! Why plugins could not be loaded, in one or two lines each.
 
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -101,7 +102,8 @@ pub enum Refusal {
     NotAPlugin,
     /// It exports several plugins, and its name is that of none.
     #[error(
-        "holds several plugins ({}); name the file after the one that is meant, lib{}.so",
+        "holds several plugins ({}); name the file after the one that is meant, \
+         {DLL_PREFIX}{}{DLL_SUFFIX}",
         .0.join(", "),
         .0.first().map_or("plugin", String::as_str)
     )]

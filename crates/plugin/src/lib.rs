@@ -37,7 +37,6 @@ mod guard;
 mod offer;
 mod registration;
 
-pub use guard::guarded;
 pub use offer::{Offer, linked};
 pub use registration::{Build, Registration};
 

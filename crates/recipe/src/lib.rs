@@ -59,11 +59,11 @@ mod suggest;
 mod tables;
 mod value;
 
-pub use ablation::{MOST_RUNS, Variant, Varied};
+pub use ablation::{Variant, Varied};
 pub use choice::Choice;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::{Entry, Node, Table, Value};
 pub use place::{Located, Place, Source};
-pub use presets::{PRESETS, Preset};
+pub use presets::Preset;
 pub use recipe::{FileProblem, Recipe, RecipeError};
 pub use tables::{DataFormat, Output, PmacPvt, ZReference};

@@ -18,7 +18,8 @@ pub struct Constant {
 
 impl Strategy for Constant {
     const NAME: &'static str = "constant";
-    const SUMMARY: &'static str = "one feed for the whole part, given or the largest that holds the residual everywhere";
+    const SUMMARY: &'static str =
+        "one feed for the whole part, given or the largest that holds the residual everywhere";
     const SOURCE: &'static str = "the conventional spiral; derived feed after Wang et al. 2019, \
         eq. 1–3, at the worst place";
     const PARAMS: &'static [Param] = &[Param::feed(

@@ -3,7 +3,7 @@
 use std::mem::ManuallyDrop;
 use std::ops::{Deref, DerefMut};
 
-use crate::guarded;
+use crate::guard::guarded;
 
 /// A box; a panic when its content is dropped ends here instead of ending the program.
 pub struct Contained<T: ?Sized>(ManuallyDrop<Box<T>>);

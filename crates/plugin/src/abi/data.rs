@@ -7,7 +7,7 @@ use turnpath_core::{
     PiecewisePolynomial, RadialRange, Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
 };
 
-use crate::guarded;
+use crate::guard::guarded;
 
 /// What a call across the boundary gives.
 pub type Answer<T> = RResult<T, AbiError>;
