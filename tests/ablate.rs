@@ -1,9 +1,5 @@
 //! `turnpath ablate`: which runs are made, what is told of them, and what is not made twice.
-#![allow(
-    clippy::expect_used,
-    clippy::unwrap_used,
-    reason = "helpers of tests may panic too"
-)]
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod support;
 

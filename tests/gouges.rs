@@ -5,7 +5,6 @@
 //! n, a place Q of the profile lies inside it when R > |Q − P|²/(2 (Q − P)·n). Contacts reach
 //! beyond the part as far as the first touch at the ends of X says, by a scan of the whole edge.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
-#![allow(clippy::indexing_slicing, reason = "a panic is a failed test")]
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -1,5 +1,4 @@
 //! Limits of a machine: the verdict on a run and on a file, and the highest spindle speed.
-#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod support;
 

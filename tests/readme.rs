@@ -1,5 +1,4 @@
 //! What README.md quotes is what the program says.
-#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 mod support;
 

@@ -6,11 +6,7 @@
 //! ```text
 //! REPRODUCTION=write cargo test --release -p turnpath --test reproduction
 //! ```
-#![allow(
-    clippy::expect_used,
-    clippy::unwrap_used,
-    reason = "helpers of tests may panic too"
-)]
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 #[path = "support/reproduction/mod.rs"]
 mod reproduction;

@@ -63,67 +63,10 @@ struct Held {
 pub fn verify(args: &VerifyArgs) -> Done {
     use_threads(&args.work);
     let recipe = Recipe::load(&args.recipe.recipe, &args.recipe.set)?;
-    let Held {
-        subject,
-        shape,
-        radial,
-    } = held(&recipe, args)?;
-    let compensates_nose = subject.compensates_nose;
+    let held = held(&recipe, args)?;
+    let radial = held.radial;
     let wishes = wishes(args, &recipe)?;
-    let mut reader = open(&args.file, &recipe, compensates_nose)?;
-    let failed = |error| of_pipeline(&recipe, PipelineError::Measure(error));
-    let touch = FirstTouch::new(subject).map_err(failed)?;
-    let meters = PathMeters::new(&recipe, touch).with_servo(&recipe);
-    let PathMeters {
-        cut: meter,
-        lead,
-        servo,
-        suspects,
-    } = measure(&recipe, meters, shape, reader.as_mut(), &Quiet)?;
-    let read = reader.counted();
-    let range = meter.reach(radial).map_err(failed)?;
-    let Some(range) = range.filter(|_| read.cutting() >= 2) else {
-        let file = args.file.display();
-        let message = format!("error: {file} has no cutting section to measure");
-        return Err(Failure::File(message));
-    };
-    let reach = Reach::new(range);
-    let machined = meter.machined().map_err(failed)?;
-    let lead = lead
-        .figures()
-        .map(|figures| Lead::measured(figures, &recipe));
-    let figures = meter.figures().map_err(failed)?;
-    let unreached = Unreached::of(meter.touch(), &recipe.tolerance).map_err(failed)?;
-    let measured = Measured::new(&figures, machined.as_ref(), &recipe);
-    let servo = servo.as_ref().map(ServoMeter::figures);
-    let measured = measured.with_lead(lead, &recipe.tolerance);
-    let mut measured = measured.with_servo(servo);
-    measured.within.reach = Some(reach.covers(&recipe.part));
-    let played = Played {
-        recipe: &recipe,
-        touch: meter.touch(),
-        shape,
-        largest_error: figures.playback.max(),
-        points: read.count(),
-    };
-    let mut files = Vec::new();
-    if !wishes.is_empty() {
-        let mut again = open(&args.file, &recipe, compensates_nose)?;
-        for draft in plot(&wishes, &played, again.as_mut(), &Quiet)? {
-            files.push(draft.complete()?.display().to_string());
-        }
-    }
-    let verified = Verified {
-        name: recipe.name.clone(),
-        file: args.file.display().to_string(),
-        control_points: read.cutting(),
-        rows: read.count(),
-        reach_mm: reach,
-        measured,
-        files,
-        suspicious: Suspicious::of(suspects.end()),
-        unreached,
-    };
+    let verified = verified(args, &recipe, held, &wishes)?;
     print(&match args.work.format {
         Format::Json => to_json(&verified),
         Format::Human => human(&recipe, radial, &verified),
@@ -134,6 +77,75 @@ pub fn verify(args: &VerifyArgs) -> Done {
     } else {
         Verdict::Exceeded
     })
+}
+
+/// The file measured, and drawn as it is wished.
+fn verified(
+    args: &VerifyArgs,
+    recipe: &Recipe,
+    held: Held,
+    wishes: &Wishes,
+) -> Result<Verified, Failure> {
+    let shape = held.shape;
+    let compensates_nose = held.subject.compensates_nose;
+    let mut reader = open(&args.file, recipe, compensates_nose)?;
+    let failed = |error| of_pipeline(recipe, PipelineError::Measure(error));
+    let touch = FirstTouch::new(held.subject).map_err(failed)?;
+    let meters = PathMeters::new(recipe, touch).with_servo(recipe);
+    let meters = measure(recipe, meters, shape, reader.as_mut(), &Quiet)?;
+    let (meter, read) = (&meters.cut, reader.counted());
+    let range = meter.reach(held.radial).map_err(failed)?;
+    let Some(range) = range.filter(|_| read.cutting() >= 2) else {
+        let file = args.file.display();
+        let message = format!("error: {file} has no cutting section to measure");
+        return Err(Failure::File(message));
+    };
+    let reach = Reach::new(range);
+    let machined = meter.machined().map_err(failed)?;
+    let figures = meter.figures().map_err(failed)?;
+    let unreached = Unreached::of(meter.touch(), &recipe.tolerance).map_err(failed)?;
+    let lead = meters.lead.figures();
+    let lead = lead.map(|figures| Lead::measured(figures, recipe));
+    let mut measured = Measured::new(&figures, machined.as_ref(), recipe)
+        .with_lead(lead, &recipe.tolerance)
+        .with_servo(meters.servo.as_ref().map(ServoMeter::figures));
+    measured.within.reach = Some(reach.covers(&recipe.part));
+    let played = Played {
+        recipe,
+        touch: meter.touch(),
+        shape,
+        largest_error: figures.playback.max(),
+        points: read.count(),
+    };
+    Ok(Verified {
+        name: recipe.name.clone(),
+        file: args.file.display().to_string(),
+        control_points: read.cutting(),
+        rows: read.count(),
+        reach_mm: reach,
+        measured,
+        files: drawn(args, wishes, &played, compensates_nose)?,
+        suspicious: Suspicious::of(meters.suspects.end()),
+        unreached,
+    })
+}
+
+/// Writes what is wished, from a second reading; gives the names of the files.
+fn drawn(
+    args: &VerifyArgs,
+    wishes: &Wishes,
+    played: &Played<'_>,
+    compensates_nose: bool,
+) -> Result<Vec<String>, Failure> {
+    if wishes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut again = open(&args.file, played.recipe, compensates_nose)?;
+    let mut files = Vec::new();
+    for draft in plot(wishes, played, again.as_mut(), &Quiet)? {
+        files.push(draft.complete()?.display().to_string());
+    }
+    Ok(files)
 }
 
 /// Maps and the like that are asked for; their folder is made.

@@ -1,10 +1,6 @@
 //! Good plugins through the catalogue: found, loaded once, each with its own strategies.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests may panic too"
-)]
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

@@ -1,10 +1,6 @@
 //! Plugins that misbehave: what they do becomes an error or a value that the caller can check.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests may panic too"
-)]
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

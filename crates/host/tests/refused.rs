@@ -1,10 +1,6 @@
 //! Files that are no plugins for this program: each its own message, and none ends the program.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests may panic too"
-)]
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

@@ -1,10 +1,6 @@
 //! Built-ins linked into the program, and the same plugins loaded: the same bits.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests may panic too"
-)]
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 

@@ -1,5 +1,4 @@
 //! Leads against a flat part, where clearance is Z itself.
-#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
 
