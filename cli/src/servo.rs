@@ -6,10 +6,9 @@ use turnpath_core::DEG;
 use turnpath_verify::{Following, ServoFigures};
 
 use crate::figures::{line, millimetres, nanometres};
-use crate::summary::{NM_PER_MM, Place};
+use crate::summary::{NM_PER_MM, Place, UM_PER_MM};
 
-/// Micrometres in a millimetre, and seconds of arc in a degree.
-const UM_PER_MM: f64 = 1e3;
+/// Seconds of arc in a degree.
 const ARCSEC_PER_DEG: f64 = 3600.0;
 
 /// Following error of the axes, and the error of the surface that it predicts.

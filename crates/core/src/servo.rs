@@ -1,6 +1,6 @@
 //! How a machine's axes answer their commands: a model of the second order.
 
-/// How one axis answers its command r: y" + 2ζω₀y' + ω₀²y = ω₀²r + 2ζω₀k_v r' + k_a r", and its
+/// How one axis answers its command r: y″ + 2ζω₀y′ + ω₀²y = ω₀²r + 2ζω₀k_v r′ + k_a r″, and its
 /// place is y(t − τ).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisServo {

@@ -1,7 +1,7 @@
 //! Truncated power series of order 4, and how the elementary functions act on them.
 //!
 //! The recurrences are the usual ones of automatic differentiation (Griewank and Walther,
-//! *Evaluating Derivatives*, 2nd ed., 2008, §13.2): each function f with f' = g·a' gives its
+//! *Evaluating Derivatives*, 2nd ed., 2008, §13.2): each function f with f′ = g·a′ gives its
 //! coefficients one after the other, exactly up to rounding.
 
 use std::array::from_fn;
@@ -13,7 +13,7 @@ use crate::dual::one_minus_square;
 /// The order of all series: that of the derivative which bounds the error of a cubic segment.
 pub const ORDER: usize = 4;
 
-/// Coefficients c_k of Σ c_k t^k, k = 0 to [`ORDER`]; the k-th derivative is k!·c_k.
+/// Coefficients c_k of Σ c_k t^k, k = 0 to 4, `ORDER`; the k-th derivative is k!·c_k.
 pub type Series = [f64; ORDER + 1];
 
 /// How many coefficients a series has.
@@ -56,7 +56,7 @@ impl<T: Scalar> Taylor<T> {
         Self(out)
     }
 
-    /// The two functions with s' = c·a', c' = sign·s·a'.
+    /// The two functions with s′ = c·a′, c′ = sign·s·a′.
     #[inline(always)]
     fn coupled(self, start: (T, T), sign: f64) -> (Self, Self) {
         let inner = self.weighted();
@@ -68,7 +68,7 @@ impl<T: Scalar> Taylor<T> {
         (Self(s), Self(c))
     }
 
-    /// The function with f' = (w₀ + sign·(f² − f₀²))·a', where w₀ is its slope at the start.
+    /// The function with f′ = (w₀ + sign·(f² − f₀²))·a′, where w₀ is its slope at the start.
     #[inline(always)]
     fn riccati(self, start: T, slope: T, sign: f64) -> Self {
         let inner = self.weighted();

@@ -37,11 +37,13 @@ mod guard;
 mod offer;
 mod registration;
 
+// For the host, and for what `export!` expands to.
+#[doc(hidden)]
 pub use offer::{Offer, linked};
+#[doc(hidden)]
 pub use registration::{Build, Registration};
 
-/// For samplers and feeds of one's own: steps from the error of cubic segments, radial profiles, and
-/// the smallest of a quantity over a ring of angles.
+// For samplers and feeds of one's own. Each has a sentence of its own in the documentation.
 pub use turnpath_core::{hermite, locus, ring};
 
 /// Everything that a strategy's author needs.

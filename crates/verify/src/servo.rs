@@ -1,9 +1,9 @@
 //! Servo: how far axes of the second order lag behind the played path, and what that leaves on
 //! the surface.
 //!
-//! Each axis answers its command r with y, y" + 2ζω₀y' + ω₀²y = ω₀²r + 2ζω₀k_v r' + k_a r", and
-//! gives y(t − τ). For the lag e = y − r that is e" + 2ζω₀e' + ω₀²e = −2ζω₀(1 − k_v)r' −
-//! (1 − k_a)r". Between two control points the right side is a polynomial of degree 2 in time, so
+//! Each axis answers its command r with y, y″ + 2ζω₀y′ + ω₀²y = ω₀²r + 2ζω₀k_v r′ + k_a r″, and
+//! gives y(t − τ). For the lag e = y − r that is e″ + 2ζω₀e′ + ω₀²e = −2ζω₀(1 − k_v)r′ −
+//! (1 − k_a)r″. Between two control points the right side is a polynomial of degree 2 in time, so
 //! e is one too, and a decay: exact, whatever the segments' durations, and nought with both
 //! feed-forwards whole. Integrated piece by piece, states handed on in order.
 

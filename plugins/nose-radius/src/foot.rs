@@ -1,7 +1,7 @@
 //! The foot: where the nose at a given X touches the radial section from above.
 //!
 //! With d = the foot's distance from the centre's X, the touching circle has d = R g_ρ/w at the
-//! foot, so the root of G(d) = d − R g_ρ(ρ + d)/w is sought. G' = 1 − Rκ: where the nose fits
+//! foot, so the root of G(d) = d − R g_ρ(ρ + d)/w is sought. G′ = 1 − Rκ: where the nose fits
 //! (Rκ < 1 over its reach) G grows, the root is the only one, and G(−R) < 0 < G(R) brackets it.
 //! Where the nose need not fit, a scan brackets all roots that may be the highest place.
 

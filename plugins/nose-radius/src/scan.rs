@@ -1,8 +1,8 @@
 //! The scan: all places where the nose may touch first when more than one hill of the section can.
 //!
 //! Over the edge's angle φ, with the foot at ρ + R sin φ, the centre stands at h(φ) = g + R cos φ,
-//! whose rate is h' = R (g_ρ cos φ − sin φ). The edge is looked at in coarse steps; of these the
-//! ones that may come up to the highest place are looked at in fine ones. A hill lies where h'
+//! whose rate is h′ = R (g_ρ cos φ − sin φ). The edge is looked at in coarse steps; of these the
+//! ones that may come up to the highest place are looked at in fine ones. A hill lies where h′
 //! falls through zero between two places, or at an end of the edge towards which h rises.
 
 use turnpath_plugin::prelude::*;
@@ -282,7 +282,7 @@ fn may_reach(left: &Place, right: &Place, highest: f64, step: f64) -> bool {
     !known || top >= highest
 }
 
-/// h and h' at one place of the edge; NaN where the surface has no height.
+/// h and h′ at one place of the edge; NaN where the surface has no height.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     offset: f64,

@@ -9,7 +9,7 @@ use crate::polar::{Room, TurningRay, batches};
 /// place but where the section osculates the nose: there the foot moves without bound.
 const LEAST_STEEPNESS: f64 = 1e-6;
 
-/// X = ρ; Z = max over ρ' of g(θ, ρ') + sqrt(R² − (ρ − ρ')²), ρ' within the edge's reach.
+/// X = ρ; Z = max over ρ′ of g(θ, ρ′) + sqrt(R² − (ρ − ρ′)²), ρ′ within the edge's reach.
 ///
 /// X does not follow the surface, so the X axis moves as smoothly as the feed. The foot is the
 /// only one where Rκ < 1 over the reach; with [`Misfit::CutWhatFits`] the whole reach is scanned
