@@ -170,6 +170,36 @@ fn the_sample_of_docs_plugins_md_is_the_one_that_the_tests_build_and_run() {
     assert_eq!(first_block(&page("docs/plugins.md"), "rust"), sample);
 }
 
+/// The command in the text before a page's block, as words behind the program's name.
+fn command_before<'a>(page: &'a str, block: &str) -> Vec<&'a str> {
+    let (before, _) = page.split_once(block).expect("the block");
+    let (_, command) = before.rsplit_once("`turnpath ").expect("a command");
+    let (words, _) = command.split_once('`').expect("its end");
+    words.split_whitespace().collect()
+}
+
+#[test]
+fn the_program_of_docs_pmac_md_is_what_its_command_writes() {
+    let page = page("docs/pmac.md");
+    let quoted = first_block(&page, "");
+    let mut command = command_before(&page, quoted);
+    let recipe = repository().join(command[1]);
+    command[1] = recipe.to_str().expect("a path in UTF-8");
+    let bench = Bench::empty();
+    bench.call(command.iter().chain(&["-o", "out"])).ends(0);
+    let program = bench.read("out/astigmatic-5mm.pmc");
+    let mut lines = program.lines();
+    for line in quoted.lines().filter(|line| *line != "…") {
+        // A hash is quoted by its beginning, and lines are left out where the page says so.
+        let begins = line.trim_end_matches('…');
+        let found = lines.any(|written| match line == begins {
+            true => written == line,
+            false => written.starts_with(begins),
+        });
+        assert!(found, "{line}");
+    }
+}
+
 #[test]
 fn the_links_of_all_pages_lead_to_files_and_headings() {
     let mut seen = 0;
