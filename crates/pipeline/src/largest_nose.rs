@@ -1,13 +1,15 @@
-//! The largest nose that a job's part admits, overrun included.
+//! Whether a nose fits a job's part, and the largest that does, overrun included.
 
 use std::sync::Arc;
 
-use turnpath_core::extreme::Extreme;
+use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::{LargestNose, largest_that_fits};
-use turnpath_core::{Compensator, Cut, Overrun, Part, RadialRange, SurfaceModel, Tool, ToolLocus};
+use turnpath_core::{
+    Compensator, Cut, Overrun, Part, RadialRange, StrategyError, SurfaceModel, Tool, ToolLocus,
+};
 
 use crate::attributed::{AttributedCompensator, AttributedSurface};
-use crate::prepare::{contact_range, interference};
+use crate::prepare::contact_range;
 use crate::range::range;
 use crate::{Chain, PipelineError, Prepared, Result};
 
@@ -20,16 +22,9 @@ const STRAIGHT: f64 = 1e6;
 /// When a strategy fails.
 pub fn largest_nose(chain: &Chain, prepared: &Prepared) -> Result<LargestNose> {
     let job = &prepared.job;
-    let fit = Fit {
-        chain,
-        surface: Arc::new(AttributedSurface::new(&chain.surface)),
-        compensator: Arc::new(AttributedCompensator::new(&chain.compensator)),
-        part: job.part,
-        tool: job.tool,
-        overrun: prepared.overrun,
-    };
-    let on_part = fit.curvature(job.tool, fit.whole_part())?;
-    fit.largest_nose(on_part)
+    let fit = Fit::new(chain, job.part, job.tool, prepared.overrun);
+    let on_part = fit.interference(job.tool, fit.whole_part())?;
+    fit.largest_nose(on_part.curvature)
 }
 
 /// What a nose of any size is tried on.
@@ -42,8 +37,21 @@ pub(crate) struct Fit<'a> {
     pub overrun: Overrun,
 }
 
-impl Fit<'_> {
-    fn whole_part(&self) -> RadialRange {
+impl<'a> Fit<'a> {
+    /// The chain's surface and compensator on a part.
+    pub fn new(chain: &'a Chain, part: Part, tool: Tool, overrun: Overrun) -> Self {
+        Self {
+            chain,
+            surface: Arc::new(AttributedSurface::new(&chain.surface)),
+            compensator: Arc::new(AttributedCompensator::new(&chain.compensator)),
+            part,
+            tool,
+            overrun,
+        }
+    }
+
+    /// The radii of the part, its overrun aside.
+    pub fn whole_part(&self) -> RadialRange {
         RadialRange {
             inner: self.part.inner_radius,
             outer: self.part.aperture_radius,
@@ -72,24 +80,37 @@ impl Fit<'_> {
     /// The largest curvature where such a tool makes contact.
     fn reached(&self, tool: Tool) -> Result<Extreme> {
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
-        let range = range(
-            self.overrun,
-            &self.part,
-            &tool,
-            self.surface.as_ref(),
-            self.compensator.as_ref(),
-        )
-        .map_err(PipelineError::NoSurface)?;
-        let region = contact_range(self.chain, &locus, &tool, range)?;
-        self.curvature(tool, region)
+        let region = contact_range(self.chain, &locus, &tool, self.range(tool)?)?;
+        Ok(self.interference(tool, region)?.curvature)
     }
 
-    fn curvature(&self, tool: Tool, region: RadialRange) -> Result<Extreme> {
+    /// The range of ρ over which such a tool runs.
+    pub fn range(&self, tool: Tool) -> Result<RadialRange> {
+        let (surface, compensator) = (self.surface.as_ref(), self.compensator.as_ref());
+        range(self.overrun, &self.part, &tool, surface, compensator)
+            .map_err(PipelineError::NoSurface)
+    }
+
+    /// What a region of the part asks of such a tool.
+    pub fn interference(&self, tool: Tool, region: RadialRange) -> Result<Interference> {
         let cut = Cut {
             surface: self.surface.as_ref(),
             tool: &tool,
         };
-        let compensator = self.compensator.as_ref();
-        Ok(interference(self.chain, compensator, cut, region)?.curvature)
+        let answer = self.compensator.interference(cut, region);
+        let link = &self.chain.compensator;
+        let found = answer.map_err(|error| match error {
+            StrategyError::Failed(_) => PipelineError::NoSurface(error),
+            other => link.failed("in the interference check", other),
+        })?;
+        let numbers = |extreme: &Extreme| {
+            let all = [extreme.value, extreme.theta, extreme.rho];
+            all.iter().all(|number| number.is_finite())
+        };
+        if found.extremes().iter().all(numbers) {
+            return Ok(found);
+        }
+        let what = format!("no numbers in its interference check: {found:?}");
+        Err(link.bad_answer(what))
     }
 }

@@ -1,19 +1,15 @@
 //! Before any path: the range of ρ, and whether the tool fits.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
-use turnpath_core::interference::{Conflict, Extreme, Interference};
-use turnpath_core::largest_nose::LargestNose;
+use turnpath_core::interference::{Conflict, Interference};
 use turnpath_core::{
-    CentreBuffers, Compensator, Cut, Direction, Job, Locus, Machine, Misfit, Overrun, Part,
-    RadialRange, SpindleLaw, StrategyError, SurfaceModel, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Direction, Job, Locus, Machine, Misfit, Overrun, Part, RadialRange,
+    SpindleLaw, StrategyError, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
-use crate::attributed::{AttributedCompensator, AttributedSurface};
 use crate::largest_nose::Fit;
-use crate::range::range;
 use crate::{Chain, PipelineError, Result};
 
 /// Angles at which the contact is looked for beyond the rim and the hole.
@@ -38,6 +34,21 @@ pub struct Wanted {
     pub spindle: SpindleLaw,
     /// What the machine can do.
     pub machine: Machine,
+}
+
+impl Wanted {
+    /// The job over a range of ρ.
+    fn job(self, range: RadialRange) -> Job {
+        Job {
+            part: self.part,
+            tool: self.tool,
+            tolerance: self.tolerance,
+            range,
+            direction: self.direction,
+            spindle: self.spindle,
+            machine: self.machine,
+        }
+    }
 }
 
 /// A job whose tool fits its part.
@@ -73,73 +84,28 @@ pub fn prepare(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
 }
 
 fn settle(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
-    let Wanted {
-        part,
-        tool,
-        tolerance,
-        overrun,
-        direction,
-        spindle,
-        machine,
-    } = wanted;
-    let surface: Arc<dyn SurfaceModel> = Arc::new(AttributedSurface::new(&chain.surface));
-    let compensator = Arc::new(AttributedCompensator::new(&chain.compensator));
+    let (part, tool, overrun) = (wanted.part, wanted.tool, wanted.overrun);
+    let fit = Fit::new(chain, part, tool, overrun);
+    let (surface, compensator) = (fit.surface.clone(), fit.compensator.clone());
     let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
     look_for_numbers(chain, &part)?;
-    let check = |region| {
-        let cut = Cut {
-            surface: surface.as_ref(),
-            tool: &tool,
-        };
-        interference(chain, compensator.as_ref(), cut, region)
-    };
     // Where the contact goes beyond the rim is known only if the nose fits the part itself.
-    let on_part = check(RadialRange {
-        inner: part.inner_radius,
-        outer: part.aperture_radius,
-    })?;
-    let largest = || {
-        let fit = Fit {
-            chain,
-            surface: surface.clone(),
-            compensator: compensator.clone(),
-            part,
-            tool,
-            overrun,
-        };
-        fit.largest_nose(on_part.curvature)
-    };
-    let conflicts = |found: &Interference| conflicts(found, &tool, compensator.as_ref());
+    let on_part = fit.interference(tool, fit.whole_part())?;
     let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });
-    refuse(&on_part, conflicts(&on_part), of_nose, largest)?;
-    let range = range(
-        overrun,
-        &part,
-        &tool,
-        surface.as_ref(),
-        compensator.as_ref(),
-    )
-    .map_err(PipelineError::NoSurface)?;
-    let job = Job {
-        part,
-        tool,
-        tolerance,
-        range,
-        direction,
-        spindle,
-        machine,
-    };
+    refuse(&fit, &on_part, &on_part, of_nose)?;
+    let range = fit.range(tool)?;
     let subject = Subject {
-        surface: surface.clone(),
+        surface,
         part,
         tool,
         compensates_nose: compensator.compensates_nose(),
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
-    let interference = check(contact_range(chain, &locus, &tool, range)?)?;
-    refuse(&interference, conflicts(&interference), |_| true, largest)?;
+    let region = contact_range(chain, &locus, &tool, range)?;
+    let interference = fit.interference(tool, region)?;
+    refuse(&fit, &on_part, &interference, |_| true)?;
     Ok(Prepared {
-        job,
+        job: wanted.job(range),
         overrun,
         locus,
         interference,
@@ -167,29 +133,6 @@ fn turn(eighths: usize) -> (f64, f64) {
     turnpath_core::Scalar::sin_cos(TAU * eighths as f64 / 8.0)
 }
 
-pub(crate) fn interference(
-    chain: &Chain,
-    compensator: &dyn Compensator,
-    cut: Cut<'_>,
-    region: RadialRange,
-) -> Result<Interference> {
-    let found = compensator
-        .interference(cut, region)
-        .map_err(|error| match error {
-            StrategyError::Failed(_) => PipelineError::NoSurface(error),
-            other => chain.compensator.failed("in the interference check", other),
-        })?;
-    let numbers = |extreme: &Extreme| {
-        let all = [extreme.value, extreme.theta, extreme.rho];
-        all.iter().all(|number| number.is_finite())
-    };
-    if !found.extremes().iter().all(numbers) {
-        let what = format!("no numbers in its interference check: {found:?}");
-        return Err(chain.compensator.bad_answer(what));
-    }
-    Ok(found)
-}
-
 /// In which ways the tool does not fit, but for those that leave something standing where that is
 /// what the recipe asks for and the compensator can do.
 fn conflicts(found: &Interference, tool: &Tool, compensator: &dyn Compensator) -> Vec<Conflict> {
@@ -200,14 +143,15 @@ fn conflicts(found: &Interference, tool: &Tool, compensator: &dyn Compensator) -
     conflicts
 }
 
-/// Refuses a tool that does not fit; of a nose that is too large the message tells the one that
-/// would really do.
+/// Refuses a tool that does not fit, where a conflict is one of `which`; of a nose that is too
+/// large the message tells the one that would really do.
 fn refuse(
+    fit: &Fit<'_>,
+    on_part: &Interference,
     found: &Interference,
-    mut conflicts: Vec<Conflict>,
     which: impl Fn(&Conflict) -> bool,
-    largest: impl FnOnce() -> Result<LargestNose>,
 ) -> Result<()> {
+    let mut conflicts = conflicts(found, &fit.tool, fit.compensator.as_ref());
     if !conflicts.iter().any(which) {
         return Ok(());
     }
@@ -216,7 +160,7 @@ fn refuse(
         _ => None,
     });
     if let Some((radius, at)) = noses {
-        let nose = largest()?;
+        let nose = fit.largest_nose(on_part.curvature)?;
         (*radius, *at) = (nose.radius, nose.at.place());
     }
     let interference = Box::new(*found);

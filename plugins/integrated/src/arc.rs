@@ -2,9 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-/// Smallest step, given or derived: 360,000 points a revolution are a slip of the unit or a kink of
-/// the surface, not what somebody wants, and finer ones fill the memory: a block of 64 revolutions is
-/// 23 million points already.
+/// Smallest step: 360,000 points a revolution are a slip of the unit, and finer ones fill the memory.
 pub const SMALLEST_STEP: f64 = 1e-3 * DEG;
 /// Nodes and weights of Gauss' rule of 6th order on (0, 1), around the middle.
 const GAUSS: f64 = 0.387_298_334_620_741_7;

@@ -2,7 +2,6 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::arc::SMALLEST_STEP;
 use crate::sharpest::{Spot, sharpest, where_is};
 
 /// A count of steps a revolution this close to a whole one is that one: 6 deg in rad is not a
@@ -13,6 +12,10 @@ const SLACK: f64 = 1e-6;
 /// Part of the interpolation tolerance that a derived step aims at: a little below what refinement
 /// takes for good, so that it finds nothing to do, for half a percent more points.
 const AIM: f64 = 0.98;
+/// Smallest step, given or derived: 360,000 points a revolution are a slip of the unit or a kink
+/// of the surface, not what somebody wants, and finer ones fill the memory: a block of 64 revolutions
+/// is 23 million points already.
+const SMALLEST_STEP: f64 = 1e-3 * DEG;
 /// With [`Misfit::CutWhatFits`] a derived step is no smaller than this: where the nose passes from one
 /// side of a seam to the other no step is right, and refinement halves those that are too long.
 const LEAST_NEAR_SEAMS: f64 = 0.25 * DEG;
