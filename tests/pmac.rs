@@ -320,8 +320,8 @@ fn points_of(program: &str) -> Vec<(f64, [(f64, f64); 3])> {
     points
 }
 
-/// A program of some 374,000 points, leads included: places and velocities to half a digit, no drift of time, and an
-/// error within 0.3 nm of the path's.
+/// A program of some 374,000 points, leads included: places and velocities to half a digit, no
+/// drift of time, and an error within 0.3 nm of the path's.
 #[test]
 fn the_program_of_the_off_axis_paraboloid_is_its_path() {
     let recipe = repository("docs/recipes/off-axis-paraboloid-213mm.toml");

@@ -14,8 +14,8 @@ const WIDEST: f64 = 0.25;
 /// How many steps the ladder has, each half of the one before.
 pub const LADDER: usize = 7;
 
-/// Weights of the values at −4h … 4h for the coefficients c_1 … c_4, without their power of h: the central
-/// differences of highest order on 9 points, each over k!.
+/// Weights of the values at −4h … 4h for the coefficients c_1 … c_4, without their power of h: the
+/// central differences of highest order on 9 points, each over k!.
 const WEIGHTS: [[f64; STENCIL]; 4] = [
     [
         1.0 / 280.0,

@@ -57,6 +57,9 @@ fn kind(bytes: &[u8]) -> Result<System, Refusal> {
     }
     let system = match FileKind::parse(bytes) {
         Ok(FileKind::Elf32 | FileKind::Elf64) => System::Elf,
+        Ok(FileKind::MachOFat32 | FileKind::MachOFat64) if System::OURS == System::Apple => {
+            return Err(Refusal::NotALibrary("one for several processors at once"));
+        }
         Ok(FileKind::MachO32 | FileKind::MachO64) => System::Apple,
         Ok(FileKind::MachOFat32 | FileKind::MachOFat64) => System::Apple,
         Ok(FileKind::Pe32 | FileKind::Pe64) => System::Windows,

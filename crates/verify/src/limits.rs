@@ -1,7 +1,7 @@
 //! A path's motion against a machine's limits, and how fast it can be played within them.
 //!
-//! A path's points sit at the same C whatever the spindle's speed, and its cubics scale with time: so
-//! velocity, acceleration and jerk grow with its first, second and third power, and one measured
+//! A path's points sit at the same C whatever the spindle's speed, and its cubics scale with time:
+//! so velocity, acceleration and jerk grow with its first, second and third power, and one measured
 //! path tells the highest speed. It is not exact where the path itself looks at the speed: a law
 //! that keeps X within a limit, points on a controller's steps of time.
 

@@ -11,7 +11,8 @@ const OVERLAP: usize = 64;
 /// The slopes of the C² cubic spline through the nodes of each axis.
 ///
 /// The error of position is of order 4 in the step, on any steps; with natural ends of order 2
-/// near the path's two ends, where the true acceleration is not 0. `ends` holds at the two ends of the path; a window of it is clamped to the exact rates.
+/// near the path's two ends, where the true acceleration is not 0. `ends` holds at the two ends of
+/// the path; a window of it is clamped to the exact rates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TriangleRotary {
     ends: Ends,

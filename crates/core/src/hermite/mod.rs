@@ -2,8 +2,8 @@
 //! eq. 10, on the path that is played. For samplers; a plugin uses it as it stands.
 //!
 //! φ, mm, is the height of the tool centre along the true spiral as the bound takes it, over the C
-//! angle in rad: φ⁗ = Z⁗ − ∂Z/∂X·X⁗, since where X bends its own error moves the place at which Z is
-//! compared.
+//! angle in rad: φ⁗ = Z⁗ − ∂Z/∂X·X⁗, since where X bends its own error moves the place at which Z
+//! is compared.
 
 mod bound;
 mod samples;
