@@ -10,6 +10,9 @@ use crate::row::{HEADER, Row};
 
 /// Most degrees that C may turn between two rows: beyond, rows are missing.
 const LARGEST_TURN_DEG: f64 = 360.0;
+/// Largest C: a thousand times what any path turns, and still known to a ten-thousandth of a degree.
+/// Far beyond, sections of a turn could no longer be told apart.
+const LARGEST_C_DEG: f64 = 1e12;
 
 /// Why a tool path could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -140,17 +143,24 @@ fn check(
     check_turn(last, point, section)
 }
 
-/// While it cuts, C must grow, and not by more than rows that are missing would make it.
+/// C must be an angle that a double can tell from its neighbours. While it cuts it must grow, and not
+/// by more than rows that are missing would make it.
 pub(crate) fn check_turn(
     last: Option<&(ControlPoint, Section)>,
     point: &ControlPoint,
     section: Section,
 ) -> Result<(), String> {
-    let Some((last, _)) = last else { return Ok(()) };
-    let turn = (point.c - last.c) / turnpath_core::DEG;
-    if section == Section::Cutting && !(turn > 0.0 && turn <= LARGEST_TURN_DEG) {
+    let turn = last.map(|(last, _)| (point.c - last.c) / turnpath_core::DEG);
+    let grows = |turn: f64| turn > 0.0 && turn <= LARGEST_TURN_DEG;
+    if let Some(turn) = turn.filter(|turn| section == Section::Cutting && !grows(*turn)) {
         return Err(format!(
             "C turns by {turn:?} deg from the point before; it must grow, by 360 deg at the most"
+        ));
+    }
+    let c = point.c / turnpath_core::DEG;
+    if c.abs() > LARGEST_C_DEG {
+        return Err(format!(
+            "C = {c:?} deg is more than {LARGEST_C_DEG:e} deg, which no path turns"
         ));
     }
     Ok(())

@@ -147,4 +147,10 @@ fn spoiled_files_are_refused_with_their_line() {
     assert!(turned.contains("line 11: C turns by"), "{turned}");
     let far = refusal(|text| with_line(text, 10, "1e300,1e300,3,4,5,6,7,1"));
     assert!(far.contains("line 11: C turns by 1e300 deg"), "{far}");
+    // Its turns would have no sections that differ.
+    let endless = refusal(|text| with_line(text, 1, "0.0,1e16,3,4,5,6,7,1"));
+    assert!(
+        endless.contains("line 2: C = 1e16 deg is more than"),
+        "{endless}"
+    );
 }
