@@ -128,13 +128,10 @@ fn check(
     if !point.is_finite() {
         return Err("a value is not a finite number".to_owned());
     }
-    let Some((before, last_section)) = last else {
-        return Ok(());
-    };
-    if section < *last_section {
+    if last.is_some_and(|(_, last_section)| section < *last_section) {
         return Err("the sections must come in the order 0, 1, 2".to_owned());
     }
-    if point.t <= before.t {
+    if let Some((before, _)) = last.filter(|(before, _)| point.t <= before.t) {
         return Err(format!(
             "the time {:?} s is not after {:?} s",
             point.t, before.t
