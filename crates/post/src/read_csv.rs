@@ -7,9 +7,13 @@ use turnpath_core::toolpath::{ControlPoint, Section};
 
 use crate::path_reader::{Counted, ReadPath};
 use crate::row::{HEADER, Row};
+use crate::short_lines::ShortLines;
 
 /// Most degrees that C may turn between two rows: beyond, rows are missing.
 const LARGEST_TURN_DEG: f64 = 360.0;
+
+/// Largest amount of a value, mm, rad and s: C of a year at 10⁴ rpm is 1e11 rad.
+const LARGEST: f64 = 1e13;
 
 /// Why a tool path could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -46,7 +50,7 @@ impl ReadError {
 
 /// `toolpath.csv`, read block by block.
 pub struct PathReader {
-    rows: csv::Reader<File>,
+    rows: csv::Reader<ShortLines>,
     path: PathBuf,
     counted: Counted,
 }
@@ -61,7 +65,7 @@ impl PathReader {
         };
         let mut rows = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
-            .from_reader(file);
+            .from_reader(ShortLines::of(file));
         let header = rows.headers().map_err(|error| of_csv(&path, &error))?;
         if !header.iter().eq(HEADER) {
             let what = format!(
@@ -122,9 +126,7 @@ fn check(
     point: &ControlPoint,
     section: Section,
 ) -> Result<(), String> {
-    if !point.is_finite() {
-        return Err("a value is not a finite number".to_owned());
-    }
+    check_numbers(point)?;
     let Some((before, last_section)) = last else {
         return Ok(());
     };
@@ -138,6 +140,28 @@ fn check(
         ));
     }
     check_turn(last, point, section)
+}
+
+/// Each a number, and none beyond what any machine does.
+fn check_numbers(point: &ControlPoint) -> Result<(), String> {
+    let &ControlPoint {
+        t,
+        c,
+        x,
+        z,
+        vc,
+        vx,
+        vz,
+    } = point;
+    for (name, value) in HEADER.iter().zip([t, c, x, z, vc, vx, vz]) {
+        if !value.is_finite() {
+            return Err(format!("{name} is not a finite number"));
+        }
+        if value.abs() > LARGEST {
+            return Err(format!("{name} is beyond all that a machine does"));
+        }
+    }
+    Ok(())
 }
 
 /// While it cuts, C must grow, and not by more than rows that are missing would make it.
