@@ -12,7 +12,7 @@ use std::time::{Duration, SystemTime};
 use serde_json::{Value, json};
 use support::bench::{Bench, Said};
 use support::fixtures::plugin_folder;
-use support::recipe::{SADDLE, changed};
+use support::recipe::{SADDLE, changed, with_table};
 
 /// Widest table.
 const WIDEST: usize = 100;
@@ -400,7 +400,33 @@ fn a_tolerance_that_does_not_hold_is_a_finding_not_a_failure() {
 
 /// The usual columns but for planning times.
 const COLUMNS: &str = "--columns points,added,revolutions,time,error-max,error-rms,residual,\
-                       x-acceleration,z-acceleration,program-size";
+                       x-acceleration-law,z-acceleration,program-size";
+
+/// Over the last 1.25 turns at either end the host lets the feed run out by f n (s³ − s⁴/2) with
+/// s = m/n: X accelerates by 1.5 f/n at the most, and a constant feed by nothing between.
+#[test]
+fn the_x_acceleration_that_is_compared_is_that_of_the_law() {
+    let covered = changed(SADDLE, "overrun = \"none\"", "overrun = \"contact\"");
+    let feed = "use = \"constant\"\nfeed = \"20 um\"";
+    let recipe = with_table(&covered, "feed", feed);
+    let bench = Bench::with(&format!(
+        "{recipe}\n[ablation]\nvelocity = [{{ use = \"analytic\" }}]\n"
+    ));
+    ablate(&bench, "").ends(0);
+    let run = &runs(&bench)[1];
+    let of = |pointer: &str| run.pointer(pointer).unwrap().as_f64().unwrap();
+    let turns_per_second = of("/revolutions") / of("/cutting_time_s");
+    let running_out = 1.5 * 0.02 / 1.25 * turns_per_second * turns_per_second;
+    let whole = of("/axes/x/max_acceleration");
+    assert!(
+        (whole / running_out - 1.0).abs() < 0.01,
+        "{whole} {running_out}"
+    );
+    let own = of("/axes_of_law/x/max_acceleration");
+    assert!(own < 1e-6 * whole, "{own}");
+    let velocity = of("/axes_of_law/x/max_velocity");
+    assert!((velocity / (0.02 * turns_per_second) - 1.0).abs() < 1e-9);
+}
 
 #[test]
 fn the_table_has_all_columns_within_100() {
@@ -415,7 +441,7 @@ fn the_table_has_all_columns_within_100() {
     // All in one table, the last with its unit.
     assert_eq!(said.stdout.matches("───\n").count(), 1, "{said}");
     assert!(
-        said.stdout.lines().nth(5).unwrap().ends_with(" s"),
+        said.stdout.lines().nth(6).unwrap().ends_with(" s"),
         "{said}"
     );
     insta::assert_snapshot!(ablate(&bench, COLUMNS).ends(0).stdout);

@@ -19,6 +19,8 @@ const XYZ: &str = "xyz";
 const CIRCLE_PLACES: usize = 36_000;
 /// The spectrum of the axes.
 const SPECTRUM: &str = "spectrum.csv";
+/// Largest angle of a profile, rad, and what rounding takes.
+const WHOLE_TURN: f64 = 360.000_001 * DEG;
 /// Digits after the point of angles and radii in the names of files.
 const NAME_DIGITS: f64 = 1e6;
 
@@ -79,10 +81,25 @@ impl Wishes {
             circles: each(&args.circle, |text| circle_wish(text, part, folder))?,
             spectrum: args.spectrum.then(|| folder.join(SPECTRUM)),
         };
+        wishes.names_differ()?;
         for file in wishes.files() {
             can_be_made(file, folder)?;
         }
         Ok(wishes)
+    }
+
+    /// Complains where two plots would be one file: names hold no more digits than one can read.
+    fn names_differ(&self) -> Result<(), Failure> {
+        let mut files: Vec<&Path> = self.files().collect();
+        files.sort_unstable();
+        let Some(pair) = files.windows(2).find(|pair| pair[0] == pair[1]) else {
+            return Ok(());
+        };
+        let message = format!(
+            "two plots would be one file, {}: ask for one of them",
+            pair[0].display()
+        );
+        Err(Failure::call(message))
     }
 
     /// Whether nothing is asked for.
@@ -133,6 +150,10 @@ fn map_wish(args: &PlotArgs, file: &Path, part: &Part, folder: &Path) -> Result<
 
 fn profile_wish(text: &str, folder: &Path) -> Result<ProfileWish, Failure> {
     let angle = read(Quantity::Angle, "--profile", text)?;
+    if angle.abs() > WHOLE_TURN {
+        let message = format!("--profile {text}: an angle lies between -360 deg and 360 deg");
+        return Err(Failure::call(message));
+    }
     let name = format!("profile-{}deg", for_name(angle / DEG));
     Ok(ProfileWish {
         angle,

@@ -39,6 +39,8 @@ pub struct Summary {
     tolerance_nm: ToleranceNm,
     #[serde(flatten)]
     pub measured: Measured,
+    /// The axes while the law is the feed strategy's own; null where another took its place.
+    axes_of_law: Option<Axes>,
     pub unreached: Option<Unreached>,
     pub programs: Vec<ProgramSummary>,
     plugins: Vec<PluginFile>,
@@ -211,6 +213,7 @@ impl Summary {
                 interpolation: recipe.tolerance.interpolation * NM_PER_MM,
                 residual: recipe.tolerance.residual * NM_PER_MM,
             },
+            axes_of_law: outcome.own_axes.as_ref().map(Axes::of),
             measured: Measured::new(&outcome.figures, outcome.machined.as_ref(), recipe)
                 .with_lead(
                     outcome.lead.as_ref().map(|leads| Lead::made(leads, recipe)),

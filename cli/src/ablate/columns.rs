@@ -86,10 +86,10 @@ pub const ALL: &[Column] = &[
     )
     .held("/within/residual"),
     column(
-        "x-acceleration",
-        &["X acc", "RMS", "mm/s²"],
-        "x_acceleration_rms_mm_per_s2",
-        "/axes/x/rms_acceleration",
+        "x-acceleration-law",
+        &["law's", "X acc", "RMS", "mm/s²"],
+        "x_acceleration_of_law_rms_mm_per_s2",
+        "/axes_of_law/x/rms_acceleration",
         Form::Real,
     ),
     column(
@@ -112,6 +112,13 @@ pub const ALL: &[Column] = &[
         "planning_time_s",
         "/planning_time_s",
         Form::Clock,
+    ),
+    column(
+        "x-acceleration",
+        &["X acc", "RMS", "mm/s²"],
+        "x_acceleration_rms_mm_per_s2",
+        "/axes/x/rms_acceleration",
+        Form::Real,
     ),
     column(
         "c-acceleration",
@@ -204,6 +211,11 @@ impl Column {
             within: Some(within),
             ..self
         }
+    }
+
+    /// Whether it speaks of the feed strategy's own law alone.
+    pub fn is_of_law(&self) -> bool {
+        self.pointer.starts_with("/axes_of_law/")
     }
 
     /// Whether its smallest figure is the best.

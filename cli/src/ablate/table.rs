@@ -72,6 +72,10 @@ fn legend(columns: &[Figures]) -> String {
     let lines = [
         (!marks.is_empty(), marks.join("   ")),
         (
+            columns.iter().any(|one| one.of_law),
+            "law's: apart from where the feed runs out at the path's ends".to_owned(),
+        ),
+        (
             has(Form::Bytes),
             "program: the lines that pmac-pvt makes of the points, measured".to_owned(),
         ),

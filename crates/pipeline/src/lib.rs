@@ -6,6 +6,7 @@
 
 mod attributed;
 mod chain;
+mod drift;
 mod error;
 mod largest_nose;
 mod law;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use turnpath_core::{Dependence, Overrun, Path, Revolutions, SpiralLaw};
 
-use crate::taper::taper;
+use crate::taper::{Tapered, taper};
 use crate::{Chain, Prepared, Result};
 
 /// Revolutions of a block. A sampler starts afresh at each border, which costs AST-50 a tenth of
@@ -39,6 +39,8 @@ pub struct Plan<'a> {
     pub prepared: &'a Prepared,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
+    /// Between which revolutions the law is the feed strategy's own, if it is anywhere.
+    pub own: Option<[f64; 2]>,
     /// Steps of time a second at which control points must lie, if the controller has such.
     pub time_steps: Option<f64>,
     /// Where and when the cutting section begins.
@@ -59,14 +61,15 @@ impl<'a> Plan<'a> {
             return Err(chain.velocity.bad_answer(what));
         }
         let law = crate::law::plan(chain, &prepared.job, &prepared.locus)?;
-        let law = match prepared.overrun {
+        let Tapered { law, own } = match prepared.overrun {
             Overrun::Contact => taper(&law, &prepared.job),
-            Overrun::None | Overrun::Length(_) => law,
+            Overrun::None | Overrun::Length(_) => Tapered::not(law),
         };
         let mut plan = Self {
             chain,
             prepared,
             law,
+            own,
             time_steps: None,
             start: Start::default(),
             block: BLOCK,
@@ -150,6 +153,12 @@ impl<'a> Plan<'a> {
         };
         let moved = (whole / steps - t) * spindle.speed_at(n) / TAU;
         (n + moved, (self.start.time + whole) / steps)
+    }
+
+    /// Between which angles of C, rad, the law is the feed strategy's own.
+    pub fn own_angles(&self) -> Option<[f64; 2]> {
+        self.own
+            .map(|own| own.map(|n| TAU * (n + self.start.turns)))
     }
 
     /// Revolutions of every block but the last.

@@ -1,4 +1,5 @@
-//! Refinement: segments whose played error exceeds the tolerance are halved, in global rounds.
+//! Refinement: segments whose played error exceeds the tolerance are halved, in global rounds; so
+//! are those where X's own error would lift a cusp beyond the residual ([`crate::drift`]).
 //!
 //! What is kept between rounds is two bytes for each sampler segment (how often it is halved, and
 //! what its last playback said), and only blocks that changed, or whose neighbours did, are made
@@ -15,6 +16,7 @@ use rayon::prelude::*;
 use turnpath_core::Dependence;
 use turnpath_verify::Meter;
 
+use crate::drift;
 use crate::make::{Depths, Made, make};
 use crate::order::in_order;
 use crate::plan::Plan;
@@ -26,7 +28,7 @@ use crate::{PipelineError, Result};
 pub const AIM: f64 = 0.99;
 /// Part of the aim from which on a segment is near it: the spline's error on the long side of a
 /// border between steps of 2 : 1 is 1.3 times what it was.
-const NEAR: f64 = 0.75;
+pub const NEAR: f64 = 0.75;
 /// Most rounds: a segment ends as 1/4096 of the sampler's at the least.
 pub const MOST_ROUNDS: u32 = 12;
 /// Rounds before halvings spread: fewer add points to paths that need none of it, more leave
@@ -157,13 +159,18 @@ fn look(plan: &Plan<'_>, made: &Made) -> Result<Vec<Found>> {
     let touch = &plan.prepared.touch;
     let errors = Meter::segment_errors(touch, &made.points).map_err(PipelineError::Measure)?;
     let aim = AIM * plan.prepared.job.tolerance.interpolation;
+    let drifts = drift::loads(plan, made)?;
+    let loads = errors
+        .iter()
+        .zip(drifts)
+        .map(|(error, drift)| drift.max(error / aim));
     let times = made.points.t.windows(2);
-    for ((error, owner), time) in errors.iter().zip(&made.owner).zip(times) {
+    for ((load, owner), time) in loads.zip(&made.owner).zip(times) {
         let one = &mut found[*owner as usize];
         let long_enough = time[1] - time[0] >= 2.0 * SMALLEST_SEGMENT;
-        if long_enough && *error > aim {
+        if long_enough && load > 1.0 {
             *one = Found::Beyond;
-        } else if long_enough && *error > NEAR * aim && *one == Found::Calm {
+        } else if long_enough && load > NEAR && *one == Found::Calm {
             *one = Found::Near;
         }
     }

@@ -37,6 +37,7 @@ pub trait Sink: Sync {
 /// A block, measured and in the form of each file.
 struct Ready {
     measured: Measured,
+    own_axes: AxesMotion,
     served: Option<ServoStretch>,
     points: usize,
     sampled: usize,
@@ -56,6 +57,9 @@ pub struct Outcome {
     pub cutting_time: f64,
     /// What the path as played would cut.
     pub figures: PathFigures,
+    /// How the axes move while the law is the feed strategy's own: where the host lets the feed run
+    /// out is not in it. `None` where another law took its place.
+    pub own_axes: Option<AxesMotion>,
     /// The surface that it would leave; `None` where nothing of the part is cut.
     pub machined: Option<MachinedFigures>,
     /// The leads, where the path has some.
@@ -128,7 +132,8 @@ fn write(
 ) -> Result<Outcome> {
     let touch = &plan.prepared.touch;
     let (mut made_points, mut sampled) = (0, 0);
-    let mut last_motion = AxesMotion::default();
+    let (mut last_motion, mut own_axes) = (AxesMotion::default(), AxesMotion::default());
+    let own = plan.own_angles();
     let mut state = first_state(plan);
     let mut trail = Trail::default();
     if let Some(leads) = &leads {
@@ -154,7 +159,7 @@ fn write(
             .collect();
         let each = made.into_par_iter().zip(behind).zip(starts);
         let ready = in_order(
-            each.map(|((made, behind), start)| ready(touch, made, &behind, start, encoder)),
+            each.map(|((made, behind), start)| ready(touch, made, own, &behind, start, encoder)),
         )?;
         for block in ready {
             meter
@@ -165,6 +170,7 @@ fn write(
             }
             made_points += block.points as u64;
             sampled += block.sampled as u64;
+            own_axes.append(&block.own_axes);
             last_motion = block.measured.axes;
             sink.take(block.points, &block.encoded)
                 .map_err(PipelineError::Sink)?;
@@ -185,6 +191,7 @@ fn write(
         added_by_refine: made_points - sampled,
         revolutions,
         cutting_time: plan.prepared.job.spindle.time_at(revolutions),
+        own_axes: own.map(|_| own_axes),
         machined: meter.machined().map_err(PipelineError::Measure)?,
         figures: meter.figures().map_err(PipelineError::Measure)?,
         lead,
@@ -248,6 +255,7 @@ impl Trail {
 fn ready(
     touch: &FirstTouch,
     made: Made,
+    own: Option<[f64; 2]>,
     behind: &Behind,
     start: Option<ServoStart>,
     sink: &dyn Sink,
@@ -255,6 +263,9 @@ fn ready(
     let measured = Meter::measure(touch, &made.points).map_err(PipelineError::Measure)?;
     let served = start.map(|start| ServoMeter::measure(touch, &start, &made.points));
     let served = served.transpose().map_err(PipelineError::Measure)?;
+    let own_axes = own.map_or_else(AxesMotion::default, |angles| {
+        AxesMotion::between(&made.points, angles)
+    });
     let mut points = made.points;
     points.truncate(made.owner.len());
     let stretch = PathStretch {
@@ -266,6 +277,7 @@ fn ready(
     let encoded = sink.encode(&stretch).map_err(PipelineError::Sink)?;
     Ok(Ready {
         measured,
+        own_axes,
         served,
         points: points.len(),
         sampled: made.sampled,

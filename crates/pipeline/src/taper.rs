@@ -35,10 +35,28 @@ const ANGLES: usize = 72;
 /// Halvings of the interval in which the taper begins: down to rounding.
 const HALVINGS: usize = 60;
 
+/// A law, and what of it is the feed strategy's own.
+#[derive(Debug, Clone)]
+pub struct Tapered {
+    /// The whole.
+    pub law: SpiralLaw,
+    /// Between which revolutions it is the strategy's; none where another law took its place.
+    pub own: Option<[f64; 2]>,
+}
+
+impl Tapered {
+    /// A law as its strategy made it.
+    pub fn not(law: SpiralLaw) -> Self {
+        let own = Some([0.0, law.end()]);
+        Self { law, own }
+    }
+}
+
 /// The law with its feed running out at both ends, where it does not close by itself.
-pub fn taper(law: &SpiralLaw, job: &Job) -> SpiralLaw {
+pub fn taper(law: &SpiralLaw, job: &Job) -> Tapered {
     if law.end() < SHORT {
-        return around(law);
+        let law = around(law);
+        return Tapered { law, own: None };
     }
     let (start, end) = (End::of(law, job, false), End::of(law, job, true));
     let mut pieces = Vec::new();
@@ -51,7 +69,8 @@ pub fn taper(law: &SpiralLaw, job: &Job) -> SpiralLaw {
         at += length;
     };
     let (from, to) = (start.cut(), law.end() - end.cut());
-    if let Some((length, coefficients)) = start.piece(law) {
+    let (start, end) = (start.piece(law), end.piece(law));
+    if let Some((length, coefficients)) = start {
         put(length, coefficients);
     }
     for (i, piece) in law.pieces().iter().enumerate() {
@@ -61,10 +80,14 @@ pub fn taper(law: &SpiralLaw, job: &Job) -> SpiralLaw {
             put(last - first, piece.shifted(first));
         }
     }
-    if let Some((length, coefficients)) = end.piece(law) {
+    if let Some((length, coefficients)) = end {
         put(length, coefficients);
     }
-    SpiralLaw::from_pieces(pieces, at)
+    let taken = |piece: Option<(f64, [f64; 6])>| piece.map_or(0.0, |piece| piece.0);
+    Tapered {
+        law: SpiralLaw::from_pieces(pieces, at),
+        own: Some([taken(start), at - taken(end)]),
+    }
 }
 
 /// In place of a law so short that it does not come to every angle of its ends: one from rest to
@@ -264,7 +287,8 @@ mod tests {
     #[test]
     fn both_ends_stay_where_they_were_and_come_to_rest() {
         for law in [law(), inward()] {
-            let tapered = taper(&law, &job(&law));
+            let Tapered { law: tapered, own } = taper(&law, &job(&law));
+            assert_eq!(own, Some([TURNS, tapered.end() - TURNS]));
             for (n, whole) in [(0.0, 0.0), (tapered.end(), law.end())] {
                 let [value, rate, second, ..] = tapered.series_before(n);
                 assert!((value - law.value(whole)).abs() < 1e-13);
@@ -280,7 +304,7 @@ mod tests {
 
     #[test]
     fn value_and_two_derivatives_are_continuous() {
-        let tapered = taper(&law(), &job(&law()));
+        let tapered = taper(&law(), &job(&law())).law;
         let knots: Vec<f64> = tapered.knots(0.0, tapered.end()).collect();
         assert_eq!(knots.len(), 3);
         for knot in knots {
@@ -294,7 +318,7 @@ mod tests {
     #[test]
     fn passes_close_at_rim_and_axis() {
         for law in [law(), inward()] {
-            let tapered = taper(&law, &job(&law));
+            let tapered = taper(&law, &job(&law)).law;
             for last in [false, true] {
                 let side = Side {
                     law: &tapered,
@@ -320,7 +344,7 @@ mod tests {
         let mut law = SpiralLaw::new();
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(9.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        let held = taper(&law, &job(&law));
+        let held = taper(&law, &job(&law)).law;
         assert_eq!(held.value(HOLD), 1.0);
         assert!((held.value(HOLD + 3.0) - law.value(3.0)).abs() < 1e-15);
     }
@@ -356,7 +380,7 @@ mod tests {
             let mut short = SpiralLaw::new();
             short.push(turns, [start, rate, bend, 0.0, 0.0, 0.0]);
             let slowest = short.rate(0.0).abs().min(short.rate(turns).abs());
-            let round = taper(&short, &job(&short));
+            let round = taper(&short, &job(&short)).law;
             let end = round.end();
             let (from, to) = (short.value(0.0), short.value(turns));
             for i in 0..=100 {

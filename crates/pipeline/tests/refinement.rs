@@ -4,8 +4,8 @@ mod common;
 
 use std::sync::Arc;
 
-use common::solvers::{Area, Exact, Resting, Spline};
-use common::{Job, even, inward};
+use common::solvers::{Area, Exact, Halting, Resting, Spline};
+use common::{Counting, Job, RESIDUAL, RIM, even, inward};
 use turnpath_core::VelocitySolver;
 use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
 
@@ -84,4 +84,47 @@ fn rounds_end_and_the_outcome_says_that_it_is_not_enough() {
     let halved = 1u64 << MOST_ROUNDS;
     assert_eq!(outcome.control_points, 2 * halved + 1);
     assert!(outcome.figures.playback.max() > tolerance);
+}
+
+/// X that halts at every point is off between them by 0.0962 of what it goes on a step; with 8½
+/// steps a turn two passes are off in opposite ways. Z is off by what it likes.
+fn halting(feed: f64, refined: bool) -> Job {
+    Job {
+        feed: inward(RIM / feed),
+        sampler: Arc::new(Counting { step: STEP }),
+        velocity: Arc::new(Halting),
+        interpolation: 1.0,
+        refined,
+        ..Job::default()
+    }
+}
+
+const STEP: f64 = 2.0 / 17.0;
+
+#[test]
+fn cusps_stay_below_the_residual_where_x_itself_is_off_between_points() {
+    let residual = |job: &Job| job.made().1.figures.residual.max / RESIDUAL;
+    let planned = Job {
+        velocity: Arc::new(Exact),
+        ..halting(0.0275, false)
+    };
+    let (planned, coarse) = (residual(&planned), residual(&halting(0.0275, false)));
+    let growth = 1.0 + 2.0 * 0.096_225 * STEP;
+    // The saddle is steepest near the tops of X's error, not on them.
+    assert!((coarse / planned - growth * growth).abs() < 2e-3);
+    assert!(planned < 0.997 && coarse > 1.03, "{planned} {coarse}");
+    let (path, outcome) = halting(0.0275, true).made();
+    assert!(outcome.figures.residual.max <= 1.0006 * RESIDUAL);
+    // Where the section is hollow cusps are lower, and leave more room.
+    let steps: Vec<f64> = path.c.windows(2).map(|c| c[1] - c[0]).collect();
+    let longest = steps.iter().copied().fold(0.0, f64::max);
+    let shortest = steps.iter().copied().fold(longest, f64::min);
+    assert!(longest > 1.9 * shortest);
+}
+
+#[test]
+fn cusps_that_are_the_laws_own_add_no_points() {
+    let (_, outcome) = halting(0.029, true).made();
+    assert!(outcome.figures.residual.max > 1.05 * RESIDUAL);
+    assert_eq!(outcome.added_by_refine, 0);
 }

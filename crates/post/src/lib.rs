@@ -10,6 +10,7 @@ mod path_reader;
 mod pmac;
 mod read_csv;
 mod row;
+mod short_lines;
 #[cfg(test)]
 mod tests;
 mod write_csv;

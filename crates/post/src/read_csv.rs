@@ -7,12 +7,16 @@ use turnpath_core::toolpath::{ControlPoint, Section};
 
 use crate::path_reader::{Counted, ReadPath};
 use crate::row::{HEADER, Row};
+use crate::short_lines::ShortLines;
 
 /// Most degrees that C may turn between two rows: beyond, rows are missing.
 const LARGEST_TURN_DEG: f64 = 360.0;
 /// Largest C: a thousand times what any path turns, and still known to a ten-thousandth of a degree.
 /// Far beyond, sections of a turn could no longer be told apart.
 const LARGEST_C_DEG: f64 = 1e12;
+
+/// Largest amount of a value, mm, rad and s: C of a year at 10⁴ rpm is 1e11 rad.
+const LARGEST: f64 = 1e13;
 
 /// Why a tool path could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +53,7 @@ impl ReadError {
 
 /// `toolpath.csv`, read block by block.
 pub struct PathReader {
-    rows: csv::Reader<File>,
+    rows: csv::Reader<ShortLines>,
     path: PathBuf,
     counted: Counted,
 }
@@ -64,7 +68,7 @@ impl PathReader {
         };
         let mut rows = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
-            .from_reader(file);
+            .from_reader(ShortLines::of(file));
         let header = rows.headers().map_err(|error| of_csv(&path, &error))?;
         if !header.iter().eq(HEADER) {
             let what = format!(
@@ -125,9 +129,7 @@ fn check(
     point: &ControlPoint,
     section: Section,
 ) -> Result<(), String> {
-    if !point.is_finite() {
-        return Err("a value is not a finite number".to_owned());
-    }
+    check_numbers(point)?;
     if last.is_some_and(|(_, last_section)| section < *last_section) {
         return Err("the sections must come in the order 0, 1, 2".to_owned());
     }
@@ -138,6 +140,28 @@ fn check(
         ));
     }
     check_turn(last, point, section)
+}
+
+/// Each a number, and none beyond what any machine does.
+fn check_numbers(point: &ControlPoint) -> Result<(), String> {
+    let &ControlPoint {
+        t,
+        c,
+        x,
+        z,
+        vc,
+        vx,
+        vz,
+    } = point;
+    for (name, value) in HEADER.iter().zip([t, c, x, z, vc, vx, vz]) {
+        if !value.is_finite() {
+            return Err(format!("{name} is not a finite number"));
+        }
+        if value.abs() > LARGEST {
+            return Err(format!("{name} is beyond all that a machine does"));
+        }
+    }
+    Ok(())
 }
 
 /// C must be an angle that a double can tell from its neighbours. While it cuts it must grow, and not
@@ -157,7 +181,7 @@ pub(crate) fn check_turn(
     let c = point.c / turnpath_core::DEG;
     if c.abs() > LARGEST_C_DEG {
         return Err(format!(
-            "C = {c:?} deg is more than {LARGEST_C_DEG:e} deg, which no path turns"
+            "C = {c:e} deg is more than {LARGEST_C_DEG:e} deg, which no path turns"
         ));
     }
     Ok(())

@@ -135,22 +135,23 @@ fn spoiled_files_are_refused_with_their_line() {
         "{word}"
     );
     let nan = refusal(|text| with_line(text, 3, "0.6,100,3,NaN,5,6,7,1"));
-    assert!(
-        nan.contains("line 4: a value is not a finite number"),
-        "{nan}"
-    );
+    assert!(nan.contains("line 4: z_mm is not a finite number"), "{nan}");
+    let vast = refusal(|text| with_line(text, 1, "0,-1e308,3,4,5,6,7,1"));
+    assert!(vast.contains("line 2: c_deg is beyond all"), "{vast}");
+    let endless = refusal(|text| text.to_owned() + &"0".repeat(200_000));
+    assert!(endless.contains("a line is longer than any"), "{endless}");
     let section = refusal(|text| with_line(text, 3, "1,2,3,4,5,6,7,9"));
     assert!(section.contains("line 4: the section must be"), "{section}");
     let back = refusal(|text| with_line(text, 5, "0.1,2,3,4,5,6,7,1"));
     assert!(back.contains("line 6: the time"), "{back}");
     let turned = refusal(|text| with_line(text, 10, "100,2000,3,4,5,6,7,1"));
     assert!(turned.contains("line 11: C turns by"), "{turned}");
-    let far = refusal(|text| with_line(text, 10, "1e300,1e300,3,4,5,6,7,1"));
-    assert!(far.contains("line 11: C turns by 1e300 deg"), "{far}");
     // Its turns would have no sections that differ.
-    let endless = refusal(|text| with_line(text, 1, "0.0,1e16,3,4,5,6,7,1"));
+    let turning = refusal(|text| with_line(text, 1, "0.0,1e14,3,4,5,6,7,1"));
     assert!(
-        endless.contains("line 2: C = 1e16 deg is more than"),
-        "{endless}"
+        turning.contains("line 2: C = 1e14 deg is more than"),
+        "{turning}"
     );
+    let far = refusal(|text| with_line(text, 10, "1e12,1e12,3,4,5,6,7,1"));
+    assert!(far.contains("line 11: C turns by 99999999"), "{far}");
 }

@@ -148,7 +148,7 @@ fn read(param: &Param, node: &Node) -> Result<ParamValue, Diagnostic> {
         ParamKind::Rows(columns) => Ok(ParamValue::Rows(rows(key, node, columns)?)),
         kind => {
             let number = match Quantity::of(kind) {
-                Some(quantity) => value::quantity(key, node, quantity)?,
+                Some(quantity) => value::quantity(key, node, quantity, quantity.example())?,
                 None => value::number(key, node)?,
             };
             whole_if_count(param, node, number)?;

@@ -136,7 +136,17 @@ impl<'a> Section<'a> {
         kind: Quantity,
         bound: Bound,
     ) -> Option<Located<f64>> {
-        let read = self.at(key, |node| value::quantity(key, node, kind))?;
+        self.quantity_like(key, kind, bound, kind.example())
+    }
+
+    fn quantity_like(
+        &mut self,
+        key: &str,
+        kind: Quantity,
+        bound: Bound,
+        example: &str,
+    ) -> Option<Located<f64>> {
+        let read = self.at(key, |node| value::quantity(key, node, kind, example))?;
         if (bound.holds)(read.value) {
             return Some(read);
         }
@@ -158,7 +168,7 @@ impl<'a> Section<'a> {
         if !there {
             self.missing(key, &format!("\"{example}\""));
         }
-        self.quantity(key, kind, bound)
+        self.quantity_like(key, kind, bound, example)
     }
 
     /// A pure number, if the key is there and right.

@@ -6,20 +6,27 @@ use crate::diagnostic::Diagnostic;
 use crate::document::{Node, Value};
 use crate::suggest::{did_you_mean, listed, quoted};
 
-/// A quantity with its unit, in inner units.
-pub(crate) fn quantity(key: &str, node: &Node, wanted: Quantity) -> Result<f64, Diagnostic> {
+/// A quantity with its unit, in inner units; `example` is a value that would do.
+pub(crate) fn quantity(
+    key: &str,
+    node: &Node,
+    wanted: Quantity,
+    example: &str,
+) -> Result<f64, Diagnostic> {
+    let with_unit = || format!("write it with its unit: {key} = \"{example}\"");
     match &node.value {
         Value::Text(text) => wanted
             .parse(text)
-            .map_err(|error| unit_error(key, node, error)),
-        Value::Number(number) => Err(bare_number(key, node, *number, wanted)),
-        _ => Err(wrong_type(key, node, wanted.noun())
-            .help(format!("write it with its unit: {}", setting(key, wanted)))),
+            .map_err(|error| unit_error(key, node, error, example)),
+        Value::Number(number) if number.is_finite() => Err(bare_number(key, node, *number, wanted)),
+        Value::Number(_) => Err(not_finite(key, node).help(with_unit())),
+        _ => Err(wrong_type(key, node, wanted.noun()).help(with_unit())),
     }
 }
 
-fn setting(key: &str, wanted: Quantity) -> String {
-    format!("{key} = \"{}\"", wanted.example())
+fn not_finite(key: &str, node: &Node) -> Diagnostic {
+    let title = format!("`{key}` is not a finite number");
+    Diagnostic::new(node.place.clone(), title).label("must be finite")
 }
 
 /// The number with each of the usual units.
@@ -43,7 +50,7 @@ fn bare_number(key: &str, node: &Node, number: f64, wanted: Quantity) -> Diagnos
         .help(with_units(&number.to_string(), wanted))
 }
 
-fn unit_error(key: &str, node: &Node, error: QuantityError) -> Diagnostic {
+fn unit_error(key: &str, node: &Node, error: QuantityError, example: &str) -> Diagnostic {
     let message = |title: String| Diagnostic::new(node.place.clone(), title);
     match error {
         QuantityError::NoUnit { text, wanted } => message(format!("`{key}` has no unit"))
@@ -55,7 +62,7 @@ fn unit_error(key: &str, node: &Node, error: QuantityError) -> Diagnostic {
             wanted,
         } => message(format!("`{key}`: {} is {}", quoted(&text), found.noun()))
             .label(format!("{} belongs here", wanted.noun()))
-            .help(format!("for example: {}", setting(key, wanted))),
+            .help(format!("for example: {key} = \"{example}\"")),
         QuantityError::UnknownUnit {
             unit,
             wanted,
@@ -89,10 +96,7 @@ fn unit_error(key: &str, node: &Node, error: QuantityError) -> Diagnostic {
 pub(crate) fn number(key: &str, node: &Node) -> Result<f64, Diagnostic> {
     match &node.value {
         Value::Number(number) if number.is_finite() => Ok(*number),
-        Value::Number(_) => {
-            let title = format!("`{key}` is not a finite number");
-            Err(Diagnostic::new(node.place.clone(), title).label("must be finite"))
-        }
+        Value::Number(_) => Err(not_finite(key, node)),
         Value::Text(text) if text.trim().parse::<f64>().is_ok() => {
             let fixed = format!("write it without quotes: {key} = {}", text.trim());
             Err(wrong_type(key, node, "a pure number").help(fixed))

@@ -59,6 +59,10 @@ says! {
     aperture_zero: "aperture = \"5 mm\"" => "aperture = \"0 mm\"";
     hole_too_large: "inner = \"0 mm\"" => "inner = \"5 mm\"";
     hole_negative: "inner = \"0 mm\"" => "inner = \"-1 um\"";
+    quantity_that_is_no_number: "residual = \"100 nm\"" => "residual = nan";
+    quantity_as_list_of_no_numbers: "residual = \"100 nm\"" => "residual = [nan]";
+    tolerance_tiny: "residual = \"100 nm\"" => "residual = \"1e-300 mm\"";
+    speed_huge: "\"500 rpm\"" => "\"1e300 rpm\"";
     tolerance_zero: "interpolation = \"100 nm\"" => "interpolation = \"0 nm\"";
     included_angle_too_large: "\"120 deg\"" => "\"181 deg\"";
     clearance_angle_too_large: "\"30 deg\"" => "\"90 deg\"";

@@ -194,8 +194,14 @@ pub struct AxesMotion {
 impl AxesMotion {
     /// The motion between neighbouring control points.
     pub fn of(points: &PathBlock) -> Self {
+        Self::between(points, [f64::NEG_INFINITY, f64::INFINITY])
+    }
+
+    /// The same of the segments alone that lie between two angles of C, rad.
+    pub fn between(points: &PathBlock, [from, to]: [f64; 2]) -> Self {
         let mut motion = Self::default();
-        for segment in points.segments() {
+        let inside = |segment: &Segment| segment.c.value(0.0) >= from && segment.c.value(1.0) <= to;
+        for segment in points.segments().filter(inside) {
             let axes = [
                 (&mut motion.c, &segment.c),
                 (&mut motion.x, &segment.x),

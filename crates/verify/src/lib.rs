@@ -34,7 +34,7 @@ pub use limits::{HighestSpeed, LimitFigure};
 pub use meter::{Measured, Meter, PathFigures};
 pub use playback::{INSTANTS, PlaybackFigures};
 pub use points::PointFigures;
-pub use residual::{ResidualFigures, SECTIONS};
+pub use residual::{ResidualFigures, SECTIONS, cusp_heights};
 pub use servo::{Following, ServoFigures, ServoMeter, ServoStart, ServoStretch};
 pub use spectrum::{AxesLine, AxesSpectrum};
 pub use subject::Subject;

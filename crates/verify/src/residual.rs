@@ -12,6 +12,7 @@ use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
 use crate::closing::{self, Raised};
 use crate::cusp::{self, Point};
+use crate::subject::Subject;
 use crate::touch::{FirstTouch, Touch};
 
 /// Radial sections of a revolution: one every degree, so that harmonics of the surface up to the
@@ -72,6 +73,18 @@ pub(crate) struct Cusp {
 }
 
 impl Pass {
+    /// With the tool at `x`, and its first touch there.
+    fn of(subject: &Subject, x: f64, found: &Touch) -> Self {
+        Self {
+            x,
+            centre: match subject.compensates_nose {
+                true => Point::new(x, found.z),
+                false => tangent_centre(found, subject.tool.nose_radius),
+            },
+            foot: found.foot,
+        }
+    }
+
     /// The same as seen from the opposite half of the section.
     pub(crate) fn mirrored(self) -> Self {
         Self {
@@ -119,19 +132,10 @@ impl Passes {
         let theta: Vec<f64> = numbers.iter().map(|number| angle_of(*number)).collect();
         let mut touches = Vec::new();
         touch.find(&theta, &x, &mut touches)?;
-        let subject = touch.subject();
-        let radius = subject.tool.nose_radius;
-        let pass = |(x, touch): (f64, &Touch)| Pass {
-            x,
-            centre: match subject.compensates_nose {
-                true => Point::new(x, touch.z),
-                false => tangent_centre(touch, radius),
-            },
-            foot: touch.foot,
-        };
+        let pass = |(x, found): (&f64, &Touch)| Pass::of(touch.subject(), *x, found);
         Ok(Self {
             first,
-            passes: x.iter().copied().zip(&touches).map(pass).collect(),
+            passes: x.iter().zip(&touches).map(pass).collect(),
         })
     }
 
@@ -233,9 +237,41 @@ pub(crate) fn highest(
     theta: &[f64],
     cusps: &[Cusp],
 ) -> Result<ResidualFigures> {
+    let mut figures = ResidualFigures::default();
+    for here in each(touch, theta, cusps)?.into_iter().flatten() {
+        figures.append(&here);
+    }
+    Ok(figures)
+}
+
+/// The cusp that passes at each angle leave with the tool at both X of a pair, mm, touching the
+/// surface; `None` where it stands off the part.
+///
+/// # Errors
+/// When the surface fails.
+pub fn cusp_heights(
+    touch: &FirstTouch,
+    theta: &[f64],
+    pairs: &[[f64; 2]],
+) -> Result<Vec<Option<f64>>> {
+    let passes = |which: usize| -> Result<Vec<Pass>> {
+        let x: Vec<f64> = pairs.iter().map(|pair| pair[which]).collect();
+        let mut touches = Vec::new();
+        touch.find(theta, &x, &mut touches)?;
+        let pass = |(x, found): (&f64, &Touch)| Pass::of(touch.subject(), *x, found);
+        Ok(x.iter().zip(&touches).map(pass).collect())
+    };
+    let cusps: Vec<Cusp> = (passes(0)?.iter().zip(&passes(1)?))
+        .map(|(one, other)| one.cusp(other, &touch.subject().tool))
+        .collect();
+    let found = each(touch, theta, &cusps)?.into_iter();
+    Ok(found.map(|cusp| cusp.map(|cusp| cusp.max)).collect())
+}
+
+/// Each of these cusps by itself; `None` for those off the part.
+fn each(touch: &FirstTouch, theta: &[f64], cusps: &[Cusp]) -> Result<Vec<Option<ResidualFigures>>> {
     let subject = touch.subject();
     let part = subject.part.inner_radius..=subject.part.aperture_radius;
-    let mut figures = ResidualFigures::default();
     let places: Vec<Point> = cusps.iter().map(|cusp| cusp.place).collect();
     let (heights, feet) = match touch.leaves_seams() {
         false => heights(subject.surface.as_ref(), theta, &places)?,
@@ -252,23 +288,21 @@ pub(crate) fn highest(
             (closing::heights(touch, &raised)?, feet)
         }
     };
-    for (((theta, cusp), height), foot) in theta.iter().zip(cusps).zip(heights).zip(feet) {
+    let found = theta.iter().zip(cusps).zip(heights).zip(feet);
+    let on_part = found.map(|(((theta, cusp), height), foot)| {
         let cut = cusp.meet && height.is_finite();
         let (max, at_rho) = match cut {
             true => (height, foot),
             false => (f64::INFINITY, 0.5 * (cusp.ends[0] + cusp.ends[1])),
         };
-        if part.contains(&at_rho.abs()) {
-            let here = ResidualFigures {
-                max,
-                at_theta: *theta,
-                at_rho,
-                cusps: 1,
-            };
-            figures.append(&here);
-        }
-    }
-    Ok(figures)
+        part.contains(&at_rho.abs()).then_some(ResidualFigures {
+            max,
+            at_theta: *theta,
+            at_rho,
+            cusps: 1,
+        })
+    });
+    Ok(on_part.collect())
 }
 
 /// How far each cusp stands from its profile, and the radius of the place nearest to it.

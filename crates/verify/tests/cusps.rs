@@ -4,6 +4,7 @@ mod common;
 
 use common::{AST5, Ball, Plane, astigmatic_locus, bare_spiral, figures, touch_on};
 use turnpath_core::{DEG, NM, Scalar};
+use turnpath_verify::cusp_heights;
 
 /// The depth below the crest where two circles of radius 1 meet whose centres are `apart`.
 fn cusp(apart: f64) -> f64 {
@@ -101,5 +102,18 @@ fn on_ast_5_the_law_of_the_centre_leaves_the_tolerance_and_that_of_the_contact_m
         let spiral = bare_spiral(turns, spiral_with(of_centre));
         let found = figures(&touch, &spiral).residual.max / NM;
         assert!((found - known).abs() < 0.5, "{found} nm");
+    }
+}
+
+#[test]
+fn single_cusps_are_those_of_the_closed_form_where_they_stand_on_the_part() {
+    let touch = touch_on(Plane { slope: 1.0 }, 2.5, 1.0, true);
+    let (theta, off) = ([0.0, 90.0 * DEG, 0.0], [0.0, 0.0, 3.0]);
+    let pairs = off.map(|off| [1.0 + off, 1.02 + off]);
+    let found = cusp_heights(&touch, &theta, &pairs).unwrap();
+    let exact = [Some(cusp(0.02 * 2f64.sqrt())), Some(cusp(0.02)), None];
+    for (found, exact) in found.iter().zip(exact) {
+        let near = |exact: f64| found.is_some_and(|found| (found - exact).abs() < 1e-13);
+        assert!(exact.map_or(found.is_none(), near), "{found:?} {exact:?}");
     }
 }

@@ -16,6 +16,8 @@ const LARGEST_PART: f64 = 0.1;
 /// By how much a feed that is capped stays below what holds: between the floors of the table and
 /// the passes of two feeds that meet.
 const MARGIN: f64 = 2e-4;
+/// The least sagitta, mm: as the recipe's own tolerances, a thousandth of a nanometre.
+const LEAST_SAGITTA: f64 = 1e-9;
 /// Revolutions handed out together.
 const BATCH: usize = 64;
 /// Most revolutions: two weeks at 500 rpm.
@@ -48,7 +50,7 @@ impl Strategy for FftAdaptiveFeed {
             "tolerance",
             "sagitta of the chord along the radius; left out: tolerance.interpolation",
         )
-        .positive()
+        .min(LEAST_SAGITTA)
         .optional(),
         Param::flag(
             "limit_residual",

@@ -28,6 +28,12 @@ impl Strategy for Conic {
     fn new(params: &Params) -> Result<Self> {
         let curvature = params.length_mm("radius").recip();
         let bend = (1.0 + params.number("conic")) * curvature * curvature;
+        if !bend.is_finite() {
+            return Err(StrategyError::parameter(
+                "radius",
+                "so small a radius with this conic number is beyond all numbers",
+            ));
+        }
         Ok(Self { curvature, bend })
     }
 }

@@ -27,6 +27,8 @@ pub struct Cell {
 pub struct Figures {
     pub head: &'static [&'static str],
     pub form: Form,
+    /// Whether they speak of the law alone.
+    pub of_law: bool,
     /// A cell a run.
     pub cells: Vec<Cell>,
     width: usize,
@@ -58,6 +60,7 @@ impl Figures {
             width: widths.chain(head).max().unwrap_or(0),
             head: column.head,
             form: column.form,
+            of_law: column.is_of_law(),
             cells,
         }
     }

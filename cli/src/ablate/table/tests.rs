@@ -16,8 +16,10 @@ fn entry(label: &str, points: u64, error: f64) -> Value {
         "interpolation_error_nm": { "max": error, "rms": error / 3.0 },
         "residual_nm": { "max": 99.96 },
         "axes": {
-            "x": { "rms_acceleration": 0.0123 },
             "z": { "rms_acceleration": 12_345.6 },
+        },
+        "axes_of_law": {
+            "x": { "rms_acceleration": 0.0123 },
         },
         "within": { "interpolation": error < 100.0, "residual": true, "machine": error < 100.0 },
         "program_bytes": 1_234_567,

@@ -20,6 +20,8 @@ use turnpath_pipeline::{
 
 /// The rim, mm.
 pub const RIM: f64 = 2.0;
+/// The highest cusp that is allowed, mm.
+pub const RESIDUAL: f64 = 1e-4;
 /// z = 2 K x y, mm.
 pub const K: f64 = 0.02;
 
@@ -279,7 +281,7 @@ impl Job {
         };
         let tolerance = Tolerance {
             interpolation: self.interpolation,
-            residual: 1e-4,
+            residual: RESIDUAL,
         };
         let wanted = Wanted {
             part,

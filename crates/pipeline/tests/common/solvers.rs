@@ -36,6 +36,23 @@ impl VelocitySolver for Resting {
     }
 }
 
+/// The exact rates, but X halts at every node.
+pub struct Halting;
+
+impl VelocitySolver for Halting {
+    fn dependence(&self) -> Dependence {
+        Dependence::Local
+    }
+
+    fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
+        let Velocities { c, x, z } = out;
+        let all = Velocities { c, x: &mut *x, z };
+        Exact.solve(nodes, all)?;
+        x.fill(0.0);
+        Ok(())
+    }
+}
+
 /// The exact rates, and no number at the path's last node or where C passes 1000 rad.
 pub struct Broken;
 

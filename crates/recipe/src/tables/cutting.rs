@@ -1,11 +1,24 @@
 //! `[tolerance]` and `[spindle]`: how exactly, and how fast.
 
-use turnpath_core::{Quantity, Tolerance};
+use std::f64::consts::TAU;
 
-use crate::read::{POSITIVE, Section};
+use turnpath_core::{NM, Quantity, Tolerance};
+
+use crate::read::{Bound, Section};
 
 pub(super) const TOLERANCE_KEYS: &[&str] = &["interpolation", "residual"];
 pub(super) const SPINDLE_KEYS: &[&str] = &["speed"];
+
+/// What double precision leaves of a metre is a tenth of the least.
+const MEASURABLE: Bound = Bound {
+    holds: |length| length >= 0.000_999 * NM,
+    words: "0.001 nm or above",
+};
+/// From a turn in two years to beyond any spindle.
+const TURNS: Bound = Bound {
+    holds: |speed| (0.999e-6..=1.001e6).contains(&(60.0 * speed / TAU)),
+    words: "between 1e-6 rpm and 1e6 rpm",
+};
 
 /// Reads `[tolerance]`.
 pub(crate) fn tolerance(section: &mut Section<'_>) -> Option<Tolerance> {
@@ -14,7 +27,7 @@ pub(crate) fn tolerance(section: &mut Section<'_>) -> Option<Tolerance> {
         return None;
     }
     section.only(TOLERANCE_KEYS);
-    let mut length = |key| section.required_quantity(key, Quantity::Length, POSITIVE, "100 nm");
+    let mut length = |key| section.required_quantity(key, Quantity::Length, MEASURABLE, "100 nm");
     let (interpolation, residual) = (length("interpolation"), length("residual"));
     Some(Tolerance {
         interpolation: interpolation?.value,
@@ -29,6 +42,6 @@ pub(crate) fn spindle(section: &mut Section<'_>) -> Option<f64> {
         return None;
     }
     section.only(SPINDLE_KEYS);
-    let speed = section.required_quantity("speed", Quantity::RotationSpeed, POSITIVE, "500 rpm");
+    let speed = section.required_quantity("speed", Quantity::RotationSpeed, TURNS, "500 rpm");
     speed.map(|speed| speed.value)
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use turnpath_core::{Misfit, Part, Quantity, Tool};
 
 use crate::diagnostic::Diagnostic;
-use crate::read::{Bound, NOT_NEGATIVE, POSITIVE, Section};
+use crate::read::{Bound, NOT_NEGATIVE, Section};
 
 pub(super) const PART_KEYS: &[&str] = &["aperture", "inner"];
 pub(super) const TOOL_KEYS: &[&str] = &[
@@ -15,6 +15,11 @@ pub(super) const TOOL_KEYS: &[&str] = &[
     "interference",
 ];
 
+/// Of what can be held and ground.
+const TANGIBLE: Bound = Bound {
+    holds: |length| length >= 0.999e-4,
+    words: "0.1 um or above",
+};
 const INCLUDED: Bound = Bound {
     holds: |angle| angle > 0.0 && angle <= PI,
     words: "above zero and at most 180 deg",
@@ -31,7 +36,7 @@ pub(crate) fn part(section: &mut Section<'_>) -> Option<Part> {
         return None;
     }
     section.only(PART_KEYS);
-    let aperture = section.required_quantity("aperture", Quantity::Length, POSITIVE, "5 mm");
+    let aperture = section.required_quantity("aperture", Quantity::Length, TANGIBLE, "5 mm");
     let inner = section.quantity("inner", Quantity::Length, NOT_NEGATIVE);
     let (aperture, hole) = (aperture?, inner.as_ref().map_or(0.0, |inner| inner.value));
     if let Some(inner) = inner.filter(|inner| inner.value >= aperture.value) {
@@ -55,7 +60,7 @@ pub(crate) fn tool(section: &mut Section<'_>) -> Option<Tool> {
         return None;
     }
     section.only(TOOL_KEYS);
-    let radius = section.required_quantity("nose_radius", Quantity::Length, POSITIVE, "1 mm");
+    let radius = section.required_quantity("nose_radius", Quantity::Length, TANGIBLE, "1 mm");
     let included = section.quantity("included_angle", Quantity::Angle, INCLUDED);
     let clearance = section.quantity("clearance_angle", Quantity::Angle, CLEARANCE);
     let misfit = misfit(section);
