@@ -124,6 +124,22 @@ fn on_the_papers_parts_both_axes_are_held() {
     }
 }
 
+/// Pieces' lengths add up to a hair beyond a block's start, and what jumps there is no reason for a
+/// step of that length.
+#[test]
+fn a_knot_a_hair_beyond_a_blocks_start_is_where_it_starts() {
+    let case = ast_5(ZDirection);
+    let mut law = SpiralLaw::new();
+    let hair = 4e-12;
+    law.push(64.0 + hair, [0.0, 0.01, 0.0, 0.0, 0.0, 0.0]);
+    law.push(2.0, [0.01 * (64.0 + hair), 0.02, 0.0, 0.0, 0.0, 0.0]);
+    let nodes = nodes(&path(&case, &law), 45.0);
+    let steps = nodes.windows(2).map(|pair| pair[1] - pair[0]);
+    assert!(nodes.contains(&64.0));
+    let shortest = steps.fold(f64::INFINITY, f64::min);
+    assert!(shortest > 1e-3, "{shortest} revolutions");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 8,

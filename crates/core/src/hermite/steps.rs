@@ -19,6 +19,9 @@ const SHORTEST_DEG: f64 = 0.004;
 /// The part of the tolerance that knots within a step may take; a step ends on one that might
 /// take more.
 const KNOTS_SHARE: f64 = 0.1;
+/// A knot no further on than this, in revolutions, is where the step begins: lengths of pieces that
+/// are added up miss a block's start by their rounding. The shortest step is 10,000 times that.
+const SAME_PLACE: f64 = 1e-9;
 /// A node closer to the block's end than this part of its step is left out.
 const SLACK: f64 = 1e-3;
 
@@ -100,7 +103,7 @@ impl<'a> Walk<'a> {
         while self
             .knots
             .get(self.next_knot)
-            .is_some_and(|knot| knot.n <= n)
+            .is_some_and(|knot| knot.n <= n + SAME_PLACE)
         {
             self.next_knot += 1;
         }
