@@ -25,7 +25,8 @@ pub struct SuspectPlace {
     /// Which control point of the file, counted from 1.
     pub point: u64,
     at: Place,
-    /// `z_position`, or `c_motion`, `x_motion`, `z_motion`: the acceleration steps.
+    /// `z_position`; `c_motion`, `x_motion`, `z_motion`: the acceleration steps; `gap`: a row is
+    /// missing, the figures are steps along the rim.
     what: &'static str,
     by_nm: f64,
     neighbours_nm: f64,
@@ -69,6 +70,7 @@ impl SuspectPlace {
                 Oddity::TurnsOfC => "c_motion",
                 Oddity::MotionOfX => "x_motion",
                 Oddity::MotionOfZ => "z_motion",
+                Oddity::Gap => "gap",
             },
             by_nm: suspect.by * NM_PER_MM,
             neighbours_nm: suspect.usual * NM_PER_MM,
@@ -81,6 +83,7 @@ impl SuspectPlace {
             "z_position" => "Z is off the first touch by",
             "c_motion" => "C does not run on: as if off by",
             "x_motion" => "X does not run on: as if off by",
+            "gap" => "a row is missing: the step along the rim is",
             _ => "Z does not run on: as if off by",
         };
         let whereabouts = format!(

@@ -15,7 +15,7 @@ const LARGEST_TURN_DEG: f64 = 360.0;
 /// Far beyond, sections of a turn could no longer be told apart.
 const LARGEST_C_DEG: f64 = 1e12;
 
-/// Largest amount of a value, mm, rad and s: C of a year at 10⁴ rpm is 1e11 rad.
+/// Largest amount of time and C, s and rad: C of a year at 10⁴ rpm is 1e11 rad.
 const LARGEST: f64 = 1e13;
 
 /// Why a tool path could not be read.
@@ -142,7 +142,7 @@ fn check(
     check_turn(last, point, section)
 }
 
-/// Each a number, and none beyond what any machine does.
+/// Each a number, and time and C, of which turns are counted, not beyond what any machine does.
 fn check_numbers(point: &ControlPoint) -> Result<(), String> {
     let &ControlPoint {
         t,
@@ -157,6 +157,8 @@ fn check_numbers(point: &ControlPoint) -> Result<(), String> {
         if !value.is_finite() {
             return Err(format!("{name} is not a finite number"));
         }
+    }
+    for (name, value) in [("time_s", t), ("c_deg", c)] {
         if value.abs() > LARGEST {
             return Err(format!("{name} is beyond all that a machine does"));
         }

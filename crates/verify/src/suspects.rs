@@ -4,7 +4,11 @@
 //! like what it leaves at those around. Two things are looked at. One is how far a point that cuts
 //! lies from the first touch: a Z that was moved. The other is the step of the acceleration at a
 //! point, of C, X and Z apart, on leads too: a wrong velocity steps there by 8δ/h, a wrong position
-//! at both neighbours by 6δ/h², and a row that is lost at both ends of its gap.
+//! at both neighbours by 6δ/h², and a row that is lost at both ends of its gap. Straight segments
+//! are not played by their points' velocities: those must be the rates of the segment that follows.
+//!
+//! Where points are closer than the tolerance asks for, a row that is lost leaves nothing of that;
+//! but such points lie evenly, and one gap among even steps is told.
 
 use std::collections::VecDeque;
 
@@ -22,6 +26,11 @@ const FACTOR: f64 = 8.0;
 /// What stands out by less than this part of the interpolation tolerance is let pass: rounding to
 /// the digits of a program, and how splines are closed at their ends.
 const FLOOR: f64 = 1e-3;
+/// A step is a gap if it is longer than those around by this factor, a row being missing,
+const GAP: f64 = 1.6;
+/// and all of those are as long as their median within this part of it: where a path was refined,
+/// a single long step among short ones is as it should be.
+const EVEN: f64 = 0.25;
 /// Places that are kept; all are counted.
 const KEPT: usize = 10;
 /// Suspicious points no further apart than this are one place.
@@ -38,6 +47,8 @@ pub enum Oddity {
     MotionOfX,
     /// The acceleration of Z steps.
     MotionOfZ,
+    /// A row is missing; amounts are the step along the part's rim.
+    Gap,
 }
 
 const ODDITIES: [Oddity; 4] = [
@@ -78,6 +89,8 @@ struct Seen {
     c: f64,
     x: f64,
     left: [f64; 4],
+    /// How far C turns to the next point, along the rim, mm.
+    step: f64,
 }
 
 /// Looks for suspicious points along a path, which passes it in order, leads and all. It keeps a
@@ -133,21 +146,26 @@ impl Suspects {
         self.count += 1;
         if let Some((last, left)) = self.last.replace((point, height)) {
             let segment = match shape {
-                SegmentShape::Cubic => Some(Segment::between(&last, &point)),
-                SegmentShape::Linear => None,
+                SegmentShape::Cubic => Segment::between(&last, &point),
+                SegmentShape::Linear => Segment::straight(&last, &point),
             };
-            let kinks = kinks(self.before.as_ref(), segment.as_ref(), self.rim);
-            self.before = segment;
-            self.enter(self.count - 1, &last, left, kinks);
+            let before = self.before.replace(segment);
+            let kinks = match shape {
+                SegmentShape::Cubic => kinks(before.as_ref(), Some(&segment), self.rim),
+                SegmentShape::Linear => off_rates(&last, before.as_ref(), &segment, self.rim),
+            };
+            let step = self.rim * (point.c - last.c).abs();
+            self.enter(self.count - 1, &last, left, kinks, step);
         }
     }
 
-    fn enter(&mut self, point: u64, at: &ControlPoint, height: f64, kinks: [f64; 3]) {
+    fn enter(&mut self, point: u64, at: &ControlPoint, height: f64, kinks: [f64; 3], step: f64) {
         self.window.push_back(Seen {
             point,
             c: at.c,
             x: at.x,
             left: [height.abs(), kinks[0], kinks[1], kinks[2]],
+            step,
         });
         if self.window.len() > self.next + AROUND {
             self.judge();
@@ -184,10 +202,36 @@ impl Suspects {
                 worst = Some(suspect);
             }
         }
+        let worst = worst.or_else(|| self.gap(&seen));
         self.next += 1;
         if let Some(suspect) = worst {
             self.suspect(suspect);
         }
+    }
+
+    /// The next point, if it is followed by a gap among even steps.
+    fn gap(&self, seen: &Seen) -> Option<Suspect> {
+        let around = self.window.iter().enumerate();
+        let mut steps: Vec<f64> = around
+            .filter(|(i, other)| *i != self.next && other.step.is_finite())
+            .map(|(_, other)| other.step)
+            .collect();
+        if steps.len() < FEWEST {
+            return None;
+        }
+        let middle = steps.len() / 2;
+        let (shorter, usual, longer) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+        let usual = *usual;
+        let even = |step: &f64| (step - usual).abs() < EVEN * usual;
+        let gapes = seen.step > GAP * usual && shorter.iter().chain(longer.iter()).all(even);
+        gapes.then_some(Suspect {
+            point: seen.point,
+            c: seen.c,
+            x: seen.x,
+            what: Oddity::Gap,
+            by: seen.step,
+            usual,
+        })
     }
 
     /// The upper quartile of what points around the next one leave: a quarter of them may be wrong
@@ -234,7 +278,7 @@ impl Suspects {
     /// How many places there are, and the first of them; the path has ended.
     pub fn end(mut self) -> (u64, Vec<Suspect>) {
         if let Some((last, height)) = self.last {
-            self.enter(self.count, &last, height, [0.0; 3]);
+            self.enter(self.count, &last, height, [0.0; 3], f64::NAN);
         }
         while self.next < self.window.len() {
             self.judge();
@@ -262,6 +306,26 @@ fn kinks(before: Option<&Segment>, after: Option<&Segment>, rim: f64) -> [f64; 3
         rim * of(&before.c, &after.c),
         of(&before.x, &after.x),
         of(&before.z, &after.z),
+    ]
+}
+
+/// By how much the velocities of C, X and Z at a point are not the rates of the straight segment
+/// that follows, as the displacements that they would make if they were played. The last point of
+/// a section has those of the segment before.
+fn off_rates(
+    point: &ControlPoint,
+    before: Option<&Segment>,
+    after: &Segment,
+    rim: f64,
+) -> [f64; 3] {
+    let off = |velocity: f64, axis: fn(&Segment) -> Cubic| {
+        let from = |one: &Segment| (velocity * one.duration - axis(one).slope(0.0)).abs();
+        4.0 / 27.0 * before.map_or(f64::INFINITY, from).min(from(after))
+    };
+    [
+        rim * off(point.vc, |segment| segment.c),
+        off(point.vx, |segment| segment.x),
+        off(point.vz, |segment| segment.z),
     ]
 }
 
@@ -322,6 +386,54 @@ mod tests {
             let mut points = path();
             points.vx[row] *= 1.2;
             told(&points, row as u64 + 1, Oddity::MotionOfX);
+        }
+    }
+
+    /// The same points with straight segments between them.
+    fn polygon() -> PathBlock {
+        let mut points = path();
+        points.shape = SegmentShape::Linear;
+        for k in 0..299 {
+            let h = points.t[k + 1] - points.t[k];
+            points.vc[k] = (points.c[k + 1] - points.c[k]) / h;
+            points.vx[k] = (points.x[k + 1] - points.x[k]) / h;
+            points.vz[k] = (points.z[k + 1] - points.z[k]) / h;
+        }
+        points
+    }
+
+    #[test]
+    fn a_velocity_that_is_not_the_rate_of_its_straight_segment_is_told() {
+        assert_eq!(suspects(&polygon(), &[]), []);
+        for row in [0, 1, 150, 298] {
+            let mut points = polygon();
+            points.vz[row] *= 1.01;
+            told(&points, row as u64 + 1, Oddity::MotionOfZ);
+            let mut points = polygon();
+            points.vc[row] *= 1.01;
+            told(&points, row as u64 + 1, Oddity::TurnsOfC);
+        }
+    }
+
+    #[test]
+    fn a_row_that_is_lost_where_it_does_no_harm_is_told_as_a_gap() {
+        // C and X go evenly, Z rests: what is lost is on the way.
+        let resting = |rows: std::ops::Range<usize>, lost: usize| {
+            let mut points = PathBlock::default();
+            let whole = path();
+            let kept = rows.filter(|row| *row != lost);
+            for point in kept.filter_map(|row| whole.get(row)) {
+                points.push(ControlPoint {
+                    z: 0.0,
+                    vz: 0.0,
+                    ..point
+                });
+            }
+            points
+        };
+        assert_eq!(suspects(&resting(0..300, 300), &[]), []);
+        for lost in [1, 2, 150, 297, 298] {
+            told(&resting(0..300, lost), lost as u64, Oddity::Gap);
         }
     }
 
