@@ -157,6 +157,11 @@ impl Shares {
     pub fn largest(self) -> f64 {
         self.c.max(self.x).max(self.z)
     }
+
+    /// By which factors all axes together are beyond what they may; 1 where none is.
+    pub fn beyond(self) -> f64 {
+        self.c.max(1.0) * self.x.max(1.0) * self.z.max(1.0)
+    }
 }
 
 /// How a lead moves.

@@ -1,5 +1,7 @@
 //! Makes one lead: as long as its limits ask for, in steps as fine as the part asks for.
 
+use std::f64::consts::TAU;
+
 use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
 use turnpath_verify::{AxesMotion, LeadMeter, LeadStretch};
 
@@ -27,6 +29,8 @@ const FINEST: u32 = 32;
 /// and the lead then does not keep them.
 const LONGEST_DESCENT: f64 = 2000.0;
 const LONGEST_SPIN: f64 = 20_000.0;
+/// Part of X's limits that its coming to rest may take.
+const DRIFTING: f64 = 0.125;
 /// A slower lead is worth it where it takes this much less of its limits.
 const WORTH_IT: f64 = 0.999;
 /// Instants from node to node at which the way itself is looked at.
@@ -90,10 +94,14 @@ struct Pace {
     descent: f64,
     /// Times as long.
     spin: f64,
-    /// Times as long.
+    /// Times as long, but no shorter than X takes to come to rest with a part of its limits.
     drift: f64,
     /// Steps near the part, times as fine.
     finer: u32,
+    /// As fine as they may get.
+    finest: u32,
+    /// What was taken before steps were made finer the last time, if that was just now.
+    before_finer: Option<f64>,
 }
 
 impl Pace {
@@ -102,10 +110,18 @@ impl Pace {
         spin: 1.0,
         drift: 1.0,
         finer: 1,
+        finest: FINEST,
+        before_finer: None,
     };
 
     /// For a lead that takes these shares of its limits, on a way that takes those by itself.
     fn gentler(&mut self, lead: Shares, way: Shares) {
+        let before = self.before_finer.take();
+        if before.is_some_and(|before| lead.beyond() >= before) {
+            // What the cut plays at its end is not the way: short steps get there with a jolt.
+            self.finer /= 2;
+            self.finest = self.finer;
+        }
         if lead.c > 1.0 {
             self.spin *= LONGER;
         }
@@ -113,16 +129,14 @@ impl Pace {
             return;
         }
         // Splines ask for more than the way on which their nodes lie, coarse ones for most.
-        if way.x.max(way.z) <= 1.0 && self.finer < FINEST {
+        if way.x.max(way.z) <= 1.0 && self.finer < self.finest {
             self.finer *= 2;
+            self.before_finer = Some(lead.beyond());
             return;
         }
         self.descent *= LONGER;
-        self.drift = match way.x > 1.0 {
-            true => self.drift * LONGER,
-            // X may not go on to where slopes are steeper.
-            false => self.drift / LONGER,
-        };
+        // Where X goes on less, it comes less to where slopes are steeper.
+        self.drift /= LONGER;
     }
 }
 
@@ -147,13 +161,23 @@ impl Maker<'_> {
                 away: AxesMotion::of(&away_from_join(side, &points)),
             });
             let way = self.way(&laid, join)?;
-            if best.is_none() || taken.largest() < WORTH_IT * least {
-                (best, least) = (Some(laid), taken.largest());
-            }
             if taken.largest() <= 1.0 {
+                return Ok(laid);
+            }
+            let longest = laid.phases.descent * join.point.vc >= TAU * LONGEST_DESCENT;
+            if best.is_none() || taken.beyond() < WORTH_IT * least {
+                (best, least) = (Some(laid), taken.beyond());
+            }
+            if longest {
                 break;
             }
-            pace.gentler(taken, shares(LeadMotion { whole: way, away: way }));
+            pace.gentler(
+                taken,
+                shares(LeadMotion {
+                    whole: way,
+                    away: way,
+                }),
+            );
         }
         best.ok_or_else(|| self.failed(side, "no trial was made".to_owned()))
     }
@@ -252,14 +276,15 @@ impl Maker<'_> {
     fn first(&self, side: Side, join: &Join, pace: Pace) -> Result<Laid> {
         let (limits, speed) = (&self.settings.limits, join.point.vc);
         let down = limits.z.time_for(self.rest_z - join.point.z, QUINTIC);
-        let gentle = GENTLE_TURNS * std::f64::consts::TAU / speed;
-        let turn = std::f64::consts::TAU / speed;
+        let gentle = GENTLE_TURNS * TAU / speed;
+        let turn = TAU / speed;
         let spin = pace.spin * PLAYED * limits.c.time_to_change(speed, SPEED_UP);
         let least = Phases {
             descent: (pace.descent * down.max(gentle)).min(LONGEST_DESCENT * turn),
             spin: spin.min(LONGEST_SPIN * turn),
             speed,
         };
+        let drift = limits.x.time_to_change(join.rho_rate / DRIFTING, SPEED_UP);
         let too_many = || self.failed(side, format!("it would take {:.3e} s", least.all()));
         let (phases, turns) = match side {
             Side::In => least.on_whole_turns(&self.clock),
@@ -273,7 +298,7 @@ impl Maker<'_> {
         Ok(Laid {
             side,
             phases,
-            drift: pace.drift * gentle,
+            drift: (pace.drift * gentle).max(drift),
             nodes,
             raised: 0.0,
             turns,

@@ -37,9 +37,18 @@ pub fn place(phases: &Phases, clock: &Clock, finer: u32) -> Option<Vec<f64>> {
     if !few {
         return None;
     }
-    let parts = |k: u32| if f64::from(k) < NEAR_THE_PART * down { finer } else { 1 };
-    let steps = |k: u32| (0..parts(k)).map(move |i| f64::from(k) + f64::from(i) / f64::from(parts(k)));
-    let descent = (0..down as u32).flat_map(steps).map(|k| phases.descent * k / down);
+    let parts = |k: u32| {
+        if f64::from(k) < NEAR_THE_PART * down {
+            finer
+        } else {
+            1
+        }
+    };
+    let steps =
+        |k: u32| (0..parts(k)).map(move |i| f64::from(k) + f64::from(i) / f64::from(parts(k)));
+    let descent = (0..down as u32)
+        .flat_map(steps)
+        .map(|k| phases.descent * k / down);
     let spin = (0..spun as u32).map(|k| phases.descent + phases.spin * f64::from(k) / spun);
     let end = clock.nearest(phases.all());
     let mut nodes: Vec<f64> = Vec::new();
