@@ -18,6 +18,7 @@ mod progress;
 mod range;
 mod refine;
 mod run;
+mod seams;
 mod taper;
 
 pub use chain::{Chain, Link};
