@@ -18,9 +18,9 @@ const ROUNDS: usize = 6;
 /// Part of the largest feed that is aimed at: corners between the sections that were looked at are
 /// a little sharper.
 const AIM: f64 = 0.97;
-/// A law that is asked for less must come down by this part, or it does not listen: its feed is the
-/// recipe's own.
-const LISTENS: f64 = 0.98;
+/// A law that is asked for less must become longer by this factor, or it does not listen: its feed is
+/// the recipe's own.
+const LISTENS: f64 = 1.02;
 /// Halvings in the search for a radius: down to rounding.
 const HALVINGS: usize = 60;
 
@@ -30,21 +30,23 @@ pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
     let rides = rides(&prepared.touch).map_err(PipelineError::Measure)?;
     let job = &prepared.job;
     let mut asked = job.clone();
-    let (mut best, mut over) = (first, 0.0);
-    for round in 0..=ROUNDS {
-        let tried = match round {
-            0 => best.clone(),
-            _ => law::plan(chain, &asked, &prepared.locus)?,
-        };
-        let here = over_feed(&tried, job, &rides);
-        if round > 0 && here > LISTENS * over {
-            break;
-        }
-        (best, over) = (tried, here);
+    let mut over = over_feed(&first, job, &rides);
+    let (mut best, mut least, mut turns) = (first, over, 0.0);
+    for round in 0..ROUNDS {
         if over <= 1.0 {
             break;
         }
         asked.tolerance.residual *= AIM * AIM / (over * over);
+        let tried = law::plan(chain, &asked, &prepared.locus)?;
+        over = over_feed(&tried, job, &rides);
+        let listens = tried.end() > LISTENS * best.end().max(turns);
+        turns = tried.end();
+        if over < least {
+            (best, least) = (tried, over);
+        }
+        if !listens {
+            break;
+        }
     }
     Ok(best)
 }
