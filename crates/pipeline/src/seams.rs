@@ -32,7 +32,7 @@ pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
     let mut asked = job.clone();
     let mut over = over_feed(&first, job, &rides);
     let (mut best, mut least, mut turns) = (first, over, 0.0);
-    for round in 0..ROUNDS {
+    for _ in 0..ROUNDS {
         if over <= 1.0 {
             break;
         }

@@ -38,19 +38,20 @@ pub fn join(t: &[f64], p: &mut [f64], first: Motion, last: Motion) -> Vec<f64> {
     places[1] = beside(first, h[0]);
     places[end - 1] = beside(last, -h[end - 1]);
     let mut slopes = slopes(&h, &places, first.velocity, last.velocity);
+    rest(&h, &places, &mut slopes);
     for ((p, place), slope) in p.iter_mut().zip(&places).zip(&slopes) {
         *p = place.q + place.g * slope;
     }
-    rest(&h, p, &mut slopes);
     slopes
 }
 
 /// Puts to zero what a spline's slopes leave where nothing moves: they fall by a quarter a node and
 /// never vanish. Only what rounding of the positions would leave too is taken for that.
-fn rest(h: &[f64], p: &[f64], slopes: &mut [f64]) {
+fn rest(h: &[f64], places: &[Place], slopes: &mut [f64]) {
+    let largest = places.iter().map(|place| place.q.abs()).fold(0.0, f64::max);
     for k in 1..h.len() {
-        let stays = p[k - 1] == p[k] && p[k] == p[k + 1];
-        let rounding = f64::EPSILON * p[k].abs() / h[k - 1].max(h[k]);
+        let stays = places[k - 1].q == places[k].q && places[k].q == places[k + 1].q;
+        let rounding = f64::EPSILON * largest / h[k - 1].max(h[k]);
         if stays && slopes[k].abs() <= rounding {
             slopes[k] = 0.0;
         }
