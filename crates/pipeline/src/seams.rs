@@ -18,6 +18,8 @@ const ROUNDS: usize = 6;
 /// Part of the largest feed that is aimed at: corners between the sections that were looked at are
 /// a little sharper.
 const AIM: f64 = 0.97;
+/// Part of it that is taken for held.
+const ENOUGH: f64 = 0.98;
 /// A law that is asked for less must become longer by this factor, or it does not listen: its feed is
 /// the recipe's own.
 const LISTENS: f64 = 1.02;
@@ -33,7 +35,7 @@ pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
     let mut over = over_feed(&first, job, &rides);
     let (mut best, mut least, mut turns) = (first, over, 0.0);
     for _ in 0..ROUNDS {
-        if over <= 1.0 {
+        if over <= ENOUGH {
             break;
         }
         asked.tolerance.residual *= AIM * AIM / (over * over);
