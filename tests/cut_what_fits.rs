@@ -238,6 +238,22 @@ fn every_feed_and_sampler_comes_to_an_end() {
     }
 }
 
+/// A feed that a strategy finds by itself knows how the part bends at the contact and nothing of the
+/// corner over a seam: without the host it leaves 2.5 times as much.
+#[test]
+fn a_feed_that_is_found_holds_the_residual_beside_seams_too() {
+    let recipe = changed(LATTICE, "residual = \"500 nm\"", "residual = \"100 nm\"");
+    let recipe = with_table(&recipe, "part", "aperture = \"2 mm\"");
+    let bench = Bench::with(&with_table(&recipe, "feed", "use = \"constant\""));
+    let said = bench.line("run recipe.toml -o out --format json").ends(0);
+    let residual = number(&summary(&said), "/residual_nm/max");
+    assert!(residual > 80.0 && residual < 100.1, "{residual} nm");
+    // A feed of the recipe's own is left as it is, and what it leaves is told.
+    let bench = Bench::with(&recipe);
+    let found = summary(&bench.line("run recipe.toml -o out --format json").ends(1));
+    assert!((number(&found, "/revolutions") - 40.0).abs() < 0.1);
+}
+
 #[test]
 fn compensation_along_the_normal_cannot_cut_what_fits() {
     let bench = Bench::with(&changed(LATTICE, "z-direction", "normal"));

@@ -466,3 +466,91 @@ fn without_a_lead_the_summary_says_null() {
     assert_eq!(summary["lead"], Value::Null);
     assert_eq!(summary["within"]["lead"], Value::Null);
 }
+
+/// A person who takes the speed that the summary tells, less a hundredth, gets a path.
+#[test]
+fn just_below_the_highest_spindle_speed_the_lead_keeps_the_limits_too() {
+    let recipe = std::fs::read_to_string(ARRAY).unwrap();
+    let limited = format!("{recipe}\n[machine]\npreset = \"generic-sts\"\n");
+    let highest = number(&summary(&made(&limited, &[])), "/highest_spindle_rpm");
+    for part in [0.9, 0.99, 1.0] {
+        let speed = format!("spindle.speed=\"{} rpm\"", part * highest);
+        let bench = made(&limited, &[&speed]);
+        let (rows, found) = (rows(&bench), summary(&bench));
+        assert_eq!(found["within"]["machine"], true);
+        // By the file's own numbers: accelerations of Z at both ends of each segment.
+        let played = rows
+            .windows(2)
+            .map(|pair| Played::new(&pair[0], &pair[1], 3).bends());
+        let largest = played.fold(0.0f64, |most, b| most.max(b.0.abs()).max(b.1.abs()));
+        assert!(largest <= 500.5, "{largest} mm/s² at {part}");
+    }
+}
+
+const ARRAY: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../docs/recipes/sinusoidal-array-10mm.toml"
+);
+
+#[test]
+fn a_lead_that_no_time_makes_gentle_enough_is_written_and_told() {
+    // A part so flat that the cut itself asks for nothing.
+    let recipe = changed(&lead(SADDLE), "k = \"0.08 /mm\"", "k = \"1e-9 /mm\"");
+    let recipe = format!("{recipe}\n[machine]\nz_velocity = \"0.1 um/s\"\n");
+    let bench = Bench::with(&recipe);
+    let said = bench.line("run recipe.toml -o out").ends(1);
+    let (found, rows) = (summary(&bench), rows(&bench));
+    assert_eq!(found["within"]["machine"], false);
+    assert_eq!(found["within"]["interpolation"], true);
+    assert_eq!(number(&found, "/rows"), rows.len() as f64);
+    let told = said.stdout.lines().find(|line| line.contains("EXCEEDED"));
+    let told = told.unwrap_or_else(|| panic!("{said}"));
+    assert!(
+        told.contains("lead Z velocity") && told.contains("X = "),
+        "{told}"
+    );
+    check_smooth(&rows);
+}
+
+/// A law that is in full motion at the axis drifts beyond it before or behind the cut.
+#[test]
+fn a_lead_that_crosses_the_axis_is_told() {
+    let bench = Bench::with(&lead(SADDLE));
+    for (direction, overrun, crosses) in [
+        ("inward", "none", true),
+        ("outward", "none", true),
+        ("inward", "contact", false),
+        ("outward", "contact", false),
+    ] {
+        let said = bench.line(&format!(
+            "run recipe.toml -o out --set path.overrun={overrun} --set path.direction={direction}"
+        ));
+        let rows = rows(&bench);
+        let lowest = rows
+            .iter()
+            .filter(|row| row[SECTION] != 1.0)
+            .map(|row| row[2])
+            .fold(0.0, f64::min);
+        let told = number(&summary(&bench), "/lead/axis_crossing_um");
+        assert!((told + 1e3 * lowest).abs() < 0.01, "{told} {lowest}");
+        let lines = said.stdout.lines();
+        let warned = lines.filter(|line| line.contains("lead warning")).count();
+        assert_eq!((warned == 1, told > 1.0), (crosses, crosses), "{said}");
+    }
+}
+
+#[test]
+fn where_an_axis_rests_no_residue_is_left_of_its_velocity() {
+    let bench = made(&lead(SADDLE), &[]);
+    let rows = rows(&bench);
+    let resting = |axis: usize| {
+        let all = rows.windows(3).filter(move |three| {
+            three[0][axis] == three[1][axis] && three[1][axis] == three[2][axis]
+        });
+        all.map(move |three| three[1][axis + 3])
+    };
+    for axis in [2, 3] {
+        assert!(resting(axis).count() > 20);
+        assert!(resting(axis).all(|v| v == 0.0 || v.abs() > 1e-16));
+    }
+}

@@ -9,7 +9,7 @@ use crate::figures::{against, line, nanometres};
 use crate::summary::{NM_PER_MM, UM_PER_MM, holds};
 
 /// X below 0 that is told as a crossing, µm: less is rounding of a path that ends on the axis.
-const CROSSES: f64 = 1e-3;
+pub const CROSSES: f64 = 1e-3;
 
 /// What an overrun promises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,9 +6,10 @@ use turnpath_pipeline::Leads;
 use turnpath_recipe::Recipe;
 use turnpath_verify::LeadFigures;
 
+use crate::coverage::CROSSES;
 use crate::figures::{self, millimetres, nanometres};
 use crate::machine::MachineFigures;
-use crate::summary::{Axes, NM_PER_MM, Place, holds};
+use crate::summary::{Axes, NM_PER_MM, Place, UM_PER_MM, holds};
 
 /// The leads of a path.
 #[derive(Debug, Serialize)]
@@ -21,6 +22,8 @@ pub struct Lead {
     pub smallest_clearance_nm: f64,
     /// Where that is.
     pub at: Place,
+    /// How far X as played goes beyond the axis; 0 where it does not.
+    axis_crossing_um: f64,
     /// Largest steps of the acceleration at the control points, those of the joins among them.
     acceleration_jump: Jump,
     axes: Axes,
@@ -56,6 +59,7 @@ impl Lead {
                 c_deg: figures.at_c / DEG,
                 x_mm: figures.at_x,
             },
+            axis_crossing_um: figures.x_beyond_axis * UM_PER_MM,
             acceleration_jump: Jump {
                 x_mm_per_s2: figures.jumps.x,
                 z_mm_per_s2: figures.jumps.z,
@@ -125,6 +129,11 @@ impl Lead {
             label,
             format!("lowest {lowest} {side} first touch; {verdict}"),
         );
+        if self.axis_crossing_um > CROSSES {
+            let crossing = nanometres(self.axis_crossing_um * NM_PER_MM / UM_PER_MM);
+            let told = format!("X crosses the axis by {crossing} on the way from or to the part");
+            text += &figures::line("lead warning", told);
+        }
         text + &self
             .machine
             .as_ref()

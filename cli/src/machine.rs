@@ -56,7 +56,8 @@ struct LimitAsked {
     value: f64,
 }
 
-/// The highest speed of the spindle at which all limits hold.
+/// The highest speed of the spindle at which all limits hold for the cut; leads are made anew for
+/// another speed.
 #[derive(Debug, Serialize, Default)]
 pub struct HighestSpindle {
     highest_spindle_rpm: Option<f64>,
@@ -181,7 +182,7 @@ impl HighestSpindle {
                 let (rpm, limit) = (significant(rpm), named(&limit));
                 line(
                     "spindle",
-                    format!("all limits hold up to {rpm} rpm; {limit} binds"),
+                    format!("the cut holds all limits up to {rpm} rpm; {limit} binds"),
                 )
             }
             _ => String::new(),

@@ -56,5 +56,13 @@ pub trait FeedPlan: Send {
     ///
     /// The law begins at N = 0 at the rim (inward) or at the inner end (outward). The host checks
     /// that every turn lies beyond the last.
+    ///
+    /// Where the path is to cover the whole part, the host lets the feed run out at both ends, unless
+    /// the law closes there by itself: at every angle its outermost pass lies beyond the end of the
+    /// range, or inside of it by no more than 0.41 of the way to the next pass. Running out adds up
+    /// to 0.6 turns an end, which turns the rest of the law against the part. So a law that
+    /// follows the angle must close by itself, at N = 0 also: begin with a turn along the end of the
+    /// range, let the feed come in over the turns that follow, and go on until the slowest angle has
+    /// passed the other end.
     fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward>;
 }

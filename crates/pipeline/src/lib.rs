@@ -19,6 +19,7 @@ mod progress;
 mod range;
 mod refine;
 mod run;
+mod seams;
 mod taper;
 
 pub use chain::{Chain, Link};

@@ -60,7 +60,7 @@ impl<'a> Plan<'a> {
             let what = format!("an overlap of {nodes} nodes, where {MOST_OVERLAP} are too many");
             return Err(chain.velocity.bad_answer(what));
         }
-        let law = crate::law::plan(chain, &prepared.job, &prepared.locus)?;
+        let law = crate::seams::plan(chain, prepared)?;
         let Tapered { law, own } = match prepared.overrun {
             Overrun::Contact => taper(&law, &prepared.job),
             Overrun::None | Overrun::Length(_) => Tapered::not(law),

@@ -281,7 +281,7 @@ fn around_axis(touch: &FirstTouch, near: &NearAxis) -> Result<ResidualFigures> {
 }
 
 /// The lowest value of a cubic on 0 … 1.
-fn lowest(cubic: &Cubic) -> f64 {
+pub(crate) fn lowest(cubic: &Cubic) -> f64 {
     let [_, b, c, d] = cubic.0;
     // The slope b + 2cs + 3ds² is zero at q/3d and b/q.
     let root = Scalar::sqrt(c * c - 3.0 * b * d);

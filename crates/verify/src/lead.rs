@@ -7,6 +7,7 @@ use turnpath_core::Result;
 use turnpath_core::toolpath::{Cubic, PathBlock, Segment, SegmentShape};
 
 use crate::axes::AxesMotion;
+use crate::coverage::lowest;
 use crate::playback::{BATCH, INSTANTS, Room};
 use crate::touch::FirstTouch;
 
@@ -45,6 +46,8 @@ pub struct LeadFigures {
     pub at_c: f64,
     /// X where it is, mm.
     pub at_x: f64,
+    /// How far X as played goes below 0, mm.
+    pub x_beyond_axis: f64,
     /// Steps of the acceleration at the control points of leads, those where they join the cut
     /// among them; nothing is told of straight segments.
     pub jumps: Jumps,
@@ -60,6 +63,7 @@ impl Default for LeadFigures {
             clearance: f64::INFINITY,
             at_c: 0.0,
             at_x: 0.0,
+            x_beyond_axis: 0.0,
             jumps: Jumps::default(),
             axes: AxesMotion::default(),
             segments: 0,
@@ -76,6 +80,7 @@ impl LeadFigures {
 
     fn append(&mut self, next: &Self) {
         self.see(next.clearance, next.at_c, next.at_x);
+        self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
         self.jumps.append(&next.jumps);
         self.axes.append(&next.axes);
         self.segments += next.segments;
@@ -134,6 +139,8 @@ impl LeadMeter {
             }
         }
         stretch.figures.segments = segments.len() as u64;
+        let beyond = segments.iter().map(|segment| -lowest(&segment.x));
+        stretch.figures.x_beyond_axis = beyond.fold(0.0, f64::max);
         if points.shape == SegmentShape::Cubic {
             for pair in segments.windows(2) {
                 let (before, after) = (at(&pair[0], 1.0), at(&pair[1], 0.0));

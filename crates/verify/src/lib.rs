@@ -40,4 +40,4 @@ pub use spectrum::{AxesLine, AxesSpectrum};
 pub use subject::Subject;
 pub use suspects::{Oddity, Suspect, Suspects};
 pub use touch::{FirstTouch, Touch};
-pub use unreached::{UnreachedFigures, unreached};
+pub use unreached::{Ride, UnreachedFigures, rides, unreached};

@@ -33,6 +33,8 @@ const ACROSS: usize = 64;
 /// twice to this part of itself.
 const SECTIONS: (usize, usize) = (96, 6144);
 const SETTLED: f64 = 3e-3;
+/// Sections of half a turn on which rides are looked for.
+const RIDES: u32 = 384;
 /// Where the first section lies, as a part of their distance: in step with no symmetry.
 const OFFSET: f64 = 0.381_966;
 /// Rounds of closing in on the highest place: golden section, from a section's distance to a
@@ -88,6 +90,51 @@ pub fn unreached(touch: &FirstTouch, threshold: f64) -> Result<UnreachedFigures>
         volume: sum.volume * width,
         area_fraction: sum.area * width / whole,
     })
+}
+
+/// Where the nose rides over a seam: its height over X has a corner there, and so have cusps between
+/// passes on both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ride {
+    /// X of the nose, mm; negative beyond the axis.
+    pub x: f64,
+    /// By how much dZ/dX grows there.
+    pub corner: f64,
+}
+
+/// The rides over seams of the part, on sections all around.
+///
+/// # Errors
+/// Where the surface fails.
+pub fn rides(touch: &FirstTouch) -> Result<Vec<Ride>> {
+    if !touch.leaves_seams() {
+        return Ok(Vec::new());
+    }
+    let seams = Seams {
+        touch,
+        threshold: 0.0,
+    };
+    let (radius, rim) = (
+        touch.subject().tool.nose_radius,
+        touch.subject().part.aperture_radius,
+    );
+    let slope = |offset: f64| offset / (radius * radius - offset * offset).max(0.0).sqrt();
+    let ride = |seam: Seam| Ride {
+        x: seam.x,
+        corner: slope(seam.to - seam.x) - slope(seam.from - seam.x),
+    };
+    let each: Vec<Vec<Ride>> = (0..RIDES)
+        .into_par_iter()
+        .map(|i| {
+            let theta = (f64::from(i) + OFFSET) * PI / f64::from(RIDES);
+            Ok(seams
+                .seams(theta, -rim, rim)?
+                .into_iter()
+                .map(ride)
+                .collect())
+        })
+        .collect::<Result<_>>()?;
+    Ok(each.into_iter().flatten().collect())
 }
 
 /// The highest place so far.

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use common::{Groove, Plane, bare_spiral, figures, touch_of};
 use turnpath_core::{DEG, Misfit, Scalar, Surface, Tool};
-use turnpath_verify::{FirstTouch, unreached};
+use turnpath_verify::{FirstTouch, rides, unreached};
 
 const NOSE: f64 = 0.5;
 
@@ -136,4 +136,18 @@ fn an_edge_that_ends_before_the_slope_leaves_steps() {
     let end = 0.5 * NOSE - feed;
     let step = feed + NOSE * 0.75f64.sqrt() - (NOSE * NOSE - end * end).sqrt();
     close(found.max, step * 0.5f64.sqrt(), 1e-3);
+}
+
+/// On a ring groove with flanks of slope m the nose goes down at −m and up at m, over the groove
+/// itself; on both sides of the axis.
+#[test]
+fn over_a_ring_groove_the_nose_turns_by_twice_the_slope() {
+    for slope in [0.02, 0.3, 1.0] {
+        let found = rides(&ring(slope)).expect("rides");
+        assert!(found.len() > 100);
+        for ride in found {
+            assert!((ride.x.abs() - 1.0).abs() < 1e-6, "{}", ride.x);
+            close(ride.corner, 2.0 * slope, 1e-5);
+        }
+    }
 }

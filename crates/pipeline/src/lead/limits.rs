@@ -1,6 +1,6 @@
 //! What a lead may ask of the axes.
 
-use turnpath_core::{Axis, Derivative, Machine, Scalar};
+use turnpath_core::{Axis, Derivative, Limit, Machine, Scalar};
 use turnpath_verify::{AxesMotion, AxisMotion};
 
 /// Limits of one axis, in rad or mm and s.
@@ -17,8 +17,11 @@ pub struct AxisLimits {
 /// How much more than following the part asks for a lead may ask for: X drifts on a little beyond
 /// the cut, where slopes may be steeper.
 const FOLLOWING: f64 = 1.25;
-/// The same against a machine's own limit, which is no matter of gentleness.
+/// The same against a machine's own limit, which is no matter of gentleness, where the cut itself is
+/// beyond it.
 const AT_THE_LIMIT: f64 = 1.02;
+/// A machine's limit holds up to this part of it; half of what a verdict allows.
+const KEPT: f64 = 1.0005;
 
 /// Limits of the three axes. What following the part asks of them beside the join, as the cut does
 /// it, comes on top, and a quarter of it.
@@ -124,63 +127,85 @@ impl AxisLimits {
         (shape.acceleration * change / self.acceleration).max(by_jerk)
     }
 
-    fn allow(&self, motion: &AxisMotion, cut: &AxisMotion, part: &AxisMotion) -> bool {
-        let within = |asked: f64, limit: f64, most: fn(&AxisMotion) -> f64| {
-            asked <= limit + FOLLOWING * most(cut).max(most(part))
+    /// The largest part that `motion` takes of what it may ask for.
+    fn share(&self, motion: &AxisMotion, cut: &AxisMotion, part: &AxisMotion) -> f64 {
+        let share = |limit: f64, most: fn(&AxisMotion) -> f64| {
+            most(motion) / (limit + FOLLOWING * most(cut).max(most(part)))
         };
-        within(motion.velocity.amount, self.velocity, |m| m.velocity.amount)
-            && within(motion.acceleration.amount, self.acceleration, |m| {
-                m.acceleration.amount
-            })
-            && self
-                .jerk
-                .is_none_or(|jerk| within(motion.jerk.amount, jerk, |m| m.jerk.amount))
+        let by_velocity = share(self.velocity, |m| m.velocity.amount);
+        let by_acceleration = share(self.acceleration, |m| m.acceleration.amount);
+        let by_jerk = |jerk| share(jerk, |m| m.jerk.amount);
+        by_velocity
+            .max(by_acceleration)
+            .max(self.jerk.map_or(0.0, by_jerk))
     }
 }
 
-/// Which axes ask for more than they may.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Beyond {
-    /// C, which the spindle's speeding up decides.
-    pub c: bool,
-    /// X.
-    pub x: bool,
-    /// Z.
-    pub z: bool,
+/// The part that a lead takes of what it may ask of each axis: 1 where it just keeps its limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shares {
+    /// Of C, which the spindle's speeding up decides.
+    pub c: f64,
+    /// Of X.
+    pub x: f64,
+    /// Of Z.
+    pub z: f64,
 }
 
-impl Beyond {
-    /// Whether any does.
-    pub fn any(self) -> bool {
-        self.c || self.x || self.z
+impl Shares {
+    /// The largest.
+    pub fn largest(self) -> f64 {
+        self.c.max(self.x).max(self.z)
     }
+
+    /// By which factors all axes together are beyond what they may; 1 where none is.
+    pub fn beyond(self) -> f64 {
+        self.c.max(1.0) * self.x.max(1.0) * self.z.max(1.0)
+    }
+}
+
+/// How a lead moves.
+#[derive(Debug, Clone, Copy)]
+pub struct LeadMotion {
+    /// All of it.
+    pub whole: AxesMotion,
+    /// Without what is next to the join.
+    pub away: AxesMotion,
 }
 
 impl LeadLimits {
-    /// What `motion` asks for beyond these limits and what the cut or the part itself asks for.
-    pub fn beyond(&self, motion: &AxesMotion, cut: &AxesMotion, part: &AxesMotion) -> Beyond {
-        let machine = |axis| self.machine_allows(axis, motion, cut, part);
-        Beyond {
-            c: !(self.c.allow(&motion.c, &cut.c, &part.c) && machine(Axis::C)),
-            x: !(self.x.allow(&motion.x, &cut.x, &part.x) && machine(Axis::X)),
-            z: !(self.z.allow(&motion.z, &cut.z, &part.z) && machine(Axis::Z)),
+    /// What a lead takes of these limits and of what the cut or the part itself asks for.
+    pub fn shares(&self, motion: &LeadMotion, cut: &AxesMotion, part: &AxesMotion) -> Shares {
+        let away = &motion.away;
+        let machine = |axis| self.machine_share(axis, motion, cut, part);
+        Shares {
+            c: self.c.share(&away.c, &cut.c, &part.c).max(machine(Axis::C)),
+            x: self.x.share(&away.x, &cut.x, &part.x).max(machine(Axis::X)),
+            z: self.z.share(&away.z, &cut.z, &part.z).max(machine(Axis::Z)),
         }
     }
 
-    fn machine_allows(
+    /// The machine's limits hold for all of a lead where they hold for the cut that it joins; where
+    /// they do not, it asks for hardly more than that.
+    fn machine_share(
         &self,
         axis: Axis,
-        motion: &AxesMotion,
+        motion: &LeadMotion,
         cut: &AxesMotion,
         part: &AxesMotion,
-    ) -> bool {
+    ) -> f64 {
         let most =
             |of: &AxesMotion, derivative| of.peak(axis, derivative).map_or(0.0, |peak| peak.amount);
+        let share = |limit: Limit| {
+            let (value, derivative) = (KEPT * limit.value, limit.derivative);
+            if most(cut, derivative) <= value {
+                return most(&motion.whole, derivative) / value;
+            }
+            let needed = most(cut, derivative).max(most(part, derivative));
+            most(&motion.away, derivative) / (AT_THE_LIMIT * needed)
+        };
         let limits = self.machine.limits().filter(|limit| limit.axis == axis);
-        limits.into_iter().all(|limit| {
-            let needed = most(cut, limit.derivative).max(most(part, limit.derivative));
-            most(motion, limit.derivative) <= limit.value.max(AT_THE_LIMIT * needed)
-        })
+        limits.map(share).fold(0.0, f64::max)
     }
 }
 

@@ -1,12 +1,14 @@
 //! Makes one lead: as long as its limits ask for, in steps as fine as the part asks for.
 
+use std::f64::consts::TAU;
+
 use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
 use turnpath_verify::{AxesMotion, LeadMeter, LeadStretch};
 
 use super::clock::Clock;
 use super::join::{Join, Side};
-use super::limits::{self, Beyond, LeadSettings, QUINTIC, SPEED_UP};
-use super::nodes::{self, MOST_NODES};
+use super::limits::{self, LeadMotion, LeadSettings, QUINTIC, SPEED_UP, Shares};
+use super::nodes;
 use super::phases::Phases;
 use super::spline::{self, FEWEST_NODES, Motion};
 use super::target::Target;
@@ -16,10 +18,23 @@ use crate::{PipelineError, Result};
 /// Fewest revolutions from rest height to the part: the last tenth of a millimetre then takes
 /// most of one.
 const GENTLE_TURNS: f64 = 2.0;
-/// How much longer a phase gets that asks too much of the axes, and how often at the most: 57
-/// times as long.
+/// How often a lead that asks too much of the axes is laid anew at the most.
+const TRIALS: u32 = 18;
+/// How much longer a phase then gets.
 const LONGER: f64 = 1.4;
-const LENGTHENINGS: u32 = 12;
+/// How much finer steps near the part get at the most: a spline's acceleration is then right to
+/// 1e-4 where it was a tenth too large.
+const FINEST: u32 = 32;
+/// Longest phases, in revolutions at the cut's speed: longer ones come of limits that are a mistake,
+/// and the lead then does not keep them.
+const LONGEST_DESCENT: f64 = 2000.0;
+const LONGEST_SPIN: f64 = 20_000.0;
+/// Part of X's limits that its coming to rest may take.
+const DRIFTING: f64 = 0.125;
+/// A slower lead is worth it where it takes this much less of its limits.
+const WORTH_IT: f64 = 0.999;
+/// Instants from node to node at which the way itself is looked at.
+const FINER_LOOK: usize = 4;
 /// How often the steps near the part are halved at the most.
 const HALVINGS: u32 = 8;
 /// Part of the interpolation tolerance by which a lead may come below the first touch between
@@ -72,52 +87,123 @@ impl Laid {
     }
 }
 
-/// How much longer than at first the phases are.
+/// How much more gently than at first a lead is laid.
 #[derive(Debug, Clone, Copy)]
-struct Longer {
+struct Pace {
+    /// Times as long.
     descent: f64,
+    /// Times as long.
     spin: f64,
+    /// Times as long, but no shorter than X takes to come to rest with a part of its limits.
     drift: f64,
+    /// Steps near the part, times as fine.
+    finer: u32,
+    /// As fine as they may get.
+    finest: u32,
+    /// What was taken before steps were made finer the last time, if that was just now.
+    before_finer: Option<f64>,
 }
 
-impl Longer {
-    fn for_those(&mut self, beyond: Beyond) {
-        if beyond.c {
+impl Pace {
+    const FIRST: Self = Self {
+        descent: 1.0,
+        spin: 1.0,
+        drift: 1.0,
+        finer: 1,
+        finest: FINEST,
+        before_finer: None,
+    };
+
+    /// For a lead that takes these shares of its limits, on a way that takes those by itself.
+    fn gentler(&mut self, lead: Shares, way: Shares) {
+        let before = self.before_finer.take();
+        if before.is_some_and(|before| lead.beyond() >= before) {
+            // What the cut plays at its end is not the way: short steps get there with a jolt.
+            self.finer /= 2;
+            self.finest = self.finer;
+        }
+        if lead.c > 1.0 {
             self.spin *= LONGER;
         }
-        if beyond.x || beyond.z {
-            self.descent *= LONGER;
+        if lead.x.max(lead.z) <= 1.0 {
+            return;
         }
-        if beyond.x {
-            self.drift *= LONGER;
+        // Splines ask for more than the way on which their nodes lie, coarse ones for most.
+        if way.x.max(way.z) <= 1.0 && self.finer < self.finest {
+            self.finer *= 2;
+            self.before_finer = Some(lead.beyond());
+            return;
         }
+        self.descent *= LONGER;
+        // Where X goes on less, it comes less to where slopes are steeper.
+        self.drift /= LONGER;
     }
 }
 
 impl Maker<'_> {
-    /// Lays a lead that keeps its limits and clears the part. The join of a lead-in is that of a
-    /// cut which begins at once: the lead-in moves it.
+    /// Lays a lead that clears the part and keeps its limits, or comes as near to them as one can.
+    /// The join of a lead-in is that of a cut which begins at once: the lead-in moves it.
     pub fn lay(&self, side: Side, join: &Join) -> Result<Laid> {
-        let mut longer = Longer {
-            descent: 1.0,
-            spin: 1.0,
-            drift: 1.0,
-        };
-        let mut lengthenings = 0;
-        loop {
-            let (laid, points) = self.clear(side, join, longer)?;
-            let motion = AxesMotion::of(&away_from_join(side, &points));
+        let mut pace = Pace::FIRST;
+        let (mut best, mut least) = (None, f64::INFINITY);
+        for _ in 0..TRIALS {
+            let (laid, points) = match (self.clear(side, join, pace), &best) {
+                (Ok(clear), _) => clear,
+                (Err(error), None) => return Err(error),
+                // Longer ones may find no place, or no room.
+                (Err(_), Some(_)) => break,
+            };
             let following = self.following(&laid, join)?;
-            let beyond = self.settings.limits.beyond(&motion, &join.cut, &following);
-            if !beyond.any() {
+            let limits = &self.settings.limits;
+            let shares = |motion| limits.shares(&motion, &join.cut, &following);
+            let taken = shares(LeadMotion {
+                whole: AxesMotion::of(&points),
+                away: AxesMotion::of(&away_from_join(side, &points)),
+            });
+            let way = self.way(&laid, join)?;
+            if taken.largest() <= 1.0 {
                 return Ok(laid);
             }
-            if lengthenings == LENGTHENINGS {
-                return Err(self.failed(side, asks_too_much(beyond)));
+            let longest = laid.phases.descent * join.point.vc >= TAU * LONGEST_DESCENT;
+            if best.is_none() || taken.beyond() < WORTH_IT * least {
+                (best, least) = (Some(laid), taken.beyond());
             }
-            longer.for_those(beyond);
-            lengthenings += 1;
+            if longest {
+                break;
+            }
+            pace.gentler(
+                taken,
+                shares(LeadMotion {
+                    whole: way,
+                    away: way,
+                }),
+            );
         }
+        best.ok_or_else(|| self.failed(side, "no trial was made".to_owned()))
+    }
+
+    /// What the way of the lead asks of X and Z near the part, whatever is played between nodes.
+    fn way(&self, laid: &Laid, join: &Join) -> Result<AxesMotion> {
+        let phases = laid.phases;
+        let sigma: Vec<f64> = laid.nodes.iter().map(|t| self.clock.seconds(*t)).collect();
+        let between = |pair: &[f64]| {
+            let (from, step) = (pair[0], (pair[1] - pair[0]) / FINER_LOOK as f64);
+            (0..FINER_LOOK).map(move |i| from + step * i as f64)
+        };
+        let near = sigma.windows(2).filter(|pair| pair[1] <= phases.descent);
+        let sigma: Vec<f64> = near.flat_map(between).collect();
+        let target = self.target(laid, join)?;
+        let places = target.places(&sigma, laid.raised)?;
+        Ok(AxesMotion {
+            x: limits::of_differences(&sigma, &places.x),
+            z: limits::of_differences(&sigma, &places.z),
+            ..AxesMotion::default()
+        })
+    }
+
+    fn target<'b>(&'b self, laid: &Laid, join: &'b Join) -> Result<Target<'b>> {
+        let (side, phases) = (laid.side, laid.phases);
+        Target::new(self.plan, side, join, phases, self.rest_z, laid.drift)
     }
 
     /// What following the part asks of the axes at the lead's own nodes. The cut as played does
@@ -126,8 +212,7 @@ impl Maker<'_> {
         let phases = laid.phases;
         let sigma = laid.nodes.iter().map(|ticks| self.clock.seconds(*ticks));
         let sigma: Vec<f64> = sigma.take_while(|s| *s <= phases.descent).collect();
-        let (plan, rest_z) = (self.plan, self.rest_z);
-        let target = Target::new(plan, laid.side, join, phases, rest_z, laid.drift)?;
+        let target = self.target(laid, join)?;
         let [x, z] = target.on_the_part(&sigma)?;
         Ok(AxesMotion {
             x: limits::of_differences(&sigma, &x),
@@ -138,8 +223,8 @@ impl Maker<'_> {
 
     /// Halves steps until the lead clears the part, then raises its way until its control points
     /// do.
-    fn clear(&self, side: Side, join: &Join, longer: Longer) -> Result<(Laid, PathBlock)> {
-        let mut laid = self.first(side, join, longer)?;
+    fn clear(&self, side: Side, join: &Join, pace: Pace) -> Result<(Laid, PathBlock)> {
+        let mut laid = self.first(side, join, pace)?;
         let join = match side {
             Side::In => join.shifted(laid.turns, self.clock.seconds(laid.ticks())),
             Side::Out => *join,
@@ -188,25 +273,24 @@ impl Maker<'_> {
     }
 
     /// Phases as short as the limits allow, and their nodes.
-    fn first(&self, side: Side, join: &Join, longer: Longer) -> Result<Laid> {
+    fn first(&self, side: Side, join: &Join, pace: Pace) -> Result<Laid> {
         let (limits, speed) = (&self.settings.limits, join.point.vc);
         let down = limits.z.time_for(self.rest_z - join.point.z, QUINTIC);
-        let gentle = GENTLE_TURNS * std::f64::consts::TAU / speed;
+        let gentle = GENTLE_TURNS * TAU / speed;
+        let turn = TAU / speed;
+        let spin = pace.spin * PLAYED * limits.c.time_to_change(speed, SPEED_UP);
         let least = Phases {
-            descent: longer.descent * down.max(gentle),
-            spin: longer.spin * PLAYED * limits.c.time_to_change(speed, SPEED_UP),
+            descent: (pace.descent * down.max(gentle)).min(LONGEST_DESCENT * turn),
+            spin: spin.min(LONGEST_SPIN * turn),
             speed,
         };
-        let bounded = least.all() * speed < MOST_NODES as f64;
+        let drift = limits.x.time_to_change(join.rho_rate / DRIFTING, SPEED_UP);
         let too_many = || self.failed(side, format!("it would take {:.3e} s", least.all()));
-        if !bounded {
-            return Err(too_many());
-        }
         let (phases, turns) = match side {
             Side::In => least.on_whole_turns(&self.clock),
             Side::Out => (least.on(&self.clock), 0.0),
         };
-        let nodes = nodes::place(&phases, &self.clock).ok_or_else(too_many)?;
+        let nodes = nodes::place(&phases, &self.clock, pace.finer).ok_or_else(too_many)?;
         if nodes.len() < FEWEST_NODES {
             let what = "the controller's steps of time are too long for it".to_owned();
             return Err(self.failed(side, what));
@@ -214,7 +298,7 @@ impl Maker<'_> {
         Ok(Laid {
             side,
             phases,
-            drift: longer.drift * gentle,
+            drift: (pace.drift * gentle).max(drift),
             nodes,
             raised: 0.0,
             turns,
@@ -223,9 +307,8 @@ impl Maker<'_> {
 
     /// The control points in order of time, that of the join among them.
     pub fn points(&self, laid: &Laid, join: &Join) -> Result<PathBlock> {
-        let Laid { side, phases, .. } = *laid;
-        let plan = self.plan;
-        let target = Target::new(plan, side, join, phases, self.rest_z, laid.drift)?;
+        let side = laid.side;
+        let target = self.target(laid, join)?;
         let joined = match side {
             Side::In => laid.ticks(),
             Side::Out => self.clock.nearest(join.point.t),
@@ -342,16 +425,4 @@ fn away_from_join(side: Side, points: &PathBlock) -> PathBlock {
     let kept = points.points().skip(from).take(to - from);
     kept.for_each(|point| rest.push(point));
     rest
-}
-
-fn asks_too_much(beyond: Beyond) -> String {
-    let axes = [("C", beyond.c), ("X", beyond.x), ("Z", beyond.z)];
-    let named: Vec<&str> = axes
-        .into_iter()
-        .filter_map(|(name, is)| is.then_some(name))
-        .collect();
-    format!(
-        "however slow, it asks more of {} than its limits allow",
-        named.join(" and ")
-    )
 }

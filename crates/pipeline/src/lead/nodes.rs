@@ -8,6 +8,9 @@ use super::phases::Phases;
 
 /// Angle between neighbouring nodes of the descent, before any is halved.
 const DESCENT_STEP: f64 = 5.0 * DEG;
+/// Part of the descent in which steps can be asked to be finer: beyond, a sixth of what following
+/// the part asks of the axes is gone.
+const NEAR_THE_PART: f64 = 0.3;
 /// Largest angle between nodes at rest height: programs with C within a revolution need less than
 /// half of one.
 const SPIN_STEP: f64 = 80.0 * DEG;
@@ -21,19 +24,31 @@ const SPREAD: usize = 3;
 /// Most nodes of a lead: beyond, its limits are a mistake.
 pub const MOST_NODES: usize = 2_000_000;
 
-/// Nodes from the join (0) to rest, in ticks of time away from the join; `None` where there would
-/// be too many.
-pub fn place(phases: &Phases, clock: &Clock) -> Option<Vec<f64>> {
+/// Nodes from the join (0) to rest, in ticks of time away from the join, near the part `finer`
+/// times as close as they need be; `None` where there would be too many.
+pub fn place(phases: &Phases, clock: &Clock, finer: u32) -> Option<Vec<f64>> {
     let step = (DESCENT_STEP / phases.speed).min(LONGEST);
     let down = (phases.descent / step).ceil().max(1.0);
+    let near = (NEAR_THE_PART * down).ceil() * f64::from(finer);
     let turned = phases.speed * phases.spin / SPIN_STEP;
     let spun = SPIN_SEGMENTS.max(turned).max(phases.spin / LONGEST).ceil();
     // A comparison that also fails for what is no number.
-    let few = down + spun < MOST_NODES as f64;
+    let few = near + down + spun < MOST_NODES as f64;
     if !few {
         return None;
     }
-    let descent = (0..down as u32).map(|k| phases.descent * f64::from(k) / down);
+    let parts = |k: u32| {
+        if f64::from(k) < NEAR_THE_PART * down {
+            finer
+        } else {
+            1
+        }
+    };
+    let steps =
+        |k: u32| (0..parts(k)).map(move |i| f64::from(k) + f64::from(i) / f64::from(parts(k)));
+    let descent = (0..down as u32)
+        .flat_map(steps)
+        .map(|k| phases.descent * k / down);
     let spin = (0..spun as u32).map(|k| phases.descent + phases.spin * f64::from(k) / spun);
     let end = clock.nearest(phases.all());
     let mut nodes: Vec<f64> = Vec::new();
@@ -78,7 +93,7 @@ mod tests {
     fn nodes_grow_from_the_join_to_rest_on_ticks_and_stay_close() {
         for steps in [None, Some(4_096_000.0), Some(4000.0)] {
             let clock = Clock::new(steps);
-            let nodes = place(&PHASES, &clock).unwrap();
+            let nodes = place(&PHASES, &clock, 1).unwrap();
             assert_eq!(nodes[0], 0.0);
             assert_eq!(nodes.last(), Some(&clock.nearest(1.75)));
             for pair in nodes.windows(2) {
@@ -94,7 +109,7 @@ mod tests {
             descent: f64::INFINITY,
             ..PHASES
         };
-        assert_eq!(place(&endless, &Clock::new(None)), None);
+        assert_eq!(place(&endless, &Clock::new(None), 1), None);
     }
 
     #[test]

@@ -37,11 +37,25 @@ pub fn join(t: &[f64], p: &mut [f64], first: Motion, last: Motion) -> Vec<f64> {
     (places[0].q, places[end].q) = (first.position, last.position);
     places[1] = beside(first, h[0]);
     places[end - 1] = beside(last, -h[end - 1]);
-    let slopes = slopes(&h, &places, first.velocity, last.velocity);
+    let mut slopes = slopes(&h, &places, first.velocity, last.velocity);
+    rest(&h, &places, &mut slopes);
     for ((p, place), slope) in p.iter_mut().zip(&places).zip(&slopes) {
         *p = place.q + place.g * slope;
     }
     slopes
+}
+
+/// Puts to zero what a spline's slopes leave where nothing moves: they fall by a quarter a node and
+/// never vanish. Only what rounding of the positions would leave too is taken for that.
+fn rest(h: &[f64], places: &[Place], slopes: &mut [f64]) {
+    let largest = places.iter().map(|place| place.q.abs()).fold(0.0, f64::max);
+    for k in 1..h.len() {
+        let stays = places[k - 1].q == places[k].q && places[k].q == places[k + 1].q;
+        let rounding = f64::EPSILON * largest / h[k - 1].max(h[k]);
+        if stays && slopes[k].abs() <= rounding {
+            slopes[k] = 0.0;
+        }
+    }
 }
 
 /// The position of the node beside an end, `h` later; earlier where it is negative.
@@ -146,6 +160,24 @@ mod tests {
                 assert!((before - after).abs() < 1e-9, "{before} {after}");
             }
         }
+    }
+
+    #[test]
+    fn where_nothing_moves_slopes_are_zero_and_nowhere_else() {
+        let first = Motion {
+            position: 1.0,
+            velocity: 1.0,
+            acceleration: 0.0,
+        };
+        let last = Motion {
+            position: 3.0,
+            ..Motion::default()
+        };
+        let t: Vec<f64> = (0..100).map(|k| 0.1 * f64::from(k)).collect();
+        let mut p: Vec<f64> = t.iter().map(|t| 1.0 + t.min(2.0)).collect();
+        let slopes = join(&t, &mut p, first, last);
+        assert!(slopes[..40].iter().all(|slope| *slope != 0.0));
+        assert!(slopes[60..].iter().all(|slope| *slope == 0.0));
     }
 
     #[test]

@@ -120,13 +120,13 @@ impl<'a> Target<'a> {
         let rho: Vec<f64> = sigma.iter().map(|sigma| self.drift.rho(*sigma)).collect();
         let mut x = self.locus_x(&theta, &rho)?;
         for (x, sigma) in x.iter_mut().zip(sigma) {
-            *x += self.phases.lifted(*sigma) * (self.rest_x - *x);
+            *x = between(*x, self.rest_x, self.phases.lifted(*sigma));
         }
         let touches = self.touches(&theta, &x)?;
         let height = |(sigma, touch): (&f64, &Touch)| {
             let lifted = self.phases.lifted(*sigma);
             let above = (self.join.above_touch + raised) * (1.0 - lifted);
-            touch.z + lifted * (self.rest_z - touch.z) + above
+            between(touch.z, self.rest_z, lifted) + above
         };
         let z: Vec<f64> = sigma.iter().zip(&touches).map(height).collect();
         if let Some(k) = (0..z.len()).find(|k| !(x[*k].is_finite() && z[*k].is_finite())) {
@@ -176,4 +176,12 @@ impl<'a> Target<'a> {
             .map_err(PipelineError::Measure)?;
         Ok(touches)
     }
+}
+
+/// From `from` to `to`, which it is exactly at 1.
+fn between(from: f64, to: f64, part: f64) -> f64 {
+    if part >= 1.0 {
+        return to;
+    }
+    from + part * (to - from)
 }
