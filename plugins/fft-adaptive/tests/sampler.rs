@@ -107,6 +107,28 @@ fn at_a_crest_the_step_is_the_chord_of_its_curvature() {
     }
 }
 
+/// A paraboloid is flat along every circle, so the printed rule takes its largest steps; along the
+/// spiral, d²z/dθ² is 2cρ'², and the step's own curvature knows it.
+#[test]
+fn as_printed_the_curve_is_the_circle_through_the_start() {
+    struct Bowl;
+    impl Surface for Bowl {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            (x.squared() + y.squared()) * 0.1
+        }
+    }
+    let case = Case::new(Arc::new(Bowl), Arc::new(Uncompensated), 10.0, 1.0, 20.0);
+    let mut law = SpiralLaw::new();
+    law.push(1.0, [2.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+    let count = |curvature: &str| {
+        let nodes = place(&sampler("full", curvature, 45.0), &case, &law, 0.0, 1.0);
+        nodes.unwrap().len()
+    };
+    assert_eq!(count("start"), 8);
+    // Δθ² = 8e/(2cρ'²), 10.2°.
+    assert_eq!(count("step"), 36);
+}
+
 /// The sagitta of every segment, straight in θ, stays within the tolerance where the step's own
 /// curvature counts; where only its start's does, it is many times that.
 #[test]
