@@ -162,6 +162,34 @@ fn the_steps_own_curvature_keeps_the_chord_within_the_tolerance() {
     assert!(worst("start") > 100.0, "{}", worst("start"));
 }
 
+/// A turn of z = kρ² sin 2θ has ∮ dθ/Δθ = sqrt(kρ²/2e)·∮ sqrt|sin 2θ| dθ points, 4.7926 times the
+/// root, and the look ahead takes some more. The harmonics play no part: the second allows 90°. So
+/// the tenfold tolerance takes a third of the points, where eq. 10 would take 0.56 of them.
+#[test]
+fn points_of_a_turn_are_those_of_straight_chords() {
+    let k = 3.84e-4;
+    let surface = Arc::new(Astigmatic::new(&Params::new().with("k", k)).unwrap());
+    for (rho, tolerance) in [(20.0, 10.0), (20.0, 100.0), (5.0, 10.0)] {
+        let case = Case::new(
+            surface.clone(),
+            Arc::new(Uncompensated),
+            50.0,
+            1.0,
+            tolerance,
+        );
+        let nodes = place(
+            &sampler("full", "step", 45.0),
+            &case,
+            &circles(rho, 1.0),
+            0.0,
+            1.0,
+        );
+        let expected = 4.7926 * (k * rho * rho / (2.0 * tolerance * NM)).sqrt();
+        let share = nodes.unwrap().len() as f64 / expected;
+        assert!((1.0..1.06).contains(&share), "{share} of {expected}");
+    }
+}
+
 #[test]
 fn an_edge_is_an_error_that_says_where() {
     struct Roof;
