@@ -143,8 +143,8 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
     let conventional = array("sampler.step=1.40625 deg");
     assert_errors(&conventional, 128_001, 5e-5, &[(LINEAR, 58.626)]);
     let across = |steps: f64| {
-        let bend = 5e3 * (TAU * 0.4 * 5.0 * TAU / steps).powi(2);
-        bend / 8.0
+        let phase = TAU * 0.4 * 5.0 * TAU / steps;
+        5e3 * phase * phase / 8.0
     };
     assert!((across(256.0) - 59.45).abs() < 0.005);
     let step = "sampler.step=1.4173228346456694 deg";
