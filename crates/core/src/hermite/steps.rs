@@ -19,6 +19,9 @@ const SHORTEST_DEG: f64 = 0.004;
 /// The part of the tolerance that knots within a step may take; a step ends on one that might
 /// take more.
 const KNOTS_SHARE: f64 = 0.1;
+/// A knot this close behind a node, in revolutions, is at it: lengths of pieces that add up to a
+/// whole turn do so to rounding.
+const NEAR: f64 = 1e-9;
 /// A node closer to the block's end than this part of its step is left out.
 const SLACK: f64 = 1e-3;
 
@@ -115,7 +118,7 @@ impl<'a> Walk<'a> {
         while self
             .knots
             .get(self.next_knot)
-            .is_some_and(|knot| knot.n <= n)
+            .is_some_and(|knot| knot.n <= n + NEAR)
         {
             self.next_knot += 1;
         }
