@@ -133,7 +133,7 @@ fn backwards_it_covers_the_part_and_x_stays_on_its_side() {
         assert_eq!(status, 0, "{recipe}: {summary}");
         assert_eq!(summary["within"]["coverage"], true, "{recipe}");
         // The law ends on the axis; what is played rounds its end by some hundredths of a nanometre.
-        assert!(crossing(&summary) < 1e-4, "{}", crossing(&summary));
+        assert!(crossing(&summary) < 1e-3, "{}", crossing(&summary));
         assert!(crossing(&recursion) > 1.0, "{}", crossing(&recursion));
         let ratio = acceleration(&summary, "x") / acceleration(&recursion, "x");
         assert!((0.5..1.2).contains(&ratio), "{ratio}");
