@@ -132,11 +132,12 @@ fn backwards_it_covers_the_part_and_x_stays_on_its_side() {
         let (status, summary) = run_with(recipe, "ats", &set, &[backwards]);
         assert_eq!(status, 0, "{recipe}: {summary}");
         assert_eq!(summary["within"]["coverage"], true, "{recipe}");
-        // The law ends on the axis; what is played rounds its end by some hundredths of a nanometre.
+        // The law ends on the axis; what is played rounds its end by some tenths of a nanometre.
         assert!(crossing(&summary) < 1e-3, "{}", crossing(&summary));
         assert!(crossing(&recursion) > 1.0, "{}", crossing(&recursion));
         let ratio = acceleration(&summary, "x") / acceleration(&recursion, "x");
-        assert!((0.5..1.2).contains(&ratio), "{ratio}");
+        // As outward beside inward: 1,140 to 1,340 mm/s² on AST-5, 5.38 to 11.1 on MLA-5.
+        assert!((0.45..0.95).contains(&ratio), "{ratio}");
     }
 }
 
