@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, SystemTime};
 
 use serde_json::{Value, json};
-use support::bench::{Bench, Said};
+use support::bench::{Bench, Said, said};
 use support::fixtures::plugin_folder;
 use support::recipe::{SADDLE, changed, with_table};
 
@@ -454,6 +454,71 @@ fn columns_can_be_chosen() {
     insta::assert_snapshot!(said.stdout);
     let said = ablate(&bench, "--columns points,eror-max").ends(2);
     assert!(said.stderr.contains("'error-max'"), "{said}");
+}
+
+/// Told before the work, which fails here in every run and would say so.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_records_is_told_first() {
+    let recipe = saddle("tool.nose_radius = [\"50 mm\"]");
+    let recipe = changed(&recipe, "nose_radius = \"1 mm\"", "nose_radius = \"60 mm\"");
+    let bench = Bench::with(&recipe);
+    fs::create_dir(bench.path("out")).unwrap();
+    std::os::unix::fs::symlink("/proc/self", bench.path("out/runs")).unwrap();
+    let said = ablate(&bench, "").ends(4);
+    assert!(said.stderr.contains("cannot write out/runs: "), "{said}");
+    assert!(!said.stderr.contains("gouge"), "{said}");
+}
+
+/// What the narrower terminal leaves out of a line follows in a further table.
+#[test]
+fn a_narrow_terminal_gets_narrow_tables() {
+    let bench = Bench::with(&saddle("tool.nose_radius = [\"50 mm\"]"));
+    let widths = [
+        ("60", 60, 2),
+        ("1", 40, 4),
+        ("0", WIDEST, 1),
+        ("wide", WIDEST, 1),
+    ];
+    for (columns, widest, tables) in widths {
+        let mut command = bench.command(["ablate", "recipe.toml", "-o", "out"]);
+        let said = said(command.env("COLUMNS", columns)).ends(0);
+        let table = said.stdout.lines().skip(1);
+        let table = table.filter(|line| !line.contains("file"));
+        let longest = table.map(|line| line.chars().count()).max();
+        assert!(longest.is_some_and(|longest| longest <= widest), "{said}");
+        assert_eq!(said.stdout.matches("───\n").count(), tables, "{said}");
+        assert!(said.stdout.contains("failed:"), "{said}");
+    }
+}
+
+/// Every column but those of what this recipe does not ask for: a hole, limits, a servo, a nose
+/// that does not fit.
+#[test]
+fn every_figure_of_a_run_has_its_column() {
+    let recipe = changed(SADDLE, "lead = false", "lead = true");
+    let bench = Bench::with(&format!(
+        "{recipe}\n[servo]\nbandwidth = \"100 Hz\"\n\n[ablation]\nvelocity = [{{ use = \"three-point\" }}]\n"
+    ));
+    ablate(&bench, "").ends(0);
+    let csv = bench.read("out/ablation.csv");
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (head, row) = (lines.next().unwrap(), lines.next().unwrap());
+    let empty: Vec<&str> = head
+        .iter()
+        .zip(&row)
+        .filter(|(_, figure)| figure.is_empty())
+        .map(|(name, _)| *name)
+        .collect();
+    let expected = [
+        "unreached_height_um",
+        "uncut_at_hole_nm",
+        "highest_spindle_rpm",
+        "within_coverage",
+        "within_machine",
+        "reason",
+    ];
+    assert_eq!(empty, expected);
 }
 
 #[test]

@@ -313,10 +313,24 @@ fn x_beyond_the_axis_is_a_warning() {
     let said = bench.line("run recipe.toml -o out").ends(0);
     let warning = "  warning         X crosses the axis by ";
     assert!(said.stdout.contains(warning), "{said}");
+    assert!(said.stdout.contains("as the normal of a tilted"), "{said}");
     let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
     // At ρ = 0 X is 0.1/sqrt(1.01) mm beyond the axis; the last pass on that side lies up to a
     // feed of 28 um further out.
     let crossing = summary["axis_crossing_um"]["x"].as_f64().unwrap();
     assert!((71.0..99.6).contains(&crossing), "{crossing} um");
     assert!(summary["axis_crossing_um"]["contact"].as_f64().unwrap() < 1e-6);
+}
+
+/// Inward the law of `ats` goes on beyond the axis, contact and all.
+#[test]
+fn a_feed_beyond_the_axis_is_a_warning_of_its_own() {
+    let recipe = with_table(SADDLE, "feed", "use = \"ats\"");
+    let bench = Bench::with(&recipe);
+    let set = "run recipe.toml -o out --set path.direction=inward";
+    let said = bench.line(set);
+    let why = "since the feed goes on there; beyond it";
+    assert!(said.stdout.contains(why), "{said}");
+    let said = bench.line(&format!("{set} --set feed.inward=backwards"));
+    assert!(!said.stdout.contains("crosses the axis"), "{said}");
 }

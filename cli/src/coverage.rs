@@ -185,12 +185,13 @@ impl AxisCrossing {
             return String::new();
         }
         let x = nanometres(self.x * NM_PER_MM / UM_PER_MM);
+        let why = match self.contact <= CROSSES {
+            true => "as the normal of a tilted centre asks",
+            false => "since the feed goes on there",
+        };
         line(
             "warning",
-            format!(
-                "X crosses the axis by {x}, as the normal of a tilted centre asks; beyond it \
-                 the part moves against the edge"
-            ),
+            format!("X crosses the axis by {x}, {why}; beyond it the part moves against the edge"),
         )
     }
 }

@@ -112,7 +112,7 @@ fn human(
         }
     }
     text += "\n\n";
-    text += &table::table(entries, &columns::chosen(columns));
+    text += &table::table(entries, &columns::chosen(columns), table::of_terminal());
     text.push('\n');
     for file in written {
         text += &format!("  file  {}\n", file.display());

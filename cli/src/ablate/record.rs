@@ -17,6 +17,8 @@ use super::one::Made;
 
 /// The folder of records in the output folder.
 const RUNS: &str = "runs";
+/// A record that is begun and left.
+const PROBE: &str = "probe";
 
 /// The records of an output folder.
 pub struct Records {
@@ -35,10 +37,15 @@ struct Record {
 }
 
 impl Records {
-    /// Makes the folder, if it is not there.
+    /// Makes the folder, if it is not there, and looks whether it takes a record.
     pub fn ready(output: &Path) -> Result<Self, FileError> {
         let folder = output.join(RUNS);
-        match fs::create_dir_all(&folder) {
+        let made = fs::create_dir_all(&folder);
+        let made = made.and_then(|()| match Draft::begin(folder.join(PROBE)) {
+            Ok(_) => Ok(()),
+            Err(refused) => Err(refused.error),
+        });
+        match made {
             Ok(()) => Ok(Self { folder }),
             Err(error) => Err(FileError {
                 path: folder,

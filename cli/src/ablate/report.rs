@@ -70,14 +70,14 @@ pub struct Report {
 }
 
 impl Report {
-    /// Makes the folder, and looks whether the files can stand there.
+    /// Makes the folder, and begins the files, so that one that takes none is told before the work.
     pub fn ready(folder: &Path) -> Result<Self, FileError> {
         fs::create_dir_all(folder).map_err(|error| FileError {
             path: folder.to_owned(),
             error,
         })?;
         for name in [JSON, CSV] {
-            Draft::can_be(&folder.join(name))?;
+            drop(Draft::begin(folder.join(name))?);
         }
         let folder = folder.to_owned();
         Ok(Self { folder })

@@ -1,4 +1,4 @@
-//! The table of an ablation on a terminal: never wider than 100 columns.
+//! The table of an ablation on a terminal: never wider than 100 columns, nor than the terminal.
 //!
 //! A row begins with the value that varies; beside it stand the figures, below these their ratios
 //! to the first run, below that what else does not hold. Where several keys vary, a row begins with
@@ -6,44 +6,52 @@
 //! figures do not fit, several tables follow each other.
 
 mod figures;
+mod width;
 mod words;
 
 use serde_json::Value;
 use unicode_width::UnicodeWidthStr;
 
-use super::columns::{Column, Form};
+use super::columns::{Best, Column, Form};
 
 use figures::{Cell, Figures};
-use words::{cut, padded, printable};
+pub use width::of_terminal;
+use words::{cut, padded, printable, wrapped};
 
-/// Widest table.
-const WIDEST: usize = 100;
 /// What labels have at least.
 const LEAST_LABEL: usize = 14;
 /// How far the rows of a group stand to the right.
 const INDENT: &str = " ";
+/// Most lines of a reason; all of it stands in the files.
+const MOST_LINES: usize = 3;
+/// What stands before a sentence.
+const BESIDE: &str = "  ";
+/// What two of the columns are.
+const OF_LAW: &str = "law's: apart from where the feed runs out at the path's ends";
+const PROGRAM: &str = "program: the lines that pmac-pvt makes of the points, measured";
+const PLANNING: &str = "planning: processor time to make and measure the path";
 /// Tolerances that have a column of their own.
 const WITH_COLUMN: [&str; 2] = ["interpolation", "residual"];
 
-/// The runs side by side.
-pub fn table(entries: &[Value], columns: &[&Column]) -> String {
-    let labels = Labels::of(entries);
+/// The runs side by side, on so many columns of the terminal.
+pub fn table(entries: &[Value], columns: &[&Column], widest: usize) -> String {
+    let labels = Labels::of(entries, widest);
     let columns = columns.iter().map(|column| Figures::of(entries, column));
     let columns: Vec<Figures> = columns.collect();
-    let parts = fitting(&columns).into_iter();
+    let parts = fitting(&columns, widest).into_iter();
     let parts: Vec<String> = parts.map(|part| labels.beside(part, entries)).collect();
-    format!("{}{}", parts.join("\n"), legend(&columns))
+    format!("{}{}", parts.join("\n"), legend(&columns, widest))
 }
 
 /// The columns in groups that fit beside the labels.
-fn fitting(columns: &[Figures]) -> Vec<&[Figures]> {
+fn fitting(columns: &[Figures], widest: usize) -> Vec<&[Figures]> {
     let mut groups = Vec::new();
     let mut rest = columns;
     while !rest.is_empty() {
         let mut width = LEAST_LABEL;
         let fits = rest.iter().take_while(|column| {
             width += column.whole_width();
-            width <= WIDEST
+            width <= widest
         });
         let (group, left) = rest.split_at(fits.count().max(1));
         groups.push(group);
@@ -53,36 +61,33 @@ fn fitting(columns: &[Figures]) -> Vec<&[Figures]> {
 }
 
 /// What the marks and the figures mean, as far as they occur.
-fn legend(columns: &[Figures]) -> String {
+fn legend(columns: &[Figures], widest: usize) -> String {
     let any = |which: fn(&Cell) -> bool| columns.iter().flat_map(|one| &one.cells).any(which);
+    let best = |kind: Best| {
+        let mut of_kind = columns.iter().filter(|one| one.best == kind);
+        of_kind.any(|one| one.cells.iter().any(|cell| cell.is_best))
+    };
     let marks = [
-        (any(|cell| cell.is_best), "* smallest of its column"),
+        (best(Best::Smallest), "* smallest of its column"),
+        (best(Best::Largest), "* largest speed of the spindle"),
         (any(|cell| cell.exceeds), "! exceeds its tolerance"),
         (
             any(|cell| !cell.ratio.is_empty()),
             "× ratio to the first run",
         ),
     ];
-    let marks: Vec<&str> = marks
-        .into_iter()
-        .filter(|mark| mark.0)
-        .map(|mark| mark.1)
-        .collect();
+    let marks = marks.into_iter().filter(|mark| mark.0).map(|mark| mark.1);
+    let marks: Vec<&str> = marks.collect();
+    let words = |text: &'static str| text.split(' ').collect::<Vec<_>>();
     let has = |form: Form| columns.iter().any(|one| one.form == form);
     let lines = [
-        (!marks.is_empty(), marks.join("   ")),
+        (!marks.is_empty(), wrapped(&marks, "   ", widest)),
         (
             columns.iter().any(|one| one.of_law),
-            "law's: apart from where the feed runs out at the path's ends".to_owned(),
+            wrapped(&words(OF_LAW), " ", widest),
         ),
-        (
-            has(Form::Bytes),
-            "program: the lines that pmac-pvt makes of the points, measured".to_owned(),
-        ),
-        (
-            has(Form::Clock),
-            "planning: processor time to make and measure the path".to_owned(),
-        ),
+        (has(Form::Bytes), wrapped(&words(PROGRAM), " ", widest)),
+        (has(Form::Clock), wrapped(&words(PLANNING), " ", widest)),
     ];
     let lines = lines.into_iter().filter(|line| line.0);
     let lines: String = lines.map(|(_, line)| line + "\n").collect();
@@ -94,6 +99,8 @@ struct Labels {
     keys: Label,
     /// One a run.
     rows: Vec<Label>,
+    /// What a line may take.
+    widest: usize,
 }
 
 /// Values that vary, or their keys.
@@ -117,16 +124,16 @@ impl Label {
     }
 
     /// The line above a group.
-    fn title(&self) -> String {
+    fn title(&self, widest: usize) -> String {
         match self.group.as_str() {
             "" => String::new(),
-            group => cut(group, WIDEST) + "\n",
+            group => cut(group, widest) + "\n",
         }
     }
 }
 
 impl Labels {
-    fn of(entries: &[Value]) -> Self {
+    fn of(entries: &[Value], widest: usize) -> Self {
         let varied = |entry: &Value| entry.get("varied").and_then(Value::as_object).cloned();
         let all: Vec<_> = entries
             .iter()
@@ -141,6 +148,7 @@ impl Labels {
         Self {
             keys: Label::of(&keys),
             rows: values.map(|values| Label::of(&values)).collect(),
+            widest,
         }
     }
 
@@ -149,7 +157,7 @@ impl Labels {
         let taken: usize = columns.iter().map(Figures::whole_width).sum();
         let labels = self.rows.iter().chain([&self.keys]);
         let needed = labels.map(|label| label.own.width()).max().unwrap_or(0);
-        let width = needed.min(WIDEST.saturating_sub(taken));
+        let width = needed.min(self.widest.saturating_sub(taken));
         let mut text = self.heading(columns, width);
         text += &"─".repeat(width + taken);
         text.push('\n');
@@ -158,12 +166,12 @@ impl Labels {
             let is_new = group != Some(&label.group);
             if is_new || label.group.is_empty() {
                 text += if run > 0 { "\n" } else { "" };
-                text += &label.title();
+                text += &label.title(self.widest);
             }
             group = Some(&label.group);
             text += &lines(
                 &label.own,
-                &said(run, entry, columns, WIDEST - width),
+                &said(run, entry, columns, self.widest - width),
                 width,
             );
         }
@@ -180,7 +188,7 @@ impl Labels {
         let others = others.iter().map(|line| beside("", line));
         let all = others.chain([beside(&self.keys.own, last)]);
         let all: Vec<String> = all.map(|line| line.trim_end().to_owned()).collect();
-        format!("{}{}\n", self.keys.title(), all.join("\n"))
+        format!("{}{}\n", self.keys.title(self.widest), all.join("\n"))
     }
 
     fn head(&self, columns: &[Figures]) -> Vec<String> {
@@ -195,7 +203,7 @@ impl Labels {
 fn said(run: usize, entry: &Value, columns: &[Figures], width: usize) -> Vec<String> {
     if let Some(reason) = entry.get("error") {
         let reason = printable(reason.as_str().unwrap_or_default());
-        return vec![cut(&format!("  failed: {reason}"), width)];
+        return told(&format!("failed: {reason}"), width);
     }
     let mut said: Vec<String> = vec![
         columns.iter().map(|column| column.figure(run)).collect(),
@@ -203,10 +211,24 @@ fn said(run: usize, entry: &Value, columns: &[Figures], width: usize) -> Vec<Str
     ];
     let beyond = beyond(entry);
     if !beyond.is_empty() {
-        let beyond = format!("  does not hold: {}", beyond.join(", "));
-        said.push(cut(&printable(&beyond), width));
+        let beyond = format!("does not hold: {}", beyond.join(", "));
+        said.extend(told(&printable(&beyond), width));
     }
     said
+}
+
+/// A sentence within `width`, its end left out where it takes too many lines.
+fn told(text: &str, width: usize) -> Vec<String> {
+    let width = width.saturating_sub(BESIDE.width());
+    let words: Vec<&str> = text.split(' ').collect();
+    let lines = wrapped(&words, " ", width);
+    let (shown, rest) = match lines.match_indices('\n').nth(MOST_LINES - 1) {
+        Some((end, _)) => (&lines[..end], "…"),
+        None => (lines.as_str(), ""),
+    };
+    let shown = format!("{shown}{rest}");
+    let line = |line: &str| format!("{BESIDE}{}", cut(line, width));
+    shown.lines().map(line).collect()
 }
 
 /// What does not hold of a run and has no column where that shows.

@@ -1,6 +1,6 @@
 //! The sampler `atpg`.
 
-use turnpath_plugin::hermite::{SHORTEST, Steps};
+use turnpath_plugin::hermite::{MAX_STEP, Steps};
 use turnpath_plugin::prelude::*;
 
 /// Part of the feed that X's own interpolation may take: the cusp grows by 4e-4 of itself.
@@ -19,16 +19,10 @@ impl Strategy for AtpgSampler {
         4th derivative of the tool centre's own path";
     const SOURCE: &'static str = "Wang et al. 2019, Micromachines 10, §3.4, eq. 10; on the \
         compensated path, and with the step's own maximum";
-    const PARAMS: &'static [Param] = &[Param::angle("max_step", "largest angle step")
-        .default(45.0 * DEG)
-        .min(SHORTEST)
-        .max(90.0 * DEG)];
+    const PARAMS: &'static [Param] = &[MAX_STEP];
 
     fn new(params: &Params) -> Result<Self> {
-        let steps = Steps {
-            max_step: params.angle_rad("max_step"),
-            feed_part: FEED_PART,
-        };
+        let steps = Steps::new(params, FEED_PART);
         Ok(Self { steps })
     }
 }

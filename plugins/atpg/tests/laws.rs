@@ -7,7 +7,7 @@ mod common;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use common::{Case, ast_5, ast_50, joints, oap_213, rate_at, words};
+use common::{AtpgCase, Case, ast_5, ast_50, joints, oap_213, rate_at, words};
 use proptest::prelude::{ProptestConfig, Strategy as Generator, any, prop, prop_assert, proptest};
 use turnpath_atpg::{AtpgFeed, CubicFit, Residual, explicit_pairs};
 use turnpath_core::{
@@ -42,8 +42,8 @@ fn the_cubic_on_the_saddle_is_the_papers_equation_19() {
 fn the_cubic_law_runs_from_end_to_end_in_one_piece() {
     let (out, back) = (ast_5(ZDirection), ast_5(ZDirection).inward());
     let (out, back) = (
-        out.law("paper", "cubic").unwrap(),
-        back.law("paper", "cubic").unwrap(),
+        out.planned("paper", "cubic").unwrap(),
+        back.planned("paper", "cubic").unwrap(),
     );
     assert_eq!((out.pieces().len(), out.value(0.0)), (1, 0.0));
     assert!((out.end() - 97.155).abs() < 5e-4);
@@ -74,7 +74,7 @@ fn the_feed_at_2_mm_against_the_angle_is_that_of_figure_7() {
 /// Both of the paper's real parts: what their cutting times say.
 #[test]
 fn revolutions_of_the_papers_parts() {
-    let turns = |case: Case, residual: &str| case.law(residual, "cubic").unwrap().end();
+    let turns = |case: Case, residual: &str| case.planned(residual, "cubic").unwrap().end();
     for residual in ["held", "paper"] {
         let found = turns(ast_50(ZDirection), residual);
         assert!((found - 2740.8).abs() < 0.1, "AST-50, {residual}: {found}");
@@ -97,13 +97,13 @@ fn on_the_saddle_the_smooth_law_costs_what_erosion_does() {
     let fastest = case.fewest_revolutions(2000, 360);
     assert!((fastest - 98.98498).abs() < 1e-4, "{fastest}");
     let least = |rho: f64| {
-        case.held(rho, 360)
+        case.held_over(rho, 360)
             .into_iter()
             .fold(f64::INFINITY, f64::min)
     };
     let (centre, rim) = (least(0.0), least(2.5));
     let erosion = (0.05 + centre) * (1.0 / rim - 1.0 / centre);
-    let found = case.law("held", "smooth").unwrap().end();
+    let found = case.planned("held", "smooth").unwrap().end();
     assert!(
         found > fastest && found < fastest + 1.05 * erosion + 3e-4 * fastest,
         "{found}: {fastest} and {erosion}"
@@ -132,7 +132,7 @@ fn on_arrays_the_smooth_law_costs_little_against_the_fastest() {
     ] {
         let case = Case::new(surface, Arc::new(ZDirection), 10.0, nose, 100.0);
         let fastest = case.fewest_revolutions(1000, 720);
-        let found = case.law("held", "smooth").unwrap().end();
+        let found = case.planned("held", "smooth").unwrap().end();
         let cost = found / fastest - 1.0;
         assert!((0.0..allowed).contains(&cost), "{name}: {found}, {cost:.4}");
     }
@@ -171,11 +171,11 @@ fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_held_feed() {
             );
             if inward { case.inward() } else { case }
         };
-        let free = case().law("held", "smooth").unwrap();
+        let free = case().planned("held", "smooth").unwrap();
         let unlimited = acceleration(&case(), &free);
         for part in [0.7, 0.3, 0.1] {
             let limited = with_limit(case(), part * unlimited);
-            let law = limited.law("held", "smooth").unwrap();
+            let law = limited.planned("held", "smooth").unwrap();
             let found = acceleration(&limited, &law);
             assert!(found <= part * unlimited, "{found} of {part} · {unlimited}");
             assert!(law.end() > free.end());
@@ -189,19 +189,19 @@ fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_held_feed() {
 #[test]
 fn a_limit_that_is_kept_anyway_changes_no_bit_and_one_that_no_law_keeps_ends_the_search() {
     for case in [ast_5, |compensator| ast_5(compensator).inward()] {
-        let free = case(ZDirection).law("held", "smooth").unwrap();
+        let free = case(ZDirection).planned("held", "smooth").unwrap();
         let wide = with_limit(case(ZDirection), 1e6);
-        assert_eq!(wide.law("held", "smooth").unwrap(), free);
+        assert_eq!(wide.planned("held", "smooth").unwrap(), free);
     }
     let impossible = with_limit(ast_5(ZDirection), 1e-12);
     check(&impossible, 0.5);
-    let cubic = ast_5(ZDirection).law("held", "cubic").unwrap();
-    assert_eq!(impossible.law("held", "cubic").unwrap(), cubic);
+    let cubic = ast_5(ZDirection).planned("held", "cubic").unwrap();
+    assert_eq!(impossible.planned("held", "cubic").unwrap(), cubic);
 }
 
 /// Everything that a smooth law promises, on a dense grid.
 fn check(case: &Case, offset: f64) {
-    let law = case.law("held", "smooth").unwrap();
+    let law = case.planned("held", "smooth").unwrap();
     let RadialRange { inner, outer } = case.job.range;
     assert_eq!(law.value(0.0), inner);
     assert!((law.value(law.end()) - outer).abs() < 1e-13 * (1.0 + outer));
@@ -218,7 +218,7 @@ fn check(case: &Case, offset: f64) {
     for i in 0..400 {
         let (rho, rate) = rate_at(&law, law.end() * (f64::from(i) + offset) / 400.0);
         let held = case
-            .held(rho, 211)
+            .held_over(rho, 211)
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         assert!(
@@ -287,8 +287,8 @@ proptest! {
     #[test]
     fn inward_is_the_outward_law_reversed(terms in terms(), which in any::<u8>()) {
         let case = Case::new(polynomial(terms), compensator(which), 8.0, 1.0, 50.0);
-        let out = case.law("held", "smooth").unwrap();
-        let back = case.inward().law("held", "smooth").unwrap();
+        let out = case.planned("held", "smooth").unwrap();
+        let back = case.inward().planned("held", "smooth").unwrap();
         prop_assert!((out.end() - back.end()).abs() < 1e-9);
         for i in 0..=500 {
             let n = out.end() * f64::from(i) / 500.0;
@@ -309,13 +309,13 @@ fn what_has_no_feed_is_an_error_and_never_endless() {
     for fit in ["smooth", "cubic"] {
         for residual in ["held", "paper"] {
             let beyond = Case::new(sphere(2.0), Arc::new(Normal), 5.0, 1.0, 100.0);
-            let error = beyond.law(residual, fit).unwrap_err();
+            let error = beyond.planned(residual, fit).unwrap_err();
             assert!(
                 error.to_string().contains("no feed can be found"),
                 "{error}"
             );
             let nothing = Case::new(sphere(9.0), Arc::new(Normal), 5.0, 1.0, 100.0);
-            let error = nothing.with_hole(2.5).law(residual, fit).unwrap_err();
+            let error = nothing.with_hole(2.5).planned(residual, fit).unwrap_err();
             assert!(error.to_string().contains("nothing to cut"), "{error}");
         }
     }
@@ -328,11 +328,11 @@ fn tiny_parts_have_laws_of_less_than_a_revolution() {
             let surface = array(1e-4, 1.0, "sum");
             let case = Case::new(surface, Arc::new(ZDirection), aperture, 1.0, 100.0);
             let case = case.with_hole(hole);
-            let law = case.law("held", "smooth").unwrap();
+            let law = case.planned("held", "smooth").unwrap();
             assert!(law.end() > 0.0 && law.end() < 2.0);
             assert_eq!(law.value(0.0), hole);
             assert!((law.value(law.end()) - 0.5 * aperture).abs() < 1e-13);
-            let error = case.law("held", "cubic").unwrap_err();
+            let error = case.planned("held", "cubic").unwrap_err();
             assert!(error.to_string().contains("too few for a cubic"), "{error}");
         }
     }
@@ -341,8 +341,8 @@ fn tiny_parts_have_laws_of_less_than_a_revolution() {
 #[test]
 fn thin_rings_far_out_have_a_law() {
     let case = ast_50(ZDirection).with_hole(24.99);
-    let law = case.law("held", "smooth").unwrap();
-    assert!(off(law.end(), 0.01 / case.held(25.0, 1)[0]) < 0.01);
+    let law = case.planned("held", "smooth").unwrap();
+    assert!(off(law.end(), 0.01 / case.held_over(25.0, 1)[0]) < 0.01);
 }
 
 #[test]
@@ -350,10 +350,10 @@ fn a_law_may_start_beyond_the_axis() {
     let mut case = ast_5(ZDirection);
     case.job.range.inner = -0.1;
     check(&case, 0.5);
-    let beyond = case.law("held", "smooth").unwrap().end();
-    let turns = ast_5(ZDirection).law("held", "smooth").unwrap().end();
+    let beyond = case.planned("held", "smooth").unwrap().end();
+    let turns = ast_5(ZDirection).planned("held", "smooth").unwrap().end();
     let least = case
-        .held(0.0, 360)
+        .held_over(0.0, 360)
         .into_iter()
         .fold(f64::INFINITY, f64::min);
     assert!(off(beyond - turns, 0.1 / least) < 0.005);

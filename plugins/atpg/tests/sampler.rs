@@ -7,7 +7,7 @@ mod common;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use common::{Case, ast_5, ast_50, oap_213};
+use common::{AtpgCase, Case, ast_5, ast_50, oap_213};
 use proptest::prelude::{ProptestConfig, proptest};
 use turnpath_atpg::AtpgSampler;
 use turnpath_core::{
@@ -203,12 +203,12 @@ fn on_the_saddle_the_error_is_within_the_tolerance_and_most_of_it_is_used() {
     for fit in ["smooth", "cubic"] {
         let truth = ast_5(ZDirection);
         let case = ast_5(ZDirection);
-        held_and_used(&case, &truth, &case.law("held", fit).unwrap(), 45.0);
+        held_and_used(&case, &truth, &case.planned("held", fit).unwrap(), 45.0);
         // With `normal` X moves: it is X's own error, and so the residual, that binds.
         let case = ast_5(Normal);
-        held(&case, &truth, &case.law("held", fit).unwrap(), 45.0);
+        held(&case, &truth, &case.planned("held", fit).unwrap(), 45.0);
         let case = ast_5(Uncompensated);
-        held_and_used(&case, &case, &case.law("held", fit).unwrap(), 45.0);
+        held_and_used(&case, &case, &case.planned("held", fit).unwrap(), 45.0);
     }
 }
 
@@ -217,7 +217,7 @@ fn on_the_saddle_the_error_is_within_the_tolerance_and_most_of_it_is_used() {
 fn points_on_ast_50() {
     let case = ast_50(ZDirection);
     for fit in ["smooth", "cubic"] {
-        let count = nodes(&case, &case.law("paper", fit).unwrap(), 45.0).len();
+        let count = nodes(&case, &case.planned("paper", fit).unwrap(), 45.0).len();
         assert!((count as f64 / 23.9e3 - 1.0).abs() < 0.01, "{count}");
     }
 }
@@ -226,7 +226,7 @@ fn points_on_ast_50() {
 #[test]
 fn points_on_oap_213() {
     let case = oap_213(ZDirection);
-    let law = case.law("paper", "smooth").unwrap();
+    let law = case.planned("paper", "smooth").unwrap();
     let count = nodes(&case, &law, 45.0).len();
     assert!((count as f64 / 371e3 - 1.0).abs() < 0.01, "{count}");
 }
@@ -243,7 +243,7 @@ fn triangle_rotary(ends: &str) -> TriangleRotary {
 #[test]
 fn natural_ends_leave_micrometres_behind_a_whole_last_step() {
     let contact = ast_5(Uncompensated);
-    let law = contact.law("paper", "cubic").unwrap();
+    let law = contact.planned("paper", "cubic").unwrap();
     let mut sampled = nodes(&contact, &law, 45.0);
     sampled.pop();
     let errors = errors_by(
@@ -262,7 +262,7 @@ fn natural_ends_leave_micrometres_behind_a_whole_last_step() {
 #[test]
 fn nodes_of_the_contact_path_are_not_enough_for_the_compensated_one() {
     let (contact, centre) = (ast_5(Uncompensated), ast_5(ZDirection));
-    let law = contact.law("paper", "cubic").unwrap();
+    let law = contact.planned("paper", "cubic").unwrap();
     let sampled = nodes(&contact, &law, 45.0);
     assert!((sampled.len() as f64 / 1510.0 - 1.0).abs() < 0.01);
     let on_contact = largest(&errors(&contact, &contact, &law, &sampled));
@@ -318,7 +318,7 @@ fn on_a_flat_the_largest_step_binds() {
         }
     }
     let case = Case::new(Arc::new(Flat), Arc::new(ZDirection), 10.0, 1.0, 100.0);
-    let law = case.law("held", "smooth").unwrap();
+    let law = case.planned("held", "smooth").unwrap();
     let nodes = nodes(&case, &law, 30.0);
     let expected = (law.end() * 12.0).ceil() + 1.0;
     assert_eq!(nodes.len() as f64, expected);
@@ -343,7 +343,7 @@ fn steps_end_where_the_law_is_not_smooth() {
 #[test]
 fn knots_of_the_smooth_law_cost_no_nodes() {
     let case = ast_50(ZDirection);
-    let law = case.law("held", "smooth").unwrap();
+    let law = case.planned("held", "smooth").unwrap();
     let nodes = nodes(&case, &law, 45.0);
     let on_knots = common::joints(&law).filter(|n| nodes.contains(n) && n % BLOCK != 0.0);
     assert_eq!(on_knots.count(), 0);
@@ -408,7 +408,7 @@ proptest! {
         };
         let truth = case(if which == 2 { 2 } else { 0 });
         let played = case(which);
-        let law = played.law("held", "smooth").unwrap();
+        let law = played.planned("held", "smooth").unwrap();
         let nodes = nodes(&played, &law, max_step);
         let worst = largest(&errors(&played, &truth, &law, &nodes));
         proptest::prop_assert!(worst <= played.job.tolerance.interpolation, "{}", worst / NM);

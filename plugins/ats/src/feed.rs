@@ -1,8 +1,9 @@
 //! The feed strategy `ats`.
 
+use turnpath_plugin::locus::LARGEST_FEED;
 use turnpath_plugin::prelude::*;
 
-use crate::turn::{Turn, Turns};
+use crate::turn::{Turn, Turns, Way, backwards};
 
 /// Places of a piece at which it is held against the end of the range.
 const LOOKS: usize = 32;
@@ -16,8 +17,20 @@ const BATCH: usize = 8;
 
 /// At every cutting point the feed that holds the residual there:
 /// ℓ(N + 1) = ℓ(N) ± f, so that X moves back and forth within each turn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AtsFeed;
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct AtsFeed {
+    inward: Inward,
+}
+
+/// What an inward law is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Inward {
+    /// The recursion in the direction of cutting, from the rim's circle.
+    #[default]
+    Recursion,
+    /// The outward law backwards, which ends on the inner circle at every angle.
+    Backwards,
+}
 
 impl Strategy for AtsFeed {
     const NAME: &'static str = "ats";
@@ -26,8 +39,20 @@ impl Strategy for AtsFeed {
     const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, from its abstract and \
         from Wang et al. 2019; the law is derived here";
 
-    fn new(_: &Params) -> Result<Self> {
-        Ok(Self)
+    const PARAMS: &'static [Param] = &[Param::choice(
+        "inward",
+        &["recursion", "backwards"],
+        "recursion: from the rim's circle, so that fast angles pass the axis; backwards: the outward \
+         law run backwards, which begins beyond the rim and closes at the axis",
+    )
+    .default_choice("recursion")];
+
+    fn new(params: &Params) -> Result<Self> {
+        let inward = match params.choice("inward") {
+            "backwards" => Inward::Backwards,
+            _ => Inward::Recursion,
+        };
+        Ok(Self { inward })
     }
 }
 
@@ -40,6 +65,7 @@ impl FeedStrategy for AtsFeed {
             )));
         }
         Ok(Box::new(AtsPlan {
+            inward: self.inward,
             made: 0,
             last: None,
             count: None,
@@ -50,6 +76,7 @@ impl FeedStrategy for AtsFeed {
 
 /// The law as far as it has come: one turn is all that the next one needs.
 struct AtsPlan {
+    inward: Inward,
     /// How many turns are made.
     made: usize,
     last: Option<Turn>,
@@ -61,8 +88,31 @@ struct AtsPlan {
 
 impl FeedPlan for AtsPlan {
     fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        let goal = Goal::of(setup.job);
-        let mut turns = Turns::new(setup, self.count);
+        match (setup.job.direction, self.inward) {
+            (Direction::Inward, Inward::Backwards) => {
+                let goal = Goal::outward(setup.job, -1.0);
+                let mut law = Vec::new();
+                while self.further(setup, &goal, &mut law)? == Onward::More {}
+                pieces.extend(backwards(&law));
+                Ok(Onward::Done)
+            }
+            (Direction::Inward, Inward::Recursion) => {
+                self.further(setup, &Goal::inward(setup.job), pieces)
+            }
+            (Direction::Outward, _) => self.further(setup, &Goal::outward(setup.job, 1.0), pieces),
+        }
+    }
+}
+
+impl AtsPlan {
+    /// Some turns more.
+    fn further(
+        &mut self,
+        setup: Setup<'_>,
+        goal: &Goal,
+        pieces: &mut Vec<Stretch>,
+    ) -> Result<Onward> {
+        let mut turns = Turns::new(setup, goal.way, self.count);
         for _ in 0..BATCH {
             let turn = turns.turn(self.made, goal.start, self.last.as_ref())?;
             self.made += 1;
@@ -70,7 +120,7 @@ impl FeedPlan for AtsPlan {
             match (self.last.is_some(), short, self.short) {
                 // Every angle has passed: the turn that began where the last fell short ends it.
                 (true, None, before) => {
-                    cut(&turn, before.unwrap_or(0.0), pieces);
+                    cut(&turn, goal.needed(before.unwrap_or(0.0)), pieces);
                     return Ok(Onward::Done);
                 }
                 _ => pieces.extend(&turn.pieces),
@@ -86,25 +136,36 @@ impl FeedPlan for AtsPlan {
 struct Goal {
     start: f64,
     end: f64,
-    outward: f64,
+    way: Way,
 }
 
 impl Goal {
-    fn of(job: &Job) -> Self {
-        let RadialRange { inner, outer } = job.range;
-        let beyond = BEYOND * 0.1 * job.tool.nose_radius;
-        match job.direction {
-            Direction::Outward => Self {
-                start: inner,
-                end: outer + beyond,
+    /// `sense` as in [`Way`].
+    fn outward(job: &Job, sense: f64) -> Self {
+        Self {
+            start: job.range.inner,
+            end: job.range.outer + beyond(job),
+            way: Way {
                 outward: 1.0,
-            },
-            Direction::Inward => Self {
-                start: outer,
-                end: inner - beyond,
-                outward: -1.0,
+                sense,
             },
         }
+    }
+
+    fn inward(job: &Job) -> Self {
+        Self {
+            start: job.range.outer,
+            end: job.range.inner - beyond(job),
+            way: Way {
+                outward: -1.0,
+                sense: 1.0,
+            },
+        }
+    }
+
+    /// Which part of the last turn is wanted: all of it where the path begins there, at θ = 0.
+    fn needed(&self, part: f64) -> f64 {
+        if self.way.sense < 0.0 { 1.0 } else { part }
     }
 
     /// The last part of the turn at which ρ is short of the end; `None` where it nowhere is.
@@ -115,7 +176,7 @@ impl Goal {
                 let n = piece.length * look as f64 / LOOKS as f64;
                 let rho = piece.coefficients.iter().rev();
                 let rho = rho.fold(0.0, |sum, c| sum * n + c);
-                self.outward * (self.end - rho) > 0.0
+                self.way.outward * (self.end - rho) > 0.0
             };
             if let Some(look) = (0..=LOOKS).rev().find(|look| short(*look)) {
                 // The next look is not short: up to there it may be.
@@ -125,6 +186,11 @@ impl Goal {
         }
         None
     }
+}
+
+/// How far beyond the range's end every angle must come, mm.
+fn beyond(job: &Job) -> f64 {
+    BEYOND * LARGEST_FEED * job.tool.nose_radius
 }
 
 /// The pieces of a turn up to a part of it.

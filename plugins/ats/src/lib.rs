@@ -32,7 +32,15 @@
 //!   way, so at the centre fast ones reach ρ = 0 while slow ones are still outside. They go on to
 //!   negative ρ, where f is that of the other side, and the law ends when every angle is at or
 //!   below the inner end. What they pass there has been cut already, but X crosses the axis (AST-5:
-//!   by 0.48 mm): where machine or tool do not stand that, cut outward.
+//!   by 0.48 mm), where the part moves against the edge.
+//! - `inward = "backwards"` is for machines and tools that do not stand that: the outward law of
+//!   angles that run the other way, ρ(N) = ℓ(N_end − N) over whole turns. It closes at the axis, at
+//!   rest on the circle of the inner end at every angle, and pays for it at the rim, where it begins
+//!   as far outside as the outward law ends (AST-5: 0.5 mm), in the air. Feeds, cusps and X's
+//!   acceleration are those of the outward law; the whole law is kept, 56 bytes a piece.
+//! - To stop fast angles at the axis within the recursion would take X from 25 mm/s to rest within a
+//!   feed on AST-5, 12 m/s² in every turn against 5 at the most elsewhere; to slow them down from
+//!   further out is a law of the radius, which `atpg` is.
 //!
 //! **What it costs.** X moves back and forth within each turn. AST-5 (500 rpm, outward): 1.1 m/s² RMS
 //! where ATPG's law has 1.5 µm/s²; OAP-213: 29 mm/s². Where one angle is the slowest at all radii, as on an astigmatic

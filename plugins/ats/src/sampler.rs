@@ -1,6 +1,6 @@
 //! The sampler `ats`.
 
-use turnpath_plugin::hermite::{SHORTEST, Steps};
+use turnpath_plugin::hermite::{MAX_STEP, Steps};
 use turnpath_plugin::prelude::*;
 
 /// Part of the distance between passes that X's own interpolation may take. X moves all the time
@@ -20,16 +20,10 @@ impl Strategy for AtsSampler {
         whose X moves within the turn";
     const SOURCE: &'static str = "after Zhu and To 2015, whose angle follows the shape at every \
         point; the bound is Wang et al. 2019, eq. 10, for Z and X together";
-    const PARAMS: &'static [Param] = &[Param::angle("max_step", "largest angle step")
-        .default(45.0 * DEG)
-        .min(SHORTEST)
-        .max(90.0 * DEG)];
+    const PARAMS: &'static [Param] = &[MAX_STEP];
 
     fn new(params: &Params) -> Result<Self> {
-        let steps = Steps {
-            max_step: params.angle_rad("max_step"),
-            feed_part: FEED_PART,
-        };
+        let steps = Steps::new(params, FEED_PART);
         Ok(Self { steps })
     }
 }

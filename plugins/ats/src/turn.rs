@@ -61,6 +61,17 @@ impl Turn {
     }
 }
 
+/// The pieces of a law the other way round: ρ(N) = ℓ(N_end − N).
+pub fn backwards(pieces: &[Stretch]) -> impl Iterator<Item = Stretch> {
+    pieces.iter().rev().map(|piece| {
+        let at = |n: f64| {
+            let [value, rate, second] = polynomial(&piece.coefficients, n);
+            [value, -rate, second]
+        };
+        Stretch::between(at(piece.length), at(0.0), piece.length)
+    })
+}
+
 /// Value, rate and second derivative.
 fn polynomial(c: &[f64; 6], n: f64) -> State {
     let value = c.iter().rev().fold(0.0, |sum, c| sum * n + c);
@@ -98,11 +109,19 @@ impl Before<'_> {
     }
 }
 
+/// Which way a law is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Way {
+    /// 1 outward, −1 inward.
+    pub outward: f64,
+    /// 1 where θ grows with N; −1 for a law that is run backwards.
+    pub sense: f64,
+}
+
 /// Makes turns.
 pub struct Turns<'a> {
     feed: HeldFeed<'a>,
-    /// 1 outward, −1 inward.
-    outward: f64,
+    way: Way,
     /// Pieces of the next turn, to begin with.
     count: usize,
     theta: Vec<f64>,
@@ -113,13 +132,10 @@ pub struct Turns<'a> {
 
 impl<'a> Turns<'a> {
     /// For one job, with `count` pieces to begin with; `None` for a law that begins.
-    pub fn new(setup: Setup<'a>, count: Option<usize>) -> Self {
+    pub fn new(setup: Setup<'a>, way: Way, count: Option<usize>) -> Self {
         Self {
             feed: HeldFeed::new(setup),
-            outward: match setup.job.direction {
-                Direction::Outward => 1.0,
-                Direction::Inward => -1.0,
-            },
+            way,
             count: count.unwrap_or(FEWEST),
             theta: Vec::new(),
             rho: Vec::new(),
@@ -176,21 +192,26 @@ impl<'a> Turns<'a> {
     /// The states a turn on from those at the given parts of the turn before.
     fn states(&mut self, before: &Before<'_>, parts: &[f64]) -> Result<Vec<State>> {
         self.hold(before, parts);
-        let outward = self.outward;
+        let Way { outward, sense } = self.way;
         let feeds = self.feeds()?;
         Ok(feeds
             .iter()
             .zip(parts)
             .map(|(feed, part)| {
                 let state = before.state(*part);
-                onward(state, before.share(*part), along(feed, state), outward)
+                onward(
+                    state,
+                    before.share(*part),
+                    along(feed, state, sense),
+                    outward,
+                )
             })
             .collect())
     }
 
     /// F at the places held: the feed at ρ ± ½f(ρ), as a function of (θ, ρ). The places move there.
     fn feeds(&mut self) -> Result<&[Jet]> {
-        let half = 0.5 * self.outward;
+        let half = 0.5 * self.way.outward;
         let [inner, outer] = &mut self.jets;
         self.feed.jets(&self.theta, &self.rho, inner)?;
         for (jet, rho) in inner.iter_mut().zip(&mut self.rho) {
@@ -211,7 +232,7 @@ impl<'a> Turns<'a> {
             .flat_map(|i| PROBES.map(|probe| (i as f64 + probe) / count))
             .collect();
         self.hold(before, &parts);
-        let half = 0.5 * self.outward;
+        let half = 0.5 * self.way.outward;
         let [inner, outer] = &mut self.values;
         self.feed.values(&self.theta, &self.rho, inner)?;
         for (rho, feed) in self.rho.iter_mut().zip(inner.iter()) {
@@ -220,7 +241,7 @@ impl<'a> Turns<'a> {
         self.feed.values(&self.theta, &self.rho, outer)?;
         let mut stray: f64 = 0.0;
         for (part, feed) in parts.iter().zip(outer.iter()) {
-            let taken = self.outward * before.share(*part)[0] * feed;
+            let taken = self.way.outward * before.share(*part)[0] * feed;
             let exact = before.state(*part)[0] + taken;
             stray = stray.max((turn.state(*part)[0] - exact).abs() / feed);
         }
@@ -229,7 +250,8 @@ impl<'a> Turns<'a> {
 
     fn hold(&mut self, before: &Before<'_>, parts: &[f64]) {
         self.theta.clear();
-        self.theta.extend(parts.iter().map(|part| TAU * part));
+        let turn = self.way.sense * TAU;
+        self.theta.extend(parts.iter().map(|part| turn * part));
         self.rho.clear();
         self.rho
             .extend(parts.iter().map(|part| before.state(*part)[0]));
@@ -237,11 +259,12 @@ impl<'a> Turns<'a> {
 }
 
 /// A function of (θ, ρ) along the law, as one of N with its first two derivatives.
-fn along(feed: &Jet, [_, rate, second]: State) -> State {
+fn along(feed: &Jet, [_, rate, second]: State, sense: f64) -> State {
+    let turn = sense * TAU;
     [
         feed.value,
-        TAU * feed.t + feed.r * rate,
-        TAU * (TAU * feed.tt + 2.0 * feed.tr * rate) + feed.rr * rate * rate + feed.r * second,
+        turn * feed.t + feed.r * rate,
+        turn * (turn * feed.tt + 2.0 * feed.tr * rate) + feed.rr * rate * rate + feed.r * second,
     ]
 }
 

@@ -15,14 +15,14 @@ use turnpath_core::{
     angle,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
-use turnpath_surfaces::{Conic, SinusoidalArray, XyPolynomial};
+use turnpath_surfaces::{Astigmatic, Conic, SinusoidalArray, XyPolynomial};
 
 /// What the feed keeps below the one that holds, and what its pieces may stray.
 const MARGIN: f64 = 1.5e-3;
 const STRAY: f64 = 5e-5;
 
 fn ats(case: &Case) -> SpiralLaw {
-    case.law(&AtsFeed).unwrap()
+    case.law(&AtsFeed::default()).unwrap()
 }
 
 fn outward(case: &Case) -> f64 {
@@ -107,11 +107,16 @@ fn cusp(case: &Case, theta: f64, one: [f64; 2], two: [f64; 2]) -> f64 {
 /// At random places the cusp to the next pass is within the tolerance, and near it unless the feed
 /// is near its cap.
 fn check_cusps(case: &Case, law: &SpiralLaw, offset: f64) {
+    check_cusps_between(case, law, offset, [2.0, law.end() - 1.0]);
+}
+
+/// The same of passes from one turn to another.
+fn check_cusps_between(case: &Case, law: &SpiralLaw, offset: f64, [from, to]: [f64; 2]) {
     let tolerance = case.job.tolerance.residual;
     let cap = 0.1 * case.job.tool.nose_radius;
     let places = 150;
     for i in 0..places {
-        let n = 2.0 + (law.end() - 3.0) * (f64::from(i) + offset) / f64::from(places);
+        let n = from + (to - from) * (f64::from(i) + offset) / f64::from(places);
         let theta = angle(n);
         let (rho, next) = (law.value(n), law.value(n + 1.0));
         let gap = outward(case) * (next - rho);
@@ -197,6 +202,46 @@ fn inward_is_a_law_of_its_own() {
     assert!((-0.6..-0.4).contains(&least), "{least} mm at the centre");
 }
 
+/// The outward law of the mirror image, run backwards over whole turns: C² at all joins, at rest
+/// on the axis at its end and never beyond it, and its cusps hold.
+#[test]
+fn backwards_it_closes_at_the_axis() {
+    let mut words = Params::new();
+    words.set("inward", ParamValue::Text("backwards".to_owned()));
+    let feed = AtsFeed::new(&words).unwrap();
+    let mirrored = Astigmatic::new(&Params::new().with("k", -0.08)).unwrap();
+    for (case, mirrored) in [
+        (
+            ast_5(ZDirection),
+            Case::new(Arc::new(mirrored), Arc::new(ZDirection), 5.0, 1.0, 100.0),
+        ),
+        (mla_5(ZDirection), mla_5(ZDirection)),
+    ] {
+        let out = ats(&mirrored);
+        assert_eq!(case.law(&feed).unwrap().end(), ats(&case).end(), "outward");
+        let case = case.inward();
+        let law = case.law(&feed).unwrap();
+        assert!((law.end() - out.end().ceil()).abs() < 1e-10);
+        for i in 0..=5000 {
+            let n = out.end() * f64::from(i) / 5000.0;
+            let off = (law.value(law.end() - n) - out.value(n)).abs();
+            assert!(off < 1e-10, "{off} at {n}");
+        }
+        let end = law.series_before(law.end());
+        assert!(end[..3].iter().all(|k| k.abs() < 1e-15), "{end:?}");
+        let least = (0..=200_000).map(|i| law.value(law.end() * f64::from(i) / 2e5));
+        assert!(least.fold(f64::INFINITY, f64::min) > -1e-15);
+        for piece in law.pieces().iter().skip(1) {
+            let (before, after) = (law.series_before(piece.start), law.series(piece.start));
+            for (k, allowed) in [(0, 1e-12), (1, 1e-10), (2, 1e-7)] {
+                let jump = (before[k] - after[k]).abs();
+                assert!(jump <= allowed * (1.0 + before[2].abs()), "{k}: {jump}");
+            }
+        }
+        check_cusps_between(&case, &law, 0.37, [0.0, law.end() - 3.0]);
+    }
+}
+
 /// RMS of ρ'' over the law, mm.
 fn bend(law: &SpiralLaw) -> f64 {
     let places = 200_000;
@@ -249,7 +294,11 @@ fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
         }
     }
     let case = Case::new(Arc::new(Roof), Arc::new(Uncompensated), 4.0, 1.0, 100.0);
-    let error = case.with_hole(1.0).law(&AtsFeed).unwrap_err().to_string();
+    let error = case
+        .with_hole(1.0)
+        .law(&AtsFeed::default())
+        .unwrap_err()
+        .to_string();
     assert!(
         error.contains("ρ = 1.000 mm") && error.contains("`atpg`"),
         "{error}"
@@ -258,7 +307,10 @@ fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
 
 #[test]
 fn nothing_to_cut_is_an_error() {
-    let error = ast_5(ZDirection).with_hole(2.5).law(&AtsFeed).unwrap_err();
+    let error = ast_5(ZDirection)
+        .with_hole(2.5)
+        .law(&AtsFeed::default())
+        .unwrap_err();
     assert!(error.to_string().contains("nothing to cut"), "{error}");
 }
 

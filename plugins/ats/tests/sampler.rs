@@ -23,7 +23,7 @@ const FEED_PART: f64 = 1.01 * 5e-4;
 const INSTANTS: i32 = 16;
 
 fn law(case: &Case) -> SpiralLaw {
-    case.law(&AtsFeed).unwrap()
+    case.law(&AtsFeed::default()).unwrap()
 }
 
 fn path<'a>(case: &'a Case, law: &'a SpiralLaw) -> Path<'a> {

@@ -1,11 +1,13 @@
 //! The sampler `fft-adaptive`: eq. 1 and 4, and the critical rate from a spectrum.
 
-use turnpath_plugin::hermite::SHORTEST;
+use turnpath_plugin::hermite::MAX_STEP;
 use turnpath_plugin::prelude::*;
 
 use crate::chord::Chord;
 use crate::harmonics::Harmonics;
+use crate::printed::step_from;
 use crate::revolution::Revolution;
+use crate::rule::Rule;
 
 /// A node closer to the revolution's end than this part of its step is left out.
 const SLACK: f64 = 1e-3;
@@ -15,7 +17,7 @@ const SLACK: f64 = 1e-3;
 enum Curvature {
     /// The largest on the step.
     Step,
-    /// That at its start.
+    /// That at its start, on the circle through it.
     Start,
 }
 
@@ -46,14 +48,11 @@ impl Strategy for FftAdaptiveSampler {
         Param::choice(
             "curvature",
             &["step", "start"],
-            "step: the largest curvature on the step; start: that at its start, as printed, which \
-             steps over crests from inflections",
+            "step: the largest curvature on the step, along the spiral; start: that at its start, \
+             along the circle of that radius, as printed, which steps over crests from inflections",
         )
         .default_choice("step"),
-        Param::angle("max_step", "largest angle step")
-            .default(45.0 * DEG)
-            .min(SHORTEST)
-            .max(90.0 * DEG),
+        MAX_STEP,
     ];
 
     fn new(params: &Params) -> Result<Self> {
@@ -64,7 +63,7 @@ impl Strategy for FftAdaptiveSampler {
         Ok(Self {
             chord: Chord::from_word(params.choice("chord")),
             curvature,
-            max_step: params.angle_rad("max_step"),
+            max_step: params.angle_rad(MAX_STEP.name),
             harmonics: Harmonics::default(),
         })
     }
@@ -74,23 +73,32 @@ impl Sampler for FftAdaptiveSampler {
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
         for turn in block.turns() {
             let longest = self.critical_step(path, turn.start)?;
-            let revolution = Revolution::look(path, turn, self.chord, longest)?;
-            let mut n = turn.start;
-            while n < turn.end {
-                nodes.push(n);
-                let step = match self.curvature {
-                    Curvature::Step => revolution.step_over(n),
-                    Curvature::Start => revolution.step_at(n),
-                } / TAU;
-                n = if turn.end - n < (1.0 + SLACK) * step {
-                    turn.end
-                } else {
-                    n + step
-                };
+            let rule = Rule::new(path.job, self.chord, longest);
+            match self.curvature {
+                Curvature::Step => {
+                    let revolution = Revolution::look(path, turn, rule)?;
+                    walk(turn, nodes, |n| Ok(revolution.step_over(n)))?;
+                }
+                Curvature::Start => walk(turn, nodes, |n| step_from(path, turn, n, &rule))?,
             }
         }
         Ok(())
     }
+}
+
+/// Nodes from the turn's start on, each a step (rad) after the one before.
+fn walk(turn: Turn, nodes: &mut Vec<f64>, mut step: impl FnMut(f64) -> Result<f64>) -> Result<()> {
+    let mut n = turn.start;
+    while n < turn.end {
+        nodes.push(n);
+        let step = step(n)? / TAU;
+        n = if turn.end - n < (1.0 + SLACK) * step {
+            turn.end
+        } else {
+            n + step
+        };
+    }
+    Ok(())
 }
 
 impl FftAdaptiveSampler {

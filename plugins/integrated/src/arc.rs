@@ -4,6 +4,12 @@ use turnpath_plugin::prelude::*;
 
 /// Smallest step: 360,000 points a revolution are a slip of the unit, and finer ones fill the memory.
 pub const SMALLEST_STEP: f64 = 1e-3 * DEG;
+/// The parameter `spacing`.
+pub const SPACING: Param = Param::length(
+    "spacing",
+    "largest arc between neighbouring points, in the plane of the part",
+)
+.positive();
 /// Nodes and weights of Gauss' rule of 6th order on (0, 1), around the middle.
 const GAUSS: f64 = 0.387_298_334_620_741_7;
 const OUTER: f64 = 5.0 / 18.0;
@@ -28,6 +34,14 @@ pub struct ArcSteps {
 }
 
 impl ArcSteps {
+    /// Steps of a strategy that declares [`SPACING`].
+    pub fn new(params: &Params, max_step: f64) -> Self {
+        Self {
+            spacing: params.length_mm(SPACING.name),
+            max_step,
+        }
+    }
+
     /// Appends the nodes of a block. `state` holds where the block before left the next node, in
     /// revolutions; empty for the first.
     pub fn place(

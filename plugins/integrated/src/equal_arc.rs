@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::arc::ArcSteps;
+use crate::arc::{ArcSteps, SPACING};
 
 /// Largest angle of a step: near the centre the arc of one turn is shorter than any spacing.
 const LARGEST_STEP: f64 = 90.0 * DEG;
@@ -18,17 +18,10 @@ impl Strategy for EqualArc {
     const SUMMARY: &'static str = "equal arcs along the spiral, at most 90 deg apart";
     const SOURCE: &'static str = "the equal arc length discretization of the integrated \
         discretization paper: worst near the centre";
-    const PARAMS: &'static [Param] = &[Param::length(
-        "spacing",
-        "arc between neighbouring points, in the plane of the part",
-    )
-    .positive()];
+    const PARAMS: &'static [Param] = &[SPACING];
 
     fn new(params: &Params) -> Result<Self> {
-        let steps = ArcSteps {
-            spacing: params.length_mm("spacing"),
-            max_step: LARGEST_STEP,
-        };
+        let steps = ArcSteps::new(params, LARGEST_STEP);
         Ok(Self { steps })
     }
 }

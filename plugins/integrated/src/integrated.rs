@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::arc::{ArcSteps, SMALLEST_STEP};
+use crate::arc::{ArcSteps, SMALLEST_STEP, SPACING};
 
 /// Equal arcs outside; from where they would span more than the largest angle on inwards, equal
 /// angles.
@@ -18,11 +18,7 @@ impl Strategy for Integrated {
     const SOURCE: &'static str = "the integrated discretization paper: the smaller of its two \
         steps everywhere";
     const PARAMS: &'static [Param] = &[
-        Param::length(
-            "spacing",
-            "largest arc between neighbouring points, in the plane of the part",
-        )
-        .positive(),
+        SPACING,
         Param::angle(
             "max_step",
             "largest angle step, which binds near the centre",
@@ -33,10 +29,7 @@ impl Strategy for Integrated {
     ];
 
     fn new(params: &Params) -> Result<Self> {
-        let steps = ArcSteps {
-            spacing: params.length_mm("spacing"),
-            max_step: params.angle_rad("max_step"),
-        };
+        let steps = ArcSteps::new(params, params.angle_rad("max_step"));
         Ok(Self { steps })
     }
 }

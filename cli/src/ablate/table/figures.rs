@@ -3,13 +3,13 @@
 use serde_json::Value;
 use unicode_width::UnicodeWidthStr;
 
-use crate::ablate::columns::{Column, Form, number};
+use crate::ablate::columns::{Best, Column, Form, number};
 
 use super::words::{NONE, ratio_of, written};
 
 /// Figures below this are rounding: 1e-8 nm, or mm/s².
 const ROUNDING: f64 = 1e-8;
-/// Marks the smallest figure of a column.
+/// Marks the best figure of a column.
 const BEST: &str = "*";
 /// Marks a figure that exceeds its tolerance.
 const EXCEEDS: &str = "!";
@@ -29,6 +29,7 @@ pub struct Figures {
     pub form: Form,
     /// Whether they speak of the law alone.
     pub of_law: bool,
+    pub best: Best,
     /// A cell a run.
     pub cells: Vec<Cell>,
     width: usize,
@@ -40,7 +41,7 @@ impl Figures {
         let tidy = |number: f64| if number.abs() < ROUNDING { 0.0 } else { number };
         let figures = entries.iter().map(|entry| number(entry, column));
         let numbers: Vec<Option<f64>> = figures.map(|number| number.map(tidy)).collect();
-        let best = best(&numbers, column.form).filter(|_| column.has_best());
+        let best = best(&numbers, column);
         let first = numbers.first().copied().flatten();
         let cell = |(row, (entry, number)): (usize, (&Value, &Option<f64>))| {
             let fails = |pointer| entry.pointer(pointer) == Some(&Value::Bool(false));
@@ -61,6 +62,7 @@ impl Figures {
             head: column.head,
             form: column.form,
             of_law: column.is_of_law(),
+            best: column.best,
             cells,
         }
     }
@@ -110,22 +112,34 @@ impl Cell {
     }
 }
 
-/// The smallest number as it is written, unless all are the same.
-fn best(numbers: &[Option<f64>], form: Form) -> Option<String> {
-    let finite = |number: &f64| number.is_finite();
-    let there = || numbers.iter().flatten().copied().filter(finite);
-    let least = written(there().fold(f64::INFINITY, f64::min), form);
-    let differ = there().any(|number| written(number, form) != least);
-    differ.then_some(least)
+/// The best number as it is written, unless all are the same.
+fn best(numbers: &[Option<f64>], column: &Column) -> Option<String> {
+    let there = || numbers.iter().flatten().copied().filter(|n| n.is_finite());
+    let best = match column.best {
+        Best::Smallest => there().fold(f64::INFINITY, f64::min),
+        Best::Largest => there().fold(f64::NEG_INFINITY, f64::max),
+        Best::None => return None,
+    };
+    let best = written(best, column.form);
+    let differ = there().any(|number| written(number, column.form) != best);
+    differ.then_some(best)
 }
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
+    use crate::ablate::columns::chosen;
+
+    fn best_of(name: &str, numbers: &[Option<f64>]) -> Option<String> {
+        let column = chosen(&[name.to_owned()])[0];
+        best(numbers, column)
+    }
 
     #[test]
     fn figures_that_are_all_the_same_have_no_best() {
-        let best = |numbers: &[Option<f64>]| best(numbers, Form::Real);
+        let best = |numbers: &[Option<f64>]| best_of("time", numbers);
         assert_eq!(best(&[Some(1.0), None, Some(1.000_01)]), None);
         assert_eq!(
             best(&[Some(2.0), None, Some(1.0)]),
@@ -133,5 +147,53 @@ mod tests {
         );
         assert_eq!(best(&[Some(f64::NAN), Some(1.0)]), None);
         assert_eq!(best(&[None, None]), None);
+    }
+
+    #[test]
+    fn of_speeds_the_largest_is_the_best_and_of_times_of_the_processor_none() {
+        let numbers = [Some(100.0), None, Some(300.0)];
+        assert_eq!(best_of("spindle-max", &numbers), Some("300.0".to_owned()));
+        assert_eq!(best_of("planning-time", &numbers), None);
+    }
+
+    /// Marks and ratios where figures tie as they are written, are nought, or are not there.
+    #[test]
+    fn ties_are_all_marked_and_nought_or_nothing_has_no_ratio() {
+        let entry = |added: serde_json::Value, time: serde_json::Value| json!({ "points_added_by_refine": added, "cutting_time_s": time });
+        let entries = [
+            entry(json!(0), json!(99.994)),
+            entry(json!(7), json!(99.996)),
+            entry(json!(0), json!(100.02)),
+            entry(json!(null), json!(null)),
+            json!({ "error": "it panicked" }),
+            entry(json!(0), json!(250.0)),
+        ];
+        let cells = |name: &str| {
+            let column = chosen(&[name.to_owned()])[0];
+            let cells = Figures::of(&entries, column).cells.into_iter();
+            cells
+                .map(|cell| (cell.text, cell.is_best, cell.ratio))
+                .collect::<Vec<_>>()
+        };
+        let row =
+            |text: &str, is_best: bool, ratio: &str| (text.to_owned(), is_best, ratio.to_owned());
+        let added = [
+            row("0", true, ""),
+            row("7", false, ""),
+            row("0", true, ""),
+            row("–", false, ""),
+            row("–", false, ""),
+            row("0", true, ""),
+        ];
+        assert_eq!(cells("added"), added);
+        let times = [
+            row("99.99", true, ""),
+            row("100.0", false, "×1.00"),
+            row("100.0", false, "×1.00"),
+            row("–", false, ""),
+            row("–", false, ""),
+            row("250.0", false, "×2.50"),
+        ];
+        assert_eq!(cells("time"), times);
     }
 }

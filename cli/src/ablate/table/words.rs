@@ -22,7 +22,7 @@ pub fn written(number: f64, form: Form) -> String {
 
 /// Four digits where they fit into six columns, else a power of ten.
 fn four_digits(number: f64) -> String {
-    match number.abs() {
+    match rounded(number).abs() {
         0.0 => "0".to_owned(),
         v if !v.is_finite() => NONE.to_owned(),
         v if v < 1e-6 => format!("{number:.0e}"),
@@ -35,6 +35,14 @@ fn four_digits(number: f64) -> String {
     }
 }
 
+/// To four digits, or to a whole number: 9.9996 is 10.00, and not 10.000.
+fn rounded(number: f64) -> f64 {
+    if number.abs() >= 1000.0 {
+        return number.round();
+    }
+    format!("{number:.3e}").parse().unwrap_or(number)
+}
+
 /// "×1.23"; nothing where there is no ratio.
 pub fn ratio_of(number: f64, first: f64) -> String {
     match number / first {
@@ -45,6 +53,24 @@ pub fn ratio_of(number: f64, first: f64) -> String {
         ratio if ratio < 100.0 => format!("×{ratio:.1}"),
         ratio => format!("×{ratio:.0}"),
     }
+}
+
+/// Parts one after the other, on as many lines as so many columns ask for.
+pub fn wrapped(parts: &[&str], between: &str, width: usize) -> String {
+    let mut text = String::new();
+    let mut taken = 0;
+    for part in parts {
+        let more = between.width() + part.width();
+        if taken > 0 && taken + more <= width {
+            text += between;
+            taken += more;
+        } else {
+            text += if taken > 0 { "\n" } else { "" };
+            taken = part.width();
+        }
+        text += part;
+    }
+    text
 }
 
 /// A text in exactly so many columns.
@@ -90,9 +116,21 @@ mod tests {
             "0", "1e-7", "0.0123", "0.500", "3.212", "42.42", "999.9", "12,346", "1.2e9",
         ];
         assert_eq!(said, expected);
+        let carried = [0.009_999_96, 0.099_999, 9.9996, 99.996, 999.96, 99_999.6];
+        let expected = ["0.0100", "0.100", "10.00", "100.0", "1,000", "1.0e5"];
+        assert_eq!(carried.map(four_digits), expected);
         let ratios = [1.0, 0.123, 12.34, 567.8, 0.0].map(|ratio| ratio_of(ratio, 1.0));
         assert_eq!(ratios, ["×1.00", "×0.12", "×12.3", "×568", "×0"]);
         assert_eq!(ratio_of(1.0, 0.0), "");
+    }
+
+    #[test]
+    fn parts_go_on_the_next_line_where_they_do_not_fit() {
+        let parts = ["one", "two", "three"];
+        assert_eq!(wrapped(&parts, "  ", 15), "one  two  three");
+        assert_eq!(wrapped(&parts, "  ", 14), "one  two\nthree");
+        assert_eq!(wrapped(&parts, "  ", 2), "one\ntwo\nthree");
+        assert_eq!(wrapped(&[], " ", 9), "");
     }
 
     #[test]

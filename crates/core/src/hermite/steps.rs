@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::bound::Bound;
 use super::samples::{Knot, Samples};
-use crate::{DEG, Path, Result, Revolutions, StrategyError};
+use crate::{DEG, Param, Params, Path, Result, Revolutions, StrategyError};
 
 /// Part of the tolerance that is aimed at: below refinement's own aim of 0.99, so that a
 /// prediction that is right is never halved for what samples and rounding miss. A step shrinks
@@ -44,7 +44,22 @@ pub struct Steps {
 /// The shortest step, rad: 90,000 points a revolution. What asks for less is no smooth surface.
 pub const SHORTEST: f64 = SHORTEST_DEG * DEG;
 
+/// The parameter `max_step` of samplers that look for the longest step: 45 deg, and never more
+/// than 90.
+pub const MAX_STEP: Param = Param::angle("max_step", "largest angle step")
+    .default(45.0 * DEG)
+    .min(SHORTEST)
+    .max(90.0 * DEG);
+
 impl Steps {
+    /// Steps of a strategy that declares [`MAX_STEP`].
+    pub fn new(params: &Params, feed_part: f64) -> Self {
+        Self {
+            max_step: params.angle_rad(MAX_STEP.name),
+            feed_part,
+        }
+    }
+
     /// Appends the nodes of `block`: as [`Sampler::place`](crate::Sampler::place) asks for.
     ///
     /// # Errors

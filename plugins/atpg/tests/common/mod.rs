@@ -1,124 +1,56 @@
-//! Parts of the papers, and laws of the feed strategy on them.
+//! Parts of the papers, and laws of the feed `atpg` on them.
 #![allow(dead_code, reason = "every test program uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+#[path = "../../../../tests/support/planned.rs"]
+mod planned;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+pub use planned::{Case, ast_5};
 use turnpath_atpg::AtpgFeed;
 use turnpath_core::{
-    CentreBuffers, Compensator, Direction, FeedStrategy, Job, Locus, Machine, NM, Onward,
-    ParamValue, Params, Part, Piece, RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy,
-    SurfaceModel, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Locus, ParamValue, Params, Piece, RadialRange, Result, SpiralLaw,
+    Strategy,
 };
 use turnpath_surfaces::{Astigmatic, OffAxisParaboloid};
 
-/// A job and the locus that it is cut on.
-pub struct Case {
-    pub job: Job,
-    pub locus: ToolLocus,
-}
-
-impl Case {
-    pub fn new(
-        surface: Arc<dyn SurfaceModel>,
-        compensator: Arc<dyn Compensator>,
-        aperture: f64,
-        nose_radius: f64,
-        tolerance_nm: f64,
-    ) -> Self {
-        let outer = 0.5 * aperture;
-        let tool = Tool {
-            nose_radius,
-            included_angle: None,
-            clearance_angle: None,
-            misfit: turnpath_core::Misfit::Refuse,
-        };
-        let job = Job {
-            part: Part {
-                aperture_radius: outer,
-                inner_radius: 0.0,
-            },
-            tool,
-            tolerance: Tolerance {
-                interpolation: tolerance_nm * NM,
-                residual: tolerance_nm * NM,
-            },
-            range: RadialRange { inner: 0.0, outer },
-            direction: Direction::Outward,
-            spindle: SpindleLaw::constant(500.0 * TAU / 60.0),
-            machine: Machine::default(),
-        };
-        Self {
-            job,
-            locus: ToolLocus::new(surface, compensator, tool),
-        }
-    }
-
-    pub fn inward(mut self) -> Self {
-        self.job.direction = Direction::Inward;
-        self
-    }
-
-    /// With a hole of the given radius.
-    pub fn with_hole(mut self, inner: f64) -> Self {
-        self.job.part.inner_radius = inner;
-        self.job.range.inner = inner;
-        self
-    }
-
-    pub fn setup(&self) -> Setup<'_> {
-        Setup {
-            job: &self.job,
-            locus: &self.locus,
-        }
-    }
-
+/// What is asked of a case besides.
+pub trait AtpgCase {
     /// The law of feed `atpg`.
-    pub fn law(&self, residual: &str, fit: &str) -> Result<SpiralLaw> {
-        let params = words(&[("residual", residual), ("fit", fit)]);
-        let mut plan = AtpgFeed::new(&params)?.plan(self.setup())?;
-        let (mut law, mut pieces) = (SpiralLaw::new(), Vec::new());
-        while plan.extend(self.setup(), &mut pieces)? == Onward::More {}
-        for piece in pieces {
-            law.push(piece.length, piece.coefficients);
-        }
-        Ok(law)
-    }
-
+    fn planned(&self, residual: &str, fit: &str) -> Result<SpiralLaw>;
     /// The held feed at each of `angles` even angles, at one radius.
-    pub fn held(&self, rho: f64, angles: usize) -> Vec<f64> {
-        let theta: Vec<f64> = (0..angles)
-            .map(|i| TAU * i as f64 / angles as f64)
-            .collect();
-        let mut feed = vec![f64::NAN; angles];
-        let residual = self.job.tolerance.residual;
-        self.locus
-            .held_feed(
-                residual,
-                self.locus.radial(),
-                &theta,
-                &vec![rho; angles],
-                &mut feed,
-            )
-            .unwrap();
-        feed
-    }
-
+    fn held_over(&self, rho: f64, angles: usize) -> Vec<f64>;
     /// Revolutions of the fastest law that holds the residual at every angle: ∫ dρ/min F, by
     /// brute force.
-    pub fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64 {
+    fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64;
+    /// The nose centre's Z at the given places.
+    fn heights(&self, theta: &[f64], x: &[f64]) -> Vec<f64>;
+}
+
+impl AtpgCase for Case {
+    fn planned(&self, residual: &str, fit: &str) -> Result<SpiralLaw> {
+        let params = words(&[("residual", residual), ("fit", fit)]);
+        self.law(&AtpgFeed::new(&params)?)
+    }
+
+    fn held_over(&self, rho: f64, angles: usize) -> Vec<f64> {
+        let theta = (0..angles).map(|i| TAU * i as f64 / angles as f64);
+        theta.map(|theta| self.held(theta, rho)).collect()
+    }
+
+    fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64 {
         let RadialRange { inner, outer } = self.job.range;
         let step = (outer - inner) / radii as f64;
         let turns = (0..radii).map(|i| {
-            let feed = self.held(inner + (i as f64 + 0.5) * step, angles);
+            let feed = self.held_over(inner + (i as f64 + 0.5) * step, angles);
             step / feed.into_iter().fold(f64::INFINITY, f64::min)
         });
         turns.sum()
     }
 
-    /// The nose centre's Z at the given places.
-    pub fn heights(&self, theta: &[f64], x: &[f64]) -> Vec<f64> {
+    fn heights(&self, theta: &[f64], x: &[f64]) -> Vec<f64> {
         let mut room = CentreBuffers::default();
         room.resize(theta.len());
         self.locus.centre(theta, x, room.as_centres()).unwrap();
@@ -133,12 +65,6 @@ pub fn words(pairs: &[(&str, &str)]) -> Params {
         params.set(*name, ParamValue::Text((*word).to_owned()));
     }
     params
-}
-
-/// AST-5: z = 0.08 ρ² sin 2θ, aperture 5 mm, R = 1 mm, 100 nm.
-pub fn ast_5(compensator: impl Compensator + 'static) -> Case {
-    let surface = Astigmatic::new(&Params::new().with("k", 0.08)).unwrap();
-    Case::new(Arc::new(surface), Arc::new(compensator), 5.0, 1.0, 100.0)
 }
 
 /// AST-50: 4.8 µm over 50 mm, R = 1.04 mm, 10 nm.
