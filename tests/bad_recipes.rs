@@ -192,7 +192,7 @@ fn an_overrun_for_which_the_surface_ends_too_early() {
 }
 
 #[test]
-fn a_lead_that_cannot_be_made() {
+fn a_clearance_that_no_machine_has() {
     let lead = "lead = true\nclearance = \"1e12 mm\"";
     insta::assert_snapshot!(with_change("lead = false", lead));
 }

@@ -163,8 +163,9 @@ fn the_steps_own_curvature_keeps_the_chord_within_the_tolerance() {
 }
 
 /// A turn of z = kρ² sin 2θ has ∮ dθ/Δθ = sqrt(kρ²/2e)·∮ sqrt|sin 2θ| dθ points, 4.7926 times the
-/// root, and the look ahead takes some more. The harmonics play no part: the second allows 90°. So
-/// the tenfold tolerance takes a third of the points, where eq. 10 would take 0.56 of them.
+/// root, and the look ahead takes two or three more at each of the four inflections. The harmonics play
+/// no part: the second allows 90°. So the tenfold tolerance takes a third of the points, where eq. 10
+/// would take 0.56 of them.
 #[test]
 fn points_of_a_turn_are_those_of_straight_chords() {
     let k = 3.84e-4;
@@ -185,8 +186,8 @@ fn points_of_a_turn_are_those_of_straight_chords() {
             1.0,
         );
         let expected = 4.7926 * (k * rho * rho / (2.0 * tolerance * NM)).sqrt();
-        let share = nodes.unwrap().len() as f64 / expected;
-        assert!((1.0..1.06).contains(&share), "{share} of {expected}");
+        let more = nodes.unwrap().len() as f64 - expected;
+        assert!((0.0..12.0).contains(&more), "{more} more than {expected}");
     }
 }
 

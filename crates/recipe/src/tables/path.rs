@@ -3,12 +3,17 @@
 use turnpath_core::{Direction, Overrun, Quantity};
 
 use crate::document::Value;
-use crate::read::{NOT_NEGATIVE, POSITIVE, Section};
+use crate::read::{Bound, NOT_NEGATIVE, Section};
 
 pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead", "clearance"];
 
 /// How far the path rests above the part where the recipe does not say it, mm.
 const CLEARANCE: f64 = 1.0;
+/// How far it may: no lathe for optics has a longer way of Z.
+const REACH: Bound = Bound {
+    holds: |clearance| clearance > 0.0 && clearance <= 1e3,
+    words: "above zero and at most 1 m",
+};
 
 /// `[path]`.
 pub(crate) struct PathTable {
@@ -38,7 +43,7 @@ pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
         overrun: overrun(section),
         lead: section.flag("lead").is_none_or(|lead| lead.value),
         clearance: section
-            .quantity("clearance", Quantity::Length, POSITIVE)
+            .quantity("clearance", Quantity::Length, REACH)
             .map_or(CLEARANCE, |clearance| clearance.value),
     }
 }
