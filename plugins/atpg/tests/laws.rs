@@ -3,19 +3,22 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 mod common;
+#[path = "../../../tests/support/random.rs"]
+mod random;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use common::{AtpgCase, Case, ast_5, ast_50, joints, oap_213, rate_at, words};
-use proptest::prelude::{ProptestConfig, Strategy as Generator, any, prop, prop_assert, proptest};
+use proptest::prelude::{ProptestConfig, any, prop, prop_assert, proptest};
+use random::{array, compensator, polynomial, terms};
 use turnpath_atpg::{AtpgFeed, CubicFit, Residual, explicit_pairs};
-use turnpath_core::{
-    Compensator, Locus, ParamValue, Params, Radial, RadialRange, SpiralLaw, Strategy, SurfaceModel,
-    UM,
-};
-use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
-use turnpath_surfaces::{Conic, SinusoidalArray, XyPolynomial};
+use turnpath_core::{Locus, Params, Radial, RadialRange, SpiralLaw, Strategy, SurfaceModel, UM};
+use turnpath_nose_radius::{Normal, ZDirection};
+use turnpath_surfaces::Conic;
+
+/// A nose of 1 mm fits into polynomials of these terms on parts of 8 mm.
+const TERMS: [f64; 5] = [0.1, 0.1, 0.05, 0.005, 0.0008];
 
 /// Relative difference.
 fn off(found: f64, expected: f64) -> f64 {
@@ -109,14 +112,6 @@ fn on_the_saddle_the_smooth_law_costs_what_erosion_does() {
         "{found}: {fastest} and {erosion}"
     );
     assert!(found < 1.003 * fastest, "{found}");
-}
-
-fn array(amplitude: f64, frequency: f64, form: &str) -> Arc<dyn SurfaceModel> {
-    let mut params = Params::new()
-        .with("amplitude_x", amplitude)
-        .with("frequency_x", frequency);
-    params.set("form", ParamValue::Text(form.to_owned()));
-    Arc::new(SinusoidalArray::new(&params).unwrap())
 }
 
 /// The sharp array has a lens in every 30 feeds: there erosion by f_max itself costs most of it.
@@ -228,33 +223,6 @@ fn check(case: &Case, offset: f64) {
     }
 }
 
-fn compensator(which: u8) -> Arc<dyn Compensator> {
-    match which % 3 {
-        0 => Arc::new(ZDirection),
-        1 => Arc::new(Normal),
-        _ => Arc::new(Uncompensated),
-    }
-}
-
-/// Terms of xy-polynomials of degree 4 that a nose of 1 mm fits into, on parts of 8 mm.
-fn terms() -> impl Generator<Value = Vec<Vec<f64>>> {
-    let powers = (0..5).flat_map(|i| (0..5 - i).map(move |j| (i, j)));
-    let powers: Vec<(i32, i32)> = powers.collect();
-    prop::collection::vec(-1.0..1.0f64, powers.len()).prop_map(move |c| {
-        let rows = powers.iter().zip(c).map(|(&(i, j), c)| {
-            let scale = [0.1, 0.1, 0.05, 0.005, 0.0008][(i + j) as usize];
-            vec![f64::from(i), f64::from(j), scale * c]
-        });
-        rows.collect()
-    })
-}
-
-fn polynomial(terms: Vec<Vec<f64>>) -> Arc<dyn SurfaceModel> {
-    let mut params = Params::new();
-    params.set("terms", ParamValue::Rows(terms));
-    Arc::new(XyPolynomial::new(&params).unwrap())
-}
-
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 24,
@@ -264,7 +232,7 @@ proptest! {
 
     #[test]
     fn on_polynomials_the_law_never_exceeds_the_held_feed(
-        terms in terms(),
+        terms in terms(TERMS),
         which in any::<u8>(),
         hole in prop::option::of(0.1..3.0f64),
         offset in 0.0..1.0f64,
@@ -285,7 +253,7 @@ proptest! {
     }
 
     #[test]
-    fn inward_is_the_outward_law_reversed(terms in terms(), which in any::<u8>()) {
+    fn inward_is_the_outward_law_reversed(terms in terms(TERMS), which in any::<u8>()) {
         let case = Case::new(polynomial(terms), compensator(which), 8.0, 1.0, 50.0);
         let out = case.planned("held", "smooth").unwrap();
         let back = case.inward().planned("held", "smooth").unwrap();

@@ -3,18 +3,17 @@
 
 #[path = "../../../tests/support/planned.rs"]
 mod common;
+#[path = "../../../tests/support/random.rs"]
+mod random;
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use common::{Case, ast_5, mla_5};
 use proptest::prelude::{ProptestConfig, any, proptest};
+use random::{array, compensating};
 use turnpath_ats::{AtsFeed, AtsSampler};
-use turnpath_core::{
-    Compensator, DEG, ParamValue, Params, Path, Revolutions, Sampler, Series, SpiralLaw, Strategy,
-};
+use turnpath_core::{DEG, Params, Path, Revolutions, Sampler, Series, SpiralLaw, Strategy};
 use turnpath_nose_radius::{Normal, ZDirection};
-use turnpath_surfaces::SinusoidalArray;
 
 /// The part of the distance of passes that the sampler gives to X, and 1 % more: along a step the
 /// distance changes.
@@ -155,14 +154,8 @@ proptest! {
         inward in any::<bool>(),
         max_step in 10.0..90.0f64,
     ) {
-        let mut params = Params::new()
-            .with("amplitude_x", amplitude)
-            .with("frequency_x", frequency);
-        params.set("form", ParamValue::Text("product".to_owned()));
-        let surface = Arc::new(SinusoidalArray::new(&params).unwrap());
-        let compensator: Arc<dyn Compensator> =
-            if which { Arc::new(ZDirection) } else { Arc::new(Normal) };
-        let case = Case::new(surface, compensator, 5.0, 0.8, 100.0);
+        let surface = array(amplitude, frequency, "product");
+        let case = Case::new(surface, compensating(which), 5.0, 0.8, 100.0);
         check(&if inward { case.inward() } else { case }, max_step);
     }
 }

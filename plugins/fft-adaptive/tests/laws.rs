@@ -4,18 +4,19 @@
 
 #[path = "../../../tests/support/planned.rs"]
 mod common;
+#[path = "../../../tests/support/random.rs"]
+mod random;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use common::{Case, ast_5, mla_5};
 use proptest::prelude::{ProptestConfig, any, prop, prop_assert, proptest};
-use turnpath_core::{
-    Compensator, Direction, NM, ParamValue, Params, SpiralLaw, Strategy, Surface, angle,
-};
+use random::{array, compensating};
+use turnpath_core::{Direction, NM, ParamValue, Params, SpiralLaw, Strategy, Surface, angle};
 use turnpath_fft_adaptive::FftAdaptiveFeed;
-use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
-use turnpath_surfaces::{Conic, SinusoidalArray};
+use turnpath_nose_radius::{Uncompensated, ZDirection};
+use turnpath_surfaces::Conic;
 
 fn feed(chord: &str, limit_residual: bool, angles: f64, tolerance_nm: f64) -> FftAdaptiveFeed {
     let mut params = Params::new()
@@ -162,14 +163,8 @@ proptest! {
         tolerance in 5.0..500.0f64,
         offset in 0.0..1.0f64,
     ) {
-        let mut params = Params::new()
-            .with("amplitude_x", amplitude)
-            .with("frequency_x", frequency);
-        params.set("form", ParamValue::Text("product".to_owned()));
-        let surface = Arc::new(SinusoidalArray::new(&params).unwrap());
-        let compensator: Arc<dyn Compensator> =
-            if which { Arc::new(ZDirection) } else { Arc::new(Normal) };
-        let mut case = Case::new(surface, compensator, 6.0, 0.5, 100.0);
+        let surface = array(amplitude, frequency, "product");
+        let mut case = Case::new(surface, compensating(which), 6.0, 0.5, 100.0);
         case = case.with_hole(hole.unwrap_or(0.0));
         if inward {
             case = case.inward();

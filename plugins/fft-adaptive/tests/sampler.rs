@@ -3,19 +3,22 @@
 
 #[path = "../../../tests/support/planned.rs"]
 mod common;
+#[path = "../../../tests/support/random.rs"]
+mod random;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use common::{Case, mla_5};
 use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};
+use random::{array, compensating};
 use turnpath_core::{
     Compensator, DEG, NM, ParamValue, Params, Path, Result, Revolutions, Sampler, Scalar,
     SpiralLaw, Strategy, Surface,
 };
 use turnpath_fft_adaptive::FftAdaptiveSampler;
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
-use turnpath_surfaces::{Astigmatic, SinusoidalArray};
+use turnpath_surfaces::Astigmatic;
 
 fn sampler(chord: &str, curvature: &str, max_step: f64) -> FftAdaptiveSampler {
     let mut params = Params::new().with("max_step", max_step * DEG);
@@ -257,14 +260,8 @@ proptest! {
         curvature in any::<bool>(),
         max_step in 5.0..90.0f64,
     ) {
-        let mut params = Params::new()
-            .with("amplitude_x", amplitude)
-            .with("frequency_x", frequency);
-        params.set("form", ParamValue::Text("product".to_owned()));
-        let surface = Arc::new(SinusoidalArray::new(&params).unwrap());
-        let compensator: Arc<dyn Compensator> =
-            if which { Arc::new(ZDirection) } else { Arc::new(Normal) };
-        let case = Case::new(surface, compensator, 6.0, 0.5, tolerance);
+        let surface = array(amplitude, frequency, "product");
+        let case = Case::new(surface, compensating(which), 6.0, 0.5, tolerance);
         let mut law = SpiralLaw::new();
         law.push(turns, [2.5, -feed, 0.0, 0.0, 0.0, 0.0]);
         let curvature = if curvature { "step" } else { "start" };
