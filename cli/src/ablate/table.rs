@@ -22,7 +22,7 @@ use words::{cut, padded, printable, wrapped};
 const LEAST_LABEL: usize = 14;
 /// How far the rows of a group stand to the right.
 const INDENT: &str = " ";
-/// Most lines of a reason; all of it stands in the files.
+/// Most lines of a reason or a label; all of it stands in the files.
 const MOST_LINES: usize = 3;
 /// What stands before a sentence.
 const BESIDE: &str = "  ";
@@ -127,7 +127,7 @@ impl Label {
     fn title(&self, widest: usize) -> String {
         match self.group.as_str() {
             "" => String::new(),
-            group => cut(group, widest) + "\n",
+            group => folded(group, widest).join("\n") + "\n",
         }
     }
 }
@@ -217,9 +217,15 @@ fn said(run: usize, entry: &Value, columns: &[Figures], width: usize) -> Vec<Str
     said
 }
 
-/// A sentence within `width`, its end left out where it takes too many lines.
+/// A sentence beside a label.
 fn told(text: &str, width: usize) -> Vec<String> {
-    let width = width.saturating_sub(BESIDE.width());
+    let lines = folded(text, width.saturating_sub(BESIDE.width()));
+    let lines = lines.into_iter();
+    lines.map(|line| format!("{BESIDE}{line}")).collect()
+}
+
+/// A text in lines within `width`, its end left out where it takes too many.
+fn folded(text: &str, width: usize) -> Vec<String> {
     let words: Vec<&str> = text.split(' ').collect();
     let lines = wrapped(&words, " ", width);
     let (shown, rest) = match lines.match_indices('\n').nth(MOST_LINES - 1) {
@@ -227,8 +233,7 @@ fn told(text: &str, width: usize) -> Vec<String> {
         None => (lines.as_str(), ""),
     };
     let shown = format!("{shown}{rest}");
-    let line = |line: &str| format!("{BESIDE}{}", cut(line, width));
-    shown.lines().map(line).collect()
+    shown.lines().map(|line| cut(line, width)).collect()
 }
 
 /// What does not hold of a run and has no column where that shows.
@@ -244,12 +249,15 @@ fn beyond(entry: &Value) -> Vec<&str> {
 
 /// A label with what stands beside it, line by line.
 fn lines(label: &str, beside: &[String], width: usize) -> String {
+    let text = label.trim_start();
+    let indent = label.strip_suffix(text).unwrap_or_default();
+    let label = folded(text, width.saturating_sub(indent.width()));
     let line = |index: usize| {
-        let label = if index == 0 { label } else { "" };
+        let label = label.get(index).map(|line| format!("{indent}{line}"));
         let beside = beside.get(index).map_or("", String::as_str);
-        format!("{}{beside}", padded(label, width))
+        format!("{}{beside}", padded(&label.unwrap_or_default(), width))
     };
-    let all = (0..beside.len().max(1)).map(line);
+    let all = (0..beside.len().max(label.len())).map(line);
     let all = all.map(|line| line.trim_end().to_owned());
     let all: Vec<String> = all.filter(|line| !line.is_empty()).collect();
     all.join("\n") + "\n"

@@ -86,3 +86,29 @@ fn a_first_run_that_failed_leaves_no_ratios() {
     let text = table(&entries, &chosen(&[]), 100);
     assert!(!text.contains('×'), "{text}");
 }
+
+/// Two strategies of one name differ at the ends of their labels, and so do two groups.
+#[test]
+fn labels_that_are_too_long_go_on_below_themselves() {
+    let rows = |feed: &str, other: &str| {
+        json!({
+            "varied": { "sampler": other, "feed": feed },
+            "control_points": 5,
+        })
+    };
+    let group = "equal-arc (spacing = 0.25 mm), and more of it to fill a line, and then 1";
+    let entries = [
+        rows("constant (feed = 10 um/rev, of a laboratory)", group),
+        rows("constant (feed = 20 um/rev, of a laboratory)", group),
+        rows("atpg", &group.replace("then 1", "then 2")),
+    ];
+    for columns in [chosen(&[]), ALL.iter().collect()] {
+        for widest in [40, 100] {
+            let text = table(&entries, &columns, widest);
+            assert_narrow(&text, widest);
+            for one in ["= 10", "= 20", "then 1", "then 2"] {
+                assert!(text.contains(one), "{text}");
+            }
+        }
+    }
+}
