@@ -102,6 +102,19 @@ fn a_file_of_the_program_gives_the_figures_of_its_summary() {
     }
 }
 
+/// Where a hollow part slopes up to its rim all around, X ends inside of the rim that the contact
+/// reaches; on a crown beyond it.
+#[test]
+fn a_path_whose_contact_goes_to_the_rim_covers_it_wherever_x_is() {
+    for radius in ["40 mm", "-40 mm"] {
+        let surface = format!("use = \"conic\"\nradius = \"{radius}\"");
+        let recipe = with_table(SADDLE, "surface", &surface);
+        let bench = made_of(&changed(&recipe, "\"none\"", "\"contact\""));
+        let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+        assert_eq!(said.ends(0).json()["within"]["reach"], true);
+    }
+}
+
 #[test]
 fn a_person_gets_the_figures_and_the_verdict() {
     let bench = made();
