@@ -102,13 +102,26 @@ fn a_file_of_the_program_gives_the_figures_of_its_summary() {
     }
 }
 
+/// Where a hollow part slopes up to its rim all around, X ends inside of the rim that the contact
+/// reaches; on a crown beyond it.
+#[test]
+fn a_path_whose_contact_goes_to_the_rim_covers_it_wherever_x_is() {
+    for radius in ["40 mm", "-40 mm"] {
+        let surface = format!("use = \"conic\"\nradius = \"{radius}\"");
+        let recipe = with_table(SADDLE, "surface", &surface);
+        let bench = made_of(&changed(&recipe, "\"none\"", "\"contact\""));
+        let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+        assert_eq!(said.ends(0).json()["within"]["reach"], true);
+    }
+}
+
 #[test]
 fn a_person_gets_the_figures_and_the_verdict() {
     let bench = made();
     let said = bench.line("verify recipe.toml out/toolpath.csv").ends(0);
     assert_eq!(said.stderr, "");
     assert_eq!(said.stdout.matches("holds").count(), 3, "{said}");
-    let reach = "  reach           X from 0.000 mm to 2.500 mm; holds\n";
+    let reach = "  reach           X or contact from 0.000 mm to 2.500 mm; holds\n";
     assert!(said.stdout.contains(reach), "{said}");
 }
 
@@ -143,8 +156,8 @@ fn the_path_of_a_smaller_part_does_not_hold_and_says_where_it_ends() {
     let words = "verify recipe.toml out/toolpath.csv --set part.aperture=10mm \
                  --set tool.included_angle=150deg --set tool.clearance_angle=60deg";
     let said = bench.line(words).ends(1);
-    let line = "reach           X from 0.000 mm to 2.500 mm; EXCEEDED: the part reaches from \
-                0.000 mm to 5.000 mm\n";
+    let line = "reach           X or contact from 0.000 mm to 2.500 mm; EXCEEDED: the part reaches \
+                from 0.000 mm to 5.000 mm\n";
     assert!(said.stdout.contains(line), "{said}");
     assert_eq!(said.stdout.matches("holds").count(), 2, "{said}");
 }

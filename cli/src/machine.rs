@@ -222,7 +222,8 @@ fn exceeded(figure: &LimitFigure, of: &str) -> Option<String> {
         millimetres(peak.at_x, 4)
     );
     let text = format!("{found:>12} of {most:<11} EXCEEDED, {place}");
-    Some(line(&format!("{of}{}", named(limit)), text))
+    // A label may be as long as its column, and an amount too.
+    Some(line(&format!("{of}{} ", named(limit)), text))
 }
 
 /// The unit of an axis in files, in inner units.

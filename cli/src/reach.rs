@@ -31,7 +31,7 @@ impl Reach {
     /// The line for a person.
     pub fn line(&self, radial: Radial, part: &Part) -> String {
         let what = match radial {
-            Radial::Centre => "X",
+            Radial::Centre => "X or contact",
             Radial::Contact => "contact",
         };
         let verdict = if self.covers(part) {
@@ -77,7 +77,7 @@ mod tests {
     fn a_person_is_told_what_is_missing() {
         assert_eq!(
             reach(2.0, 2.5).line(Radial::Centre, &RING),
-            "  reach           X from 2.000 mm to 2.500 mm; EXCEEDED: the part reaches from \
+            "  reach           X or contact from 2.000 mm to 2.500 mm; EXCEEDED: the part reaches from \
              2.000 mm to 10.000 mm\n"
         );
         assert_eq!(

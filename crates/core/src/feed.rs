@@ -61,8 +61,8 @@ pub trait FeedPlan: Send {
     /// the law closes there by itself: at every angle its outermost pass lies beyond the end of the
     /// range, or inside of it by no more than 0.41 of the way to the next pass. Running out adds up
     /// to 0.6 turns an end, which turns the rest of the law against the part. So a law that
-    /// follows the angle must close by itself, at N = 0 also: begin with a turn along the end of the
-    /// range, let the feed come in over the turns that follow, and go on until the slowest angle has
-    /// passed the other end.
+    /// follows the angle must close by itself, at N = 0 also: begin with a turn that hardly leaves
+    /// the end of the range, let the feed come in over the turns that follow, and go on until the
+    /// slowest angle has passed the other end.
     fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward>;
 }

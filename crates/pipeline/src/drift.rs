@@ -31,6 +31,10 @@ const AIM: f64 = 1.0005;
 /// no halving mends it.
 const LAWS_OWN: f64 = 1.001;
 
+/// Passes no further apart than this, mm, leave no cusp to speak of: a nanometre. What is measured
+/// there is rounding, which turns the line between both centres.
+const SAME_PLACE: f64 = 1e-6;
+
 /// X's error at an instant.
 struct Drift {
     /// Which segment.
@@ -113,20 +117,21 @@ fn allowed(plan: &Plan<'_>, drifts: &[Drift], side: f64) -> Result<Vec<f64>> {
     let heights =
         cusp_heights(&plan.prepared.touch, &theta, &pairs).map_err(PipelineError::Measure)?;
     let residual = plan.prepared.job.tolerance.residual;
-    let allowed = |(height, [x, other]): (Option<f64>, [f64; 2])| {
-        let part = height.map_or(f64::INFINITY, |height| part_left(height / residual));
-        part * (other - x).abs()
+    let allowed = |(height, [x, other]): (Option<f64>, [f64; 2])| match height {
+        Some(height) => left(height / residual, (other - x).abs()),
+        None => f64::INFINITY,
     };
     Ok(heights.into_iter().zip(pairs).map(allowed).collect())
 }
 
-/// What a cusp of so many residuals leaves: it grows with the square of the distance, and both
-/// passes may err.
-fn part_left(height: f64) -> f64 {
-    if height > LAWS_OWN {
+/// What a cusp of so many residuals leaves passes that are so far apart, mm: it grows with the
+/// square of the distance, and both may err.
+fn left(height: f64, apart: f64) -> f64 {
+    let matters = apart > SAME_PLACE && height > 0.0 && height <= LAWS_OWN;
+    if !matters {
         return f64::INFINITY;
     }
-    ALWAYS.max(0.5 * ((AIM / height).sqrt() - 1.0))
+    apart * ALWAYS.max(0.5 * ((AIM / height).sqrt() - 1.0))
 }
 
 /// X of the true path one turn off each place; none beyond its ends.

@@ -469,6 +469,39 @@ fn a_lead_keeps_what_the_cut_just_keeps() {
     }
 }
 
+/// Coarse cubics ask for less jerk than the way itself and get to it with a jolt, so a limit of what
+/// they ask for cannot be kept. Those of velocity and acceleration can.
+#[test]
+fn a_limit_that_cannot_be_kept_lets_no_other_go() {
+    let coarse = || Job {
+        sampler: even(9.0),
+        refined: false,
+        interpolation: 1e-2,
+        ..job()
+    };
+    let asked = |axes: &AxesMotion, derivative| axes.peak(Axis::Z, derivative).unwrap().amount;
+    let (_, outcome, _) = made(&coarse());
+    let mut machine = Machine::default();
+    for derivative in Derivative::ALL {
+        let limit = asked(&outcome.figures.axes, derivative);
+        *machine.limit_mut(Axis::Z, derivative) = Some(1.02 * limit);
+    }
+    let (_, _, leads) = made(&Job {
+        lead: Some(LeadSettings {
+            clearance: 5.0,
+            limits: LeadLimits::within(machine),
+        }),
+        ..coarse()
+    });
+    let share = |derivative| {
+        let limit = machine.limit(Axis::Z, derivative).unwrap();
+        asked(&leads.figures.axes, derivative) / limit
+    };
+    assert!(share(Derivative::Jerk) > 1.001);
+    let kept = [Derivative::Velocity, Derivative::Acceleration].map(share);
+    assert!(kept.iter().all(|share| *share <= 1.001), "{kept:?}");
+}
+
 #[test]
 fn without_a_lead_nothing_is_told_of_one() {
     let (kept, outcome) = Job {

@@ -5,8 +5,8 @@ mod common;
 use std::sync::Arc;
 
 use common::solvers::{Area, Exact, Halting, Resting, Spline};
-use common::{Counting, Job, RESIDUAL, RIM, even, inward};
-use turnpath_core::VelocitySolver;
+use common::{Counting, Job, K, RESIDUAL, RIM, even, feed_of, inward, straight};
+use turnpath_core::{Centres, Compensator, Cut, Radial, Result, Scalar, Stretch, VelocitySolver};
 use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
 
 fn refined(velocity: Arc<dyn VelocitySolver>, interpolation: f64) -> Job {
@@ -127,4 +127,50 @@ fn cusps_that_are_the_laws_own_add_no_points() {
     let (_, outcome) = halting(0.029, true).made();
     assert!(outcome.figures.residual.max > 1.05 * RESIDUAL);
     assert_eq!(outcome.added_by_refine, 0);
+}
+
+/// The contact path of a tool whose X goes to and fro within the turn.
+struct Wobbling;
+
+impl Compensator for Wobbling {
+    fn radial(&self) -> Radial {
+        Radial::Contact
+    }
+
+    fn compensates_nose(&self) -> bool {
+        false
+    }
+
+    fn centre(&self, _: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
+        for (i, (theta, rho)) in theta.iter().zip(rho).enumerate() {
+            let sin = Scalar::sin(2.0 * theta);
+            let x = rho - 0.06 + 0.05 * Scalar::cos(2.0 * theta);
+            (out.x[i], out.foot[i]) = (x, x);
+            out.z[i] = K * x * x * sin;
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn passes_in_one_place_add_no_points() {
+    const FEED: f64 = 0.01;
+    // A turn along the rim, from which the next one parts with the third power of the angle.
+    let turn = 0.9999;
+    let parting = [[RIM, 0.0, 0.0], [RIM - FEED, -FEED, 0.0]];
+    let parting = Stretch::between(parting[0], parting[1], 2.0);
+    let rest = RIM - FEED;
+    let pieces = vec![
+        straight(turn, RIM, 0.0),
+        parting,
+        straight(rest / FEED, rest, -FEED),
+    ];
+    let job = Job {
+        feed: feed_of(pieces),
+        compensator: Arc::new(Wobbling),
+        interpolation: 1.0,
+        refined: true,
+        ..Job::default()
+    };
+    assert_eq!(job.made().1.added_by_refine, 0);
 }

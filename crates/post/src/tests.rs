@@ -137,7 +137,11 @@ fn spoiled_files_are_refused_with_their_line() {
     let nan = refusal(|text| with_line(text, 3, "0.6,100,3,NaN,5,6,7,1"));
     assert!(nan.contains("line 4: z_mm is not a finite number"), "{nan}");
     let vast = refusal(|text| with_line(text, 1, "0,-1e308,3,4,5,6,7,1"));
-    assert!(vast.contains("line 2: c_deg is beyond all"), "{vast}");
+    assert!(vast.contains("line 2: C = -1e308 deg is more"), "{vast}");
+    let late = refusal(|text| with_line(text, 1, "1e14,2,3,4,5,6,7,1"));
+    assert!(late.contains("line 2: time_s is 1e14 s"), "{late}");
+    let quoted = refusal(|text| with_line(text, 3, "0.6,\"100,3,4,5,6,7,1"));
+    assert!(quoted.contains("line 4: c_deg: "), "{quoted}");
     let endless = refusal(|text| text.to_owned() + &"0".repeat(200_000));
     assert!(endless.contains("a line is longer than any"), "{endless}");
     let section = refusal(|text| with_line(text, 3, "1,2,3,4,5,6,7,9"));

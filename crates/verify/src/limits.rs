@@ -53,7 +53,8 @@ impl AxesMotion {
     }
 
     /// The highest speed of the spindle at which all limits hold for this motion, all else of it left
-    /// as it is. Leads do not scale so: their clearance and their gentleness stay. None without a limit that bounds it.
+    /// as it is. Leads do not scale so: their clearance and their gentleness stay. None without a
+    /// limit that bounds it.
     pub fn highest_speed(&self, machine: &Machine) -> Option<HighestSpeed> {
         let figures = self.against(machine).into_iter();
         let factors = figures.map(|figure| (figure.speed_factor(), figure.limit));

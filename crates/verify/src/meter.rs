@@ -127,24 +127,27 @@ impl Meter {
         Ok(())
     }
 
-    /// From which ρ to which the path runs, by its two ends: X, or the radius of the contact
-    /// where that is what ρ stands for. `None` before anything was measured.
+    /// From which radius to which the path runs, by its two ends: of the contact, or where ρ is X,
+    /// of X or the contact, whichever is further on. A path may end with either at the part's edge,
+    /// by its overrun. `None` before anything was measured.
     pub fn reach(&self, radial: Radial) -> Result<Option<RadialRange>> {
-        let Some(ends) = self.ends else {
+        let Some(mut ends) = self.ends else {
             return Ok(None);
         };
-        let rho = match radial {
-            Radial::Centre => ends.map(|end| end.x),
-            Radial::Contact => {
-                let mut touches = Vec::new();
-                self.touch
-                    .find(&ends.map(|end| end.c), &ends.map(|end| end.x), &mut touches)?;
-                [touches[0].foot, touches[1].foot]
-            }
-        };
-        Ok(Some(RadialRange {
-            inner: rho[0].min(rho[1]),
-            outer: rho[0].max(rho[1]),
+        ends.sort_by(|one, other| one.x.total_cmp(&other.x));
+        let mut touches = Vec::new();
+        self.touch
+            .find(&ends.map(|end| end.c), &ends.map(|end| end.x), &mut touches)?;
+        let (inner, outer) = (touches[0].foot, touches[1].foot);
+        Ok(Some(match radial {
+            Radial::Contact => RadialRange {
+                inner: inner.min(outer),
+                outer: inner.max(outer),
+            },
+            Radial::Centre => RadialRange {
+                inner: inner.min(ends[0].x),
+                outer: outer.max(ends[1].x),
+            },
         }))
     }
 

@@ -212,10 +212,13 @@ impl Suspects {
     /// The next point, if it is followed by a gap among even steps.
     fn gap(&self, seen: &Seen) -> Option<Suspect> {
         let around = self.window.iter().enumerate();
-        let mut steps: Vec<f64> = around
-            .filter(|(i, other)| *i != self.next && other.step.is_finite())
-            .map(|(_, other)| other.step)
-            .collect();
+        let others = around.filter(|(i, other)| *i != self.next && other.step.is_finite());
+        let steps = others.map(|(_, other)| other.step);
+        // Nearly every step has one as long around it.
+        if steps.clone().any(|step| step >= seen.step) {
+            return None;
+        }
+        let mut steps: Vec<f64> = steps.collect();
         if steps.len() < FEWEST {
             return None;
         }

@@ -1,6 +1,6 @@
 //! What a lead may ask of the axes.
 
-use turnpath_core::{Axis, Derivative, Limit, Machine, Scalar};
+use turnpath_core::{Axis, Derivative, Machine, Scalar};
 use turnpath_verify::{AxesMotion, AxisMotion};
 
 /// Limits of one axis, in rad or mm and s.
@@ -127,17 +127,37 @@ impl AxisLimits {
         (shape.acceleration * change / self.acceleration).max(by_jerk)
     }
 
-    /// The largest part that `motion` takes of what it may ask for.
-    fn share(&self, motion: &AxisMotion, cut: &AxisMotion, part: &AxisMotion) -> f64 {
+    /// The parts that `motion` takes of what it may ask for.
+    fn share(&self, motion: &AxisMotion, cut: &AxisMotion, part: &AxisMotion) -> Share {
         let share = |limit: f64, most: fn(&AxisMotion) -> f64| {
             most(motion) / (limit + FOLLOWING * most(cut).max(most(part)))
         };
-        let by_velocity = share(self.velocity, |m| m.velocity.amount);
-        let by_acceleration = share(self.acceleration, |m| m.acceleration.amount);
         let by_jerk = |jerk| share(jerk, |m| m.jerk.amount);
-        by_velocity
-            .max(by_acceleration)
-            .max(self.jerk.map_or(0.0, by_jerk))
+        Share([
+            share(self.velocity, |m| m.velocity.amount),
+            share(self.acceleration, |m| m.acceleration.amount),
+            self.jerk.map_or(0.0, by_jerk),
+        ])
+    }
+}
+
+/// The parts that a lead takes of what it may ask of an axis' velocity, acceleration and jerk.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Share([f64; 3]);
+
+impl Share {
+    /// The largest.
+    pub fn largest(self) -> f64 {
+        self.0.into_iter().fold(0.0, f64::max)
+    }
+
+    /// By which factors they are beyond all that there is; 1 where none is.
+    fn beyond(self) -> f64 {
+        self.0.map(|part| part.max(1.0)).iter().product()
+    }
+
+    fn or_more(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k].max(other.0[k])))
     }
 }
 
@@ -145,22 +165,24 @@ impl AxisLimits {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shares {
     /// Of C, which the spindle's speeding up decides.
-    pub c: f64,
+    pub c: Share,
     /// Of X.
-    pub x: f64,
+    pub x: Share,
     /// Of Z.
-    pub z: f64,
+    pub z: Share,
 }
 
 impl Shares {
     /// The largest.
     pub fn largest(self) -> f64 {
-        self.c.max(self.x).max(self.z)
+        let [c, x, z] = [self.c, self.x, self.z].map(Share::largest);
+        c.max(x).max(z)
     }
 
-    /// By which factors all axes together are beyond what they may; 1 where none is.
+    /// By which factors all axes together are beyond what they may; 1 where none is. Each limit
+    /// counts by itself: one that cannot be kept must not hide another that can.
     pub fn beyond(self) -> f64 {
-        self.c.max(1.0) * self.x.max(1.0) * self.z.max(1.0)
+        self.c.beyond() * self.x.beyond() * self.z.beyond()
     }
 }
 
@@ -179,9 +201,9 @@ impl LeadLimits {
         let away = &motion.away;
         let machine = |axis| self.machine_share(axis, motion, cut, part);
         Shares {
-            c: self.c.share(&away.c, &cut.c, &part.c).max(machine(Axis::C)),
-            x: self.x.share(&away.x, &cut.x, &part.x).max(machine(Axis::X)),
-            z: self.z.share(&away.z, &cut.z, &part.z).max(machine(Axis::Z)),
+            c: (self.c.share(&away.c, &cut.c, &part.c)).or_more(machine(Axis::C)),
+            x: (self.x.share(&away.x, &cut.x, &part.x)).or_more(machine(Axis::X)),
+            z: (self.z.share(&away.z, &cut.z, &part.z)).or_more(machine(Axis::Z)),
         }
     }
 
@@ -193,19 +215,21 @@ impl LeadLimits {
         motion: &LeadMotion,
         cut: &AxesMotion,
         part: &AxesMotion,
-    ) -> f64 {
+    ) -> Share {
         let most =
             |of: &AxesMotion, derivative| of.peak(axis, derivative).map_or(0.0, |peak| peak.amount);
-        let share = |limit: Limit| {
-            let (value, derivative) = (KEPT * limit.value, limit.derivative);
+        let share = |derivative: Derivative, limit: f64| {
+            let value = KEPT * limit;
             if most(cut, derivative) <= value {
                 return most(&motion.whole, derivative) / value;
             }
             let needed = most(cut, derivative).max(most(part, derivative));
             most(&motion.away, derivative) / (AT_THE_LIMIT * needed)
         };
-        let limits = self.machine.limits().filter(|limit| limit.axis == axis);
-        limits.map(share).fold(0.0, f64::max)
+        Share(Derivative::ALL.map(|derivative| {
+            let limit = self.machine.limit(axis, derivative);
+            limit.map_or(0.0, |limit| share(derivative, limit))
+        }))
     }
 }
 

@@ -122,14 +122,15 @@ impl Pace {
             self.finer /= 2;
             self.finest = self.finer;
         }
-        if lead.c > 1.0 {
+        if lead.c.largest() > 1.0 {
             self.spin *= LONGER;
         }
-        if lead.x.max(lead.z) <= 1.0 {
+        let slides = |of: Shares| of.x.largest().max(of.z.largest());
+        if slides(lead) <= 1.0 {
             return;
         }
         // Splines ask for more than the way on which their nodes lie, coarse ones for most.
-        if way.x.max(way.z) <= 1.0 && self.finer < self.finest {
+        if slides(way) <= 1.0 && self.finer < self.finest {
             self.finer *= 2;
             self.before_finer = Some(lead.beyond());
             return;
