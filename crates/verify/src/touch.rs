@@ -45,12 +45,15 @@ pub struct Touch {
 }
 
 impl Touch {
-    const NOWHERE: Self = Self {
+    pub(crate) const NOWHERE: Self = Self {
         z: f64::NAN,
         foot: f64::NAN,
         slope: f64::NAN,
     };
 }
+
+/// Bounds of a contact of which nothing is known.
+pub(crate) const ANYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 impl FirstTouch {
     /// Quickest for tool positions whose X lies within the aperture, or beyond it by what a normal
@@ -88,6 +91,18 @@ impl FirstTouch {
 
     /// The first touch at each (θ, X); NaN where the surface has no height below the nose.
     pub fn find(&self, theta: &[f64], x: &[f64], out: &mut Vec<Touch>) -> Result<()> {
+        self.find_within(theta, x, |_| ANYWHERE, out)
+    }
+
+    /// The same where the contact of each is known to lie `within` two radii, those of the contacts
+    /// with the nose further in and further out: the contact moves outward with X.
+    pub(crate) fn find_within(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        within: impl Fn(usize) -> (f64, f64),
+        out: &mut Vec<Touch>,
+    ) -> Result<()> {
         let mut profiles = Profiles::new(self.subject.surface.as_ref(), theta);
         out.clear();
         out.resize(x.len(), Touch::NOWHERE);
@@ -98,7 +113,7 @@ impl FirstTouch {
             let mut brackets = Bracket::of_reach(tool, x);
             close_in(&mut profiles, tool.nose_radius, x, &mut brackets, out)
         } else {
-            let mut hills = scan::hills(&mut profiles, tool, x)?;
+            let mut hills = scan::hills(&mut profiles, tool, x, within)?;
             let mut tops = vec![Touch::NOWHERE; hills.len()];
             close_in(&mut profiles, tool.nose_radius, x, &mut hills, &mut tops)?;
             for (hill, top) in hills.iter().zip(tops) {
