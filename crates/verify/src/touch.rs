@@ -10,6 +10,7 @@ use turnpath_core::{Misfit, Result, SurfaceModel, Tool};
 use crate::Subject;
 use crate::profiles::Profiles;
 use crate::scan;
+use crate::steep;
 
 /// The secant stops when it moves less than this part of the nose radius. The height is wrong by
 /// the square of it: 1e-16 of the radius.
@@ -31,6 +32,10 @@ pub struct FirstTouch {
     subject: Subject,
     /// |X| up to which the profile is known to leave a single maximum; below 0: nowhere.
     single_to: f64,
+    /// Contacts are no further from X than this, mm,
+    contact: f64,
+    /// for |X| up to this, mm.
+    contact_to: f64,
 }
 
 /// Where the tool is stopped.
@@ -70,8 +75,16 @@ impl FirstTouch {
             // Seams may be sharper than any look at curvatures sees.
             (true, Misfit::CutWhatFits) => false,
         };
-        let single_to = if single { rim + radius } else { -1.0 };
-        Ok(Self { subject, single_to })
+        let contact = match single {
+            true => subject.tool.reach(),
+            false => steep::farthest_contact(&subject, rim + 2.0 * radius)?,
+        };
+        Ok(Self {
+            subject,
+            single_to: if single { rim + radius } else { -1.0 },
+            contact,
+            contact_to: rim + radius,
+        })
     }
 
     /// What is measured.
@@ -113,6 +126,7 @@ impl FirstTouch {
             let mut brackets = Bracket::of_reach(tool, x);
             close_in(&mut profiles, tool.nose_radius, x, &mut brackets, out)
         } else {
+            let within = |point: usize| self.narrowed(x[point], within(point));
             let mut hills = scan::hills(&mut profiles, tool, x, within)?;
             let mut tops = vec![Touch::NOWHERE; hills.len()];
             close_in(&mut profiles, tool.nose_radius, x, &mut hills, &mut tops)?;
@@ -123,6 +137,14 @@ impl FirstTouch {
                 }
             }
             Ok(())
+        }
+    }
+
+    /// Bounds of the contact with the nose at `x`, by what the slopes allow.
+    fn narrowed(&self, x: f64, (low, high): (f64, f64)) -> (f64, f64) {
+        match x.abs() <= self.contact_to {
+            true => (low.max(x - self.contact), high.min(x + self.contact)),
+            false => (low, high),
         }
     }
 }
