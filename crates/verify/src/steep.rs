@@ -113,6 +113,6 @@ mod tests {
     #[test]
     fn what_is_no_number_stays_none() {
         assert!(largest(f64::NAN, 1.0).is_nan() && largest(1.0, f64::NAN).is_nan());
-        assert_eq!((largest(1.0, 2.0), largest(2.0, 1.0)), (2.0, 1.0));
+        assert_eq!((largest(1.0, 2.0), largest(2.0, 1.0)), (2.0, 2.0));
     }
 }
