@@ -120,7 +120,7 @@ fn a_nose_that_fits_leaves_nothing() {
 #[test]
 fn over_a_seam_cusps_are_measured_from_what_the_nose_can_reach() {
     let (slope, feed) = (0.3, 0.01);
-    let spiral = bare_spiral(1.6 / feed, |n| feed * n);
+    let spiral = bare_spiral(30.0, |n| 0.85 + feed * n);
     let found = figures(&ring(slope), &spiral).residual;
     let flat = NOSE - (NOSE * NOSE - 0.25 * feed * feed).sqrt();
     close(found.max, 0.5 * slope * feed + flat, 1e-4);
@@ -203,7 +203,7 @@ fn only_rides_of_the_path_that_reach_onto_the_part_are_told() {
 fn an_edge_that_ends_before_the_slope_leaves_steps() {
     let feed = 0.004;
     let touch = touch_of(Plane { slope: 1.0 }, 2.5, tool(Some(60.0 * DEG)), true);
-    let found = figures(&touch, &bare_spiral(2.4 / feed, |n| feed * n)).residual;
+    let found = figures(&touch, &bare_spiral(60.0, |n| 1.0 + feed * n)).residual;
     let end = 0.5 * NOSE - feed;
     let step = feed + NOSE * 0.75f64.sqrt() - (NOSE * NOSE - end * end).sqrt();
     close(found.max, step * 0.5f64.sqrt(), 1e-3);
