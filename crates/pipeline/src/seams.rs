@@ -6,6 +6,8 @@
 //! passes a feed f apart leave a cusp of Δf/4 + f²/8R between them, Δ the corner of its height. No
 //! strategy knows of that, but all can be asked for less: feeds go with the root of the residual.
 
+use std::f64::consts::TAU;
+
 use turnpath_core::{Direction, Job, SpiralLaw};
 use turnpath_verify::{Ride, rides};
 
@@ -23,14 +25,11 @@ const ENOUGH: f64 = 0.98;
 /// A law that is asked for less must become longer by this factor, or it does not listen: its feed is
 /// the recipe's own.
 const LISTENS: f64 = 1.02;
-/// Halvings in the search for a radius: down to rounding.
-const HALVINGS: usize = 60;
-
 /// The law of the chain's feed, with cusps beside seams within the residual as far as it can be had.
 pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
-    let first = law::plan(chain, &prepared.job, &prepared.locus)?;
-    let rides = rides(&prepared.touch).map_err(PipelineError::Measure)?;
     let job = &prepared.job;
+    let first = law::plan(chain, job, &prepared.locus)?;
+    let rides = rides(&prepared.touch, job.range.outer).map_err(PipelineError::Measure)?;
     let mut asked = job.clone();
     let mut over = over_feed(&first, job, &rides);
     let (mut best, mut least, mut turns) = (first, over, 0.0);
@@ -39,7 +38,10 @@ pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
             break;
         }
         asked.tolerance.residual *= AIM * AIM / (over * over);
-        let tried = law::plan(chain, &asked, &prepared.locus)?;
+        // What cannot be had for less is measured as it is.
+        let Ok(tried) = law::plan(chain, &asked, &prepared.locus) else {
+            break;
+        };
         over = over_feed(&tried, job, &rides);
         let listens = tried.end() > LISTENS * best.end().max(turns);
         turns = tried.end();
@@ -59,43 +61,88 @@ fn over_feed(law: &SpiralLaw, job: &Job, rides: &[Ride]) -> f64 {
     let over = |ride: &Ride| {
         let corner = ride.corner;
         let most = radius * ((corner * corner + 8.0 * residual / radius).sqrt() - corner);
-        feed_at(law, job.direction, ride.x.abs()) / most
+        feed_at(law, job.direction, ride) / most
     };
     rides.iter().map(over).fold(0.0, f64::max)
 }
 
-/// The way of the turn around the place where the law comes to `rho`.
-fn feed_at(law: &SpiralLaw, direction: Direction, rho: f64) -> f64 {
-    let before = |n: f64| match direction {
-        Direction::Outward => law.value(n) < rho,
-        Direction::Inward => law.value(n) > rho,
+/// The way from the last pass before a ride to the first behind it; at the ends of the law that of
+/// its first or last turn. Passes at one angle are whole turns apart.
+fn feed_at(law: &SpiralLaw, direction: Direction, ride: &Ride) -> f64 {
+    let across = if ride.x < 0.0 { 0.5 } else { 0.0 };
+    let begin = (ride.theta / TAU + across).rem_euclid(1.0);
+    let before = |turn: u64| match direction {
+        Direction::Outward => law.value(begin + turn as f64) < ride.x.abs(),
+        Direction::Inward => law.value(begin + turn as f64) > ride.x.abs(),
     };
-    let (mut low, mut high) = (0.0, law.end());
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
+    let whole = (law.end() - begin).floor();
+    if whole < 1.0 {
+        return (law.value(law.end()) - law.value(0.0)).abs();
+    }
+    let (mut low, mut high) = (0, whole as u64);
+    while high - low > 1 {
+        let middle = low.midpoint(high);
         match before(middle) {
             true => low = middle,
             false => high = middle,
         }
     }
-    let from = (low - 0.5).clamp(0.0, (law.end() - 1.0).max(0.0));
-    (law.value((from + 1.0).min(law.end())) - law.value(from)).abs()
+    (law.value(begin + high as f64) - law.value(begin + low as f64)).abs()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn ride(x: f64, theta: f64) -> Ride {
+        let corner = 0.1;
+        Ride { x, theta, corner }
+    }
+
     #[test]
     fn the_feed_around_a_radius_is_that_of_its_turn() {
         let mut law = SpiralLaw::new();
         law.push(10.0, [1.0, 0.1, 0.0, 0.0, 0.0, 0.0]);
         law.push(10.0, [2.0, 0.2, 0.0, 0.0, 0.0, 0.0]);
-        let feed = |rho| feed_at(&law, Direction::Outward, rho);
-        assert!((feed(1.5) - 0.1).abs() < 1e-12);
-        assert!((feed(3.0) - 0.2).abs() < 1e-12);
-        assert!((feed(2.0) - 0.15).abs() < 1e-12);
+        let feed = |x, theta| feed_at(&law, Direction::Outward, &ride(x, theta));
+        assert!((feed(1.5, 1.0) - 0.1).abs() < 1e-12);
+        assert!((feed(3.0, 1.0) - 0.2).abs() < 1e-12);
+        // Half a turn beyond the knot, from either side of the axis.
+        assert!((feed(2.0, 0.5 * TAU) - 0.15).abs() < 1e-12);
+        assert!((feed(-2.0, 0.0) - 0.15).abs() < 1e-12);
         // Beyond its ends, that of the first and the last turn.
-        assert!((feed(0.0) - 0.1).abs() < 1e-12 && (feed(9.0) - 0.2).abs() < 1e-12);
+        assert!((feed(0.0, 0.0) - 0.1).abs() < 1e-12);
+        assert!((feed(9.0, 0.0) - 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn inward_too_and_of_less_than_a_turn_all_there_is() {
+        let mut law = SpiralLaw::new();
+        law.push(10.0, [2.0, -0.1, 0.0, 0.0, 0.0, 0.0]);
+        let feed = feed_at(&law, Direction::Inward, &ride(1.234, 2.0));
+        assert!((feed - 0.1).abs() < 1e-12);
+        let mut law = SpiralLaw::new();
+        law.push(0.5, [2.0, -0.1, 0.0, 0.0, 0.0, 0.0]);
+        let feed = feed_at(&law, Direction::Inward, &ride(1.99, 2.0));
+        assert!((feed - 0.05).abs() < 1e-12);
+    }
+
+    /// Each turn goes out on its first half and a little back on its second.
+    #[test]
+    fn a_law_that_follows_the_angle_has_the_feed_of_the_angle() {
+        let mut law = SpiralLaw::new();
+        let mut rho = 0.0;
+        for turn in 0..20 {
+            for half in [0.1 + 0.01 * f64::from(turn), -0.02] {
+                law.push(0.5, [rho, 2.0 * half, 0.0, 0.0, 0.0, 0.0]);
+                rho += half;
+            }
+        }
+        let feed = |x, theta| feed_at(&law, Direction::Outward, &ride(x, theta));
+        for turn in 2..15 {
+            let x = law.value(f64::from(turn) + 0.5) + 1e-6;
+            let known = law.value(f64::from(turn) + 1.5) - law.value(f64::from(turn) + 0.5);
+            assert!((feed(x, 0.5 * TAU) - known).abs() < 1e-12);
+        }
     }
 }

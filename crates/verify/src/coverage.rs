@@ -2,8 +2,9 @@
 //!
 //! At an edge of the part the figure is the way from the wanted surface to the nearest cut, all
 //! passes of the section and of its opposite half together. It is a cusp's height where cusps are
-//! all that stands there, and does not grow with the slope. A pass counts where its edge stands
-//! above the place: within the reach of half the included angle.
+//! all that stands there, and does not grow with the slope. Where the nose may leave seams, it
+//! counts from what the nose can reach at best ([`crate::closing`]). A pass counts where its edge
+//! stands above the place: within the reach of half the included angle.
 //!
 //! Around the axis the figure is the highest cusp between the passes of θ and of θ + π together on
 //! one line through the axis, where they meet: of a path that ends there its last three turns, of
@@ -12,6 +13,7 @@
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
 
+use crate::closing;
 use crate::cusp::Point;
 use crate::profiles::Profiles;
 use crate::residual::{Pass, Passes, ResidualFigures, SECTIONS, angle_of, highest};
@@ -241,12 +243,19 @@ impl Edge {
     }
 }
 
-/// The wanted surface at one radius on every section.
+/// The wanted surface at one radius on every section, or the best that the nose can cut of it.
 fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
     let theta: Vec<f64> = (0..SECTIONS).map(angle_of).collect();
-    let mut profiles = Profiles::new(touch.subject().surface.as_ref(), &theta);
-    profiles.at_all(&vec![radius; TURN])?;
-    let places = profiles.height.iter().map(|z| Point::new(radius, *z));
+    let radii = vec![radius; TURN];
+    let heights = match touch.leaves_seams() {
+        true => closing::at(touch, &theta, &radii)?,
+        false => {
+            let mut profiles = Profiles::new(touch.subject().surface.as_ref(), &theta);
+            profiles.at_all(&radii)?;
+            profiles.height
+        }
+    };
+    let places = heights.into_iter().map(|z| Point::new(radius, z));
     Ok(places.collect())
 }
 

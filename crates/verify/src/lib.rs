@@ -22,6 +22,7 @@ mod residual;
 mod scan;
 mod servo;
 mod spectrum;
+mod steep;
 mod subject;
 mod suspects;
 mod touch;

@@ -4,6 +4,8 @@
 //! − R sin φ. Every place where it changes from positive to negative is a hill; those whose top can
 //! be the highest are handed on.
 
+use std::ops::RangeInclusive;
+
 use turnpath_core::{Result, Scalar, Tool};
 
 use crate::profiles::Profiles;
@@ -48,31 +50,41 @@ struct Hill {
 }
 
 /// Brackets around all hills that may be the highest for each X; at least one where the surface
-/// has a height somewhere below the nose.
-pub(crate) fn hills(profiles: &mut Profiles<'_>, tool: &Tool, x: &[f64]) -> Result<Vec<Bracket>> {
+/// has a height somewhere below the nose. Of each X only those places are looked at that lie
+/// `within` two radii of contact, or just beyond.
+pub(crate) fn hills(
+    profiles: &mut Profiles<'_>,
+    tool: &Tool,
+    x: &[f64],
+    within: impl Fn(usize) -> (f64, f64),
+) -> Result<Vec<Bracket>> {
     let radius = tool.nose_radius;
-    let half = Scalar::asin(tool.reach() / radius);
-    let step = 2.0 * half / (PLACES - 1) as f64;
+    let edge = Edge::of(tool);
+    let ranges = x.iter().enumerate();
+    let ranges = ranges.map(|(point, x)| edge.places(*x, within(point)));
+    let ranges: Vec<RangeInclusive<usize>> = ranges.collect();
     let mut scans = vec![Scan::BEGIN; x.len()];
-    let (mut found, mut feet) = (Vec::new(), vec![0.0; x.len()]);
+    let (mut found, mut looked_at) = (Vec::new(), Vec::new());
     for place in 0..PLACES {
-        let (sin, cos) = Scalar::sin_cos(-half + place as f64 * step);
-        for (foot, x) in feet.iter_mut().zip(x) {
-            *foot = x + radius * sin;
-        }
-        profiles.at_all(&feet)?;
-        for (point, scan) in scans.iter_mut().enumerate() {
+        let (sin, cos) = edge.direction(place);
+        looked_at.clear();
+        let here = x.iter().zip(&ranges).enumerate();
+        let here = here.filter(|(_, (_, range))| range.contains(&place));
+        looked_at.extend(here.map(|(point, (x, _))| (point, x + radius * sin)));
+        profiles.at(looked_at.iter().copied())?;
+        for (i, (point, s)) in looked_at.iter().copied().enumerate() {
             let here = Place {
-                s: feet[point],
-                height: profiles.height[point] + radius * cos,
-                slope: profiles.slope[point] * radius * cos - radius * sin,
+                s,
+                height: profiles.height[i] + radius * cos,
+                slope: profiles.slope[i] * radius * cos - radius * sin,
             };
             let at_end = if place == PLACES - 1 {
                 here.rising()
             } else {
                 None
             };
-            for hill in scan.go_on(here, step).into_iter().chain(at_end) {
+            let scan = &mut scans[point];
+            for hill in scan.go_on(here, edge.step).into_iter().chain(at_end) {
                 scan.reachable = scan.reachable.max(hill.at_most);
                 found.push(hill.of(point));
             }
@@ -83,6 +95,40 @@ pub(crate) fn hills(profiles: &mut Profiles<'_>, tool: &Tool, x: &[f64]) -> Resu
         hill.at_most >= scan.highest.min(scan.reachable)
     });
     Ok(found.into_iter().map(|hill| hill.bracket).collect())
+}
+
+/// The places of the edge, by their angle φ from the nose's lowest.
+struct Edge {
+    radius: f64,
+    half: f64,
+    step: f64,
+}
+
+impl Edge {
+    fn of(tool: &Tool) -> Self {
+        let radius = tool.nose_radius;
+        let half = Scalar::asin(tool.reach() / radius);
+        let step = 2.0 * half / (PLACES - 1) as f64;
+        Self { radius, half, step }
+    }
+
+    /// sin φ and cos φ.
+    fn direction(&self, place: usize) -> (f64, f64) {
+        Scalar::sin_cos(-self.half + place as f64 * self.step)
+    }
+
+    /// Those between two radii with the nose at `x`, and one on each side; all of them on a side
+    /// without a number.
+    fn places(&self, x: f64, (low, high): (f64, f64)) -> RangeInclusive<usize> {
+        let place = |s: f64| {
+            let sine = ((s - x) / self.radius).clamp(-1.0, 1.0);
+            (Scalar::asin(sine) + self.half) / self.step
+        };
+        let last = (PLACES - 1) as f64;
+        let first = (place(low).floor() - 1.0).max(0.0);
+        let end = (place(high).ceil() + 1.0).min(last);
+        first.min(last) as usize..=end.max(0.0) as usize
+    }
 }
 
 impl Scan {

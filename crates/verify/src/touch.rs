@@ -10,6 +10,7 @@ use turnpath_core::{Misfit, Result, SurfaceModel, Tool};
 use crate::Subject;
 use crate::profiles::Profiles;
 use crate::scan;
+use crate::steep;
 
 /// The secant stops when it moves less than this part of the nose radius. The height is wrong by
 /// the square of it: 1e-16 of the radius.
@@ -31,6 +32,10 @@ pub struct FirstTouch {
     subject: Subject,
     /// |X| up to which the profile is known to leave a single maximum; below 0: nowhere.
     single_to: f64,
+    /// Contacts are no further from X than this, mm,
+    contact: f64,
+    /// for |X| up to this, mm.
+    contact_to: f64,
 }
 
 /// Where the tool is stopped.
@@ -45,12 +50,15 @@ pub struct Touch {
 }
 
 impl Touch {
-    const NOWHERE: Self = Self {
+    pub(crate) const NOWHERE: Self = Self {
         z: f64::NAN,
         foot: f64::NAN,
         slope: f64::NAN,
     };
 }
+
+/// Bounds of a contact of which nothing is known.
+pub(crate) const ANYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 impl FirstTouch {
     /// Quickest for tool positions whose X lies within the aperture, or beyond it by what a normal
@@ -67,8 +75,16 @@ impl FirstTouch {
             // Seams may be sharper than any look at curvatures sees.
             (true, Misfit::CutWhatFits) => false,
         };
-        let single_to = if single { rim + radius } else { -1.0 };
-        Ok(Self { subject, single_to })
+        let contact = match single {
+            true => subject.tool.reach(),
+            false => steep::farthest_contact(&subject, rim + 2.0 * radius)?,
+        };
+        Ok(Self {
+            subject,
+            single_to: if single { rim + radius } else { -1.0 },
+            contact,
+            contact_to: rim + radius,
+        })
     }
 
     /// What is measured.
@@ -88,6 +104,18 @@ impl FirstTouch {
 
     /// The first touch at each (θ, X); NaN where the surface has no height below the nose.
     pub fn find(&self, theta: &[f64], x: &[f64], out: &mut Vec<Touch>) -> Result<()> {
+        self.find_within(theta, x, |_| ANYWHERE, out)
+    }
+
+    /// The same where the contact of each is known to lie `within` two radii, those of the contacts
+    /// with the nose further in and further out: the contact moves outward with X.
+    pub(crate) fn find_within(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        within: impl Fn(usize) -> (f64, f64),
+        out: &mut Vec<Touch>,
+    ) -> Result<()> {
         let mut profiles = Profiles::new(self.subject.surface.as_ref(), theta);
         out.clear();
         out.resize(x.len(), Touch::NOWHERE);
@@ -98,7 +126,8 @@ impl FirstTouch {
             let mut brackets = Bracket::of_reach(tool, x);
             close_in(&mut profiles, tool.nose_radius, x, &mut brackets, out)
         } else {
-            let mut hills = scan::hills(&mut profiles, tool, x)?;
+            let within = |point: usize| self.narrowed(x[point], within(point));
+            let mut hills = scan::hills(&mut profiles, tool, x, within)?;
             let mut tops = vec![Touch::NOWHERE; hills.len()];
             close_in(&mut profiles, tool.nose_radius, x, &mut hills, &mut tops)?;
             for (hill, top) in hills.iter().zip(tops) {
@@ -108,6 +137,14 @@ impl FirstTouch {
                 }
             }
             Ok(())
+        }
+    }
+
+    /// Bounds of the contact with the nose at `x`, by what the slopes allow.
+    fn narrowed(&self, x: f64, (low, high): (f64, f64)) -> (f64, f64) {
+        match x.abs() <= self.contact_to {
+            true => (low.max(x - self.contact), high.min(x + self.contact)),
+            false => (low, high),
         }
     }
 }

@@ -10,13 +10,15 @@ use rayon::prelude::*;
 use turnpath_core::Result;
 
 use crate::profiles::Profiles;
-use crate::touch::{FirstTouch, Touch};
+use crate::touch::{ANYWHERE, FirstTouch, Touch};
 
 /// Steps of X a nose radius that are looked at first; and the least and most on a section.
 const STEPS_A_RADIUS: f64 = 64.0;
 const STEPS: (f64, f64) = (256.0, 8192.0);
 /// Positions of the nose in one batch.
 const BATCH: usize = 512;
+/// Every so many of these are looked at without knowing of others; a power of two.
+const COARSE: usize = 64;
 /// The contact may move this many times as far as X on a step before it may be a jump; and how much
 /// more on each half of a step. On halves of a jump the factor doubles, on quick but smooth motion
 /// it stays. A jump of 0.4 steps is found: on straight flanks one that leaves 5e-6 of the nose radius.
@@ -96,43 +98,28 @@ pub fn unreached(touch: &FirstTouch, threshold: f64) -> Result<UnreachedFigures>
 /// passes on both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ride {
+    /// Angle of the section, rad; less than half a turn.
+    pub theta: f64,
     /// X of the nose, mm; negative beyond the axis.
     pub x: f64,
     /// By how much dZ/dX grows there.
     pub corner: f64,
 }
 
-/// The rides over seams of the part, on sections all around.
+/// The rides of a nose with |X| ≤ `outer`, mm, over seams that reach onto the part, on sections all
+/// around.
 ///
 /// # Errors
 /// Where the surface fails.
-pub fn rides(touch: &FirstTouch) -> Result<Vec<Ride>> {
+pub fn rides(touch: &FirstTouch, outer: f64) -> Result<Vec<Ride>> {
     if !touch.leaves_seams() {
         return Ok(Vec::new());
     }
-    let seams = Seams {
-        touch,
-        threshold: 0.0,
-    };
-    let (radius, rim) = (
-        touch.subject().tool.nose_radius,
-        touch.subject().part.aperture_radius,
-    );
-    let slope = |offset: f64| offset / (radius * radius - offset * offset).max(0.0).sqrt();
-    let ride = |seam: Seam| Ride {
-        x: seam.x,
-        corner: slope(seam.to - seam.x) - slope(seam.from - seam.x),
-    };
+    let threshold = 0.0;
+    let seams = Seams { touch, threshold };
     let each: Vec<Vec<Ride>> = (0..RIDES)
         .into_par_iter()
-        .map(|i| {
-            let theta = (f64::from(i) + OFFSET) * PI / f64::from(RIDES);
-            Ok(seams
-                .seams(theta, -rim, rim)?
-                .into_iter()
-                .map(ride)
-                .collect())
-        })
+        .map(|i| seams.rides((f64::from(i) + OFFSET) * PI / f64::from(RIDES), outer))
         .collect::<Result<_>>()?;
     Ok(each.into_iter().flatten().collect())
 }
@@ -250,6 +237,31 @@ impl Seams<'_> {
         Ok(sum)
     }
 
+    /// The rides on one section.
+    fn rides(&self, theta: f64, outer: f64) -> Result<Vec<Ride>> {
+        let radius = self.touch.subject().tool.nose_radius;
+        let slope = |offset: f64| offset / (radius * radius - offset * offset).max(0.0).sqrt();
+        let ride = |seam: &Seam| Ride {
+            theta,
+            x: seam.x,
+            corner: slope(seam.to - seam.x) - slope(seam.from - seam.x),
+        };
+        let seams = self.seams(theta, -outer, outer)?;
+        let on_part = seams.iter().filter(|seam| self.on_part(seam).any(|_| true));
+        Ok(on_part.map(ride).collect())
+    }
+
+    /// What of a seam lies on the part, on either side of the axis.
+    fn on_part(&self, seam: &Seam) -> impl Iterator<Item = (f64, f64)> {
+        let part = self.touch.subject().part;
+        let (rim, hole) = (part.aperture_radius, part.inner_radius);
+        let (from, to) = (seam.from, seam.to);
+        let sides = [(-rim, -hole), (hole, rim)].into_iter();
+        sides
+            .map(move |(low, high)| (from.max(low), to.min(high)))
+            .filter(|(from, to)| from < to)
+    }
+
     fn seams(&self, theta: f64, low: f64, high: f64) -> Result<Vec<Seam>> {
         let radius = self.touch.subject().tool.nose_radius;
         let mut steps = self.steps(theta, low, high)?;
@@ -261,7 +273,11 @@ impl Seams<'_> {
                 .iter()
                 .map(|step| 0.5 * (step.x[0] + step.x[1]))
                 .collect();
-            let touches = self.touches(theta, &middle)?;
+            let feet: Vec<(f64, f64)> = steps
+                .iter()
+                .map(|step| (step.foot[0], step.foot[1]))
+                .collect();
+            let touches = self.touches(theta, &middle, &feet)?;
             let halves = steps.iter().zip(&middle).zip(&touches);
             steps = halves
                 .flat_map(|((step, x), touch)| step.halves(*x, touch))
@@ -286,7 +302,7 @@ impl Seams<'_> {
         let x: Vec<f64> = (0..=count as usize)
             .map(|i| low + (high - low) * (i as f64 / count))
             .collect();
-        let touches = self.touches(theta, &x)?;
+        let touches = self.touches_in_rounds(theta, &x)?;
         let pairs = x.windows(2).zip(touches.windows(2));
         Ok(pairs
             .map(|(x, touches)| Step {
@@ -297,12 +313,35 @@ impl Seams<'_> {
             .collect())
     }
 
-    fn touches(&self, theta: f64, x: &[f64]) -> Result<Vec<Touch>> {
+    /// The touches at growing X: a few first, then those between, whose contacts are bounded.
+    fn touches_in_rounds(&self, theta: f64, x: &[f64]) -> Result<Vec<Touch>> {
+        let mut found = vec![Touch::NOWHERE; x.len()];
+        let mut apart = COARSE;
+        let mut chosen: Vec<usize> = (0..x.len()).step_by(apart).collect();
+        let mut feet = vec![ANYWHERE; chosen.len()];
+        loop {
+            let places: Vec<f64> = chosen.iter().map(|i| x[*i]).collect();
+            let touches = self.touches(theta, &places, &feet)?;
+            for (i, touch) in chosen.iter().zip(touches) {
+                found[*i] = touch;
+            }
+            if apart == 1 {
+                return Ok(found);
+            }
+            apart /= 2;
+            chosen = (apart..x.len()).step_by(2 * apart).collect();
+            let foot = |i: usize| found.get(i).map_or(f64::INFINITY, |touch| touch.foot);
+            feet = (chosen.iter().map(|i| (foot(i - apart), foot(i + apart)))).collect();
+        }
+    }
+
+    /// The touches at X, the contact of each within the bounds of `feet`.
+    fn touches(&self, theta: f64, x: &[f64], feet: &[(f64, f64)]) -> Result<Vec<Touch>> {
         let mut all = Vec::with_capacity(x.len());
         let mut found = Vec::new();
-        for batch in x.chunks(BATCH) {
-            self.touch
-                .find(&vec![theta; batch.len()], batch, &mut found)?;
+        for (x, feet) in x.chunks(BATCH).zip(feet.chunks(BATCH)) {
+            let theta = vec![theta; x.len()];
+            self.touch.find_within(&theta, x, |i| feet[i], &mut found)?;
             all.extend_from_slice(&found);
         }
         Ok(all)
@@ -310,14 +349,9 @@ impl Seams<'_> {
 
     /// The sums over both sides of the axis, as far as the seam lies on the part.
     fn across(&self, profiles: &mut Profiles<'_>, theta: f64, seam: &Seam) -> Result<Sum> {
-        let part = self.touch.subject().part;
-        let (rim, hole) = (part.aperture_radius, part.inner_radius);
         let mut sum = Sum::default();
-        for (low, high) in [(-rim, -hole), (hole, rim)] {
-            let (from, to) = (seam.from.max(low), seam.to.min(high));
-            if from < to {
-                sum = sum.and(self.stretch(profiles, theta, seam, (from, to))?);
-            }
+        for stretch in self.on_part(seam) {
+            sum = sum.and(self.stretch(profiles, theta, seam, stretch)?);
         }
         Ok(sum)
     }

@@ -5,8 +5,8 @@ mod common;
 use std::f64::consts::{PI, TAU};
 
 use common::{Groove, Plane, bare_spiral, figures, touch_of};
-use turnpath_core::{DEG, Misfit, Scalar, Surface, Tool};
-use turnpath_verify::{FirstTouch, rides, unreached};
+use turnpath_core::{DEG, Misfit, Part, Scalar, Surface, Tool};
+use turnpath_verify::{FirstTouch, Subject, rides, unreached};
 
 const NOSE: f64 = 0.5;
 
@@ -120,11 +120,82 @@ fn a_nose_that_fits_leaves_nothing() {
 #[test]
 fn over_a_seam_cusps_are_measured_from_what_the_nose_can_reach() {
     let (slope, feed) = (0.3, 0.01);
-    let spiral = bare_spiral(1.6 / feed, |n| feed * n);
+    let spiral = bare_spiral(30.0, |n| 0.85 + feed * n);
     let found = figures(&ring(slope), &spiral).residual;
     let flat = NOSE - (NOSE * NOSE - 0.25 * feed * feed).sqrt();
     close(found.max, 0.5 * slope * feed + flat, 1e-4);
     assert!((found.at_rho - 1.0).abs() < 0.01);
+}
+
+/// A ring groove through the rim: at best the nose stands over it, its lowest place R(w − 1) above
+/// the bottom. A pass `away` stands higher by the flank, and over the place by its circle.
+#[test]
+fn a_groove_through_a_rim_is_uncut_from_what_the_nose_can_reach() {
+    for slope in [0.02, 0.3, 1.0] {
+        let left = |away: f64| {
+            let up = slope * away + NOSE;
+            (up * up + away * away).sqrt() - NOSE
+        };
+        let feed = 0.01;
+        let ring = || Ring { slope, radius: 1.0 };
+        let rim = touch_of(ring(), 1.0, tool(None), true);
+        // The outermost passes of all sections lie on the groove, or up to a feed inside of it.
+        let path = bare_spiral(3.0, |n| 1.0 - feed * (3.0 - n));
+        let found = figures(&rim, &path).coverage.rim.expect("a rim");
+        close(found.height, left(feed), 1e-4);
+        // A turn that stays on it cuts what can be cut.
+        let path = bare_spiral(4.0, |n| (0.98 + feed * n).min(1.0));
+        let found = figures(&rim, &path).coverage.rim.expect("a rim");
+        assert!(found.height < 1e-9, "{}", found.height);
+        let hole = Part {
+            aperture_radius: 1.6,
+            inner_radius: 1.0,
+        };
+        let subject = Subject {
+            part: hole,
+            ..rim.subject().clone()
+        };
+        let touch = FirstTouch::new(subject).expect("a touch");
+        let path = bare_spiral(3.0, |n| 1.0 + feed * n);
+        let found = figures(&touch, &path).coverage.hole.expect("a hole");
+        close(found.height, left(feed * 359.0 / 360.0), 1e-2);
+    }
+}
+
+/// Where the nose comes down to the rim beside a groove, the surface itself counts.
+#[test]
+fn a_rim_beside_a_groove_is_uncut_from_the_surface() {
+    let (slope, feed) = (0.3, 0.01);
+    let path = bare_spiral(3.0, |n| 1.6 - feed * (3.0 - n));
+    let rim = |misfit: Misfit| {
+        let tool = Tool {
+            misfit,
+            ..tool(None)
+        };
+        let touch = touch_of(Ring { slope, radius: 1.0 }, 1.6, tool, true);
+        figures(&touch, &path).coverage.rim.expect("a rim").height
+    };
+    close(rim(Misfit::CutWhatFits), rim(Misfit::Refuse), 1e-9);
+}
+
+/// A seam over a hole, or beyond where the path goes, asks for nothing.
+#[test]
+fn only_rides_of_the_path_that_reach_onto_the_part_are_told() {
+    let touch = |inner_radius: f64| {
+        let subject = Subject {
+            part: Part {
+                aperture_radius: 1.6,
+                inner_radius,
+            },
+            ..ring(0.3).subject().clone()
+        };
+        FirstTouch::new(subject).expect("a touch")
+    };
+    let contact = NOSE * 0.3 / 1.09f64.sqrt();
+    let count = |inner: f64, outer: f64| rides(&touch(inner), outer).expect("rides").len();
+    assert_eq!(count(0.0, 0.99), 0);
+    assert_eq!(count(1.01 + contact, 1.6), 0);
+    assert_eq!(count(0.99 + contact, 1.6), count(0.0, 1.6));
 }
 
 /// On a slope of 45 deg an edge that ends at 30 deg cuts steps with its end.
@@ -132,7 +203,7 @@ fn over_a_seam_cusps_are_measured_from_what_the_nose_can_reach() {
 fn an_edge_that_ends_before_the_slope_leaves_steps() {
     let feed = 0.004;
     let touch = touch_of(Plane { slope: 1.0 }, 2.5, tool(Some(60.0 * DEG)), true);
-    let found = figures(&touch, &bare_spiral(2.4 / feed, |n| feed * n)).residual;
+    let found = figures(&touch, &bare_spiral(60.0, |n| 1.0 + feed * n)).residual;
     let end = 0.5 * NOSE - feed;
     let step = feed + NOSE * 0.75f64.sqrt() - (NOSE * NOSE - end * end).sqrt();
     close(found.max, step * 0.5f64.sqrt(), 1e-3);
@@ -143,11 +214,12 @@ fn an_edge_that_ends_before_the_slope_leaves_steps() {
 #[test]
 fn over_a_ring_groove_the_nose_turns_by_twice_the_slope() {
     for slope in [0.02, 0.3, 1.0] {
-        let found = rides(&ring(slope)).expect("rides");
+        let found = rides(&ring(slope), 1.6).expect("rides");
         assert!(found.len() > 100);
         for ride in found {
             assert!((ride.x.abs() - 1.0).abs() < 1e-6, "{}", ride.x);
             close(ride.corner, 2.0 * slope, 1e-5);
+            assert!((0.0..PI).contains(&ride.theta));
         }
     }
 }
