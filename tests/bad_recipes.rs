@@ -5,7 +5,7 @@ mod support;
 use std::fs;
 
 use support::bench::Bench;
-use support::recipe::{SADDLE, changed, saddle_with};
+use support::recipe::{SADDLE, changed, saddle_with, with_table};
 
 /// A recipe that is wrong: the program's answer, with nothing made.
 #[track_caller]
@@ -189,6 +189,21 @@ fn an_overrun_for_which_the_surface_ends_too_early() {
         .replace("included_angle", "# included_angle")
         .replace("overrun = \"none\"", "overrun = \"100 um\"");
     insta::assert_snapshot!(answer(sphere, "run recipe.toml"));
+}
+
+/// Within 2.5 mm the nose fits, and with a feed of the radius alone the path stays there. ATS's fast
+/// angles go on to 3.05 mm, where the section at 105 deg has κ = 1.165/mm by hand.
+#[test]
+fn a_nose_too_large_where_the_law_follows_the_angle_beyond_the_range() {
+    let terms = "use = \"xy-polynomial\"\nterms = [[1, 1, 0.16], [8, 0, 5e-5], [0, 8, 5e-5]]";
+    let recipe = with_table(SADDLE, "surface", terms);
+    let recipe = with_table(&recipe, "tool", "nose_radius = \"1 mm\"");
+    let recipe = with_table(&recipe, "compensator", "use = \"normal\"");
+    let recipe = with_table(&recipe, "path", "direction = \"outward\"\nlead = false");
+    let bench = Bench::with(&recipe);
+    let fits = bench.line("run recipe.toml -o out --set feed.use=\"atpg\" --set refine=true");
+    assert_eq!(fits.status, Some(0), "{fits}");
+    insta::assert_snapshot!(answer(recipe, "run recipe.toml --set feed.use=\"ats\""));
 }
 
 #[test]

@@ -148,6 +148,28 @@ pub fn check(cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
     extreme::largest(region, &mut measure).map(Interference::from_extremes)
 }
 
+/// The extremes over single places of contact; at least one of each.
+///
+/// # Errors
+/// Where the surface has no height.
+pub fn at(cut: Cut<'_>, theta: &[f64], rho: &[f64]) -> Result<Interference> {
+    let mut values = vec![[0.0; 5]; theta.len()];
+    sections(cut, theta, rho, &mut values)?;
+    let nowhere = Extreme {
+        value: f64::NEG_INFINITY,
+        theta: 0.0,
+        rho: 0.0,
+    };
+    let mut extremes = [nowhere; 5];
+    for ((values, theta), rho) in values.iter().zip(theta).zip(rho) {
+        for (extreme, value) in extremes.iter_mut().zip(values) {
+            let (value, theta, rho) = (*value, *theta, *rho);
+            *extreme = larger(*extreme, Extreme { value, theta, rho });
+        }
+    }
+    Ok(Interference::from_extremes(extremes))
+}
+
 /// The sectional curves at each (θ, ρ), in the order of [`Interference::extremes`].
 fn sections(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]) -> Result<()> {
     let mut profiles = vec![Profile::default(); theta.len()];

@@ -5,6 +5,7 @@
 //! [`run`] makes the path and gives it to a [`Sink`] in order.
 
 mod attributed;
+mod beyond;
 mod chain;
 mod drift;
 mod error;

@@ -65,6 +65,7 @@ impl<'a> Plan<'a> {
             Overrun::Contact => taper(&law, &prepared.job),
             Overrun::None | Overrun::Length(_) => Tapered::not(law),
         };
+        crate::beyond::check(chain, prepared, &law)?;
         let mut plan = Self {
             chain,
             prepared,

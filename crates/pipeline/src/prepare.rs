@@ -135,7 +135,11 @@ fn turn(eighths: usize) -> (f64, f64) {
 
 /// In which ways the tool does not fit, but for those that leave something standing where that is
 /// what the recipe asks for and the compensator can do.
-fn conflicts(found: &Interference, tool: &Tool, compensator: &dyn Compensator) -> Vec<Conflict> {
+pub(crate) fn conflicts(
+    found: &Interference,
+    tool: &Tool,
+    compensator: &dyn Compensator,
+) -> Vec<Conflict> {
     let mut conflicts = found.conflicts(tool);
     if tool.misfit == Misfit::CutWhatFits && compensator.cuts_what_fits() {
         conflicts.retain(|conflict| matches!(conflict, Conflict::Clearance { .. }));
@@ -206,7 +210,7 @@ pub(crate) fn contact_range(
 
 /// Where a compensator finds no contact: the recipe's fault if the surface ends within the
 /// nose's reach, the compensator's if not.
-fn no_contact(chain: &Chain, tool: &Tool, theta: f64, rho: f64) -> PipelineError {
+pub(crate) fn no_contact(chain: &Chain, tool: &Tool, theta: f64, rho: f64) -> PipelineError {
     let place = format!(
         "at C = {:.1} deg, ρ = {rho:.4} mm",
         theta / turnpath_core::DEG
