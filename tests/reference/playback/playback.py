@@ -31,6 +31,7 @@ COLUMNS = "time_s,c_deg,x_mm,z_mm,vc_deg_per_s,vx_mm_per_s,vz_mm_per_s,section"
 NM_PER_MM = 1e6
 INSTANTS_PER_CHUNK = 24_000  # bounds memory, and keeps a chunk's arrays in the cache
 SEAM_SCAN = 513
+CLOSING_STEP = 2e-4  # mm: how far apart the nose is put on a section to see what it can reach
 COMPENSATORS = ("z-direction", "normal", "none")
 
 # --- recipe -------------------------------------------------------------------------------
@@ -53,6 +54,11 @@ class Recipe:
         if surface["use"] not in SURFACES:
             raise SystemExit(f"no reference for the surface `{surface['use']}`")
         self.sag = SURFACES[surface["use"]](surface)
+
+    @property
+    def leaves_seams(self):
+        """Whether the nose may stand off the surface where it does not fit."""
+        return self.cuts_what_fits and self.compensator != "none"
 
     @classmethod
     def read(cls, path):
@@ -327,7 +333,7 @@ def section_residual(recipe, path, section_deg, scan):
         x, z = nose_centres(recipe, theta, played, scan)
         cusp_x, cusp_z = cusps(recipe, x, z)
         index = np.flatnonzero((played[1:] * played[:-1] > -1e-12) & (np.abs(np.diff(x)) > 1e-9))
-        if recipe.cuts_what_fits and recipe.compensator != "none":
+        if recipe.leaves_seams:
             foot = cusp_x[index]
             height = height_above_closing(recipe, theta, foot, cusp_z[index], x[index],
                                           x[index + 1], scan)
@@ -393,14 +399,18 @@ class Sections:
 
 
 def uncut_at_edge(sections, radius):
-    """The largest distance of the wanted surface at `radius` from all that the nose cuts there,
-    over all angles; infinite where the nose stands above it nowhere."""
+    """The largest distance of the wanted surface at `radius`, or of the best that a nose which may
+    leave seams can cut of it, from all that the nose cuts there, over all angles; infinite where the
+    nose stands above it nowhere."""
     recipe = sections.recipe
     nose, reach = recipe.nose_radius, recipe.nose_radius * math.sin(recipe.nose_half_angle)
     worst = -math.inf
     for i, degrees in enumerate(sections.degrees):
         near = lambda x, sign: x[np.abs(sign * x - radius) < 2 * nose]
-        place = float(recipe.profile(math.radians(degrees))(np.float64(radius)))
+        theta = math.radians(degrees)
+        place = float(recipe.profile(theta)(np.float64(radius)))
+        if recipe.leaves_seams:
+            place += float(np.interp(radius, *section_closing(recipe, theta, CLOSING_STEP)))
         uncut = math.inf
         for x, z in sections.line(i, near):
             away = np.hypot(x - radius, z - place)[np.abs(x - radius) < reach]
@@ -473,13 +483,13 @@ def section_closing(recipe, theta, step):
     return places[2 * arm:-2 * arm], closing - section[2 * arm:-2 * arm]
 
 
-def unreached(recipe, sections=180, step=2e-4):
+def unreached(recipe, sections=180, step=CLOSING_STEP):
     """Largest height (along z) and volume between the surface and its closing by the nose.
 
     Putting the nose at steps of X misses the lowest place over a seam by a part of the step: the
     volume is extrapolated from two steps, the highest section made again with a finer one.
     """
-    if not recipe.cuts_what_fits or recipe.compensator == "none":
+    if not recipe.leaves_seams:
         return None
     volumes, sections_heights = [], []
     thetas = math.pi * (np.arange(sections) + 0.37) / sections
