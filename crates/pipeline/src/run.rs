@@ -126,15 +126,10 @@ fn write(
     batch: usize,
     depths: &[Depths],
     leads: Option<LeadRun>,
-    (mut meter, mut servo): (Meter, Option<ServoMeter>),
+    (meter, mut servo): (Meter, Option<ServoMeter>),
     sink: &mut dyn Sink,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
-    let touch = &plan.prepared.touch;
-    let (mut made_points, mut sampled) = (0, 0);
-    let (mut last_motion, mut own_axes) = (AxesMotion::default(), AxesMotion::default());
-    let own = plan.own_angles();
-    let mut state = first_state(plan);
     let mut trail = Trail::default();
     if let Some(leads) = &leads {
         if let Some(servo) = &mut servo {
@@ -142,61 +137,103 @@ fn write(
         }
         trail.hand_on(Section::LeadIn, &leads.lead_in(), sink)?;
     }
+    let mut taken = Taken::new(meter, servo);
     let blocks: Vec<usize> = (0..plan.blocks()).collect();
     progress.begin(Stage::Write, blocks.len() as u64);
-    let mut held = Vec::new();
+    let (mut held, mut state) = (Vec::new(), first_state(plan));
     for range in runs(&blocks, batch) {
         let mut made = held;
         made.extend(make(plan, range.clone(), depths, state.as_mut())?);
         join(&mut made);
         // The last block waits for the first point of the next one.
         held = made.split_off(made.len() - usize::from(range.end < plan.blocks()));
-        let behind: Vec<Behind> = made.iter().map(|made| trail.behind_cut(made)).collect();
-        let encoder: &dyn Sink = sink;
-        let starts: Vec<Option<ServoStart>> = made
-            .iter()
-            .map(|made| servo.as_mut().map(|servo| servo.pass(&made.points)))
-            .collect();
-        let each = made.into_par_iter().zip(behind).zip(starts);
-        let ready = in_order(
-            each.map(|((made, behind), start)| ready(touch, made, own, &behind, start, encoder)),
-        )?;
-        for block in ready {
-            meter
-                .append(&block.measured)
-                .map_err(PipelineError::Measure)?;
-            if let (Some(servo), Some(served)) = (&mut servo, &block.served) {
-                servo.append(served);
-            }
-            made_points += block.points as u64;
-            sampled += block.sampled as u64;
-            own_axes.append(&block.own_axes);
-            last_motion = block.measured.axes;
-            sink.take(block.points, &block.encoded)
-                .map_err(PipelineError::Sink)?;
-        }
+        taken.take(plan, made, &mut trail, sink)?;
         progress.advance(range.len() as u64);
     }
     let lead = match leads.zip(trail.last_two()) {
         None => None,
         Some((leads, pair)) => {
-            let (points, leads) = leads.end(plan, &pair, last_motion)?;
+            let (points, leads) = leads.end(plan, &pair, taken.last_motion)?;
             trail.hand_on(Section::LeadOut, &points, sink)?;
             Some(leads)
         }
     };
-    let revolutions = plan.law.end();
-    Ok(Outcome {
-        control_points: made_points,
-        added_by_refine: made_points - sampled,
-        revolutions,
-        cutting_time: plan.prepared.job.spindle.time_at(revolutions),
-        own_axes: own.map(|_| own_axes),
-        machined: meter.machined().map_err(PipelineError::Measure)?,
-        figures: meter.figures().map_err(PipelineError::Measure)?,
-        lead,
-        servo: servo.map(|servo| *servo.figures()),
-    })
+    taken.outcome(plan, lead)
+}
+
+/// What has been measured of the blocks that were handed on.
+struct Taken {
+    meter: Meter,
+    servo: Option<ServoMeter>,
+    points: u64,
+    sampled: u64,
+    own_axes: AxesMotion,
+    /// Of the last block.
+    last_motion: AxesMotion,
+}
+
+impl Taken {
+    fn new(meter: Meter, servo: Option<ServoMeter>) -> Self {
+        Self {
+            meter,
+            servo,
+            points: 0,
+            sampled: 0,
+            own_axes: AxesMotion::default(),
+            last_motion: AxesMotion::default(),
+        }
+    }
+
+    /// Measures blocks in parallel, and hands them on in order.
+    fn take(
+        &mut self,
+        plan: &Plan<'_>,
+        made: Vec<Made>,
+        trail: &mut Trail,
+        sink: &mut dyn Sink,
+    ) -> Result<()> {
+        let (touch, own) = (&plan.prepared.touch, plan.own_angles());
+        let behind: Vec<Behind> = made.iter().map(|made| trail.behind_cut(made)).collect();
+        let mut pass = |made: &Made| Some(self.servo.as_mut()?.pass(&made.points));
+        let starts: Vec<Option<ServoStart>> = made.iter().map(&mut pass).collect();
+        let encoder: &dyn Sink = sink;
+        let each = made.into_par_iter().zip(behind).zip(starts);
+        let ready = in_order(
+            each.map(|((made, behind), start)| ready(touch, made, own, &behind, start, encoder)),
+        )?;
+        ready
+            .into_iter()
+            .try_for_each(|block| self.add(block, sink))
+    }
+
+    fn add(&mut self, block: Ready, sink: &mut dyn Sink) -> Result<()> {
+        let appended = self.meter.append(&block.measured);
+        appended.map_err(PipelineError::Measure)?;
+        if let (Some(servo), Some(served)) = (&mut self.servo, &block.served) {
+            servo.append(served);
+        }
+        self.points += block.points as u64;
+        self.sampled += block.sampled as u64;
+        self.own_axes.append(&block.own_axes);
+        self.last_motion = block.measured.axes;
+        sink.take(block.points, &block.encoded)
+            .map_err(PipelineError::Sink)
+    }
+
+    fn outcome(self, plan: &Plan<'_>, lead: Option<Leads>) -> Result<Outcome> {
+        let revolutions = plan.law.end();
+        Ok(Outcome {
+            control_points: self.points,
+            added_by_refine: self.points - self.sampled,
+            revolutions,
+            cutting_time: plan.prepared.job.spindle.time_at(revolutions),
+            own_axes: plan.own_angles().map(|_| self.own_axes),
+            machined: self.meter.machined().map_err(PipelineError::Measure)?,
+            figures: self.meter.figures().map_err(PipelineError::Measure)?,
+            lead,
+            servo: self.servo.map(|servo| *servo.figures()),
+        })
+    }
 }
 
 /// What came before a stretch.
