@@ -5,7 +5,7 @@
 
 use crate::ParamKind;
 use crate::decimal::Decimal;
-use crate::units::{Scale, UNITS, find_unit, tidy_unit, unit_like};
+use crate::units::{Scale, UNITS, Unit, find_unit, tidy_unit, unit_like};
 
 /// The kinds of quantities that carry a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -106,6 +106,16 @@ impl Quantity {
             Self::AngularAcceleration => "an acceleration of rotation",
             Self::AngularJerk => "a jerk of rotation",
         }
+    }
+
+    /// All that can be written: those with a unit, in the order of the table of units.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let is_first = |(at, unit): (usize, &Unit)| {
+            let before = UNITS.iter().take(at);
+            let mut of_its_kind = before.filter(|other| other.quantity == unit.quantity);
+            of_its_kind.next().is_none().then_some(unit.quantity)
+        };
+        UNITS.iter().enumerate().filter_map(is_first)
     }
 
     /// The units that it is written in, the usual one first.

@@ -46,22 +46,8 @@ fn docs_recipe_md_has_every_fixed_key_and_no_other() {
 
 #[test]
 fn docs_recipe_md_has_every_unit_of_every_quantity() {
-    use Quantity::*;
     let page = page();
-    let all = [
-        Length,
-        Angle,
-        PerLength,
-        Feed,
-        RotationSpeed,
-        Time,
-        Velocity,
-        Acceleration,
-        Jerk,
-        AngularAcceleration,
-        AngularJerk,
-    ];
-    for quantity in all {
+    for quantity in Quantity::all() {
         let start = format!("| {} | ", quantity.noun());
         let row = page.lines().find_map(|line| line.strip_prefix(&start));
         let written: Vec<&str> = in_code(row.expect("a row of the quantity")).collect();
