@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use turnpath::report::comparison;
 use turnpath_core::Slot;
-
-use crate::ablate::columns;
 
 /// Tool paths for slow-tool-servo diamond turning of freeform optics.
 ///
@@ -148,7 +147,7 @@ pub struct AblateArgs {
     pub output: Option<PathBuf>,
     /// The columns of the table, in this order
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
-    #[arg(value_parser = PossibleValuesParser::new(columns::names()))]
+    #[arg(value_parser = PossibleValuesParser::new(comparison::names()))]
     pub columns: Vec<String>,
     /// Make all runs anew, also those that were made before
     #[arg(long)]
@@ -200,6 +199,21 @@ pub struct ExplainArgs {
     pub name: String,
     #[command(flatten)]
     pub plugins: PluginArgs,
+}
+
+impl Command {
+    /// Where its strategies come from.
+    pub fn plugins(&self) -> &PluginArgs {
+        match self {
+            Self::Run(args) => &args.recipe.plugins,
+            Self::Check(args) => &args.recipe.plugins,
+            Self::Ablate(args) => &args.recipe.plugins,
+            Self::Verify(args) => &args.recipe.plugins,
+            Self::Sag(args) => &args.recipe.plugins,
+            Self::List(args) => &args.plugins,
+            Self::Explain(args) => &args.plugins,
+        }
+    }
 }
 
 /// The slot with this key, if there is one.

@@ -1,11 +1,12 @@
 //! Progress with the remaining time, on a terminal only.
 
 use std::io::IsTerminal;
+use std::path::Path;
 use std::sync::Mutex;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use turnpath_pipeline::{Progress, Stage};
+use turnpath::{AblationObserver, Observer, Stage};
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";
@@ -33,7 +34,7 @@ impl Bar {
     }
 }
 
-impl Progress for Bar {
+impl Observer for Bar {
     fn begin(&self, stage: Stage, blocks: u64) {
         if !std::io::stderr().is_terminal() {
             return;
@@ -64,30 +65,46 @@ impl Progress for Bar {
 const RUNS_STYLE: &str = "{pos} of {len} runs made {bar:30} {eta} left";
 
 /// A bar over several runs on standard error, or nothing where that is no terminal.
-pub struct RunsBar(ProgressBar);
+pub struct RunsBar(Mutex<ProgressBar>);
 
 impl RunsBar {
-    /// So many runs are to be made.
-    pub fn new(runs: usize) -> Self {
+    /// No run yet.
+    pub fn new() -> Self {
+        Self(Mutex::new(ProgressBar::hidden()))
+    }
+
+    fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
+        if let Ok(mut bar) = self.0.lock() {
+            act(&mut bar);
+        }
+    }
+}
+
+impl AblationObserver for RunsBar {
+    fn begin(&self, runs: usize) {
         if runs == 0 || !std::io::stderr().is_terminal() {
-            return Self(ProgressBar::hidden());
+            return;
         }
-        let runs = u64::try_from(runs).ok();
-        let bar = ProgressBar::with_draw_target(runs, ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template(RUNS_STYLE) {
-            bar.set_style(style);
-        }
-        bar.enable_steady_tick(TICK);
-        Self(bar)
+        self.with(|bar| {
+            let runs = u64::try_from(runs).ok();
+            *bar = ProgressBar::with_draw_target(runs, ProgressDrawTarget::stderr());
+            if let Ok(style) = ProgressStyle::with_template(RUNS_STYLE) {
+                bar.set_style(style);
+            }
+            bar.enable_steady_tick(TICK);
+        });
     }
 
-    /// One more is made.
-    pub fn advance(&self) {
-        self.0.inc(1);
+    fn advance(&self) {
+        self.with(|bar| bar.inc(1));
     }
 
-    /// Takes the bar off the screen.
-    pub fn clear(&self) {
-        self.0.finish_and_clear();
+    fn damaged(&self, record: &Path, why: &str) {
+        let name = record.display();
+        eprintln!("note: {name} is damaged ({why}); its run is made again");
+    }
+
+    fn end(&self) {
+        self.with(|bar| bar.finish_and_clear());
     }
 }

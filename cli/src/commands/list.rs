@@ -1,0 +1,39 @@
+//! `turnpath list`: the strategies that can be chosen.
+
+use turnpath::Catalogue;
+use turnpath_core::Slot;
+
+use super::setup::with_plugins;
+use crate::args::{ListArgs, slot_of};
+use crate::print::print;
+use crate::{Outcome, Status};
+
+/// Lists strategies by slot and name.
+pub fn list(args: &ListArgs, catalogue: Catalogue) -> Outcome {
+    let catalogue = with_plugins(catalogue, &args.plugins)?;
+    let only = args.slot.as_deref().and_then(slot_of);
+    let width = catalogue
+        .strategies()
+        .map(|one| one.info().name.len())
+        .max()
+        .unwrap_or(0);
+    let mut text = String::new();
+    for slot in Slot::ALL
+        .into_iter()
+        .filter(|slot| only.is_none_or(|only| only == *slot))
+    {
+        text += &format!("{slot}\n");
+        for strategy in catalogue.strategies().filter(|one| one.info().slot == slot) {
+            let info = strategy.info();
+            text += &format!("  {:<width$}  {}\n", info.name, info.summary);
+            if let Some(file) = &strategy.plugin().file {
+                text += &format!("  {:<width$}  from {}\n", "", file.display());
+            }
+        }
+        if catalogue.names(slot).is_empty() {
+            text += "  none; give a folder of plugins with --plugin-dir\n";
+        }
+    }
+    print(&text)?;
+    Ok(Status::Holds)
+}

@@ -1,0 +1,19 @@
+//! The commands, a file each: from arguments to a call of the library and a printed answer.
+
+mod ablate;
+mod check;
+mod explain;
+mod list;
+mod plots;
+mod run;
+mod sag;
+mod setup;
+mod verify;
+
+pub use ablate::ablate;
+pub use check::check;
+pub use explain::explain;
+pub use list::list;
+pub use run::run;
+pub use sag::sag;
+pub use verify::verify;

@@ -1,0 +1,30 @@
+//! `turnpath run`: the whole pipeline, and its files.
+
+use std::path::Path;
+
+use turnpath::report::text;
+use turnpath::{Catalogue, Outputs};
+
+use super::{plots, setup};
+use crate::args::RunArgs;
+use crate::print::print_report;
+use crate::progress::Bar;
+use crate::{Outcome, Status};
+
+/// Runs a recipe and writes its files.
+pub fn run(args: &RunArgs, catalogue: Catalogue) -> Outcome {
+    let job = setup::job(&args.recipe, &args.work, catalogue)?;
+    let folder = match &args.output {
+        Some(folder) => folder.clone(),
+        None => Path::new("out").join(job.recipe().folder_name()),
+    };
+    let outputs = Outputs::in_folder(folder).with_plots(plots::request(&args.plots)?);
+    let bar = Bar::new();
+    let result = job.run(outputs, &bar);
+    bar.clear();
+    let result = result?;
+    print_report(args.work.format, &result.report, |report| {
+        text::run(report, &result.files)
+    })?;
+    Ok(Status::of(result.report.verdict()))
+}

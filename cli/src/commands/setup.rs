@@ -1,0 +1,48 @@
+//! What several commands begin with: threads, the recipe, and the strategies.
+
+use turnpath::{Catalogue, Job, LoadError, Recipe, refuse_listed_plugins, with_listed_plugins};
+
+use crate::args::{PluginArgs, RecipeArgs, WorkArgs};
+use crate::failure::Failure;
+
+/// Folders to take plugins from, besides those on the command line.
+const PLUGIN_PATH: &str = "TURNPATH_PLUGIN_PATH";
+
+/// Sets how many threads work. It fails only when that is set already, which changes no result.
+pub fn use_threads(work: &WorkArgs) {
+    let threads = work.threads.map_or(0, usize::from);
+    let _ = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global();
+}
+
+/// The catalogue with the plugins of `--plugin-dir` and of the environment.
+pub fn with_plugins(mut catalogue: Catalogue, args: &PluginArgs) -> Result<Catalogue, LoadError> {
+    for folder in &args.plugin_dir {
+        catalogue.add_folder(folder)?;
+    }
+    if let Some(folders) = std::env::var_os(PLUGIN_PATH) {
+        for folder in std::env::split_paths(&folders).filter(|path| !path.as_os_str().is_empty()) {
+            catalogue.add_folder(&folder)?;
+        }
+    }
+    Ok(catalogue)
+}
+
+/// The recipe, and the catalogue with the plugins that the recipe lists, if the user trusts it.
+pub fn recipe(args: &RecipeArgs, catalogue: Catalogue) -> Result<(Recipe, Catalogue), Failure> {
+    let recipe = Recipe::load(&args.recipe, &args.set)?;
+    if !args.trust_recipe {
+        refuse_listed_plugins(&recipe)?;
+    }
+    let catalogue = with_plugins(catalogue, &args.plugins)?;
+    let catalogue = with_listed_plugins(catalogue, &recipe)?;
+    Ok((recipe, catalogue))
+}
+
+/// The job of a recipe.
+pub fn job(args: &RecipeArgs, work: &WorkArgs, catalogue: Catalogue) -> Result<Job, Failure> {
+    use_threads(work);
+    let (recipe, catalogue) = recipe(args, catalogue)?;
+    Ok(Job::new(recipe, &catalogue)?)
+}

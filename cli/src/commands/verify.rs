@@ -1,0 +1,29 @@
+//! `turnpath verify`: any tool path against a recipe's surface, tool and tolerances.
+
+use std::path::Path;
+
+use turnpath::report::text;
+use turnpath::{Catalogue, SilentObserver};
+
+use super::{plots, setup};
+use crate::args::VerifyArgs;
+use crate::print::print_report;
+use crate::{Outcome, Status};
+
+/// Measures a file.
+pub fn verify(args: &VerifyArgs, catalogue: Catalogue) -> Outcome {
+    setup::use_threads(&args.work);
+    let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
+    let request = plots::request(&args.plots)?;
+    let folder = args.output.as_deref().unwrap_or(Path::new("."));
+    let report = turnpath::verify(
+        &recipe,
+        &catalogue,
+        &args.file,
+        &request,
+        folder,
+        &SilentObserver,
+    )?;
+    print_report(args.work.format, &report, text::file)?;
+    Ok(Status::of(report.verdict()))
+}

@@ -1,0 +1,81 @@
+//! The command line of turnpath: arguments, printing, progress and colours. What a command means
+//! lives in the library `turnpath`.
+//!
+//! [`main_with`] is the whole program for arguments and strategies of one's own:
+//!
+//! ```
+//! use turnpath::Catalogue;
+//! let status = turnpath_cli::main_with(["turnpath", "list", "sampler"], Catalogue::linked());
+//! assert_eq!(status, std::process::ExitCode::SUCCESS);
+//! ```
+
+mod args;
+mod commands;
+mod failure;
+mod print;
+mod progress;
+mod width;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::Parser;
+use turnpath::{Catalogue, LoadError};
+
+use args::{Command, Program};
+use failure::Failure;
+
+/// How a command ended that did what it was asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Status {
+    /// All tolerances hold, and all limits of the machine.
+    Holds,
+    /// A tolerance or a limit of the machine does not hold.
+    Exceeded,
+}
+
+impl Status {
+    fn of(verdict: &turnpath::report::Verdict) -> Self {
+        match verdict.holds() {
+            true => Self::Holds,
+            false => Self::Exceeded,
+        }
+    }
+}
+
+/// What a command gives.
+type Outcome = Result<Status, Failure>;
+
+/// Runs the program with these arguments, the program's name first, and with the strategies of
+/// this catalogue beside those of plugin folders. Answers on standard output and standard error.
+/// Wrong arguments and `--help` end the process.
+pub fn main_with(
+    args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
+    catalogue: Result<Catalogue, LoadError>,
+) -> ExitCode {
+    let Program { command } = Program::parse_from(args);
+    let details = command.plugins().layout_details;
+    let outcome = catalogue
+        .map_err(Failure::from)
+        .and_then(|catalogue| run(&command, catalogue));
+    match outcome {
+        Ok(Status::Holds) => ExitCode::SUCCESS,
+        Ok(Status::Exceeded) => ExitCode::from(1),
+        Err(failure) => {
+            failure.report(details);
+            ExitCode::from(failure.status())
+        }
+    }
+}
+
+fn run(command: &Command, catalogue: Catalogue) -> Outcome {
+    match command {
+        Command::Run(args) => commands::run(args, catalogue),
+        Command::Ablate(args) => commands::ablate(args, catalogue),
+        Command::Check(args) => commands::check(args, catalogue),
+        Command::Verify(args) => commands::verify(args, catalogue),
+        Command::Sag(args) => commands::sag(args, catalogue),
+        Command::List(args) => commands::list(args, catalogue),
+        Command::Explain(args) => commands::explain(args, catalogue),
+    }
+}

@@ -1,0 +1,119 @@
+//! What an ablation gave: the runs of its variants.
+
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::format::FORMAT;
+use crate::run::{ChainNames, RunReport};
+use crate::unit;
+use crate::verdict::Verdict;
+
+/// The runs of an ablation: the content of `ablation.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AblationReport {
+    /// The form of the file, [`FORMAT`].
+    pub format: u32,
+    /// The runs, in the order of the variants.
+    pub runs: Vec<AblationRun>,
+}
+
+/// One variant and what it gave.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AblationRun {
+    /// What it gave.
+    #[serde(flatten)]
+    pub outcome: RunOutcome,
+    /// Each key that varies, with this variant's value in words.
+    #[serde(with = "variations")]
+    pub varied: Vec<(String, String)>,
+}
+
+/// What a variant gave.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum RunOutcome {
+    /// The path was made and measured.
+    Measured(Box<MeasuredRun>),
+    /// There is no path.
+    Failed(FailedRun),
+}
+
+/// A run of an ablation with its costs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MeasuredRun {
+    /// As `turnpath run` writes it into `summary.json`, without programs.
+    #[serde(flatten)]
+    pub report: RunReport,
+    /// Bytes of the lines that the post `pmac-pvt` makes of the points, header and footer aside;
+    /// `None` where such a program cannot carry the path.
+    pub program_bytes: Option<u64>,
+    /// Processor time that one thread took to make and measure the path, s.
+    #[serde(rename = "planning_time_s", with = "unit::s")]
+    pub planning_time: f64,
+}
+
+/// A variant without a path.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FailedRun {
+    /// The names of its strategies.
+    pub chain: ChainNames,
+    /// Why there is no path.
+    pub error: String,
+}
+
+impl AblationReport {
+    /// The runs of an ablation.
+    pub fn new(runs: Vec<AblationRun>) -> Self {
+        Self {
+            format: FORMAT,
+            runs,
+        }
+    }
+}
+
+impl AblationRun {
+    /// The run, where there is a path.
+    pub fn measured(&self) -> Option<&MeasuredRun> {
+        match &self.outcome {
+            RunOutcome::Measured(run) => Some(run),
+            RunOutcome::Failed(_) => None,
+        }
+    }
+
+    /// Why there is no path.
+    pub fn error(&self) -> Option<&str> {
+        match &self.outcome {
+            RunOutcome::Measured(_) => None,
+            RunOutcome::Failed(failed) => Some(&failed.error),
+        }
+    }
+
+    /// Which tolerances and limits hold, where there is a path.
+    pub fn verdict(&self) -> Option<&Verdict> {
+        self.measured().map(|run| run.report.verdict())
+    }
+}
+
+/// Pairs of a key and a value as an object that keeps their order.
+mod variations {
+    use super::*;
+
+    pub fn serialize<S: Serializer>(pairs: &[(String, String)], to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(pairs.len()))?;
+        for (key, value) in pairs {
+            map.serialize_entry(key, value)?;
+        }
+        map.end()
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<(String, String)>, D::Error> {
+        let map = serde_json::Map::<String, serde_json::Value>::deserialize(from)?;
+        let text = |value: serde_json::Value| match value {
+            serde_json::Value::String(text) => text,
+            other => other.to_string(),
+        };
+        Ok(map.into_iter().map(|(key, value)| (key, text(value))).collect())
+    }
+}

@@ -1,0 +1,62 @@
+//! What a check gave: everything but the path.
+
+use serde::{Deserialize, Serialize};
+
+use crate::format::FORMAT;
+use crate::machine::MachineLimits;
+use crate::tool_fit::ToolFit;
+use crate::unit;
+use crate::unreached::Unreached;
+
+/// What a check gave.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CheckReport {
+    /// The form of the JSON text, [`FORMAT`].
+    pub format: u32,
+    /// The job's name.
+    pub name: String,
+    /// What the part asks of the tool.
+    #[serde(flatten)]
+    pub tool_fit: ToolFit,
+    /// Limits that the path will be held to; `None` without any.
+    pub machine: Option<MachineLimits>,
+    /// What the nose leaves standing where it does not fit; `None` where the recipe refuses that.
+    pub unreached: Option<Unreached>,
+    /// What the path will be, before refinement.
+    pub expected: Estimate,
+}
+
+/// What a path will be, before refinement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// Revolutions of the cutting section.
+    #[serde(with = "unit::one")]
+    pub revolutions: f64,
+    /// Time of the cutting section, s.
+    #[serde(rename = "cutting_time_s", with = "unit::s")]
+    pub cutting_time: f64,
+    /// Control points of the cutting section.
+    pub control_points: u64,
+    /// Bytes of `toolpath.csv`.
+    pub toolpath_bytes: u64,
+    /// The motion programs.
+    pub programs: Vec<ProgramEstimate>,
+}
+
+/// What a motion program will be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ProgramEstimate {
+    /// The file's name.
+    pub file: String,
+    /// Its size.
+    pub bytes: u64,
+}
+
+impl CheckReport {
+    /// The report with all numbers rounded to the digits of files.
+    #[must_use]
+    pub fn filed(mut self) -> Self {
+        self.format = FORMAT;
+        crate::format::as_filed(self)
+    }
+}

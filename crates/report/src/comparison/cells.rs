@@ -1,0 +1,206 @@
+//! A column of the table: the figures of all runs with their ratios and marks.
+
+use unicode_width::UnicodeWidthStr;
+
+use crate::ablation::AblationRun;
+
+use super::column::{Best, Column, Form};
+use super::wording::{NONE, ratio_of, written};
+
+/// Figures below this are rounding: 1e-8 nm, or mm/s².
+const ROUNDING: f64 = 1e-8;
+/// Marks the best figure of a column.
+const BEST: &str = "*";
+/// Marks a figure that exceeds its tolerance.
+const EXCEEDS: &str = "!";
+
+/// A run's figure in words.
+pub struct Cell {
+    text: String,
+    /// To the first run; empty without.
+    pub ratio: String,
+    pub is_best: bool,
+    pub exceeds: bool,
+}
+
+/// A column in words.
+pub struct FigureColumn {
+    pub heading: &'static [&'static str],
+    pub form: Form,
+    /// Whether they cover only where the law is the feed strategy's own.
+    pub of_law: bool,
+    pub best: Best,
+    /// A cell a run.
+    pub cells: Vec<Cell>,
+    width: usize,
+}
+
+impl FigureColumn {
+    /// The figures of all runs.
+    pub fn of(runs: &[AblationRun], column: &Column) -> Self {
+        let tidy = |number: f64| if number.abs() < ROUNDING { 0.0 } else { number };
+        let figures = runs.iter().map(|run| (column.figure)(run.measured()?));
+        let numbers: Vec<Option<f64>> = figures.map(|number| number.map(tidy)).collect();
+        let best = best(&numbers, column);
+        let first = numbers.first().copied().flatten();
+        let cell = |(row, (run, number)): (usize, (&AblationRun, &Option<f64>))| {
+            let exceeds = column.holds.zip(run.verdict()).map(|(holds, verdict)| !holds(verdict));
+            let ratio = number.zip(first).filter(|_| row > 0);
+            let text = number.map(|number| written(number, column.form));
+            Cell {
+                is_best: best.is_some() && best == text,
+                text: text.unwrap_or_else(|| NONE.to_owned()),
+                ratio: ratio.map_or(String::new(), |(number, first)| ratio_of(number, first)),
+                exceeds: exceeds.unwrap_or(false),
+            }
+        };
+        let cells: Vec<Cell> = runs.iter().zip(&numbers).enumerate().map(cell).collect();
+        let widths = cells.iter().flat_map(Cell::widths);
+        let head = column.heading.iter().map(|line| line.width());
+        Self {
+            width: widths.chain(head).max().unwrap_or(0),
+            heading: column.heading,
+            form: column.form,
+            of_law: column.of_law,
+            best: column.best,
+            cells,
+        }
+    }
+
+    /// Columns of the terminal that it takes: a space, the figure, its mark.
+    pub fn whole_width(&self) -> usize {
+        self.width + 2
+    }
+
+    /// Line `line` of a heading of `height` lines, the unit on the last.
+    pub fn heading_line(&self, line: usize, height: usize) -> String {
+        let skipped = height.saturating_sub(self.heading.len());
+        let line = line.checked_sub(skipped);
+        let line = line.and_then(|line| self.heading.get(line));
+        self.aligned(line.unwrap_or(&""), "")
+    }
+
+    /// A run's figure with its marks.
+    pub fn figure(&self, run: usize) -> String {
+        let Some(cell) = self.cells.get(run) else {
+            return self.aligned("", "");
+        };
+        let mark = if cell.is_best { BEST } else { "" };
+        self.aligned(&cell.marked(), mark)
+    }
+
+    /// Its ratio to the first run.
+    pub fn ratio(&self, run: usize) -> String {
+        let ratio = self.cells.get(run).map_or("", |cell| cell.ratio.as_str());
+        self.aligned(ratio, "")
+    }
+
+    fn aligned(&self, text: &str, mark: &str) -> String {
+        let before = " ".repeat(1 + self.width.saturating_sub(text.width()));
+        format!("{before}{text}{mark:1}")
+    }
+}
+
+impl Cell {
+    fn marked(&self) -> String {
+        let mark = if self.exceeds { EXCEEDS } else { "" };
+        format!("{mark}{}", self.text)
+    }
+
+    fn widths(&self) -> [usize; 2] {
+        [self.marked().width(), self.ratio.width()]
+    }
+}
+
+/// The best number as it is written, unless all are the same.
+fn best(numbers: &[Option<f64>], column: &Column) -> Option<String> {
+    let there = || numbers.iter().flatten().copied().filter(|n| n.is_finite());
+    let best = match column.best {
+        Best::Smallest => there().fold(f64::INFINITY, f64::min),
+        Best::Largest => there().fold(f64::NEG_INFINITY, f64::max),
+        Best::None => return None,
+    };
+    let best = written(best, column.form);
+    let differ = there().any(|number| written(number, column.form) != best);
+    differ.then_some(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::comparison::by_names;
+    use crate::sample::{failed_run, measured_run};
+
+    fn best_of(name: &str, numbers: &[Option<f64>]) -> Option<String> {
+        let column = by_names(&[name.to_owned()])[0];
+        best(numbers, column)
+    }
+
+    #[test]
+    fn figures_that_are_all_the_same_have_no_best() {
+        let best = |numbers: &[Option<f64>]| best_of("time", numbers);
+        assert_eq!(best(&[Some(1.0), None, Some(1.000_01)]), None);
+        assert_eq!(
+            best(&[Some(2.0), None, Some(1.0)]),
+            Some("1.000".to_owned())
+        );
+        assert_eq!(best(&[Some(f64::NAN), Some(1.0)]), None);
+        assert_eq!(best(&[None, None]), None);
+    }
+
+    #[test]
+    fn of_speeds_the_largest_is_the_best_and_of_times_of_the_processor_none() {
+        let numbers = [Some(100.0), None, Some(300.0)];
+        assert_eq!(best_of("spindle-max", &numbers), Some("300.0".to_owned()));
+        assert_eq!(best_of("planning-time", &numbers), None);
+    }
+
+    /// Marks and ratios where figures tie as they are written, are zero, or are not there.
+    #[test]
+    fn ties_are_all_marked_and_zero_or_nothing_has_no_ratio() {
+        let entry = |added: u64, time: f64| {
+            measured_run(Vec::new(), |run| {
+                run.report.points_added_by_refine = added;
+                run.report.cutting_time = time;
+                run.report.path.lead = None;
+            })
+        };
+        let entries = [
+            entry(0, 99.994),
+            entry(7, 99.996),
+            entry(0, 100.02),
+            failed_run(Vec::new(), "it has no law"),
+            failed_run(Vec::new(), "it panicked"),
+            entry(0, 250.0),
+        ];
+        let cells = |name: &str| {
+            let column = by_names(&[name.to_owned()])[0];
+            let cells = FigureColumn::of(&entries, column).cells.into_iter();
+            cells
+                .map(|cell| (cell.text, cell.is_best, cell.ratio))
+                .collect::<Vec<_>>()
+        };
+        let row =
+            |text: &str, is_best: bool, ratio: &str| (text.to_owned(), is_best, ratio.to_owned());
+        let added = [
+            row("0", true, ""),
+            row("7", false, ""),
+            row("0", true, ""),
+            row("–", false, ""),
+            row("–", false, ""),
+            row("0", true, ""),
+        ];
+        assert_eq!(cells("added"), added);
+        let times = [
+            row("99.99", true, ""),
+            row("100.0", false, "×1.00"),
+            row("100.0", false, "×1.00"),
+            row("–", false, ""),
+            row("–", false, ""),
+            row("250.0", false, "×2.50"),
+        ];
+        assert_eq!(cells("time"), times);
+        let nothing = row("–", false, "");
+        assert!(cells("lead-in").iter().all(|cell| *cell == nothing));
+    }
+}

@@ -1,0 +1,16 @@
+//! The runs of an ablation side by side: columns of figures, as CSV and as a table.
+
+mod all_columns;
+mod cells;
+mod column;
+mod csv_table;
+mod labels;
+mod table;
+#[cfg(test)]
+mod tests;
+mod wording;
+
+pub use all_columns::{all, by_names, names};
+pub use column::{Best, Column, Form};
+pub use csv_table::csv_table;
+pub use table::table;

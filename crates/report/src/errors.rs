@@ -1,0 +1,66 @@
+//! How far the path lies from the true one, and how high its cusps are.
+
+use serde::{Deserialize, Serialize};
+
+use crate::place::PathPlace;
+use crate::unit;
+
+/// The tolerances of a recipe.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Tolerances {
+    /// Largest interpolation error, mm.
+    #[serde(rename = "interpolation_nm", with = "unit::nm")]
+    pub interpolation: f64,
+    /// Highest cusp, mm.
+    #[serde(rename = "residual_nm", with = "unit::nm")]
+    pub residual: f64,
+}
+
+/// Played − true tool centre along z.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct InterpolationError {
+    /// Largest amount, mm.
+    #[serde(rename = "max_nm", with = "unit::nm")]
+    pub max: f64,
+    /// Root mean square over time, mm.
+    #[serde(rename = "rms_nm", with = "unit::nm")]
+    pub rms: f64,
+    /// Where the largest is.
+    pub at: PathPlace,
+}
+
+/// Control points − true tool centre along z.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ControlPointError {
+    /// Largest amount, mm.
+    #[serde(rename = "max_nm", with = "unit::nm")]
+    pub max: f64,
+    /// Where it is.
+    pub at: PathPlace,
+}
+
+/// Which cusps the residual leaves out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LeftOut {
+    /// None.
+    #[serde(rename = "nothing")]
+    Nothing,
+    /// Those of the innermost turn: the passes of both sides of the axis lie farther apart.
+    #[serde(rename = "the innermost turn")]
+    InnermostTurn,
+    /// All: no turn has a neighbour.
+    #[serde(rename = "no turn has a neighbour")]
+    Everything,
+}
+
+/// Cusps between neighbouring passes along the profile's normal.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Residual {
+    /// Highest cusp, mm; `None` where no pass has a neighbour, which holds no tolerance.
+    #[serde(rename = "max_nm", with = "unit::nm")]
+    pub max: Option<f64>,
+    /// Where it is: the angle of its section and its radius.
+    pub at: PathPlace,
+    /// What the figure leaves out.
+    pub left_out: LeftOut,
+}

@@ -1,0 +1,56 @@
+//! What a file of a tool path gave.
+
+use serde::{Deserialize, Serialize};
+
+use crate::anomalies::Anomalies;
+use crate::format::FORMAT;
+use crate::path::PathReport;
+use crate::reach::Reach;
+use crate::unreached::Unreached;
+use crate::verdict::Verdict;
+
+/// What `verify` measured on a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FileReport {
+    /// The form of the JSON text, [`FORMAT`].
+    pub format: u32,
+    /// The job's name.
+    pub name: String,
+    /// The file.
+    pub file: String,
+    /// The surface model that it was measured against.
+    pub surface: String,
+    /// Control points of the cutting section.
+    pub control_points: u64,
+    /// Control points of all sections.
+    pub rows: u64,
+    /// From which to which radius the path runs.
+    pub reach: Reach,
+    /// What was measured on the path.
+    #[serde(flatten)]
+    pub path: PathReport,
+    /// Maps, profiles, circles and spectra that were written.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<String>,
+    /// Control points that stand out among their neighbours.
+    pub anomalies: Anomalies,
+    /// What the nose leaves standing where it does not fit; `None` where the recipe refuses that.
+    pub unreached: Option<Unreached>,
+    /// Which tolerances and limits hold.
+    pub within: Verdict,
+}
+
+impl FileReport {
+    /// Judges the path, and rounds all numbers to the digits of files.
+    #[must_use]
+    pub fn judged(mut self) -> Self {
+        self.format = FORMAT;
+        self.within = self.path.verdict(Some(&self.reach));
+        crate::format::as_filed(self)
+    }
+
+    /// Which tolerances and limits hold.
+    pub fn verdict(&self) -> &Verdict {
+        &self.within
+    }
+}

@@ -1,0 +1,64 @@
+//! What turnpath gave, as data: the figures of a run, of a file, of a check and of an ablation.
+//!
+//! The model holds mm, rad and s. In JSON each number has its unit in its key, or is a pure number
+//! ([`unit`]). [`text`] is the same for a person, [`comparison`] sets the runs of an ablation side
+//! by side. Nothing here makes or measures a path.
+//!
+//! ```
+//! use turnpath_report::{RunReport, from_json, to_json};
+//! # let text = include_str!("../tests/data/summary.json");
+//! let report: RunReport = from_json(text)?;      // the content of summary.json
+//! assert!(report.verdict().holds());
+//! assert!(report.path.interpolation_error.max < 100e-6);
+//! assert_eq!(to_json(&report), text);
+//! # Ok::<(), serde_json::Error>(())
+//! ```
+
+mod ablation;
+mod anomalies;
+mod axes;
+mod check;
+pub mod comparison;
+mod coverage;
+mod errors;
+mod file;
+mod format;
+mod lead;
+mod machine;
+mod path;
+mod place;
+mod program;
+mod reach;
+mod run;
+#[cfg(test)]
+mod sample;
+mod servo;
+mod surface_error;
+pub mod text;
+mod tool_fit;
+pub mod unit;
+mod unreached;
+mod verdict;
+
+pub use ablation::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutcome};
+pub use anomalies::{Anomalies, Anomaly, AnomalyKind};
+pub use axes::{Axes, AxisMotion, Motion};
+pub use check::{CheckReport, Estimate, ProgramEstimate};
+pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
+pub use errors::{ControlPointError, InterpolationError, LeftOut, Residual, Tolerances};
+pub use file::FileReport;
+pub use format::{FORMAT, from_json, to_json};
+pub use lead::{AccelerationStep, LeadLayout, LeadReport};
+pub use machine::{HighestSpindle, LimitFigure, MachineLimits, MachineReport, MachineSource};
+pub use path::PathReport;
+pub use place::{PathPlace, SurfacePoint};
+pub use program::ProgramReport;
+pub use reach::{Radial, Radii, Reach};
+pub use run::{ChainNames, Direction, PluginSource, RunReport};
+pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
+pub use surface_error::SurfaceError;
+pub use tool_fit::{
+    AngleMargin, ContactPlace, Hollow, Margins, NoseMargin, Region, Sections, Slope, ToolFit,
+};
+pub use unreached::Unreached;
+pub use verdict::{Verdict, within};

@@ -1,0 +1,76 @@
+//! What was measured on a path, whoever made it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::axes::Axes;
+use crate::coverage::{AxisCrossing, Coverage, Overrun};
+use crate::errors::{ControlPointError, InterpolationError, Residual, Tolerances};
+use crate::lead::LeadReport;
+use crate::machine::{HighestSpindle, MachineReport, all_hold};
+use crate::reach::Reach;
+use crate::servo::ServoReport;
+use crate::surface_error::SurfaceError;
+use crate::verdict::{Verdict, within};
+
+/// The figures of a path with what they are held to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PathReport {
+    /// The recipe's tolerances.
+    pub tolerance: Tolerances,
+    /// How far the path runs beyond the part.
+    pub overrun: Overrun,
+    /// Played − true tool centre.
+    pub interpolation_error: InterpolationError,
+    /// Control points − true tool centre.
+    pub control_point_error: ControlPointError,
+    /// Cusps.
+    pub residual: Residual,
+    /// What stays uncut.
+    pub coverage: Coverage,
+    /// How far the tool goes beyond the axis.
+    pub axis_crossing: AxisCrossing,
+    /// Machined − wanted surface; `None` where nothing of the part is cut.
+    pub surface_error: Option<SurfaceError>,
+    /// Motion of the axes over the cut.
+    pub axes: Axes,
+    /// The machine's limits; `None` without any.
+    pub machine: Option<MachineReport>,
+    /// The highest speed of the spindle at which the cut holds all limits; `None` without a limit
+    /// that was measured.
+    pub highest_spindle: Option<HighestSpindle>,
+    /// The leads; `None` without any.
+    pub lead: Option<LeadReport>,
+    /// What the servos make of the path; `None` where the recipe does not ask.
+    pub servo: Option<ServoReport>,
+}
+
+impl PathReport {
+    /// Which tolerances and limits hold; `reach` is that of a file.
+    pub fn verdict(&self, reach: Option<&Reach>) -> Verdict {
+        let Tolerances {
+            interpolation,
+            residual,
+        } = self.tolerance;
+        let uncut = self.coverage.largest();
+        let of_cut = self.machine.as_ref().map(|machine| &machine.limits[..]);
+        let of_lead = self.lead.as_ref().map(|lead| &lead.limits[..]);
+        let limits = [of_cut, of_lead].into_iter().flatten();
+        Verdict {
+            interpolation: within(self.interpolation_error.max, interpolation),
+            residual: self.residual.max.is_some_and(|max| within(max, residual)),
+            coverage: self
+                .overrun
+                .covers_part()
+                .then(|| within(uncut, residual)),
+            machine: limits
+                .filter_map(all_hold)
+                .reduce(|one, other| one && other),
+            lead: self
+                .lead
+                .as_ref()
+                .map(|lead| within(-lead.smallest_clearance, interpolation)),
+            reach: reach.map(Reach::covers_part),
+            programs: None,
+        }
+    }
+}

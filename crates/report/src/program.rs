@@ -1,0 +1,50 @@
+//! Motion programs, measured on their own text.
+
+use serde::{Deserialize, Serialize};
+
+use crate::errors::Tolerances;
+use crate::unit;
+use crate::verdict::within;
+
+/// A motion program, measured on its own text as it was read back.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ProgramReport {
+    /// The file's name.
+    pub file: String,
+    /// The post that wrote it.
+    pub post: String,
+    /// Largest interpolation error, mm.
+    #[serde(rename = "interpolation_error_nm", with = "unit::nm")]
+    pub interpolation_error: f64,
+    /// Whether that holds the interpolation tolerance.
+    pub within_interpolation: bool,
+    /// Whether the leads stay above the first touch, to the interpolation tolerance; `None` without
+    /// leads.
+    pub within_lead: Option<bool>,
+}
+
+impl ProgramReport {
+    /// Judges a program by its largest interpolation error and the smallest clearance of its
+    /// leads, mm.
+    pub fn new(
+        file: String,
+        post: &str,
+        interpolation_error: f64,
+        lead_clearance: Option<f64>,
+        tolerance: &Tolerances,
+    ) -> Self {
+        let allowed = tolerance.interpolation;
+        Self {
+            file,
+            post: post.to_owned(),
+            interpolation_error,
+            within_interpolation: within(interpolation_error, allowed),
+            within_lead: lead_clearance.map(|clearance| within(-clearance, allowed)),
+        }
+    }
+
+    /// Whether the program holds its tolerances.
+    pub fn holds(&self) -> bool {
+        self.within_interpolation && self.within_lead.unwrap_or(true)
+    }
+}

@@ -1,0 +1,111 @@
+//! What a run gave.
+
+use serde::{Deserialize, Serialize};
+
+use crate::axes::Axes;
+use crate::format::FORMAT;
+use crate::path::PathReport;
+use crate::program::ProgramReport;
+use crate::unit;
+use crate::unreached::Unreached;
+use crate::verdict::Verdict;
+
+/// What a run gave: the content of `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunReport {
+    /// The form of the file, [`FORMAT`].
+    pub format: u32,
+    /// The version of turnpath that made it.
+    pub turnpath: String,
+    /// The job's name.
+    pub name: String,
+    /// The strategies.
+    pub chain: ChainNames,
+    /// Which way the tool feeds.
+    pub direction: Direction,
+    /// Whether segments whose error exceeds the tolerance were halved.
+    pub refine: bool,
+    /// Control points of the cutting section.
+    pub control_points: u64,
+    /// Control points of all sections.
+    pub rows: u64,
+    /// Control points that refinement added.
+    pub points_added_by_refine: u64,
+    /// Revolutions of the cutting section.
+    #[serde(with = "unit::one")]
+    pub revolutions: f64,
+    /// Time of the cutting section, s.
+    #[serde(rename = "cutting_time_s", with = "unit::s")]
+    pub cutting_time: f64,
+    /// What was measured on the path.
+    #[serde(flatten)]
+    pub path: PathReport,
+    /// The axes where the law is the feed strategy's own; `None` where another took its place.
+    pub axes_of_law: Option<Axes>,
+    /// What the nose leaves standing where it does not fit; `None` where the recipe refuses that.
+    pub unreached: Option<Unreached>,
+    /// The motion programs.
+    pub programs: Vec<ProgramReport>,
+    /// The plugins that the strategies come from.
+    pub plugins: Vec<PluginSource>,
+    /// Which tolerances and limits hold, on the path and on each program.
+    pub within: Verdict,
+}
+
+/// Which way the tool feeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// From the rim to the centre.
+    Inward,
+    /// From the centre to the rim.
+    Outward,
+}
+
+/// The names of the strategies.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ChainNames {
+    /// The surface model.
+    pub surface: String,
+    /// The feed strategy.
+    pub feed: String,
+    /// The sampler.
+    pub sampler: String,
+    /// The compensator.
+    pub compensator: String,
+    /// The velocity solver.
+    pub velocity: String,
+}
+
+/// A plugin that a strategy comes from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PluginSource {
+    /// The package's name.
+    pub name: String,
+    /// The package's version.
+    pub version: String,
+    /// The library's path; `None` for one that is built in.
+    pub file: Option<String>,
+    /// SHA-256 of the library.
+    pub sha256: Option<String>,
+}
+
+impl RunReport {
+    /// Judges the path and its programs, and rounds all numbers to the digits of files, so that
+    /// the report equals the one that is read back.
+    #[must_use]
+    pub fn judged(mut self) -> Self {
+        self.format = FORMAT;
+        self.within = self.path.verdict(None);
+        if !self.programs.is_empty() {
+            let holds = self.programs.iter().all(ProgramReport::holds);
+            self.within.programs = Some(holds);
+        }
+        crate::format::as_filed(self)
+    }
+
+    /// Which tolerances and limits hold.
+    pub fn verdict(&self) -> &Verdict {
+        &self.within
+    }
+}

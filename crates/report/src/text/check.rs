@@ -1,0 +1,30 @@
+//! A check for a person.
+
+use crate::check::CheckReport;
+
+use super::machine::limits;
+use super::numbers::{bytes, duration, grouped, line};
+use super::tool_fit::tool_fit;
+use super::unreached::unreached;
+
+/// The text on a check.
+pub fn check(report: &CheckReport) -> String {
+    let mut text = format!("{}\n", report.name);
+    text += &tool_fit(&report.tool_fit);
+    text += &unreached(report.unreached.as_ref());
+    if let Some(machine) = &report.machine {
+        text += &limits(machine);
+    }
+    let expected = &report.expected;
+    let points = grouped(expected.control_points);
+    text += &line("points", format!("about {points}, before refinement"));
+    text += &line("revolutions", format!("{:.2}", expected.revolutions));
+    text += &line("cutting time", duration(expected.cutting_time));
+    let size = bytes(expected.toolpath_bytes as f64);
+    text += &line("toolpath.csv", format!("about {size}, before refinement"));
+    for program in &expected.programs {
+        let (size, file) = (bytes(program.bytes as f64), &program.file);
+        text += &line("program", format!("about {size}, before refinement: {file}"));
+    }
+    text
+}

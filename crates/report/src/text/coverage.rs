@@ -1,0 +1,85 @@
+//! The lines on what stays uncut, and on the axis.
+
+use crate::coverage::{AxisCrossing, Coverage, Overrun, SMALLEST_CROSSING, Uncut};
+use crate::errors::Tolerances;
+use crate::unit;
+use crate::verdict::within;
+
+use super::numbers::{against, line, small_length};
+
+/// The verdict, where there is one, and each edge where more than the residual stays.
+pub fn coverage(
+    coverage: &Coverage,
+    tolerance: &Tolerances,
+    overrun: Overrun,
+    verdict: Option<bool>,
+) -> String {
+    let mut texts = Vec::new();
+    let allowed = tolerance.residual;
+    if let Some(holds) = verdict {
+        texts.push(against(coverage.largest(), allowed, holds));
+    }
+    for (name, uncut) in coverage.edges() {
+        if !within(uncut.height.unwrap_or(f64::INFINITY), allowed) {
+            texts.push(edge(name, &uncut, overrun));
+        }
+    }
+    if texts.is_empty() {
+        texts.push("nowhere more than the residual stays uncut".to_owned());
+    }
+    let labels = std::iter::once("coverage").chain(std::iter::repeat(""));
+    let lines = labels.zip(&texts).map(|(label, text)| line(label, text));
+    lines.collect()
+}
+
+fn edge(name: &str, uncut: &Uncut, overrun: Overrun) -> String {
+    let (at, overrun) = (uncut.c * unit::deg::PER, key(overrun));
+    match uncut.height {
+        None => format!("{name} not reached at {at:.0} deg ({overrun})"),
+        Some(height) => {
+            let height = small_length(height);
+            format!("{name} {height} uncut at {at:.0} deg ({overrun})")
+        }
+    }
+}
+
+/// The overrun as the recipe has it.
+fn key(overrun: Overrun) -> String {
+    match overrun {
+        Overrun::Contact => "overrun = \"contact\"".to_owned(),
+        Overrun::None => "overrun = \"none\"".to_owned(),
+        Overrun::Length(length) => format!("overrun = \"{length} mm\""),
+    }
+}
+
+/// The warning where X crosses the axis.
+pub fn axis_crossing(crossing: &AxisCrossing) -> String {
+    if crossing.x <= SMALLEST_CROSSING {
+        return String::new();
+    }
+    let x = small_length(crossing.x);
+    let why = match crossing.contact <= SMALLEST_CROSSING {
+        true => "as the normal of a tilted centre asks",
+        false => "since the feed goes on there",
+    };
+    line(
+        "warning",
+        format!("X crosses the axis by {x}, {why}; beyond it the part moves against the edge"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crossing(x: f64) -> String {
+        axis_crossing(&AxisCrossing { x, contact: 0.0 })
+    }
+
+    #[test]
+    fn a_crossing_is_reported_and_rounding_is_not() {
+        assert_eq!(crossing(1e-13), "");
+        let text = crossing(0.0123);
+        assert!(text.starts_with("  warning         X crosses the axis by 12.30 um, "));
+    }
+}

@@ -1,0 +1,39 @@
+//! The lines on the leads.
+
+use crate::coverage::SMALLEST_CROSSING;
+use crate::lead::LeadReport;
+
+use super::machine::exceeded;
+use super::numbers::{duration, line, millimetres, path_place, small_length};
+
+/// The lines on the leads; `clears` is their verdict.
+pub fn lead(lead: &LeadReport, clears: Option<bool>) -> String {
+    let mut text = String::new();
+    if let Some(layout) = &lead.layout {
+        let (come, go) = (duration(layout.in_time), duration(layout.out_time));
+        let rest = millimetres(layout.rest_clearance, 3);
+        text += &line(
+            "lead",
+            format!("{come} in, {go} out; clears the part by {rest} at rest"),
+        );
+    }
+    let label = if lead.layout.is_some() { "" } else { "lead" };
+    text += &line(label, lowest(lead, clears));
+    if lead.axis_crossing > SMALLEST_CROSSING {
+        let crossing = small_length(lead.axis_crossing);
+        let crossing = format!("X crosses the axis by {crossing} on the way from or to the part");
+        text += &line("lead warning", crossing);
+    }
+    text + &exceeded(&lead.limits, "lead ")
+}
+
+fn lowest(lead: &LeadReport, clears: Option<bool>) -> String {
+    let lowest = lead.smallest_clearance;
+    let side = if lowest < 0.0 { "below" } else { "above" };
+    let verdict = match clears {
+        Some(false) => format!("EXCEEDED: it plunges at {}", path_place(&lead.at)),
+        _ => "holds".to_owned(),
+    };
+    let lowest = small_length(lowest.abs());
+    format!("lowest {lowest} {side} first touch; {verdict}")
+}

@@ -1,0 +1,57 @@
+//! A run for a person.
+
+use std::path::PathBuf;
+
+use crate::run::RunReport;
+
+use super::lead::lead;
+use super::numbers::{against, duration, grouped, line};
+use super::path::path;
+use super::servo::servo;
+use super::unreached::unreached;
+
+/// The text on a run, with the files that it wrote.
+pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
+    let verdict = report.verdict();
+    let chain = &report.chain;
+    let names = [
+        &chain.surface,
+        &chain.feed,
+        &chain.sampler,
+        &chain.compensator,
+        &chain.velocity,
+    ];
+    let mut text = format!("{}\n", report.name);
+    text += &line("chain", names.map(String::as_str).join(" > "));
+    text += &line("points", points(report));
+    text += &line("revolutions", format!("{:.2}", report.revolutions));
+    text += &line("cutting time", duration(report.cutting_time));
+    text += &path(&report.path, verdict);
+    if let Some(report) = &report.path.lead {
+        text += &lead(report, verdict.lead);
+    }
+    if let Some(report) = &report.path.servo {
+        text += &servo(report);
+    }
+    text += &unreached(report.unreached.as_ref());
+    let tolerance = report.path.tolerance.interpolation;
+    for program in &report.programs {
+        let (error, holds) = (program.interpolation_error, program.within_interpolation);
+        text += &line(&program.post, against(error, tolerance, holds));
+    }
+    for file in files {
+        text += &line("file", file.display());
+    }
+    text
+}
+
+fn points(report: &RunReport) -> String {
+    let points = grouped(report.control_points);
+    match report.refine {
+        false => format!("{points} (not refined)"),
+        true => {
+            let added = grouped(report.points_added_by_refine);
+            format!("{points} ({added} added by refine)")
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! One run of an ablation: the path of a variant made and measured, and nothing written.
+
+use turnpath_core::toolpath::SectionBlock;
+use turnpath_host::Catalogue;
+use turnpath_pipeline::{SilentObserver, Sink};
+use turnpath_post::{PmacError, PmacFormat, PmacWriter};
+use turnpath_recipe::Recipe;
+use turnpath_report::MeasuredRun;
+
+use crate::error::Error;
+use crate::job::Job;
+use crate::program::pmac_format;
+
+use super::clock;
+
+/// Makes and measures the path of a variant; on a pool of one thread, so that its processor time
+/// counts.
+pub fn run(recipe: &Recipe, catalogue: &Catalogue) -> Result<MeasuredRun, Error> {
+    let begun = clock::now();
+    let job = Job::new(recipe.clone(), catalogue)?;
+    let mut sizes = SizeSink::new(&job);
+    let outcome = job.run_into(&mut sizes, &SilentObserver)?;
+    Ok(MeasuredRun {
+        report: job.report(sizes.rows, &outcome, Vec::new())?,
+        program_bytes: sizes.program_bytes,
+        planning_time: clock::now() - begun,
+    })
+}
+
+/// Counts what files of the path would hold.
+struct SizeSink {
+    format: PmacFormat,
+    /// Whether the recipe asks for a program, so that a path that the program cannot carry is a
+    /// failure.
+    is_asked: bool,
+    rows: u64,
+    /// Bytes of program lines; `None` where a program cannot carry the path.
+    program_bytes: Option<u64>,
+}
+
+impl SizeSink {
+    fn new(job: &Job) -> Self {
+        Self {
+            format: pmac_format(&job.recipe, job.compensates_nose()),
+            is_asked: !job.programs.is_empty(),
+            rows: 0,
+            program_bytes: (!job.plays_straight_lines()).then_some(0),
+        }
+    }
+}
+
+impl Sink for SizeSink {
+    /// Bytes of the block's program lines; `None` where a program cannot carry the block.
+    type Block = Option<u64>;
+    type Error = PmacError;
+
+    fn encode(&self, block: &SectionBlock<'_>) -> Result<Option<u64>, PmacError> {
+        if self.program_bytes.is_none() {
+            return Ok(None);
+        }
+        match PmacWriter::lines(&self.format, block) {
+            Ok(lines) => Ok(Some(lines.len() as u64)),
+            Err(error) if self.is_asked => Err(error),
+            Err(_) => Ok(None),
+        }
+    }
+
+    fn take(&mut self, points: usize, bytes: Option<u64>) -> Result<(), PmacError> {
+        self.rows += points as u64;
+        self.program_bytes = self.program_bytes.zip(bytes).map(|(sum, more)| sum + more);
+        Ok(())
+    }
+}

@@ -1,0 +1,134 @@
+//! A check: everything but the path.
+
+use turnpath_core::interference::{Extreme, Interference};
+use turnpath_core::largest_nose::LargestNose;
+use turnpath_core::{DEG, Part, Tool};
+use turnpath_pipeline::{estimate, largest_nose};
+use turnpath_report as report;
+use turnpath_report::{CheckReport, LimitFigure};
+
+use crate::diagnosis::of_pipeline;
+use crate::error::Error;
+use crate::figures::machine_source;
+use crate::job::Job;
+
+/// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
+const ROW_BYTES: f64 = 125.0;
+/// A place is on the part up to this much beyond its edges, mm.
+const ON_PART: f64 = 1e-9;
+
+impl Job {
+    /// What the part asks of the tool, and what the path will be, without making it.
+    ///
+    /// # Errors
+    /// When a strategy fails.
+    pub fn check(&self) -> Result<CheckReport, Error> {
+        let failed = |error| of_pipeline(&self.recipe, error);
+        let expected = estimate(&self.chain, &self.preparation).map_err(failed)?;
+        let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
+        let radius = self.preparation.task.range.outer;
+        let programs = self.programs.iter();
+        let programs = programs.map(|program| report::ProgramEstimate {
+            file: program.file.clone(),
+            bytes: program.expected_bytes(radius, &expected) as u64,
+        });
+        let report = CheckReport {
+            format: report::FORMAT,
+            name: self.recipe.name.clone(),
+            tool_fit: self.tool_fit(&nose),
+            machine: self.machine_limits(),
+            unreached: self.unreached()?,
+            expected: report::Estimate {
+                revolutions: expected.revolutions,
+                cutting_time: expected.cutting_time,
+                control_points: expected.control_points.round() as u64,
+                toolpath_bytes: (expected.control_points * ROW_BYTES) as u64,
+                programs: programs.collect(),
+            },
+        };
+        Ok(report.filed())
+    }
+
+    fn machine_limits(&self) -> Option<report::MachineLimits> {
+        let limits = self.recipe.machine.limits();
+        Some(report::MachineLimits {
+            machine: machine_source(&self.recipe)?,
+            limits: limits.map(LimitFigure::unmeasured).collect(),
+            spindle: self.recipe.spindle_speed,
+        })
+    }
+
+    fn tool_fit(&self, nose: &LargestNose) -> report::ToolFit {
+        let (found, task) = (&self.preparation.interference, &self.preparation.task);
+        report::ToolFit {
+            largest_nose_radius: finite(nose.radius),
+            least_included_angle: least_included(found),
+            least_clearance_angle: found.cut_angle().value,
+            margins: margins(found, nose, &task.tool, &task.part),
+            sections: sections(found, &task.part),
+        }
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    Some(value).filter(|value| value.is_finite())
+}
+
+fn least_included(found: &Interference) -> f64 {
+    2.0 * found.contact_angle().value
+}
+
+fn margins(found: &Interference, nose: &LargestNose, tool: &Tool, part: &Part) -> report::Margins {
+    let angle = |given: Option<f64>, least: f64, at: Extreme| report::AngleMargin {
+        given,
+        least,
+        margin: given.map(|given| given - least),
+        at: Some(place(&at, part)),
+    };
+    let most = finite(nose.radius);
+    let (contact, cut) = (found.contact_angle(), found.cut_angle());
+    report::Margins {
+        nose_radius: report::NoseMargin {
+            given: tool.nose_radius,
+            most,
+            margin: most.map(|most| most - tool.nose_radius),
+            at: most.map(|_| place(&nose.at, part)),
+        },
+        included_angle: angle(tool.included_angle, least_included(found), contact),
+        clearance_angle: angle(tool.clearance_angle, cut.value, cut),
+    }
+}
+
+fn sections(found: &Interference, part: &Part) -> report::Sections {
+    let slope = |extreme: &Extreme| report::Slope {
+        angle: extreme.value,
+        at: place(extreme, part),
+    };
+    report::Sections {
+        hollow: report::Hollow {
+            curvature: found.curvature.value,
+            at: place(&found.curvature, part),
+        },
+        rises_outward: slope(&found.rise),
+        falls_outward: slope(&found.fall),
+        rises_along_cut: slope(&found.uphill),
+        falls_along_cut: slope(&found.downhill),
+    }
+}
+
+fn place(extreme: &Extreme, part: &Part) -> report::ContactPlace {
+    let (at, rho) = (extreme.place(), extreme.rho);
+    let inside = rho < part.inner_radius - ON_PART;
+    let outside = rho > part.aperture_radius + ON_PART;
+    report::ContactPlace {
+        x: at.x,
+        y: at.y,
+        rho,
+        c: extreme.theta.rem_euclid(360.0 * DEG),
+        on: if inside || outside {
+            report::Region::Overrun
+        } else {
+            report::Region::Part
+        },
+    }
+}

@@ -1,0 +1,155 @@
+//! Errors of the stages at their places in the recipe: cause, place and remedy.
+
+use turnpath_core::interference::Conflict;
+use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
+use turnpath_pipeline::PipelineError;
+use turnpath_post::PmacError;
+use turnpath_recipe::{Diagnostic, Diagnostics, Recipe};
+use turnpath_report::text::{millimetres, nose_radius};
+
+use crate::error::{Error, cancelled};
+use crate::program::PMAC_PVT;
+
+/// An error of the pipeline at its place in the recipe.
+pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
+    if cancelled(&error) {
+        return Error::Cancelled;
+    }
+    let title = error.to_string();
+    match &error {
+        // A parameter may turn out wrong only when the path is made.
+        PipelineError::Strategy {
+            slot,
+            error: StrategyError::Parameter { name, message },
+            ..
+        } => {
+            let diagnostic = wrong_parameter(recipe, *slot, name, message);
+            Error::refused_by(diagnostic, error)
+        }
+        PipelineError::Strategy { slot, .. }
+        | PipelineError::InnerStrategy { slot, .. }
+        | PipelineError::BadAnswer { slot, .. } => {
+            Error::strategy(at_choice(recipe, *slot, title), error)
+        }
+        PipelineError::Measure(_) => {
+            Error::strategy(at_choice(recipe, Slot::Surface, title), error)
+        }
+        PipelineError::Gouge { conflicts, .. } => {
+            let all = conflicts.iter().map(|conflict| gouge(recipe, conflict));
+            Error::refused_by(all.collect::<Diagnostics>(), error)
+        }
+        PipelineError::NoSurface(_) => Error::refused_by(no_surface(recipe, title), error),
+        PipelineError::Lead { .. } => Error::refused_by(no_lead(recipe, title), error),
+        PipelineError::Cancelled => Error::Cancelled,
+    }
+}
+
+/// A surface that fails while a path is measured.
+pub fn of_measure(recipe: &Recipe, error: StrategyError) -> Error {
+    of_pipeline(recipe, PipelineError::Measure(error))
+}
+
+/// A parameter that a strategy cannot work with, underlined where it stands.
+pub fn wrong_parameter(recipe: &Recipe, slot: Slot, parameter: &str, message: &str) -> Diagnostic {
+    let choice = recipe.choice(slot);
+    let (noun, name) = (slot.noun(), choice.name());
+    let title = format!("the {noun} `{name}` cannot work with this: {message}");
+    let span = choice.param_span(parameter);
+    recipe.diagnostic(span, title, format!("`{parameter}`"), [])
+}
+
+/// A path that the post cannot carry: the recipe asks for both.
+pub fn not_carried(recipe: &Recipe, error: PmacError) -> Error {
+    let post = recipe.output.posts.first();
+    let span = post.map_or_else(
+        || recipe.nearest_span("output"),
+        |post| post.span.clone(),
+    );
+    let title = format!("the post `{PMAC_PVT}` cannot carry this path: {error}");
+    let help = [error.help().to_owned()];
+    Error::refused_by(recipe.diagnostic(span, title, "chosen here", help), error)
+}
+
+fn at_choice(recipe: &Recipe, slot: Slot, title: String) -> Diagnostic {
+    let span = recipe.choice(slot).name.span.clone();
+    recipe.diagnostic(span, title, "chosen here", [])
+}
+
+fn no_surface(recipe: &Recipe, title: String) -> Diagnostic {
+    let span = recipe.nearest_span("part.aperture");
+    let longer = matches!(recipe.overrun, Overrun::Length(length) if length > 0.0);
+    let help = longer.then(|| "or choose a shorter `overrun` under [path]".to_owned());
+    recipe.diagnostic(span, title, "the part reaches there", help)
+}
+
+fn no_lead(recipe: &Recipe, title: String) -> Diagnostic {
+    let span = recipe.nearest_span("path.lead");
+    let remedy = match recipe.machine.has_limits() {
+        true => "choose another `clearance`, wider limits under [machine]",
+        false => "choose another `clearance`, a slower spindle",
+    };
+    let help = format!("{remedy}, or write lead = false under [path]");
+    recipe.diagnostic(span, title, "leads are made here", [help])
+}
+
+/// The message for a tool that does not fit.
+fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
+    let (key, cause, help) = match conflict {
+        Conflict::NoseRadius { largest, at } => (
+            "tool.nose_radius",
+            format!(
+                "nose radius {} exceeds the smallest concave radius {}, at x = {}, y = {} in the \
+                 radial direction",
+                nose_radius(recipe.tool.nose_radius),
+                nose_radius(*largest),
+                millimetres(at.x, 2),
+                millimetres(at.y, 2)
+            ),
+            "choose a smaller tool or a smaller aperture",
+        ),
+        Conflict::IncludedAngle { least, at } => (
+            "tool.included_angle",
+            format!(
+                "the contact leaves the edge: at x = {}, y = {} the profile is so steep that \
+                 it takes an included angle of {:.2} deg",
+                millimetres(at.x, 2),
+                millimetres(at.y, 2),
+                least.to_degrees()
+            ),
+            "choose a tool with a larger included angle, or a smaller aperture",
+        ),
+        Conflict::Clearance { least, at, uphill } => (
+            "tool.clearance_angle",
+            format!(
+                "the flank rubs: at x = {}, y = {} the surface {} along the cut by {:.2} deg",
+                millimetres(at.x, 2),
+                millimetres(at.y, 2),
+                if *uphill { "rises" } else { "falls" },
+                least.to_degrees()
+            ),
+            "choose a tool with a larger clearance angle, or a smaller aperture",
+        ),
+    };
+    let title = format!("the tool would gouge: {cause}");
+    let cuts_rest = recipe.tool.misfit == Misfit::CutWhatFits
+        && !matches!(conflict, Conflict::Clearance { .. });
+    if cuts_rest {
+        return cannot_cut_what_fits(recipe, title, help);
+    }
+    let span = recipe.nearest_span(key);
+    recipe.diagnostic(span, title, "does not fit", [help.to_owned()])
+}
+
+/// The message for a compensator that would gouge where it should leave something standing.
+fn cannot_cut_what_fits(recipe: &Recipe, title: String, help: &str) -> Diagnostic {
+    let compensator = &recipe.choice(Slot::Compensator).name;
+    recipe.diagnostic(
+        compensator.span.clone(),
+        title,
+        format!("`{}` cannot cut what fits", compensator.value),
+        [
+            "choose the compensator `z-direction`, which stops at the first touch".to_owned(),
+            format!("or {help}"),
+        ],
+    )
+}

@@ -1,0 +1,233 @@
+//! Why something could not be done, and whose fault it is.
+
+use std::path::PathBuf;
+
+use turnpath_host::LoadError;
+use turnpath_pipeline::PipelineError;
+use turnpath_post::{FileError, ReadError};
+use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
+
+use crate::plots::PlotError;
+
+/// Where an error comes from: the source behind its messages.
+type Source = Box<dyn std::error::Error + Send + Sync>;
+
+/// Why something could not be done. Messages are data, with places in the recipe; whoever shows
+/// them gives them their form and their colours.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The recipe could not be read, or something in it is wrong.
+    #[error(transparent)]
+    Recipe(#[from] RecipeError),
+    /// The recipe asks for what cannot be done: a strategy that is not there, a tool that does not
+    /// fit, a path that a program cannot carry.
+    #[error("{diagnostics}")]
+    Refused {
+        /// What, and where in the recipe.
+        diagnostics: Diagnostics,
+        /// What the stage said that found it.
+        source: Option<Source>,
+    },
+    /// A strategy failed: its plugin is wrong.
+    #[error("{diagnostics}")]
+    Strategy {
+        /// How, and where the recipe chooses it.
+        diagnostics: Diagnostics,
+        /// What the stage said that called it.
+        source: Option<Source>,
+    },
+    /// A plugin could not be loaded.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// A plugin that the recipe lists could not be loaded.
+    #[error("{diagnostic}")]
+    ListedPlugin {
+        /// Why, and where the recipe lists it.
+        diagnostic: Box<Diagnostic>,
+        /// Why.
+        source: Box<LoadError>,
+    },
+    /// A plot cannot be drawn as it is asked for.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// A file could not be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A file of a tool path could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A file of a tool path has no cut in it.
+    #[error("{} has no cutting section to measure", file.display())]
+    NothingCut {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A program that was read back has other points than the path.
+    #[error("{} has {found} points of the path's {expected}", file.display())]
+    PointsLost {
+        /// The program's file.
+        file: PathBuf,
+        /// Points in it.
+        found: u64,
+        /// Points of the path.
+        expected: u64,
+    },
+    /// A report could not be put into a file.
+    #[error("the report cannot be put into {form}: {source}")]
+    Report {
+        /// The form of the file.
+        form: &'static str,
+        /// Why.
+        source: Source,
+    },
+    /// The system gives no thread to work on.
+    #[error("no thread to work on: {0}")]
+    Threads(#[source] rayon::ThreadPoolBuildError),
+    /// A run of an ablation ended without a result.
+    #[error("a run ended unexpectedly")]
+    RunLost,
+    /// The observer cancelled the work.
+    #[error("the run was cancelled")]
+    Cancelled,
+}
+
+/// Whose fault an error is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// The recipe's, or that of whoever called.
+    Request,
+    /// A plugin's.
+    Plugin,
+    /// That of files: one could not be read or written.
+    Files,
+    /// Nobody's: the work was cancelled.
+    Cancelled,
+}
+
+impl Error {
+    /// Whose fault it is.
+    pub fn fault(&self) -> Fault {
+        match self {
+            Self::Recipe(RecipeError::Wrong(_)) | Self::Refused { .. } | Self::Plot(_) => {
+                Fault::Request
+            }
+            Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
+            Self::Load(error) => fault_of_load(error),
+            Self::ListedPlugin { source, .. } => fault_of_load(source),
+            Self::Recipe(RecipeError::File { .. })
+            | Self::File(_)
+            | Self::Read(_)
+            | Self::NothingCut { .. }
+            | Self::PointsLost { .. }
+            | Self::Report { .. } => Fault::Files,
+            Self::Threads(_) => Fault::Request,
+            Self::Cancelled => Fault::Cancelled,
+        }
+    }
+
+    /// The messages that have a place in the recipe; empty where the error's text is all.
+    pub fn diagnostics(&self) -> Vec<&Diagnostic> {
+        match self {
+            Self::Recipe(RecipeError::Wrong(diagnostics))
+            | Self::Refused { diagnostics, .. }
+            | Self::Strategy { diagnostics, .. } => diagnostics.iter().collect(),
+            Self::ListedPlugin { diagnostic, .. } => vec![diagnostic],
+            _ => Vec::new(),
+        }
+    }
+
+    /// What is wrong, in one line.
+    pub fn title(&self) -> String {
+        let text = match self.diagnostics().first() {
+            Some(first) => first.title().to_owned(),
+            None => self.to_string(),
+        };
+        text.lines().next().unwrap_or_default().to_owned()
+    }
+
+    /// What the recipe asks for cannot be done.
+    pub(crate) fn refused(diagnostics: impl Into<Diagnostics>) -> Self {
+        Self::Refused {
+            diagnostics: diagnostics.into(),
+            source: None,
+        }
+    }
+
+    /// The same, with what found it.
+    pub(crate) fn refused_by(
+        diagnostics: impl Into<Diagnostics>,
+        source: impl Into<Source>,
+    ) -> Self {
+        Self::Refused {
+            diagnostics: diagnostics.into(),
+            source: Some(source.into()),
+        }
+    }
+
+    /// A strategy failed.
+    pub(crate) fn strategy(diagnostic: Diagnostic, source: impl Into<Source>) -> Self {
+        Self::Strategy {
+            diagnostics: diagnostic.into(),
+            source: Some(source.into()),
+        }
+    }
+}
+
+fn fault_of_load(error: &LoadError) -> Fault {
+    match error {
+        error if error.is_io() => Fault::Files,
+        error if error.is_missing() => Fault::Request,
+        _ => Fault::Plugin,
+    }
+}
+
+impl From<Diagnostics> for Error {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::refused(diagnostics)
+    }
+}
+
+/// A stage's error that needs no place in the recipe.
+pub(crate) fn cancelled(error: &PipelineError) -> bool {
+    matches!(error, PipelineError::Cancelled)
+}
+
+#[cfg(test)]
+mod tests {
+    use turnpath_host::Refusal;
+
+    use super::*;
+
+    #[test]
+    fn what_is_missing_what_cannot_be_read_and_what_is_no_plugin_differ() {
+        let path = PathBuf::from("labs");
+        let missing = LoadError::NoFolder { path: path.clone() };
+        let source = std::io::ErrorKind::PermissionDenied.into();
+        let unreadable = LoadError::Unreadable { path, source };
+        let not_a_plugin = LoadError::Refused {
+            path: "libx.so".into(),
+            refusal: Refusal::NotAPlugin,
+        };
+        let faults = [missing, unreadable, not_a_plugin].map(|error| Error::from(error).fault());
+        assert_eq!(faults, [Fault::Request, Fault::Files, Fault::Plugin]);
+    }
+
+    #[test]
+    fn a_title_is_one_line() {
+        let first = std::sync::Arc::new(turnpath_host::Plugin {
+            name: "one".to_owned(),
+            version: "1.0.0".to_owned(),
+            file: None,
+            sha256: None,
+        });
+        let error = Error::from(LoadError::TwoOfOneName {
+            slot: turnpath_core::Slot::Feed,
+            name: "constant".to_owned(),
+            second: first.clone(),
+            first,
+        });
+        let title = error.title();
+        assert!(title.starts_with("two ") && !title.contains('\n'), "{title}");
+    }
+}

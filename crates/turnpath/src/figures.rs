@@ -1,0 +1,213 @@
+//! What the meters measured, as parts of a report.
+
+use turnpath_pipeline::Leads;
+use turnpath_recipe::Recipe;
+use turnpath_report as report;
+use turnpath_report::{LimitFigure, PathPlace};
+use turnpath_verify::machined::{MachinedFigures, PartPoint};
+use turnpath_verify::{
+    AxesMotion, AxisMotion, CoverageFigures, Following, LeadFigures, PathFigures, Peak,
+    ResidualFigures, ServoFigures, Uncut, UnreachedFigures,
+};
+
+/// The tolerances of a recipe.
+pub fn tolerances(recipe: &Recipe) -> report::Tolerances {
+    report::Tolerances {
+        interpolation: recipe.tolerance.interpolation,
+        residual: recipe.tolerance.residual,
+    }
+}
+
+/// The figures of a path with what its recipe holds them to.
+pub fn path(
+    recipe: &Recipe,
+    figures: &PathFigures,
+    machined: Option<&MachinedFigures>,
+    lead: Option<report::LeadReport>,
+    servo: Option<&ServoFigures>,
+) -> report::PathReport {
+    let (playback, points) = (&figures.playback, &figures.points);
+    let overrun = report::Overrun::from(recipe.overrun);
+    let highest = figures.axes.highest_speed(&recipe.machine);
+    report::PathReport {
+        tolerance: tolerances(recipe),
+        overrun,
+        interpolation_error: report::InterpolationError {
+            max: playback.max(),
+            rms: playback.rms(),
+            at: place(playback.at_c, playback.at_x),
+        },
+        control_point_error: report::ControlPointError {
+            max: points.max(),
+            at: place(points.at_c, points.at_x),
+        },
+        residual: residual(&figures.residual, overrun),
+        coverage: coverage(&figures.coverage),
+        axis_crossing: report::AxisCrossing {
+            x: figures.coverage.x_beyond_axis,
+            contact: figures.coverage.contact_beyond_axis,
+        },
+        surface_error: machined.map(surface_error),
+        axes: axes(&figures.axes),
+        machine: machine_source(recipe).map(|machine| report::MachineReport {
+            machine,
+            limits: limits(&figures.axes, recipe),
+        }),
+        highest_spindle: highest.map(|highest| report::HighestSpindle {
+            speed: highest.speed,
+            bound_by: (highest.bound_by.axis, highest.bound_by.derivative),
+        }),
+        lead,
+        servo: servo.map(servo_report),
+    }
+}
+
+fn place(c: f64, x: f64) -> PathPlace {
+    PathPlace { c, x }
+}
+
+fn peak_place(peak: &Peak) -> PathPlace {
+    place(peak.at_c, peak.at_x)
+}
+
+fn residual(figures: &ResidualFigures, overrun: report::Overrun) -> report::Residual {
+    report::Residual {
+        max: figures.highest(),
+        at: place(figures.at_theta, figures.at_rho),
+        left_out: match figures.cusps {
+            0 => report::LeftOut::Everything,
+            _ if overrun.covers_centre() => report::LeftOut::Nothing,
+            _ => report::LeftOut::InnermostTurn,
+        },
+    }
+}
+
+fn coverage(figures: &CoverageFigures) -> report::Coverage {
+    let uncut = |uncut: Option<Uncut>| {
+        uncut.map(|uncut| report::Uncut {
+            height: Some(uncut.height).filter(|height| height.is_finite()),
+            c: uncut.at_theta,
+        })
+    };
+    report::Coverage {
+        rim: uncut(figures.rim),
+        hole: uncut(figures.hole),
+        centre: uncut(figures.centre),
+    }
+}
+
+fn surface_error(figures: &MachinedFigures) -> report::SurfaceError {
+    let point = |point: &PartPoint| report::SurfacePoint {
+        error: point.error,
+        x: point.x,
+        y: point.y,
+    };
+    report::SurfaceError {
+        pv: figures.pv(),
+        rms: figures.rms,
+        sq: figures.sq,
+        sa: figures.sa,
+        mean: figures.mean,
+        highest: point(&figures.highest),
+        lowest: point(&figures.lowest),
+        slope_rms: figures.rms_slope,
+        uncut: figures.uncut,
+    }
+}
+
+/// Motion of the axes.
+pub fn axes(motion: &AxesMotion) -> report::Axes {
+    report::Axes {
+        x: axis(&motion.x),
+        z: axis(&motion.z),
+        c: axis(&motion.c),
+    }
+}
+
+fn axis(motion: &AxisMotion) -> report::AxisMotion {
+    let of = |peak: &Peak, rms: f64| report::Motion {
+        max: peak.amount,
+        rms,
+        at: peak_place(peak),
+    };
+    report::AxisMotion {
+        velocity: of(&motion.velocity, motion.rms_velocity()),
+        acceleration: of(&motion.acceleration, motion.rms_acceleration()),
+        jerk: of(&motion.jerk, motion.rms_jerk()),
+    }
+}
+
+/// Where the limits of a recipe's machine come from; `None` without limits.
+pub fn machine_source(recipe: &Recipe) -> Option<report::MachineSource> {
+    let preset = recipe.preset;
+    recipe.machine.has_limits().then(|| report::MachineSource {
+        preset: preset.map(|preset| preset.name.to_owned()),
+        source: preset.map(|preset| preset.source.to_owned()),
+        own_limits: preset.map(|preset| preset.machine) != Some(recipe.machine),
+    })
+}
+
+fn limits(motion: &AxesMotion, recipe: &Recipe) -> Vec<LimitFigure> {
+    let figures = motion.against(&recipe.machine).into_iter();
+    let figure = figures.map(|figure| LimitFigure {
+        limit: figure.limit,
+        measured: figure.peak.map(|peak| (peak.amount, peak_place(&peak))),
+    });
+    figure.collect()
+}
+
+/// The leads of a path; `leads` is how a run made them, which a file does not say.
+pub fn lead(figures: &LeadFigures, leads: Option<&Leads>, recipe: &Recipe) -> report::LeadReport {
+    report::LeadReport {
+        layout: leads.map(|leads| report::LeadLayout {
+            in_time: leads.in_time,
+            out_time: leads.out_time,
+            turns_in: leads.turns_in,
+            turns_out: leads.turns_out,
+            control_points: leads.points,
+            rest_clearance: leads.rest_clearance(),
+        }),
+        smallest_clearance: figures.clearance,
+        at: place(figures.at_c, figures.at_x),
+        axis_crossing: figures.x_beyond_axis,
+        acceleration_step: report::AccelerationStep {
+            x: figures.jumps.x,
+            z: figures.jumps.z,
+            c: figures.jumps.c,
+        },
+        axes: axes(&figures.axes),
+        limits: limits(&figures.axes, recipe),
+    }
+}
+
+fn servo_report(figures: &ServoFigures) -> report::ServoReport {
+    let linear = |error: &Following| report::LinearLag {
+        max: error.max,
+        rms: error.rms(),
+    };
+    report::ServoReport {
+        following_error: report::FollowingErrors {
+            x: linear(&figures.x),
+            z: linear(&figures.z),
+            c: report::RotaryLag {
+                max: figures.c.max,
+                rms: figures.c.rms(),
+            },
+        },
+        predicted_error: report::PredictedError {
+            max: figures.max(),
+            rms: figures.rms(),
+            at: place(figures.at_c, figures.at_x),
+        },
+    }
+}
+
+/// What the nose leaves standing.
+pub fn unreached(figures: &UnreachedFigures) -> report::Unreached {
+    report::Unreached {
+        height: figures.height,
+        volume: figures.volume,
+        at: place(figures.at_theta, figures.at_rho),
+        area_fraction: figures.area_fraction,
+    }
+}

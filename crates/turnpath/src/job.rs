@@ -1,0 +1,98 @@
+//! A recipe with its strategies: everything that can be refused is refused when it is made.
+
+use turnpath_core::SpindleLaw;
+use turnpath_core::toolpath::SegmentShape;
+use turnpath_host::Catalogue;
+use turnpath_pipeline::{
+    Chain, JobSpec, LeadLimits, LeadSettings, PathOptions, Preparation, prepare,
+};
+use turnpath_post::{PMAC_TIME_STEPS, PmacError};
+use turnpath_recipe::Recipe;
+use turnpath_report::Overrun;
+
+use crate::diagnosis::{not_carried, of_pipeline};
+use crate::error::Error;
+use crate::program::{Program, programs};
+use crate::strategies::chain;
+
+/// A recipe that can be run: its strategies are made, and its tool fits its part.
+pub struct Job {
+    pub(crate) recipe: Recipe,
+    pub(crate) catalogue: Catalogue,
+    pub(crate) chain: Chain,
+    pub(crate) preparation: Preparation,
+    pub(crate) programs: Vec<Program>,
+}
+
+impl Job {
+    /// Makes the strategies of a recipe and checks the tool against the part.
+    ///
+    /// # Errors
+    /// When a strategy is not there or refuses its parameters, when the tool does not fit, when the
+    /// surface has no height somewhere, or when a program could not carry the path.
+    pub fn new(recipe: Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
+        let chain = chain(&recipe, catalogue)?;
+        let spec = JobSpec {
+            part: recipe.part,
+            tool: recipe.tool,
+            tolerance: recipe.tolerance,
+            overrun: recipe.overrun,
+            direction: recipe.direction,
+            spindle: SpindleLaw::constant(recipe.spindle_speed),
+            machine: recipe.machine,
+        };
+        let preparation = prepare(&chain, spec).map_err(|error| of_pipeline(&recipe, error))?;
+        let programs = programs(&recipe, chain.compensator.strategy.compensates_nose())?;
+        let job = Self {
+            recipe,
+            catalogue: catalogue.clone(),
+            chain,
+            preparation,
+            programs,
+        };
+        job.refuse_straight_lines()?;
+        Ok(job)
+    }
+
+    /// The recipe.
+    pub fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    /// A program in PVT mode plays cubics; a path of straight lines is another one.
+    fn refuse_straight_lines(&self) -> Result<(), Error> {
+        match self.plays_straight_lines() && !self.programs.is_empty() {
+            true => Err(not_carried(&self.recipe, PmacError::Straight)),
+            false => Ok(()),
+        }
+    }
+
+    /// What is played between control points.
+    pub(crate) fn shape(&self) -> SegmentShape {
+        self.chain.velocity.strategy.segments()
+    }
+
+    pub(crate) fn plays_straight_lines(&self) -> bool {
+        self.shape() == SegmentShape::Linear
+    }
+
+    /// Whether the path is that of the nose centre.
+    pub(crate) fn compensates_nose(&self) -> bool {
+        self.chain.compensator.strategy.compensates_nose()
+    }
+
+    /// How the path is made.
+    pub(crate) fn options(&self) -> PathOptions {
+        let recipe = &self.recipe;
+        PathOptions {
+            refine: recipe.refine,
+            time_steps: (!self.programs.is_empty()).then_some(PMAC_TIME_STEPS),
+            lead: recipe.lead.then(|| LeadSettings {
+                clearance: recipe.clearance,
+                limits: LeadLimits::within(recipe.machine),
+            }),
+            servo: recipe.servo,
+            covers_centre: Overrun::from(recipe.overrun).covers_centre(),
+        }
+    }
+}

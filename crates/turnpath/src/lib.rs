@@ -1,0 +1,62 @@
+//! From a recipe to a measured tool path and its report.
+//!
+//! A [`Recipe`] says what is cut, with what and how exactly, and names one strategy for each
+//! stage. A [`Catalogue`] has the strategies. Both make a [`Job`], where everything that can be
+//! refused is refused; [`Job::run`] makes the path, measures it and gives a report with its
+//! verdict. [`verify`] measures any tool path in a file, [`ablate`] sets variants of a recipe side
+//! by side.
+//!
+//! ```
+//! use turnpath::{Catalogue, Job, Outputs, Recipe, SilentObserver};
+//!
+//! let recipe = Recipe::load("../../docs/recipes/astigmatic-5mm.toml", &[])?;
+//! let recipe = recipe.set("tolerance.residual", "200 nm")?;
+//! let job = Job::new(recipe, &Catalogue::linked()?)?;
+//! let result = job.run(Outputs::nowhere(), &SilentObserver)?;
+//! assert!(result.report.verdict().holds());
+//! # Ok::<(), turnpath::Error>(())
+//! ```
+
+mod ablation;
+mod check;
+mod diagnosis;
+mod error;
+mod figures;
+mod files;
+mod job;
+mod memory;
+mod meters;
+mod outputs;
+mod plots;
+mod plugins;
+mod program;
+mod run;
+mod sag;
+mod sinks;
+mod strategies;
+mod toolpath;
+mod verify;
+
+pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
+pub use error::{Error, Fault};
+pub use job::Job;
+pub use outputs::Outputs;
+pub use plots::{CircleRequest, MapGrid, MapRequest, PlotError, PlotRequest};
+pub use plugins::{refuse_listed_plugins, with_listed_plugins};
+pub use run::RunResult;
+pub use sag::write_sag;
+pub use toolpath::ToolPath;
+pub use turnpath_host::{Catalogue, LoadError, Plugin, Strategy};
+pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
+pub use turnpath_post::{FileError, PmacError, ReadError};
+pub use turnpath_recipe::{Diagnostic, Diagnostics, Recipe, RecipeError};
+pub use turnpath_report as report;
+pub use verify::verify;
+
+// A plugin that nothing names is dropped by the linker.
+#[cfg(feature = "built-ins")]
+use {
+    turnpath_atpg as _, turnpath_ats as _, turnpath_constant as _, turnpath_fft_adaptive as _,
+    turnpath_integrated as _, turnpath_nose_radius as _, turnpath_surfaces as _,
+    turnpath_triangle_rotary as _,
+};

@@ -1,0 +1,58 @@
+//! A path and its programs in memory.
+
+use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
+use turnpath_pipeline::Sink;
+use turnpath_post::{PmacError, PmacWriter};
+
+use crate::program::Program;
+use crate::toolpath::ToolPath;
+
+/// Keeps a path as columns, and its programs as text.
+pub struct MemorySink<'a> {
+    programs: &'a [Program],
+    /// A writer for each program.
+    pub writers: Vec<PmacWriter>,
+    /// The path so far.
+    pub toolpath: ToolPath,
+}
+
+/// A block with its program lines.
+pub struct MemoryBlock {
+    section: Section,
+    points: PathBlock,
+    lines: Vec<Vec<u8>>,
+}
+
+impl<'a> MemorySink<'a> {
+    /// Nothing yet.
+    pub fn new(programs: &'a [Program]) -> Self {
+        Self {
+            programs,
+            writers: programs.iter().map(|_| PmacWriter::in_memory()).collect(),
+            toolpath: ToolPath::default(),
+        }
+    }
+}
+
+impl Sink for MemorySink<'_> {
+    type Block = MemoryBlock;
+    type Error = PmacError;
+
+    fn encode(&self, block: &SectionBlock<'_>) -> Result<MemoryBlock, PmacError> {
+        let lines = self.programs.iter().map(|program| program.lines(block));
+        Ok(MemoryBlock {
+            section: block.section,
+            points: block.points.clone(),
+            lines: lines.collect::<Result<_, _>>()?,
+        })
+    }
+
+    fn take(&mut self, points: usize, block: MemoryBlock) -> Result<(), PmacError> {
+        self.toolpath.append(block.section, &block.points);
+        for (writer, lines) in self.writers.iter_mut().zip(&block.lines) {
+            // Memory takes all that it is given.
+            let _ = writer.append(points, lines);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,164 @@
+//! Measuring a path that is read from a file: its cut, its leads, and what stands out.
+
+use rayon::prelude::*;
+use turnpath_core::StrategyError;
+use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
+use turnpath_pipeline::Observer;
+use turnpath_post::ReadPath;
+use turnpath_recipe::Recipe;
+use turnpath_report::Overrun;
+use turnpath_verify::{
+    AnomalyDetector, BlockFigures, FirstTouch, LeadBlockFigures, LeadMeter, Meter,
+    ServoBlockFigures, ServoMeter, ServoStart,
+};
+
+use crate::diagnosis::of_measure;
+use crate::error::Error;
+
+/// Rows that are measured in one go.
+pub const BLOCK_ROWS: usize = 20_000;
+/// Blocks that are measured at a time: enough for every thread, within some hundred megabytes.
+const BLOCKS: usize = 16;
+
+/// What measures a path.
+pub struct PathMeters {
+    /// Its cutting section.
+    pub cut: Meter,
+    /// Its leads.
+    pub lead: LeadMeter,
+    /// What the servos make of it, where that is asked.
+    pub servo: Option<ServoMeter>,
+    /// Control points that stand out.
+    pub anomalies: AnomalyDetector,
+}
+
+impl PathMeters {
+    /// Nothing measured yet.
+    pub fn new(recipe: &Recipe, touch: FirstTouch) -> Self {
+        let counts_centre = Overrun::from(recipe.overrun).covers_centre();
+        let (tolerance, rim) = (recipe.tolerance.interpolation, recipe.part.aperture_radius);
+        Self {
+            cut: Meter::new(touch).counting_centre(counts_centre),
+            lead: LeadMeter::default(),
+            servo: None,
+            anomalies: AnomalyDetector::new(tolerance, rim),
+        }
+    }
+
+    /// The same with the servos that the recipe asks for.
+    pub fn with_servo(mut self, recipe: &Recipe) -> Self {
+        self.servo = recipe.servo.as_ref().map(ServoMeter::new);
+        self
+    }
+
+    fn append(&mut self, block: &MeasuredBlock) -> Result<(), StrategyError> {
+        match block {
+            MeasuredBlock::Cut(cut) => {
+                let CutBlock {
+                    figures,
+                    servo,
+                    points,
+                } = cut.as_ref();
+                self.lead.pass(points);
+                self.anomalies.pass(points, &figures.per_point);
+                if let (Some(meter), Some(block)) = (&mut self.servo, servo) {
+                    meter.append(block);
+                }
+                self.cut.append(figures)
+            }
+            MeasuredBlock::Lead(lead) => {
+                let (figures, points) = lead.as_ref();
+                self.anomalies.pass(points, &[]);
+                self.lead.append(figures);
+                Ok(())
+            }
+        }
+    }
+}
+
+/// A block of a path with its figures.
+enum MeasuredBlock {
+    Cut(Box<CutBlock>),
+    Lead(Box<(LeadBlockFigures, PathBlock)>),
+}
+
+struct CutBlock {
+    figures: BlockFigures,
+    servo: Option<ServoBlockFigures>,
+    points: PathBlock,
+}
+
+impl MeasuredBlock {
+    fn new(
+        touch: &FirstTouch,
+        section: Section,
+        points: PathBlock,
+        start: Option<ServoStart>,
+    ) -> Result<Self, StrategyError> {
+        Ok(match section {
+            Section::Cutting => {
+                let servo = start.map(|start| ServoMeter::measure(touch, &start, &points));
+                let figures = Meter::measure(touch, &points)?;
+                let servo = servo.transpose()?;
+                Self::Cut(Box::new(CutBlock {
+                    figures,
+                    servo,
+                    points,
+                }))
+            }
+            Section::LeadIn | Section::LeadOut => {
+                let figures = LeadMeter::measure(touch, &points)?;
+                Self::Lead(Box::new((figures, points)))
+            }
+        })
+    }
+}
+
+/// Reads a path and measures it, in blocks, in parallel.
+pub fn measure(
+    recipe: &Recipe,
+    mut meters: PathMeters,
+    shape: SegmentShape,
+    reader: &mut dyn ReadPath,
+    observer: &dyn Observer,
+) -> Result<PathMeters, Error> {
+    let failed = |error: StrategyError| of_measure(recipe, error);
+    loop {
+        if observer.is_cancelled() {
+            return Err(Error::Cancelled);
+        }
+        let blocks = next_blocks(reader, shape)?;
+        if blocks.is_empty() {
+            return Ok(meters);
+        }
+        let starts: Vec<Option<ServoStart>> = blocks
+            .iter()
+            .map(|(_, block)| meters.servo.as_mut().map(|servo| servo.pass(block)))
+            .collect();
+        let (touch, count) = (meters.cut.touch(), blocks.len() as u64);
+        let measured: Vec<MeasuredBlock> = blocks
+            .into_par_iter()
+            .zip(starts)
+            .map(|((section, block), start)| MeasuredBlock::new(touch, section, block, start))
+            .collect::<Result<_, _>>()
+            .map_err(failed)?;
+        for block in &measured {
+            meters.append(block).map_err(failed)?;
+        }
+        observer.advance(count);
+    }
+}
+
+fn next_blocks(
+    reader: &mut dyn ReadPath,
+    shape: SegmentShape,
+) -> Result<Vec<(Section, PathBlock)>, Error> {
+    let mut blocks = Vec::new();
+    while blocks.len() < BLOCKS {
+        match reader.next_block(BLOCK_ROWS)? {
+            Some((section, block)) => blocks.push((section, PathBlock { shape, ..block })),
+            None => break,
+        }
+    }
+    Ok(blocks)
+}

@@ -1,0 +1,10 @@
+//! Maps, profiles, circles and spectra of the machined surface: what is asked for, where each file
+//! goes, and how it is drawn.
+
+mod draw;
+mod files;
+mod request;
+
+pub use draw::{PlayedPath, draw};
+pub use files::{Plots, make_folder};
+pub use request::{CircleRequest, MapGrid, MapRequest, PlotError, PlotRequest};

@@ -1,0 +1,69 @@
+//! Plugins that a recipe lists, and the plugins that a run used.
+
+use turnpath_core::Slot;
+use turnpath_host::{Catalogue, LoadError, Plugin};
+use turnpath_recipe::{Recipe, Spanned};
+
+use crate::error::Error;
+
+/// Refuses a recipe that lists plugins of its own: they are native code with the rights of whoever
+/// runs them.
+///
+/// # Errors
+/// When the recipe lists one.
+pub fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
+    let Some(first) = recipe.plugins.first() else {
+        return Ok(());
+    };
+    let title = "the recipe asks to load plugins of its own, which takes --trust-recipe";
+    let label = "native code that runs with your rights";
+    let help = "look at what it lists; then call again with `--trust-recipe`, or leave \
+                `plugins` out and give folders that you trust with `--plugin-dir`";
+    let diagnostic = recipe.diagnostic(first.span.clone(), title, label, [help.to_owned()]);
+    Err(Error::refused(diagnostic))
+}
+
+/// The catalogue with the plugins that a recipe lists, which the caller trusts.
+///
+/// # Errors
+/// When one of them cannot be loaded.
+pub fn with_listed_plugins(mut catalogue: Catalogue, recipe: &Recipe) -> Result<Catalogue, Error> {
+    for listed in &recipe.plugins {
+        let path = recipe.resolve(&listed.value);
+        let added = match path.is_dir() {
+            true => catalogue.add_folder(&path),
+            false => catalogue.add_file(&path),
+        };
+        added.map_err(|error| not_loaded(recipe, listed, error))?;
+    }
+    Ok(catalogue)
+}
+
+fn not_loaded(recipe: &Recipe, listed: &Spanned<String>, error: LoadError) -> Error {
+    let path = recipe.resolve(&listed.value);
+    // Nothing says whether a file or a folder was meant.
+    let title = match error.is_missing() && !path.exists() {
+        true => format!("there is no file or folder {}", path.display()),
+        false => error.to_string(),
+    };
+    let diagnostic = recipe.diagnostic(listed.span.clone(), title, "listed here", []);
+    Error::ListedPlugin {
+        diagnostic: Box::new(diagnostic),
+        source: Box::new(error),
+    }
+}
+
+/// The plugins of a recipe's strategies, each once.
+pub fn used<'a>(recipe: &Recipe, catalogue: &'a Catalogue) -> Vec<&'a Plugin> {
+    let mut used: Vec<&Plugin> = Vec::new();
+    for slot in Slot::ALL {
+        let name = recipe.choice(slot).name();
+        if let Some(strategy) = catalogue.find(slot, name) {
+            let plugin = strategy.plugin().as_ref();
+            if !used.contains(&plugin) {
+                used.push(plugin);
+            }
+        }
+    }
+    used
+}

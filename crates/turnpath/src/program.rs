@@ -1,0 +1,187 @@
+//! The motion programs of a recipe: how they are laid out, put together and measured.
+
+use std::path::Path;
+
+use turnpath_core::toolpath::{SectionBlock, SegmentShape};
+use turnpath_host::sha256_hex;
+use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, Stage};
+use turnpath_post::{
+    PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacWriter, ReadPath, Template,
+};
+use turnpath_recipe::{Recipe, Spanned, ZReference};
+use turnpath_report::ProgramReport;
+use turnpath_verify::FirstTouch;
+
+use crate::diagnosis::of_measure;
+use crate::error::Error;
+use crate::figures::tolerances;
+use crate::meters::{BLOCK_ROWS, PathMeters, measure};
+
+/// The post's name in recipes.
+pub const PMAC_PVT: &str = "pmac-pvt";
+/// What the names of its files end with.
+pub const PMAC_EXTENSION: &str = "pmc";
+
+/// A program that a recipe asks for.
+pub struct Program {
+    /// How it is laid out.
+    pub format: PmacFormat,
+    /// Its file's name.
+    pub file: String,
+    header: Template,
+    footer: Template,
+}
+
+/// What stands around the lines of a program.
+pub struct Frame {
+    /// Before the lines.
+    pub header: String,
+    /// After them.
+    pub footer: String,
+}
+
+/// The programs that a recipe asks for.
+pub fn programs(recipe: &Recipe, compensates_nose: bool) -> Result<Vec<Program>, Error> {
+    let posts = recipe.output.posts.iter();
+    posts
+        .map(|_| Program::new(recipe, compensates_nose))
+        .collect()
+}
+
+/// How a recipe lays out PMAC programs. A path that is not compensated is that of the contact, so
+/// its Z is the tip's already.
+pub fn pmac_format(recipe: &Recipe, compensates_nose: bool) -> PmacFormat {
+    let settings = &recipe.pmac_pvt;
+    let tip = recipe.output.z_reference == ZReference::Tip && compensates_nose;
+    PmacFormat {
+        position_decimals: settings.position_decimals,
+        velocity_decimals: settings.velocity_decimals,
+        per_minute: settings.per_minute,
+        c_reversed: settings.c_reversed,
+        c_wrapped: settings.c_wrapped,
+        incremental: settings.incremental,
+        z_above: if tip { recipe.tool.nose_radius } else { 0.0 },
+    }
+}
+
+impl Program {
+    fn new(recipe: &Recipe, compensates_nose: bool) -> Result<Self, Error> {
+        let settings = &recipe.pmac_pvt;
+        Ok(Self {
+            format: pmac_format(recipe, compensates_nose),
+            file: format!("{}.{PMAC_EXTENSION}", recipe.stem()),
+            header: template(recipe, settings.header.as_ref(), PMAC_HEADER)?,
+            footer: template(recipe, settings.footer.as_ref(), PMAC_FOOTER)?,
+        })
+    }
+
+    /// A block of the path as program lines.
+    pub fn lines(&self, block: &SectionBlock<'_>) -> Result<Vec<u8>, PmacError> {
+        PmacWriter::lines(&self.format, block)
+    }
+
+    /// Bytes that the program will take.
+    pub fn expected_bytes(&self, radius: f64, expected: &Estimate) -> f64 {
+        let c = std::f64::consts::TAU * expected.revolutions;
+        PmacWriter::expected_bytes(
+            &self.format,
+            radius,
+            expected.cutting_time,
+            c,
+            expected.control_points,
+        )
+    }
+
+    /// Header and footer with the figures of a path.
+    pub fn frame(&self, recipe: &Recipe, outcome: &Outcome) -> Frame {
+        let value = |placeholder: &str| self.value(placeholder, recipe, outcome);
+        Frame {
+            header: self.header.fill(value),
+            footer: self.footer.fill(value),
+        }
+    }
+
+    fn value(&self, placeholder: &str, recipe: &Recipe, outcome: &Outcome) -> String {
+        let either = |first: bool, one: &str, other: &str| {
+            let chosen = if first { one } else { other };
+            chosen.to_owned()
+        };
+        let tip = recipe.output.z_reference == ZReference::Tip;
+        let lead = outcome.lead.as_ref();
+        let with_leads = |cut: f64, leads: fn(&Leads) -> f64| cut + lead.map_or(0.0, leads);
+        let file = || recipe.path().file_name().unwrap_or_default();
+        match placeholder {
+            "name" => recipe.name.clone(),
+            "recipe" => file().to_string_lossy().into_owned(),
+            "sha256" => sha256_hex(recipe.text().as_bytes()),
+            "changes" if recipe.sets().is_empty() => "nothing".to_owned(),
+            "changes" => recipe.sets().join(", "),
+            "turnpath" => env!("CARGO_PKG_VERSION").to_owned(),
+            "points" => {
+                let points = outcome.control_points + lead.map_or(0, |lead| lead.points);
+                points.to_string()
+            }
+            "revolutions" => {
+                let turns = with_leads(outcome.revolutions, |l| l.turns_in + l.turns_out);
+                format!("{turns:.2}")
+            }
+            "time_s" => {
+                let time = with_leads(outcome.cutting_time, |l| l.in_time + l.out_time);
+                format!("{time:.3}")
+            }
+            "ends" => either(lead.is_some(), "at rest", "in motion"),
+            "z_reference" => either(tip, "tool tip", "nose centre"),
+            "c_range" => either(self.format.c_wrapped, "within 0 to 360", "unwrapped"),
+            "velocity_unit" => either(self.format.per_minute, "min", "s"),
+            "ix90" => self.format.ix90().to_string(),
+            _ => String::new(),
+        }
+    }
+
+    /// Measures the program on its own text, which `reader` reads back; `name` is for messages.
+    pub fn measure(
+        &self,
+        reader: &mut dyn ReadPath,
+        name: &Path,
+        recipe: &Recipe,
+        touch: FirstTouch,
+        points: u64,
+        observer: &dyn Observer,
+    ) -> Result<ProgramReport, Error> {
+        observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
+        let meters = PathMeters::new(recipe, touch);
+        let measured = measure(recipe, meters, SegmentShape::Cubic, reader, observer)?;
+        let found = reader.counted().count();
+        if found != points {
+            return Err(Error::PointsLost {
+                file: name.to_owned(),
+                found,
+                expected: points,
+            });
+        }
+        let figures = measured.cut.figures();
+        let figures = figures.map_err(|error| of_measure(recipe, error))?;
+        Ok(ProgramReport::new(
+            self.file.clone(),
+            PMAC_PVT,
+            figures.playback.max(),
+            measured.lead.figures().map(|lead| lead.clearance),
+            &tolerances(recipe),
+        ))
+    }
+}
+
+/// A template of the recipe, or the post's own.
+fn template(
+    recipe: &Recipe,
+    given: Option<&Spanned<String>>,
+    own: &str,
+) -> Result<Template, Error> {
+    let text = given.map_or(own, |given| &given.value);
+    Template::parse(text).map_err(|error| {
+        let span = given.map_or_else(|| recipe.nearest_span("output"), |given| given.span.clone());
+        let known = format!("placeholders: {{{}}}", PLACEHOLDERS.join("}, {"));
+        let diagnostic = recipe.diagnostic(span, error.to_string(), "in this template", [known]);
+        Error::refused_by(diagnostic, error)
+    })
+}

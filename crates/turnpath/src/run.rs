@@ -1,0 +1,202 @@
+//! A run: the path made, measured, put where it is wanted, and reported.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use turnpath_core::{Direction, Misfit, Slot};
+use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
+use turnpath_post::PmacReader;
+use turnpath_report as report;
+use turnpath_report::{ProgramReport, RunReport};
+use turnpath_verify::unreached;
+
+use crate::diagnosis::of_measure;
+use crate::error::Error;
+use crate::figures;
+use crate::files::FolderSink;
+use crate::job::Job;
+use crate::memory::MemorySink;
+use crate::outputs::{Destination, Outputs};
+use crate::plots::Plots;
+use crate::plugins::used;
+use crate::sinks::{RowCount, SinkError, of_run};
+use crate::toolpath::ToolPath;
+
+/// What a run gave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunResult {
+    /// The figures and the verdict.
+    pub report: RunReport,
+    /// The files that were written, the summary last; empty without a folder.
+    pub files: Vec<PathBuf>,
+    /// The path, where it was asked for in memory.
+    pub toolpath: Option<ToolPath>,
+    /// The programs by their file names, where they were asked for in memory.
+    pub programs: Vec<(String, Vec<u8>)>,
+}
+
+impl RunResult {
+    fn of(report: RunReport) -> Self {
+        Self {
+            report,
+            files: Vec::new(),
+            toolpath: None,
+            programs: Vec::new(),
+        }
+    }
+}
+
+impl Job {
+    /// Makes the path, measures it, and puts it where `outputs` says. A program is read back and
+    /// measured on its own text.
+    ///
+    /// # Errors
+    /// When a strategy fails, when a file cannot be written, or when the observer cancels. Nothing
+    /// is left behind then.
+    pub fn run(&self, outputs: Outputs, observer: &dyn Observer) -> Result<RunResult, Error> {
+        match &outputs.destination {
+            Destination::Nowhere => self.run_nowhere(observer),
+            Destination::Memory => self.run_in_memory(observer),
+            Destination::Folder(folder) => {
+                let plots = Plots::new(&outputs.plots, &self.recipe.part, folder)?;
+                self.run_in_folder(folder, &plots, observer)
+            }
+        }
+    }
+
+    /// The path into a sink.
+    pub(crate) fn run_into<S>(&self, sink: &mut S, observer: &dyn Observer) -> Result<Outcome, Error>
+    where
+        S: Sink,
+        S::Error: Into<SinkError>,
+    {
+        let outcome = run_pipeline(
+            &self.chain,
+            &self.preparation,
+            self.options(),
+            sink,
+            observer,
+        );
+        outcome.map_err(|error| of_run(&self.recipe, error))
+    }
+
+    fn run_nowhere(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
+        let mut sink = RowCount::default();
+        let outcome = self.run_into(&mut sink, observer)?;
+        let report = self.report(sink.rows, &outcome, Vec::new())?;
+        Ok(RunResult::of(report))
+    }
+
+    fn run_in_memory(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
+        let mut sink = MemorySink::new(&self.programs);
+        let outcome = self.run_into(&mut sink, observer)?;
+        let rows = sink.toolpath.len() as u64;
+        let (mut reports, mut programs) = (Vec::new(), Vec::new());
+        for (program, writer) in self.programs.iter().zip(sink.writers) {
+            let frame = program.frame(&self.recipe, &outcome);
+            let text = writer.assemble_in_memory(&frame.header, &frame.footer);
+            let mut reader = PmacReader::new(Cursor::new(&text), program.format)?;
+            let touch = self.preparation.touch.clone();
+            let name = Path::new(&program.file);
+            let recipe = &self.recipe;
+            reports.push(program.measure(&mut reader, name, recipe, touch, rows, observer)?);
+            programs.push((program.file.clone(), text));
+        }
+        Ok(RunResult {
+            toolpath: Some(sink.toolpath),
+            programs,
+            ..RunResult::of(self.report(rows, &outcome, reports)?)
+        })
+    }
+
+    fn run_in_folder(
+        &self,
+        folder: &Path,
+        plots: &Plots,
+        observer: &dyn Observer,
+    ) -> Result<RunResult, Error> {
+        plots.need_toolpath(&self.recipe)?;
+        let mut sink = FolderSink::new(folder, &self.recipe, &self.programs)?;
+        let outcome = self.run_into(&mut sink, observer)?;
+        let reports = sink.read_back(self, &outcome, observer)?;
+        sink.plot(self, plots, &outcome, observer)?;
+        let report = self.report(sink.rows(), &outcome, reports)?;
+        let files = sink.complete(&report::to_json(&report))?;
+        Ok(RunResult {
+            files,
+            ..RunResult::of(report)
+        })
+    }
+
+    /// What a path gave.
+    pub(crate) fn report(
+        &self,
+        rows: u64,
+        outcome: &Outcome,
+        programs: Vec<ProgramReport>,
+    ) -> Result<RunReport, Error> {
+        let recipe = &self.recipe;
+        let leads = outcome.lead.as_ref();
+        let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), recipe));
+        let machined = outcome.machined.as_ref();
+        let path = figures::path(recipe, &outcome.figures, machined, lead, outcome.servo.as_ref());
+        let report = RunReport {
+            format: report::FORMAT,
+            turnpath: env!("CARGO_PKG_VERSION").to_owned(),
+            name: recipe.name.clone(),
+            chain: chain_names(recipe),
+            direction: match recipe.direction {
+                Direction::Inward => report::Direction::Inward,
+                Direction::Outward => report::Direction::Outward,
+            },
+            refine: recipe.refine,
+            control_points: outcome.control_points,
+            rows,
+            points_added_by_refine: outcome.added_by_refine,
+            revolutions: outcome.revolutions,
+            cutting_time: outcome.cutting_time,
+            within: path.verdict(None),
+            path,
+            axes_of_law: outcome.own_axes.as_ref().map(figures::axes),
+            unreached: self.unreached()?,
+            programs,
+            plugins: self.plugin_sources(),
+        };
+        Ok(report.judged())
+    }
+
+    /// What the nose leaves standing; `None` unless the recipe asks for what fits of a nose.
+    pub(crate) fn unreached(&self) -> Result<Option<report::Unreached>, Error> {
+        let touch = &self.preparation.touch;
+        if !touch.leaves_seams() {
+            let asked = self.recipe.tool.misfit == Misfit::CutWhatFits && self.compensates_nose();
+            return Ok(asked.then(report::Unreached::default));
+        }
+        let figures = unreached(touch, self.recipe.tolerance.residual);
+        let figures = figures.map_err(|error| of_measure(&self.recipe, error))?;
+        Ok(Some(figures::unreached(&figures)))
+    }
+
+    fn plugin_sources(&self) -> Vec<report::PluginSource> {
+        let sources = used(&self.recipe, &self.catalogue).into_iter();
+        let source = sources.map(|plugin| report::PluginSource {
+            name: plugin.name.clone(),
+            version: plugin.version.clone(),
+            file: plugin.file.as_ref().map(|file| file.display().to_string()),
+            sha256: plugin.sha256.clone(),
+        });
+        source.collect()
+    }
+}
+
+/// The names of the strategies that a recipe chooses.
+pub(crate) fn chain_names(recipe: &turnpath_recipe::Recipe) -> report::ChainNames {
+    let name = |slot| recipe.choice(slot).name().to_owned();
+    report::ChainNames {
+        surface: name(Slot::Surface),
+        feed: name(Slot::Feed),
+        sampler: name(Slot::Sampler),
+        compensator: name(Slot::Compensator),
+        velocity: name(Slot::Velocity),
+    }
+}

@@ -1,0 +1,82 @@
+//! The surface of a recipe on a grid, as CSV.
+
+use std::io;
+use std::path::Path;
+
+use turnpath_core::{Gradients, StrategyError, SurfaceModel};
+use turnpath_host::Catalogue;
+use turnpath_pipeline::Link;
+use turnpath_post::{Draft, FileError};
+use turnpath_recipe::Recipe;
+
+use crate::diagnosis::of_pipeline;
+use crate::error::Error;
+use crate::strategies;
+
+/// Writes the recipe's surface and its slopes at `count` × `count` points of the square around the
+/// aperture, its edges included. A point where the surface has no height is NaN.
+///
+/// # Errors
+/// When the surface is not there or fails, or when the file cannot be written.
+pub fn write_sag(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    count: usize,
+    file: &Path,
+) -> Result<(), Error> {
+    let surface = strategies::surface(recipe, catalogue)?;
+    let grid = Grid {
+        half: recipe.part.aperture_radius,
+        count,
+    };
+    let mut rows = csv::Writer::from_writer(Draft::begin(file)?);
+    let not_written = |error: io::Error| FileError {
+        path: file.to_owned(),
+        error,
+    };
+    rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"])
+        .map_err(|error| not_written(error.into()))?;
+    for j in 0..grid.count {
+        let row = grid.row(j, &surface);
+        let row = row.map_err(|error| of_pipeline(recipe, surface.failed("on the grid", error)))?;
+        for point in row {
+            let written = rows.serialize(point);
+            written.map_err(|error| not_written(error.into()))?;
+        }
+    }
+    let draft = rows
+        .into_inner()
+        .map_err(|error| not_written(error.into_error()))?;
+    draft.complete()?;
+    Ok(())
+}
+
+/// A square grid around the axis, its edges included.
+struct Grid {
+    half: f64,
+    count: usize,
+}
+
+impl Grid {
+    fn at(&self, index: usize) -> f64 {
+        let last = (self.count - 1) as f64;
+        self.half * (2.0 * index as f64 - last) / last
+    }
+
+    /// x, y, z and both slopes along one row.
+    fn row(&self, j: usize, surface: &Link<dyn SurfaceModel>) -> Result<Vec<[f64; 5]>, StrategyError> {
+        let x: Vec<f64> = (0..self.count).map(|i| self.at(i)).collect();
+        let y = vec![self.at(j); self.count];
+        let mut z = vec![f64::NAN; self.count];
+        let (mut zx, mut zy) = (z.clone(), z.clone());
+        let out = Gradients {
+            z: &mut z,
+            zx: &mut zx,
+            zy: &mut zy,
+        };
+        surface.strategy.gradient(&x, &y, out)?;
+        Ok((0..self.count)
+            .map(|i| [x[i], y[i], z[i], zx[i], zy[i]])
+            .collect())
+    }
+}

@@ -1,0 +1,203 @@
+//! Any tool path in a file, measured against a recipe's surface, tool and tolerances.
+//!
+//! Control points do not say what is played between them. The recipe's velocity solver says it:
+//! cubics or straight lines.
+
+use std::path::Path;
+
+use turnpath_core::toolpath::SegmentShape;
+use turnpath_core::{RadialRange, Slot};
+use turnpath_host::Catalogue;
+use turnpath_pipeline::Observer;
+use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
+use turnpath_recipe::Recipe;
+use turnpath_report as report;
+use turnpath_report::FileReport;
+use turnpath_verify::{Anomaly, AnomalyKind, FirstTouch, ServoMeter, Subject, unreached};
+
+use crate::diagnosis::of_measure;
+use crate::error::Error;
+use crate::figures;
+use crate::meters::{PathMeters, measure};
+use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
+use crate::program::{PMAC_EXTENSION, pmac_format};
+use crate::strategies;
+
+/// Measures the tool path in a file: a `toolpath.csv`, or a program of the post `pmac-pvt`. Plots go
+/// to `folder`.
+///
+/// # Errors
+/// When the file cannot be read or has no cut in it, when a plot cannot be drawn, or when the
+/// recipe's surface, compensator or solver is not there or fails.
+pub fn verify(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    file: &Path,
+    request: &PlotRequest,
+    folder: &Path,
+    observer: &dyn Observer,
+) -> Result<FileReport, Error> {
+    let target = Target::new(recipe, catalogue)?;
+    let plots = Plots::new(request, &recipe.part, folder)?;
+    if !plots.is_empty() {
+        make_folder(folder)?;
+    }
+    target.verify(file, &plots, observer)
+}
+
+/// What a file is measured against, and how it is played.
+struct Target<'a> {
+    recipe: &'a Recipe,
+    subject: Subject,
+    shape: SegmentShape,
+    /// What the compensator's ρ stands for.
+    radial: turnpath_core::Radial,
+}
+
+impl<'a> Target<'a> {
+    fn new(recipe: &'a Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
+        let surface = strategies::surface(recipe, catalogue)?.strategy;
+        let compensator = strategies::compensator(recipe, catalogue)?.strategy;
+        let velocity = strategies::velocity(recipe, catalogue)?.strategy;
+        let subject = Subject {
+            surface,
+            part: recipe.part,
+            tool: recipe.tool,
+            compensates_nose: compensator.compensates_nose(),
+        };
+        Ok(Self {
+            recipe,
+            subject,
+            shape: velocity.segments(),
+            radial: compensator.radial(),
+        })
+    }
+
+    fn open(&self, file: &Path) -> Result<Box<dyn ReadPath>, ReadError> {
+        let is_program = file
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case(PMAC_EXTENSION));
+        Ok(if is_program {
+            let format = pmac_format(self.recipe, self.subject.compensates_nose);
+            Box::new(PmacReader::open(file, format)?)
+        } else {
+            Box::new(PathReader::open(file)?)
+        })
+    }
+
+    fn verify(
+        &self,
+        file: &Path,
+        plots: &Plots,
+        observer: &dyn Observer,
+    ) -> Result<FileReport, Error> {
+        let recipe = self.recipe;
+        let failed = |error| of_measure(recipe, error);
+        let mut reader = self.open(file)?;
+        let touch = FirstTouch::new(self.subject.clone()).map_err(failed)?;
+        let meters = PathMeters::new(recipe, touch).with_servo(recipe);
+        let meters = measure(recipe, meters, self.shape, reader.as_mut(), observer)?;
+        let (meter, read) = (&meters.cut, reader.counted());
+        let range = meter.reach(self.radial).map_err(failed)?;
+        let Some(range) = range.filter(|_| read.cutting() >= 2) else {
+            let file = file.to_owned();
+            return Err(Error::NothingCut { file });
+        };
+        let machined = meter.machined().map_err(failed)?;
+        let figures = meter.figures().map_err(failed)?;
+        let lead = meters.lead.figures();
+        let lead = lead.map(|lead| figures::lead(lead, None, recipe));
+        let servo = meters.servo.as_ref().map(ServoMeter::figures);
+        let path = figures::path(recipe, &figures, machined.as_ref(), lead, servo);
+        let played = PlayedPath {
+            recipe,
+            touch: meter.touch(),
+            shape: self.shape,
+            largest_error: figures.playback.max(),
+            points: read.count(),
+        };
+        let (reach, unreached) = (self.reach(range), self.unreached(meter.touch())?);
+        let report = FileReport {
+            format: report::FORMAT,
+            name: recipe.name.clone(),
+            file: file.display().to_string(),
+            surface: recipe.choice(Slot::Surface).name().to_owned(),
+            control_points: read.cutting(),
+            rows: read.count(),
+            within: path.verdict(Some(&reach)),
+            reach,
+            path,
+            files: self.draw(file, plots, &played, observer)?,
+            anomalies: anomalies(meters.anomalies.end()),
+            unreached,
+        };
+        Ok(report.judged())
+    }
+
+    fn reach(&self, range: RadialRange) -> report::Reach {
+        let part = self.recipe.part;
+        report::Reach {
+            path: report::Radii {
+                inner: range.inner,
+                outer: range.outer,
+            },
+            of: self.radial.into(),
+            part: report::Radii {
+                inner: part.inner_radius,
+                outer: part.aperture_radius,
+            },
+        }
+    }
+
+    /// What the nose leaves standing; `None` unless it may leave something.
+    fn unreached(&self, touch: &FirstTouch) -> Result<Option<report::Unreached>, Error> {
+        if !touch.leaves_seams() {
+            return Ok(None);
+        }
+        let figures = unreached(touch, self.recipe.tolerance.residual);
+        let figures = figures.map_err(|error| of_measure(self.recipe, error))?;
+        Ok(Some(figures::unreached(&figures)))
+    }
+
+    /// Draws the plots from a second reading; gives the names of their files.
+    fn draw(
+        &self,
+        file: &Path,
+        plots: &Plots,
+        played: &PlayedPath<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Vec<String>, Error> {
+        if plots.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut reader = self.open(file)?;
+        let mut files = Vec::new();
+        for draft in draw(plots, played, reader.as_mut(), observer)? {
+            files.push(draft.complete()?.display().to_string());
+        }
+        Ok(files)
+    }
+}
+
+fn anomalies((count, found): (u64, Vec<Anomaly>)) -> report::Anomalies {
+    let place = |anomaly: Anomaly| report::Anomaly {
+        point: anomaly.point,
+        at: report::PathPlace {
+            c: anomaly.c,
+            x: anomaly.x,
+        },
+        kind: match anomaly.what {
+            AnomalyKind::Height => report::AnomalyKind::ZPosition,
+            AnomalyKind::TurnsOfC => report::AnomalyKind::CMotion,
+            AnomalyKind::MotionOfX => report::AnomalyKind::XMotion,
+            AnomalyKind::MotionOfZ => report::AnomalyKind::ZMotion,
+            AnomalyKind::Gap => report::AnomalyKind::Gap,
+        },
+        by: anomaly.by,
+        neighbours: anomaly.usual,
+    };
+    report::Anomalies {
+        count,
+        places: found.into_iter().map(place).collect(),
+    }
+}
