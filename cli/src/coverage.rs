@@ -3,7 +3,7 @@
 use serde::Serialize;
 use turnpath_core::{DEG, Overrun};
 use turnpath_recipe::Recipe;
-use turnpath_verify::{CoverageFigures, Uncut};
+use turnpath_verify::{CoverageFigures, UncutHeight};
 
 use crate::figures::{against, line, nanometres};
 use crate::summary::{NM_PER_MM, UM_PER_MM, holds};
@@ -78,16 +78,16 @@ struct At {
 impl Coverage {
     /// What was measured, in nm.
     pub fn new(figures: &CoverageFigures) -> Self {
-        let height = |uncut: Option<Uncut>| {
+        let height = |uncut: Option<UncutHeight>| {
             uncut
                 .map(|uncut| uncut.height * NM_PER_MM)
                 .filter(|height| height.is_finite())
         };
-        let angle = |uncut: Option<Uncut>| uncut.map(|uncut| uncut.at_theta / DEG);
+        let angle = |uncut: Option<UncutHeight>| uncut.map(|uncut| uncut.at_theta / DEG);
         let CoverageFigures {
             rim, hole, centre, ..
         } = *figures;
-        let never = |(name, uncut): (&'static str, Option<Uncut>)| {
+        let never = |(name, uncut): (&'static str, Option<UncutHeight>)| {
             let uncut = uncut.filter(|uncut| !uncut.height.is_finite());
             uncut.map(|_| name)
         };
@@ -217,11 +217,11 @@ mod tests {
 
     #[test]
     fn what_no_pass_reaches_is_null_and_named() {
-        let never = Uncut {
+        let never = UncutHeight {
             height: f64::INFINITY,
             at_theta: 0.0,
         };
-        let some = Uncut {
+        let some = UncutHeight {
             height: 1e-4,
             at_theta: 135.0 * DEG,
         };

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 use turnpath_core::DEG;
-use turnpath_verify::{Following, ServoFigures};
+use turnpath_verify::{FollowingError, ServoFigures};
 
 use crate::figures::{line, millimetres, nanometres};
 use crate::summary::{NM_PER_MM, Place, UM_PER_MM};
@@ -41,7 +41,7 @@ struct Predicted {
 }
 
 impl Amounts {
-    fn of(error: &Following, unit: f64) -> Self {
+    fn of(error: &FollowingError, unit: f64) -> Self {
         Self {
             max: error.max / unit,
             rms: error.rms() / unit,

@@ -1,7 +1,7 @@
 //! The machined surface in a summary, and in lines for a person.
 
 use serde::Serialize;
-use turnpath_verify::machined::{MachinedFigures, PlaceOnPart};
+use turnpath_verify::machined::{MachinedFigures, PartPoint};
 
 use crate::figures::{line, millimetres, nanometres};
 use crate::summary::NM_PER_MM;
@@ -85,7 +85,7 @@ impl SurfaceError {
 }
 
 impl Extreme {
-    fn of(place: &PlaceOnPart) -> Self {
+    fn of(place: &PartPoint) -> Self {
         Self {
             error_nm: place.error * NM_PER_MM,
             x_mm: place.x,

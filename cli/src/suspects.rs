@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use turnpath_core::DEG;
-use turnpath_verify::{Oddity, Suspect};
+use turnpath_verify::{Anomaly, AnomalyKind};
 
 use crate::figures::{grouped, line, millimetres, nanometres};
 use crate::summary::{NM_PER_MM, Place};
@@ -34,7 +34,7 @@ pub struct SuspectPlace {
 
 impl Suspicious {
     /// In the units of the file.
-    pub fn of((count, suspects): (u64, Vec<Suspect>)) -> Self {
+    pub fn of((count, suspects): (u64, Vec<Anomaly>)) -> Self {
         let places = suspects.iter().map(SuspectPlace::of).collect();
         Self { count, places }
     }
@@ -58,21 +58,21 @@ impl Suspicious {
 }
 
 impl SuspectPlace {
-    fn of(suspect: &Suspect) -> Self {
+    fn of(suspect: &Anomaly) -> Self {
         Self {
             point: suspect.point,
             at: Place {
                 c_deg: suspect.c / DEG,
                 x_mm: suspect.x,
             },
-            what: match suspect.what {
-                Oddity::Height => "z_position",
-                Oddity::TurnsOfC => "c_motion",
-                Oddity::MotionOfX => "x_motion",
-                Oddity::MotionOfZ => "z_motion",
-                Oddity::Gap => "gap",
+            what: match suspect.kind {
+                AnomalyKind::Height => "z_position",
+                AnomalyKind::MotionOfC => "c_motion",
+                AnomalyKind::MotionOfX => "x_motion",
+                AnomalyKind::MotionOfZ => "z_motion",
+                AnomalyKind::Gap => "gap",
             },
-            by_nm: suspect.by * NM_PER_MM,
+            by_nm: suspect.amount * NM_PER_MM,
             neighbours_nm: suspect.usual * NM_PER_MM,
         }
     }

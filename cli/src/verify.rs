@@ -13,8 +13,8 @@ use turnpath_pipeline::{PipelineError, Progress, Quiet};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{
-    FirstTouch, LeadMeter, LeadStretch, Measured as CutStretch, Meter, ServoMeter, ServoStart,
-    ServoStretch, Subject, Suspects,
+    AnomalyDetector, BlockFigures, FirstTouch, LeadBlockFigures, LeadMeter, Meter,
+    ServoBlockFigures, ServoMeter, ServoStart, Subject,
 };
 
 use crate::args::{Format, VerifyArgs};
@@ -125,7 +125,7 @@ fn verified(
         reach_mm: reach,
         measured,
         files: drawn(args, wishes, &played, compensates_nose)?,
-        suspicious: Suspicious::of(meters.suspects.end()),
+        suspicious: Suspicious::of(meters.suspects.finish()),
         unreached,
     })
 }
@@ -206,13 +206,13 @@ pub struct PathMeters {
     /// What the servo makes of it, where that is asked.
     pub servo: Option<ServoMeter>,
     /// Points that stand out.
-    pub suspects: Suspects,
+    pub suspects: AnomalyDetector,
 }
 
 /// A block of a path, measured.
 enum Stretch {
-    Cut(Box<(CutStretch, Option<ServoStretch>, PathBlock)>),
-    Lead(Box<(LeadStretch, PathBlock)>),
+    Cut(Box<(BlockFigures, Option<ServoBlockFigures>, PathBlock)>),
+    Lead(Box<(LeadBlockFigures, PathBlock)>),
 }
 
 impl Stretch {
@@ -242,7 +242,10 @@ impl PathMeters {
             cut: Meter::new(touch).counting_centre(Promise::of(recipe.overrun).covers_centre),
             lead: LeadMeter::default(),
             servo: None,
-            suspects: Suspects::new(recipe.tolerance.interpolation, recipe.part.aperture_radius),
+            suspects: AnomalyDetector::new(
+                recipe.tolerance.interpolation,
+                recipe.part.aperture_radius,
+            ),
         }
     }
 
@@ -256,8 +259,8 @@ impl PathMeters {
         match stretch {
             Stretch::Cut(cut) => {
                 let (measured, served, block) = cut.as_ref();
-                self.lead.pass(block);
-                self.suspects.pass(block, &measured.per_point);
+                self.lead.append_cut(block);
+                self.suspects.append(block, &measured.per_point);
                 if let (Some(servo), Some(served)) = (&mut self.servo, served) {
                     servo.append(served);
                 }
@@ -265,7 +268,7 @@ impl PathMeters {
             }
             Stretch::Lead(lead) => {
                 let (measured, block) = lead.as_ref();
-                self.suspects.pass(block, &[]);
+                self.suspects.append(block, &[]);
                 self.lead.append(measured);
                 Ok(())
             }
@@ -295,7 +298,7 @@ pub fn measure(
         }
         let starts: Vec<Option<ServoStart>> = blocks
             .iter()
-            .map(|(_, block)| meters.servo.as_mut().map(|servo| servo.pass(block)))
+            .map(|(_, block)| meters.servo.as_mut().map(|servo| servo.advance(block)))
             .collect();
         let (touch, count) = (meters.cut.touch(), blocks.len() as u64);
         let stretches: Vec<Stretch> = blocks
