@@ -76,8 +76,8 @@ pub struct Anomaly {
     /// The kind of its largest deviation.
     pub kind: AnomalyKind,
     /// The deviation, mm. For a height it is the height itself. For a step of the acceleration it
-    /// is the displacement of the neighbouring segments by a wrong velocity that causes such a
-    /// step.
+    /// is the displacement that a wrong velocity with such a step would cause in the segments on
+    /// both sides.
     pub amount: f64,
     /// The usual deviation of the points around it, mm.
     pub usual: f64,

@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_speed_that_is_largest_within_a_segment_is_found_there() {
-        // z = t − t³/3 on −1 … 2: v = 1 − t², largest 1 at 0 but for |v(2)| = 3.
+        // z = t − t³/3 on −1 … 1 and −1 … 2: v = 1 − t², the largest amount 1 at 0, or 3 at 2.
         let point = |t: f64| ControlPoint {
             t,
             x: 5.0 - t,

@@ -13,7 +13,7 @@ use crate::cusp::Point;
 use crate::profiles::Profiles;
 use crate::touch::{ANYWHERE, FirstTouch, Touch};
 
-/// Halvings of the distance of two passes. They leave 1e-8 of it, and at most as much in the
+/// Halvings of the distance between two passes. They leave 1e-8 of it, and at most as much in the
 /// height.
 const HALVINGS: usize = 27;
 /// A point within this part of the nose radius from the contact counts as the contact.

@@ -8,8 +8,8 @@
 //! half the included angle.
 //!
 //! Around the axis the figure is the highest cusp on one line through the axis, between the passes
-//! of θ and of θ + π together, where the two sides meet. For a path that ends at the axis these are
-//! its last three turns, for a path that runs on beyond the axis five turns.
+//! of θ and of θ + π together, where the two sides meet. A path that ends at the axis has these
+//! passes in its last three turns, a path that runs on beyond the axis in five turns.
 
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
@@ -143,7 +143,7 @@ impl AxisPasses {
 /// The passes of one line where its two sides meet: where two passes that follow each other in
 /// time, one on each side, have X that add up to 0. A tilt does not change this sum, nor does it
 /// matter whether ρ is that of the centre or that of the contact. Where X moves within the turn,
-/// each line has the turn in which its sides meet for itself.
+/// the sides of each line meet in a turn of their own.
 #[derive(Debug, Clone)]
 struct AxisLine {
     /// The passes of the last turns, three turns at most, each with whether it belongs to θ + π.

@@ -54,8 +54,8 @@ impl AxesMotion {
     }
 
     /// The highest speed of the spindle at which this motion holds all limits, if nothing else
-    /// about the path changes. Leads do not scale in this way: their clearance and their smoothness
-    /// do not depend on the speed. `None` if no limit bounds the speed.
+    /// about the path changes. Leads do not scale in this way: they keep their clearance and their
+    /// own gentle limits at every speed. `None` if no limit bounds the speed.
     pub fn highest_speed(&self, machine: &Machine) -> Option<HighestSpeed> {
         let figures = self.against(machine).into_iter();
         let factors = figures.map(|figure| (figure.speed_factor(), figure.limit));

@@ -129,8 +129,8 @@ impl Meter {
 
     /// The range of radii that the path covers, from its two ends. The radius is that of the
     /// contact. Where ρ is X, it is X or the contact, whichever lies further out at the outer end
-    /// and further in at the inner end: the overrun decides which of the two ends at the part's
-    /// edge. `None` before the first block.
+    /// and further in at the inner end. Either of them may end at the part's edge, depending on the
+    /// overrun. `None` before the first block.
     pub fn reach(&self, radial: Radial) -> Result<Option<RadialRange>> {
         let Some(mut ends) = self.ends else {
             return Ok(None);

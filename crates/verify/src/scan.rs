@@ -1,5 +1,5 @@
-//! The scan: looks for the maxima of the nose's height along the edge, for profiles that may have
-//! more than one.
+//! The scan: a search for the maxima of the nose's height along the edge, where there may be more
+//! than one.
 //!
 //! Along the edge, s = X + R sin φ and H(φ) = g(θ, s) + R cos φ, whose slope is dH/dφ = g_ρ R cos φ
 //! − R sin φ. H has a maximum wherever its slope changes from positive to negative. The scan

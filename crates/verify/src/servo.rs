@@ -153,7 +153,8 @@ impl Follower {
         self.pieces.push_back(piece);
     }
 
-    /// Drops the pieces that end before `time`, delayed, and carries the lag over to the rest.
+    /// Drops the pieces that the axis, with its delay, has finished at `time`, and carries its lag
+    /// over to the next piece.
     fn advance(&mut self, time: f64) {
         let until = time - self.response.0.delay;
         while let [Some(piece), Some(next)] = [self.pieces.front(), self.pieces.get(1)] {

@@ -1,9 +1,9 @@
 //! First touch: the height of the nose centre when the tool, lowered at (C, X), meets the part.
 //!
-//! The height of the centre over a contact s of the radial profile is H(s) = g(θ, s) + sqrt(R² − (s
-//! − X)²). The contact with the largest height stops the tool. Where Rκ < 1 all over the tool's
-//! reach, H has a single maximum, which a bracketed secant finds. Elsewhere a scan of the whole
-//! reach ([`crate::scan`]) brackets every maximum that can be the largest.
+//! The height of the centre over a contact s of the radial profile is H(s) = g(θ, s) +
+//! sqrt(R² − (s − X)²). The contact with the largest height stops the tool. Where Rκ < 1 all over
+//! the tool's reach, H has a single maximum, which a bracketed secant finds. Elsewhere a scan of the
+//! whole reach ([`crate::scan`]) brackets every maximum that can be the highest.
 
 use turnpath_core::{Misfit, Result, SurfaceModel};
 

@@ -41,8 +41,9 @@ fn at_the_rim_of_a_flat_the_last_pass_leaves_the_rise_of_its_circle() {
     let (feed, turns) = (0.02, 120.0);
     let outward = bare_spiral(turns, |n| feed * n);
     let inward = bare_spiral(turns, |n| feed * (turns - n));
-    // On the section of a spiral's outer end the last pass but the end itself lies a turn further
-    // in. An inward spiral has its end on the first section, and hardly less on the next ones.
+    // The outward spiral ends on the first section. Its last point is no pass, so the last pass on
+    // this section lies a turn further in. On an inward spiral, the last section of the first turn
+    // has its pass 359/360 of a turn after the start.
     for (path, away) in [(outward, feed), (inward, feed * 359.0 / 360.0)] {
         for compensates in [true, false] {
             let touch = touch_on(FLAT, 2.5, 1.0, compensates);

@@ -15,8 +15,8 @@ use crate::touch::FirstTouch;
 const SECTIONS: i64 = 23 * 32;
 /// Fewest sections. Half of them are lines through the axis.
 const FEWEST: i64 = 2 * 23;
-/// Angle of the first section after C = 0, in widths of a section. At 0, a path that begins at C =
-/// 0 with steps of whole degrees would have points on all sections.
+/// Angle of the first section, in widths of a section after C = 0. At 0, a path that begins there
+/// and has steps of whole degrees would have points on all sections.
 const FIRST: f64 = 0.37;
 /// Largest number of passes that are kept, 16 bytes each. Beyond it, every other section is
 /// dropped.

@@ -261,7 +261,7 @@ mod on_a_surface {
         meter.advance(&parts[0]);
         let start = meter.advance(&parts[1]);
         let figures = ServoMeter::measure(&touch(), &start, &parts[1])
-            .expect("a measure")
+            .expect("figures")
             .0;
         let (amplitude, phase) = transfer(servo, 2.0 * SPINDLE);
         let turned = 2.0 * SPINDLE * AxisResponse(servo).lateness();
@@ -296,7 +296,7 @@ mod on_a_surface {
         meter.advance(&parts[0]);
         let start = meter.advance(&parts[1]);
         let later = ServoMeter::measure(&touch(), &start, &parts[1])
-            .expect("a measure")
+            .expect("figures")
             .0;
         assert!(later.max() < 1e-7, "{}", later.max());
     }
