@@ -5,8 +5,8 @@ use turnpath_core::Servo;
 use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
 use turnpath_verify::machined::MachinedFigures;
 use turnpath_verify::{
-    AxesMotion, FirstTouch, Measured, Meter, PathFigures, ServoFigures, ServoMeter, ServoStart,
-    ServoStretch,
+    AxesMotion, BlockFigures, FirstTouch, Meter, PathFigures, ServoBlockFigures, ServoFigures,
+    ServoMeter, ServoStart,
 };
 
 use crate::lead::{LeadRun, LeadSettings, Leads};
@@ -36,9 +36,9 @@ pub trait Sink: Sync {
 
 /// A block, measured and in the form of each file.
 struct Ready {
-    measured: Measured,
+    measured: BlockFigures,
     own_axes: AxesMotion,
-    served: Option<ServoStretch>,
+    served: Option<ServoBlockFigures>,
     points: usize,
     sampled: usize,
     encoded: Vec<Vec<u8>>,
@@ -133,7 +133,7 @@ fn write(
     let mut trail = Trail::default();
     if let Some(leads) = &leads {
         if let Some(servo) = &mut servo {
-            servo.pass(&leads.lead_in_and_join());
+            servo.advance(&leads.lead_in_and_join());
         }
         trail.hand_on(Section::LeadIn, &leads.lead_in(), sink)?;
     }
@@ -194,7 +194,7 @@ impl Taken {
     ) -> Result<()> {
         let (touch, own) = (&plan.prepared.touch, plan.own_angles());
         let behind: Vec<Behind> = made.iter().map(|made| trail.behind_cut(made)).collect();
-        let mut pass = |made: &Made| Some(self.servo.as_mut()?.pass(&made.points));
+        let mut pass = |made: &Made| Some(self.servo.as_mut()?.advance(&made.points));
         let starts: Vec<Option<ServoStart>> = made.iter().map(&mut pass).collect();
         let encoder: &dyn Sink = sink;
         let each = made.into_par_iter().zip(behind).zip(starts);

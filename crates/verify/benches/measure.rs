@@ -1,5 +1,5 @@
-//! How fast a path is measured: `cargo bench -p turnpath-verify`. Items are positions, segments,
-//! passes or cells; `docs/benchmarks.md` has what was measured.
+//! The speed of measuring a path: `cargo bench -p turnpath-verify`. Items are positions, segments,
+//! passes or cells. `docs/benchmarks.md` has the results.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -15,10 +15,10 @@ use turnpath_core::{DEG, NM};
 use turnpath_verify::machined::{Grid, Map, Nose};
 use turnpath_verify::{FirstTouch, Meter};
 
-/// AST-5 in 110 turns of 25 µm and steps of 9 deg.
+/// The path over AST-5: 110 turns of 25 µm in steps of 9 deg.
 const TURNS: usize = 110;
 const FEED: f64 = 0.025;
-/// Largest error of that path, which a map is told.
+/// Largest error of that path, for the map.
 const LARGEST_ERROR: f64 = 100.0 * NM;
 /// Cells of a map along each side.
 const CELLS: usize = 300;
@@ -55,13 +55,13 @@ fn playback(bencher: Bencher<'_, '_>) {
         .bench_local(|| Meter::segment_errors(&touch, black_box(&path)));
 }
 
-/// The surface's figures once the passes are known; one thread.
+/// The figures of the machined surface from known passes, in one thread.
 #[divan::bench]
 fn surface_figures(bencher: Bencher<'_, '_>) {
     let (touch, path) = (touch(), path());
     let mut meter = Meter::new(touch.clone());
-    let measured = Meter::measure(&touch, &path);
-    let appended = measured.and_then(|measured| meter.append(&measured));
+    let block = Meter::measure(&touch, &path);
+    let appended = block.and_then(|block| meter.append(&block));
     assert!(appended.is_ok());
     let passes = TURNS * 736;
     bencher
@@ -69,7 +69,7 @@ fn surface_figures(bencher: Bencher<'_, '_>) {
         .bench_local(|| one_thread(|| meter.machined()));
 }
 
-/// A map of 300 × 300 cells in one thread.
+/// Cuts a map of 300 × 300 cells in one thread.
 fn map(bencher: Bencher<'_, '_>, largest_error: f64) {
     let (touch, path) = (touch(), path());
     let part = touch.subject().part;
@@ -82,13 +82,13 @@ fn map(bencher: Bencher<'_, '_>, largest_error: f64) {
         });
 }
 
-/// Only the passes that can be the lowest.
+/// Computes only the passes that can be the lowest.
 #[divan::bench]
 fn map_cells(bencher: Bencher<'_, '_>) {
     map(bencher, LARGEST_ERROR);
 }
 
-/// Every pass within reach of a cell.
+/// Computes every pass within reach of a cell.
 #[divan::bench]
 fn map_cells_by_brute_force(bencher: Bencher<'_, '_>) {
     map(bencher, f64::INFINITY);

@@ -1,25 +1,25 @@
-//! How hard the axes work: velocity, acceleration and jerk of what is played.
+//! How hard the axes work: velocity, acceleration and jerk of the played path.
 //!
 //! Straight segments have their acceleration in impulses at the control points, where a controller
-//! blends from one rate to the next. What is told of them is the jump of the rate over the mean of
-//! both segments' times: the least acceleration that a blend can do with, from one segment's
-//! middle to the other's.
+//! blends from one rate to the next. The figure reported for them is the jump of the rate divided
+//! by the mean duration of the two segments. A blend from the middle of one segment to the middle
+//! of the next needs at least this acceleration.
 
 use turnpath_core::toolpath::{Cubic, PathBlock, Segment, SegmentShape};
 
-/// A largest amount, and where on the path it is.
+/// A largest amount and its position on the path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Peak {
     /// The amount, never negative.
     pub amount: f64,
-    /// C where it is, unwrapped, rad.
+    /// C of its position, unwrapped, rad.
     pub at_c: f64,
-    /// X where it is, mm.
+    /// X of its position, mm.
     pub at_x: f64,
 }
 
 impl Peak {
-    /// An amount at `s` of a segment.
+    /// An amount at the position `s` of a segment, 0 to 1.
     fn on(segment: &Segment, s: f64, amount: f64) -> Self {
         Self {
             amount,
@@ -28,7 +28,7 @@ impl Peak {
         }
     }
 
-    /// The larger of both; the earlier one if they are equal.
+    /// The larger of the two; `self` if they are equal.
     fn or(self, next: Self) -> Self {
         if next.amount > self.amount {
             next
@@ -38,32 +38,32 @@ impl Peak {
     }
 }
 
-/// One axis over a path, in its own unit (mm or rad) and seconds.
+/// The motion of one axis over a path, in its own unit (mm or rad) and seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisMotion {
     /// Largest speed.
     pub velocity: Peak,
-    /// Largest acceleration; between straight segments that of the slowest blend.
+    /// Largest acceleration; between straight segments, that of the slowest blend.
     pub acceleration: Peak,
-    /// Largest jerk within segments; the steps of acceleration between them are not in it, so
-    /// straight segments have none.
+    /// Largest jerk within segments. It does not include the steps of acceleration between
+    /// segments, so straight segments have none.
     pub jerk: Peak,
     /// Time integrals of the squares of velocity, acceleration and jerk.
     squares: [f64; 3],
-    /// How far it went, with its sign.
+    /// Signed travel.
     travel: f64,
     /// Time measured, s.
     time: f64,
-    /// The first and the last straight segment, where there are such.
-    outer: Option<[Straight; 2]>,
+    /// The first and the last straight segment; `None` if there are none.
+    outer: Option<[StraightSegment; 2]>,
 }
 
 /// A straight segment of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Straight {
+struct StraightSegment {
     rate: f64,
     duration: f64,
-    /// Where it begins.
+    /// Its start, with an amount of 0.
     start: Peak,
 }
 
@@ -83,7 +83,7 @@ impl AxisMotion {
         self.rms(2)
     }
 
-    /// Mean of the velocity over time, with its sign.
+    /// Mean of the velocity over time, signed.
     pub fn mean_velocity(&self) -> f64 {
         if self.time > 0.0 {
             self.travel / self.time
@@ -92,7 +92,7 @@ impl AxisMotion {
         }
     }
 
-    /// Whether straight segments were played.
+    /// Whether the path has straight segments.
     pub fn is_straight(&self) -> bool {
         self.outer.is_some()
     }
@@ -105,7 +105,7 @@ impl AxisMotion {
         }
     }
 
-    fn see(&mut self, cubic: &Cubic, segment: &Segment) {
+    fn include_cubic(&mut self, cubic: &Cubic, segment: &Segment) {
         let (once, duration) = (segment.duration.recip(), segment.duration);
         let (twice, thrice) = (once * once, once * once * once);
         let (first, last) = (cubic.bend(0.0), cubic.bend(1.0));
@@ -128,10 +128,10 @@ impl AxisMotion {
         self.time += duration;
     }
 
-    fn see_straight(&mut self, line: &Cubic, segment: &Segment) {
+    fn include_straight(&mut self, line: &Cubic, segment: &Segment) {
         let (rise, duration) = (line.slope(0.0), segment.duration);
         let rate = rise / duration;
-        let here = Straight {
+        let here = StraightSegment {
             rate,
             duration,
             start: Peak::on(segment, 0.0, 0.0),
@@ -143,8 +143,8 @@ impl AxisMotion {
         self.join([here, here]);
     }
 
-    /// Blends from the last straight segment so far into the first of those that follow.
-    fn join(&mut self, [first, last]: [Straight; 2]) {
+    /// Blends from the last straight segment so far into the first of the following segments.
+    fn join(&mut self, [first, last]: [StraightSegment; 2]) {
         let Some([begin, before]) = self.outer else {
             self.outer = Some([first, last]);
             return;
@@ -160,8 +160,8 @@ impl AxisMotion {
     }
 
     fn append(&mut self, next: &Self) {
-        if let Some(straight) = next.outer {
-            self.join(straight);
+        if let Some(outer) = next.outer {
+            self.join(outer);
         }
         self.velocity = self.velocity.or(next.velocity);
         self.acceleration = self.acceleration.or(next.acceleration);
@@ -180,7 +180,7 @@ fn mean_square_slope(cubic: &Cubic) -> f64 {
     b * b + 2.0 * b * c + (4.0 * c * c + 6.0 * b * d) / 3.0 + 3.0 * c * d + 1.8 * d * d
 }
 
-/// All three axes over a path.
+/// The motion of all three axes over a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxesMotion {
     /// C in rad.
@@ -197,7 +197,7 @@ impl AxesMotion {
         Self::between(points, [f64::NEG_INFINITY, f64::INFINITY])
     }
 
-    /// The same of the segments alone that lie between two angles of C, rad.
+    /// The motion over those segments that lie between two angles of C, rad.
     pub fn between(points: &PathBlock, [from, to]: [f64; 2]) -> Self {
         let mut motion = Self::default();
         let inside = |segment: &Segment| segment.c.value(0.0) >= from && segment.c.value(1.0) <= to;
@@ -209,15 +209,15 @@ impl AxesMotion {
             ];
             for (axis, played) in axes {
                 match points.shape {
-                    SegmentShape::Cubic => axis.see(played, &segment),
-                    SegmentShape::Linear => axis.see_straight(played, &segment),
+                    SegmentShape::Cubic => axis.include_cubic(played, &segment),
+                    SegmentShape::Linear => axis.include_straight(played, &segment),
                 }
             }
         }
         motion
     }
 
-    /// Puts the motion of the path's next stretch behind this.
+    /// Appends the motion of the path's next block.
     pub fn append(&mut self, next: &Self) {
         self.c.append(&next.c);
         self.x.append(&next.x);
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_speed_that_is_largest_within_a_segment_is_found_there() {
-        // z = t − t³/3 on −1 … 2: v = 1 − t², largest 1 at 0 but for |v(2)| = 3.
+        // z = t − t³/3 on −1 … 1 and −1 … 2: v = 1 − t², the largest amount 1 at 0, or 3 at 2.
         let point = |t: f64| ControlPoint {
             t,
             x: 5.0 - t,
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn straight_segments_have_the_blends_acceleration_also_where_stretches_join() {
+    fn straight_segments_have_the_blends_acceleration_also_where_blocks_join() {
         let polygon = |points: &[(f64, f64)]| {
             let mut block = PathBlock {
                 shape: SegmentShape::Linear,

@@ -1,27 +1,29 @@
-//! Corners of the true path: where the contact jumps over a seam, and the error has a sharp peak
-//! that lies between the instants of a playback.
+//! Corners of the true path. At a corner the contact jumps over a seam, and the error has a sharp
+//! peak that lies between two instants of the playback.
 
 use turnpath_core::Result;
 use turnpath_core::toolpath::Segment;
 
-use crate::playback::{INSTANTS, Worst};
+use crate::instants::INSTANTS;
 use crate::touch::{FirstTouch, Touch};
+use crate::worst::Worst;
 
 /// A contact that moves further than this part of the nose radius from one instant to the next may
-/// have jumped. Taking a smooth motion for a jump costs time alone.
+/// have jumped. If a smooth motion is taken for a jump, only time is lost.
 const JUMP: f64 = 2e-3;
 /// Halvings of the time between two instants.
 const HALVINGS: usize = 14;
 
-/// The time between two instants of a segment, and the contacts at both.
-struct Span {
+/// An interval of time in which the contact may jump: two times within a segment, 0 to 1, and the
+/// contacts at both.
+struct JumpInterval {
     segment: usize,
     time: [f64; 2],
     foot: [f64; 2],
 }
 
-/// The largest error at the corners of each segment, of those that have any. `touches` are those at
-/// the instants of all segments, one segment after the other.
+/// The largest error at the corners of each segment; `None` for a segment without corners.
+/// `touches` are the first touches at the instants of all segments, one segment after the other.
 pub(crate) fn at_corners(
     touch: &FirstTouch,
     segments: &[Segment],
@@ -30,14 +32,17 @@ pub(crate) fn at_corners(
     let mut found = vec![None; segments.len()];
     let ends: Vec<(usize, f64)> = (0..segments.len()).map(|segment| (segment, 1.0)).collect();
     let (ends, _) = play(touch, segments, &ends)?;
-    let mut spans = spans(touch, touches, &ends);
+    let mut intervals = jump_intervals(touch, touches, &ends);
     for _ in 0..HALVINGS {
-        let middle = |span: &Span| (span.segment, 0.5 * (span.time[0] + span.time[1]));
-        let middles: Vec<(usize, f64)> = spans.iter().map(middle).collect();
+        let middle = |interval: &JumpInterval| {
+            let [begin, end] = interval.time;
+            (interval.segment, 0.5 * (begin + end))
+        };
+        let middles: Vec<(usize, f64)> = intervals.iter().map(middle).collect();
         let (touches, errors) = play(touch, segments, &middles)?;
-        let seen = middles.iter().zip(touches.iter().zip(errors));
-        for (span, ((segment, at), (touch, error))) in spans.iter_mut().zip(seen) {
-            span.keep_jump(*at, touch.foot);
+        let results = middles.iter().zip(touches.iter().zip(errors));
+        for (interval, ((segment, at), (touch, error))) in intervals.iter_mut().zip(results) {
+            interval.keep_jump(*at, touch.foot);
             let here = Worst { error, at: *at };
             let worst: &mut Option<Worst> = &mut found[*segment];
             if worst.is_none_or(|worst| here.amount() > worst.amount()) {
@@ -48,16 +53,17 @@ pub(crate) fn at_corners(
     Ok(found)
 }
 
-/// The spans on which the contact may jump.
-fn spans(touch: &FirstTouch, touches: &[Touch], ends: &[Touch]) -> Vec<Span> {
+/// The intervals between instants in which the contact may jump. `ends` are the first touches at
+/// the ends of the segments.
+fn jump_intervals(touch: &FirstTouch, touches: &[Touch], ends: &[Touch]) -> Vec<JumpInterval> {
     let jump = JUMP * touch.subject().tool.nose_radius;
-    let mut spans = Vec::new();
+    let mut intervals = Vec::new();
     for (segment, (touches, end)) in touches.chunks(INSTANTS).zip(ends).enumerate() {
         let after = touches.iter().skip(1).chain([end]);
         for (k, (first, second)) in touches.iter().zip(after).enumerate() {
             if (second.foot - first.foot).abs() > jump {
                 let time = [k, k + 1].map(|k| k as f64 / INSTANTS as f64);
-                spans.push(Span {
+                intervals.push(JumpInterval {
                     segment,
                     time,
                     foot: [first.foot, second.foot],
@@ -65,18 +71,18 @@ fn spans(touch: &FirstTouch, touches: &[Touch], ends: &[Touch]) -> Vec<Span> {
             }
         }
     }
-    spans
+    intervals
 }
 
-impl Span {
-    /// Keeps the half on which the contact moves further.
+impl JumpInterval {
+    /// Keeps the half in which the contact moves further. `foot` is the contact at the middle.
     fn keep_jump(&mut self, at: f64, foot: f64) {
         let half = usize::from((foot - self.foot[0]).abs() >= (self.foot[1] - foot).abs());
         (self.time[half], self.foot[half]) = (at, foot);
     }
 }
 
-/// The touches at instants of segments, and played − true Z there, mm.
+/// The first touches at times within segments, and played − true Z there, mm.
 fn play(
     touch: &FirstTouch,
     segments: &[Segment],

@@ -1,14 +1,15 @@
-//! Coverage: what no pass has cut at the rim, at the hole and around the axis.
+//! Coverage: the material that no pass has cut at the rim, at the hole and around the axis.
 //!
-//! At an edge of the part the figure is the way from the wanted surface to the nearest cut, all
-//! passes of the section and of its opposite half together. It is a cusp's height where cusps are
-//! all that stands there, and does not grow with the slope. Where the nose may leave seams, it
-//! counts from what the nose can reach at best ([`crate::closing`]). A pass counts where its edge
-//! stands above the place: within the reach of half the included angle.
+//! At an edge of the part the figure is the distance from the wanted surface to the nearest cut,
+//! over all passes of the section and of its opposite half. Where cusps are all that stands there,
+//! it is a cusp's height, and it does not grow with the slope. Where the nose may leave seams, the
+//! distance is measured from the closing, the lowest surface that the nose can cut
+//! ([`crate::closing`]). A pass counts where its edge stands above the point: within the reach of
+//! half the included angle.
 //!
-//! Around the axis the figure is the highest cusp between the passes of θ and of θ + π together on
-//! one line through the axis, where they meet: of a path that ends there its last three turns, of
-//! one that runs on beyond it five.
+//! Around the axis the figure is the highest cusp on one line through the axis, between the passes
+//! of θ and of θ + π together, where the two sides meet. A path that ends at the axis has these
+//! passes in its last three turns, a path that runs on beyond the axis in five turns.
 
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
@@ -19,80 +20,81 @@ use crate::profiles::Profiles;
 use crate::residual::{Pass, Passes, ResidualFigures, SECTIONS, angle_of, highest};
 use crate::touch::FirstTouch;
 
-/// Sections of a revolution, and how many lie half a revolution further.
+/// Sections of a revolution.
 const TURN: usize = SECTIONS as usize;
+/// Sections of half a revolution.
 const HALF_TURN: usize = TURN / 2;
-/// Passes of a line, two a turn, up to where its sides meet: a spiral that ends at the axis has its
-/// widest gap between the second and the third pass of a line, and one that runs out there somewhat
-/// further out.
+/// Passes of a line, two per turn, that are kept up to the point where its two sides meet. A spiral
+/// that ends at the axis has its widest gap between the second and the third pass of a line. A
+/// spiral whose feed runs out at the axis has it somewhat further out.
 const INNERMOST: usize = 6;
-/// Passes of a line behind that are kept too, where the path goes on so far.
+/// Passes of a line that are kept after that point, if the path goes on so far.
 const BEYOND: usize = 4;
 
-/// The largest height that stays uncut somewhere.
+/// The largest uncut height at one edge of the part, or around the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Uncut {
-    /// Its height, mm; infinite where no pass reaches.
+pub struct UncutHeight {
+    /// The height, mm; infinite where no pass reaches.
     pub height: f64,
     /// Angle of its section, rad.
     pub at_theta: f64,
 }
 
-/// What a path leaves uncut, and how far it goes beyond the axis.
+/// The uncut heights that a path leaves, and how far it goes beyond the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CoverageFigures {
     /// At the rim of the aperture.
-    pub rim: Option<Uncut>,
-    /// At the hole; `None` on a part without one.
-    pub hole: Option<Uncut>,
-    /// Between the passes of both sides of the axis; `None` on a part with a hole.
-    pub centre: Option<Uncut>,
+    pub rim: Option<UncutHeight>,
+    /// At the hole; `None` on a part without a hole.
+    pub hole: Option<UncutHeight>,
+    /// Between the passes of the two sides of the axis; `None` on a part with a hole.
+    pub centre: Option<UncutHeight>,
     /// How far X as played goes below 0, mm.
     pub x_beyond_axis: f64,
     /// How far the contact goes beyond the axis, mm.
     pub contact_beyond_axis: f64,
 }
 
-/// What has been seen of a path so far; bounded, however long the path is.
+/// The coverage of a path so far. Its memory is bounded, however long the path is.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Coverage {
-    rim: Edge,
-    hole: Edge,
-    near: NearAxis,
+    rim: PartEdge,
+    hole: PartEdge,
+    around_axis: AxisPasses,
     x_beyond_axis: f64,
     contact_beyond_axis: f64,
 }
 
 impl Coverage {
-    /// What a stretch cuts.
+    /// The coverage of one block. The passes around the axis are added by [`Self::append`].
     pub fn of(touch: &FirstTouch, points: &PathBlock, passes: &Passes) -> Result<Self> {
         let part = touch.subject().part;
         let hole = match part.inner_radius > 0.0 {
-            true => Edge::of(touch, part.inner_radius, passes)?,
-            false => Edge::default(),
+            true => PartEdge::of(touch, part.inner_radius, passes)?,
+            false => PartEdge::default(),
         };
         let beyond = |least: f64, here: f64| least.max(-here);
         let played = points.segments().map(|segment| lowest(&segment.x));
         let contacts = passes.passes.iter().map(|pass| pass.foot);
         Ok(Self {
-            rim: Edge::of(touch, part.aperture_radius, passes)?,
+            rim: PartEdge::of(touch, part.aperture_radius, passes)?,
             hole,
-            near: NearAxis::default(),
+            around_axis: AxisPasses::default(),
             x_beyond_axis: played.fold(0.0, beyond),
             contact_beyond_axis: contacts.fold(0.0, beyond),
         })
     }
 
-    /// Puts the path's next stretch, with these passes, behind what has been seen.
+    /// Appends the path's next block, which has these passes.
     pub fn append(&mut self, next: &Self, passes: &Passes) {
         self.rim.append(&next.rim);
         self.hole.append(&next.hole);
         self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
         self.contact_beyond_axis = self.contact_beyond_axis.max(next.contact_beyond_axis);
-        self.near.append(passes);
+        self.around_axis.append(passes);
     }
 
-    /// What the whole path leaves uncut, and the cusps around the axis.
+    /// The coverage of the whole path, and the residual around the axis.
     pub fn figures(&self, touch: &FirstTouch) -> Result<(CoverageFigures, ResidualFigures)> {
         let mut figures = CoverageFigures {
             rim: Some(self.rim.uncut()),
@@ -104,8 +106,8 @@ impl Coverage {
             figures.hole = Some(self.hole.uncut());
             return Ok((figures, ResidualFigures::default()));
         }
-        let cusps = around_axis(touch, &self.near)?;
-        figures.centre = Some(Uncut {
+        let cusps = around_axis(touch, &self.around_axis)?;
+        figures.centre = Some(UncutHeight {
             height: cusps.highest().unwrap_or(f64::INFINITY),
             at_theta: cusps.at_theta,
         });
@@ -115,91 +117,94 @@ impl Coverage {
 
 /// The passes around the axis, on each line through it.
 #[derive(Debug, Clone)]
-struct NearAxis {
-    lines: Vec<NearLine>,
+struct AxisPasses {
+    lines: Vec<AxisLine>,
 }
 
-impl Default for NearAxis {
+impl Default for AxisPasses {
     fn default() -> Self {
         Self {
-            lines: vec![NearLine::default(); HALF_TURN],
+            lines: vec![AxisLine::default(); HALF_TURN],
         }
     }
 }
 
-impl NearAxis {
+impl AxisPasses {
     fn append(&mut self, next: &Passes) {
         for (number, pass) in (next.first..).zip(&next.passes) {
             let section = number.rem_euclid(SECTIONS) as usize;
             if let Some(line) = self.lines.get_mut(section % HALF_TURN) {
-                line.take(section >= HALF_TURN, *pass);
+                line.push(section >= HALF_TURN, *pass);
             }
         }
     }
 }
 
-/// The passes of one line where its two sides meet: where neighbours in time, one of either side,
-/// have X that add up to 0. On the sum neither a tilt counts, nor whether ρ is the centre's or the
-/// contact's; and where X moves within the turn, each line meets in a turn of its own.
+/// The passes of one line where its two sides meet: where two passes that follow each other in
+/// time, one on each side, have X that add up to 0. A tilt does not change this sum, nor does it
+/// matter whether ρ is that of the centre or that of the contact. Where X moves within the turn,
+/// the sides of each line meet in a turn of their own.
 #[derive(Debug, Clone)]
-struct NearLine {
-    /// The last turns, three at most; whether of θ + π, and the pass.
+struct AxisLine {
+    /// The passes of the last turns, three turns at most, each with whether it belongs to θ + π.
     recent: Vec<(bool, Pass)>,
-    /// Least |sum| so far.
+    /// Smallest |sum| so far, mm.
     least: f64,
+    /// The passes around the smallest sum so far.
     meeting: Vec<(bool, Pass)>,
-    /// Passes that are still to come to it.
-    wanted: usize,
+    /// Number of passes that `meeting` still lacks.
+    missing: usize,
 }
 
-impl Default for NearLine {
+impl Default for AxisLine {
     fn default() -> Self {
         Self {
             recent: Vec::new(),
             least: f64::INFINITY,
             meeting: Vec::new(),
-            wanted: BEYOND,
+            missing: BEYOND,
         }
     }
 }
 
-impl NearLine {
-    fn take(&mut self, far: bool, pass: Pass) {
+impl AxisLine {
+    /// Adds the next pass; `far` says whether it belongs to θ + π.
+    fn push(&mut self, far: bool, pass: Pass) {
         let before = self.recent.last().map(|(_, before)| before.centre.x);
         if self.recent.len() == INNERMOST {
             self.recent.remove(0);
         }
         self.recent.push((far, pass));
-        if self.wanted > 0 {
+        if self.missing > 0 {
             self.meeting.push((far, pass));
-            self.wanted -= 1;
+            self.missing -= 1;
         }
         let sum = before.map_or(f64::INFINITY, |before| (before + pass.centre.x).abs());
         if sum < self.least {
             self.least = sum;
             self.meeting.clone_from(&self.recent);
-            self.wanted = BEYOND;
+            self.missing = BEYOND;
         }
     }
 
-    /// Those of a path that ends here.
+    /// The passes where the two sides meet, if the path ends here.
     fn meeting(&self) -> &[(bool, Pass)] {
-        match self.wanted > 0 {
+        match self.missing > 0 {
             true => &self.recent,
             false => &self.meeting,
         }
     }
 }
 
-/// The nearest cut to one edge of the part, on each section.
+/// The distance from one edge of the part to the nearest cut, on each section.
 #[derive(Debug, Clone, Default)]
-struct Edge {
-    /// mm; infinite where there is none; empty where nothing was looked at.
+struct PartEdge {
+    /// Distances, mm; infinite where no pass reaches; empty if nothing was measured.
     nearest: Vec<f64>,
 }
 
-impl Edge {
-    /// What `passes` leave at one radius.
+impl PartEdge {
+    /// The distances that `passes` leave at one radius, mm.
     fn of(touch: &FirstTouch, radius: f64, passes: &Passes) -> Result<Self> {
         let tool = touch.subject().tool;
         let mut nearest = vec![f64::INFINITY; TURN];
@@ -207,12 +212,12 @@ impl Edge {
         if !passes.passes.iter().any(comes_near) {
             return Ok(Self { nearest });
         }
-        let places = ring(touch, radius)?;
+        let ring = ring(touch, radius)?;
         for (number, pass) in (passes.first..).zip(&passes.passes) {
             let section = number.rem_euclid(SECTIONS) as usize;
             let across = (section + HALF_TURN) % TURN;
             for (section, pass) in [(section, *pass), (across, pass.mirrored())] {
-                let off = places[section] - pass.centre;
+                let off = ring[section] - pass.centre;
                 let uncut = off.norm() - tool.nose_radius;
                 if off.x.abs() < tool.reach() && uncut < nearest[section] {
                     nearest[section] = uncut.max(0.0);
@@ -231,19 +236,20 @@ impl Edge {
         }
     }
 
-    /// The largest over all sections; infinite where nothing was looked at.
-    fn uncut(&self) -> Uncut {
+    /// The largest distance over all sections; infinite if nothing was measured.
+    fn uncut(&self) -> UncutHeight {
         let sections = self.nearest.iter().zip(0..);
         let highest = sections.max_by(|a, b| a.0.total_cmp(b.0));
         let (height, section) = highest.map_or((f64::INFINITY, 0), |(h, s)| (*h, s));
-        Uncut {
+        UncutHeight {
             height,
             at_theta: angle_of(section),
         }
     }
 }
 
-/// The wanted surface at one radius on every section, or the best that the nose can cut of it.
+/// The points of the wanted surface at one radius on every section; where the nose may leave seams,
+/// the points of the closing.
 fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
     let theta: Vec<f64> = (0..SECTIONS).map(angle_of).collect();
     let radii = vec![radius; TURN];
@@ -255,17 +261,17 @@ fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
             profiles.height
         }
     };
-    let places = heights.into_iter().map(|z| Point::new(radius, z));
-    Ok(places.collect())
+    let points = heights.into_iter().map(|z| Point::new(radius, z));
+    Ok(points.collect())
 }
 
 /// The highest cusp between neighbours on every line through the axis; infinite where a line has
 /// passes on one side of the axis only.
-fn around_axis(touch: &FirstTouch, near: &NearAxis) -> Result<ResidualFigures> {
+fn around_axis(touch: &FirstTouch, passes: &AxisPasses) -> Result<ResidualFigures> {
     let mut lines: Vec<Vec<Pass>> = vec![Vec::new(); HALF_TURN];
     let mut sides = [[false; 2]; HALF_TURN];
-    for ((line, sides), near) in lines.iter_mut().zip(&mut sides).zip(&near.lines) {
-        for (far, pass) in near.meeting() {
+    for ((line, sides), of_line) in lines.iter_mut().zip(&mut sides).zip(&passes.lines) {
+        for (far, pass) in of_line.meeting() {
             sides[usize::from(*far)] = true;
             line.push(if *far { pass.mirrored() } else { *pass });
         }
@@ -292,7 +298,7 @@ fn around_axis(touch: &FirstTouch, near: &NearAxis) -> Result<ResidualFigures> {
 /// The lowest value of a cubic on 0 … 1.
 pub(crate) fn lowest(cubic: &Cubic) -> f64 {
     let [_, b, c, d] = cubic.0;
-    // The slope b + 2cs + 3ds² is zero at q/3d and b/q.
+    // The slope b + 2cs + 3ds² is zero at q/(3d) and b/q.
     let root = Scalar::sqrt(c * c - 3.0 * b * d);
     let q = -(c + root.copysign(c));
     let turning = [q / (3.0 * d), b / q];

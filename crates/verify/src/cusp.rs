@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-/// A point of a radial section: (ρ, z), mm.
+/// A point in a radial section: (ρ, z), mm.
 pub type Point = Vector2<f64>;
 
 /// The lower intersection of two circles of radius `radius`; `None` where they do not meet.
@@ -18,8 +18,9 @@ pub fn between(first: Point, second: Point, radius: f64) -> Option<Point> {
     Some(0.5 * (first + second) + depth * down)
 }
 
-/// Where two neighbouring passes leave a cusp when the edge reaches no further than `reach` to
-/// either side: the crossing of their circles, or where one's edge ends before that, on the other.
+/// The tip of the cusp that two neighbouring passes leave when the tool's edge reaches no further
+/// than `reach` to either side. The tip is the crossing of their circles. If one edge ends before
+/// the crossing, the tip lies there, on the circle of the other pass.
 pub fn between_edges(first: Point, second: Point, radius: f64, reach: f64) -> Option<Point> {
     let crossing = between(first, second, radius)?;
     let (lower, upper) = (first.x.min(second.x) + reach, first.x.max(second.x) - reach);

@@ -1,14 +1,15 @@
-//! Leads: how far they stay from the part, and how smoothly they join the cut.
+//! Leads: their clearance from the part, and how smoothly they join the cut.
 //!
-//! What is between two control points of different sections belongs to the lead: its last segment
-//! ends with the first point that cuts, the lead-out's first begins with the last one.
+//! A segment between two control points of different sections belongs to the lead. The lead-in's
+//! last segment ends at the first point that cuts. The lead-out's first segment begins at the last
+//! point that cuts.
 
 use turnpath_core::Result;
 use turnpath_core::toolpath::{Cubic, PathBlock, Segment, SegmentShape};
 
 use crate::axes::AxesMotion;
 use crate::coverage::lowest;
-use crate::playback::{BATCH, INSTANTS, Room};
+use crate::instants::{BATCH, INSTANTS, InstantBatch};
 use crate::touch::FirstTouch;
 
 /// Largest steps of the acceleration from one segment to the next.
@@ -23,7 +24,7 @@ pub struct Jumps {
 }
 
 impl Jumps {
-    fn see(&mut self, before: Acceleration, after: Acceleration) {
+    fn include(&mut self, before: Acceleration, after: Acceleration) {
         self.c = self.c.max((after[0] - before[0]).abs());
         self.x = self.x.max((after[1] - before[1]).abs());
         self.z = self.z.max((after[2] - before[2]).abs());
@@ -36,24 +37,24 @@ impl Jumps {
     }
 }
 
-/// What was measured on leads.
+/// The figures of a path's leads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeadFigures {
-    /// Smallest played − first touch of Z, mm: negative where the tool would plunge, infinite
-    /// without a lead, no number where there was none.
+    /// Smallest difference of Z, played − first touch, mm. It is negative where the tool would
+    /// plunge, infinite without a lead, and NaN if the difference is NaN anywhere.
     pub clearance: f64,
-    /// C where it is, unwrapped, rad.
+    /// C of its position, unwrapped, rad.
     pub at_c: f64,
-    /// X where it is, mm.
+    /// X of its position, mm.
     pub at_x: f64,
     /// How far X as played goes below 0, mm.
     pub x_beyond_axis: f64,
-    /// Steps of the acceleration at the control points of leads, those where they join the cut
-    /// among them; nothing is told of straight segments.
+    /// Steps of the acceleration at the control points of leads, including the points where a lead
+    /// joins the cut. Zero for straight segments, which have no such steps.
     pub jumps: Jumps,
     /// Motion of the axes.
     pub axes: AxesMotion,
-    /// How many segments were measured.
+    /// Number of segments.
     pub segments: u64,
 }
 
@@ -72,14 +73,14 @@ impl Default for LeadFigures {
 }
 
 impl LeadFigures {
-    fn see(&mut self, clearance: f64, c: f64, x: f64) {
+    fn include(&mut self, clearance: f64, c: f64, x: f64) {
         if !self.clearance.is_nan() && (clearance.is_nan() || clearance < self.clearance) {
             (self.clearance, self.at_c, self.at_x) = (clearance, c, x);
         }
     }
 
     fn append(&mut self, next: &Self) {
-        self.see(next.clearance, next.at_c, next.at_x);
+        self.include(next.clearance, next.at_c, next.at_x);
         self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
         self.jumps.append(&next.jumps);
         self.axes.append(&next.axes);
@@ -90,108 +91,114 @@ impl LeadFigures {
 /// Accelerations of C, X and Z.
 type Acceleration = [f64; 3];
 
-/// The measure of one stretch of a lead.
+/// The figures of one block of a lead.
 #[derive(Debug, Clone, Default)]
-pub struct LeadStretch {
-    /// What was measured.
+pub struct LeadBlockFigures {
+    /// The figures of all its segments together.
     pub figures: LeadFigures,
     /// Smallest clearance of each segment, mm.
     pub per_segment: Vec<f64>,
-    /// Clearance of the control point with which each segment begins, mm; infinite where there is
-    /// nothing to touch.
+    /// Clearance of the first control point of each segment, mm; infinite where there is nothing
+    /// to touch.
     pub per_start: Vec<f64>,
     ends: Option<[Acceleration; 2]>,
 }
 
-/// Where the last stretch ended.
+/// The end of the last block.
 #[derive(Debug, Clone, Copy)]
-struct End {
+struct BlockEnd {
     acceleration: Acceleration,
     cutting: bool,
 }
 
-/// Measures the leads of a path, which passes it in order, cut and all.
+/// Measures the leads of a path. It needs all blocks of the path in order, those of the cut too.
 #[derive(Debug, Clone, Default)]
 pub struct LeadMeter {
     figures: LeadFigures,
-    end: Option<End>,
+    end: Option<BlockEnd>,
 }
 
 impl LeadMeter {
     /// Measures the segments between neighbouring points of a lead; can run in parallel.
     ///
-    /// Beyond the rim by more than the nose's reach there is nothing to touch, whatever the
-    /// surface's formula says of it.
-    pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<LeadStretch> {
+    /// Beyond the rim by more than the nose's reach there is nothing to touch, even if the
+    /// surface's formula has a height there.
+    pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<LeadBlockFigures> {
         let segments: Vec<Segment> = points.segments().collect();
-        let mut stretch = LeadStretch {
+        let mut block = LeadBlockFigures {
             ends: ends(points),
-            ..LeadStretch::default()
+            ..LeadBlockFigures::default()
         };
-        stretch.figures.axes = AxesMotion::of(points);
-        let mut room = Room::default();
+        block.figures.axes = AxesMotion::of(points);
+        let mut instants = InstantBatch::default();
         for batch in segments.chunks(BATCH) {
-            room.play(batch, touch)?;
+            instants.play(batch, touch)?;
             for (i, segment) in batch.iter().enumerate() {
-                let smallest = stretch.figures.play(touch, &room, i, segment);
-                stretch.per_segment.push(smallest);
-                stretch.per_start.push(at_start(touch, &room, i));
+                let smallest = block.figures.include_segment(touch, &instants, i, segment);
+                block.per_segment.push(smallest);
+                block.per_start.push(at_start(touch, &instants, i));
             }
         }
-        stretch.figures.segments = segments.len() as u64;
+        block.figures.segments = segments.len() as u64;
         let beyond = segments.iter().map(|segment| -lowest(&segment.x));
-        stretch.figures.x_beyond_axis = beyond.fold(0.0, f64::max);
+        block.figures.x_beyond_axis = beyond.fold(0.0, f64::max);
         if points.shape == SegmentShape::Cubic {
             for pair in segments.windows(2) {
                 let (before, after) = (at(&pair[0], 1.0), at(&pair[1], 0.0));
-                stretch.figures.jumps.see(before, after);
+                block.figures.jumps.include(before, after);
             }
         }
-        Ok(stretch)
+        Ok(block)
     }
 
-    /// Puts a lead's next stretch behind what has passed.
-    pub fn append(&mut self, next: &LeadStretch) {
+    /// Appends the next block of a lead.
+    pub fn append(&mut self, next: &LeadBlockFigures) {
         self.figures.append(&next.figures);
         self.follow(next.ends, false);
     }
 
-    /// The cut's next stretch passes, of which only the ends count.
-    pub fn pass(&mut self, points: &PathBlock) {
+    /// Appends the next block of the cut. Only its two ends count.
+    pub fn append_cut(&mut self, points: &PathBlock) {
         self.follow(ends(points), true);
     }
 
     fn follow(&mut self, ends: Option<[Acceleration; 2]>, cutting: bool) {
         let Some([first, last]) = ends else { return };
         if let Some(end) = self.end.filter(|end| !(end.cutting && cutting)) {
-            self.figures.jumps.see(end.acceleration, first);
+            self.figures.jumps.include(end.acceleration, first);
         }
-        self.end = Some(End {
+        self.end = Some(BlockEnd {
             acceleration: last,
             cutting,
         });
     }
 
-    /// The figures so far; none where no lead has passed.
+    /// The figures so far; `None` if the path has no lead so far.
     pub fn figures(&self) -> Option<&LeadFigures> {
         (self.figures.segments > 0).then_some(&self.figures)
     }
 }
 
 impl LeadFigures {
-    /// Takes the instants of one segment of a batch; gives the smallest clearance of them.
-    fn play(&mut self, touch: &FirstTouch, room: &Room, index: usize, segment: &Segment) -> f64 {
+    /// Includes the instants of one segment of a batch, and returns their smallest clearance.
+    fn include_segment(
+        &mut self,
+        touch: &FirstTouch,
+        instants: &InstantBatch,
+        index: usize,
+        segment: &Segment,
+    ) -> f64 {
         let part_ends = part_ends(touch);
         let mut smallest = f64::INFINITY;
-        for (k, clearance) in room.errors(index).into_iter().enumerate() {
-            let x = room.x(index, k);
+        for (k, clearance) in instants.errors(index).into_iter().enumerate() {
+            let x = instants.x(index, k);
             if x.abs() > part_ends {
                 continue;
             }
             if clearance.is_nan() || clearance < smallest {
                 smallest = clearance;
             }
-            self.see(clearance, segment.c.value(k as f64 / INSTANTS as f64), x);
+            self.include(clearance, segment.c.value(k as f64 / INSTANTS as f64), x);
             if clearance.is_nan() {
                 break;
             }
@@ -200,21 +207,21 @@ impl LeadFigures {
     }
 }
 
-/// |X| beyond which the nose has nothing of the part below it.
+/// |X| beyond which no part lies below the nose, mm.
 fn part_ends(touch: &FirstTouch) -> f64 {
     let subject = touch.subject();
     subject.part.aperture_radius + subject.tool.reach()
 }
 
-/// The clearance with which a segment of a batch begins.
-fn at_start(touch: &FirstTouch, room: &Room, index: usize) -> f64 {
-    match room.x(index, 0).abs() > part_ends(touch) {
+/// The clearance at the start of a segment of a batch.
+fn at_start(touch: &FirstTouch, instants: &InstantBatch, index: usize) -> f64 {
+    match instants.x(index, 0).abs() > part_ends(touch) {
         true => f64::INFINITY,
-        false => room.errors(index)[0],
+        false => instants.errors(index)[0],
     }
 }
 
-/// Accelerations where a stretch begins and where it ends; none of straight segments.
+/// Accelerations at the two ends of a block; `None` for straight segments.
 fn ends(points: &PathBlock) -> Option<[Acceleration; 2]> {
     if points.shape == SegmentShape::Linear {
         return None;
@@ -227,7 +234,7 @@ fn ends(points: &PathBlock) -> Option<[Acceleration; 2]> {
     Some([at(&between(0)?, 0.0), at(&last, 1.0)])
 }
 
-/// Accelerations at a place of a segment.
+/// Accelerations at the position `s` of a segment, 0 to 1.
 fn at(segment: &Segment, s: f64) -> Acceleration {
     let per_time = (segment.duration * segment.duration).recip();
     let of = |axis: &Cubic| axis.bend(s) * per_time;

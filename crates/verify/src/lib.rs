@@ -1,15 +1,19 @@
 //! Measures what a tool path cuts, apart from whatever made the path.
 //!
-//! The true tool position is found here, by the first touch of the nose on the surface; a
-//! compensator is never asked. A path comes in stretches of neighbouring control points
-//! ([`Meter::measure`], in parallel), whose measures are put together in order
-//! ([`Meter::append`]): the figures do not depend on how many threads there were.
+//! This crate finds the true tool position by the first touch of the nose on the surface. It never
+//! asks a compensator. A path comes in blocks of neighbouring control points. The blocks are
+//! measured in parallel ([`Meter::measure`]) and their figures are combined in order
+//! ([`Meter::append`]), so the figures do not depend on the number of threads.
 
+mod anomalies;
 mod axes;
+mod bracket;
 mod closing;
+mod contact_bounds;
 mod corners;
 mod coverage;
 mod cusp;
+mod instants;
 mod lead;
 mod limits;
 pub mod machined;
@@ -22,23 +26,23 @@ mod residual;
 mod scan;
 mod servo;
 mod spectrum;
-mod steep;
 mod subject;
-mod suspects;
 mod touch;
 mod unreached;
+mod worst;
 
+pub use anomalies::{Anomaly, AnomalyDetector, AnomalyKind};
 pub use axes::{AxesMotion, AxisMotion, Peak};
-pub use coverage::{CoverageFigures, Uncut};
-pub use lead::{Jumps, LeadFigures, LeadMeter, LeadStretch};
+pub use coverage::{CoverageFigures, UncutHeight};
+pub use instants::INSTANTS;
+pub use lead::{Jumps, LeadBlockFigures, LeadFigures, LeadMeter};
 pub use limits::{HighestSpeed, LimitFigure};
-pub use meter::{Measured, Meter, PathFigures};
-pub use playback::{INSTANTS, PlaybackFigures};
+pub use meter::{BlockFigures, Meter, PathFigures};
+pub use playback::PlaybackFigures;
 pub use points::PointFigures;
 pub use residual::{ResidualFigures, SECTIONS, cusp_heights};
-pub use servo::{Following, ServoFigures, ServoMeter, ServoStart, ServoStretch};
+pub use servo::{FollowingError, ServoBlockFigures, ServoFigures, ServoMeter, ServoStart};
 pub use spectrum::{AxesLine, AxesSpectrum};
 pub use subject::Subject;
-pub use suspects::{Oddity, Suspect, Suspects};
 pub use touch::{FirstTouch, Touch};
 pub use unreached::{Ride, UnreachedFigures, rides, unreached};

@@ -1,9 +1,10 @@
 //! A path's motion against a machine's limits, and how fast it can be played within them.
 //!
-//! A path's points sit at the same C whatever the spindle's speed, and its cubics scale with time:
-//! so velocity, acceleration and jerk grow with its first, second and third power, and one measured
-//! path tells the highest speed. It is not exact where the path itself looks at the speed: a law
-//! that keeps X within a limit, points on a controller's steps of time.
+//! A path's points have the same C at every speed of the spindle, and its cubics scale with time.
+//! So velocity, acceleration and jerk grow with the first, second and third power of the speed, and
+//! the highest speed follows from one measured path. It is not exact where the path itself depends
+//! on the speed: with a law that keeps X within a limit, or with points on a controller's time
+//! steps.
 
 use turnpath_core::{Axis, Derivative, Limit, Machine, Scalar};
 
@@ -14,16 +15,16 @@ use crate::axes::{AxesMotion, Peak};
 pub struct LimitFigure {
     /// What the machine can do.
     pub limit: Limit,
-    /// The largest amount; none where there is no such figure: the jerk of straight segments.
+    /// The largest amount; `None` where no such figure exists: the jerk of straight segments.
     pub peak: Option<Peak>,
 }
 
-/// How fast a path can be played.
+/// The highest speed at which a path can be played.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HighestSpeed {
     /// Mean speed of C, rad/s.
     pub speed: f64,
-    /// The limit that is reached there.
+    /// The limit that is reached at this speed.
     pub bound_by: Limit,
 }
 
@@ -33,9 +34,9 @@ impl LimitFigure {
         self.peak.map_or(0.0, |peak| peak.amount / self.limit.value)
     }
 
-    /// By how much faster the path can be played until the limit is reached: the n-th derivative
-    /// in time grows with the n-th power of the speed, since C alone says where the axes are.
-    /// Infinite where nothing moves.
+    /// The factor by which the speed can grow until the limit is reached. The n-th derivative in
+    /// time grows with the n-th power of the speed, since the positions of the axes depend on C
+    /// alone. Infinite where nothing moves.
     pub fn speed_factor(&self) -> f64 {
         let order = f64::from(self.limit.derivative.order());
         Scalar::powf(self.ratio().recip(), order.recip())
@@ -43,7 +44,7 @@ impl LimitFigure {
 }
 
 impl AxesMotion {
-    /// Each limit of the machine with the path's own figure.
+    /// Each limit of the machine with the path's largest amount.
     pub fn against(&self, machine: &Machine) -> Vec<LimitFigure> {
         let figure = |limit: Limit| LimitFigure {
             limit,
@@ -52,9 +53,9 @@ impl AxesMotion {
         machine.limits().map(figure).collect()
     }
 
-    /// The highest speed of the spindle at which all limits hold for this motion, all else of it left
-    /// as it is. Leads do not scale so: their clearance and their gentleness stay. None without a
-    /// limit that bounds it.
+    /// The highest speed of the spindle at which this motion holds all limits, if nothing else
+    /// about the path changes. Leads do not scale in this way: they keep their clearance and their
+    /// own gentle limits at every speed. `None` if no limit bounds the speed.
     pub fn highest_speed(&self, machine: &Machine) -> Option<HighestSpeed> {
         let figures = self.against(machine).into_iter();
         let factors = figures.map(|figure| (figure.speed_factor(), figure.limit));
@@ -67,7 +68,7 @@ impl AxesMotion {
             .filter(|highest| highest.speed.is_finite())
     }
 
-    /// The largest amount of a derivative; none of the jerk of straight segments.
+    /// The largest amount of a derivative; `None` for the jerk of straight segments.
     pub fn peak(&self, axis: Axis, derivative: Derivative) -> Option<Peak> {
         let motion = match axis {
             Axis::X => &self.x,
@@ -87,7 +88,7 @@ mod tests {
     use super::*;
     use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
 
-    /// z = t³ − t on 0 … 2 while C turns at `speed` times 3 rad/s, all of it `speed` times as fast.
+    /// z = t³ − t on 0 … 2 while C turns at 3 rad/s, the whole motion `speed` times as fast.
     fn played(speed: f64, shape: SegmentShape) -> AxesMotion {
         let point = |t: f64| ControlPoint {
             t: t / speed,
@@ -132,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn of_several_limits_the_tightest_for_its_order_binds() {
+    fn the_tightest_of_several_limits_for_its_order_binds() {
         let mut machine = machine(Axis::Z, Derivative::Velocity, 5.5);
         machine.z.acceleration = Some(6.0);
         machine.z.jerk = Some(3.0);

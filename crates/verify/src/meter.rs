@@ -1,4 +1,4 @@
-//! The meter: a path in stretches, measured apart and put together in order.
+//! The meter: measures the blocks of a path separately and combines their figures in order.
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{Radial, RadialRange, Result};
@@ -11,9 +11,9 @@ use crate::points::{PointFigures, point_errors};
 use crate::residual::{Passes, ResidualFigures};
 use crate::touch::FirstTouch;
 
-/// The measure of one stretch.
+/// The figures of one block of the cutting section.
 #[derive(Debug, Clone, Default)]
-pub struct Measured {
+pub struct BlockFigures {
     /// Interpolation error.
     pub playback: PlaybackFigures,
     /// Largest |error| of each segment, mm.
@@ -22,7 +22,7 @@ pub struct Measured {
     pub points: PointFigures,
     /// Z − first touch at each control point, mm.
     pub per_point: Vec<f64>,
-    /// Residual within the stretch.
+    /// Residual within the block.
     pub residual: ResidualFigures,
     /// Motion of the axes.
     pub axes: AxesMotion,
@@ -32,16 +32,16 @@ pub struct Measured {
     ends: Option<[ControlPoint; 2]>,
 }
 
-/// The measure of a whole path.
+/// The figures of a whole path.
 #[derive(Debug, Clone, Default)]
 pub struct PathFigures {
     /// Interpolation error.
     pub playback: PlaybackFigures,
     /// Error of the control points.
     pub points: PointFigures,
-    /// Residual; the cusps around the axis are in it where [`Meter::counting_centre`] says so.
+    /// Residual. It includes the cusps around the axis if [`Meter::counting_centre`] says so.
     pub residual: ResidualFigures,
-    /// What stays uncut at the part's edges and around the axis.
+    /// The material that stays uncut at the part's edges and around the axis.
     pub coverage: CoverageFigures,
     /// Motion of the axes.
     pub axes: AxesMotion,
@@ -59,7 +59,7 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// Nothing measured yet.
+    /// A meter that has measured nothing yet.
     pub fn new(touch: FirstTouch) -> Self {
         Self {
             touch,
@@ -72,52 +72,52 @@ impl Meter {
         }
     }
 
-    /// Whether the path covers the axis on purpose. The cusps between the passes of its both
-    /// sides are then residual like any other; if not, they are told by the coverage alone.
+    /// Sets whether the path is meant to cover the axis. If so, the cusps between the passes of
+    /// the two sides of the axis count as residual. If not, only the coverage reports them.
     #[must_use]
     pub fn counting_centre(mut self, counts: bool) -> Self {
         self.counts_centre = counts;
         self
     }
 
-    /// Finds first touches as this meter does.
+    /// The search for first touches that this meter uses.
     pub fn touch(&self) -> &FirstTouch {
         &self.touch
     }
 
     /// Measures the segments between neighbouring points; can run in parallel.
-    pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<Measured> {
-        let mut measured = Measured {
+    pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<BlockFigures> {
+        let mut block = BlockFigures {
             axes: AxesMotion::of(points),
             ends: ends(points),
-            ..Measured::default()
+            ..BlockFigures::default()
         };
-        measured.playback = play_back(touch, points, &mut measured.per_segment)?;
-        measured.per_point = point_errors(touch, points)?;
-        measured.points = PointFigures::of(points, &measured.per_point);
-        measured.passes = Passes::of(touch, points)?;
-        measured.residual = measured.passes.residual(touch)?;
-        measured.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
-        measured.coverage = Coverage::of(touch, points, &measured.passes)?;
-        Ok(measured)
+        block.playback = play_back(touch, points, &mut block.per_segment)?;
+        block.per_point = point_errors(touch, points)?;
+        block.points = PointFigures::of(points, &block.per_point);
+        block.passes = Passes::of(touch, points)?;
+        block.residual = block.passes.residual(touch)?;
+        block.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
+        block.coverage = Coverage::of(touch, points, &block.passes)?;
+        Ok(block)
     }
 
-    /// Only the largest |error| of each segment, for refinement.
+    /// The largest |error| of each segment alone, mm, for refinement.
     pub fn segment_errors(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
         let mut errors = Vec::new();
         play_back(touch, points, &mut errors)?;
         Ok(errors)
     }
 
-    /// Puts the path's next stretch behind what has been measured. It begins with the control
-    /// point with which the one before ended.
-    pub fn append(&mut self, next: &Measured) -> Result<()> {
+    /// Appends the path's next block. The block begins with the last control point of the block
+    /// before it.
+    pub fn append(&mut self, next: &BlockFigures) -> Result<()> {
         self.figures.playback.append(&next.playback);
-        self.figures.points.see(&next.points);
+        self.figures.points.include(&next.points);
         self.figures.axes.append(&next.axes);
         self.figures.residual.append(&next.residual);
-        let seam = self.passes.follow(&self.touch, &next.passes)?;
-        self.figures.residual.append(&seam);
+        let joint = self.passes.follow(&self.touch, &next.passes)?;
+        self.figures.residual.append(&joint);
         self.lines.append(&next.sections);
         self.coverage.append(&next.coverage, &next.passes);
         self.ends = match (self.ends, next.ends) {
@@ -127,9 +127,10 @@ impl Meter {
         Ok(())
     }
 
-    /// From which radius to which the path runs, by its two ends: of the contact, or where ρ is X,
-    /// of X or the contact, whichever is further on. A path may end with either at the part's edge,
-    /// by its overrun. `None` before anything was measured.
+    /// The range of radii that the path covers, from its two ends. The radius is that of the
+    /// contact. Where ρ is X, it is X or the contact, whichever lies further out at the outer end
+    /// and further in at the inner end. Either of them may end at the part's edge, depending on the
+    /// overrun. `None` before the first block.
     pub fn reach(&self, radial: Radial) -> Result<Option<RadialRange>> {
         let Some(mut ends) = self.ends else {
             return Ok(None);
@@ -151,7 +152,7 @@ impl Meter {
         }))
     }
 
-    /// The machined surface in figures; `None` where nothing of the part was cut.
+    /// The figures of the machined surface; `None` if the path cuts nothing of the part.
     ///
     /// # Errors
     /// When the surface fails.

@@ -7,10 +7,10 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 use turnpath_core::Scalar;
 
-/// What windows of one length have in common.
+/// The window function and the Fourier transform for windows of one length.
 pub(crate) struct Periodogram {
     window: Vec<f64>,
-    /// Sum of the window's squares.
+    /// Sum of the squares of the weights.
     power: f64,
     fft: Arc<dyn Fft<f64>>,
 }
@@ -23,12 +23,12 @@ impl Periodogram {
         Self {
             power: window.iter().map(|weight| weight * weight).sum(),
             window,
-            // Without the vector instructions that a CPU may have or not have.
+            // The scalar planner uses no vector instructions, which not every CPU has.
             fft: FftPlannerScalar::new().plan_fft_forward(count),
         }
     }
 
-    /// The one-sided density at k = 0 … n/2 of values at distances of `step`, less their `trend`.
+    /// The one-sided density at k = 0 … n/2 of values `step` apart, after `trend` is subtracted.
     pub(crate) fn densities(
         &self,
         values: &[f64],

@@ -1,8 +1,8 @@
-//! Control points: how far they lie from the true locus, apart from what is played between them.
+//! Control points: how far they lie from the true locus, whatever is played between them.
 //!
-//! A strategy may play what it likes between control points, but puts the points themselves on the
-//! locus: to rounding in a table, to half a digit in a program. A point that was moved by hand
-//! shows here long before it shows in the interpolation error.
+//! A strategy may play what it likes between control points, but it puts the points themselves on
+//! the locus: to rounding in a table, to half a digit in a program. A point that someone moved by
+//! hand shows here long before it shows in the interpolation error.
 
 use std::f64::consts::TAU;
 
@@ -14,17 +14,17 @@ use crate::touch::FirstTouch;
 /// The error of the control points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PointFigures {
-    /// Signed error of largest amount, Z of the point − first touch, mm; no number where the
+    /// The error with the largest amount, signed: Z of the point − first touch, mm. NaN where the
     /// surface has no height.
     pub extreme: f64,
-    /// C where it is, unwrapped, rad.
+    /// C of that point, unwrapped, rad.
     pub at_c: f64,
-    /// X where it is, mm.
+    /// X of that point, mm.
     pub at_x: f64,
 }
 
 impl PointFigures {
-    /// Largest amount, mm; infinite where there was no number.
+    /// Largest amount, mm; infinite if an error is NaN.
     pub fn max(&self) -> f64 {
         match self.extreme.is_nan() {
             true => f64::INFINITY,
@@ -32,11 +32,11 @@ impl PointFigures {
         }
     }
 
-    /// Of a stretch with the errors of its points.
+    /// The figures of a block, from the errors of its points.
     pub(crate) fn of(points: &PathBlock, errors: &[f64]) -> Self {
         let mut figures = Self::default();
         for (i, error) in errors.iter().enumerate() {
-            figures.see(&Self {
+            figures.include(&Self {
                 extreme: *error,
                 at_c: points.c[i],
                 at_x: points.x[i],
@@ -45,8 +45,8 @@ impl PointFigures {
         figures
     }
 
-    /// Takes what is larger.
-    pub(crate) fn see(&mut self, other: &Self) {
+    /// Keeps the larger error of the two.
+    pub(crate) fn include(&mut self, other: &Self) {
         let worse = other.extreme.is_nan() || other.extreme.abs() > self.extreme.abs();
         if !self.extreme.is_nan() && worse {
             *self = *other;
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_largest_amount_counts_and_no_number_most_of_all() {
+    fn the_largest_amount_counts_and_nan_outweighs_all() {
         let mut points = PathBlock::default();
         for c in 0..4 {
             points.push(turnpath_core::toolpath::ControlPoint {
@@ -81,7 +81,7 @@ mod tests {
         let broken = PointFigures::of(&points, &[1e-6, -3e-6, f64::NAN, 1.0]);
         assert_eq!((broken.max(), broken.at_c), (f64::INFINITY, 2.0));
         let mut both = broken;
-        both.see(&figures);
+        both.include(&figures);
         assert_eq!(both.max(), f64::INFINITY);
     }
 }

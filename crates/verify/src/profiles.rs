@@ -10,14 +10,14 @@ pub(crate) struct Profiles<'a> {
     y: Vec<f64>,
     zx: Vec<f64>,
     zy: Vec<f64>,
-    /// g at the places last asked for.
+    /// g at the points of the last call.
     pub height: Vec<f64>,
-    /// g_ρ there.
+    /// g_ρ at these points.
     pub slope: Vec<f64>,
 }
 
 impl<'a> Profiles<'a> {
-    /// For the profiles at these angles.
+    /// The profiles at these angles, rad.
     pub fn new(surface: &'a dyn SurfaceModel, theta: &[f64]) -> Self {
         let turned = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
         let empty = Vec::new;
@@ -34,28 +34,28 @@ impl<'a> Profiles<'a> {
         }
     }
 
-    /// Height and slope at one radius for each angle.
+    /// Computes height and slope at one radius for each angle.
     pub fn at_all(&mut self, rho: &[f64]) -> Result<()> {
         self.at(rho.iter().copied().enumerate())
     }
 
-    /// Height and slope at (which angle, radius).
-    pub fn at(&mut self, places: impl Iterator<Item = (usize, f64)> + Clone) -> Result<()> {
+    /// Computes height and slope at points (index of the angle, radius).
+    pub fn at(&mut self, points: impl Iterator<Item = (usize, f64)> + Clone) -> Result<()> {
         self.x.clear();
         self.y.clear();
-        for (index, rho) in places.clone() {
+        for (index, rho) in points.clone() {
             let (s, c) = self.turned[index];
             self.x.push(rho * c);
             self.y.push(rho * s);
         }
         let count = self.x.len();
-        for places in [
+        for column in [
             &mut self.height,
             &mut self.slope,
             &mut self.zx,
             &mut self.zy,
         ] {
-            places.resize(count, 0.0);
+            column.resize(count, 0.0);
         }
         let out = Gradients {
             z: &mut self.height,
@@ -63,7 +63,7 @@ impl<'a> Profiles<'a> {
             zy: &mut self.zy,
         };
         self.surface.gradient(&self.x, &self.y, out)?;
-        for (i, (index, _)) in places.enumerate() {
+        for (i, (index, _)) in points.enumerate() {
             let (s, c) = self.turned[index];
             self.slope[i] = self.zx[i] * c + self.zy[i] * s;
         }

@@ -1,25 +1,26 @@
 //! The residual: cusps between neighbouring passes along radial sections.
 //!
-//! The tool centres are at the played X with their true Z, so the figure is the spiral's own and
-//! does not mix with the interpolation error. Where the nose may leave seams, cusps count from what it
-//! can reach at best ([`crate::closing`]). The innermost turn is left out: the pair of passes
-//! that would close it lies on both sides of the axis ([`crate::coverage`]).
+//! The tool centres are at the played X with their true Z, so the figure belongs to the spiral
+//! alone and does not mix with the interpolation error. Where the nose may leave seams, cusps are
+//! measured from the closing, the lowest surface that the nose can cut ([`crate::closing`]). The
+//! innermost turn is left out: the two passes that close it lie on either side of the axis (module
+//! `coverage`).
 
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{PathBlock, Segment};
 use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
-use crate::closing::{self, Raised};
+use crate::closing::{self, SectionCusp};
 use crate::cusp::{self, Point};
 use crate::subject::Subject;
 use crate::touch::{FirstTouch, Touch};
 
-/// Radial sections of a revolution: one every degree, so that harmonics of the surface up to the
-/// 30th or so are seen at their worst to within a few hundredths.
+/// Radial sections of a revolution. One every degree shows harmonics of the surface up to about the
+/// 30th at their worst to within a few hundredths.
 pub const SECTIONS: i64 = 360;
-/// Steps from a cusp to the nearest place of the profile: each leaves (height × curvature) of the
-/// distance, which is 1e-4 or less.
+/// Steps from a cusp to the nearest point of the profile. Each step leaves (height × curvature) of
+/// the distance, which is 1e-4 or less.
 const FOOT_STEPS: usize = 5;
 /// Steps of Newton's method for the instant at which C passes a section. C is nearly linear.
 const CROSSING_STEPS: usize = 8;
@@ -27,24 +28,25 @@ const CROSSING_STEPS: usize = 8;
 /// The residual of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ResidualFigures {
-    /// Highest cusp along the profile's normal, mm; infinite where passes do not meet.
+    /// Height of the highest cusp along the profile's normal, mm; infinite where passes do not
+    /// meet.
     pub max: f64,
     /// Angle of its section, rad.
     pub at_theta: f64,
     /// Its radius, mm.
     pub at_rho: f64,
-    /// How many cusps were looked at.
+    /// Number of cusps measured.
     pub cusps: u64,
 }
 
 impl ResidualFigures {
-    /// The highest cusp, mm; `None` where no two passes were neighbours, as on a path of less
-    /// than two turns: nothing is known then, least of all that it is smooth.
+    /// Height of the highest cusp, mm. `None` if no two passes were neighbours, as on a path of
+    /// less than two turns: nothing is known about such a surface, and it need not be smooth.
     pub fn highest(&self) -> Option<f64> {
         (self.cusps > 0).then_some(self.max)
     }
 
-    /// Puts the figures of the path's next stretch behind these.
+    /// Appends the figures of the path's next block.
     pub fn append(&mut self, next: &Self) {
         self.cusps += next.cusps;
         if next.max > self.max {
@@ -53,7 +55,7 @@ impl ResidualFigures {
     }
 }
 
-/// Where the tool stood when C passed one section.
+/// The position of the tool when C passed one section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pass {
     x: f64,
@@ -62,30 +64,30 @@ pub(crate) struct Pass {
     pub(crate) foot: f64,
 }
 
-/// What two passes leave between them.
+/// The cusp between two passes.
 pub(crate) struct Cusp {
     /// Its tip.
-    place: Point,
-    /// Whether they meet at all.
+    tip: Point,
+    /// Whether the passes meet.
     meet: bool,
-    /// X of both, the lower one first.
+    /// X of both passes, the smaller one first, mm.
     ends: [f64; 2],
 }
 
 impl Pass {
-    /// With the tool at `x`, and its first touch there.
-    fn of(subject: &Subject, x: f64, found: &Touch) -> Self {
+    /// The pass with the tool at `x`, from its first touch there.
+    fn of(subject: &Subject, x: f64, touch: &Touch) -> Self {
         Self {
             x,
             centre: match subject.compensates_nose {
-                true => Point::new(x, found.z),
-                false => tangent_centre(found, subject.tool.nose_radius),
+                true => Point::new(x, touch.z),
+                false => tangent_centre(touch, subject.tool.nose_radius),
             },
-            foot: found.foot,
+            foot: touch.foot,
         }
     }
 
-    /// The same as seen from the opposite half of the section.
+    /// The same pass in the coordinates of the opposite half of the section.
     pub(crate) fn mirrored(self) -> Self {
         Self {
             x: -self.x,
@@ -98,15 +100,15 @@ impl Pass {
         let (radius, reach) = (tool.nose_radius, tool.reach());
         let tip = cusp::between_edges(self.centre, other.centre, radius, reach);
         Cusp {
-            place: tip.unwrap_or(self.centre),
+            tip: tip.unwrap_or(self.centre),
             meet: tip.is_some(),
             ends: [self.x.min(other.x), self.x.max(other.x)],
         }
     }
 }
 
-/// Passes of successive sections: pass i is that of section number `first` + i, counted from
-/// C = 0 on, [`SECTIONS`] a revolution.
+/// Passes of successive sections. Pass i belongs to section number `first` + i, counted from C = 0
+/// on, with [`SECTIONS`] sections per revolution.
 #[derive(Debug, Clone, Default)]
 pub struct Passes {
     pub(crate) first: i64,
@@ -114,7 +116,7 @@ pub struct Passes {
 }
 
 impl Passes {
-    /// The passes of a stretch of control points, its last point excluded.
+    /// The passes of a block, its last point excluded.
     pub fn of(touch: &FirstTouch, points: &PathBlock) -> Result<Self> {
         let width = TAU / SECTIONS as f64;
         let (mut numbers, mut x) = (Vec::new(), Vec::new());
@@ -139,7 +141,7 @@ impl Passes {
         })
     }
 
-    /// The residual between these passes and one another.
+    /// The residual among these passes.
     pub fn residual(&self, touch: &FirstTouch) -> Result<ResidualFigures> {
         residual_between(
             touch,
@@ -150,21 +152,21 @@ impl Passes {
         )
     }
 
-    /// Takes on the passes that follow: gives the residual between the last revolution so far and
-    /// the first of `next`, and keeps what the next call needs.
+    /// Appends the passes of the following sections. Returns the residual between the last
+    /// revolution so far and the first revolution of `next`, and keeps the last revolution alone.
     pub fn follow(&mut self, touch: &FirstTouch, next: &Passes) -> Result<ResidualFigures> {
-        let kept = self.passes.len();
+        let known = self.passes.len();
         let turn = SECTIONS as usize;
         self.extend(next);
-        let start = kept.saturating_sub(turn);
-        let seam = &self.passes[start..(kept + turn).min(self.passes.len())];
-        let earlier = &self.passes[start..kept];
-        let figures = residual_between(touch, earlier, seam, self.first + start as i64, turn)?;
+        let start = known.saturating_sub(turn);
+        let around = &self.passes[start..(known + turn).min(self.passes.len())];
+        let earlier = &self.passes[start..known];
+        let figures = residual_between(touch, earlier, around, self.first + start as i64, turn)?;
         *self = self.last_few(turn);
         Ok(figures)
     }
 
-    /// Puts the passes of the sections that follow behind these.
+    /// Appends the passes of the following sections.
     pub(crate) fn extend(&mut self, next: &Passes) {
         if self.passes.is_empty() {
             self.first = next.first;
@@ -172,7 +174,7 @@ impl Passes {
         self.passes.extend_from_slice(&next.passes);
     }
 
-    /// The last so many of them.
+    /// The last `count` passes.
     pub(crate) fn last_few(&self, count: usize) -> Self {
         let dropped = self.passes.len().saturating_sub(count);
         Self {
@@ -182,11 +184,12 @@ impl Passes {
     }
 }
 
+/// The angle of a section, rad.
 pub(crate) fn angle_of(number: i64) -> f64 {
     TAU * number.rem_euclid(SECTIONS) as f64 / SECTIONS as f64
 }
 
-/// When C passes `angle`, as a part of the segment.
+/// The instant at which C passes `angle`, as a part of the segment, 0 to 1.
 pub(crate) fn crossing(segment: &Segment, angle: f64) -> f64 {
     let (from, to) = (segment.c.value(0.0), segment.c.value(1.0));
     let mut s = (angle - from) / (to - from);
@@ -204,13 +207,13 @@ pub(crate) fn crossing(segment: &Segment, angle: f64) -> f64 {
     s
 }
 
-/// Where the nose stands that touches the profile at a contact.
+/// The centre of the nose that touches the profile at a contact.
 fn tangent_centre(touch: &Touch, radius: f64) -> Point {
     let w = (1.0 + touch.slope * touch.slope).sqrt();
     Point::new(touch.foot - radius * touch.slope / w, touch.z + radius / w)
 }
 
-/// The residual between each of `earlier` and the pass `turn` places on in `all`.
+/// The residual between each pass of `earlier` and the pass `turn` entries further on in `all`.
 fn residual_between(
     touch: &FirstTouch,
     earlier: &[Pass],
@@ -231,7 +234,7 @@ fn residual_between(
     highest(touch, &theta, &cusps)
 }
 
-/// The highest of these cusps that stand on the part, each at its angle.
+/// The residual of those of these cusps that stand on the part, each at its own angle.
 pub(crate) fn highest(
     touch: &FirstTouch,
     theta: &[f64],
@@ -244,8 +247,8 @@ pub(crate) fn highest(
     Ok(figures)
 }
 
-/// The cusp that passes at each angle leave with the tool at both X of a pair, mm, touching the
-/// surface; `None` where it stands off the part.
+/// The height, mm, of the cusp that two passes leave at each angle, with the tool touching the
+/// surface at both X of a pair, mm; `None` for a cusp that stands off the part.
 ///
 /// # Errors
 /// When the surface fails.
@@ -268,24 +271,24 @@ pub fn cusp_heights(
     Ok(found.map(|cusp| cusp.map(|cusp| cusp.max)).collect())
 }
 
-/// Each of these cusps by itself; `None` for those off the part.
+/// The residual of each of these cusps alone; `None` for a cusp off the part.
 fn each(touch: &FirstTouch, theta: &[f64], cusps: &[Cusp]) -> Result<Vec<Option<ResidualFigures>>> {
     let subject = touch.subject();
     let part = subject.part.inner_radius..=subject.part.aperture_radius;
-    let places: Vec<Point> = cusps.iter().map(|cusp| cusp.place).collect();
+    let tips: Vec<Point> = cusps.iter().map(|cusp| cusp.tip).collect();
     let (heights, feet) = match touch.leaves_seams() {
-        false => heights(subject.surface.as_ref(), theta, &places)?,
+        false => heights(subject.surface.as_ref(), theta, &tips)?,
         true => {
-            let raised = |(theta, cusp): (&f64, &Cusp)| Raised {
+            let of_section = |(theta, cusp): (&f64, &Cusp)| SectionCusp {
                 theta: *theta,
-                place: cusp.place,
+                tip: cusp.tip,
                 lower: cusp.ends[0],
                 upper: cusp.ends[1],
-                counts: cusp.meet && part.contains(&cusp.place.x.abs()),
+                counts: cusp.meet && part.contains(&cusp.tip.x.abs()),
             };
-            let raised: Vec<Raised> = theta.iter().zip(cusps).map(raised).collect();
-            let feet = places.iter().map(|place| place.x).collect();
-            (closing::heights(touch, &raised)?, feet)
+            let of_sections: Vec<SectionCusp> = theta.iter().zip(cusps).map(of_section).collect();
+            let feet = tips.iter().map(|tip| tip.x).collect();
+            (closing::heights(touch, &of_sections)?, feet)
         }
     };
     let found = theta.iter().zip(cusps).zip(heights).zip(feet);
@@ -305,7 +308,8 @@ fn each(touch: &FirstTouch, theta: &[f64], cusps: &[Cusp]) -> Result<Vec<Option<
     Ok(on_part.collect())
 }
 
-/// How far each cusp stands from its profile, and the radius of the place nearest to it.
+/// The distance of each cusp from its profile, mm, and the radius of the nearest point of the
+/// profile, mm.
 fn heights(
     surface: &dyn SurfaceModel,
     theta: &[f64],

@@ -1,11 +1,11 @@
-//! Servo: how far axes of the second order lag behind the played path, and what that leaves on
-//! the surface.
+//! Servo: how far axes of the second order lag behind the played path, and the error that this
+//! leaves on the surface.
 //!
-//! Each axis answers its command r with y, y″ + 2ζω₀y′ + ω₀²y = ω₀²r + 2ζω₀k_v r′ + k_a r″, and
-//! gives y(t − τ). For the lag e = y − r that is e″ + 2ζω₀e′ + ω₀²e = −2ζω₀(1 − k_v)r′ −
-//! (1 − k_a)r″. Between two control points the right side is a polynomial of degree 2 in time, so
-//! e is one too, and a decay: exact, whatever the segments' durations, and nought with both
-//! feed-forwards whole. Integrated piece by piece, states handed on in order.
+//! Each axis responds to its command r with y: y″ + 2ζω₀y′ + ω₀²y = ω₀²r + 2ζω₀k_v r′ + k_a r″. Its
+//! position is y(t − τ). The lag e = y − r then follows e″ + 2ζω₀e′ + ω₀²e = −2ζω₀(1 − k_v)r′ −
+//! (1 − k_a)r″. Between two control points the right side is a polynomial of degree 2 in time, so e
+//! is the sum of such a polynomial and a decay. This is exact for any duration of the segments, and
+//! zero if both feed-forwards are 1. The lag is integrated from segment to segment, in order.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use turnpath_core::toolpath::{Cubic, PathBlock, Segment};
 use turnpath_core::{AxisServo, Result, Scalar, Servo};
 
-use crate::playback::{BATCH, INSTANTS};
+use crate::instants::{BATCH, INSTANTS};
 use crate::touch::FirstTouch;
 
 /// The lag of one axis at an instant.
@@ -23,17 +23,17 @@ struct Lag {
     rate: f64,
 }
 
-/// How one axis answers.
+/// The response of one axis to its command.
 #[derive(Debug, Clone, Copy)]
-struct Answer(AxisServo);
+struct AxisResponse(AxisServo);
 
-impl Answer {
-    /// 2ζ/ω₀: the time by which a ramp is followed late without feed-forward, s.
+impl AxisResponse {
+    /// 2ζ/ω₀: the time by which the axis follows a ramp late without feed-forward, s.
     fn lateness(&self) -> f64 {
         2.0 * self.0.damping / self.0.frequency
     }
 
-    /// The part of the lag that follows the command, Σ p_i t^i, from r = Σ r_i t^i.
+    /// The forced part of the lag, Σ p_i t^i, for the command r = Σ r_i t^i.
     fn forced(&self, r: [f64; 4]) -> [f64; 3] {
         let (late, slack) = (
             self.lateness(),
@@ -50,7 +50,7 @@ impl Answer {
         [f0 - late * p1 - 2.0 * slack * p2, p1, p2]
     }
 
-    /// How a lag dies away in `time` where nothing forces it.
+    /// The lag after `time`, s, without a command that forces it.
     fn decay(&self, from: Lag, time: f64) -> Lag {
         let (w, zeta) = (self.0.frequency, self.0.damping);
         let s = zeta * w;
@@ -74,16 +74,16 @@ impl Answer {
     }
 }
 
-/// What an axis is told between two control points.
+/// The command of one axis between two control points.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct CommandPiece {
     start: f64,
     duration: f64,
-    /// Σ r_i t^i from the start on.
+    /// Coefficients of r = Σ r_i t^i, with t from the start on.
     r: [f64; 4],
 }
 
-impl Piece {
+impl CommandPiece {
     fn new(segment: &Segment, cubic: &Cubic) -> Self {
         let h = segment.duration;
         let [a, b, c, d] = cubic.0;
@@ -102,18 +102,18 @@ impl Piece {
         self.r[1] + t * (2.0 * self.r[2] + t * 3.0 * self.r[3])
     }
 
-    fn place(&self, t: f64) -> f64 {
+    fn position(&self, t: f64) -> f64 {
         self.r[0] + t * (self.r[1] + t * (self.r[2] + t * self.r[3]))
     }
 
-    /// The lag `t` after the start.
-    fn lag(&self, servo: Answer, from: Lag, t: f64) -> Lag {
-        let [p0, p1, p2] = servo.forced(self.r);
+    /// The lag at `t` after the start, from the lag at the start.
+    fn lag(&self, response: AxisResponse, from: Lag, t: f64) -> Lag {
+        let [p0, p1, p2] = response.forced(self.r);
         let free = Lag {
             e: from.e - p0,
             rate: from.rate - p1,
         };
-        let free = servo.decay(free, t);
+        let free = response.decay(free, t);
         Lag {
             e: free.e + p0 + t * (p1 + t * p2),
             rate: free.rate + p1 + 2.0 * t * p2,
@@ -121,12 +121,12 @@ impl Piece {
     }
 }
 
-/// An axis on its way: the pieces that its delay has not passed yet, and its lag where the first
-/// of them begins.
+/// An axis that follows its command: the pieces that its delayed time has not passed yet, and its
+/// lag at the start of the first of them.
 #[derive(Debug, Clone)]
 struct Follower {
-    servo: Answer,
-    pieces: VecDeque<Piece>,
+    response: AxisResponse,
+    pieces: VecDeque<CommandPiece>,
     lag: Lag,
     begun: bool,
 }
@@ -134,67 +134,70 @@ struct Follower {
 impl Follower {
     fn new(servo: AxisServo) -> Self {
         Self {
-            servo: Answer(servo),
+            response: AxisResponse(servo),
             pieces: VecDeque::new(),
             lag: Lag::default(),
             begun: false,
         }
     }
 
-    fn push(&mut self, piece: Piece) {
+    fn push(&mut self, piece: CommandPiece) {
         if !self.begun {
             self.begun = true;
-            // As if velocity and acceleration had been these for long; nothing at rest.
-            let [p0, p1, _] = self.servo.forced([piece.r[0], piece.r[1], piece.r[2], 0.0]);
+            // The lag after a long time at this velocity and acceleration; zero at rest.
+            let [p0, p1, _] = self
+                .response
+                .forced([piece.r[0], piece.r[1], piece.r[2], 0.0]);
             self.lag = Lag { e: p0, rate: p1 };
         }
         self.pieces.push_back(piece);
     }
 
-    /// Leaves behind what the axis has done `time` before.
-    fn pass(&mut self, time: f64) {
-        let until = time - self.servo.0.delay;
+    /// Drops the pieces that the axis, with its delay, has finished at `time`, and carries its lag
+    /// over to the next piece.
+    fn advance(&mut self, time: f64) {
+        let until = time - self.response.0.delay;
         while let [Some(piece), Some(next)] = [self.pieces.front(), self.pieces.get(1)] {
             if piece.end() > until {
                 break;
             }
-            self.lag = piece.lag(self.servo, self.lag, piece.duration);
-            // Straight segments change their rate at once, and y' only by what is fed forward.
+            self.lag = piece.lag(self.response, self.lag, piece.duration);
+            // Between straight segments r' jumps. y' jumps by the part that is fed forward.
             let jump = next.rate(0.0) - piece.rate(piece.duration);
-            self.lag.rate -= (1.0 - self.servo.0.acceleration_forward) * jump;
+            self.lag.rate -= (1.0 - self.response.0.acceleration_forward) * jump;
             self.pieces.pop_front();
         }
     }
 
-    /// Where the axis is at `time`; times do not decrease. Before the path it stands, or moves,
-    /// as the path begins.
+    /// The position of the axis at `time`. Times must not decrease. Before the path begins, the
+    /// axis moves at the rate with which the path begins.
     fn at(&mut self, time: f64) -> f64 {
-        self.pass(time);
+        self.advance(time);
         let Some(piece) = self.pieces.front() else {
             return f64::NAN;
         };
-        let t = time - self.servo.0.delay - piece.start;
+        let t = time - self.response.0.delay - piece.start;
         if t < 0.0 {
-            return piece.place(0.0) + piece.rate(0.0) * t + self.lag.e + self.lag.rate * t;
+            return piece.position(0.0) + piece.rate(0.0) * t + self.lag.e + self.lag.rate * t;
         }
-        piece.place(t) + piece.lag(self.servo, self.lag, t).e
+        piece.position(t) + piece.lag(self.response, self.lag, t).e
     }
 }
 
-/// Where the axes are when a stretch begins.
+/// The state of the axes at the start of a block.
 #[derive(Debug, Clone)]
 pub struct ServoStart([Follower; 3]);
 
-/// The following error of one axis, what it does − what it is told.
+/// The following error of one axis, actual − commanded position.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Following {
+pub struct FollowingError {
     /// Largest amount, mm or rad.
     pub max: f64,
     square: f64,
     time: f64,
 }
 
-impl Following {
+impl FollowingError {
     /// Root of the mean square over time, mm or rad.
     pub fn rms(&self) -> f64 {
         if self.time > 0.0 {
@@ -204,7 +207,7 @@ impl Following {
         }
     }
 
-    fn see(&mut self, error: f64, time: f64) {
+    fn include(&mut self, error: f64, time: f64) {
         self.max = self.max.max(error.abs());
         self.square += error * error * time;
         self.time += time;
@@ -217,28 +220,28 @@ impl Following {
     }
 }
 
-/// What the servo does to the cut.
+/// The effect of the servo on the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ServoFigures {
-    /// Of C, rad.
-    pub c: Following,
-    /// Of X, mm.
-    pub x: Following,
-    /// Of Z, mm.
-    pub z: Following,
-    /// Where the axes bring the tool − the true centre, along z at the C and X that they bring it
-    /// to, mm: the largest amount where it is, with its sign; no number where the tool is brought
-    /// to a place without a surface.
+    /// Following error of C, rad.
+    pub c: FollowingError,
+    /// Following error of X, mm.
+    pub x: FollowingError,
+    /// Following error of Z, mm.
+    pub z: FollowingError,
+    /// The predicted error with the largest amount, signed, mm: actual Z − the true Z of the tool
+    /// at the actual C and X. NaN if the axes bring the tool to a position where the surface has no
+    /// height.
     pub extreme: f64,
-    /// C that the axes bring it to, unwrapped, rad.
+    /// Actual C at that error, unwrapped, rad.
     pub at_c: f64,
-    /// X likewise, mm.
+    /// Actual X at that error, mm.
     pub at_x: f64,
-    error: Following,
+    error: FollowingError,
 }
 
 impl ServoFigures {
-    /// The largest predicted error, mm; infinite where there was no number.
+    /// The largest predicted error, mm; infinite if an error is NaN.
     pub fn max(&self) -> f64 {
         match self.extreme.is_nan() {
             true => f64::INFINITY,
@@ -251,7 +254,7 @@ impl ServoFigures {
         self.error.rms()
     }
 
-    fn see(&mut self, error: f64, c: f64, x: f64) {
+    fn include(&mut self, error: f64, c: f64, x: f64) {
         let worse = error.is_nan() || error.abs() > self.extreme.abs();
         if !self.extreme.is_nan() && worse {
             (self.extreme, self.at_c, self.at_x) = (error, c, x);
@@ -263,15 +266,15 @@ impl ServoFigures {
         self.x.append(&next.x);
         self.z.append(&next.z);
         self.error.append(&next.error);
-        self.see(next.extreme, next.at_c, next.at_x);
+        self.include(next.extreme, next.at_c, next.at_x);
     }
 }
 
-/// One stretch of the cut with its servo.
+/// The effect of the servo on one block of the cut.
 #[derive(Debug, Clone, Default)]
-pub struct ServoStretch(ServoFigures);
+pub struct ServoBlockFigures(ServoFigures);
 
-/// Leads the axes along a path, leads and all, and gathers what its cut comes to.
+/// Moves the axes along a whole path, leads included, and collects the figures of its cut.
 #[derive(Debug, Clone)]
 pub struct ServoMeter {
     now: ServoStart,
@@ -279,7 +282,7 @@ pub struct ServoMeter {
 }
 
 impl ServoMeter {
-    /// The path has not begun.
+    /// A meter at the start of a path.
     pub fn new(servo: &Servo) -> Self {
         let axes = [servo.c, servo.x, servo.z];
         Self {
@@ -288,45 +291,46 @@ impl ServoMeter {
         }
     }
 
-    /// The path's next stretch passes, in order; what it begins with, to measure it.
-    pub fn pass(&mut self, points: &PathBlock) -> ServoStart {
+    /// Moves the axes over the path's next block, in order. Returns their state at the start of the
+    /// block, which [`Self::measure`] needs.
+    pub fn advance(&mut self, points: &PathBlock) -> ServoStart {
         let start = self.now.clone();
         for segment in points.segments() {
             self.now.push(&segment);
             for axis in &mut self.now.0 {
-                axis.pass(segment.start);
+                axis.advance(segment.start);
             }
         }
         start
     }
 
-    /// Measures a stretch that cuts; can run in parallel.
+    /// Measures a block that cuts; can run in parallel.
     pub fn measure(
         touch: &FirstTouch,
         start: &ServoStart,
         points: &PathBlock,
-    ) -> Result<ServoStretch> {
+    ) -> Result<ServoBlockFigures> {
         let segments: Vec<Segment> = points.segments().collect();
         let (mut figures, mut axes) = (ServoFigures::default(), start.clone());
-        let (mut places, mut touches) = (Places::default(), Vec::new());
+        let (mut positions, mut touches) = (ActualPositions::default(), Vec::new());
         for batch in segments.chunks(BATCH) {
-            places.clear();
+            positions.clear();
             for segment in batch {
                 axes.push(segment);
-                axes.play(segment, &mut places, &mut figures);
+                axes.play(segment, &mut positions, &mut figures);
             }
-            touch.find(&places.theta, &places.x, &mut touches)?;
+            touch.find(&positions.theta, &positions.x, &mut touches)?;
             for (i, touch) in touches.iter().enumerate() {
-                let error = places.z[i] - touch.z;
-                figures.error.see(error, places.time[i]);
-                figures.see(error, places.c[i], places.x[i]);
+                let error = positions.z[i] - touch.z;
+                figures.error.include(error, positions.time[i]);
+                figures.include(error, positions.c[i], positions.x[i]);
             }
         }
-        Ok(ServoStretch(figures))
+        Ok(ServoBlockFigures(figures))
     }
 
-    /// Puts a stretch behind those measured so far.
-    pub fn append(&mut self, next: &ServoStretch) {
+    /// Appends the path's next block that cuts.
+    pub fn append(&mut self, next: &ServoBlockFigures) {
         self.figures.append(&next.0);
     }
 
@@ -336,17 +340,18 @@ impl ServoMeter {
     }
 }
 
-/// Where the axes bring the tool, at the instants of a batch.
+/// The positions to which the axes bring the tool, at the instants of a batch.
 #[derive(Default)]
-struct Places {
+struct ActualPositions {
     c: Vec<f64>,
     theta: Vec<f64>,
     x: Vec<f64>,
     z: Vec<f64>,
+    /// The time that each instant stands for, s.
     time: Vec<f64>,
 }
 
-impl Places {
+impl ActualPositions {
     fn clear(&mut self) {
         for column in [
             &mut self.c,
@@ -364,26 +369,31 @@ impl ServoStart {
     fn push(&mut self, segment: &Segment) {
         let cubics = [&segment.c, &segment.x, &segment.z];
         for (axis, cubic) in self.0.iter_mut().zip(cubics) {
-            axis.push(Piece::new(segment, cubic));
+            axis.push(CommandPiece::new(segment, cubic));
         }
     }
 
-    /// The instants of a segment.
-    fn play(&mut self, segment: &Segment, places: &mut Places, figures: &mut ServoFigures) {
+    /// Plays a segment: adds the positions and the following errors at its instants.
+    fn play(
+        &mut self,
+        segment: &Segment,
+        positions: &mut ActualPositions,
+        figures: &mut ServoFigures,
+    ) {
         let [c_axis, x_axis, z_axis] = &mut self.0;
         let share = segment.duration / INSTANTS as f64;
         for k in 0..INSTANTS {
             let s = k as f64 / INSTANTS as f64;
             let time = segment.start + s * segment.duration;
             let (c, x, z) = (c_axis.at(time), x_axis.at(time), z_axis.at(time));
-            figures.c.see(c - segment.c.value(s), share);
-            figures.x.see(x - segment.x.value(s), share);
-            figures.z.see(z - segment.z.value(s), share);
-            places.c.push(c);
-            places.theta.push(c.rem_euclid(TAU));
-            places.x.push(x);
-            places.z.push(z);
-            places.time.push(share);
+            figures.c.include(c - segment.c.value(s), share);
+            figures.x.include(x - segment.x.value(s), share);
+            figures.z.include(z - segment.z.value(s), share);
+            positions.c.push(c);
+            positions.theta.push(c.rem_euclid(TAU));
+            positions.x.push(x);
+            positions.z.push(z);
+            positions.time.push(share);
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Spectrum of the axes: how much X and Z move at each frequency.
 //!
-//! Welch's method (P. D. Welch, IEEE Transactions on Audio and Electroacoustics 15, 1967): the
-//! path as played, sampled at an even rate, in windows that overlap by half; each has its own
-//! straight line removed, which takes the feed out of X, and a Hann window laid over it; their
-//! densities are averaged.
+//! The method is Welch's (P. D. Welch, IEEE Transactions on Audio and Electroacoustics 15, 1967).
+//! The path as played is sampled at an even rate, in windows that overlap by half. From each window
+//! its own straight line is subtracted, which takes the feed out of X. A Hann window is applied,
+//! and the densities of all windows are averaged.
 
 use std::f64::consts::TAU;
 
@@ -11,13 +11,13 @@ use turnpath_core::toolpath::{PathBlock, Segment};
 
 use crate::periodogram::Periodogram;
 
-/// Samples a revolution: up to 256 periods a turn are resolved.
+/// Samples per revolution. They resolve up to 256 periods a turn.
 const SAMPLES_PER_TURN: usize = 512;
-/// Revolutions of a window: lines lie a sixteenth of the spindle's frequency apart, and the
-/// frequencies of what repeats each turn fall on lines.
+/// Revolutions per window. Lines lie a sixteenth of the spindle's frequency apart, and whatever
+/// repeats every turn has its frequencies on lines.
 const WINDOW_TURNS: usize = 16;
 const WINDOW: usize = SAMPLES_PER_TURN * WINDOW_TURNS;
-/// The fewest samples of a path shorter than a window that still have a spectrum.
+/// A path shorter than a window has a spectrum from this number of samples on.
 const FEWEST: usize = 4;
 
 /// One line of the spectrum of the axes.
@@ -25,29 +25,29 @@ const FEWEST: usize = 4;
 pub struct AxesLine {
     /// Hz.
     pub frequency: f64,
-    /// One-sided density of X, mm²/Hz: its integral over the frequency is the mean square about
+    /// One-sided density of X, mm²/Hz. Its integral over the frequency is the mean square about
     /// the straight lines.
     pub x: f64,
-    /// The same of Z, mm²/Hz.
+    /// One-sided density of Z, mm²/Hz.
     pub z: f64,
 }
 
-/// The one-sided power spectral density of the played X and Z, in the making: memory for one
+/// Accumulates the one-sided power spectral density of the played X and Z. It needs memory for one
 /// window, however long the path is.
 pub struct AxesSpectrum {
     /// Time between samples, s.
     step: f64,
     periodogram: Periodogram,
-    /// When the first sample of the unbroken path was, and how many there were since then.
+    /// Time of the first sample of the unbroken path, s, and the number of samples since then.
     since: Option<(f64, u64)>,
-    /// Where the last segment ended, s.
+    /// Time at the end of the last segment, s.
     end: f64,
     x: Vec<f64>,
     z: Vec<f64>,
     sum: Sums,
 }
 
-/// Densities of windows, added up.
+/// Sums of the densities of all windows.
 #[derive(Default)]
 struct Sums {
     windows: u32,
@@ -56,7 +56,8 @@ struct Sums {
 }
 
 impl AxesSpectrum {
-    /// Of a path at this speed of the spindle, rad/s; the speed decides the rate of the samples.
+    /// The spectrum of a path at this speed of the spindle, rad/s. The speed sets the sampling
+    /// rate.
     pub fn new(spindle_speed: f64) -> Self {
         Self {
             step: TAU / spindle_speed / SAMPLES_PER_TURN as f64,
@@ -69,19 +70,19 @@ impl AxesSpectrum {
         }
     }
 
-    /// Takes the segments that follow. Where time stands still for longer than a window, or a
-    /// segment does not begin where the one before ended, windows begin anew.
+    /// Adds the path's next block. A new window begins after a segment that is longer than a
+    /// window, and at a segment that does not begin where the one before it ended.
     pub fn append(&mut self, block: &PathBlock) {
         for segment in block.segments() {
             if segment.duration > WINDOW as f64 * self.step {
                 self.since = None;
                 continue;
             }
-            self.take(&segment);
+            self.sample(&segment);
         }
     }
 
-    fn take(&mut self, segment: &Segment) {
+    fn sample(&mut self, segment: &Segment) {
         let follows = (segment.start - self.end).abs() < 0.5 * self.step;
         let (first, mut count) = match self.since.filter(|_| follows) {
             Some(since) => since,
@@ -116,8 +117,8 @@ impl AxesSpectrum {
         }
     }
 
-    /// The mean of all windows, without the line at 0 Hz. A path shorter than one window is a
-    /// window by itself; of next to nothing there is no spectrum.
+    /// The mean of all windows, without the line at 0 Hz. A path shorter than one window is one
+    /// window by itself; a path of fewer than four samples has no lines.
     pub fn lines(&self) -> Vec<AxesLine> {
         let count = self.x.len();
         if self.sum.windows > 0 {
@@ -157,7 +158,7 @@ impl Sums {
     }
 }
 
-/// The straight line of least squares through values at 0, 1, 2, ….
+/// The least-squares straight line through values at 0, 1, 2, ….
 fn straight_line(values: &[f64]) -> impl Fn(usize) -> f64 + use<> {
     let count = values.len() as f64;
     let middle = 0.5 * (count - 1.0);
@@ -180,7 +181,7 @@ mod tests {
     /// The wave's amplitude, mm.
     const AMPLITUDE: f64 = 0.002;
 
-    /// X = feed + A sin 2πft, Z = 3 A cos 2πft, a control point each 4 degrees.
+    /// X = feed + A sin 2πft, Z = 3 A cos 2πft, with a control point every 4 degrees.
     fn wave(turns: usize, frequency: f64) -> PathBlock {
         let mut points = PathBlock::default();
         let speed = TAU * frequency;
@@ -215,7 +216,7 @@ mod tests {
         lines.iter().max_by(higher).unwrap().frequency
     }
 
-    /// On a line and between two of them, over whole windows and less than one.
+    /// The frequencies lie on a line and between two lines, over whole windows and less than one.
     #[test]
     fn a_wave_has_its_frequency_and_half_its_amplitudes_square() {
         for (turns, frequency) in [(100, 20.0), (100, 13.4), (16, 30.0), (7, 40.0)] {
@@ -245,16 +246,16 @@ mod tests {
         let points = wave(60, 20.0);
         let all: Vec<ControlPoint> = points.points().collect();
         let mut pieces = AxesSpectrum::new(SPEED);
-        for stretch in [0..2, 1..1500, 1499..all.len()] {
+        for range in [0..2, 1..1500, 1499..all.len()] {
             let mut block = PathBlock::default();
-            all[stretch].iter().for_each(|point| block.push(*point));
+            all[range].iter().for_each(|point| block.push(*point));
             pieces.append(&block);
         }
         assert_eq!(pieces.lines(), spectrum(&points));
     }
 
     #[test]
-    fn a_hole_in_time_is_not_sampled() {
+    fn a_gap_in_time_is_not_sampled() {
         let mut points = wave(40, 20.0);
         let middle = points.len() / 2;
         for t in &mut points.t[middle..] {
@@ -265,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn of_nothing_there_is_no_spectrum() {
+    fn an_empty_path_has_no_spectrum() {
         assert!(spectrum(&PathBlock::default()).is_empty());
     }
 }

@@ -1,47 +1,49 @@
-//! First touch: how high the nose centre stands when the tool, lowered at (C, X), meets the part.
+//! First touch: the height of the nose centre when the tool, lowered at (C, X), meets the part.
 //!
 //! The height of the centre over a contact s of the radial profile is H(s) = g(θ, s) +
-//! sqrt(R² − (s − X)²), and the tool is stopped by the largest one. Where Rκ < 1 all over the
-//! tool's reach, H has a single maximum, which a bracketed secant finds; elsewhere a scan of the
-//! whole reach ([`crate::scan`]) brackets every maximum that can be the largest.
+//! sqrt(R² − (s − X)²). The contact with the largest height stops the tool. Where Rκ < 1 all over
+//! the tool's reach, H has a single maximum, which a bracketed secant finds. Elsewhere a scan of the
+//! whole reach ([`crate::scan`]) brackets every maximum that can be the highest.
 
-use turnpath_core::{Misfit, Result, SurfaceModel, Tool};
+use turnpath_core::{Misfit, Result, SurfaceModel};
 
-use crate::Subject;
+use crate::bracket::Bracket;
+use crate::contact_bounds;
 use crate::profiles::Profiles;
 use crate::scan;
-use crate::steep;
+use crate::subject::Subject;
 
-/// The secant stops when it moves less than this part of the nose radius. The height is wrong by
-/// the square of it: 1e-16 of the radius.
+/// The secant stops when it moves less than this part of the nose radius. The error of the height
+/// is the square of this: 1e-16 of the radius.
 const FOOT_TOLERANCE: f64 = 1e-8;
-/// Most steps of the search, and from where on every second one halves the bracket: that alone
-/// reaches [`FOOT_TOLERANCE`] in 28 halvings.
+/// Largest number of steps of the search.
 const MOST_STEPS: usize = 80;
+/// After this many steps every second one halves the bracket. Halving alone reaches
+/// [`FOOT_TOLERANCE`] in 28 steps.
 const PATIENCE: usize = 16;
-/// Angles and radii at which the profile's curvature is looked at before a single maximum is
-/// taken for granted.
-const LOOK: (usize, usize) = (90, 400);
-/// Rκ up to which a single maximum is taken for granted, a little below 1 for what lies between
-/// the places looked at.
+/// Angles and radii at which the profile's curvature is computed, to find out whether the height
+/// has a single maximum.
+const CURVATURE_GRID: (usize, usize) = (90, 400);
+/// Rκ up to which the height is taken to have a single maximum. It is a little below 1, since the
+/// curvature may be larger between the points of the grid.
 const LARGEST_FIT: f64 = 0.95;
 
 /// Finds first touches of one tool on one surface.
 #[derive(Clone)]
 pub struct FirstTouch {
     subject: Subject,
-    /// |X| up to which the profile is known to leave a single maximum; below 0: nowhere.
+    /// |X| up to which the height is known to have a single maximum, mm; negative: nowhere.
     single_to: f64,
-    /// Contacts are no further from X than this, mm,
+    /// Largest distance of a contact from X, mm, for |X| up to `contact_to`.
     contact: f64,
-    /// for |X| up to this, mm.
+    /// |X| up to which `contact` holds, mm.
     contact_to: f64,
 }
 
-/// Where the tool is stopped.
+/// The position at which the part stops the tool.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Touch {
-    /// Z of the nose centre, mm; with a point for a tool, of the point.
+    /// Z of the nose centre, mm; Z of the contact if the path is that of the contact.
     pub z: f64,
     /// Radius of the contact, mm; negative beyond the axis.
     pub foot: f64,
@@ -57,12 +59,15 @@ impl Touch {
     };
 }
 
-/// Bounds of a contact of which nothing is known.
+/// The bounds of a contact when nothing is known about it.
 pub(crate) const ANYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 impl FirstTouch {
-    /// Quickest for tool positions whose X lies within the aperture, or beyond it by what a normal
-    /// to the rim takes: the nose radius.
+    /// A search that is fastest for tool positions whose |X| exceeds the aperture's radius by no
+    /// more than the nose radius: a normal to the rim leads no further.
+    ///
+    /// # Errors
+    /// Where the surface fails.
     pub fn new(subject: Subject) -> Result<Self> {
         let (radius, rim) = (subject.tool.nose_radius, subject.part.aperture_radius);
         let fits = || -> Result<bool> {
@@ -72,12 +77,12 @@ impl FirstTouch {
         let single = match (subject.compensates_nose, subject.tool.misfit) {
             (false, _) => true,
             (true, Misfit::Refuse) => fits()?,
-            // Seams may be sharper than any look at curvatures sees.
+            // A seam can be so sharp that no grid of curvatures shows it.
             (true, Misfit::CutWhatFits) => false,
         };
         let contact = match single {
             true => subject.tool.reach(),
-            false => steep::farthest_contact(&subject, rim + 2.0 * radius)?,
+            false => contact_bounds::farthest_contact(&subject, rim + 2.0 * radius)?,
         };
         Ok(Self {
             subject,
@@ -87,28 +92,31 @@ impl FirstTouch {
         })
     }
 
-    /// What is measured.
+    /// The surface, the part and the tool.
     pub fn subject(&self) -> &Subject {
         &self.subject
     }
 
-    /// Whether the profile leaves a single maximum everywhere, so that no scan is needed.
-    pub fn is_single(&self) -> bool {
+    /// Whether the height has a single maximum everywhere on the part, so that no scan is needed.
+    pub fn has_single_maximum(&self) -> bool {
         self.single_to >= 0.0
     }
 
-    /// Whether the nose may leave something standing that no pass of it reaches.
+    /// Whether the nose may leave material that no pass of it can reach.
     pub fn leaves_seams(&self) -> bool {
         self.subject.tool.misfit == Misfit::CutWhatFits && self.subject.compensates_nose
     }
 
-    /// The first touch at each (θ, X); NaN where the surface has no height below the nose.
+    /// Finds the first touch at each (θ, X); NaN where the surface has no height below the nose.
+    ///
+    /// # Errors
+    /// Where the surface fails.
     pub fn find(&self, theta: &[f64], x: &[f64], out: &mut Vec<Touch>) -> Result<()> {
         self.find_within(theta, x, |_| ANYWHERE, out)
     }
 
-    /// The same where the contact of each is known to lie `within` two radii, those of the contacts
-    /// with the nose further in and further out: the contact moves outward with X.
+    /// Like [`Self::find`] where each contact is known to lie `within` two radii: those of the
+    /// contacts at a smaller and at a larger X, since the contact moves outward as X grows.
     pub(crate) fn find_within(
         &self,
         theta: &[f64],
@@ -121,17 +129,17 @@ impl FirstTouch {
         out.resize(x.len(), Touch::NOWHERE);
         let tool = &self.subject.tool;
         if !self.subject.compensates_nose {
-            bare(&mut profiles, x, out)
+            on_surface(&mut profiles, x, out)
         } else if x.iter().all(|x| x.abs() <= self.single_to) {
             let mut brackets = Bracket::of_reach(tool, x);
             close_in(&mut profiles, tool.nose_radius, x, &mut brackets, out)
         } else {
             let within = |point: usize| self.narrowed(x[point], within(point));
-            let mut hills = scan::hills(&mut profiles, tool, x, within)?;
-            let mut tops = vec![Touch::NOWHERE; hills.len()];
-            close_in(&mut profiles, tool.nose_radius, x, &mut hills, &mut tops)?;
-            for (hill, top) in hills.iter().zip(tops) {
-                let touch = &mut out[hill.point];
+            let mut maxima = scan::maxima(&mut profiles, tool, x, within)?;
+            let mut tops = vec![Touch::NOWHERE; maxima.len()];
+            close_in(&mut profiles, tool.nose_radius, x, &mut maxima, &mut tops)?;
+            for (maximum, top) in maxima.iter().zip(tops) {
+                let touch = &mut out[maximum.point];
                 if touch.z.is_nan() || top.z > touch.z {
                     *touch = top;
                 }
@@ -140,7 +148,7 @@ impl FirstTouch {
         }
     }
 
-    /// Bounds of the contact with the nose at `x`, by what the slopes allow.
+    /// Narrows the bounds of the contact with the nose at `x` to what the surface's slopes allow.
     fn narrowed(&self, x: f64, (low, high): (f64, f64)) -> (f64, f64) {
         match x.abs() <= self.contact_to {
             true => (low.max(x - self.contact), high.min(x + self.contact)),
@@ -149,8 +157,8 @@ impl FirstTouch {
     }
 }
 
-/// The touch of a point: the surface itself.
-fn bare(profiles: &mut Profiles<'_>, x: &[f64], out: &mut [Touch]) -> Result<()> {
+/// The touches on the path of the contact: points of the surface itself.
+fn on_surface(profiles: &mut Profiles<'_>, x: &[f64], out: &mut [Touch]) -> Result<()> {
     profiles.at_all(x)?;
     for (i, touch) in out.iter_mut().enumerate() {
         *touch = Touch {
@@ -162,39 +170,19 @@ fn bare(profiles: &mut Profiles<'_>, x: &[f64], out: &mut [Touch]) -> Result<()>
     Ok(())
 }
 
-/// Where a maximum lies.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Bracket {
-    /// Of which (θ, X).
-    pub point: usize,
-    pub low: f64,
-    pub high: f64,
-    /// A place in it where the surface has a height.
-    pub start: f64,
-}
-
-impl Bracket {
-    fn of_reach(tool: &Tool, x: &[f64]) -> Vec<Self> {
-        let reach = tool.reach();
-        let around = |(point, x): (usize, &f64)| Self {
-            point,
-            low: x - reach,
-            high: x + reach,
-            start: *x,
-        };
-        x.iter().enumerate().map(around).collect()
-    }
-}
-
-/// One search: F(s) = g_ρ q − (s − X), q = sqrt(R² − (s − X)²), falls through zero at a maximum.
+/// One search in one bracket: F(s) = g_ρ q − (s − X), with q = sqrt(R² − (s − X)²), falls through
+/// zero at a maximum.
 #[derive(Clone, Copy)]
 struct Search {
+    /// Index of the bracket.
     bracket: usize,
+    /// The present s.
     at: f64,
+    /// The previous s, and F there.
     before: Option<(f64, f64)>,
 }
 
-/// Closes in on the maximum in every bracket; `out` has a place for each.
+/// Closes in on the maximum in every bracket. `out` has one entry for each bracket.
 fn close_in(
     profiles: &mut Profiles<'_>,
     radius: f64,
@@ -228,16 +216,16 @@ fn close_in(
                     slope,
                 };
             }
-            let seen = Seen {
+            let here = Evaluation {
                 fall: slope * lift - offset,
                 by_normal: x[bracket.point] + radius * slope / (1.0 + slope * slope).sqrt(),
             };
             let halve = step > PATIENCE && step % 2 == 0;
-            let next = search.next(&seen, bracket, halve);
+            let next = search.next(&here, bracket, halve);
             if (next - search.at).abs() <= FOOT_TOLERANCE * radius {
                 return false;
             }
-            search.before = Some((search.at, seen.fall));
+            search.before = Some((search.at, here.fall));
             search.at = next;
             true
         });
@@ -245,29 +233,30 @@ fn close_in(
     Ok(())
 }
 
-/// What a search finds at one place.
-struct Seen {
-    /// F there.
+/// The values of one step of a search.
+struct Evaluation {
+    /// F at the present s.
     fall: f64,
-    /// Where the normal through this contact leads: the first guess of a better one.
+    /// The next s by the normal through this contact: the first guess.
     by_normal: f64,
 }
 
 impl Search {
-    /// The next place: by the normal through the contact at first, then by the secant; the middle
-    /// of the bracket where either leaves it, or when it is time to halve. Where the surface has
-    /// no value the bracket shrinks towards its start, which had one.
-    fn next(&self, seen: &Seen, bracket: &mut Bracket, halve: bool) -> f64 {
-        let nowhere = seen.fall.is_nan();
-        if seen.fall > 0.0 || (nowhere && self.at < bracket.start) {
+    /// The next s. The first step follows the normal through the contact, later steps the secant.
+    /// If the proposed s lies outside the bracket, or `halve` is set, the next s is the middle of
+    /// the bracket. Where the surface has no value, the bracket shrinks towards its start, where
+    /// the surface has one.
+    fn next(&self, here: &Evaluation, bracket: &mut Bracket, halve: bool) -> f64 {
+        let nowhere = here.fall.is_nan();
+        if here.fall > 0.0 || (nowhere && self.at < bracket.start) {
             bracket.low = self.at;
-        } else if seen.fall < 0.0 || (nowhere && self.at > bracket.start) {
+        } else if here.fall < 0.0 || (nowhere && self.at > bracket.start) {
             bracket.high = self.at;
         }
         let proposed = match self.before {
-            None => seen.by_normal,
-            Some((at, then)) if then != seen.fall => {
-                self.at - seen.fall * (self.at - at) / (seen.fall - then)
+            None => here.by_normal,
+            Some((at, then)) if then != here.fall => {
+                self.at - here.fall * (self.at - at) / (here.fall - then)
             }
             Some(_) => self.at,
         };
@@ -279,9 +268,10 @@ impl Search {
     }
 }
 
-/// The largest curvature of the radial profiles out to ±`reach`; `None` where there is no value.
+/// The largest curvature of the radial profiles out to ±`reach`; `None` if one of them is not
+/// finite.
 fn largest_curvature(surface: &dyn SurfaceModel, reach: f64) -> Result<Option<f64>> {
-    let (angles, radii) = LOOK;
+    let (angles, radii) = CURVATURE_GRID;
     let mut largest = f64::NEG_INFINITY;
     let mut profiles = vec![turnpath_core::locus::Profile::default(); angles];
     let theta: Vec<f64> = (0..angles)

@@ -18,31 +18,32 @@ fn coverage(touch: &FirstTouch, path: &PathBlock) -> CoverageFigures {
     figures(touch, path).coverage
 }
 
-/// The figures with the cusps around the axis among the residual.
+/// The figures with the cusps around the axis counted as residual.
 fn with_centre(touch: &FirstTouch, path: &PathBlock) -> PathFigures {
     let mut meter = Meter::new(touch.clone()).counting_centre(true);
-    let measured = Meter::measure(touch, path).unwrap();
-    meter.append(&measured).unwrap();
+    let block = Meter::measure(touch, path).unwrap();
+    meter.append(&block).unwrap();
     meter.figures().unwrap()
 }
 
-/// What a nose of 1 mm leaves at a place of a flat whose nearest contact is `away`.
+/// The height that a nose of 1 mm leaves at a point of a flat, `away` from the nearest contact.
 fn left_at(away: f64) -> f64 {
     (1.0 + away * away).sqrt() - 1.0
 }
 
-/// The cusp between contacts of a nose of 1 mm on a flat.
+/// The cusp between two contacts of a nose of 1 mm on a flat.
 fn cusp(apart: f64) -> f64 {
     1.0 - (1.0 - 0.25 * apart * apart).sqrt()
 }
 
 #[test]
-fn at_the_rim_of_a_flat_the_last_pass_leaves_what_its_circle_does() {
+fn at_the_rim_of_a_flat_the_last_pass_leaves_the_rise_of_its_circle() {
     let (feed, turns) = (0.02, 120.0);
     let outward = bare_spiral(turns, |n| feed * n);
     let inward = bare_spiral(turns, |n| feed * (turns - n));
-    // On the section of a spiral's outer end the last pass lies a turn further in, but for the
-    // end itself; on the way inward the first section has it, and the next ones hardly less.
+    // The outward spiral ends on the first section. Its last point is no pass, so the last pass on
+    // this section lies a turn further in. On an inward spiral, the last section of the first turn
+    // has its pass 359/360 of a turn after the start.
     for (path, away) in [(outward, feed), (inward, feed * 359.0 / 360.0)] {
         for compensates in [true, false] {
             let touch = touch_on(FLAT, 2.5, 1.0, compensates);
@@ -58,14 +59,14 @@ fn on_a_slope_the_rim_is_measured_from_the_surface_not_along_z() {
     let rim = coverage(&touch, &bare_spiral(122.5, |n| feed * n))
         .rim
         .unwrap();
-    // The path ends at 180 degrees: there, or a degree on, the last pass lies a turn further in.
+    // The path ends at 180 degrees. There, or a degree on, the last pass lies a turn further in.
     let known = left_at(2f64.sqrt() * (0.05 + feed));
     assert!((rim.height / known - 1.0).abs() < 2e-3);
     assert!((rim.at_theta - 180.0 * DEG).abs() < 1.5 * DEG);
 }
 
-/// A path that ends at X = a contacts AST-5 only out to 2.17 mm where it falls outward: the rim
-/// itself lies 67 um below the nose.
+/// A path that ends at X = a touches AST-5 only out to 2.17 mm where the surface falls outward. The
+/// rim itself lies 67 um below the nose.
 #[test]
 fn a_path_to_the_aperture_leaves_67_um_at_the_rim_of_ast_5() {
     let feed = 1e-4;
@@ -79,14 +80,14 @@ fn a_path_to_the_aperture_leaves_67_um_at_the_rim_of_ast_5() {
 
 #[test]
 fn passes_of_the_opposite_half_count_where_they_reach() {
-    // The path stands still at X = −0.3 on one half: it cuts the rim of a part of 0.3 opposite.
+    // The path stands still at X = −0.3 on one half. It cuts the opposite rim of a part of 0.3 mm.
     let touch = touch_on(FLAT, 0.3, 1.0, true);
     let rim = coverage(&touch, &bare_spiral(2.0, |_| -0.3)).rim.unwrap();
     assert!(rim.height < 1e-15);
 }
 
 #[test]
-fn an_edge_that_no_pass_reaches_is_uncut_without_end() {
+fn an_edge_that_no_pass_reaches_has_an_infinite_uncut_height() {
     let narrow = |degrees: f64| Tool {
         nose_radius: 1.0,
         included_angle: Some(degrees * DEG),
@@ -110,7 +111,7 @@ fn a_path_of_less_than_a_turn_covers_nothing_all_around() {
 }
 
 #[test]
-fn at_a_hole_the_innermost_pass_leaves_what_its_circle_does() {
+fn at_a_hole_the_innermost_pass_leaves_the_rise_of_its_circle() {
     let touch = FirstTouch::new(Subject {
         part: Part {
             aperture_radius: 2.5,
@@ -126,7 +127,7 @@ fn at_a_hole_the_innermost_pass_leaves_what_its_circle_does() {
     assert!((hole / left_at(0.12) - 1.0).abs() < 2e-3);
 }
 
-/// Sections are a degree apart, so the widest gap is seen a degree before it closes.
+/// Sections are a degree apart, so the widest measured gap is that of a degree before it closes.
 #[test]
 fn a_spiral_that_ends_at_the_axis_leaves_a_gap_of_one_and_a_half_feeds() {
     let feed = 0.02;
@@ -154,13 +155,13 @@ fn a_turn_on_the_axis_closes_the_gap() {
     let touch = touch_on(FLAT, 2.5, 1.0, true);
     let path = bare_spiral(101.0, |n| feed * (n - 1.0).max(0.0));
     let found = with_centre(&touch, &path);
-    // Sixty points a turn play the kink a thousandth of a feed off.
+    // With sixty points a turn, the kink is played a thousandth of a feed off.
     let centre = found.coverage.centre.unwrap().height;
     assert!((centre / cusp(feed) - 1.0).abs() < 3e-3);
     assert_eq!(found.residual.max, centre);
 }
 
-/// The axis lies between many turns then, whose passes from both sides halve the gaps.
+/// The axis then lies between many turns, whose passes from both sides halve the gaps.
 #[test]
 fn a_path_that_runs_on_beyond_the_axis_is_judged_at_the_axis() {
     let feed = 0.02;
@@ -181,7 +182,7 @@ fn a_path_that_runs_on_beyond_the_axis_is_judged_at_the_axis() {
 fn around_the_axis_of_a_tilted_plane_cusps_are_those_between_contacts() {
     let feed = 0.02;
     let touch = touch_on(TILTED, 1.0, 1.0, true);
-    // Normal compensation: the contact's radius grows evenly, and X lies beside it.
+    // With normal compensation the contact's radius grows evenly, and X lies beside it.
     let path = bare_spiral(50.0, |n| {
         let slope = Scalar::cos(std::f64::consts::TAU * n);
         feed * n - slope / (1.0 + slope * slope).sqrt()
@@ -190,14 +191,14 @@ fn around_the_axis_of_a_tilted_plane_cusps_are_those_between_contacts() {
     let slope = Scalar::cos(179.0 * DEG);
     let gap = feed * (1.5 - 1.0 / 180.0) * (1.0 + slope * slope).sqrt();
     let height = found.centre.unwrap().height;
-    // Sixty points a turn play the bent X to some micrometres.
+    // With sixty points a turn, the bent X is played to some micrometres.
     assert!((height / cusp(gap) - 1.0).abs() < 1e-3, "{height}");
     let beyond = 0.5f64.sqrt();
     assert!((found.x_beyond_axis - beyond).abs() < 1e-3 * beyond);
     assert!(found.contact_beyond_axis < 1e-3 * feed);
 }
 
-/// Then contacts around the axis come of passes far from it: on this slope 0.7 mm.
+/// On this slope the contacts around the axis come from passes 0.7 mm away from it.
 #[test]
 fn around_the_axis_of_a_tilted_plane_the_innermost_turns_count_wherever_they_touch() {
     let feed = 0.02;
@@ -210,8 +211,8 @@ fn around_the_axis_of_a_tilted_plane_the_innermost_turns_count_wherever_they_tou
     assert!(crosses < 1.01 * cusp(2f64.sqrt() * feed), "{crosses}");
 }
 
-/// Where X moves within the turn, fast angles reach the axis many turns before slow ones, and have
-/// gone far beyond it when the path ends. The widest gap is the fastest angle's feed.
+/// Where X moves within the turn, fast angles reach the axis many turns before slow ones, and are
+/// far beyond it when the path ends. The widest gap is the feed of the fastest angle.
 #[test]
 fn each_line_is_judged_by_the_turns_that_meet_on_it() {
     let feed = 0.02;
@@ -237,7 +238,7 @@ fn a_path_that_ends_before_the_axis_leaves_it_uncut() {
 }
 
 #[test]
-fn a_start_beyond_the_axis_is_told_with_its_contact() {
+fn a_start_beyond_the_axis_is_reported_with_its_contact() {
     let beyond = 12.3 * UM;
     let ball = touch_on(Ball { radius: 4.0 }, 1.0, 1.0, true);
     let path = bare_spiral(30.0, |n| 0.02 * n - beyond);

@@ -61,8 +61,8 @@ fn a_path_of_less_than_a_turn_has_no_cusps() {
     assert_eq!((found.cusps, found.max), (0, 0.0));
 }
 
-/// The smallest feed over all angles that leaves 100 nm on AST-5 under a nose of 1 mm: by the law
-/// of the centre, κ and w at the foot, or by that of the contact at X itself.
+/// The smallest feed over all angles that leaves 100 nm on AST-5 under a nose of 1 mm. The law of
+/// the centre takes κ and w at the foot, the law of the contact takes them at X itself.
 fn smallest_feed(of_centre: bool, x: f64) -> f64 {
     let feed = |degrees: usize| {
         let theta = DEG * degrees as f64;
@@ -79,7 +79,7 @@ fn smallest_feed(of_centre: bool, x: f64) -> f64 {
     (0..180).map(feed).fold(f64::INFINITY, f64::min)
 }
 
-/// X against revolutions for dX/dN = the smallest feed at X.
+/// X as a function of revolutions, for dX/dN = the smallest feed at X.
 fn spiral_with(of_centre: bool) -> impl Fn(f64) -> f64 {
     let (step, mut x) = (0.25, 0.0);
     let mut table = vec![x];
@@ -89,9 +89,9 @@ fn spiral_with(of_centre: bool) -> impl Fn(f64) -> f64 {
         table.push(x);
     }
     move |n: f64| {
-        let place = (n / step).max(0.0);
-        let k = (place as usize).min(table.len() - 2);
-        table[k] + (place - k as f64) * (table[k + 1] - table[k])
+        let position = (n / step).max(0.0);
+        let k = (position as usize).min(table.len() - 2);
+        table[k] + (position - k as f64) * (table[k + 1] - table[k])
     }
 }
 

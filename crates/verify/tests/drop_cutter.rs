@@ -22,15 +22,15 @@ fn touch_of(case: &Case) -> FirstTouch {
     .unwrap()
 }
 
-/// Where the nose fits and where it rides on two flanks: the search that needs no scan, and the
-/// scan.
+/// The cases cover the search without a scan, where the nose fits, and the scan, where the nose
+/// rides on two flanks.
 #[test]
 fn first_touches_agree_with_a_drop_cutter_within_its_meshs_error() {
     let cases = drop_cutter::cases();
     assert_eq!(cases.len(), 35);
     for case in cases {
         let touch = touch_of(&case);
-        assert_eq!(touch.is_single(), case.fits, "{}", case.name);
+        assert_eq!(touch.has_single_maximum(), case.fits, "{}", case.name);
         let mut found = Vec::new();
         touch.find(&case.theta, &case.x, &mut found).unwrap();
         case.assert_agrees(found.iter().map(|touch| touch.z));

@@ -10,7 +10,7 @@ use turnpath_core::{DEG, NM};
 const STEP: f64 = 9.0 * DEG;
 const RIM: f64 = 2.5;
 
-/// AST-5 at 9 deg steps with exact velocities: the turn at the rim itself.
+/// The turn at the rim of AST-5, in steps of 9 deg with exact velocities.
 #[test]
 fn one_turn_of_ast_5_has_the_known_errors() {
     for (nose, known) in [(0.0, 12.507), (1.0, 30.436)] {
@@ -21,7 +21,7 @@ fn one_turn_of_ast_5_has_the_known_errors() {
     }
 }
 
-/// The same on a spiral with the feed of the contact law, 24.7 µm, which ends at the rim.
+/// A spiral with the feed of the contact law, 24.7 µm, which ends at the rim.
 #[test]
 fn a_spiral_over_ast_5_has_the_known_errors() {
     let feed = RIM / 101.11;
@@ -53,9 +53,9 @@ fn the_error_is_the_remainder_of_cubic_interpolation() {
     }
 }
 
-/// A Z that is too high by 5 nm at one node gives back amount, sign and place.
+/// A Z that is too high by 5 nm at one node is reported with amount, sign and position.
 #[test]
-fn a_wrong_node_is_found_with_sign_and_place() {
+fn a_wrong_node_is_found_with_sign_and_position() {
     let mut turn = astigmatic_path(AST5, 0.0, 360, DEG, |_| (RIM, 0.0));
     turn.z[200] += 5.0 * NM;
     let found = figures(&touch_on(AST5, RIM, 1.0, false), &turn).playback;
@@ -64,7 +64,7 @@ fn a_wrong_node_is_found_with_sign_and_place() {
     assert_eq!(found.at_x, RIM);
 }
 
-/// The top of an error that is not in the middle of its segment lies between instants.
+/// An error whose top is not in the middle of its segment has the top between instants.
 #[test]
 fn the_top_of_a_lopsided_error_is_found_between_instants() {
     let mut turn = astigmatic_path(AST5, 0.0, 360, DEG, |_| (RIM, 0.0));
@@ -76,7 +76,7 @@ fn the_top_of_a_lopsided_error_is_found_between_instants() {
 }
 
 #[test]
-fn where_there_is_no_number_the_error_is_infinite_there() {
+fn where_z_is_nan_the_error_is_infinite() {
     let mut turn = astigmatic_path(AST5, 0.0, 360, DEG, |_| (RIM, 0.0));
     turn.z[100] = f64::NAN;
     let found = figures(&touch_on(AST5, RIM, 1.0, false), &turn).playback;

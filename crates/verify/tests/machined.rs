@@ -15,13 +15,13 @@ use turnpath_verify::{FirstTouch, Meter};
 
 fn machined(touch: &FirstTouch, points: &PathBlock) -> MachinedFigures {
     let mut meter = Meter::new(touch.clone());
-    let measured = Meter::measure(touch, points).expect("a measure");
-    meter.append(&measured).expect("a measure");
+    let block = Meter::measure(touch, points).expect("figures");
+    meter.append(&block).expect("figures");
     meter.machined().expect("figures").expect("a cut")
 }
 
-/// A spiral from `beyond` feeds on the other side of the axis to as many beyond the rim; Z and
-/// its slope by X alone.
+/// A spiral from `beyond` feeds on the other side of the axis to as many feeds beyond the rim. Z
+/// and its slope depend on X alone.
 fn spiral(feed: f64, rim: f64, beyond: f64, z: impl Fn(f64) -> (f64, f64)) -> PathBlock {
     let mut points = PathBlock::default();
     let turns = rim / feed + 2.0 * beyond;
@@ -72,7 +72,7 @@ fn a_flat_part_is_left_with_the_scallop_of_the_closed_form() {
 }
 
 #[test]
-fn the_same_path_as_that_of_the_contact_leaves_the_same() {
+fn a_path_of_the_contact_leaves_what_the_path_of_the_centre_leaves() {
     let (feed, rim) = (0.02, 5.0);
     let centre = touch_on(Plane { slope: 0.0 }, rim, 1.0, true);
     let contact = touch_on(Plane { slope: 0.0 }, rim, 1.0, false);
@@ -92,7 +92,7 @@ fn a_path_that_is_too_high_leaves_its_height() {
     assert!(found.pv() < 0.2 * NM);
 }
 
-/// Centres on a sphere of radius `ball` − R; passes at equal distances in X.
+/// The centres lie on a sphere of radius `ball` − R, the passes at equal distances in X.
 #[test]
 fn in_a_ball_the_cusps_are_those_of_circles_on_a_circle() {
     let (ball, nose, feed, rim) = (10.0f64, 1.0f64, 0.05, 2.0);
@@ -103,7 +103,7 @@ fn in_a_ball_the_cusps_are_those_of_circles_on_a_circle() {
         (ball - depth, x / depth)
     };
     let found = machined(&touch, &spiral(feed, rim, 3.0, law));
-    // The highest is at the rim: two centres there, a feed apart in X, on the circle.
+    // The highest cusp is at the rim, between two centres on the circle that are a feed apart in X.
     let cusp = |foot: f64| {
         let x = foot * centres / ball;
         let depth = (centres * centres - x * x).sqrt();
@@ -125,21 +125,22 @@ fn in_a_ball_the_cusps_are_those_of_circles_on_a_circle() {
     assert_eq!(found.uncut, 0.0);
 }
 
-/// Passes at equal distances of their contacts ρ on z = ρ²/(2r): along the normal the cusps are
-/// f²w²(1 − Rκ)/(8R) high, w = √(1 + (ρ/r)²) and κ = 1/(r w³), along z w times that.
+/// The contacts ρ of the passes are at equal distances f on z = ρ²/(2r). Along the normal the cusps
+/// are f²w²(1 − Rκ)/(8R) high, with w = √(1 + (ρ/r)²) and κ = 1/(r w³). Along z they are w times as
+/// high.
 #[test]
 fn in_a_paraboloid_the_cusps_are_those_of_its_slope_and_curvature() {
     let (vertex, nose, feed, rim) = (10.0f64, 1.0f64, 0.02, 5.0);
     let touch = touch_on(Paraboloid { radius: vertex }, rim, nose, true);
-    let stretch = |rho: f64| (1.0 + (rho / vertex) * (rho / vertex)).sqrt();
-    let left = |rho: f64| 1.0 - nose / (vertex * stretch(rho) * stretch(rho) * stretch(rho));
+    let width = |rho: f64| (1.0 + (rho / vertex) * (rho / vertex)).sqrt();
+    let gap = |rho: f64| 1.0 - nose / (vertex * width(rho) * width(rho) * width(rho));
     let mut points = PathBlock::default();
     let beyond = 3.0;
     for i in 0..=((rim / feed + 2.0 * beyond) * 72.0) as usize {
         let n = i as f64 / 72.0;
         let rho = feed * (n - beyond);
         let slope = rho / vertex;
-        let (w, rate) = (stretch(rho), feed * SPEED / TAU * left(rho));
+        let (w, rate) = (width(rho), feed * SPEED / TAU * gap(rho));
         points.push(ControlPoint {
             t: n * TAU / SPEED,
             c: n * TAU,
@@ -151,8 +152,8 @@ fn in_a_paraboloid_the_cusps_are_those_of_its_slope_and_curvature() {
         });
     }
     let found = machined(&touch, &points);
-    let w = stretch(rim);
-    let expected = feed * feed * w * w * left(rim) / (8.0 * nose) * w;
+    let w = width(rim);
+    let expected = feed * feed * w * w * gap(rim) / (8.0 * nose) * w;
     assert!(
         (found.pv() / expected - 1.0).abs() < 0.02,
         "{found:?} {expected:e}"
@@ -162,9 +163,10 @@ fn in_a_paraboloid_the_cusps_are_those_of_its_slope_and_curvature() {
     assert_eq!(found.uncut, 0.0);
 }
 
-/// A coarse path over z = k ρ² sin 2θ along the contact leaves L⁴/384 · |φ⁗| with exact rates:
-/// 16 k ρ² L⁴/384, in whole steps a turn, so that the error is the same on all turns, with the
-/// largest |φ⁗| in the middle of a step. The feed leaves cusps of half a per cent of it.
+/// A coarse path of the contact over z = k ρ² sin 2θ with exact rates leaves L⁴/384 · |φ⁗|, which
+/// is 16 k ρ² L⁴/384. A turn has a whole number of steps, so the error is the same on all turns.
+/// The largest |φ⁗| lies in the middle of a step. The feed leaves cusps of half a per cent of the
+/// error.
 #[test]
 fn a_coarse_path_leaves_the_bound_of_its_fourth_derivative() {
     let surface = Astigmatic { k: 0.02 };
@@ -190,13 +192,13 @@ fn a_coarse_path_leaves_the_bound_of_its_fourth_derivative() {
     }
     let found = machined(&touch, &points);
     let bound = 16.0 * surface.k * rim * rim * Scalar::powi(step, 4) / 384.0;
-    for place in [found.highest, found.lowest] {
-        let rho = Scalar::hypot(place.x, place.y);
-        assert!(rho > 0.98 * rim, "{place:?}");
+    for point in [found.highest, found.lowest] {
+        let rho = Scalar::hypot(point.x, point.y);
+        assert!(rho > 0.98 * rim, "{point:?}");
         let here = bound * (rho / rim) * (rho / rim);
         assert!(
-            (place.error.abs() / here - 1.0).abs() < 0.02,
-            "{place:?}, {here:e}"
+            (point.error.abs() / here - 1.0).abs() < 0.02,
+            "{point:?}, {here:e}"
         );
     }
 }
@@ -205,7 +207,7 @@ fn a_coarse_path_leaves_the_bound_of_its_fourth_derivative() {
 fn a_path_that_stops_short_leaves_the_rim_higher_or_uncut() {
     let touch = touch_on(Plane { slope: 0.0 }, 5.0, 1.0, true);
     let short = machined(&touch, &spiral(0.02, 4.5, 0.5, |_| (1.0, 0.0)));
-    // The last pass lies 0.5 mm short: its circle has risen by 1 − √0.75 there.
+    // The last pass lies 0.5 mm short of the rim, where its circle has risen by 1 − √0.75.
     let expected = 1.0 - 0.75f64.sqrt();
     assert!(
         (short.highest.error / expected - 1.0).abs() < 0.06,
@@ -220,18 +222,18 @@ fn a_path_that_stops_short_leaves_the_rim_higher_or_uncut() {
 }
 
 #[test]
-fn stretches_give_what_one_piece_gives() {
+fn blocks_give_what_one_piece_gives() {
     let touch = touch_on(AST5, 2.5, 1.0, true);
     let law = |theta: f64| (2.5 - 0.025 * theta / TAU, -0.025 / TAU);
     let points = astigmatic_path(AST5, 1.0, 99 * 40, 9.0 * DEG, law);
     let whole = machined(&touch, &points);
     let mut meter = Meter::new(touch.clone());
     let all: Vec<ControlPoint> = points.points().collect();
-    for stretch in [0..100, 99..101, 100..1234, 1233..all.len()] {
+    for range in [0..100, 99..101, 100..1234, 1233..all.len()] {
         let mut block = PathBlock::default();
-        all[stretch].iter().for_each(|point| block.push(*point));
-        let measured = Meter::measure(&touch, &block).expect("a measure");
-        meter.append(&measured).expect("a measure");
+        all[range].iter().for_each(|point| block.push(*point));
+        let figures = Meter::measure(&touch, &block).expect("figures");
+        meter.append(&figures).expect("figures");
     }
     assert_eq!(meter.machined().expect("figures"), Some(whole));
 }
@@ -259,7 +261,7 @@ fn pieces(points: &PathBlock, length: usize) -> Vec<PathBlock> {
     (0..all.len() - 1).step_by(length).map(block).collect()
 }
 
-/// The lowest of all passes over a place, of a path whose C runs evenly in steps of 9 deg.
+/// The lowest of all passes over a point, for a path whose C runs evenly in steps of 9 deg.
 fn brute_force(touch: &FirstTouch, segments: &[Segment], x: f64, y: f64) -> f64 {
     let (rho, angle) = (Scalar::hypot(x, y), Scalar::atan2(y, x));
     let mut lowest = f64::INFINITY;
@@ -303,7 +305,7 @@ fn maps_agree_with_the_lowest_of_all_passes() {
         for row in 0..grid.rows() {
             for column in 0..grid.columns() {
                 let found = f64::from(whole[row * grid.columns() + column]);
-                let (x, y) = grid.place(row, column);
+                let (x, y) = grid.point(row, column);
                 if Scalar::hypot(x, y) > 2.5 {
                     assert!(found.is_nan());
                     continue;
@@ -320,7 +322,8 @@ fn maps_agree_with_the_lowest_of_all_passes() {
     }
 }
 
-/// A path of the contact: the nearest passes give what all give, and the map what the lines give.
+/// For a path of the contact, the nearest passes give the same map as all passes, and the map has
+/// the same figures as the lines.
 #[test]
 fn maps_of_contact_paths_agree_with_figures() {
     let surface = Astigmatic { k: 0.02 };
@@ -371,11 +374,11 @@ fn a_profile_has_the_feed_as_its_period() {
     for block in pieces(&path, 1000) {
         line.append(&touch, &block).expect("passes");
     }
-    let places = line.places(&touch).expect("places");
-    let errors: Vec<f64> = places.iter().map(|place| place.error).collect();
+    let points = line.points(&touch).expect("points");
+    let errors: Vec<f64> = points.iter().map(|point| point.error).collect();
     let highest = errors.iter().copied().fold(0.0, f64::max);
     assert!((highest / (feed * feed / 8.0) - 1.0).abs() < 0.01);
-    let spectrum = power_spectrum(&errors, places[1].s - places[0].s);
+    let spectrum = power_spectrum(&errors, points[1].s - points[0].s);
     let higher = |a: &&SpectrumLine, b: &&SpectrumLine| a.density.total_cmp(&b.density);
     let top = spectrum.iter().max_by(higher).expect("a line");
     assert!((top.frequency * feed - 1.0).abs() < 0.01, "{top:?}");

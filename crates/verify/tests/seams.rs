@@ -1,4 +1,5 @@
-//! Parts into which the nose does not fit: what stays, and cusps above it, against plane geometry.
+//! Parts into which the nose does not fit: the material that stays, and the cusps above it, against
+//! plane geometry.
 
 mod common;
 
@@ -42,7 +43,7 @@ fn close(value: f64, expected: f64, part: f64) {
 }
 
 #[test]
-fn in_a_ring_groove_stays_what_lies_between_circle_and_flanks() {
+fn in_a_ring_groove_the_material_between_circle_and_flanks_stays() {
     for slope in [0.02, 0.3, 1.0] {
         let w = (1.0 + slope * slope).sqrt();
         let contact = NOSE * slope / w;
@@ -66,7 +67,7 @@ fn in_a_ring_groove_stays_what_lies_between_circle_and_flanks() {
 }
 
 #[test]
-fn in_a_straight_groove_across_the_axis_stays_the_sum_over_all_sections() {
+fn in_a_straight_groove_across_the_axis_the_sum_over_all_sections_stays() {
     let slope = 0.4;
     let groove = Groove {
         slope,
@@ -115,8 +116,8 @@ fn a_nose_that_fits_leaves_nothing() {
     );
 }
 
-/// Two passes that stand as far from the seam on either side are higher by half the feed times the
-/// slope, and their cusp by what is left of the flat one.
+/// Two passes at equal distances on either side of the seam stand higher by half the feed times the
+/// slope. Their cusp adds the height of a cusp on a flat.
 #[test]
 fn over_a_seam_cusps_are_measured_from_what_the_nose_can_reach() {
     let (slope, feed) = (0.3, 0.01);
@@ -127,8 +128,9 @@ fn over_a_seam_cusps_are_measured_from_what_the_nose_can_reach() {
     assert!((found.at_rho - 1.0).abs() < 0.01);
 }
 
-/// A ring groove through the rim: at best the nose stands over it, its lowest place R(w − 1) above
-/// the bottom. A pass `away` stands higher by the flank, and over the place by its circle.
+/// A ring groove lies on the rim. At best the nose stands over it, with its lowest point R(w − 1)
+/// above the bottom. A pass `away` from it stands higher by the rise of the flank and of its
+/// circle.
 #[test]
 fn a_groove_through_a_rim_is_uncut_from_what_the_nose_can_reach() {
     for slope in [0.02, 0.3, 1.0] {
@@ -139,11 +141,11 @@ fn a_groove_through_a_rim_is_uncut_from_what_the_nose_can_reach() {
         let feed = 0.01;
         let ring = || Ring { slope, radius: 1.0 };
         let rim = touch_of(ring(), 1.0, tool(None), true);
-        // The outermost passes of all sections lie on the groove, or up to a feed inside of it.
+        // The outermost pass of each section lies on the groove, or up to a feed inside of it.
         let path = bare_spiral(3.0, |n| 1.0 - feed * (3.0 - n));
         let found = figures(&rim, &path).coverage.rim.expect("a rim");
         close(found.height, left(feed), 1e-4);
-        // A turn that stays on it cuts what can be cut.
+        // A turn that stays on the groove cuts all that the nose can cut.
         let path = bare_spiral(4.0, |n| (0.98 + feed * n).min(1.0));
         let found = figures(&rim, &path).coverage.rim.expect("a rim");
         assert!(found.height < 1e-9, "{}", found.height);
@@ -162,7 +164,7 @@ fn a_groove_through_a_rim_is_uncut_from_what_the_nose_can_reach() {
     }
 }
 
-/// Where the nose comes down to the rim beside a groove, the surface itself counts.
+/// Where the nose comes down to the rim beside a groove, heights count from the surface itself.
 #[test]
 fn a_rim_beside_a_groove_is_uncut_from_the_surface() {
     let (slope, feed) = (0.3, 0.01);
@@ -178,9 +180,9 @@ fn a_rim_beside_a_groove_is_uncut_from_the_surface() {
     close(rim(Misfit::CutWhatFits), rim(Misfit::Refuse), 1e-9);
 }
 
-/// A seam over a hole, or beyond where the path goes, asks for nothing.
+/// A seam over a hole, or beyond the end of the path, does not matter.
 #[test]
-fn only_rides_of_the_path_that_reach_onto_the_part_are_told() {
+fn only_rides_of_the_path_that_reach_onto_the_part_are_reported() {
     let touch = |inner_radius: f64| {
         let subject = Subject {
             part: Part {
@@ -198,7 +200,7 @@ fn only_rides_of_the_path_that_reach_onto_the_part_are_told() {
     assert_eq!(count(0.99 + contact, 1.6), count(0.0, 1.6));
 }
 
-/// On a slope of 45 deg an edge that ends at 30 deg cuts steps with its end.
+/// On a slope of 45 deg, an edge that ends at 30 deg cuts steps with its end.
 #[test]
 fn an_edge_that_ends_before_the_slope_leaves_steps() {
     let feed = 0.004;
@@ -209,8 +211,8 @@ fn an_edge_that_ends_before_the_slope_leaves_steps() {
     close(found.max, step * 0.5f64.sqrt(), 1e-3);
 }
 
-/// On a ring groove with flanks of slope m the nose goes down at −m and up at m, over the groove
-/// itself; on both sides of the axis.
+/// On a ring groove with flanks of slope m the nose moves down at −m and up at m, with the corner
+/// over the groove itself, on both sides of the axis.
 #[test]
 fn over_a_ring_groove_the_nose_turns_by_twice_the_slope() {
     for slope in [0.02, 0.3, 1.0] {

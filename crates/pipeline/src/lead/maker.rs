@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
-use turnpath_verify::{AxesMotion, LeadMeter, LeadStretch};
+use turnpath_verify::{AxesMotion, LeadBlockFigures, LeadMeter};
 
 use super::clock::Clock;
 use super::join::{Join, Side};
@@ -371,7 +371,7 @@ impl Maker<'_> {
     }
 
     /// Measures a lead against the part.
-    pub fn measure(&self, points: &PathBlock) -> Result<LeadStretch> {
+    pub fn measure(&self, points: &PathBlock) -> Result<LeadBlockFigures> {
         LeadMeter::measure(&self.plan.prepared.touch, points).map_err(PipelineError::Measure)
     }
 

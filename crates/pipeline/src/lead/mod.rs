@@ -103,7 +103,7 @@ impl LeadRun {
         let stretch = maker.measure(&points)?;
         run.turns_in = laid.turns;
         run.meter.append(&stretch);
-        run.meter.pass(&block_of(&cut));
+        run.meter.append_cut(&block_of(&cut));
         run.made = Some(points);
         Ok(run)
     }
@@ -134,7 +134,7 @@ impl LeadRun {
         let points = maker.points(&laid, &join)?;
         let stretch = maker.measure(&points)?;
         let mut meter = std::mem::take(&mut self.meter);
-        meter.pass(&block_of(pair));
+        meter.append_cut(&block_of(pair));
         meter.append(&stretch);
         let time = |points: &PathBlock| span(&points.t);
         let lead_in = self.made.take().unwrap_or_default();

@@ -127,7 +127,7 @@ fn write_map(plot: &MapPlot, map: &Map, name: &str) -> Result<Draft, FileError> 
             .enumerate()
             .filter(|(_, error)| !error.is_nan())
         {
-            let (x, y) = plot.grid.place(row, column);
+            let (x, y) = plot.grid.point(row, column);
             writer.place(x, y, error)?;
         }
     }
@@ -141,7 +141,7 @@ fn write_profile(
     played: &PlayedPath<'_>,
 ) -> Result<[Draft; 2], Error> {
     let failed = |error| of_measure(played.recipe, error);
-    let places = profile.places(played.touch).map_err(failed)?;
+    let places = profile.points(played.touch).map_err(failed)?;
     let cut = places.iter().filter(|place| !place.error.is_nan());
     let rows = cut.map(|place| [place.s, place.error, place.wanted]);
     let table = write_errors(file, "s_mm", rows)?;
@@ -162,7 +162,7 @@ fn write_profile(
 
 fn write_circle(file: &Path, map: &Map, played: &PlayedPath<'_>) -> Result<Draft, Error> {
     let grid = map.grid();
-    let places = (0..grid.columns()).map(|column| grid.place(0, column));
+    let places = (0..grid.columns()).map(|column| grid.point(0, column));
     let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
     let mut wanted = vec![f64::NAN; x.len()];
     let surface = &played.touch.subject().surface;

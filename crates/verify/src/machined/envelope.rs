@@ -1,28 +1,30 @@
-//! The lower envelope of the lower arcs of equal circles: what passes of a nose leave in a plane.
+//! The lower envelope of the lower arcs of equal circles: the profile that passes of a nose leave
+//! in a plane.
 
 use crate::cusp::{self, Point};
 
-/// A part of the envelope: the lower arc of one circle, from one place to another.
+/// A part of the envelope: an interval of the lower arc of one circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
     /// The circle's centre, mm.
     pub centre: Point,
-    /// Where it begins, mm.
+    /// Left end, mm.
     pub from: f64,
-    /// Where it ends, mm.
+    /// Right end, mm.
     pub to: f64,
 }
 
-/// The lower arc of a circle of radius `radius` around `centre`, at `s`; level with the centre
-/// beyond the circle, where only rounding leads.
+/// The height at `s` of the lower arc of a circle of radius `radius` around `centre`. Beyond the
+/// circle, which only rounding can reach, it is the height of the centre.
 pub(super) fn lower_arc(centre: Point, radius: f64, s: f64) -> f64 {
     let off = s - centre.x;
     centre.y - (radius * radius - off * off).max(0.0).sqrt()
 }
 
-/// Of two circles whose first lies to the left: from where on the second is the lower one. Their
-/// difference grows along the line, so that there is one such place. Where they do not overlap
-/// it is the end of the first; what then follows up to the begin of the second is not cut.
+/// The border from which on the second of two circles is the lower one; the first lies to the left.
+/// Their difference grows along the line, so there is one such border. If the circles do not
+/// overlap, the border is the end of the first, and nothing is cut between it and the start of the
+/// second.
 fn border(first: Point, second: Point, radius: f64, reach: f64) -> f64 {
     let (begin, end) = (second.x - reach, first.x + reach);
     if begin >= end {
@@ -35,10 +37,11 @@ fn border(first: Point, second: Point, radius: f64, reach: f64) -> f64 {
     }
 }
 
-/// The lower envelope of the circles around `centres`, sorted from left to right, each limited to
-/// ±`reach`: arcs from left to right. They meet where nothing is left uncut between them.
+/// The lower envelope of the circles around `centres`, which are sorted from left to right, each
+/// limited to ±`reach`. Writes arcs from left to right. Neighbouring arcs meet unless the line is
+/// uncut between them.
 ///
-/// Two lower arcs cross once at the most, so that a stack does it, in one go.
+/// Two lower arcs cross at most once, so one pass with a stack is enough.
 pub fn lower_envelope(centres: &[Point], radius: f64, reach: f64, arcs: &mut Vec<Arc>) {
     arcs.clear();
     for centre in centres {
@@ -96,11 +99,11 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(600))]
         #[test]
         fn it_is_the_minimum_of_all_arcs(
-            places in prop::collection::vec((-3.0f64..3.0, -1.0f64..1.0), 1..30),
+            points in prop::collection::vec((-3.0f64..3.0, -1.0f64..1.0), 1..30),
             flat in prop::sample::select(vec![1.0, 0.1, 1e-3, 1e-6]),
             reach in prop::sample::select(vec![1.0, 0.7, 0.2]),
         ) {
-            let centres = sorted(places.iter().map(|(x, z)| Point::new(*x, z * flat)).collect());
+            let centres = sorted(points.iter().map(|(x, z)| Point::new(*x, z * flat)).collect());
             let mut arcs = Vec::new();
             lower_envelope(&centres, 1.0, reach, &mut arcs);
             prop_assert!(arcs.windows(2).all(|pair| pair[0].to <= pair[1].from));
@@ -119,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn of_passes_at_one_place_the_lowest_counts() {
+    fn the_lowest_of_passes_at_one_position_counts() {
         let centres = [
             Point::new(0.0, 1.0),
             Point::new(0.0, 0.9),
@@ -136,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_circle_reaches_lies_between_two_arcs() {
+    fn a_gap_that_no_circle_reaches_lies_between_two_arcs() {
         let centres = [Point::new(0.0, 1.0), Point::new(2.0, 1.0)];
         let mut arcs = Vec::new();
         lower_envelope(&centres, 1.0, 0.5, &mut arcs);

@@ -5,26 +5,26 @@ use turnpath_core::{Part, Result, Scalar};
 
 use super::sections::Lines;
 use super::strip::{Sample, Strip};
-use crate::Subject;
+use crate::subject::Subject;
 
-/// A place of the part and the surface error there.
+/// A point of the part and the surface error there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlaceOnPart {
+pub struct PartPoint {
     /// Machined − wanted along z, mm.
     pub error: f64,
-    /// mm.
+    /// x on the part, mm.
     pub x: f64,
-    /// mm.
+    /// y on the part, mm.
     pub y: f64,
 }
 
-/// The machined surface in figures.
+/// The figures of the machined surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MachinedFigures {
-    /// Where most material stays.
-    pub highest: PlaceOnPart,
-    /// Where most is lacking, or the least stays.
-    pub lowest: PlaceOnPart,
+    /// The point with the largest error, where most material is left.
+    pub highest: PartPoint,
+    /// The point with the smallest error, where most material is missing or least is left.
+    pub lowest: PartPoint,
     /// Mean error, mm.
     pub mean: f64,
     /// Root of the mean square about zero, mm.
@@ -35,9 +35,9 @@ pub struct MachinedFigures {
     pub sa: f64,
     /// Root of the mean square of the radial slope's error.
     pub rms_slope: f64,
-    /// Part of the area that no nose reached.
+    /// Part of the area that no pass reached.
     pub uncut: f64,
-    /// Lines through the axis that were measured.
+    /// Number of lines through the axis that were measured.
     pub lines: usize,
 }
 
@@ -48,14 +48,14 @@ impl MachinedFigures {
     }
 }
 
-/// Integrals along one line, or several.
+/// Integrals along one line.
 #[derive(Debug, Clone, Copy)]
 struct Sums {
     area: f64,
     error: f64,
     square: f64,
     slope_square: f64,
-    /// Error and signed place on the line of angle `0`.
+    /// The extreme errors, each with its signed position on the line.
     highest: (f64, f64),
     lowest: (f64, f64),
 }
@@ -70,7 +70,7 @@ impl Sums {
         lowest: (f64::INFINITY, 0.0),
     };
 
-    fn see(&mut self, sample: &Sample) {
+    fn include(&mut self, sample: &Sample) {
         for k in 0..4 {
             let (weight, error, slope) = (sample.weight[k], sample.error[k], sample.slope[k]);
             self.area += weight;
@@ -90,18 +90,18 @@ impl Sums {
 }
 
 impl Lines {
-    /// Figures of the part, lines in parallel and put together in order; `None` where nothing of
-    /// the part was cut.
+    /// The figures of the part; `None` if nothing of the part was cut. Lines are measured in
+    /// parallel and combined in order.
     ///
     /// # Errors
     /// When the surface fails.
     pub fn figures(&self, subject: &Subject) -> Result<Option<MachinedFigures>> {
         let lines = self.all();
         let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[_])| {
-            strip.take(subject, *angle, passes);
+            strip.set_line(subject, *angle, passes);
             strip.look_up(subject.surface.as_ref())?;
             let mut sums = Sums::NONE;
-            strip.samples().for_each(|sample| sums.see(&sample));
+            strip.samples().for_each(|sample| sums.include(&sample));
             Ok(sums)
         };
         let sums: Vec<Sums> = lines
@@ -121,7 +121,7 @@ impl Lines {
             lowest,
             mean,
             rms: mean_square.sqrt(),
-            // Rounding may lead below zero; what is no number stays none.
+            // Rounding may make it negative. NaN stays NaN.
             sq: (mean_square - mean * mean).clamp(0.0, f64::INFINITY).sqrt(),
             sa: self.amount_about(subject, mean)? / area,
             rms_slope: (total(|line| line.slope_square) / area).sqrt(),
@@ -133,7 +133,7 @@ impl Lines {
     /// The integral of |error − mean|.
     fn amount_about(&self, subject: &Subject, mean: f64) -> Result<f64> {
         let of_line = |strip: &mut Strip, (angle, passes): (f64, &[_])| {
-            strip.take(subject, angle, passes);
+            strip.set_line(subject, angle, passes);
             strip.look_up_heights(subject.surface.as_ref())?;
             let amount = |sample: Sample| sample.amount_about(mean);
             Ok(strip.samples().map(amount).sum())
@@ -147,28 +147,30 @@ impl Lines {
     }
 }
 
-fn extremes<T>(lines: &[(f64, T)], sums: &[Sums]) -> (PlaceOnPart, PlaceOnPart) {
-    let place = |angle: f64, (error, s): (f64, f64)| {
+/// The highest and the lowest point over all lines.
+fn extremes<T>(lines: &[(f64, T)], sums: &[Sums]) -> (PartPoint, PartPoint) {
+    let point = |angle: f64, (error, s): (f64, f64)| {
         let (sin, cos) = Scalar::sin_cos(angle);
         let (x, y) = (s * cos, s * sin);
-        PlaceOnPart { error, x, y }
+        PartPoint { error, x, y }
     };
-    let mut highest = place(0.0, Sums::NONE.highest);
-    let mut lowest = place(0.0, Sums::NONE.lowest);
+    let mut highest = point(0.0, Sums::NONE.highest);
+    let mut lowest = point(0.0, Sums::NONE.lowest);
     for ((angle, _), sums) in lines.iter().zip(sums) {
         if sums.highest.0 > highest.error {
-            highest = place(*angle, sums.highest);
+            highest = point(*angle, sums.highest);
         }
         if sums.lowest.0 < lowest.error {
-            lowest = place(*angle, sums.lowest);
+            lowest = point(*angle, sums.lowest);
         }
     }
     (highest, lowest)
 }
 
-/// Areas below this are rounding of the sums.
+/// An uncut part of the area below this comes from rounding of the sums.
 const ROUNDING: f64 = 1e-12;
 
+/// The part of the area that no pass reached.
 fn uncut(part: &Part, sums: &[Sums]) -> f64 {
     let (rim, hole) = (part.aperture_radius, part.inner_radius);
     let whole = (rim * rim - hole * hole) * sums.len() as f64;

@@ -1,4 +1,4 @@
-//! Where maps have their cells.
+//! Grids: the cells of a map.
 
 use std::f64::consts::TAU;
 
@@ -7,33 +7,33 @@ use turnpath_core::{Part, Scalar};
 /// Cells in rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Grid {
-    /// `count` × `count` cells over the square around the part; rows from the largest y down, in
-    /// each from the smallest x up. A place is its cell's centre.
+    /// `count` × `count` cells over the square around the part. Rows run from the largest y down,
+    /// and the cells of a row from the smallest x up. The point of a cell is its centre.
     Cartesian {
-        /// Cells a side.
+        /// Cells per side.
         count: usize,
         /// Half of the side, mm.
         half: f64,
     },
-    /// A row for each ring, from the inside out; in each, angles from 0 on. A ring lies in the
-    /// middle of its share of the radius.
+    /// One row for each ring, from the inside out, with angles from 0 on. A ring lies in the middle
+    /// of its share of the radius.
     Polar {
-        /// Rings.
+        /// Number of rings.
         rings: usize,
-        /// Angles of each.
+        /// Number of angles of each ring.
         angles: usize,
-        /// Where the first share begins, mm.
+        /// Inner radius of the first share, mm.
         inner: f64,
-        /// Where the last one ends, mm.
+        /// Outer radius of the last share, mm.
         outer: f64,
     },
 }
 
-/// The middle of a cell: (x, y), mm.
-pub type Place = (f64, f64);
+/// The point of a cell: (x, y), mm.
+pub type GridPoint = (f64, f64);
 
 impl Grid {
-    /// The square around a part.
+    /// Cells over the square around a part.
     pub fn cartesian(part: &Part, count: usize) -> Self {
         let half = part.aperture_radius;
         Self::Cartesian { count, half }
@@ -59,7 +59,7 @@ impl Grid {
         }
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         match self {
             Self::Cartesian { count, .. } => *count,
@@ -67,7 +67,7 @@ impl Grid {
         }
     }
 
-    /// How many cells a row has.
+    /// Number of cells in a row.
     pub fn columns(&self) -> usize {
         match self {
             Self::Cartesian { count, .. } => *count,
@@ -80,8 +80,8 @@ impl Grid {
         TAU * column as f64 / self.columns() as f64
     }
 
-    /// The middle of a cell.
-    pub fn place(&self, row: usize, column: usize) -> Place {
+    /// The point of a cell.
+    pub fn point(&self, row: usize, column: usize) -> GridPoint {
         match *self {
             Self::Cartesian { count, half } => {
                 let of = |index: usize| half * ((2 * index + 1) as f64 / count as f64 - 1.0);
@@ -112,8 +112,8 @@ mod tests {
             count: 4,
             half: 2.0,
         };
-        assert_eq!(grid.place(0, 0), (-1.5, 1.5));
-        assert_eq!(grid.place(3, 2), (0.5, -1.5));
+        assert_eq!(grid.point(0, 0), (-1.5, 1.5));
+        assert_eq!(grid.point(3, 2), (0.5, -1.5));
     }
 
     #[test]
@@ -124,9 +124,9 @@ mod tests {
             inner: 1.0,
             outer: 3.0,
         };
-        assert_eq!(grid.place(0, 0), (1.5, 0.0));
-        let (x, y) = grid.place(1, 1);
+        assert_eq!(grid.point(0, 0), (1.5, 0.0));
+        let (x, y) = grid.point(1, 1);
         assert!(x.abs() < 1e-15 && (y - 2.5).abs() < 1e-15);
-        assert_eq!(Grid::circle(2.0, 8).place(0, 0), (2.0, 0.0));
+        assert_eq!(Grid::circle(2.0, 8).point(0, 0), (2.0, 0.0));
     }
 }

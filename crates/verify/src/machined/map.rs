@@ -1,9 +1,10 @@
-//! Surface error cell by cell, for paths of any length: block after block, each cell the lowest
-//! of what the passes near it leave.
+//! Maps of the surface error, cell by cell, for paths of any length. The path comes block after
+//! block, and each cell keeps the lowest error that a pass near it leaves.
 //!
-//! A cell asks only the passes that can matter. One that leaves it higher than the lowest so far by
-//! twice the largest interpolation error is further off than any that could be lower, and what lies
-//! behind it is not looked at. Where the first touch may jump, every pass within reach is.
+//! A cell needs only some of the passes. A pass that leaves the cell higher than the lowest error
+//! so far by more than twice the largest interpolation error lies too far away, and so do the
+//! passes behind it: none of them can be lower, and they are not computed. Where the height of the
+//! nose may have several maxima, every pass within reach is computed.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,38 +13,40 @@ use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Gradients, Part, Result, Scalar};
 
 use super::envelope::lower_arc;
-use super::grid::{Grid, Place};
+use super::grid::{Grid, GridPoint};
 use super::sections::to_centres;
 use super::turns::Turns;
 use crate::cusp::Point;
 use crate::touch::FirstTouch;
 
-/// By how much errors of playback can exceed the largest of its instants, as a part and in mm.
-const UNSEEN: (f64, f64) = (0.1, 1e-6);
+/// How far an error between the instants of the playback can exceed the largest error at them: as a
+/// part of it, and in mm.
+const BETWEEN_INSTANTS: (f64, f64) = (0.1, 1e-6);
 
-/// A map in the making. Cells hold machined − wanted in mm as f32: a part of 6e-8 of the error,
-/// since what was wanted is taken off before.
+/// A map of the surface error. Cells hold machined − wanted in mm as f32. The wanted height is
+/// subtracted before the conversion, so it costs only 6e-8 of the error.
 #[derive(Debug, Clone)]
 pub struct Map {
     grid: Grid,
     part: Part,
-    /// Infinite where nothing cut so far.
+    /// Infinite where no pass has cut so far.
     errors: Vec<f32>,
 }
 
-/// What cuts, and how far from where it should a pass can be.
+/// The nose that cuts a map, and how far its passes can be off.
 pub struct Nose<'a> {
     touch: &'a FirstTouch,
-    /// Passes further from a cell than one that stands this much above the lowest so far, mm,
-    /// leave it alone.
+    /// A pass that leaves a cell this much higher than the lowest error so far, mm, shows that no
+    /// pass behind it cuts the cell lower.
     slack: f64,
 }
 
 impl<'a> Nose<'a> {
-    /// `largest_error`: the largest |played − true| of the path, mm; infinite where not known.
+    /// The nose of a path. `largest_error` is the largest |played − true| of the path, mm; infinite
+    /// if it is not known.
     pub fn new(touch: &'a FirstTouch, largest_error: f64) -> Self {
-        let (share, more) = UNSEEN;
-        let known = touch.is_single() && largest_error.is_finite();
+        let (share, more) = BETWEEN_INSTANTS;
+        let known = touch.has_single_maximum() && largest_error.is_finite();
         let slack = match known {
             true => 2.0 * (1.0 + share) * largest_error + more,
             false => f64::INFINITY,
@@ -53,18 +56,18 @@ impl<'a> Nose<'a> {
 }
 
 impl Map {
-    /// Nothing cut yet.
+    /// A map on which nothing is cut yet.
     pub fn new(grid: Grid, part: Part) -> Self {
         let errors = vec![f32::INFINITY; grid.rows() * grid.columns()];
         Self { grid, part, errors }
     }
 
-    /// Its grid.
+    /// The grid of the map.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// Errors of a row, mm; NaN outside the part and where nothing cut.
+    /// The errors of a row, mm; NaN outside the part and where no pass has cut.
     pub fn row(&self, row: usize) -> impl Iterator<Item = f32> + '_ {
         let columns = self.grid.columns();
         let cells = self.errors.iter().skip(row * columns).take(columns);
@@ -80,27 +83,29 @@ impl Map {
         for turns in Turns::of(block) {
             let rows = self.errors.par_chunks_mut(grid.columns().max(1));
             rows.enumerate()
-                .try_for_each_init(Room::default, |room, (row, errors)| {
-                    let places = (0..errors.len()).map(|column| grid.place(row, column));
-                    room.cut(nose, &turns, &part, places, errors)
+                .try_for_each_init(RowBuffers::default, |buffers, (row, errors)| {
+                    let points = (0..errors.len()).map(|column| grid.point(row, column));
+                    buffers.cut(nose, &turns, &part, points, errors)
                 })?;
         }
         Ok(())
     }
 }
 
-/// A cell that a stretch may cut.
+/// A cell that these turns may cut.
 struct Cell {
     column: usize,
     angle: f64,
     rho: f64,
+    /// Wanted z, mm.
     wanted: f64,
-    /// Signed X at which the nose would touch the wanted surface here.
+    /// Signed X at which the nose would touch the wanted surface at this cell.
     target: f64,
 }
 
-/// One way from a cell through the passes of one side.
+/// A walk in one direction through the passes near a cell, on one side of the axis.
 struct Walker {
+    /// Index of the cell.
     cell: usize,
     /// 1 on the cell's side of the axis, −1 on the other.
     side: f64,
@@ -109,9 +114,9 @@ struct Walker {
     end: i64,
 }
 
-/// Room for a row.
+/// Buffers for one row of the map. They are used again for the next row.
 #[derive(Default)]
-struct Room {
+struct RowBuffers {
     cells: Vec<Cell>,
     walkers: Vec<Walker>,
     centres: Vec<Point>,
@@ -123,30 +128,30 @@ struct Room {
     zy: Vec<f64>,
 }
 
-impl Room {
+impl RowBuffers {
     fn cut(
         &mut self,
         nose: &Nose<'_>,
         turns: &Turns,
         part: &Part,
-        places: impl Iterator<Item = Place>,
+        points: impl Iterator<Item = GridPoint>,
         errors: &mut [f32],
     ) -> Result<()> {
-        self.take_cells(nose, turns, part, places)?;
-        self.send_walkers(nose, turns);
+        self.collect_cells(nose, turns, part, points)?;
+        self.start_walkers(nose, turns);
         while !self.walkers.is_empty() {
             self.walk(nose, turns, errors)?;
         }
         Ok(())
     }
 
-    /// The cells of the part that lie within reach of the stretch's ring.
-    fn take_cells(
+    /// Collects the cells of the part that lie within reach of the ring of these turns.
+    fn collect_cells(
         &mut self,
         nose: &Nose<'_>,
         turns: &Turns,
         part: &Part,
-        places: impl Iterator<Item = Place>,
+        points: impl Iterator<Item = GridPoint>,
     ) -> Result<()> {
         let subject = nose.touch.subject();
         let margin = self.margin(nose);
@@ -157,7 +162,7 @@ impl Room {
             column.clear();
         }
         self.columns.clear();
-        for (column, (x, y)) in places.enumerate() {
+        for (column, (x, y)) in points.enumerate() {
             let rho = (x * x + y * y).sqrt();
             if on_part(rho) && near(rho) {
                 self.columns.push(column);
@@ -195,8 +200,8 @@ impl Room {
         Ok(())
     }
 
-    /// How far from a cell the X of a pass can lie that cuts it: from the contact to the edge
-    /// of the nose where X is that of the contact.
+    /// The largest distance between a cell and the X of a pass that cuts it, mm. It is larger by
+    /// the nose radius where X is that of the contact.
     fn margin(&self, nose: &Nose<'_>) -> f64 {
         let subject = nose.touch.subject();
         let reach = subject.tool.reach();
@@ -206,15 +211,15 @@ impl Room {
         }
     }
 
-    /// From the pass that comes nearest to touching each cell, both ways; on both sides of the
-    /// axis where the nose reaches over it.
-    fn send_walkers(&mut self, nose: &Nose<'_>, turns: &Turns) {
+    /// Starts walkers at the pass that comes nearest to touching each cell, in both directions, and
+    /// on both sides of the axis where the nose reaches over it.
+    fn start_walkers(&mut self, nose: &Nose<'_>, turns: &Turns) {
         let margin = self.margin(nose);
         self.walkers.clear();
         for (index, cell) in self.cells.iter().enumerate() {
             for side in [1.0, -1.0] {
-                let place = side * cell.rho;
-                if place + margin < turns.x.0 || place - margin > turns.x.1 {
+                let s = side * cell.rho;
+                if s + margin < turns.x.0 || s - margin > turns.x.1 {
                     continue;
                 }
                 let angle = cell.angle_of(side);
@@ -233,7 +238,7 @@ impl Room {
         self.walkers.retain(|walker| walker.turn != walker.end);
     }
 
-    /// One pass onward for each walker; those that cannot come lower any more are done.
+    /// Moves each walker on by one pass. Walkers that can find no lower pass are dropped.
     fn walk(&mut self, nose: &Nose<'_>, turns: &Turns, errors: &mut [f32]) -> Result<()> {
         let tool = &nose.touch.subject().tool;
         let (radius, reach) = (tool.nose_radius, tool.reach());
@@ -256,21 +261,21 @@ impl Room {
             let (Some(centre), Some(cell)) = (centres.next(), cells.get(walker.cell)) else {
                 return false;
             };
-            let place = walker.side * cell.rho;
-            if (place - centre.x).abs() > reach {
-                return walker.comes_nearer(place, centre.x, turns.grows);
+            let s = walker.side * cell.rho;
+            if (s - centre.x).abs() > reach {
+                return walker.comes_nearer(s, centre.x, turns.grows);
             }
-            let error = lower_arc(*centre, radius, place) - cell.wanted;
+            let error = lower_arc(*centre, radius, s) - cell.wanted;
             let lowest = &mut errors[cell.column];
             *lowest = lowest.min(error as f32);
-            walker.onward() && error <= f64::from(*lowest) + nose.slack
+            walker.advance() && error <= f64::from(*lowest) + nose.slack
         });
         Ok(())
     }
 }
 
 impl Cell {
-    /// C, within a turn or so, of the passes on one side.
+    /// C of the passes on one side, up to whole turns, rad.
     fn angle_of(&self, side: f64) -> f64 {
         if side > 0.0 {
             self.angle
@@ -281,15 +286,15 @@ impl Cell {
 }
 
 impl Walker {
-    /// Goes on to the next pass, if there is one.
-    fn onward(&mut self) -> bool {
+    /// Moves on to the next pass, if there is one.
+    fn advance(&mut self) -> bool {
         self.turn += self.step;
         self.turn != self.end
     }
 
-    /// Goes on if the passes still come towards the place.
-    fn comes_nearer(&mut self, place: f64, x: f64, grows: bool) -> bool {
+    /// Moves on if the passes still come towards the signed radius `s`.
+    fn comes_nearer(&mut self, s: f64, x: f64, grows: bool) -> bool {
         let rises = grows == (self.step > 0);
-        (rises == (x < place)) && self.onward()
+        (rises == (x < s)) && self.advance()
     }
 }

@@ -1,10 +1,11 @@
-//! The machined surface: what the nose leaves on the played path, interpolation error and cusps
-//! together.
+//! The machined surface: the surface that the nose leaves along the played path, with interpolation
+//! error and cusps together.
 //!
-//! Surface error is machined − wanted along z. At one angle the passes of the nose are equal
-//! circles in one plane through the axis, those of the opposite half turn included; the machined
-//! profile is the lower envelope of their lower arcs ([`lower_envelope`]). Figures are taken along
-//! many such lines ([`Lines`]), profiles along one; maps and circles place by place ([`Map`]).
+//! The surface error is machined − wanted along z. At one angle the passes of the nose, with those
+//! of the opposite half turn, are equal circles in one plane through the axis. The machined profile
+//! is the lower envelope of their lower arcs ([`lower_envelope`]). Figures are computed along many
+//! such lines ([`Lines`]), a profile along one line ([`ProfileLine`]), maps and circles point by
+//! point ([`Map`]).
 
 mod envelope;
 mod figures;
@@ -17,9 +18,9 @@ mod strip;
 mod turns;
 
 pub use envelope::{Arc, lower_envelope};
-pub use figures::{MachinedFigures, PlaceOnPart};
-pub use grid::{Grid, Place};
+pub use figures::{MachinedFigures, PartPoint};
+pub use grid::{Grid, GridPoint};
 pub use map::{Map, Nose};
-pub use profile::{ProfileLine, ProfilePlace};
+pub use profile::{ProfileLine, ProfilePoint};
 pub use sections::{Fan, Lines, SectionPasses};
 pub use spectrum::{SpectrumLine, power_spectrum};

@@ -1,4 +1,4 @@
-//! Passes of the nose at a fan of angles, put together into lines through the axis.
+//! Passes of the nose at a fan of angles, combined into lines through the axis.
 
 use std::f64::consts::TAU;
 
@@ -9,20 +9,22 @@ use crate::cusp::Point;
 use crate::residual::crossing;
 use crate::touch::FirstTouch;
 
-/// Sections that a path's figures begin with. 23 is prime, so that sections fall everywhere
-/// between the points of whatever divides a turn; 32 lets every other one be dropped.
+/// Number of sections at the start of a path. 23 is prime, so the sections fall everywhere between
+/// the points of any division of the turn. 32 allows every other section to be dropped several
+/// times.
 const SECTIONS: i64 = 23 * 32;
-/// Fewest sections: half of them are lines through the axis.
+/// Fewest sections. Half of them are lines through the axis.
 const FEWEST: i64 = 2 * 23;
-/// Where the first section lies, in widths of a section after C = 0: paths that begin there with
-/// whole degrees would have points on all sections.
+/// Angle of the first section, in widths of a section after C = 0. At 0, a path that begins there
+/// and has steps of whole degrees would have points on all sections.
 const FIRST: f64 = 0.37;
-/// Passes that are kept, 16 bytes each; beyond, every other section is dropped.
+/// Largest number of passes that are kept, 16 bytes each. Beyond it, every other section is
+/// dropped.
 const MOST_PASSES: usize = 4_000_000;
-/// Part of a line's passes for which room is made at a time: doubling would take twice the memory.
-const MORE_ROOM: usize = 8;
+/// A line that is full grows by its length over this number: doubling would take twice the memory.
+const GROWTH: usize = 8;
 
-/// Sections of equal distance around the axis. Their count is even, so that each has one opposite.
+/// Sections at equal distances around the axis. Their number is even, so each has an opposite one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fan {
     count: i64,
@@ -30,7 +32,7 @@ pub struct Fan {
 }
 
 impl Fan {
-    /// What a path's figures are measured on.
+    /// The sections on which the figures of a path are measured.
     pub const WHOLE: Self = Self {
         count: SECTIONS,
         offset: FIRST * TAU / SECTIONS as f64,
@@ -57,13 +59,13 @@ impl Fan {
 /// The nose centres where C passed successive sections.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SectionPasses {
-    /// The section of the first one, counted from C = offset on.
+    /// Number of the section of the first pass, counted from C = offset on.
     first: i64,
     centres: Vec<Point>,
 }
 
 impl SectionPasses {
-    /// The passes of a stretch of control points as played, its last point excluded.
+    /// The passes of a block as played, its last point excluded.
     ///
     /// # Errors
     /// When the surface fails.
@@ -90,8 +92,8 @@ impl SectionPasses {
     }
 }
 
-/// Where the nose stands whose path was played: at the point itself, or, where the path is that
-/// of the contact, on the surface's normal there.
+/// Turns played points into centres of the nose. If the path is that of the contact, the centre
+/// lies on the surface's normal at the point; if not, it is the point itself.
 pub(super) fn to_centres(
     touch: &FirstTouch,
     angles: impl Iterator<Item = f64>,
@@ -105,8 +107,8 @@ pub(super) fn to_centres(
         .zip(played.iter())
         .map(|(angle, _)| Scalar::sin_cos(angle))
         .collect();
-    let place = |(point, turned): (&Point, &(f64, f64))| (point.x * turned.1, point.x * turned.0);
-    let (x, y): (Vec<f64>, Vec<f64>) = played.iter().zip(&turned).map(place).unzip();
+    let on_part = |(point, turned): (&Point, &(f64, f64))| (point.x * turned.1, point.x * turned.0);
+    let (x, y): (Vec<f64>, Vec<f64>) = played.iter().zip(&turned).map(on_part).unzip();
     let blank = vec![0.0; x.len()];
     let (mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank);
     let out = Gradients {
@@ -125,19 +127,19 @@ pub(super) fn to_centres(
     Ok(())
 }
 
-/// Passes along lines through the axis, each with a signed place: those of the section itself
-/// at X, those of the opposite one at −X.
+/// Passes along lines through the axis, each with a signed position: a pass of the section itself
+/// at X, a pass of the opposite section at −X.
 #[derive(Debug, Clone)]
 pub struct Lines {
     fan: Fan,
-    /// Every which section is kept.
+    /// The number of one kept section to the number of the next.
     stride: i64,
     lines: Vec<Vec<Point>>,
     kept: usize,
 }
 
 impl Lines {
-    /// No passes yet.
+    /// Lines without passes.
     pub fn new(fan: Fan) -> Self {
         Self {
             fan,
@@ -147,12 +149,12 @@ impl Lines {
         }
     }
 
-    /// The sections that they are made of.
+    /// The sections of the lines.
     pub fn fan(&self) -> &Fan {
         &self.fan
     }
 
-    /// Puts the passes of the path's next stretch behind these.
+    /// Appends the passes of the path's next block.
     pub fn append(&mut self, next: &SectionPasses) {
         for (number, centre) in (next.first..).zip(&next.centres) {
             if number.rem_euclid(self.stride) != 0 {
@@ -166,7 +168,7 @@ impl Lines {
             };
             if let Some(line) = self.lines.get_mut((section / self.stride) as usize) {
                 if line.len() == line.capacity() {
-                    line.reserve_exact(line.len() / MORE_ROOM + FEWEST as usize);
+                    line.reserve_exact(line.len() / GROWTH + FEWEST as usize);
                 }
                 line.push(Point::new(sign * centre.x, centre.y));
                 self.kept += 1;
@@ -198,7 +200,7 @@ impl Lines {
     }
 }
 
-/// Passes from left to right, of those at one place the lowest first.
+/// Sorts passes from left to right, and those at the same position from the lowest up.
 pub(super) fn sort(passes: &mut [Point]) {
     passes.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
 }

@@ -5,23 +5,23 @@ use crate::periodogram::Periodogram;
 /// One line of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectrumLine {
-    /// Periods a mm.
+    /// Periods per mm.
     pub frequency: f64,
-    /// One-sided density, mm² mm: its integral over the frequency is the mean square about the
+    /// One-sided density, mm² mm. Its integral over the frequency is the mean square about the
     /// mean.
     pub density: f64,
 }
 
-/// The one-sided power spectral density of values at distances of `step` mm, mean removed, under
-/// a Hann window. Places without a number split the profile: the longest piece on each side of
-/// them counts, cut to one length, and the spectra of the pieces are averaged.
+/// The one-sided power spectral density of values `step` mm apart, with the mean removed, under a
+/// Hann window. Values that are not finite divide the profile into pieces. Only the longest pieces
+/// count: they are cut to the same length, and their spectra are averaged.
 pub fn power_spectrum(values: &[f64], step: f64) -> Vec<SpectrumLine> {
     let pieces: Vec<&[f64]> = values
         .split(|value| !value.is_finite())
         .filter(|piece| !piece.is_empty())
         .collect();
     let longest = pieces.iter().map(|piece| piece.len()).max().unwrap_or(0);
-    // Two sides of a hole are of equal length but for a place or two.
+    // The two sides of a hole differ in length by one or two values.
     let alike = |piece: &&&[f64]| piece.len() + 2 >= longest;
     let alike: Vec<&[f64]> = pieces.iter().filter(alike).copied().collect();
     let length = alike.iter().map(|piece| piece.len()).min().unwrap_or(0);
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn of_nothing_there_is_no_spectrum() {
+    fn an_empty_profile_has_no_spectrum() {
         assert!(power_spectrum(&[f64::NAN; 9], 0.1).is_empty());
         assert!(power_spectrum(&[], 0.1).is_empty());
     }

@@ -4,46 +4,48 @@ use turnpath_core::{Gradients, Part, Result, Scalar, SurfaceModel};
 
 use super::envelope::{Arc, lower_arc, lower_envelope};
 use super::sections::sort;
-use crate::Subject;
 use crate::cusp::Point;
+use crate::subject::Subject;
 
-/// Longest piece, as a part of the nose radius: on steep flanks a cubic follows an arc no further.
+/// Longest piece, as a part of the nose radius. On steep flanks a cubic follows an arc no further.
 const LONGEST: f64 = 1.0 / 32.0;
-/// Gauss-Lobatto places of four: the ends of −1 … 1 and ±1/√5, with weights 1/6 and 5/6. Exact to
-/// degree 5, and neighbours share their ends.
+/// The inner of the four Gauss-Lobatto nodes ±1 and ±1/√5 on −1 … 1. The rule is exact to degree 5,
+/// and neighbouring pieces share their ends.
 const INNER: f64 = 0.447_213_595_499_957_9;
+/// The weights of the four nodes.
 const WEIGHTS: [f64; 4] = [1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0];
-/// Steps of a piece in the mean amount: kinks between them cost 1e-3 of it.
+/// Steps of a piece in the integral of the mean amount. Kinks between them cost 1e-3 of it.
 const AMOUNT_STEPS: usize = 32;
 
-/// A part of an arc on the part.
+/// A piece of an arc on the part.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct ArcPiece {
     centre: Point,
-    /// Which places are its ends and the two between them.
-    places: [usize; 4],
+    /// Indices of its four nodes.
+    nodes: [usize; 4],
     half: f64,
 }
 
-/// What is asked of a piece.
+/// The values at the four nodes of a piece.
 pub(super) struct Sample {
-    /// Signed places on the line, mm.
+    /// Signed positions on the line, mm.
     pub s: [f64; 4],
-    /// Surface error there, mm.
+    /// Surface error, mm.
     pub error: [f64; 4],
-    /// Radial slope error there; 0 where slopes were not asked for.
+    /// Error of the radial slope; meaningless after [`Strip::look_up_heights`].
     pub slope: [f64; 4],
     /// Weights of area.
     pub weight: [f64; 4],
 }
 
-/// Room for one line after the other.
+/// The machined profile along one line. Its memory is used again for the next line.
 #[derive(Default)]
 pub(super) struct Strip {
     passes: Vec<Point>,
     arcs: Vec<Arc>,
-    pieces: Vec<Piece>,
-    places: Vec<f64>,
+    pieces: Vec<ArcPiece>,
+    /// Signed positions of the nodes of all pieces, mm.
+    nodes: Vec<f64>,
     x: Vec<f64>,
     y: Vec<f64>,
     z: Vec<f64>,
@@ -54,8 +56,9 @@ pub(super) struct Strip {
 }
 
 impl Strip {
-    /// Takes the line at `angle`, rad: its envelope in pieces over the part.
-    pub fn take(&mut self, subject: &Subject, angle: f64, passes: &[Point]) {
+    /// Sets the line at `angle`, rad, with its passes: divides its envelope over the part into
+    /// pieces.
+    pub fn set_line(&mut self, subject: &Subject, angle: f64, passes: &[Point]) {
         let (tool, part) = (&subject.tool, &subject.part);
         self.radius = tool.nose_radius;
         self.turned = Scalar::sin_cos(angle);
@@ -64,7 +67,7 @@ impl Strip {
         sort(&mut self.passes);
         lower_envelope(&self.passes, self.radius, tool.reach(), &mut self.arcs);
         self.pieces.clear();
-        self.places.clear();
+        self.nodes.clear();
         for arc in std::mem::take(&mut self.arcs) {
             for (from, to) in on_part(&arc, part) {
                 self.divide(arc.centre, from, to);
@@ -72,9 +75,9 @@ impl Strip {
         }
         let (sin, cos) = self.turned;
         self.x.clear();
-        self.x.extend(self.places.iter().map(|s| s * cos));
+        self.x.extend(self.nodes.iter().map(|s| s * cos));
         self.y.clear();
-        self.y.extend(self.places.iter().map(|s| s * sin));
+        self.y.extend(self.nodes.iter().map(|s| s * sin));
     }
 
     fn divide(&mut self, centre: Point, from: f64, to: f64) {
@@ -87,23 +90,23 @@ impl Strip {
                 false => from + 2.0 * half * (i + 1) as f64,
             };
             let middle = 0.5 * (begin + end);
-            let first = self.place(begin);
-            self.places
+            let first = self.node_at(begin);
+            self.nodes
                 .extend([middle - INNER * half, middle + INNER * half, end]);
-            self.pieces.push(Piece {
+            self.pieces.push(ArcPiece {
                 centre,
-                places: [first, first + 1, first + 2, first + 3],
+                nodes: [first, first + 1, first + 2, first + 3],
                 half,
             });
         }
     }
 
-    /// The index of a place: the last one, or a new one.
-    fn place(&mut self, s: f64) -> usize {
-        if self.places.last() != Some(&s) {
-            self.places.push(s);
+    /// The index of the node at `s`: the last node, or a new one.
+    fn node_at(&mut self, s: f64) -> usize {
+        if self.nodes.last() != Some(&s) {
+            self.nodes.push(s);
         }
-        self.places.len() - 1
+        self.nodes.len() - 1
     }
 
     /// Looks up wanted heights and slopes.
@@ -129,20 +132,20 @@ impl Strip {
         surface.heights(&self.x, &self.y, &mut self.z)
     }
 
-    /// What was found on each piece, from left to right.
+    /// The sample of each piece, from left to right.
     pub fn samples(&self) -> impl Iterator<Item = Sample> + '_ {
         self.pieces.iter().map(|piece| self.sample(piece))
     }
 
-    fn sample(&self, piece: &Piece) -> Sample {
-        let s = piece.places.map(|place| self.places[place]);
+    fn sample(&self, piece: &ArcPiece) -> Sample {
+        let s = piece.nodes.map(|node| self.nodes[node]);
         let (sin, cos) = self.turned;
-        let of = |k: usize, f: &dyn Fn(usize, f64) -> f64| f(piece.places[k], s[k]);
-        let error = |place: usize, s: f64| lower_arc(piece.centre, self.radius, s) - self.z[place];
-        let slope = |place: usize, s: f64| {
+        let of = |k: usize, f: &dyn Fn(usize, f64) -> f64| f(piece.nodes[k], s[k]);
+        let error = |node: usize, s: f64| lower_arc(piece.centre, self.radius, s) - self.z[node];
+        let slope = |node: usize, s: f64| {
             let off = s - piece.centre.x;
             let lift = (self.radius * self.radius - off * off).max(0.0).sqrt();
-            off / lift - self.zx[place] * cos - self.zy[place] * sin
+            off / lift - self.zx[node] * cos - self.zy[node] * sin
         };
         Sample {
             s,
@@ -153,7 +156,7 @@ impl Strip {
     }
 }
 
-/// Where an arc lies on the part: on either side of the hole, or of the axis.
+/// The intervals of an arc that lie on the part, on either side of the hole or of the axis.
 fn on_part(arc: &Arc, part: &Part) -> impl Iterator<Item = (f64, f64)> + use<> {
     let (rim, hole) = (part.aperture_radius, part.inner_radius);
     let (from, to) = (arc.from, arc.to);
@@ -164,7 +167,7 @@ fn on_part(arc: &Arc, part: &Part) -> impl Iterator<Item = (f64, f64)> + use<> {
 }
 
 impl Sample {
-    /// The cubic through the errors, on −1 … 1.
+    /// The coefficients of the cubic through the errors, on −1 … 1.
     fn cubic(&self) -> [f64; 4] {
         let [e0, e1, e2, e3] = self.error;
         let (outer, inner) = (0.5 * (e0 + e3), 0.5 * (e1 + e2));
@@ -174,8 +177,8 @@ impl Sample {
         [outer - bend, outer_odd - twist, bend, twist]
     }
 
-    /// The integral of |error − mean| over the area, on the cubic: of an amount, whose kinks lie
-    /// anywhere, four places tell too little.
+    /// The integral of |error − mean| over the area, computed on the cubic. Four nodes are too few
+    /// for an absolute value, which may have a kink anywhere.
     pub fn amount_about(&self, mean: f64) -> f64 {
         let [a, b, c, d] = self.cubic();
         let half = 0.5 * (self.s[3] - self.s[0]);
@@ -189,8 +192,8 @@ impl Sample {
         sum * (self.s[3] - self.s[0]) / AMOUNT_STEPS as f64
     }
 
-    /// Places and errors that can be the largest or smallest of the piece: its ends, and where
-    /// the cubic through the errors is level.
+    /// Positions and errors that can be the largest or smallest of the piece: those at its ends,
+    /// and those where the slope of the cubic through the errors is zero.
     pub fn extremes(&self) -> [(f64, f64); 4] {
         let [a, b, c, d] = self.cubic();
         let at = |t: f64| {
@@ -199,7 +202,7 @@ impl Sample {
             (middle + t * half, a + t * (b + t * (c + t * d)))
         };
         let root = (c * c - 3.0 * b * d).sqrt();
-        // Of both roots, in the form that loses no digits.
+        // Both roots in the form that loses no digits.
         let q = -(c + root.copysign(c));
         let level = |t: f64| match t.abs() < 1.0 {
             true => at(t),

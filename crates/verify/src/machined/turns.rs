@@ -1,4 +1,4 @@
-//! A stretch of path by turns: where the tool is when C passes an angle for the nth time.
+//! Turns: the position of the tool when C passes an angle for the nth time.
 
 use std::f64::consts::TAU;
 
@@ -7,36 +7,37 @@ use turnpath_core::toolpath::{PathBlock, Segment};
 use crate::cusp::Point;
 use crate::residual::crossing;
 
-/// Turns closer than this, mm, do not say which way the tool feeds.
-const SAME_PLACE: f64 = 1e-9;
+/// Turns closer together than this, mm, show no direction of feed.
+const NO_FEED: f64 = 1e-9;
 
-/// Successive segments, on which X at any one angle only grows or only falls from turn to turn.
+/// Successive segments on which X at any angle only grows or only falls from turn to turn.
 pub(super) struct Turns {
     segments: Vec<Segment>,
-    /// C at the begin of each segment, and at the end of the last one.
+    /// C at the start of each segment, and at the end of the last one, rad.
     c: Vec<f64>,
-    /// The segment in which each turn since the first point begins, and the last segment.
+    /// Index of the segment in which each turn since the first point begins, and of the last
+    /// segment.
     begins: Vec<usize>,
-    /// Whether X grows.
+    /// Whether X grows from turn to turn.
     pub grows: bool,
     /// Smallest and largest X of the points, mm.
     pub x: (f64, f64),
 }
 
 impl Turns {
-    /// A block in as many stretches as its feed changes direction.
+    /// Divides a block where its feed changes direction.
     pub fn of(block: &PathBlock) -> Vec<Self> {
         let segments: Vec<Segment> = block.segments().collect();
         let mut found = Vec::new();
         let mut begin = 0;
         for (end, grows) in runs(block) {
-            let stretch = segments.get(begin..end).unwrap_or_default();
+            let run = segments.get(begin..end).unwrap_or_default();
             if let (false, Some(c), Some(x)) = (
-                stretch.is_empty(),
+                run.is_empty(),
                 block.c.get(begin..=end),
                 block.x.get(begin..=end),
             ) {
-                found.push(Self::new(stretch, c, x, grows));
+                found.push(Self::new(run, c, x, grows));
             }
             begin = end;
         }
@@ -65,7 +66,7 @@ impl Turns {
         }
     }
 
-    /// How often C passes an angle: the numbers n of angle + 2πn, first and one after the last.
+    /// The passes of C at an angle: the first n of angle + 2πn, and the n after the last.
     pub fn passes(&self, angle: f64) -> (i64, i64) {
         let ends = [self.c.first(), self.c.last()];
         let [first, end] = ends.map(|c| c.map_or(0.0, |c| ((c - angle) / TAU).ceil()));
@@ -83,26 +84,26 @@ impl Turns {
         (low + after).saturating_sub(1).min(self.segments.len() - 1)
     }
 
-    /// Where the tool is as played when C is this, unwrapped.
+    /// The played position of the tool at an unwrapped C, rad.
     pub fn at(&self, c: f64) -> Point {
         let segment = &self.segments[self.segment_at(c)];
         let instant = crossing(segment, c);
         Point::new(segment.x.value(instant), segment.z.value(instant))
     }
 
-    /// X there, as if C ran evenly through each segment.
-    fn about_x(&self, c: f64) -> f64 {
+    /// X at an unwrapped C, rad, as if C were linear within each segment.
+    fn approximate_x(&self, c: f64) -> f64 {
         let index = self.segment_at(c);
         let (from, to) = (self.c[index], self.c[index + 1]);
         self.segments[index].x.value((c - from) / (to - from))
     }
 
-    /// Of the passes at an angle, the first that is at `x` or beyond it in the direction of feed.
+    /// The first pass at an angle that lies at `x` or beyond it in the direction of feed.
     pub fn first_beyond(&self, angle: f64, x: f64) -> i64 {
         let (mut low, mut high) = self.passes(angle);
         while low < high {
             let middle = low + (high - low) / 2;
-            let here = self.about_x(angle + TAU * middle as f64);
+            let here = self.approximate_x(angle + TAU * middle as f64);
             let before = if self.grows { here < x } else { here > x };
             if before {
                 low = middle + 1;
@@ -114,12 +115,12 @@ impl Turns {
     }
 }
 
-/// Stretches of points over which X at the same angle a turn later has moved one way: the index
-/// of each one's last point, and whether X grew.
+/// Runs of points over which X at the same angle a turn later has moved in one direction: the index
+/// of the last point of each run, and whether X grew.
 fn runs(block: &PathBlock) -> Vec<(usize, bool)> {
     let (c, x) = (&block.c, &block.x);
     let mut found = Vec::new();
-    let mut way: Option<bool> = None;
+    let mut direction: Option<bool> = None;
     let mut after = 0;
     for (index, (from, here)) in c.iter().zip(x).enumerate() {
         let later = from + TAU;
@@ -131,17 +132,17 @@ fn runs(block: &PathBlock) -> Vec<(usize, bool)> {
         };
         let share = (later - c[after]) / (next_c - c[after]);
         let moved = x[after] + share * (next_x - x[after]) - here;
-        if moved.abs() <= SAME_PLACE {
+        if moved.abs() <= NO_FEED {
             continue;
         }
         let grows = moved > 0.0;
-        if way.is_some_and(|way| way != grows) && index > 0 {
+        if direction.is_some_and(|direction| direction != grows) && index > 0 {
             found.push((index, !grows));
         }
-        way = Some(grows);
+        direction = Some(grows);
     }
     if c.len() > 1 {
-        found.push((c.len() - 1, way.unwrap_or(true)));
+        found.push((c.len() - 1, direction.unwrap_or(true)));
     }
     found
 }
@@ -169,17 +170,17 @@ mod tests {
     }
 
     #[test]
-    fn a_path_that_turns_back_is_two_stretches() {
+    fn a_path_that_turns_back_is_two_runs() {
         let block = path(|n| (n - 6.0).abs(), 12.0);
         let found = Turns::of(&block);
-        let ways: Vec<bool> = found.iter().map(|turns| turns.grows).collect();
-        assert_eq!(ways, [false, true]);
+        let directions: Vec<bool> = found.iter().map(|turns| turns.grows).collect();
+        assert_eq!(directions, [false, true]);
         let points: usize = found.iter().map(|turns| turns.segments.len()).sum();
         assert_eq!(points, block.len() - 1);
     }
 
     #[test]
-    fn turns_that_lie_on_each_other_turn_no_way() {
+    fn turns_that_lie_on_each_other_are_one_run() {
         assert_eq!(Turns::of(&path(|_| 2.0, 3.0)).len(), 1);
         assert_eq!(Turns::of(&path(|n| n.max(2.0), 5.0)).len(), 1);
     }

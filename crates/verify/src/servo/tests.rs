@@ -23,7 +23,7 @@ fn segments(points: impl Iterator<Item = ControlPoint>, shape: SegmentShape) -> 
     block.segments().collect()
 }
 
-/// z = sin(ωt) in steps that a cubic takes to 1e-9.
+/// z = sin(ωt) in steps at which a cubic is accurate to 1e-9.
 fn sine(frequency: f64, periods: f64) -> Vec<Segment> {
     let steps = (periods * 400.0) as u32;
     let point = |k: u32| {
@@ -39,7 +39,7 @@ fn sine(frequency: f64, periods: f64) -> Vec<Segment> {
     segments((0..=steps).map(point), SegmentShape::Cubic)
 }
 
-/// z = v t, from motion.
+/// z = v t, in motion from the start.
 fn ramp(v: f64, shape: SegmentShape) -> Vec<Segment> {
     let point = |k: i32| ControlPoint {
         t: 0.01 * f64::from(k),
@@ -50,16 +50,16 @@ fn ramp(v: f64, shape: SegmentShape) -> Vec<Segment> {
     segments((0..=50).map(point), shape)
 }
 
-/// What the axis does at the middle of each segment: its time, and y.
-fn answer(servo: AxisServo, segments: &[Segment]) -> Vec<(f64, f64)> {
+/// The position y of the axis at the middle of each segment, with its time.
+fn response(servo: AxisServo, segments: &[Segment]) -> Vec<(f64, f64)> {
     let mut follower = Follower::new(servo);
-    let mut seen = Vec::new();
+    let mut positions = Vec::new();
     for segment in segments {
-        follower.push(Piece::new(segment, &segment.z));
+        follower.push(CommandPiece::new(segment, &segment.z));
         let time = segment.start + 0.5 * segment.duration;
-        seen.push((time, follower.at(time)));
+        positions.push((time, follower.at(time)));
     }
-    seen
+    positions
 }
 
 /// H(iω) = (ω₀² + 2ζω₀k_v iω − k_a ω²)/(ω₀² + 2ζω₀ iω − ω²), amplitude and phase, with the delay.
@@ -91,7 +91,7 @@ fn a_sine_has_amplitude_and_phase_of_the_transfer_function() {
             let omega = ratio * BANDWIDTH;
             let (amplitude, phase) = transfer(servo, omega);
             let periods = 3.0 + 12.0 * ratio / servo.damping.min(servo.damping.recip());
-            for (time, y) in answer(servo, &sine(omega, periods))
+            for (time, y) in response(servo, &sine(omega, periods))
                 .into_iter()
                 .rev()
                 .take(400)
@@ -115,7 +115,7 @@ fn a_ramp_is_followed_late_by_2_zeta_over_omega_unless_its_velocity_is_fed_forwa
                 ..axis(0.7)
             };
             let expected = -30.0 * 2.0 * 0.7 / BANDWIDTH * (1.0 - forward);
-            for (time, y) in answer(servo, &ramp(30.0, shape)) {
+            for (time, y) in response(servo, &ramp(30.0, shape)) {
                 let error = y - 30.0 * time;
                 assert!((error - expected).abs() < 1e-12, "{error}, {expected}");
             }
@@ -125,7 +125,8 @@ fn a_ramp_is_followed_late_by_2_zeta_over_omega_unless_its_velocity_is_fed_forwa
 
 #[test]
 fn a_ramp_from_rest_rises_as_the_closed_form_says() {
-    // Straight segments: at rest to t = 0.01, then v. e = −L v (1 − e^{−st}(cos dt + (s − 1/L)/d sin dt)).
+    // Straight segments: at rest until t = 0.01, then at the rate v.
+    // e = −L v (1 − e^{−st}(cos dt + (s − 1/L)/d sin dt)).
     let point = |t: f64, z: f64| ControlPoint {
         t,
         z,
@@ -136,9 +137,9 @@ fn a_ramp_from_rest_rises_as_the_closed_form_says() {
     let servo = axis(0.7);
     let mut follower = Follower::new(servo);
     for segment in &segments {
-        follower.push(Piece::new(segment, &segment.z));
+        follower.push(CommandPiece::new(segment, &segment.z));
     }
-    let (v, late, s) = (30.0, Answer(servo).lateness(), 0.7 * BANDWIDTH);
+    let (v, late, s) = (30.0, AxisResponse(servo).lateness(), 0.7 * BANDWIDTH);
     let d = BANDWIDTH * (1.0f64 - 0.49).sqrt();
     for k in 0..=20 {
         let t = 0.001 * f64::from(k);
@@ -162,7 +163,7 @@ fn a_wide_band_or_whole_feed_forward_leaves_nothing() {
         ..axis(0.7)
     };
     for servo in [wide, whole] {
-        for (time, y) in answer(servo, &sine(50.0, 3.0)) {
+        for (time, y) in response(servo, &sine(50.0, 3.0)) {
             assert!((y - Scalar::sin(50.0 * time)).abs() < 1e-7);
         }
     }
@@ -174,12 +175,12 @@ mod on_a_surface {
     use turnpath_core::{Misfit, ParamValue, Params, Part, Strategy, Tool};
     use turnpath_surfaces::Astigmatic;
 
-    use crate::Subject;
+    use crate::subject::Subject;
 
     const K: f64 = 0.08;
     const SPINDLE: f64 = TAU * 8.0;
 
-    /// A point for a tool: the true position is the saddle itself.
+    /// The path is that of the contact: the true position lies on the saddle itself.
     fn touch() -> FirstTouch {
         let mut params = Params::new();
         params.set("k", ParamValue::Number(K));
@@ -222,9 +223,9 @@ mod on_a_surface {
     fn cut(servo: &Servo, blocks: &[PathBlock]) -> ServoFigures {
         let (touch, mut meter) = (touch(), ServoMeter::new(servo));
         for block in blocks {
-            let start = meter.pass(block);
-            let stretch = ServoMeter::measure(&touch, &start, block).expect("a measure");
-            meter.append(&stretch);
+            let start = meter.advance(block);
+            let figures = ServoMeter::measure(&touch, &start, block).expect("figures");
+            meter.append(&figures);
         }
         *meter.figures()
     }
@@ -250,20 +251,20 @@ mod on_a_surface {
         }
     }
 
-    /// Z answers sin 2C with the transfer function at 2ω, C is late by 2ζ/ω₀.
+    /// Z responds to sin 2C with the transfer function at 2ω; C is late by 2ζ/ω₀.
     #[test]
     fn the_error_of_a_circle_is_that_of_both_phases() {
         let servo = axis(0.7);
         let (points, settled) = (circles(), 1200);
         let mut meter = ServoMeter::new(&same(servo));
         let parts = blocks(&points, settled);
-        meter.pass(&parts[0]);
-        let start = meter.pass(&parts[1]);
+        meter.advance(&parts[0]);
+        let start = meter.advance(&parts[1]);
         let figures = ServoMeter::measure(&touch(), &start, &parts[1])
-            .expect("a measure")
+            .expect("figures")
             .0;
         let (amplitude, phase) = transfer(servo, 2.0 * SPINDLE);
-        let turned = 2.0 * SPINDLE * Answer(servo).lateness();
+        let turned = 2.0 * SPINDLE * AxisResponse(servo).lateness();
         // |H sin(φ + p) − sin(φ − turned)| over all φ.
         let (sin, cos) = Scalar::sin_cos(phase + turned);
         let expected = K * 4.0 * Scalar::hypot(amplitude * cos - 1.0, amplitude * sin);
@@ -273,7 +274,7 @@ mod on_a_surface {
             figures.max() / expected
         );
         assert!((figures.rms() / (expected / 2f64.sqrt()) - 1.0).abs() < 1e-3);
-        assert!((figures.c.max / (SPINDLE * Answer(servo).lateness()) - 1.0).abs() < 1e-9);
+        assert!((figures.c.max / (SPINDLE * AxisResponse(servo).lateness()) - 1.0).abs() < 1e-9);
         assert!(figures.x.max < 1e-12);
     }
 
@@ -288,19 +289,20 @@ mod on_a_surface {
         let points = circles();
         let figures = cut(&same(late), std::slice::from_ref(&points));
         assert!((figures.c.max - SPINDLE * 2e-3).abs() < 1e-9);
-        // Before the path it is taken to go straight on, so its first moments do not count.
+        // Before the path the axes are taken to move at a constant rate, so the first moments of
+        // the path do not count.
         let mut meter = ServoMeter::new(&same(late));
         let parts = blocks(&points, 400);
-        meter.pass(&parts[0]);
-        let start = meter.pass(&parts[1]);
+        meter.advance(&parts[0]);
+        let start = meter.advance(&parts[1]);
         let later = ServoMeter::measure(&touch(), &start, &parts[1])
-            .expect("a measure")
+            .expect("figures")
             .0;
         assert!(later.max() < 1e-7, "{}", later.max());
     }
 
     #[test]
-    fn blocks_do_not_matter() {
+    fn the_division_into_blocks_does_not_matter() {
         let servo = Servo {
             z: AxisServo {
                 delay: 5e-3,

@@ -1,4 +1,4 @@
-//! Surfaces with closed forms, and paths over them made from closed forms alone.
+//! Surfaces with closed forms, and paths over them that are made from closed forms alone.
 #![allow(dead_code, reason = "each test uses what it needs")]
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
@@ -37,7 +37,8 @@ impl Surface for Plane {
     }
 }
 
-/// A ball's lower half seen from inside (positive radius), or its upper half.
+/// The lower half of a ball, cut from inside (positive radius), or its upper half (negative
+/// radius).
 pub struct Ball {
     pub radius: f64,
 }
@@ -99,7 +100,7 @@ impl Surface for Waves {
     }
 }
 
-/// Finds touches of a nose on a surface; a nose radius of `None`: the path of a point.
+/// The search for touches of a nose on a surface.
 pub fn touch_on(
     surface: impl Surface + 'static,
     aperture_radius: f64,
@@ -115,7 +116,7 @@ pub fn touch_on(
     touch_of(surface, aperture_radius, tool, compensates_nose)
 }
 
-/// The same with a whole tool.
+/// The search for touches of a tool on a surface.
 pub fn touch_of(
     surface: impl Surface + 'static,
     aperture_radius: f64,
@@ -145,12 +146,12 @@ pub fn touches(touch: &FirstTouch, theta: f64, x: &[f64]) -> Vec<Touch> {
 /// All figures of a path measured in one piece.
 pub fn figures(touch: &FirstTouch, points: &PathBlock) -> PathFigures {
     let mut meter = Meter::new(touch.clone());
-    let measured = Meter::measure(touch, points).expect("a measure");
-    meter.append(&measured).expect("a measure");
-    meter.figures().expect("a measure")
+    let block = Meter::measure(touch, points).expect("figures");
+    meter.append(&block).expect("figures");
+    meter.figures().expect("figures")
 }
 
-/// Z, ∂Z/∂θ and ∂Z/∂X of a nose over k ρ² sin 2θ, by Newton's method for its foot.
+/// Z, ∂Z/∂θ and ∂Z/∂X of a nose over k ρ² sin 2θ, with its foot from Newton's method.
 pub fn astigmatic_locus(surface: Astigmatic, nose: f64, theta: f64, x: f64) -> [f64; 3] {
     let (sin, cos) = Scalar::sin_cos(2.0 * theta);
     let bend = 2.0 * surface.k * sin;
@@ -164,8 +165,8 @@ pub fn astigmatic_locus(surface: Astigmatic, nose: f64, theta: f64, x: f64) -> [
     [height, 2.0 * surface.k * foot * foot * cos, bend * foot]
 }
 
-/// A path over an astigmatic surface with exact velocities: X = `x(θ)`, which has rate
-/// `x_rate(θ)`, at steps of `step` rad.
+/// A path over an astigmatic surface with exact velocities, in steps of `step` rad. `law` gives X
+/// and dX/dθ at θ.
 pub fn astigmatic_path(
     surface: Astigmatic,
     nose: f64,
@@ -191,7 +192,7 @@ pub fn astigmatic_path(
     points
 }
 
-/// A spiral whose Z does not matter, at steps of 6 deg: X against revolutions.
+/// A spiral in steps of 6 deg whose Z does not matter; `x` gives X as a function of revolutions.
 pub fn bare_spiral(turns: f64, x: impl Fn(f64) -> f64) -> PathBlock {
     let mut points = PathBlock::default();
     for i in 0..=(turns * 60.0) as usize {

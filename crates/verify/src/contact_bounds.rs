@@ -1,44 +1,47 @@
-//! How far from X the nose can touch at all, by how steep the surface is.
+//! Contact bounds: how far from X the nose can touch the part, from the largest slope of the
+//! surface.
 //!
-//! A contact at an offset d stands higher than the place below the nose by at least what the nose
-//! rises there, R − sqrt(R² − d²) = d tan(φ/2) with d = R sin φ. On a surface that rises by no more
-//! than a slope m from place to place, φ is at most 2 atan m.
+//! A contact at an offset d stands higher than the surface straight below the nose by at least the
+//! rise of the nose there, R − sqrt(R² − d²) = d tan(φ/2) with d = R sin φ. On a surface whose
+//! slope is nowhere larger than m, φ is at most 2 atan m.
 
 use std::f64::consts::FRAC_PI_2;
 
 use rayon::prelude::*;
 use turnpath_core::{Gradients, Result, Scalar};
 
-use crate::Subject;
+use crate::subject::Subject;
 
-/// Places a nose radius at which slopes are looked at: as fine as the scan of the edge.
-const PLACES_A_RADIUS: f64 = 128.0;
-/// Most places: where that takes more, nothing is said, and every search looks along the whole edge.
-const MOST_PLACES: f64 = 4e6;
-/// How much steeper the surface may be between them.
+/// Points per nose radius at which slopes are computed: as fine as the scan of the edge.
+const POINTS_PER_RADIUS: f64 = 128.0;
+/// Largest number of points. On a part that needs more, slopes are not computed, and every search
+/// covers the whole edge.
+const MOST_POINTS: f64 = 4e6;
+/// How many times steeper the surface may be between the points.
 const MARGIN: f64 = 1.1;
 
-/// The largest |s − X|, mm, of a contact s with the whole edge within `length` of the axis.
+/// An upper bound of |s − X|, mm, for a contact s, with the whole edge within `length` of the axis,
+/// mm.
 ///
 /// # Errors
 /// Where the surface fails.
 pub(crate) fn farthest_contact(subject: &Subject, length: f64) -> Result<f64> {
     let (radius, reach) = (subject.tool.nose_radius, subject.tool.reach());
-    let count = (2.0 * length / radius * PLACES_A_RADIUS).ceil() + 1.0;
-    if count * count > MOST_PLACES {
+    let count = (2.0 * length / radius * POINTS_PER_RADIUS).ceil() + 1.0;
+    if count * count > MOST_POINTS {
         return Ok(reach);
     }
-    let angle = match steepest(subject, length, count as usize)? {
+    let angle = match largest_slope(subject, length, count as usize)? {
         Some(slope) => 2.0 * Scalar::atan(MARGIN * slope),
         None => FRAC_PI_2,
     };
     Ok(reach.min(radius * Scalar::sin(angle.min(FRAC_PI_2))))
 }
 
-/// The steepest slope on a grid of `count` by `count` places; `None` where one has no number.
-fn steepest(subject: &Subject, length: f64, count: usize) -> Result<Option<f64>> {
+/// The largest slope on a grid of `count` by `count` points; `None` if a slope is not finite.
+fn largest_slope(subject: &Subject, length: f64, count: usize) -> Result<Option<f64>> {
     let step = 2.0 * length / (count - 1) as f64;
-    let places: Vec<f64> = (0..count).map(|i| i as f64 * step - length).collect();
+    let points: Vec<f64> = (0..count).map(|i| i as f64 * step - length).collect();
     let row = |y: &f64| -> Result<f64> {
         let [mut z, mut zx, mut zy] = [(); 3].map(|()| vec![0.0; count]);
         let out = Gradients {
@@ -46,17 +49,17 @@ fn steepest(subject: &Subject, length: f64, count: usize) -> Result<Option<f64>>
             zx: &mut zx,
             zy: &mut zy,
         };
-        subject.surface.gradient(&places, &vec![*y; count], out)?;
+        subject.surface.gradient(&points, &vec![*y; count], out)?;
         let square = zx.iter().zip(&zy).map(|(zx, zy)| zx * zx + zy * zy);
-        Ok(square.fold(0.0, largest))
+        Ok(square.fold(0.0, larger))
     };
-    let rows: Vec<f64> = places.par_iter().map(row).collect::<Result<_>>()?;
-    let square = rows.into_iter().fold(0.0, largest);
+    let rows: Vec<f64> = points.par_iter().map(row).collect::<Result<_>>()?;
+    let square = rows.into_iter().fold(0.0, larger);
     Ok(square.is_finite().then(|| square.sqrt()))
 }
 
-/// The larger of two; no number where either is none.
-fn largest(one: f64, other: f64) -> f64 {
+/// The larger of two numbers; NaN if either is NaN.
+fn larger(one: f64, other: f64) -> f64 {
     if one >= other { one } else { other + 0.0 * one }
 }
 
@@ -97,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn on_a_gentle_cone_contacts_are_near_and_on_a_steep_one_anywhere() {
+    fn contacts_are_near_on_a_gentle_cone_and_anywhere_on_a_steep_one() {
         let (slope, radius) = (0.05, 2.0);
         let known = radius * 2.0 * slope;
         let found = farthest(slope, radius, 1.0);
@@ -106,13 +109,13 @@ mod tests {
     }
 
     #[test]
-    fn on_a_part_too_large_to_be_looked_at_they_are_anywhere() {
+    fn contacts_are_anywhere_on_a_part_too_large_for_the_grid() {
         assert_eq!(farthest(0.05, 0.1, 50.0), 0.1);
     }
 
     #[test]
-    fn what_is_no_number_stays_none() {
-        assert!(largest(f64::NAN, 1.0).is_nan() && largest(1.0, f64::NAN).is_nan());
-        assert_eq!((largest(1.0, 2.0), largest(2.0, 1.0)), (2.0, 2.0));
+    fn nan_stays_nan() {
+        assert!(larger(f64::NAN, 1.0).is_nan() && larger(1.0, f64::NAN).is_nan());
+        assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0)), (2.0, 2.0));
     }
 }

@@ -1,4 +1,4 @@
-//! A path measured in stretches, and how hard its axes work.
+//! The figures of a path that is measured in blocks, and the motion of its axes.
 
 mod common;
 
@@ -10,7 +10,7 @@ use turnpath_core::toolpath::PathBlock;
 use turnpath_verify::Meter;
 
 /// The points from `from` to `to`, both included.
-fn stretch(path: &PathBlock, from: usize, to: usize) -> PathBlock {
+fn block(path: &PathBlock, from: usize, to: usize) -> PathBlock {
     let mut part = PathBlock::default();
     for point in path.points().skip(from).take(to - from + 1) {
         part.push(point);
@@ -19,7 +19,7 @@ fn stretch(path: &PathBlock, from: usize, to: usize) -> PathBlock {
 }
 
 #[test]
-fn stretches_of_any_length_give_the_figures_of_the_whole() {
+fn blocks_of_any_length_give_the_figures_of_the_whole() {
     let feed = 0.02;
     let law = |theta: f64| (2.5 - feed * theta / TAU, -feed / TAU);
     let path = astigmatic_path(AST5, 1.0, 400, 7.3 * DEG, law);
@@ -27,7 +27,8 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
     let whole = figures(&touch, &path);
     // Half of the contacts lie beyond the rim.
     assert!(whole.residual.cusps > 1000);
-    // Within a section, many to a turn, a turn, more than a turn, four turns, all but one.
+    // Blocks within a section, of a part of a turn, of a turn, of more than a turn, of four turns,
+    // and of all segments but one.
     let all: [&[usize]; 6] = [
         &[1],
         &[1, 2, 50, 3],
@@ -41,9 +42,9 @@ fn stretches_of_any_length_give_the_figures_of_the_whole() {
         let (mut from, mut next) = (0, lengths.iter().cycle());
         while from < 400 {
             let to = (from + next.next().copied().unwrap_or(1)).min(400);
-            let measured = Meter::measure(&touch, &stretch(&path, from, to)).unwrap();
-            assert_eq!(measured.per_segment.len(), to - from);
-            meter.append(&measured).unwrap();
+            let figures = Meter::measure(&touch, &block(&path, from, to)).unwrap();
+            assert_eq!(figures.per_segment.len(), to - from);
+            meter.append(&figures).unwrap();
             from = to;
         }
         let found = meter.figures().unwrap();
@@ -72,7 +73,7 @@ fn axes_move_as_the_closed_form_says() {
     };
     near(axes.c.velocity.amount, SPEED, 1e-12);
     assert!(axes.c.acceleration.amount < 1e-6 * SPEED * SPEED);
-    // X of 2.5 mm in steps of 3e-8 mm has no more digits.
+    // X is 2.5 mm and moves in steps of 3e-8 mm, so its rate has no more digits than this.
     near(axes.x.velocity.amount, feed / TAU * SPEED, 1e-7);
     let height = AST5.k * rim * rim;
     near(axes.z.velocity.amount, height * 2.0 * SPEED, 1e-3);
