@@ -179,7 +179,7 @@ impl Sink for Files {
             encoded.push(PathWriter::rows(stretch.section, stretch.points)?);
         }
         for program in &self.programs {
-            encoded.push(program.lines(stretch)?);
+            encoded.push(program.lines(stretch).map_err(io::Error::other)?);
         }
         Ok(encoded)
     }

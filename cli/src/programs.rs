@@ -74,7 +74,7 @@ impl Program {
     }
 
     /// A stretch of the path as program lines.
-    pub fn lines(&self, stretch: &PathStretch<'_>) -> std::io::Result<Vec<u8>> {
+    pub fn lines(&self, stretch: &PathStretch<'_>) -> Result<Vec<u8>, PmacError> {
         PmacWriter::lines(&self.format, stretch)
     }
 

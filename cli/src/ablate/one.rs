@@ -79,7 +79,7 @@ impl Sink for Sizes {
         }
         match PmacWriter::lines(&self.format, stretch) {
             Ok(lines) => Ok(vec![(lines.len() as u64).to_le_bytes().to_vec()]),
-            Err(error) if self.is_asked => Err(error),
+            Err(error) if self.is_asked => Err(io::Error::other(error)),
             Err(_) => Ok(Vec::new()),
         }
     }
