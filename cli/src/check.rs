@@ -1,7 +1,7 @@
 //! `turnpath check`: everything but the path.
 
 use serde::Serialize;
-use turnpath_pipeline::{expect, largest_nose};
+use turnpath_pipeline::{estimate, largest_nose};
 
 use crate::args::{CheckArgs, Format};
 use crate::interference::Report;
@@ -46,7 +46,7 @@ struct ExpectedProgram {
 /// Checks a recipe.
 pub fn check(args: &CheckArgs) -> Done {
     let job = Job::ready(&args.recipe, &args.work)?;
-    let expected = expect(&job.chain, &job.prepared).map_err(|e| of_pipeline(&job.recipe, e))?;
+    let expected = estimate(&job.chain, &job.prepared).map_err(|e| of_pipeline(&job.recipe, e))?;
     let programs = asked(&job.recipe, job.compensates_nose())?;
     let radius = job.prepared.job.range.outer;
     let nose = largest_nose(&job.chain, &job.prepared);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::PathStretch;
 use turnpath_pipeline::{Outcome, Sink};
-use turnpath_post::{Draft, FileError, PathReader, PathWriter, PmacWriter};
+use turnpath_post::{Draft, FileError, PathReader, PathWriter, PmacError, PmacWriter};
 
 use crate::failure::Failure;
 use crate::job::Job;
@@ -172,36 +172,77 @@ fn nothing_in_the_way<'a>(
     Ok(())
 }
 
+/// Why a block of the path could not be put into its files.
+#[derive(Debug)]
+pub enum SinkError {
+    /// A program cannot carry it.
+    Program(PmacError),
+    /// A file could not be written.
+    File(FileError),
+}
+
+impl From<FileError> for SinkError {
+    fn from(error: FileError) -> Self {
+        Self::File(error)
+    }
+}
+
+impl Files {
+    fn failed(&self, file: &str, error: io::Error) -> SinkError {
+        let path = self.folder.join(file);
+        FileError { path, error }.into()
+    }
+}
+
+/// A block as bytes of each file.
+pub struct FileBlock {
+    rows: Option<Vec<u8>>,
+    lines: Vec<Vec<u8>>,
+}
+
 impl Sink for Files {
-    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
-        let mut encoded = Vec::new();
-        if self.wants_path {
-            encoded.push(PathWriter::rows(stretch.section, stretch.points)?);
-        }
-        for program in &self.programs {
-            encoded.push(program.lines(stretch).map_err(io::Error::other)?);
-        }
-        Ok(encoded)
+    type Block = FileBlock;
+    type Error = SinkError;
+
+    fn encode(&self, block: &PathStretch<'_>) -> Result<FileBlock, SinkError> {
+        let rows = self
+            .wants_path
+            .then(|| PathWriter::rows(block.section, block.points));
+        let rows = rows.transpose();
+        let lines = self.programs.iter().map(|program| program.lines(block));
+        Ok(FileBlock {
+            rows: rows.map_err(|error| self.failed(TOOLPATH, error))?,
+            lines: lines
+                .collect::<Result<_, _>>()
+                .map_err(SinkError::Program)?,
+        })
     }
 
-    fn take(&mut self, points: usize, encoded: &[Vec<u8>]) -> io::Result<()> {
+    fn take(&mut self, points: usize, block: FileBlock) -> Result<(), SinkError> {
         if self.begun.is_none() {
-            self.begin().map_err(io::Error::other)?;
+            self.begin()?;
         }
         self.rows += points as u64;
-        let Some(begun) = &mut self.begun else {
+        let Some(mut begun) = self.begun.take() else {
             return Ok(());
         };
-        let mut encoded = encoded.iter();
-        if let Some((path, rows)) = begun.path.as_mut().zip(encoded.as_slice().first()) {
-            path.append(rows).map_err(|error| {
-                let path = self.folder.join(TOOLPATH);
-                io::Error::other(FileError { path, error })
-            })?;
-            encoded.next();
+        let written = self.write(&mut begun, points, &block);
+        self.begun = Some(begun);
+        written
+    }
+}
+
+impl Files {
+    fn write(&self, begun: &mut Begun, points: usize, block: &FileBlock) -> Result<(), SinkError> {
+        if let Some((path, rows)) = begun.path.as_mut().zip(block.rows.as_ref()) {
+            path.append(rows)
+                .map_err(|error| self.failed(TOOLPATH, error))?;
         }
-        for (program, lines) in begun.programs.iter_mut().zip(encoded) {
-            program.append(points, lines)?;
+        let programs = begun.programs.iter_mut().zip(&self.programs);
+        for ((writer, program), lines) in programs.zip(&block.lines) {
+            writer
+                .append(points, lines)
+                .map_err(|error| self.failed(&program.file, error))?;
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use turnpath_core::DEG;
 use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::{Part, Tool};
-use turnpath_pipeline::Prepared;
+use turnpath_pipeline::Preparation;
 
 use crate::figures::{line, millimetres};
 
@@ -97,7 +97,7 @@ enum On {
 
 impl Report {
     /// From the check and the search for the largest nose.
-    pub fn new(prepared: &Prepared, nose: &LargestNose) -> Self {
+    pub fn new(prepared: &Preparation, nose: &LargestNose) -> Self {
         let (found, job) = (&prepared.interference, &prepared.job);
         Self {
             largest_nose_radius_mm: finite(nose.radius),

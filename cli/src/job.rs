@@ -3,13 +3,12 @@
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, SpindleLaw, StrategyError};
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{Chain, PipelineError, Prepared, Wanted, prepare};
+use turnpath_pipeline::{Chain, JobSpec, PipelineError, Preparation, prepare};
 use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
 use crate::failure::Failure;
 use crate::figures::{millimetres, nose_radius};
-use crate::programs::not_carried;
 use crate::strategies;
 
 /// A recipe with its strategies.
@@ -21,7 +20,7 @@ pub struct Job {
     /// What was chosen.
     pub chain: Chain,
     /// The job, with a tool that fits.
-    pub prepared: Prepared,
+    pub prepared: Preparation,
 }
 
 impl Job {
@@ -36,7 +35,7 @@ impl Job {
     /// Makes the strategies of a recipe, checks tool against part.
     pub fn of(recipe: Recipe, catalogue: Catalogue) -> Result<Self, Failure> {
         let chain = strategies::chain(&recipe, &catalogue)?;
-        let wanted = Wanted {
+        let spec = JobSpec {
             part: recipe.part,
             tool: recipe.tool,
             tolerance: recipe.tolerance,
@@ -45,7 +44,7 @@ impl Job {
             spindle: SpindleLaw::constant(recipe.spindle_speed),
             machine: recipe.machine,
         };
-        let prepared = prepare(&chain, wanted).map_err(|error| of_pipeline(&recipe, error))?;
+        let prepared = prepare(&chain, spec).map_err(|error| of_pipeline(&recipe, error))?;
         Ok(Self {
             recipe,
             catalogue,
@@ -79,7 +78,7 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
             ..
         } => strategies::wrong_parameter(recipe, slot, &name, &message),
         PipelineError::Strategy { slot, .. }
-        | PipelineError::Asked { slot, .. }
+        | PipelineError::InnerStrategy { slot, .. }
         | PipelineError::BadAnswer { slot, .. } => Failure::plugin(&at_choice(recipe, slot, title)),
         PipelineError::Gouge { conflicts, .. } => {
             let all = conflicts.iter().map(|conflict| gouge(recipe, conflict));
@@ -105,14 +104,7 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
                 .into()
         }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
-        PipelineError::Sink(error) => {
-            let inner = error.get_ref().and_then(|inner| inner.downcast_ref());
-            if let Some(error) = inner {
-                return not_carried(recipe, error);
-            }
-            // It names its file itself.
-            Failure::File(format!("error: {error}"))
-        }
+        PipelineError::Cancelled => Failure::call(title),
     }
 }
 

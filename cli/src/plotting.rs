@@ -5,7 +5,7 @@ use std::path::Path;
 
 use turnpath_core::Result as Evaluated;
 use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
-use turnpath_pipeline::{PipelineError, Progress, Stage};
+use turnpath_pipeline::{Observer, PipelineError, Stage};
 use turnpath_post::{Draft, FileError, GsfWriter, ReadPath, XyzWriter};
 use turnpath_recipe::Recipe;
 use turnpath_verify::machined::{Grid, Map, Nose, ProfileLine, power_spectrum};
@@ -43,7 +43,7 @@ pub fn plot(
     wishes: &Wishes,
     played: &Played<'_>,
     reader: &mut dyn ReadPath,
-    progress: &dyn Progress,
+    progress: &dyn Observer,
 ) -> Result<Vec<Draft>, Failure> {
     let failed = |error| of_pipeline(played.recipe, PipelineError::Measure(error));
     let mut plots = Plots::of(wishes, played);

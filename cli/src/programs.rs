@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use turnpath_core::toolpath::{PathStretch, SegmentShape};
-use turnpath_pipeline::{Leads, Outcome, PipelineError, Progress, Stage};
+use turnpath_pipeline::{Leads, Observer, Outcome, PipelineError, Stage};
 use turnpath_post::{
     Draft, FileError, PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacReader,
     PmacWriter, ReadPath, Template,
@@ -79,7 +79,7 @@ impl Program {
     }
 
     /// Bytes that it will take.
-    pub fn expected_bytes(&self, radius: f64, expected: &turnpath_pipeline::Expected) -> f64 {
+    pub fn expected_bytes(&self, radius: f64, expected: &turnpath_pipeline::Estimate) -> f64 {
         let c = std::f64::consts::TAU * expected.revolutions;
         PmacWriter::expected_bytes(
             &self.format,
@@ -152,7 +152,7 @@ impl Program {
         recipe: &Recipe,
         touch: FirstTouch,
         points: u64,
-        progress: &dyn Progress,
+        progress: &dyn Observer,
     ) -> Result<ProgramSummary, Failure> {
         let name: PathBuf = draft.path().to_owned();
         let reader = PmacReader::open(draft.readable()?, self.format);

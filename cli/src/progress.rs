@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use turnpath_pipeline::{Progress, Stage};
+use turnpath_pipeline::{Observer, Stage};
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";
@@ -33,7 +33,7 @@ impl Bar {
     }
 }
 
-impl Progress for Bar {
+impl Observer for Bar {
     fn begin(&self, stage: Stage, blocks: u64) {
         if !std::io::stderr().is_terminal() {
             return;

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use turnpath_core::Slot;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::{Catalogue, Plugin};
-use turnpath_pipeline::{LeadLimits, LeadSettings, Making, Outcome, run as run_pipeline};
+use turnpath_pipeline::{
+    LeadLimits, LeadSettings, Outcome, PathOptions, RunError, run as run_pipeline,
+};
 use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 use turnpath_recipe::Recipe;
 
@@ -14,7 +16,7 @@ use crate::args::{Format, RunArgs};
 use crate::coverage::Promise;
 use crate::failure::Failure;
 use crate::figures;
-use crate::files::Files;
+use crate::files::{Files, SinkError};
 use crate::job::{Job, of_pipeline};
 use crate::plots::Wishes;
 use crate::programs::{asked, not_carried};
@@ -40,7 +42,11 @@ pub fn run(args: &RunArgs) -> Done {
     let outcome = run_pipeline(&job.chain, &job.prepared, making, &mut files, &bar);
     let outcome = outcome.map_err(|error| {
         bar.clear();
-        of_pipeline(&job.recipe, error)
+        match error {
+            RunError::Pipeline(error) => of_pipeline(&job.recipe, error),
+            RunError::Sink(SinkError::Program(error)) => not_carried(&job.recipe, &error),
+            RunError::Sink(SinkError::File(error)) => error.into(),
+        }
     })?;
     let programs = files.read_back(&job, &args.recipe.set, &outcome, &bar);
     let plotted = match programs {
@@ -75,8 +81,8 @@ fn wishes(args: &RunArgs, job: &Job, folder: &Path) -> Result<Wishes, Failure> {
 }
 
 /// How the path of a job is made.
-pub fn making(job: &Job) -> Making {
-    Making {
+pub fn making(job: &Job) -> PathOptions {
+    PathOptions {
         refine: job.recipe.refine,
         time_steps: (!job.recipe.output.posts.is_empty()).then_some(PMAC_TIME_STEPS),
         lead: lead(job),

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
 use turnpath_core::{Radial, Slot, StrategyError};
-use turnpath_pipeline::{PipelineError, Progress, Quiet};
+use turnpath_pipeline::{Observer, PipelineError, SilentObserver};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{
@@ -92,7 +92,7 @@ fn verified(
     let failed = |error| of_pipeline(recipe, PipelineError::Measure(error));
     let touch = FirstTouch::new(held.subject).map_err(failed)?;
     let meters = PathMeters::new(recipe, touch).with_servo(recipe);
-    let meters = measure(recipe, meters, shape, reader.as_mut(), &Quiet)?;
+    let meters = measure(recipe, meters, shape, reader.as_mut(), &SilentObserver)?;
     let (meter, read) = (&meters.cut, reader.counted());
     let range = meter.reach(held.radial).map_err(failed)?;
     let Some(range) = range.filter(|_| read.cutting() >= 2) else {
@@ -142,7 +142,7 @@ fn drawn(
     }
     let mut again = open(&args.file, played.recipe, compensates_nose)?;
     let mut files = Vec::new();
-    for draft in plot(wishes, played, again.as_mut(), &Quiet)? {
+    for draft in plot(wishes, played, again.as_mut(), &SilentObserver)? {
         files.push(draft.complete()?.display().to_string());
     }
     Ok(files)
@@ -279,7 +279,7 @@ pub fn measure(
     mut meters: PathMeters,
     shape: SegmentShape,
     reader: &mut dyn ReadPath,
-    progress: &dyn Progress,
+    progress: &dyn Observer,
 ) -> Result<PathMeters, Failure> {
     let failed = |error: StrategyError| of_pipeline(recipe, PipelineError::Measure(error));
     loop {

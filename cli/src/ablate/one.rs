@@ -1,18 +1,16 @@
 //! One run of an ablation: the path of a variant made and measured, and nothing written.
 
-use std::io;
-
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use turnpath_core::toolpath::{PathStretch, SegmentShape};
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{Quiet, Sink, run as run_pipeline};
-use turnpath_post::{PmacFormat, PmacWriter};
+use turnpath_pipeline::{RunError, SilentObserver, Sink, run as run_pipeline};
+use turnpath_post::{PmacError, PmacFormat, PmacWriter};
 use turnpath_recipe::Recipe;
 
 use crate::failure::Failure;
 use crate::job::{Job, of_pipeline};
-use crate::programs::pmac_format;
+use crate::programs::{not_carried, pmac_format};
 use crate::run::{making, refuse_straight_lines, summary};
 
 use super::clock;
@@ -35,8 +33,17 @@ pub fn make(recipe: &Recipe, catalogue: &Catalogue) -> Result<Made, Failure> {
     let job = Job::of(recipe.clone(), catalogue.clone())?;
     refuse_straight_lines(&job)?;
     let mut sizes = Sizes::of(&job);
-    let outcome = run_pipeline(&job.chain, &job.prepared, making(&job), &mut sizes, &Quiet);
-    let outcome = outcome.map_err(|error| of_pipeline(&job.recipe, error))?;
+    let outcome = run_pipeline(
+        &job.chain,
+        &job.prepared,
+        making(&job),
+        &mut sizes,
+        &SilentObserver,
+    );
+    let outcome = outcome.map_err(|error| match error {
+        RunError::Pipeline(error) => of_pipeline(&job.recipe, error),
+        RunError::Sink(error) => not_carried(&job.recipe, &error),
+    })?;
     let summary = summary(&job, sizes.rows, &outcome, Vec::new())?;
     let summary = serde_json::to_value(summary).map_err(|error| {
         Failure::File(format!(
@@ -72,24 +79,23 @@ impl Sizes {
 }
 
 impl Sink for Sizes {
-    /// The count of bytes alone; nothing where there is no program.
-    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
+    /// Bytes of the block's program lines; none where there is no program.
+    type Block = Option<u64>;
+    type Error = PmacError;
+
+    fn encode(&self, block: &PathStretch<'_>) -> Result<Option<u64>, PmacError> {
         if self.program_bytes.is_none() {
-            return Ok(Vec::new());
+            return Ok(None);
         }
-        match PmacWriter::lines(&self.format, stretch) {
-            Ok(lines) => Ok(vec![(lines.len() as u64).to_le_bytes().to_vec()]),
-            Err(error) if self.is_asked => Err(io::Error::other(error)),
-            Err(_) => Ok(Vec::new()),
+        match PmacWriter::lines(&self.format, block) {
+            Ok(lines) => Ok(Some(lines.len() as u64)),
+            Err(error) if self.is_asked => Err(error),
+            Err(_) => Ok(None),
         }
     }
 
-    fn take(&mut self, points: usize, encoded: &[Vec<u8>]) -> io::Result<()> {
+    fn take(&mut self, points: usize, bytes: Option<u64>) -> Result<(), PmacError> {
         self.rows += points as u64;
-        let bytes = encoded
-            .first()
-            .and_then(|count| count.as_slice().try_into().ok());
-        let bytes = bytes.map(u64::from_le_bytes);
         self.program_bytes = self.program_bytes.zip(bytes).map(|(sum, more)| sum + more);
         Ok(())
     }
