@@ -15,7 +15,7 @@ use turnpath_core::{
     Compensator, DEG, Direction, Machine, Misfit, Overrun, ParamValue, Params, Part, Radial,
     Result, Scalar, Slot, SpindleLaw, Strategy, SurfaceModel, Tolerance, Tool,
 };
-use turnpath_pipeline::{Chain, Link, PipelineError, Prepared, Wanted, largest_nose, prepare};
+use turnpath_pipeline::{Chain, JobSpec, Link, PipelineError, Preparation, largest_nose, prepare};
 use turnpath_surfaces::{
     Astigmatic, Conic, OffAxisParaboloid, SinusoidalArray, Toric, XyPolynomial,
 };
@@ -47,7 +47,7 @@ impl Seeded {
 }
 
 /// A job whose tool fits, or why there is none.
-type Prepares = std::result::Result<Prepared, Box<PipelineError>>;
+type Prepares = std::result::Result<Preparation, Box<PipelineError>>;
 
 /// A part to be cut, and by what rule.
 struct Case {
@@ -103,7 +103,7 @@ impl Case {
             interpolation: 1e-4,
             residual: 1e-4,
         };
-        let wanted = Wanted {
+        let spec = JobSpec {
             part: self.part,
             tool,
             tolerance,
@@ -112,7 +112,7 @@ impl Case {
             spindle: SpindleLaw::constant(50.0),
             machine: Machine::default(),
         };
-        prepare(chain, wanted).map_err(Box::new)
+        prepare(chain, spec).map_err(Box::new)
     }
 }
 
@@ -410,7 +410,7 @@ fn complaints(seed: u64) -> Vec<String> {
     }
     // One that fits is told the same.
     let fitting = case.prepare(&chain, nose_of(known * (1.0 - 3.0 * AGREEMENT)));
-    match fitting.and_then(|prepared| largest_nose(&chain, &prepared).map_err(Box::new)) {
+    match fitting.and_then(|preparation| largest_nose(&chain, &preparation).map_err(Box::new)) {
         Ok(nose) if near(nose.radius) => {}
         Ok(nose) => say(format!("{known} mm fits, but {nose:?}")),
         Err(error) => say(format!("{known} mm fits, but {error:?}")),

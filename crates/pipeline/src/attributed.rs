@@ -1,6 +1,6 @@
-//! Strategies that others ask, with their names put into what they say.
+//! Strategies that others call, with their names in their errors.
 //!
-//! A sampler that fails because the surface panicked is not to blame: the surface's error crosses
+//! A sampler that fails because the surface panicked is not to blame. The surface's error crosses
 //! it as [`StrategyError::Asked`], and the message names the surface.
 
 use std::sync::Arc;
@@ -13,14 +13,14 @@ use turnpath_core::{
 
 use crate::Link;
 
-/// Who answers.
+/// The strategy that answers.
 #[derive(Debug, Clone)]
-struct Name {
+struct StrategyName {
     slot: Slot,
     text: String,
 }
 
-impl Name {
+impl StrategyName {
     fn of<T: ?Sized>(link: &Link<T>) -> Self {
         let text = format!(
             "the {} `{}` of {}",
@@ -34,9 +34,10 @@ impl Name {
         }
     }
 
-    fn put<T>(&self, answer: Result<T>) -> Result<T> {
+    /// Puts the name into the error, unless the error names another strategy already.
+    fn attribute<T>(&self, answer: Result<T>) -> Result<T> {
         answer.map_err(|error| match error {
-            asked @ StrategyError::Asked { .. } => asked,
+            inner @ StrategyError::Asked { .. } => inner,
             own => StrategyError::Asked {
                 slot: self.slot,
                 message: format!("{}: {own}", self.text).into(),
@@ -45,57 +46,57 @@ impl Name {
     }
 }
 
-/// A surface whose errors say whose they are.
-pub struct AttributedSurface {
-    name: Name,
+/// A surface whose errors carry its name.
+pub struct NamedSurface {
+    name: StrategyName,
     surface: Arc<dyn SurfaceModel>,
 }
 
-impl AttributedSurface {
+impl NamedSurface {
     /// The surface of a chain.
     pub fn new(link: &Link<dyn SurfaceModel>) -> Self {
         Self {
-            name: Name::of(link),
+            name: StrategyName::of(link),
             surface: link.strategy.clone(),
         }
     }
 }
 
-impl SurfaceModel for AttributedSurface {
+impl SurfaceModel for NamedSurface {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
-        self.name.put(self.surface.heights(x, y, z))
+        self.name.attribute(self.surface.heights(x, y, z))
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
-        self.name.put(self.surface.gradient(x, y, out))
+        self.name.attribute(self.surface.gradient(x, y, out))
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
-        self.name.put(self.surface.series(x, y, out))
+        self.name.attribute(self.surface.series(x, y, out))
     }
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
-        self.name.put(self.surface.height_series(x, y, z))
+        self.name.attribute(self.surface.height_series(x, y, z))
     }
 }
 
-/// A compensator whose errors say whose they are.
-pub struct AttributedCompensator {
-    name: Name,
+/// A compensator whose errors carry its name.
+pub struct NamedCompensator {
+    name: StrategyName,
     compensator: Arc<dyn Compensator>,
 }
 
-impl AttributedCompensator {
+impl NamedCompensator {
     /// The compensator of a chain.
     pub fn new(link: &Link<dyn Compensator>) -> Self {
         Self {
-            name: Name::of(link),
+            name: StrategyName::of(link),
             compensator: link.strategy.clone(),
         }
     }
 }
 
-impl Compensator for AttributedCompensator {
+impl Compensator for NamedCompensator {
     fn radial(&self) -> Radial {
         self.compensator.radial()
     }
@@ -109,7 +110,8 @@ impl Compensator for AttributedCompensator {
     }
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
-        self.name.put(self.compensator.centre(cut, theta, rho, out))
+        self.name
+            .attribute(self.compensator.centre(cut, theta, rho, out))
     }
 
     fn exact_series(
@@ -120,7 +122,7 @@ impl Compensator for AttributedCompensator {
         out: CentreSeries<'_>,
     ) -> Option<Result<()>> {
         let answer = self.compensator.exact_series(cut, theta, rho, out)?;
-        Some(self.name.put(answer))
+        Some(self.name.attribute(answer))
     }
 
     fn exact_rates(
@@ -131,14 +133,14 @@ impl Compensator for AttributedCompensator {
         out: Rates<'_>,
     ) -> Option<Result<()>> {
         let answer = self.compensator.exact_rates(cut, theta, rho, out)?;
-        Some(self.name.put(answer))
+        Some(self.name.attribute(answer))
     }
 
     fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
         match self.compensator.interference(cut, region) {
-            // What the check itself says of the surface is about the recipe, not about a plugin.
-            Err(StrategyError::Failed(said)) => Err(StrategyError::Failed(said)),
-            answer => self.name.put(answer),
+            // The check itself refuses the surface: that is the recipe's fault, not a plugin's.
+            Err(StrategyError::Failed(reason)) => Err(StrategyError::Failed(reason)),
+            answer => self.name.attribute(answer),
         }
     }
 }

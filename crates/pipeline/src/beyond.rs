@@ -1,58 +1,61 @@
 //! Whether the tool fits where a law goes beyond the range of ρ.
 //!
-//! What is within the range is looked at before there is a law. One that follows the angle goes
-//! beyond it at its fast angles, while the slow ones have yet to arrive: there the contact is asked
-//! along the law itself, since a whole ring out there would ask for more than is cut.
+//! Preparation checks the range itself, before there is a law. A law that follows the angle goes
+//! beyond the range at its fast angles while it still runs to the end of the range at its slow
+//! ones. There the check runs along the law itself: a check of the whole ring would refuse tools
+//! for places that are never cut.
 
 use std::f64::consts::TAU;
 
 use turnpath_core::interference;
 use turnpath_core::{CentreBuffers, Cut, Locus, SpiralLaw, StrategyError};
 
-use crate::prepare::{conflicts, no_contact};
-use crate::{Chain, PipelineError, Prepared, Result};
+use crate::contact::no_contact;
+use crate::prepare::conflicts;
+use crate::{Chain, PipelineError, Preparation, Result};
 
-/// Places looked at on a revolution.
+/// Checked points on a revolution.
 const ANGLES: u32 = 720;
-/// What counts as beyond, mm: the slack that laws have at their ends.
+/// A law goes beyond the range where it exceeds it by this, mm: the slack that laws have at their
+/// ends.
 const BEYOND: f64 = 1e-5;
 
-/// Asks turn by turn from either end of the law, until one is within the range.
+/// Checks turn by turn from either end of the law, until a turn lies within the range.
 ///
 /// # Errors
 /// When the tool does not fit somewhere, or the surface has no height there.
-pub fn check(chain: &Chain, prepared: &Prepared, law: &SpiralLaw) -> Result<()> {
+pub fn check(chain: &Chain, preparation: &Preparation, law: &SpiralLaw) -> Result<()> {
     let turns = law.end().ceil() as u64;
-    let outside = |turn: &u64| Some(places(prepared, law, *turn)).filter(|one| !one.is_empty());
-    for places in (0..turns).map_while(|turn| outside(&turn)) {
-        fits(chain, prepared, &places)?;
+    let outside = |turn: u64| Some(points_beyond(preparation, law, turn)).filter(|p| !p.is_empty());
+    for points in (0..turns).map_while(outside) {
+        check_points(chain, preparation, &points)?;
     }
-    for places in (0..turns).rev().map_while(|turn| outside(&turn)) {
-        fits(chain, prepared, &places)?;
+    for points in (0..turns).rev().map_while(outside) {
+        check_points(chain, preparation, &points)?;
     }
     Ok(())
 }
 
-/// θ and ρ of a turn's places beyond the range.
-fn places(prepared: &Prepared, law: &SpiralLaw, turn: u64) -> Vec<(f64, f64)> {
-    let range = prepared.job.range;
+/// θ and ρ of the checked points of a turn that lie beyond the range.
+fn points_beyond(preparation: &Preparation, law: &SpiralLaw, turn: u64) -> Vec<(f64, f64)> {
+    let range = preparation.job.range;
     let parts = (0..=ANGLES).map(|i| f64::from(i) / f64::from(ANGLES));
     let on_law = parts.filter(|part| turn as f64 + part <= law.end());
-    let places = on_law.map(|part| (TAU * part, law.value(turn as f64 + part)));
+    let points = on_law.map(|part| (TAU * part, law.value(turn as f64 + part)));
     let within = range.inner - BEYOND..=range.outer + BEYOND;
-    places
+    points
         .filter(|(_, rho)| !within.contains(&rho.abs()))
         .collect()
 }
 
-fn fits(chain: &Chain, prepared: &Prepared, places: &[(f64, f64)]) -> Result<()> {
-    let Prepared { job, locus, .. } = prepared;
-    let (theta, rho): (Vec<f64>, Vec<f64>) = places.iter().copied().unzip();
-    let mut room = CentreBuffers::default();
-    room.resize(theta.len());
-    let answer = locus.centre(&theta, &rho, room.as_centres());
-    answer.map_err(|error| attributed(chain, error))?;
-    let feet = room.foot.iter().zip(places);
+fn check_points(chain: &Chain, preparation: &Preparation, points: &[(f64, f64)]) -> Result<()> {
+    let Preparation { job, locus, .. } = preparation;
+    let (theta, rho): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
+    let mut centres = CentreBuffers::default();
+    centres.resize(theta.len());
+    let answer = locus.centre(&theta, &rho, centres.as_centres());
+    answer.map_err(|error| attribute(chain, error))?;
+    let feet = centres.foot.iter().zip(points);
     if let Some((_, (theta, rho))) = feet.into_iter().find(|(foot, _)| !foot.is_finite()) {
         return Err(no_contact(chain, &job.tool, *theta, *rho));
     }
@@ -60,22 +63,26 @@ fn fits(chain: &Chain, prepared: &Prepared, places: &[(f64, f64)]) -> Result<()>
         surface: locus.surface(),
         tool: &job.tool,
     };
-    let found =
-        interference::at(cut, &theta, &room.foot).map_err(|error| attributed(chain, error))?;
-    let conflicts = conflicts(&found, &job.tool, chain.compensator.strategy.as_ref());
+    let interference =
+        interference::at(cut, &theta, &centres.foot).map_err(|error| attribute(chain, error))?;
+    let conflicts = conflicts(
+        &interference,
+        &job.tool,
+        chain.compensator.strategy.as_ref(),
+    );
     if conflicts.is_empty() {
         return Ok(());
     }
     Err(PipelineError::Gouge {
         conflicts,
-        interference: Box::new(found),
+        interference: Box::new(interference),
     })
 }
 
-fn attributed(chain: &Chain, error: StrategyError) -> PipelineError {
-    let place = "where the law goes beyond the range";
+fn attribute(chain: &Chain, error: StrategyError) -> PipelineError {
+    let context = "where the law goes beyond the range";
     match error {
         StrategyError::Failed(_) => PipelineError::NoSurface(error),
-        other => chain.compensator.failed(place, other),
+        other => chain.compensator.failed(context, other),
     }
 }

@@ -14,40 +14,40 @@ pub struct Link<T: ?Sized> {
     pub slot: Slot,
     /// The strategy's name.
     pub name: String,
-    /// The plugin that it comes from, with its file where it has one.
+    /// The plugin that it belongs to, with its file where it has one.
     pub plugin: String,
     /// The strategy.
     pub strategy: Arc<T>,
 }
 
 impl<T: ?Sized> Link<T> {
-    /// An error of this strategy, or of one that it asked; `place` says while doing what.
-    pub fn failed(&self, place: impl Into<String>, error: StrategyError) -> PipelineError {
-        let place = place.into();
+    /// The pipeline's error for an error of this strategy, or of one that it called. `context`
+    /// says what the strategy was doing, or for which part of the path.
+    pub fn failed(&self, context: impl Into<Box<str>>, error: StrategyError) -> PipelineError {
+        let context = context.into();
         if let StrategyError::Asked { slot, message } = error {
             let message = message.into_owned();
-            return PipelineError::Asked {
+            return PipelineError::InnerStrategy {
                 slot,
-                place,
+                context,
                 message,
             };
         }
         PipelineError::Strategy {
             slot: self.slot,
-            name: self.name.clone(),
-            plugin: self.plugin.clone(),
-            place,
+            name: self.name.as_str().into(),
+            plugin: self.plugin.as_str().into(),
+            context,
             error,
         }
     }
 
-    /// A complaint about an answer that this strategy gave.
+    /// The error for an answer of this strategy that cannot be used.
     pub fn bad_answer(&self, what: impl Into<String>) -> PipelineError {
-        let (slot, name, plugin) = (self.slot, self.name.clone(), self.plugin.clone());
         PipelineError::BadAnswer {
-            slot,
-            name,
-            plugin,
+            slot: self.slot,
+            name: self.name.as_str().into(),
+            plugin: self.plugin.as_str().into(),
             what: what.into(),
         }
     }
@@ -55,14 +55,14 @@ impl<T: ?Sized> Link<T> {
 
 /// The five strategies of a job.
 pub struct Chain {
-    /// What is cut.
+    /// The surface to cut.
     pub surface: Link<dyn SurfaceModel>,
-    /// How far the tool feeds.
+    /// The feed strategy, which gives the spiral law.
     pub feed: Link<dyn FeedStrategy>,
-    /// Where control points lie.
+    /// The sampler, which places control points.
     pub sampler: Link<dyn Sampler>,
-    /// Where the nose centre goes.
+    /// The compensator, which gives the nose centre.
     pub compensator: Link<dyn Compensator>,
-    /// Which velocities the cubics take.
+    /// The velocity solver, which gives the velocities at control points.
     pub velocity: Link<dyn VelocitySolver>,
 }

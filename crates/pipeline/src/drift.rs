@@ -1,7 +1,7 @@
-//! What X's own error between control points does to the cusps.
+//! How X's own error between control points raises the cusps.
 //!
-//! Playback compares Z at the X that is played, so an error of X alone costs nothing there: the
-//! tool still touches the surface, but in another place. Where two neighbouring passes err apart
+//! Playback compares Z at the X that is played, so an error of X alone does not show there: the
+//! tool still touches the surface, but at another point. Where two neighbouring passes drift apart,
 //! the cusp between them grows with the square of their distance. That matters wherever X moves
 //! within the turn: with normal compensation, and with a law that follows the angle.
 
@@ -11,49 +11,50 @@ use turnpath_core::toolpath::Segment;
 use turnpath_core::{CentreBuffers, Locus, Radial, angle};
 use turnpath_verify::cusp_heights;
 
-use crate::make::Made;
+use crate::aim::NEAR;
+use crate::make::BlockPoints;
 use crate::plan::Plan;
-use crate::refine::NEAR;
 use crate::{PipelineError, Result};
 
-/// Where it is seen whether the error matters: the bump of a cubic with true velocities is highest
-/// in the middle, that of velocities which err alike at both ends is nought there and within 3 % of
-/// its top at a quarter.
-const GLANCES: [f64; 3] = [0.25, 0.5, 0.75];
-/// Instants of a segment on which it does, at which it is held against the cusps there.
-const LOOKS: usize = 16;
-/// Part of the distance between passes that X may always err by: what the sampler `atpg` aims at.
-/// Two passes may err apart, so that a cusp grows by four times this part at the most.
+/// Instants of every segment that show whether its error matters. The error of a cubic with true
+/// velocities is largest in the middle. That of velocities with the same error at both ends is zero
+/// in the middle, and at a quarter it is within 3 % of its largest value.
+const FIRST_INSTANTS: [f64; 3] = [0.25, 0.5, 0.75];
+/// How many instants of a segment whose error matters are compared with the cusps there.
+const INSTANTS: usize = 16;
+/// Part of the distance between passes by which X may always err: what the sampler `atpg` aims at.
+/// Two passes may err in opposite ways, so that a cusp grows by four times this part at the most.
 const ALWAYS: f64 = 1e-4;
-/// Cusps are held to this part of the residual: halfway to what still counts as held.
-const AIM: f64 = 1.0005;
-/// A cusp that is higher than this part of the residual on the true path is the law's matter, and
-/// no halving mends it.
-const LAWS_OWN: f64 = 1.001;
-
-/// Passes no further apart than this, mm, leave no cusp to speak of: a nanometre. What is measured
+/// Cusps are kept within this part of the residual: halfway to what still counts as held.
+const CUSP_AIM: f64 = 1.0005;
+/// A cusp that exceeds this part of the residual on the true path comes from the law, and no halving
+/// lowers it.
+const FROM_LAW: f64 = 1.001;
+/// Passes no further apart than this, mm, leave no cusp worth counting: a nanometre. What is measured
 /// there is rounding, which turns the line between both centres.
-const SAME_PLACE: f64 = 1e-6;
+const SAME_POSITION: f64 = 1e-6;
 
 /// X's error at an instant.
 struct Drift {
     /// Which segment.
     segment: usize,
-    /// When, in revolutions.
+    /// The instant, in revolutions.
     n: f64,
     /// X of the true path, mm.
     x: f64,
-    /// Its amount, mm.
+    /// |played X − X of the true path|, mm.
     error: f64,
 }
 
-/// For each segment X's error over what the residual leaves it; 0 where it is far from that.
-pub fn loads(plan: &Plan<'_>, made: &Made) -> Result<Vec<f64>> {
-    let segments: Vec<Segment> = made.points.segments().collect();
+/// For each segment X's error as a part of the error that the residual allows; 0 where the error is
+/// far below that.
+pub fn loads(plan: &Plan<'_>, block: &BlockPoints) -> Result<Vec<f64>> {
+    let segments: Vec<Segment> = block.points.segments().collect();
     let mut loads = vec![0.0; segments.len()];
-    let looks = (0..LOOKS).map(|k| (k as f64 + 0.5) / LOOKS as f64);
-    let looks: Vec<f64> = looks.collect();
-    let drifts = drifts(plan, &segments, &notable(plan, &segments)?, &looks)?;
+    let instants = (0..INSTANTS).map(|k| (k as f64 + 0.5) / INSTANTS as f64);
+    let instants: Vec<f64> = instants.collect();
+    let near = near_the_limit(plan, &segments)?;
+    let drifts = drifts(plan, &segments, &near, &instants)?;
     for side in [-1.0, 1.0] {
         for (drift, allowed) in drifts.iter().zip(allowed(plan, &drifts, side)?) {
             let load = &mut loads[drift.segment];
@@ -63,14 +64,19 @@ pub fn loads(plan: &Plan<'_>, made: &Made) -> Result<Vec<f64>> {
     Ok(loads)
 }
 
-/// The segments on which the error is near what always is allowed, or beyond.
-fn notable(plan: &Plan<'_>, segments: &[Segment]) -> Result<Vec<usize>> {
+/// The segments whose error is near what is always allowed, or beyond it.
+fn near_the_limit(plan: &Plan<'_>, segments: &[Segment]) -> Result<Vec<usize>> {
     let all: Vec<usize> = (0..segments.len()).collect();
-    let drifts = drifts(plan, segments, &all, &GLANCES)?;
+    let drifts = drifts(plan, segments, &all, &FIRST_INSTANTS)?;
     let (mut middles, mut errors) = (Vec::new(), Vec::new());
-    for glances in drifts.chunks_exact(GLANCES.len()) {
-        middles.extend(glances.get(1));
-        errors.push(glances.iter().map(|drift| drift.error).fold(0.0, f64::max));
+    for of_segment in drifts.chunks_exact(FIRST_INSTANTS.len()) {
+        middles.extend(of_segment.get(1));
+        errors.push(
+            of_segment
+                .iter()
+                .map(|drift| drift.error)
+                .fold(0.0, f64::max),
+        );
     }
     let [before, after] = [-1.0, 1.0].map(|side| neighbours(plan, &middles, side));
     let (before, after) = (before?, after?);
@@ -88,7 +94,7 @@ fn drifts(
     chosen: &[usize],
     instants: &[f64],
 ) -> Result<Vec<Drift>> {
-    let places = chosen.iter().flat_map(|segment| {
+    let instants = chosen.iter().flat_map(|segment| {
         let cubics = &segments[*segment];
         instants.iter().map(move |s| Drift {
             segment: *segment,
@@ -97,7 +103,7 @@ fn drifts(
             error: cubics.x.value(*s),
         })
     });
-    let mut drifts: Vec<Drift> = places.collect();
+    let mut drifts: Vec<Drift> = instants.collect();
     let n: Vec<f64> = drifts.iter().map(|drift| drift.n).collect();
     for (drift, x) in drifts.iter_mut().zip(true_x(plan, &n)?) {
         drift.x = x;
@@ -106,8 +112,8 @@ fn drifts(
     Ok(drifts)
 }
 
-/// How far X may be off at each instant, mm, for the cusp towards the turn before (`side` −1) or
-/// after (1).
+/// How large X's error may be at each instant, mm, for the cusp towards the turn before (`side` −1)
+/// or after (1).
 fn allowed(plan: &Plan<'_>, drifts: &[Drift], side: f64) -> Result<Vec<f64>> {
     let every: Vec<&Drift> = drifts.iter().collect();
     let others = neighbours(plan, &every, side)?;
@@ -115,47 +121,47 @@ fn allowed(plan: &Plan<'_>, drifts: &[Drift], side: f64) -> Result<Vec<f64>> {
     let pair = |(drift, other): (&Drift, &Option<f64>)| [drift.x, other.unwrap_or(drift.x)];
     let pairs: Vec<[f64; 2]> = drifts.iter().zip(&others).map(pair).collect();
     let heights =
-        cusp_heights(&plan.prepared.touch, &theta, &pairs).map_err(PipelineError::Measure)?;
-    let residual = plan.prepared.job.tolerance.residual;
+        cusp_heights(&plan.preparation.touch, &theta, &pairs).map_err(PipelineError::Measure)?;
+    let residual = plan.preparation.job.tolerance.residual;
     let allowed = |(height, [x, other]): (Option<f64>, [f64; 2])| match height {
-        Some(height) => left(height / residual, (other - x).abs()),
+        Some(height) => allowance(height / residual, (other - x).abs()),
         None => f64::INFINITY,
     };
     Ok(heights.into_iter().zip(pairs).map(allowed).collect())
 }
 
-/// What a cusp of so many residuals leaves passes that are so far apart, mm: it grows with the
-/// square of the distance, and both may err.
-fn left(height: f64, apart: f64) -> f64 {
-    let matters = apart > SAME_PLACE && height > 0.0 && height <= LAWS_OWN;
+/// The error that a cusp of so many residuals allows passes that are so far apart, mm. The cusp
+/// grows with the square of the distance, and both passes may err.
+fn allowance(height: f64, apart: f64) -> f64 {
+    let matters = apart > SAME_POSITION && height > 0.0 && height <= FROM_LAW;
     if !matters {
         return f64::INFINITY;
     }
-    apart * ALWAYS.max(0.5 * ((AIM / height).sqrt() - 1.0))
+    apart * ALWAYS.max(0.5 * ((CUSP_AIM / height).sqrt() - 1.0))
 }
 
-/// X of the true path one turn off each place; none beyond its ends.
+/// X of the true path one turn away from each instant; `None` beyond the ends of the path.
 fn neighbours(plan: &Plan<'_>, from: &[&Drift], side: f64) -> Result<Vec<Option<f64>>> {
     let path = 0.0..=plan.law.end();
     let turned = |drift: &&Drift| Some(drift.n + side).filter(|n| path.contains(n));
-    let places: Vec<Option<f64>> = from.iter().map(turned).collect();
-    let there: Vec<f64> = places.iter().copied().flatten().collect();
-    let mut x = true_x(plan, &there)?.into_iter();
-    let next = |place: Option<f64>| place.and_then(|_| x.next());
-    Ok(places.into_iter().map(next).collect())
+    let turned: Vec<Option<f64>> = from.iter().map(turned).collect();
+    let within: Vec<f64> = turned.iter().copied().flatten().collect();
+    let mut x = true_x(plan, &within)?.into_iter();
+    let next = |n: Option<f64>| n.and_then(|_| x.next());
+    Ok(turned.into_iter().map(next).collect())
 }
 
-/// X of the true path at each place, in revolutions.
+/// X of the true path at each N, mm.
 fn true_x(plan: &Plan<'_>, n: &[f64]) -> Result<Vec<f64>> {
     let rho: Vec<f64> = n.iter().map(|n| plan.law.value(*n)).collect();
-    if plan.prepared.locus.radial() == Radial::Centre {
+    if plan.preparation.locus.radial() == Radial::Centre {
         return Ok(rho);
     }
     let theta: Vec<f64> = n.iter().map(|n| angle(*n)).collect();
     let mut centres = CentreBuffers::default();
     centres.resize(n.len());
     let compensator = &plan.chain.compensator;
-    (plan.prepared.locus)
+    (plan.preparation.locus)
         .centre(&theta, &rho, centres.as_centres())
         .map_err(|error| compensator.failed("while a path was played back", error))?;
     Ok(centres.x)

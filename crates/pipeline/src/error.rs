@@ -5,44 +5,48 @@ use turnpath_core::{Slot, StrategyError};
 
 /// The result of a pipeline's step.
 pub type Result<T> = std::result::Result<T, PipelineError>;
+/// The result of a step that also uses a sink.
+pub(crate) type RunResult<T, E> = std::result::Result<T, RunError<E>>;
 
-/// Why there is no path.
+/// Why there is no path. Names are boxed, which keeps results small.
 #[derive(Debug, thiserror::Error)]
 pub enum PipelineError {
     /// A strategy gave up or panicked.
-    #[error("the {} `{name}` of {plugin} failed {place}: {error}", slot.noun())]
+    #[error("the {} `{name}` of {plugin} failed {context}: {error}", slot.noun())]
     Strategy {
         /// Its slot.
         slot: Slot,
         /// Its name.
-        name: String,
+        name: Box<str>,
         /// Its plugin.
-        plugin: String,
-        /// While doing what.
-        place: String,
-        /// What it said.
+        plugin: Box<str>,
+        /// What it was doing, or for which part of the path.
+        context: Box<str>,
+        /// Its own error.
+        #[source]
         error: StrategyError,
     },
-    /// A strategy that another one asked could not answer; the text names both it and its plugin.
-    #[error("{message}, {place}")]
-    Asked {
-        /// The slot of the strategy that was asked.
+    /// A strategy that another strategy called gave up or panicked. The message names the
+    /// strategy and its plugin.
+    #[error("{message}, {context}")]
+    InnerStrategy {
+        /// The slot of the strategy that was called.
         slot: Slot,
-        /// While doing what.
-        place: String,
-        /// What it said.
+        /// What the caller was doing, or for which part of the path.
+        context: Box<str>,
+        /// Its own message.
         message: String,
     },
-    /// A strategy answered, but not with what can be used.
+    /// A strategy gave an answer that cannot be used.
     #[error("the {} `{name}` of {plugin} gave a bad answer: {what}", slot.noun())]
     BadAnswer {
         /// Its slot.
         slot: Slot,
         /// Its name.
-        name: String,
+        name: Box<str>,
         /// Its plugin.
-        plugin: String,
-        /// What is wrong with it, and where.
+        plugin: Box<str>,
+        /// What is wrong with the answer, and where.
         what: String,
     },
     /// The tool does not fit the part.
@@ -50,13 +54,13 @@ pub enum PipelineError {
     Gouge {
         /// In which ways; at least one.
         conflicts: Vec<Conflict>,
-        /// What the part asks for.
+        /// What the part requires of a tool.
         interference: Box<Interference>,
     },
-    /// The surface has no height on a part of the part.
+    /// The surface has no height somewhere on the part.
     #[error("{0}")]
-    NoSurface(StrategyError),
-    /// There is no lead-in or no lead-out that keeps to what it must.
+    NoSurface(#[source] StrategyError),
+    /// No lead-in or no lead-out clears the part.
     #[error("no {which} could be made: {what}")]
     Lead {
         /// `lead-in` or `lead-out`.
@@ -64,10 +68,21 @@ pub enum PipelineError {
         /// Why not.
         what: String,
     },
-    /// The path's measure could not be taken.
+    /// The surface failed while the path was measured.
     #[error("the path could not be measured: {0}")]
-    Measure(StrategyError),
-    /// The path could not be handed on.
-    #[error("{0}")]
-    Sink(std::io::Error),
+    Measure(#[source] StrategyError),
+    /// The observer cancelled the run.
+    #[error("the run was cancelled")]
+    Cancelled,
+}
+
+/// Why a run did not end with a whole path in its sink.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError<E> {
+    /// There is no path.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// The sink could not encode or take a block.
+    #[error(transparent)]
+    Sink(E),
 }

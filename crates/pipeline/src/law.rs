@@ -1,32 +1,41 @@
-//! The spiral law: asked for piece by piece, checked, kept whole.
+//! The spiral law: the feed strategy gives it piece by piece; the host checks it and keeps it
+//! whole.
 //!
-//! A piece takes 56 bytes. Laws with one value a radius have some hundred pieces whatever the
-//! part; one that changes with the angle has some for every revolution.
+//! A piece takes 56 bytes. A law with one feed for each radius has some hundred pieces, whatever
+//! the part. A law that changes with the angle has some pieces for every revolution.
 
 use turnpath_core::{Direction, Job, Locus, Onward, RadialRange, Setup, SpiralLaw, Stretch};
 
+use crate::observer::{Observer, stop_if_cancelled};
 use crate::{Chain, Result};
 
-/// Angles of a revolution at which the next turn must lie beyond the last.
+/// Angles of a revolution at which each turn must lie beyond the one before.
 const CHECKED_ANGLES: usize = 72;
-/// More revolutions than any job has: a law that gets here does not end.
+/// More revolutions than any job has. A law that exceeds them does not end.
 const MOST_REVOLUTIONS: f64 = 1e7;
-/// Most pieces of a law: half a gigabyte of them. Some for each of 100,000 revolutions fit.
+/// Most pieces of a law, which take half a gigabyte. They suffice for some pieces in each of
+/// 100,000 revolutions.
 const MOST_PIECES: usize = 8_000_000;
 /// Largest jump of ρ where two pieces meet, mm: a nanometre, far above rounding.
 const LARGEST_JUMP: f64 = 1e-6;
-/// How much of the range a law may leave out at either end, mm.
+/// How much of the range a law may leave uncovered at either end, mm.
 const SLACK: f64 = 1e-5;
 
 /// Plans the law and checks it.
-pub fn plan(chain: &Chain, job: &Job, locus: &dyn Locus) -> Result<SpiralLaw> {
+pub fn plan(
+    chain: &Chain,
+    job: &Job,
+    locus: &dyn Locus,
+    observer: &dyn Observer,
+) -> Result<SpiralLaw> {
     let setup = Setup { job, locus };
     let failed = |error| chain.feed.failed("while planning the law", error);
     let mut plan = chain.feed.strategy.plan(setup).map_err(failed)?;
     let mut law = SpiralLaw::new();
-    let mut spiral = Spiral::new(job);
+    let mut check = SpiralCheck::new(job);
     let mut pieces: Vec<Stretch> = Vec::new();
     loop {
+        stop_if_cancelled(observer)?;
         pieces.clear();
         let onward = plan
             .extend(setup, &mut pieces)
@@ -38,7 +47,7 @@ pub fn plan(chain: &Chain, job: &Job, locus: &dyn Locus) -> Result<SpiralLaw> {
         for piece in &pieces {
             add(&mut law, piece).map_err(|what| chain.feed.bad_answer(what))?;
         }
-        spiral
+        check
             .follow(&law)
             .map_err(|what| chain.feed.bad_answer(what))?;
         if onward == Onward::Done {
@@ -53,10 +62,11 @@ fn after(law: &SpiralLaw) -> String {
     format!("after {:.3} revolutions", law.end())
 }
 
-type Checked = std::result::Result<(), String>;
+/// What is wrong with a law, if anything is.
+type CheckResult = std::result::Result<(), String>;
 
 /// Appends a piece that begins where the law ends.
-fn add(law: &mut SpiralLaw, piece: &Stretch) -> Checked {
+fn add(law: &mut SpiralLaw, piece: &Stretch) -> CheckResult {
     let numbers = piece.coefficients.iter().all(|c| c.is_finite());
     if !(numbers && piece.length.is_finite() && piece.length > 0.0) {
         let Stretch {
@@ -78,8 +88,8 @@ fn add(law: &mut SpiralLaw, piece: &Stretch) -> Checked {
     Ok(())
 }
 
-/// The law begins and ends at the two ends of the range, or beyond.
-fn covers(law: &SpiralLaw, job: &Job) -> Checked {
+/// Checks that the law begins and ends at the two ends of the range, or beyond.
+fn covers(law: &SpiralLaw, job: &Job) -> CheckResult {
     if law.pieces().is_empty() {
         return Err("a law without pieces".to_owned());
     }
@@ -91,23 +101,23 @@ fn covers(law: &SpiralLaw, job: &Job) -> Checked {
     };
     if low > inner + SLACK || high < outer - SLACK {
         return Err(format!(
-            "the law runs from ρ = {start} mm to {end} mm and leaves some of the part uncut, which \
-             goes from {inner} mm to {outer} mm"
+            "the law runs from ρ = {start} mm to {end} mm and leaves some of the part uncut; it must \
+             cover {inner} mm to {outer} mm"
         ));
     }
     Ok(())
 }
 
-/// Follows a law as it grows: every turn lies beyond the last, at every angle, and none far
-/// beyond the range, so that a law which does not end is found out.
-struct Spiral {
+/// Follows a law while it grows. Every turn must lie beyond the one before, at every angle, and
+/// none may lie far beyond the range. So a law that does not end is refused.
+struct SpiralCheck {
     outward: f64,
     allowed: std::ops::RangeInclusive<f64>,
     ring: Vec<f64>,
     next: u64,
 }
 
-impl Spiral {
+impl SpiralCheck {
     fn new(job: &Job) -> Self {
         let RadialRange { inner, outer } = job.range;
         let beyond = outer - inner + 2.0 * job.tool.nose_radius;
@@ -122,8 +132,8 @@ impl Spiral {
         }
     }
 
-    /// Looks at what has come to the law.
-    fn follow(&mut self, law: &SpiralLaw) -> Checked {
+    /// Checks what the law has gained since the last call.
+    fn follow(&mut self, law: &SpiralLaw) -> CheckResult {
         if law.end() > MOST_REVOLUTIONS {
             return Err(format!(
                 "a law of more than {MOST_REVOLUTIONS:e} revolutions"
@@ -134,15 +144,15 @@ impl Spiral {
             if n > law.end() {
                 break;
             }
-            self.look(n, law.value(n))?;
+            self.check(n, law.value(n))?;
             self.next += 1;
         }
         Ok(())
     }
 
-    /// Comparisons that also fail for what is no number.
-    fn look(&mut self, n: f64, rho: f64) -> Checked {
-        let place = || {
+    /// Checks one point. The comparisons also fail for what is no number.
+    fn check(&mut self, n: f64, rho: f64) -> CheckResult {
+        let context = || {
             format!(
                 "at {:.1} deg, turn {:.0}",
                 360.0 * (n - n.floor()),
@@ -150,7 +160,7 @@ impl Spiral {
             )
         };
         if !self.allowed.contains(&rho) {
-            return Err(format!("{}, ρ = {rho} mm lies far off the part", place()));
+            return Err(format!("{}, ρ = {rho} mm lies far off the part", context()));
         }
         let slot = (self.next % CHECKED_ANGLES as u64) as usize;
         match self.ring.get_mut(slot) {
@@ -159,7 +169,7 @@ impl Spiral {
             Some(last) => {
                 return Err(format!(
                     "{} lies at ρ = {rho} mm, not beyond the one before at {last} mm",
-                    place()
+                    context()
                 ));
             }
         }

@@ -1,34 +1,52 @@
-//! Chains the five stages: law, nodes, locus, velocities; refines, measures, hands blocks on.
+//! Chains the five stages: law, nodes, locus, velocities. Refines and measures the path, and
+//! delivers it block by block.
 //!
-//! A path is made in blocks of [`BLOCK`] revolutions or fewer, whatever the threads: a block's bytes
-//! depend on the job alone. [`prepare`] checks tool against part and settles the range of ρ,
-//! [`run`] makes the path and gives it to a [`Sink`] in order.
+//! A path is made in blocks of [`BLOCK`] revolutions or fewer. The bytes of a block depend on the
+//! job alone, not on the number of threads. [`prepare`] checks the tool against the part and
+//! settles the range of ρ. [`run`] makes the path and gives it to a [`Sink`] in order.
 
+mod aim;
 mod attributed;
 mod beyond;
 mod chain;
+mod columns;
+mod contact;
 mod drift;
 mod error;
+mod estimate;
+mod fit;
+mod job_spec;
 mod largest_nose;
 mod law;
 mod lead;
 mod make;
+mod observer;
+mod options;
 mod order;
 mod plan;
 mod prepare;
-mod progress;
 mod range;
+mod recorder;
 mod refine;
 mod run;
 mod seams;
+mod sink;
+mod tail;
 mod taper;
+mod window;
 
+pub use aim::AIM;
 pub use chain::{Chain, Link};
-pub use error::{PipelineError, Result};
+pub use error::{PipelineError, Result, RunError};
+pub use estimate::{Estimate, estimate};
+pub use job_spec::JobSpec;
 pub use largest_nose::largest_nose;
 pub use lead::{AxisLimits, LeadLimits, LeadSettings, Leads};
+pub use observer::{Observer, SilentObserver, Stage};
+pub use options::PathOptions;
 pub use plan::BLOCK;
-pub use prepare::{Prepared, Wanted, prepare};
-pub use progress::{Progress, Quiet, Stage};
-pub use refine::{AIM, MOST_ROUNDS, SMALLEST_SEGMENT};
-pub use run::{Expected, Making, Outcome, Sink, expect, run};
+pub use prepare::{Preparation, prepare};
+pub use recorder::Outcome;
+pub use refine::{MOST_ROUNDS, SMALLEST_SEGMENT};
+pub use run::run;
+pub use sink::Sink;

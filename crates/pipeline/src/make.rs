@@ -1,175 +1,113 @@
-//! From nodes to control points: subdivided, placed on the locus, given velocities.
+//! From nodes to control points: nodes are subdivided, put on the locus, and given velocities.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
 
 use rayon::prelude::*;
-use turnpath_core::toolpath::{ControlPoint, PathBlock};
-use turnpath_core::{CentreBuffers, Dependence, Locus, Nodes, Rates, Velocities, angle};
+use turnpath_core::toolpath::PathBlock;
+use turnpath_core::{CentreBuffers, Dependence, Locus, Rates, Velocities, angle};
 
 use crate::Result;
+use crate::columns::Columns;
 use crate::order::in_order;
 use crate::plan::{CLOSEST_NODES, Plan};
+use crate::window::{NodeBlock, NodeRow, Window};
 
-/// How often each sampler segment of a block is halved; an empty list: not at all.
+/// How often each sampler segment of a block is halved. An empty list halves none.
 pub type Depths = Vec<u8>;
 
-/// The control points of a block, and the next block's first one, where its last segment ends.
-pub struct Made {
+/// The control points of a block, and the first one of the next block, where the last segment
+/// ends.
+pub struct BlockPoints {
     /// The points, the joint with the next block included.
     pub points: PathBlock,
     /// Which sampler segment each point's segment is a part of.
     pub owner: Vec<u32>,
-    /// How many nodes the sampler had placed, the path's last point included.
+    /// How many nodes the sampler placed, the path's last point included.
     pub sampled: usize,
 }
 
-/// Nodes of a block with their places on the locus.
-#[derive(Default)]
-struct Placed {
-    owner: Vec<u32>,
-    sampled: usize,
-    columns: Columns,
+/// The state that a sequential solver starts with; nothing for others.
+pub fn first_state(plan: &Plan<'_>) -> Option<Vec<f64>> {
+    let sequential = plan.chain.velocity.strategy.dependence() == Dependence::Sequential;
+    sequential.then(Vec::new)
 }
 
-/// What a velocity solver gets, a column for each quantity.
-#[derive(Default)]
-struct Columns {
-    t: Vec<f64>,
-    c: Vec<f64>,
-    x: Vec<f64>,
-    z: Vec<f64>,
-    c_rate: Vec<f64>,
-    x_rate: Vec<f64>,
-    z_theta: Vec<f64>,
-    z_x: Vec<f64>,
-}
-
-impl Columns {
-    fn each(&self) -> [&Vec<f64>; 8] {
-        let Self {
-            t,
-            c,
-            x,
-            z,
-            c_rate,
-            x_rate,
-            z_theta,
-            z_x,
-        } = self;
-        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
-    }
-
-    fn each_mut(&mut self) -> [&mut Vec<f64>; 8] {
-        let Self {
-            t,
-            c,
-            x,
-            z,
-            c_rate,
-            x_rate,
-            z_theta,
-            z_x,
-        } = self;
-        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
-    }
-
-    fn append(&mut self, other: &Self, range: Range<usize>) {
-        for (own, other) in self.each_mut().into_iter().zip(other.each()) {
-            own.extend_from_slice(&other[range.clone()]);
-        }
-    }
-
-    fn len(&self) -> usize {
-        self.t.len()
-    }
-}
-
-/// Makes the blocks of `range`, in parallel, with as many of their neighbours' nodes as the
-/// velocity solver asks for.
+/// Makes the blocks of `range` in parallel, each with as many of its neighbours' nodes as the
+/// velocity solver needs.
 pub fn make(
     plan: &Plan<'_>,
     range: Range<usize>,
     depths: &[Depths],
     solver_state: Option<&mut Vec<f64>>,
-) -> Result<Vec<Made>> {
+) -> Result<Vec<BlockPoints>> {
     let overlap = match plan.chain.velocity.strategy.dependence() {
         Dependence::Overlap(nodes) => nodes,
         Dependence::Local | Dependence::Sequential => 0,
     };
-    let around = place_around(plan, range.clone(), overlap, depths)?;
-    let mut made: Vec<Made> = match solver_state {
+    let row = locate_with_neighbours(plan, range.clone(), overlap, depths)?;
+    let mut blocks: Vec<BlockPoints> = match solver_state {
         Some(state) => range
-            .map(|index| solve(plan, &around, index, overlap, Some(&mut *state)))
+            .map(|index| solve(plan, &row, index, overlap, Some(&mut *state)))
             .collect::<Result<_>>()?,
         None => in_order(
             range
                 .into_par_iter()
-                .map(|index| solve(plan, &around, index, overlap, None)),
+                .map(|index| solve(plan, &row, index, overlap, None)),
         )?,
     };
-    join(&mut made);
-    Ok(made)
+    close_joints(&mut blocks);
+    Ok(blocks)
 }
 
-/// Ends every block with the point that the next one begins with: the joint as it is written, and
-/// not as the block's own window had it, however the solver came by it.
-pub fn join(made: &mut [Made]) {
-    for i in 1..made.len() {
-        if let Some(joint) = made[i].points.get(0) {
-            made[i - 1].points.set_last(joint);
+/// Ends every block with the first point of the next block. The joint is then measured as it is
+/// written, and not as the block's own window had it.
+pub fn close_joints(blocks: &mut [BlockPoints]) {
+    for i in 1..blocks.len() {
+        if let Some(joint) = blocks[i].points.get(0) {
+            blocks[i - 1].points.set_last(joint);
         }
     }
 }
 
-/// Blocks in a row with their nodes placed, from number `first` on.
-struct Row {
-    first: usize,
-    blocks: Vec<Placed>,
-}
-
-impl Row {
-    fn get(&self, index: usize) -> Option<&Placed> {
-        self.blocks.get(index.checked_sub(self.first)?)
-    }
-}
-
-/// Places the nodes of `range` and of neighbours on both sides that hold `overlap` nodes, and the
-/// next block's first one besides.
-fn place_around(
+/// The nodes of `range`, and of neighbours on both sides that hold `overlap` nodes and, behind the
+/// range, one more: the first node of the next block.
+fn locate_with_neighbours(
     plan: &Plan<'_>,
     range: Range<usize>,
     overlap: usize,
     depths: &[Depths],
-) -> Result<Row> {
+) -> Result<NodeRow> {
+    let count = |blocks: &[NodeBlock]| -> usize {
+        let lengths = blocks.iter().map(|block| block.columns.len());
+        lengths.sum()
+    };
     let (mut first, mut last) = (range.start, range.end);
-    let mut blocks = place(plan, first..last, depths)?;
+    let mut blocks = locate_blocks(plan, first..last, depths)?;
     let mut before = 0;
     while first > 0 && before < overlap {
         first -= 1;
-        let mut found = place(plan, first..first + 1, depths)?;
-        before += found
-            .iter()
-            .map(|placed| placed.columns.len())
-            .sum::<usize>();
-        found.append(&mut blocks);
-        blocks = found;
+        let mut more = locate_blocks(plan, first..first + 1, depths)?;
+        before += count(&more);
+        more.append(&mut blocks);
+        blocks = more;
     }
     let mut after = 0;
     while last < plan.blocks() && after < overlap + 1 {
-        let found = place(plan, last..last + 1, depths)?;
-        after += found
-            .iter()
-            .map(|placed| placed.columns.len())
-            .sum::<usize>();
-        blocks.extend(found);
+        let more = locate_blocks(plan, last..last + 1, depths)?;
+        after += count(&more);
+        blocks.extend(more);
         last += 1;
     }
-    Ok(Row { first, blocks })
+    Ok(NodeRow { first, blocks })
 }
 
-/// Samples, subdivides and places the nodes of each block.
-fn place(plan: &Plan<'_>, range: Range<usize>, depths: &[Depths]) -> Result<Vec<Placed>> {
+/// Samples and subdivides each block, and puts its nodes on the locus.
+fn locate_blocks(
+    plan: &Plan<'_>,
+    range: Range<usize>,
+    depths: &[Depths],
+) -> Result<Vec<NodeBlock>> {
     let sampled_to = (range.end + 1).min(plan.blocks());
     let sampled = (range.start..sampled_to).into_par_iter();
     let raw = in_order(sampled.map(|index| plan.sample(index)))?;
@@ -181,18 +119,18 @@ fn place(plan: &Plan<'_>, range: Range<usize>, depths: &[Depths]) -> Result<Vec<
     };
     in_order(range.clone().into_par_iter().map(|index| {
         let nodes = &raw[index - range.start];
-        let halved = depths.get(index).map_or(&[][..], Vec::as_slice);
-        place_block(plan, index, nodes, end_of(index), halved)
+        let depths = depths.get(index).map_or(&[][..], Vec::as_slice);
+        locate_block(plan, index, nodes, end_of(index), depths)
     }))
 }
 
-fn place_block(
+fn locate_block(
     plan: &Plan<'_>,
     index: usize,
     sampled: &[f64],
     end: f64,
     depths: &[u8],
-) -> Result<Placed> {
+) -> Result<NodeBlock> {
     let too_late = sampled
         .iter()
         .rev()
@@ -214,14 +152,14 @@ fn place_block(
         owner.push(sampled.len() as u32);
         count += 1;
     }
-    Ok(Placed {
+    Ok(NodeBlock {
         columns: locate(plan, &n)?,
         owner,
         sampled: count,
     })
 }
 
-/// Nodes and their times; on the steps of the controller's time, if it has such.
+/// Nodes and their times. Where the controller has steps of time, the nodes are moved onto them.
 fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
     let (n, t): (Vec<f64>, Vec<f64>) = nodes.iter().map(|n| plan.on_time(*n)).unzip();
     match t.windows(2).position(|pair| pair[1] <= pair[0]) {
@@ -236,9 +174,9 @@ fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
 
 /// Puts nodes on the locus.
 fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
-    let (job, compensator) = (&plan.prepared.job, &plan.chain.compensator);
+    let (job, compensator) = (&plan.preparation.job, &plan.chain.compensator);
     let (n, t) = on_time(plan, nodes)?;
-    let place = || match (n.first(), n.last()) {
+    let context = || match (n.first(), n.last()) {
         (Some(first), Some(last)) => format!("in revolutions {first:.3} to {last:.3}"),
         _ => String::new(),
     };
@@ -246,10 +184,10 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
     let rho: Vec<f64> = n.iter().map(|n| plan.law.value(*n)).collect();
     let mut centres = CentreBuffers::default();
     centres.resize(n.len());
-    let locus = &plan.prepared.locus;
+    let locus = &plan.preparation.locus;
     locus
         .centre(&theta, &rho, centres.as_centres())
-        .map_err(|error| compensator.failed(place(), error))?;
+        .map_err(|error| compensator.failed(context(), error))?;
     let blank = vec![f64::NAN; n.len()];
     let (mut x_theta, mut x_rho) = (blank.clone(), blank.clone());
     let (mut z_theta, mut z_x) = (blank.clone(), blank);
@@ -261,7 +199,7 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
     };
     locus
         .rates(&theta, &rho, rates)
-        .map_err(|error| compensator.failed(place(), error))?;
+        .map_err(|error| compensator.failed(context(), error))?;
     let c_rate: Vec<f64> = n.iter().map(|n| job.spindle.speed_at(*n)).collect();
     let x_rate = (0..n.len())
         .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
@@ -276,27 +214,24 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
         z_theta,
         z_x,
     };
-    for (i, n) in n.iter().enumerate() {
-        if columns.each().iter().any(|column| !column[i].is_finite()) {
-            let what = format!(
-                "no number for the tool centre at C = {:.3} deg, ρ = {} mm",
-                360.0 * n,
-                rho[i]
-            );
-            return Err(compensator.bad_answer(what));
-        }
+    match (0..n.len()).find(|i| !columns.is_finite(*i)) {
+        None => Ok(columns),
+        Some(i) => Err(compensator.bad_answer(format!(
+            "no number for the tool centre at C = {:.3} deg, ρ = {} mm",
+            360.0 * n[i],
+            rho[i]
+        ))),
     }
-    Ok(columns)
 }
 
 /// Gives the points of a block their velocities.
 fn solve(
     plan: &Plan<'_>,
-    row: &Row,
+    row: &NodeRow,
     index: usize,
     overlap: usize,
     state: Option<&mut Vec<f64>>,
-) -> Result<Made> {
+) -> Result<BlockPoints> {
     let Window {
         columns,
         own,
@@ -326,7 +261,7 @@ fn solve(
         let point = columns.point(k, c[k], x[k], z[k]);
         if !point.is_finite() {
             let what = format!(
-                "vC = {}, vX = {}, vZ = {} at {:.6} s are no velocities",
+                "vC = {}, vX = {}, vZ = {} at {:.6} s are not finite",
                 point.vc, point.vx, point.vz, point.t
             );
             return Err(link.bad_answer(what));
@@ -336,81 +271,9 @@ fn solve(
     let (owner, sampled) = row.get(index).map_or((Vec::new(), 0), |block| {
         (block.owner.clone(), block.sampled)
     });
-    Ok(Made {
+    Ok(BlockPoints {
         points,
         owner,
         sampled,
     })
-}
-
-/// What a velocity solver gets for one block.
-struct Window {
-    columns: Columns,
-    /// Where the block's own nodes are.
-    own: Range<usize>,
-    /// Whether the first node is the path's first, and the last one its last.
-    at_start: bool,
-    at_end: bool,
-}
-
-impl Row {
-    /// The nodes of a block between `overlap` ones of its neighbours, the joint with the next
-    /// block besides.
-    fn window(&self, plan: &Plan<'_>, index: usize, overlap: usize) -> Window {
-        let length = |block: &Placed| block.columns.len();
-        let (before, rest) = self.blocks.split_at(index - self.first);
-        let behind: usize = before.iter().map(length).sum();
-        let all: usize = behind + rest.iter().map(length).sum::<usize>();
-        let own = behind..behind + rest.first().map_or(0, length);
-        let wanted = own.start.saturating_sub(overlap)..(own.end + overlap + 1).min(all);
-        let mut columns = Columns::default();
-        let mut start = 0;
-        for block in &self.blocks {
-            let end = start + length(block);
-            let (from, to) = (wanted.start.max(start), wanted.end.min(end));
-            if from < to {
-                columns.append(&block.columns, from - start..to - start);
-            }
-            start = end;
-        }
-        Window {
-            columns,
-            own: own.start - wanted.start..own.end - wanted.start,
-            at_start: self.first == 0 && wanted.start == 0,
-            at_end: self.first + self.blocks.len() == plan.blocks() && wanted.end == all,
-        }
-    }
-}
-
-impl Columns {
-    fn unset(&self) -> Vec<f64> {
-        vec![f64::NAN; self.len()]
-    }
-
-    fn nodes(&self, at_start: bool, at_end: bool) -> Nodes<'_> {
-        Nodes {
-            t: &self.t,
-            c: &self.c,
-            x: &self.x,
-            z: &self.z,
-            c_rate: &self.c_rate,
-            x_rate: &self.x_rate,
-            z_theta: &self.z_theta,
-            z_x: &self.z_x,
-            at_start,
-            at_end,
-        }
-    }
-
-    fn point(&self, k: usize, vc: f64, vx: f64, vz: f64) -> ControlPoint {
-        ControlPoint {
-            t: self.t[k],
-            c: self.c[k],
-            x: self.x[k],
-            z: self.z[k],
-            vc,
-            vx,
-            vz,
-        }
-    }
 }

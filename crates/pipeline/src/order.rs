@@ -1,14 +1,12 @@
-//! Parallel answers in order: the error that counts is the first one along the path, whichever
-//! thread came upon one first.
+//! Answers of parallel work, in order. The error that counts is the first one along the path,
+//! whichever thread met one first.
 
 use rayon::prelude::*;
 
-use crate::Result;
-
 /// All answers, or the first error among them.
-pub fn in_order<T: Send>(
-    answers: impl IndexedParallelIterator<Item = Result<T>>,
-) -> Result<Vec<T>> {
-    let answers: Vec<Result<T>> = answers.collect();
+pub fn in_order<T: Send, E: Send>(
+    answers: impl IndexedParallelIterator<Item = Result<T, E>>,
+) -> Result<Vec<T>, E> {
+    let answers: Vec<Result<T, E>> = answers.collect();
     answers.into_iter().collect()
 }

@@ -1,87 +1,95 @@
-//! What every block is made from: chain, job, locus, law, and the blocks' borders.
+//! What every block is made from: the chain, the job, the locus, the law, and the borders of the
+//! blocks.
 
 use std::f64::consts::TAU;
 
 use turnpath_core::{Dependence, Overrun, Path, Revolutions, SpiralLaw};
 
-use crate::taper::{Tapered, taper};
-use crate::{Chain, Prepared, Result};
+use crate::observer::{Observer, stop_if_cancelled};
+use crate::taper::{CutLaw, taper};
+use crate::{Chain, Preparation, Result, beyond, seams};
 
 /// Revolutions of a block. A sampler starts afresh at each border, which costs AST-50 a tenth of
 /// a percent of points; larger blocks take more memory and leave less to do in parallel.
 pub const BLOCK: f64 = 64.0;
-/// Nodes of a block above which it takes half the revolutions, down to one: memory stays bounded
-/// on the finest paths. It follows from the job alone, so the bytes do not depend on the machine.
+/// Nodes of a block above which it takes half the revolutions, down to one, so that memory stays
+/// bounded on the finest paths. The choice depends on the job alone, so the bytes do not depend on
+/// the machine.
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
-/// Nodes of a block beyond which a sampler's answer is taken for a mistake.
+/// Most nodes that a sampler may place in a block. More are taken for a mistake.
 const MOST_NODES: usize = 4_000_000;
-/// Most nodes of overlap that a velocity solver may ask for: a spline needs 64, and what needs
+/// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
 /// thousands is sequential.
 const MOST_OVERLAP: usize = 10_000;
-/// Nodes closer together than this part of a revolution are a sampler's mistake: the velocity
-/// between them would be rounding.
+/// Smallest distance between nodes, in revolutions. Closer nodes are a sampler's mistake: the
+/// velocity between them would be rounding.
 pub const CLOSEST_NODES: f64 = 1e-9;
 
-/// Where and when the cutting section begins: behind the lead-in, if there is one.
+/// Where and when the cutting section begins: after the lead-in, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Start {
     /// Whole revolutions of C before it, so that C stays θ.
     pub turns: f64,
-    /// Time before it: whole steps where the controller counts such, else s.
+    /// Time before it: in steps of the controller's time where it has such steps, else in s.
     pub time: f64,
 }
 
-/// A job with its law.
+/// A job with its law and its blocks.
 pub struct Plan<'a> {
     /// The strategies.
     pub chain: &'a Chain,
-    /// Job, locus, first touch.
-    pub prepared: &'a Prepared,
+    /// The job, the locus, the first touch.
+    pub preparation: &'a Preparation,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
-    /// Between which revolutions the law is the feed strategy's own, if it is anywhere.
+    /// Between which revolutions the law is the feed strategy's own; `None` if it is so nowhere.
     pub own: Option<[f64; 2]>,
-    /// Steps of time a second at which control points must lie, if the controller has such.
+    /// Steps of time a second on which control points must lie, if the controller has such steps.
     pub time_steps: Option<f64>,
     /// Where and when the cutting section begins.
     pub start: Start,
-    /// Revolutions of a block: [`BLOCK`], fewer where nodes are very many.
+    /// Revolutions of a block: [`BLOCK`], or fewer where there are very many nodes.
     block: f64,
-    /// What the sampler found on the whole path.
-    pub prepared_sampler: Vec<f64>,
-    /// What a sequential sampler carries into each block; empty for others.
-    pub sampler_states: Vec<Vec<f64>>,
+    /// What the sampler prepared from the whole path.
+    sampler_data: Vec<f64>,
+    /// The state that a sequential sampler carries into each block; empty for others.
+    sampler_states: Vec<Vec<f64>>,
 }
 
 impl<'a> Plan<'a> {
-    /// Plans the law; runs a sequential sampler once through to learn its states.
-    pub fn new(chain: &'a Chain, prepared: &'a Prepared) -> Result<Self> {
+    /// Plans the law. Runs a sequential sampler once over the path to learn its states.
+    pub fn new(
+        chain: &'a Chain,
+        preparation: &'a Preparation,
+        observer: &dyn Observer,
+    ) -> Result<Self> {
         if let Dependence::Overlap(nodes @ MOST_OVERLAP..) = chain.velocity.strategy.dependence() {
-            let what = format!("an overlap of {nodes} nodes, where {MOST_OVERLAP} are too many");
+            let what = format!("an overlap of {nodes} nodes; it must be below {MOST_OVERLAP}");
             return Err(chain.velocity.bad_answer(what));
         }
-        let law = crate::seams::plan(chain, prepared)?;
-        let Tapered { law, own } = match prepared.overrun {
-            Overrun::Contact => taper(&law, &prepared.job),
-            Overrun::None | Overrun::Length(_) => Tapered::not(law),
+        let law = seams::plan(chain, preparation, observer)?;
+        let CutLaw { law, own } = match preparation.overrun {
+            Overrun::Contact => taper(&law, &preparation.job),
+            Overrun::None | Overrun::Length(_) => CutLaw::without_taper(law),
         };
-        crate::beyond::check(chain, prepared, &law)?;
+        beyond::check(chain, preparation, &law)?;
         let mut plan = Self {
             chain,
-            prepared,
+            preparation,
             law,
             own,
             time_steps: None,
             start: Start::default(),
             block: BLOCK,
-            prepared_sampler: Vec::new(),
+            sampler_data: Vec::new(),
             sampler_states: Vec::new(),
         };
-        plan.prepared_sampler = plan.prepare_sampler()?;
+        plan.sampler_data = plan.prepare_sampler()?;
         plan.block = plan.comfortable_block()?;
         if chain.sampler.strategy.dependence() == Dependence::Sequential {
             let mut state = Vec::new();
             for index in 0..plan.blocks() {
+                stop_if_cancelled(observer)?;
                 plan.sampler_states.push(state.clone());
                 plan.sample_from(index, &mut state)?;
             }
@@ -95,16 +103,16 @@ impl<'a> Plan<'a> {
         answer.map_err(|error| sampler.failed("while it looked at the whole path", error))
     }
 
-    /// From one revolution each at the path's start, middle and end; a sequential sampler can
-    /// begin at the start alone.
+    /// Revolutions of a block, from the nodes of one revolution each at the path's start, middle
+    /// and end. A sequential sampler can begin at the start only.
     fn comfortable_block(&self) -> Result<f64> {
         let last = (self.law.end() - 1.0).max(0.0).floor();
         let sequential = self.chain.sampler.strategy.dependence() == Dependence::Sequential;
-        let looks = if sequential { 1 } else { 3 };
+        let count = if sequential { 1 } else { 3 };
         let mut densest = 0;
-        for start in [0.0, (0.5 * last).floor(), last].into_iter().take(looks) {
+        for start in [0.0, (0.5 * last).floor(), last].into_iter().take(count) {
             let end = (start + 1.0).min(self.law.end());
-            let nodes = self.place(Revolutions { start, end }, &mut Vec::new())?;
+            let nodes = self.ask_sampler(Revolutions { start, end }, &mut Vec::new())?;
             densest = densest.max(nodes.len());
         }
         let mut block = BLOCK;
@@ -115,13 +123,12 @@ impl<'a> Plan<'a> {
     }
 
     fn path<'b>(&'b self, law: &'b SpiralLaw) -> Path<'b> {
-        let Prepared { job, locus, .. } = self.prepared;
-        let prepared = &self.prepared_sampler;
+        let Preparation { job, locus, .. } = self.preparation;
         Path {
             job,
             locus,
             law,
-            prepared,
+            prepared: &self.sampler_data,
         }
     }
 
@@ -139,10 +146,11 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// A node and its time in the path, moved to the nearest step of the controller's time if it has such; the
-    /// path's end to the one before, so that the path does not run beyond it.
+    /// A node and its time in the path. Where the controller has steps of time, the node is moved
+    /// to the nearest step. The path's end is moved to the step before it, so that the path does
+    /// not run beyond its end.
     pub fn on_time(&self, n: f64) -> (f64, f64) {
-        let spindle = &self.prepared.job.spindle;
+        let spindle = &self.preparation.job.spindle;
         let t = spindle.time_at(n);
         let Some(steps) = self.time_steps else {
             return (n, self.start.time + t);
@@ -172,14 +180,14 @@ impl<'a> Plan<'a> {
         index + 1 == self.blocks()
     }
 
-    /// The sampler's nodes of a block, checked; the path's first point is among them.
+    /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<Vec<f64>> {
         let mut state = self.sampler_states.get(index).cloned().unwrap_or_default();
         self.sample_from(index, &mut state)
     }
 
     fn sample_from(&self, index: usize, state: &mut Vec<f64>) -> Result<Vec<f64>> {
-        let mut nodes = self.place(self.revolutions(index), state)?;
+        let mut nodes = self.ask_sampler(self.revolutions(index), state)?;
         self.check(index, &nodes)
             .map_err(|what| self.chain.sampler.bad_answer(what))?;
         if index == 0 {
@@ -189,8 +197,8 @@ impl<'a> Plan<'a> {
         Ok(nodes)
     }
 
-    /// The sampler's own answer.
-    fn place(&self, block: Revolutions, state: &mut Vec<f64>) -> Result<Vec<f64>> {
+    /// The sampler's nodes as it gives them.
+    fn ask_sampler(&self, block: Revolutions, state: &mut Vec<f64>) -> Result<Vec<f64>> {
         let sampler = &self.chain.sampler;
         let window = self.law.window(block.start - 1.0, block.end + 1.0);
         let path = self.path(&window);
@@ -201,32 +209,35 @@ impl<'a> Plan<'a> {
                 .place_onward(&path, block, state, &mut nodes),
             _ => sampler.strategy.place(&path, block, &mut nodes),
         };
-        answer.map_err(|error| sampler.failed(place_of(block), error))?;
+        answer.map_err(|error| sampler.failed(in_revolutions(block), error))?;
         Ok(nodes)
     }
 
     fn check(&self, index: usize, nodes: &[f64]) -> std::result::Result<(), String> {
         let block = self.revolutions(index);
-        let place = place_of(block);
+        let context = in_revolutions(block);
         if nodes.is_empty() && !self.is_last(index) {
-            return Err(format!("no node {place}"));
+            return Err(format!("no node {context}"));
         }
         if nodes.len() > MOST_NODES {
-            return Err(format!("{} nodes {place}", nodes.len()));
+            return Err(format!(
+                "{} nodes {context}; at most {MOST_NODES} are allowed",
+                nodes.len()
+            ));
         }
         let mut last: Option<f64> = None;
         for (i, node) in nodes.iter().enumerate() {
             if !node.is_finite() {
-                return Err(format!("node {i} is {node}, {place}"));
+                return Err(format!("node {i} is {node}, {context}"));
             }
             if !(block.start..block.end).contains(node) {
                 return Err(format!(
-                    "node {i} at {node} lies outside the block, {place}"
+                    "node {i} at {node} lies outside the block, {context}"
                 ));
             }
             if let Some(last) = last.filter(|last| node - last < CLOSEST_NODES) {
                 return Err(format!(
-                    "node {i} at {node} does not lie beyond {last}, {place}"
+                    "node {i} at {node} does not lie beyond {last}, {context}"
                 ));
             }
             last = Some(*node);
@@ -235,6 +246,6 @@ impl<'a> Plan<'a> {
     }
 }
 
-fn place_of(block: Revolutions) -> String {
+fn in_revolutions(block: Revolutions) -> String {
     format!("in revolutions {:.0} to {:.3}", block.start, block.end)
 }

@@ -1,8 +1,8 @@
 //! The range of ρ: how far the path runs beyond the part.
 //!
-//! With `overrun = "contact"` it ends where the contact reaches the rim at every angle. Where ρ is
-//! the contact's radius that is the rim itself; where it is the centre's X, the largest of
-//! a − R g_ρ/w over the angles, a the rim's radius, and the smallest of the same at a hole.
+//! With `overrun = "contact"` the range ends where the contact reaches the rim at every angle. Where
+//! ρ is the contact's radius, that is the rim itself. Where ρ is the centre's X, it is the largest
+//! of a − R g_ρ/w over the angles, with the rim's radius a; at a hole it is the smallest.
 
 use std::f64::consts::TAU;
 
@@ -11,12 +11,12 @@ use turnpath_core::{
     Compensator, Overrun, Part, Radial, RadialRange, Result, StrategyError, SurfaceModel, Tool,
 };
 
-/// Angles of the first look at a rim: a wave with 72 periods on a revolution has 10 of them.
+/// Angles of the first search on a rim: a wave with 72 periods on a revolution gets 10 a period.
 const ANGLES: usize = 720;
-/// How many of the angles that ask for most are closed in on.
+/// How many of the angles with the largest overrun are refined.
 const CANDIDATES: usize = 8;
-/// Rounds of closing in, each to a quarter: from half a degree to 1e-12 rad, where ρ, flat at its
-/// extreme, no longer changes.
+/// Rounds of the refinement, each to a quarter of the interval: from half a degree to 1e-12 rad.
+/// There ρ no longer changes, since it is flat at its extreme.
 const ROUNDS: usize = 16;
 
 /// The range of ρ over which the path runs.
@@ -30,13 +30,13 @@ pub fn range(
     surface: &dyn SurfaceModel,
     compensator: &dyn Compensator,
 ) -> Result<RadialRange> {
-    let exactly = RadialRange {
+    let part_only = RadialRange {
         inner: part.inner_radius,
         outer: part.aperture_radius,
     };
     let by_centre = compensator.radial() == Radial::Centre && compensator.compensates_nose();
     match overrun {
-        Overrun::None => Ok(exactly),
+        Overrun::None => Ok(part_only),
         Overrun::Length(length) => Ok(RadialRange {
             inner: beyond_hole(part, length),
             outer: part.aperture_radius + length,
@@ -60,11 +60,12 @@ pub fn range(
             };
             Ok(RadialRange { inner, outer })
         }
-        Overrun::Contact => Ok(exactly),
+        Overrun::Contact => Ok(part_only),
     }
 }
 
-/// A hole ends the overrun at its middle; without one it goes beyond the axis.
+/// The inner end of an overrun of this length. In a hole it ends at the axis; without a hole it goes
+/// beyond the axis.
 fn beyond_hole(part: &Part, length: f64) -> f64 {
     match part.inner_radius > 0.0 {
         true => (part.inner_radius - length).max(0.0),
@@ -83,41 +84,41 @@ struct Rim<'a> {
 }
 
 impl Rim<'_> {
-    /// X of the nose centre from which the contact reaches the circle at every angle: the
-    /// furthest outward (inward at a hole) of a − R g_ρ/w. Where the edge ends before the normal
-    /// does, its end touches.
+    /// X of the nose centre from which the contact reaches the circle at every angle: the value of
+    /// a − R g_ρ/w that lies furthest outward (inward at a hole). Where the normal misses the edge,
+    /// the end of the edge touches.
     fn furthest(&self) -> Result<f64> {
         let step = TAU / ANGLES as f64;
         let all: Vec<f64> = (0..ANGLES).map(|i| i as f64 * step).collect();
-        let mut found = self.beyond(&all)?;
-        found.sort_by(|a, b| b.1.total_cmp(&a.1));
-        found.truncate(CANDIDATES);
+        let mut candidates = self.beyond(&all)?;
+        candidates.sort_by(|a, b| b.1.total_cmp(&a.1));
+        candidates.truncate(CANDIDATES);
         let mut scale = step;
         for _ in 0..ROUNDS {
-            let around: Vec<f64> = found
+            let around: Vec<f64> = candidates
                 .iter()
                 .flat_map(|(theta, _)| {
                     [-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75].map(|k| theta + k * scale)
                 })
                 .collect();
-            let tried = self.beyond(&around)?;
-            for (best, tried) in found.iter_mut().zip(tried.chunks(7)) {
-                for place in tried {
-                    if place.1 > best.1 {
-                        *best = *place;
+            let around = self.beyond(&around)?;
+            for (best, around) in candidates.iter_mut().zip(around.chunks(7)) {
+                for point in around {
+                    if point.1 > best.1 {
+                        *best = *point;
                     }
                 }
             }
             scale *= 0.25;
         }
-        let most = found
+        let most = candidates
             .iter()
-            .map(|place| place.1)
+            .map(|point| point.1)
             .fold(f64::NEG_INFINITY, f64::max);
         Ok(self.radius + self.outward * most)
     }
 
-    /// How far the nose centre stands beyond the circle when it touches there, at each angle.
+    /// Each angle, and how far the nose centre stands beyond the circle when it touches there.
     fn beyond(&self, theta: &[f64]) -> Result<Vec<(f64, f64)>> {
         let rho = vec![self.radius; theta.len()];
         let mut profiles = vec![Profile::default(); theta.len()];
@@ -127,13 +128,13 @@ impl Rim<'_> {
             let normal = self.tool.nose_radius * profile.slope / profile.stretch();
             -self.outward * normal.clamp(-reach, reach)
         };
-        let found: Vec<(f64, f64)> = theta
+        let points: Vec<(f64, f64)> = theta
             .iter()
             .copied()
             .zip(profiles.iter().map(offset))
             .collect();
-        match found.iter().find(|place| place.1.is_nan()) {
-            None => Ok(found),
+        match points.iter().find(|point| point.1.is_nan()) {
+            None => Ok(points),
             Some((theta, _)) => Err(self.no_slope(*theta)),
         }
     }
@@ -162,9 +163,9 @@ mod tests {
         }
     }
 
-    struct Placed(Radial);
+    struct Fixed(Radial);
 
-    impl Compensator for Placed {
+    impl Compensator for Fixed {
         fn radial(&self) -> Radial {
             self.0
         }
@@ -183,7 +184,7 @@ mod tests {
         ..DISC
     };
 
-    fn found(
+    fn range_of(
         overrun: Overrun,
         part: Part,
         radial: Radial,
@@ -195,17 +196,17 @@ mod tests {
             clearance_angle: None,
             misfit: Misfit::Refuse,
         };
-        let found = range(overrun, &part, &tool, &Saddle, &Placed(radial)).unwrap();
-        [found.inner, found.outer]
+        let range = range(overrun, &part, &tool, &Saddle, &Fixed(radial)).unwrap();
+        [range.inner, range.outer]
     }
 
     #[track_caller]
-    fn near(found: [f64; 2], expected: [f64; 2]) {
-        let far = found
+    fn near(range: [f64; 2], expected: [f64; 2]) {
+        let far = range
             .iter()
             .zip(expected)
             .any(|(f, e)| (f - e).abs() > 1e-14);
-        assert!(!far, "{found:?} for {expected:?}");
+        assert!(!far, "{range:?} for {expected:?}");
     }
 
     #[test]
@@ -213,17 +214,17 @@ mod tests {
         let lever = |slope: f64| slope / (1.0 + slope * slope).sqrt();
         let contact = Overrun::Contact;
         near(
-            found(contact, DISC, Radial::Centre, None),
+            range_of(contact, DISC, Radial::Centre, None),
             [0.0, 2.5 + lever(0.4)],
         );
-        let ring = found(contact, RING, Radial::Centre, None);
+        let ring = range_of(contact, RING, Radial::Centre, None);
         near(ring, [1.0 - lever(0.16), 2.5 + lever(0.4)]);
-        near(found(contact, RING, Radial::Contact, None), [1.0, 2.5]);
+        near(range_of(contact, RING, Radial::Contact, None), [1.0, 2.5]);
     }
 
     #[test]
     fn the_end_of_the_edge_touches_where_the_normal_misses_it() {
-        let narrow = found(
+        let narrow = range_of(
             Overrun::Contact,
             DISC,
             Radial::Centre,
@@ -234,10 +235,13 @@ mod tests {
 
     #[test]
     fn a_length_counts_from_the_aperture_and_from_hole_or_axis() {
-        let by = |length, part| found(Overrun::Length(length), part, Radial::Centre, None);
+        let by = |length, part| range_of(Overrun::Length(length), part, Radial::Centre, None);
         near(by(0.5, DISC), [-0.5, 3.0]);
         near(by(0.5, RING), [0.5, 3.0]);
         near(by(1.5, RING), [0.0, 4.0]);
-        near(found(Overrun::None, RING, Radial::Centre, None), [1.0, 2.5]);
+        near(
+            range_of(Overrun::None, RING, Radial::Centre, None),
+            [1.0, 2.5],
+        );
     }
 }

@@ -1,61 +1,71 @@
-//! Feeds over seams that the nose rides over: a strategy is asked for a smaller residual where its law
-//! would leave more.
+//! Feeds over seams that the nose rides over. Where a law would leave more than the residual there,
+//! its strategy is asked for a smaller residual.
 //!
-//! A feed that holds the residual of a smooth part asks how sharply the part bends at the contact.
-//! Over a seam that does not say it: there the nose goes down one flank and up the other, and two
-//! passes a feed f apart leave a cusp of Δf/4 + f²/8R between them, Δ the corner of its height. No
-//! strategy knows of that, but all can be asked for less: feeds go with the root of the residual.
+//! A feed that holds the residual of a smooth part follows from the curvature at the contact. Over
+//! a seam the curvature does not suffice: the nose goes down one flank and up the other, and two
+//! passes a feed f apart leave a cusp of Δf/4 + f²/8R between them, where Δ is the corner of the
+//! nose's height. No strategy knows the corners, but every strategy can be asked for a smaller
+//! residual: feeds go with its root.
 
 use std::f64::consts::TAU;
 
 use turnpath_core::{Direction, Job, SpiralLaw};
 use turnpath_verify::{Ride, rides};
 
-use crate::prepare::Prepared;
+use crate::observer::Observer;
+use crate::prepare::Preparation;
 use crate::{Chain, PipelineError, Result, law};
 
-/// How often a law is planned anew at the most: where the feed is everywhere the same, once is
+/// How often a law is planned again at the most. Where the feed is the same everywhere, once is
 /// enough.
 const ROUNDS: usize = 6;
-/// Part of the largest feed that is aimed at: corners between the sections that were looked at are
-/// a little sharper.
+/// Part of the largest feed that the law aims at. Corners between the examined sections are a little
+/// sharper.
 const AIM: f64 = 0.97;
-/// Part of it that is taken for held.
+/// Part of the largest feed that counts as held.
 const ENOUGH: f64 = 0.98;
-/// A law that is asked for less must become longer by this factor, or it does not listen: its feed is
-/// the recipe's own.
-const LISTENS: f64 = 1.02;
-/// The law of the chain's feed, with cusps beside seams within the residual as far as it can be had.
-pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
-    let job = &prepared.job;
-    let first = law::plan(chain, job, &prepared.locus)?;
-    let rides = rides(&prepared.touch, job.range.outer).map_err(PipelineError::Measure)?;
-    let mut asked = job.clone();
+/// A law that is asked for a smaller residual must become longer by this factor. If it does not, its
+/// feed does not depend on the residual: the recipe sets it.
+const RESPONSE: f64 = 1.02;
+
+/// The law of the chain's feed strategy, with cusps beside seams within the residual as far as the
+/// strategy can plan it so.
+pub fn plan(
+    chain: &Chain,
+    preparation: &Preparation,
+    observer: &dyn Observer,
+) -> Result<SpiralLaw> {
+    let job = &preparation.job;
+    let first = law::plan(chain, job, &preparation.locus, observer)?;
+    let rides = rides(&preparation.touch, job.range.outer).map_err(PipelineError::Measure)?;
+    let mut stricter = job.clone();
     let mut over = over_feed(&first, job, &rides);
     let (mut best, mut least, mut turns) = (first, over, 0.0);
     for _ in 0..ROUNDS {
         if over <= ENOUGH {
             break;
         }
-        asked.tolerance.residual *= AIM * AIM / (over * over);
-        // What cannot be had for less is measured as it is.
-        let Ok(tried) = law::plan(chain, &asked, &prepared.locus) else {
-            break;
+        stricter.tolerance.residual *= AIM * AIM / (over * over);
+        let candidate = match law::plan(chain, &stricter, &preparation.locus, observer) {
+            Ok(candidate) => candidate,
+            Err(PipelineError::Cancelled) => return Err(PipelineError::Cancelled),
+            // No law holds so small a residual: the best so far is measured as it is.
+            Err(_) => break,
         };
-        over = over_feed(&tried, job, &rides);
-        let listens = tried.end() > LISTENS * best.end().max(turns);
-        turns = tried.end();
+        over = over_feed(&candidate, job, &rides);
+        let responds = candidate.end() > RESPONSE * best.end().max(turns);
+        turns = candidate.end();
         if over < least {
-            (best, least) = (tried, over);
+            (best, least) = (candidate, over);
         }
-        if !listens {
+        if !responds {
             break;
         }
     }
     Ok(best)
 }
 
-/// How many times as large as it may be a law's feed is over the worst ride.
+/// A law's feed over the worst ride, as a multiple of the largest feed that holds the residual there.
 fn over_feed(law: &SpiralLaw, job: &Job, rides: &[Ride]) -> f64 {
     let (radius, residual) = (job.tool.nose_radius, job.tolerance.residual);
     let over = |ride: &Ride| {
@@ -66,8 +76,8 @@ fn over_feed(law: &SpiralLaw, job: &Job, rides: &[Ride]) -> f64 {
     rides.iter().map(over).fold(0.0, f64::max)
 }
 
-/// The way from the last pass before a ride to the first behind it; at the ends of the law that of
-/// its first or last turn. Passes at one angle are whole turns apart.
+/// The distance from the last pass before a ride to the first pass after it. Beyond the ends of the
+/// law it is the distance of the first or the last turn. Passes at one angle are whole turns apart.
 fn feed_at(law: &SpiralLaw, direction: Direction, ride: &Ride) -> f64 {
     let across = if ride.x < 0.0 { 0.5 } else { 0.0 };
     let begin = (ride.theta / TAU + across).rem_euclid(1.0);
@@ -116,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn inward_too_and_of_less_than_a_turn_all_there_is() {
+    fn a_law_inward_has_its_feed_and_less_than_a_turn_is_one_feed() {
         let mut law = SpiralLaw::new();
         law.push(10.0, [2.0, -0.1, 0.0, 0.0, 0.0, 0.0]);
         let feed = feed_at(&law, Direction::Inward, &ride(1.234, 2.0));

@@ -1,62 +1,63 @@
 //! The taper: at both ends of a law the feed runs out, so that the spiral closes.
 //!
-//! A spiral's last pass lies up to a feed inside of where the spiral ends, at the axis up to 1.5
-//! feeds lie between the passes of both sides. A law that runs out from its feed f to rest over n
-//! turns, ρ(m) = f n (s³ − s⁴/2) with s = m/n, has its passes within ρ(1) of its end at every
-//! angle.
+//! Without a taper the last pass lies up to a feed inside of the end of the spiral, and at the axis
+//! up to 1.5 feeds lie between the passes of both sides. A law that runs out from its feed f to rest
+//! over n turns, ρ(m) = f n (s³ − s⁴/2) with s = m/n, has its passes within ρ(1) of its end at
+//! every angle.
 
 use turnpath_core::{Direction, Job, Piece, SpiralLaw, quintic};
 
-/// Turns n over which the feed runs out: ρ(1) is 0.38 feeds, so that what stays at a rim is 0.6 of
-/// a cusp, and 0.45 feeds lie between the passes of both sides of the axis. It costs n/2 turns;
+/// Turns n over which the feed runs out. ρ(1) is then 0.38 feeds, so that 0.6 of a cusp stays at a
+/// rim, and 0.45 feeds lie between the passes of both sides of the axis. The taper costs n/2 turns;
 /// n = 1 would leave a whole cusp at the rim.
 const TURNS: f64 = 1.25;
-/// A law whose outermost passes are no further inside of the range's end than this part of the way to
-/// the next pass closes by itself, as one does that follows the angle until every angle has passed
-/// the rim. It must not be touched: a taper turns the rest of the law by a part of a turn.
+/// A law closes by itself where its outermost passes lie no further inside of the range's end than
+/// this part of the distance to the next pass. A law that follows the angle until every angle has
+/// passed the rim does so. It gets no taper, since a taper turns the rest of the law by a part of a
+/// turn.
 const CLOSED: f64 = 0.41;
-/// A law that moves by less than this part of its pitch a turn at its end is at rest there.
+/// A law that moves at its end by less than this part of its pitch a turn is at rest there.
 const REST: f64 = 0.01;
-/// Turns that a law stays where it ends at rest: with the C² start of a turn that follows, the
-/// passes lie within 0.32 feeds of the end.
+/// Turns for which a law that ends at rest stays there. With the C² start of a turn that follows,
+/// the passes lie within 0.32 feeds of the end.
 const HOLD: f64 = 0.6;
 /// A law of fewer turns has no room for a taper at either end.
 const SHORT: f64 = 2.0;
-/// Fewest turns of what takes its place: within the first and the last of them it moves by a fifth
-/// of its way, which is 0.42 feeds at the most.
+/// Fewest turns of the law that replaces so short a law. Within its first and its last turn it moves
+/// by a fifth of its whole distance, which is 0.42 feeds at the most.
 const AROUND: f64 = 3.0;
-/// The largest rate of a quintic from rest to rest, of its mean.
-const STEEPEST: f64 = 1.875;
-/// Least part of its mean that a short law's slowest rate is taken for: one that rests somewhere
-/// would take for ever.
+/// The largest rate of a quintic from rest to rest, as a multiple of its mean rate.
+const FASTEST: f64 = 1.875;
+/// Least part of its mean rate that is used as a short law's slowest rate. A law that rests somewhere
+/// would otherwise take for ever.
 const SLOWEST: f64 = 0.25;
-/// Angles of a turn at which passes are looked at.
+/// Angles of a turn at which passes are compared with the end.
 const ANGLES: usize = 72;
 /// Halvings of the interval in which the taper begins: down to rounding.
 const HALVINGS: usize = 60;
 
-/// A law, and what of it is the feed strategy's own.
+/// The law that is cut, and the part of it that is the feed strategy's own.
 #[derive(Debug, Clone)]
-pub struct Tapered {
-    /// The whole.
+pub struct CutLaw {
+    /// The whole law.
     pub law: SpiralLaw,
-    /// Between which revolutions it is the strategy's; none where another law took its place.
+    /// Between which revolutions it is the strategy's; `None` where another law replaced that one.
     pub own: Option<[f64; 2]>,
 }
 
-impl Tapered {
-    /// A law as its strategy made it.
-    pub fn not(law: SpiralLaw) -> Self {
+impl CutLaw {
+    /// A law as its strategy planned it.
+    pub fn without_taper(law: SpiralLaw) -> Self {
         let own = Some([0.0, law.end()]);
         Self { law, own }
     }
 }
 
-/// The law with its feed running out at both ends, where it does not close by itself.
-pub fn taper(law: &SpiralLaw, job: &Job) -> Tapered {
+/// The law, with a feed that runs out at those ends that do not close by themselves.
+pub fn taper(law: &SpiralLaw, job: &Job) -> CutLaw {
     if law.end() < SHORT {
-        let law = around(law);
-        return Tapered { law, own: None };
+        let law = replacement(law);
+        return CutLaw { law, own: None };
     }
     let (start, end) = (End::of(law, job, false), End::of(law, job, true));
     let mut pieces = Vec::new();
@@ -68,7 +69,7 @@ pub fn taper(law: &SpiralLaw, job: &Job) -> Tapered {
         });
         at += length;
     };
-    let (from, to) = (start.cut(), law.end() - end.cut());
+    let (from, to) = (start.replaced(), law.end() - end.replaced());
     let (start, end) = (start.piece(law), end.piece(law));
     if let Some((length, coefficients)) = start {
         put(length, coefficients);
@@ -83,16 +84,16 @@ pub fn taper(law: &SpiralLaw, job: &Job) -> Tapered {
     if let Some((length, coefficients)) = end {
         put(length, coefficients);
     }
-    let taken = |piece: Option<(f64, [f64; 6])>| piece.map_or(0.0, |piece| piece.0);
-    Tapered {
+    let length = |piece: Option<(f64, [f64; 6])>| piece.map_or(0.0, |piece| piece.0);
+    CutLaw {
         law: SpiralLaw::from_pieces(pieces, at),
-        own: Some([taken(start), at - taken(end)]),
+        own: Some([length(start), at - length(end)]),
     }
 }
 
-/// In place of a law so short that it does not come to every angle of its ends: one from rest to
-/// rest, nowhere faster than it was where it was slowest.
-fn around(law: &SpiralLaw) -> SpiralLaw {
+/// The law that replaces one too short to reach its ends at every angle. It goes from rest to rest,
+/// nowhere faster than the short law was where it was slowest.
+fn replacement(law: &SpiralLaw) -> SpiralLaw {
     let (from, to) = (law.value(0.0), law.value(law.end()));
     let mean = (to - from).abs() / law.end();
     if !mean.is_normal() {
@@ -100,21 +101,21 @@ fn around(law: &SpiralLaw) -> SpiralLaw {
     }
     let rate = |i: usize| law.rate(law.end() * i as f64 / ANGLES as f64).abs();
     let slowest = (0..=ANGLES).map(rate).fold(mean, f64::min);
-    let gentle = STEEPEST * law.end() * mean / slowest.max(SLOWEST * mean);
+    let gentle = FASTEST * law.end() * mean / slowest.max(SLOWEST * mean);
     let turns = gentle.max(AROUND);
-    let mut around = SpiralLaw::new();
-    around.push(turns, quintic([from, 0.0, 0.0], [to, 0.0, 0.0], turns));
-    around
+    let mut replacement = SpiralLaw::new();
+    replacement.push(turns, quintic([from, 0.0, 0.0], [to, 0.0, 0.0], turns));
+    replacement
 }
 
-/// What is done at one end of a law.
+/// What the host does to one end of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Close {
-    /// Nothing: it closes by itself.
-    Not,
-    /// It stays where it is.
+enum EndTreatment {
+    /// Nothing: the end closes by itself.
+    None,
+    /// The law stays at its end for [`HOLD`] turns.
     Hold,
-    /// From so many turns before the end on, the feed runs out.
+    /// The feed runs out, from so many turns before the end on.
     Taper(f64),
 }
 
@@ -122,12 +123,12 @@ enum Close {
 #[derive(Debug, Clone, Copy)]
 struct End {
     last: bool,
-    close: Close,
+    treatment: EndTreatment,
 }
 
 impl End {
     fn of(law: &SpiralLaw, job: &Job, last: bool) -> Self {
-        let side = Side { law, last };
+        let side = EndView { law, last };
         let outer = last == (job.direction == Direction::Outward);
         let inside = |rho: f64| match outer {
             true => job.range.outer - rho,
@@ -135,40 +136,40 @@ impl End {
         };
         Self {
             last,
-            close: side.close(inside),
+            treatment: side.treatment(inside),
         }
     }
 
-    /// Turns of the law that the taper takes the place of.
-    fn cut(&self) -> f64 {
-        match self.close {
-            Close::Taper(turns) => turns,
-            Close::Not | Close::Hold => 0.0,
+    /// Turns of the law that the taper replaces.
+    fn replaced(&self) -> f64 {
+        match self.treatment {
+            EndTreatment::Taper(turns) => turns,
+            EndTreatment::None | EndTreatment::Hold => 0.0,
         }
     }
 
     /// The piece that closes this end, with its length.
     fn piece(&self, law: &SpiralLaw) -> Option<(f64, [f64; 6])> {
-        let side = Side {
+        let side = EndView {
             law,
             last: self.last,
         };
-        match self.close {
-            Close::Not => None,
-            Close::Hold => Some((HOLD, [side.rho(0.0), 0.0, 0.0, 0.0, 0.0, 0.0])),
-            Close::Taper(turns) => Some((TURNS, side.run_out(turns))),
+        match self.treatment {
+            EndTreatment::None => None,
+            EndTreatment::Hold => Some((HOLD, [side.rho(0.0), 0.0, 0.0, 0.0, 0.0, 0.0])),
+            EndTreatment::Taper(turns) => Some((TURNS, side.run_out(turns))),
         }
     }
 }
 
 /// A law seen from one of its ends: m turns away from it.
 #[derive(Clone, Copy)]
-struct Side<'a> {
+struct EndView<'a> {
     law: &'a SpiralLaw,
     last: bool,
 }
 
-impl Side<'_> {
+impl EndView<'_> {
     fn at(&self, m: f64) -> f64 {
         if self.last { self.law.end() - m } else { m }
     }
@@ -182,8 +183,8 @@ impl Side<'_> {
         self.law.rate(self.at(m)).abs()
     }
 
-    /// What is done here; `inside` says how far a pass lies inside of the range's end.
-    fn close(&self, inside: impl Fn(f64) -> f64) -> Close {
+    /// What the host does here; `inside` gives how far a pass lies inside of the range's end.
+    fn treatment(&self, inside: impl Fn(f64) -> f64) -> EndTreatment {
         // Both ends have half of the law to themselves.
         let half = 0.5 * self.law.end();
         let pitch = (self.rho(1.0) - self.rho(0.0)).abs();
@@ -193,16 +194,17 @@ impl Side<'_> {
         };
         let closed = (0..ANGLES).all(|i| closes(i as f64 / ANGLES as f64));
         if closed || !pitch.is_normal() {
-            Close::Not
+            EndTreatment::None
         } else if self.speed(0.0) <= REST * pitch {
-            Close::Hold
+            EndTreatment::Hold
         } else {
-            self.taper_begins(half).map_or(Close::Not, Close::Taper)
+            self.taper_begins(half)
+                .map_or(EndTreatment::None, EndTreatment::Taper)
         }
     }
 
-    /// m at which what is left of the way is what the feed there takes to run out, half its speed
-    /// for [`TURNS`] turns.
+    /// The m at which the distance to the end is what the feed there needs to run out: half its
+    /// speed for [`TURNS`] turns.
     fn taper_begins(&self, half: f64) -> Option<f64> {
         let left = |m: f64| (self.rho(m) - self.rho(0.0)).abs() - 0.5 * TURNS * self.speed(m);
         let (mut low, mut high) = (0.0, half.min(2.0 * TURNS));
@@ -285,9 +287,9 @@ mod tests {
     }
 
     #[test]
-    fn both_ends_stay_where_they_were_and_come_to_rest() {
+    fn both_ends_keep_their_values_and_come_to_rest() {
         for law in [law(), inward()] {
-            let Tapered { law: tapered, own } = taper(&law, &job(&law));
+            let CutLaw { law: tapered, own } = taper(&law, &job(&law));
             assert_eq!(own, Some([TURNS, tapered.end() - TURNS]));
             for (n, whole) in [(0.0, 0.0), (tapered.end(), law.end())] {
                 let [value, rate, second, ..] = tapered.series_before(n);
@@ -320,11 +322,11 @@ mod tests {
         for law in [law(), inward()] {
             let tapered = taper(&law, &job(&law)).law;
             for last in [false, true] {
-                let side = Side {
+                let side = EndView {
                     law: &tapered,
                     last,
                 };
-                let feed = Side { law: &law, last }.speed(0.5);
+                let feed = EndView { law: &law, last }.speed(0.5);
                 let away = |m: f64| (side.rho(m) - side.rho(0.0)).abs();
                 for i in 0..72 {
                     let m = f64::from(i) / 72.0;
@@ -349,15 +351,15 @@ mod tests {
         assert!((held.value(HOLD + 3.0) - law.value(3.0)).abs() < 1e-15);
     }
 
-    /// One whose every turn has its own angle: it goes on until the slowest has passed the rim.
+    /// A law that follows the angle goes on until its slowest angle has passed the rim.
     #[test]
     fn an_end_that_lies_beyond_the_range_at_every_angle_is_left_alone() {
         let law = law();
         let mut job = job(&law);
         job.range.outer = law.value(law.end() - 1.0);
-        assert_eq!(End::of(&law, &job, true).close, Close::Not);
+        assert_eq!(End::of(&law, &job, true).treatment, EndTreatment::None);
         job.range.outer = law.value(law.end() - 0.5);
-        assert_ne!(End::of(&law, &job, true).close, Close::Not);
+        assert_ne!(End::of(&law, &job, true).treatment, EndTreatment::None);
     }
 
     #[test]
@@ -366,11 +368,14 @@ mod tests {
         law.push(1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(7.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(End::of(&law, &job(&law), false).close, Close::Not);
+        assert_eq!(
+            End::of(&law, &job(&law), false).treatment,
+            EndTreatment::None
+        );
     }
 
     #[test]
-    fn a_short_law_comes_around_at_both_ends_no_faster_than_it_was() {
+    fn a_short_law_reaches_both_ends_at_every_angle_no_faster_than_before() {
         for (turns, pieces) in [
             (1.9, [1.0, 0.1, 0.002]),
             (1.5, [1.0, 0.1, 0.02]),
@@ -389,9 +394,9 @@ mod tests {
                 assert!(away.iter().all(|away| away.abs() < 0.42 * slowest));
                 assert!(round.rate(n * end).abs() <= 1.0001 * slowest);
             }
-            for (n, place) in [(0.0, from), (end, to)] {
+            for (n, rho) in [(0.0, from), (end, to)] {
                 let [value, rate, bend, ..] = round.series_before(n);
-                assert!((value - place).abs() < 1e-15 && rate.abs() + bend.abs() < 1e-13);
+                assert!((value - rho).abs() < 1e-15 && rate.abs() + bend.abs() < 1e-13);
             }
         }
     }

@@ -11,8 +11,8 @@ use turnpath_core::{
 };
 use turnpath_pipeline::PipelineError;
 
-/// The slot that is to blame for a bad answer, and what is said of it.
-fn complaint(job: &Job) -> (Slot, String) {
+/// The slot that is to blame for a bad answer, and what is wrong with the answer.
+fn bad_answer(job: &Job) -> (Slot, String) {
     match job.run().map_err(|error| *error) {
         Err(PipelineError::BadAnswer { slot, what, .. }) => (slot, what),
         Err(other) => panic!("{other:?}"),
@@ -21,7 +21,7 @@ fn complaint(job: &Job) -> (Slot, String) {
 }
 
 fn assert_says(job: &Job, slot: Slot, text: &str) {
-    let (blamed, what) = complaint(job);
+    let (blamed, what) = bad_answer(job);
     assert!(blamed == slot && what.contains(text), "{blamed:?}: {what}");
 }
 
@@ -66,7 +66,7 @@ fn velocities_must_be_numbers() {
         velocity: Arc::new(Broken),
         ..Job::default()
     };
-    assert_says(&job, Slot::Velocity, "are no velocities");
+    assert_says(&job, Slot::Velocity, "are not finite");
 }
 
 #[test]
@@ -106,18 +106,18 @@ fn a_law_must_have_pieces_that_are_numbers() {
 }
 
 #[test]
-fn every_turn_of_a_law_must_lie_beyond_the_last() {
+fn every_turn_of_a_law_must_lie_beyond_the_one_before() {
     let back = vec![straight(10.5, RIM, -0.1), straight(100.0, RIM - 1.05, 0.01)];
     assert_feed_says(feed_of(back), "not beyond the one before");
     let halt = vec![straight(10.0, RIM, -0.1), straight(50.0, RIM - 1.0, 0.0)];
     assert_feed_says(feed_of(halt), "not beyond the one before");
-    // To and fro within a turn is another matter, as long as turns do not meet.
+    // A law in the wrong direction.
     let outward = feed_of(vec![straight(200.0, 0.0, RIM / 200.0)]);
     assert_feed_says(outward, "not beyond the one before");
 }
 
 #[test]
-fn a_law_must_cover_the_part_and_be_in_one_piece() {
+fn a_law_must_cover_the_part_and_be_continuous() {
     let short = feed_of(vec![straight(100.0, RIM, -0.01)]);
     assert_feed_says(short, "leaves some of the part uncut");
     let late = feed_of(vec![straight(100.0, 1.0, -0.01)]);
@@ -141,26 +141,30 @@ fn a_law_must_end() {
 }
 
 #[test]
-fn a_law_of_endless_crumbs_is_refused() {
-    let crumbs = |call: usize| {
+fn a_law_of_too_many_short_pieces_is_refused() {
+    let short_pieces = |call: usize| {
         let length = 1e-9;
         let start = RIM - 0.01 * length * 1e6 * call as f64;
         let piece = move |i: usize| straight(length, start - 0.01 * length * i as f64, -0.01);
         ((0..1_000_000).map(piece).collect(), Onward::More)
     };
-    assert_feed_says(Arc::new(Feed(crumbs)), "pieces, after");
+    assert_feed_says(Arc::new(Feed(short_pieces)), "pieces, after");
 }
 
 #[test]
-fn a_solver_may_not_ask_for_all_nodes() {
+fn a_solver_may_not_require_all_nodes() {
     let job = Job {
         velocity: Arc::new(Greedy),
         ..Job::default()
     };
-    assert_says(&job, Slot::Velocity, "an overlap of");
+    assert_says(
+        &job,
+        Slot::Velocity,
+        "an overlap of 18446744073709551615 nodes; it must be below 10000",
+    );
 }
 
-/// Gives up at once, or after its first piece.
+/// A feed that gives up at once, or after its first piece.
 struct GivesUp {
     at_once: bool,
 }
@@ -190,7 +194,7 @@ impl FeedPlan for OnePiece {
 }
 
 #[test]
-fn a_strategy_that_gives_up_is_named_with_the_place() {
+fn a_strategy_that_gives_up_is_named_with_what_it_was_doing() {
     for (at_once, expected) in [
         (true, "while planning the law"),
         (false, "after 12.500 revolutions"),
@@ -202,8 +206,8 @@ fn a_strategy_that_gives_up_is_named_with_the_place() {
         let Err(error) = job.run() else {
             panic!("a path");
         };
-        let said = error.to_string();
+        let message = error.to_string();
         let named = format!("the feed strategy `mine` of a test failed {expected}: no idea");
-        assert_eq!(said, named);
+        assert_eq!(message, named);
     }
 }

@@ -1,4 +1,4 @@
-//! Blocks do not show: a path in blocks of 64 revolutions is the path in one piece.
+//! A path in blocks of 64 revolutions is the path in one piece.
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 mod common;
@@ -12,14 +12,14 @@ use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Direction, Part, Path, Revolutions, Scalar, Tool, Velocities, VelocitySolver};
 use turnpath_verify::{FirstTouch, Meter, Subject};
 
-/// Velocities that `solver` gives when it sees the whole path, of constant feed, at once.
+/// The velocities of `solver` when it gets the whole path, of constant feed, at once.
 fn whole(solver: &dyn VelocitySolver, path: &PathBlock, feed: f64, rpm: f64) -> [Vec<f64>; 3] {
     let count = path.len();
     let speed = rpm / 60.0 * TAU;
     let turned: Vec<(f64, f64)> = path.c.iter().map(|c| Scalar::sin_cos(2.0 * c)).collect();
     let at = |f: &dyn Fn(f64, f64, f64) -> f64| -> Vec<f64> {
-        let places = path.x.iter().zip(&turned);
-        places.map(|(x, (sin, cos))| f(*x, *sin, *cos)).collect()
+        let points = path.x.iter().zip(&turned);
+        points.map(|(x, (sin, cos))| f(*x, *sin, *cos)).collect()
     };
     let nodes = turnpath_core::Nodes {
         t: &path.t,
@@ -41,19 +41,19 @@ fn whole(solver: &dyn VelocitySolver, path: &PathBlock, feed: f64, rpm: f64) -> 
     v
 }
 
-/// Largest difference between the path's velocities and those of the whole, as a part of the
+/// The largest difference between the path's velocities and those of `whole`, as a part of the
 /// largest velocity of each axis.
 fn difference(path: &PathBlock, whole: &[Vec<f64>; 3]) -> f64 {
     let columns = [&path.vc, &path.vx, &path.vz];
-    let parts = columns.iter().zip(whole).map(|(made, whole)| {
+    let parts = columns.iter().zip(whole).map(|(column, whole)| {
         let scale = whole.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-        let pairs = made.iter().zip(whole);
+        let pairs = column.iter().zip(whole);
         pairs.fold(0.0f64, |most, (a, b)| most.max((a - b).abs())) / scale
     });
     parts.fold(0.0, f64::max)
 }
 
-/// Ends within, at and just behind a block, and a tail too small for a window of its own.
+/// Paths that end within, at and just after a block, and with a rest too small for a window.
 const REVOLUTIONS: [f64; 7] = [0.3, 3.0, 64.0, 64.001, 65.0, 128.0, 200.3];
 
 #[test]
@@ -64,7 +64,7 @@ fn a_spline_in_blocks_is_the_spline_of_the_whole_path() {
             velocity: Arc::new(Spline { overlap: 64 }),
             ..Job::default()
         };
-        let (path, _) = job.made();
+        let (path, _) = job.path();
         let whole = whole(&Spline { overlap: 64 }, &path, -RIM / revolutions, job.rpm);
         let difference = difference(&path, &whole);
         assert!(
@@ -86,21 +86,21 @@ fn an_overlap_may_reach_over_several_small_blocks() {
         velocity: Arc::new(Spline { overlap: 64 }),
         ..Job::default()
     };
-    let (path, _) = job.made();
+    let (path, _) = job.path();
     let whole = whole(&Spline { overlap: 64 }, &path, -RIM / 640.25, job.rpm);
     let difference = difference(&path, &whole);
     assert!(difference < 1e-12, "{difference}");
 }
 
 #[test]
-fn a_sequential_solver_is_handed_its_state_in_order() {
+fn a_sequential_solver_gets_its_state_in_order() {
     for revolutions in REVOLUTIONS {
         let job = Job {
             feed: inward(revolutions),
             velocity: Arc::new(Area),
             ..Job::default()
         };
-        let (path, _) = job.made();
+        let (path, _) = job.path();
         let whole = whole(&Area, &path, -RIM / revolutions, job.rpm);
         let difference = difference(&path, &whole);
         assert!(
@@ -111,13 +111,13 @@ fn a_sequential_solver_is_handed_its_state_in_order() {
 }
 
 #[test]
-fn a_sequential_sampler_is_handed_its_state_in_order() {
+fn a_sequential_sampler_gets_its_state_in_order() {
     let job = Job {
         sampler: Arc::new(Counting { step: 0.0377 }),
         velocity: Arc::new(Spline { overlap: 64 }),
         ..Job::default()
     };
-    let (path, outcome) = job.made();
+    let (path, outcome) = job.path();
     assert_eq!(
         outcome.control_points,
         (200.0f64 / 0.0377).ceil() as u64 + 1
@@ -143,7 +143,7 @@ fn a_path_runs_from_end_to_end_without_a_point_too_many() {
             feed: inward(revolutions),
             ..Job::default()
         };
-        let (path, outcome) = job.made();
+        let (path, outcome) = job.path();
         let last = path.get(path.len() - 1).unwrap();
         assert_eq!(path.get(0).unwrap().c, 0.0);
         assert_eq!(path.get(0).unwrap().x, RIM);
@@ -166,7 +166,7 @@ fn outward_runs_from_the_axis_to_the_rim() {
         direction: Direction::Outward,
         ..Job::default()
     };
-    let (path, _) = job.made();
+    let (path, _) = job.path();
     assert_eq!((path.c[0], path.x[0]), (0.0, 0.0));
     assert!(path.x.windows(2).all(|x| x[1] > x[0]));
 }
@@ -189,7 +189,7 @@ fn at_a_knot_x_has_the_mean_of_both_rates() {
         })),
         ..Job::default()
     };
-    let (path, _) = job.made();
+    let (path, _) = job.path();
     let at = path
         .c
         .iter()
@@ -213,7 +213,7 @@ fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
             ..Job::default()
         };
         let pool = pool.build().expect("a pool");
-        let (path, outcome) = pool.install(|| job.made());
+        let (path, outcome) = pool.install(|| job.path());
         (path, format!("{outcome:?}"))
     };
     let alone = on(1);
@@ -222,14 +222,14 @@ fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn a_node_hardly_after_the_start_is_the_start() {
+fn a_node_just_after_the_start_is_the_start() {
     let job = Job {
         feed: inward(2.0),
         sampler: Arc::new(Nodes(|_: &Path<'_>, _: Revolutions| vec![1e-12, 0.5, 1.5])),
         velocity: Arc::new(Exact),
         ..Job::default()
     };
-    let (path, outcome) = job.made();
+    let (path, outcome) = job.path();
     assert_eq!(path.c, [0.0, 0.5 * TAU, 1.5 * TAU, 2.0 * TAU]);
     assert_eq!(outcome.control_points, 4);
 }
@@ -256,12 +256,12 @@ fn measured_whole(path: &PathBlock) -> f64 {
 }
 
 #[test]
-fn joints_are_measured_as_they_are_written_whatever_each_window_says_of_them() {
+fn joints_are_measured_as_they_are_written_whatever_the_windows_have() {
     let job = Job {
         velocity: Arc::new(Disjoint),
         ..Job::default()
     };
-    let (path, outcome) = job.made();
+    let (path, outcome) = job.path();
     let (here, whole) = (outcome.figures.playback.max(), measured_whole(&path));
     assert!((here - whole).abs() <= 1e-12 * whole, "{here}, not {whole}");
 }
@@ -275,7 +275,7 @@ fn control_points_lie_on_the_steps_of_the_controllers_time() {
         sampler: even(37.0),
         ..Job::default()
     };
-    let (path, outcome) = job.made();
+    let (path, outcome) = job.path();
     for (t, c) in path.t.iter().zip(&path.c) {
         assert_eq!((t * steps).round() / steps, *t);
         let spindle = t * 433.0 / 60.0 * TAU;
@@ -285,7 +285,7 @@ fn control_points_lie_on_the_steps_of_the_controllers_time() {
         time_steps: None,
         ..job
     }
-    .made();
+    .path();
     assert_eq!(path.len(), free.len());
     assert!(
         path.t

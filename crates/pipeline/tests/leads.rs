@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use common::solvers::{Area, Disjoint, Exact, Resting, Spline};
-use common::{Bare, Job, K, Kept, RIM, Saddle, even, feed_of, inward, straight};
+use common::{Bare, Job, K, MemorySink, RIM, Saddle, even, feed_of, inward, straight};
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, Segment, SegmentShape};
 use turnpath_core::{
     Axis, Centres, Compensator, Cut, Dependence, Derivative, Direction, Machine, Misfit, Nodes,
@@ -19,7 +19,7 @@ use turnpath_verify::{AxesMotion, FirstTouch, Subject, Touch};
 const NOSE: f64 = 1.0;
 const STEPS: f64 = 4_096_000.0;
 
-/// Nose centres normal to the saddle: X moves to and fro with C. Series and rates are the host's.
+/// Nose centres normal to the saddle: X moves to and fro with C. The host fits series and rates.
 struct Normal;
 
 impl Compensator for Normal {
@@ -83,10 +83,10 @@ fn outward() -> Job {
 }
 
 #[track_caller]
-fn made(job: &Job) -> (Kept, Outcome, Leads) {
-    let (kept, outcome) = job.run_whole().unwrap_or_else(|error| panic!("{error}"));
+fn with_leads(job: &Job) -> (MemorySink, Outcome, Leads) {
+    let (sink, outcome) = job.run_whole().unwrap_or_else(|error| panic!("{error}"));
     let leads = outcome.lead.unwrap();
-    (kept, outcome, leads)
+    (sink, outcome, leads)
 }
 
 fn touch_of(compensator: &dyn Compensator) -> FirstTouch {
@@ -107,13 +107,13 @@ fn touch_of(compensator: &dyn Compensator) -> FirstTouch {
     FirstTouch::new(subject).unwrap()
 }
 
-/// Smallest played − first touch, mm, in 37 instants of every segment but those between cutting
-/// points; the shape of the segments is told.
-fn smallest_clearance(job: &Job, kept: &Kept, shape: SegmentShape) -> f64 {
+/// The smallest played − first touch, mm, at 37 instants of every segment except those between
+/// cutting points; `shape` is that of the segments.
+fn smallest_clearance(job: &Job, sink: &MemorySink, shape: SegmentShape) -> f64 {
     let touch = touch_of(job.compensator.as_ref());
-    let cut = kept.section(Section::Cutting);
+    let cut = sink.section(Section::Cutting);
     let (mut theta, mut x, mut z) = (Vec::new(), Vec::new(), Vec::new());
-    let points: Vec<_> = kept.points.points().collect();
+    let points: Vec<_> = sink.points.points().collect();
     for (k, pair) in points.windows(2).enumerate() {
         if cut.contains(&k) && cut.contains(&(k + 1)) {
             continue;
@@ -135,11 +135,11 @@ fn smallest_clearance(job: &Job, kept: &Kept, shape: SegmentShape) -> f64 {
     each.fold(f64::INFINITY, f64::min)
 }
 
-/// Smallest control point − first touch, mm, of the points that do not cut.
-fn smallest_at_points(job: &Job, kept: &Kept) -> f64 {
+/// The smallest control point − first touch, mm, over the points that do not cut.
+fn smallest_at_points(job: &Job, sink: &MemorySink) -> f64 {
     let touch = touch_of(job.compensator.as_ref());
-    let cut = kept.section(Section::Cutting);
-    let all = kept.points.points().enumerate();
+    let cut = sink.section(Section::Cutting);
+    let all = sink.points.points().enumerate();
     let of_leads: Vec<_> = all.filter(|(k, _)| !cut.contains(k)).collect();
     let of = |value: fn(&ControlPoint) -> f64| -> Vec<f64> {
         of_leads.iter().map(|(_, point)| value(point)).collect()
@@ -158,21 +158,21 @@ fn smallest_at_points(job: &Job, kept: &Kept) -> f64 {
 
 type Column = fn(&PathBlock) -> (&Vec<f64>, &Vec<f64>);
 
-/// Accelerations of all points that are not within the cut agree on both sides, by the Hermite
-/// formula on the points alone, and are zero at the path's ends.
-fn check_smooth(kept: &Kept) {
-    let cut = kept.section(Section::Cutting);
+/// Checks by the Hermite formula on the points alone: outside of the cut the accelerations on both
+/// sides of every point agree, and at the path's ends they are zero.
+fn check_smooth(sink: &MemorySink) {
+    let cut = sink.section(Section::Cutting);
     let axes: [Column; 3] = [|p| (&p.c, &p.vc), |p| (&p.x, &p.vx), |p| (&p.z, &p.vz)];
-    let t = &kept.points.t;
+    let t = &sink.points.t;
     let end = t.len() - 1;
     for axis in axes {
-        let (p, v) = axis(&kept.points);
+        let (p, v) = axis(&sink.points);
         let bends = |k: usize| {
             let h = t[k + 1] - t[k];
             let chord = 6.0 * (p[k + 1] - p[k]) / (h * h);
             let at_start = chord - (4.0 * v[k] + 2.0 * v[k + 1]) / h;
             let at_end = (2.0 * v[k] + 4.0 * v[k + 1]) / h - chord;
-            // What doubles of this size leave of it.
+            // The rounding of doubles of this size.
             let rounding = 40.0 * f64::EPSILON * p[k].abs().max(1.0) / (h * h);
             (at_start, at_end, rounding)
         };
@@ -194,12 +194,12 @@ fn check_smooth(kept: &Kept) {
     }
 }
 
-/// All that every path with leads keeps.
+/// Checks what holds for every path with leads.
 #[track_caller]
-fn check(job: &Job) -> (Kept, Outcome, Leads) {
-    let (kept, outcome, leads) = made(job);
-    let path = &kept.points;
-    let cut = kept.section(Section::Cutting);
+fn check(job: &Job) -> (MemorySink, Outcome, Leads) {
+    let (sink, outcome, leads) = with_leads(job);
+    let path = &sink.points;
+    let cut = sink.section(Section::Cutting);
     assert_eq!(cut.len() as u64, outcome.control_points);
     assert_eq!((path.len() - cut.len()) as u64, leads.points);
     assert!(path.t.windows(2).all(|pair| pair[0] < pair[1]));
@@ -213,17 +213,20 @@ fn check(job: &Job) -> (Kept, Outcome, Leads) {
     assert!((path.t[path.len() - 1] - all).abs() < 1e-6);
     let cubic = job.velocity.segments() == SegmentShape::Cubic;
     if cubic {
-        check_smooth(&kept);
+        check_smooth(&sink);
         // C never turns back.
         assert!(path.vc.iter().all(|vc| *vc >= 0.0));
     }
-    let lowest = smallest_at_points(job, &kept);
+    let lowest = smallest_at_points(job, &sink);
     assert!(lowest >= -2e-8, "{lowest}");
-    let smallest = smallest_clearance(job, &kept, job.velocity.segments());
+    let smallest = smallest_clearance(job, &sink, job.velocity.segments());
     let missed = outcome.figures.playback.max().max(job.interpolation);
     assert!(smallest >= -missed, "{smallest}");
-    let told = leads.figures.clearance;
-    assert!((smallest - told).abs() <= 0.1 * missed, "{told} {smallest}");
+    let reported = leads.figures.clearance;
+    assert!(
+        (smallest - reported).abs() <= 0.1 * missed,
+        "{reported} {smallest}"
+    );
     // At rest the tool is clear of the whole part.
     let clearance = job.lead.unwrap().clearance;
     for end in [0, path.len() - 1] {
@@ -237,7 +240,7 @@ fn check(job: &Job) -> (Kept, Outcome, Leads) {
         assert!(above >= clearance - 1e-3, "{above}");
         assert!(above <= clearance + 0.1, "{above}");
     }
-    (kept, outcome, leads)
+    (sink, outcome, leads)
 }
 
 #[test]
@@ -281,7 +284,7 @@ fn solvers_of_every_kind_are_joined_as_they_play() {
     ];
     for velocity in solvers {
         for tolerance in [1e-4, 1e-6] {
-            // A solver that is coarse ends so too: nobody asks the lead to be finer.
+            // A coarse solver ends coarsely too, and its lead need not be finer.
             check(&Job {
                 velocity: velocity.clone(),
                 interpolation: tolerance,
@@ -293,22 +296,22 @@ fn solvers_of_every_kind_are_joined_as_they_play() {
 }
 
 #[test]
-fn the_cut_is_the_same_only_later_and_farther_on() {
+fn a_lead_in_shifts_the_cut_and_changes_nothing_else() {
     for time_steps in [None, Some(STEPS)] {
         let with = Job {
             time_steps,
             ..job()
         };
-        let (kept, outcome, _) = made(&with);
-        let (alone, before) = Job { lead: None, ..with }.made();
-        let cut = kept.section(Section::Cutting);
+        let (sink, outcome, _) = with_leads(&with);
+        let (alone, before) = Job { lead: None, ..with }.path();
+        let cut = sink.section(Section::Cutting);
         assert_eq!(cut.len(), alone.len());
         assert_eq!(outcome.revolutions, before.revolutions);
         assert_eq!(outcome.cutting_time, before.cutting_time);
         let same = |a: f64, b: f64, bound: f64| assert!((a - b).abs() <= bound, "{a} {b}");
-        let (t0, c0) = (kept.points.t[cut.start], kept.points.c[cut.start]);
+        let (t0, c0) = (sink.points.t[cut.start], sink.points.c[cut.start]);
         for (k, point) in alone.points().enumerate() {
-            let moved = kept.points.get(cut.start + k).unwrap();
+            let moved = sink.points.get(cut.start + k).unwrap();
             same(moved.t - t0, point.t, 1e-13);
             same(moved.c - c0, point.c, 1e-12);
             same(moved.x, point.x, 0.0);
@@ -323,25 +326,29 @@ fn the_cut_is_the_same_only_later_and_farther_on() {
 }
 
 #[test]
-fn stretches_tell_sections_and_the_two_points_before() {
-    let (kept, ..) = made(&Job {
+fn blocks_carry_their_section_and_the_two_points_before() {
+    let (sink, ..) = with_leads(&Job {
         feed: inward(200.0),
         ..job()
     });
-    let sections: Vec<Section> = kept.stretches.iter().map(|stretch| stretch.0).collect();
+    let sections: Vec<Section> = sink.deliveries.iter().map(|block| block.section).collect();
     use Section::{Cutting, LeadIn, LeadOut};
     assert_eq!(
         sections,
         [LeadIn, Cutting, Cutting, Cutting, Cutting, LeadOut]
     );
-    let before: Vec<usize> = kept.stretches.iter().map(|stretch| stretch.2).collect();
+    let before: Vec<usize> = sink.deliveries.iter().map(|block| block.before).collect();
     assert_eq!(before, [0, 2, 2, 2, 2, 2]);
-    let opens: Vec<bool> = kept.stretches.iter().map(|stretch| stretch.3).collect();
+    let opens: Vec<bool> = sink
+        .deliveries
+        .iter()
+        .map(|block| block.opens_section)
+        .collect();
     assert_eq!(opens, [true, true, false, false, false, true]);
 }
 
 #[test]
-fn limits_are_kept_beyond_what_the_cut_asks_for() {
+fn leads_exceed_their_limits_by_the_motion_of_the_cut_at_most() {
     let limit = |velocity, acceleration, jerk| AxisLimits {
         velocity,
         acceleration,
@@ -371,38 +378,38 @@ fn limits_are_kept_beyond_what_the_cut_asks_for() {
             ..job()
         };
         let (_, outcome, leads) = check(&job);
-        let (asked, cut) = (leads.figures.axes, outcome.figures.axes);
-        for (asked, cut, limit) in [
-            (asked.c, cut.c, limits.c),
-            (asked.x, cut.x, limits.x),
-            (asked.z, cut.z, limits.z),
+        let (lead, cut) = (leads.figures.axes, outcome.figures.axes);
+        for (lead, cut, limit) in [
+            (lead.c, cut.c, limits.c),
+            (lead.x, cut.x, limits.x),
+            (lead.z, cut.z, limits.z),
         ] {
-            assert!(asked.velocity.amount <= limit.velocity + 1.25 * cut.velocity.amount);
+            assert!(lead.velocity.amount <= limit.velocity + 1.25 * cut.velocity.amount);
             assert!(
-                asked.acceleration.amount <= limit.acceleration + 1.25 * cut.acceleration.amount
+                lead.acceleration.amount <= limit.acceleration + 1.25 * cut.acceleration.amount
             );
             let jerk = limit.jerk.unwrap_or(f64::INFINITY);
-            assert!(asked.jerk.amount <= jerk + 1.25 * cut.jerk.amount);
+            assert!(lead.jerk.amount <= jerk + 1.25 * cut.jerk.amount);
         }
     }
 }
 
 #[test]
-fn a_law_that_ends_in_full_motion_lets_x_drift_no_farther_than_a_part_of_the_nose() {
-    // 0.2 mm a revolution inward, and a turn more and less at either end.
+fn a_law_that_ends_in_full_motion_lets_x_overshoot_by_a_part_of_the_nose_at_most() {
+    // 0.2 mm a revolution inward, and some of that beyond either end.
     let job = Job {
         feed: inward(10.0),
         ..job()
     };
-    let (kept, ..) = check(&job);
-    let x = &kept.points.x;
+    let (sink, ..) = check(&job);
+    let x = &sink.points.x;
     assert!(x[0] > RIM && x[0] < RIM + 0.3, "{}", x[0]);
     let last = x[x.len() - 1];
     assert!(last < 0.0 && last > -0.3, "{last}");
 }
 
 #[test]
-fn a_lead_that_cannot_keep_its_limits_is_made_and_its_motion_told() {
+fn a_lead_that_cannot_keep_its_limits_is_made_and_its_motion_reported() {
     let still = AxisLimits {
         velocity: 1e-9,
         acceleration: 1e-9,
@@ -430,27 +437,27 @@ fn a_lead_that_cannot_keep_its_limits_is_made_and_its_motion_told() {
             lead,
             ..job()
         });
-        let asked = leads.figures.axes;
-        assert!(asked.c.acceleration.amount > 1e-9);
-        assert!(asked.x.velocity.amount > 1e-9 && asked.z.velocity.amount > 1e-9);
+        let axes = leads.figures.axes;
+        assert!(axes.c.acceleration.amount > 1e-9);
+        assert!(axes.x.velocity.amount > 1e-9 && axes.z.velocity.amount > 1e-9);
     }
 }
 
-/// A machine can just do what the cut asks for at a speed a hundredth higher; in jerk two hundredths:
-/// the acceleration that the cut plays at its end is not the way's, and within a step it must become
-/// that.
+/// The machine can just make the cut at a speed that is higher by a hundredth, or for jerk by two
+/// hundredths: the cut as played ends with another acceleration than the course of the lead has, and
+/// within one step the one must become the other.
 #[test]
 fn a_lead_keeps_what_the_cut_just_keeps() {
-    let asked = |axes: &AxesMotion, derivative| axes.peak(Axis::Z, derivative).unwrap().amount;
+    let peak = |axes: &AxesMotion, derivative| axes.peak(Axis::Z, derivative).unwrap().amount;
     for first in [job(), outward()] {
-        let (_, outcome, _) = made(&first);
+        let (_, outcome, _) = with_leads(&first);
         for derivative in Derivative::ALL {
             let slower = match derivative {
                 Derivative::Jerk => 0.98,
                 _ => 0.99,
             };
             let slack = Scalar::powf(slower, f64::from(derivative.order()));
-            let limit = asked(&outcome.figures.axes, derivative) / slack;
+            let limit = peak(&outcome.figures.axes, derivative) / slack;
             let mut machine = Machine::default();
             *machine.limit_mut(Axis::Z, derivative) = Some(limit);
             let job = Job {
@@ -463,30 +470,30 @@ fn a_lead_keeps_what_the_cut_just_keeps() {
                 ..job()
             };
             let (_, _, leads) = check(&job);
-            let most = asked(&leads.figures.axes, derivative);
+            let most = peak(&leads.figures.axes, derivative);
             assert!(most <= 1.001 * limit, "{derivative:?}: {most} of {limit}");
         }
     }
 }
 
-/// Coarse cubics ask for less jerk than the way itself and get to it with a jolt, so a limit of what
-/// they ask for cannot be kept. Those of velocity and acceleration can.
+/// Coarse cubics have less jerk than the course of a lead and join it with a jolt, so a limit of their
+/// own jerk cannot be kept. Limits of their velocity and acceleration can be kept.
 #[test]
-fn a_limit_that_cannot_be_kept_lets_no_other_go() {
+fn a_limit_that_cannot_be_kept_leaves_the_others_kept() {
     let coarse = || Job {
         sampler: even(9.0),
         refined: false,
         interpolation: 1e-2,
         ..job()
     };
-    let asked = |axes: &AxesMotion, derivative| axes.peak(Axis::Z, derivative).unwrap().amount;
-    let (_, outcome, _) = made(&coarse());
+    let peak = |axes: &AxesMotion, derivative| axes.peak(Axis::Z, derivative).unwrap().amount;
+    let (_, outcome, _) = with_leads(&coarse());
     let mut machine = Machine::default();
     for derivative in Derivative::ALL {
-        let limit = asked(&outcome.figures.axes, derivative);
+        let limit = peak(&outcome.figures.axes, derivative);
         *machine.limit_mut(Axis::Z, derivative) = Some(1.02 * limit);
     }
-    let (_, _, leads) = made(&Job {
+    let (_, _, leads) = with_leads(&Job {
         lead: Some(LeadSettings {
             clearance: 5.0,
             limits: LeadLimits::within(machine),
@@ -495,22 +502,22 @@ fn a_limit_that_cannot_be_kept_lets_no_other_go() {
     });
     let share = |derivative| {
         let limit = machine.limit(Axis::Z, derivative).unwrap();
-        asked(&leads.figures.axes, derivative) / limit
+        peak(&leads.figures.axes, derivative) / limit
     };
     assert!(share(Derivative::Jerk) > 1.001);
-    let kept = [Derivative::Velocity, Derivative::Acceleration].map(share);
-    assert!(kept.iter().all(|share| *share <= 1.001), "{kept:?}");
+    let shares = [Derivative::Velocity, Derivative::Acceleration].map(share);
+    assert!(shares.iter().all(|share| *share <= 1.001), "{shares:?}");
 }
 
 #[test]
-fn without_a_lead_nothing_is_told_of_one() {
-    let (kept, outcome) = Job {
+fn a_path_without_leads_reports_none() {
+    let (sink, outcome) = Job {
         lead: None,
         ..job()
     }
     .run_whole()
     .unwrap();
     assert_eq!(outcome.lead, None);
-    assert_eq!(kept.section(Section::LeadIn).len(), 0);
+    assert_eq!(sink.section(Section::LeadIn).len(), 0);
     assert!(Bare.compensates_nose() != Normal.compensates_nose());
 }

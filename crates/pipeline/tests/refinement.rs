@@ -1,4 +1,4 @@
-//! Refinement: the tolerance holds for every solver, or the outcome says that it does not.
+//! Refinement: the tolerance holds for every solver, or the outcome shows that it does not.
 
 mod common;
 
@@ -30,11 +30,11 @@ fn the_tolerance_holds_for_solvers_of_every_dependence() {
     ];
     for velocity in solvers {
         let mut job = refined(velocity, tolerance);
-        let (path, outcome) = job.made();
+        let (path, outcome) = job.path();
         assert!(outcome.figures.playback.max() <= tolerance);
         assert_eq!(outcome.control_points, path.len() as u64);
         job.refined = false;
-        let (coarse, before) = job.made();
+        let (coarse, before) = job.path();
         assert!(before.figures.playback.max() > 100.0 * tolerance);
         assert_eq!(before.added_by_refine, 0);
         let added = (path.len() - coarse.len()) as u64;
@@ -43,51 +43,51 @@ fn the_tolerance_holds_for_solvers_of_every_dependence() {
 }
 
 #[test]
-fn only_what_is_too_far_off_is_refined() {
-    let (path, outcome) = refined(Arc::new(Exact), 2e-6).made();
+fn only_segments_beyond_the_tolerance_are_refined() {
+    let (path, outcome) = refined(Arc::new(Exact), 2e-6).path();
     // The error grows with ρ²: steps are longer near the axis.
     let step = |i: usize| path.c[i + 1] - path.c[i];
     assert!(step(path.len() - 2) > 1.9 * step(0));
-    let (_, finer) = refined(Arc::new(Exact), 1e-6).made();
+    let (_, finer) = refined(Arc::new(Exact), 1e-6).path();
     assert!(finer.control_points > outcome.control_points);
 }
 
 #[test]
 fn without_need_nothing_is_added() {
-    let (_, outcome) = refined(Arc::new(Exact), 1.0).made();
+    let (_, outcome) = refined(Arc::new(Exact), 1.0).path();
     assert_eq!(outcome.added_by_refine, 0);
 }
 
 #[test]
-fn segments_end_at_the_smallest_and_the_outcome_says_that_it_is_not_enough() {
+fn segments_stop_at_the_smallest_and_the_outcome_shows_the_missed_tolerance() {
     let tolerance = 1e-7;
     let job = Job {
         feed: inward(2.0),
         rpm: 500.0,
         ..refined(Arc::new(Resting), tolerance)
     };
-    let (path, outcome) = job.made();
+    let (path, outcome) = job.path();
     let shortest = path.t.windows(2).map(|t| t[1] - t[0]).fold(1.0, f64::min);
     assert!((SMALLEST_SEGMENT..2.0 * SMALLEST_SEGMENT).contains(&shortest));
     assert!(outcome.figures.playback.max() > tolerance);
 }
 
 #[test]
-fn rounds_end_and_the_outcome_says_that_it_is_not_enough() {
+fn rounds_end_and_the_outcome_shows_the_missed_tolerance() {
     let tolerance = 1e-9;
     let job = Job {
         feed: inward(0.25),
         rpm: 1.0,
         ..refined(Arc::new(Resting), tolerance)
     };
-    let (_, outcome) = job.made();
+    let (_, outcome) = job.path();
     let halved = 1u64 << MOST_ROUNDS;
     assert_eq!(outcome.control_points, 2 * halved + 1);
     assert!(outcome.figures.playback.max() > tolerance);
 }
 
-/// X that halts at every point is off between them by 0.0962 of what it goes on a step; with 8½
-/// steps a turn two passes are off in opposite ways. Z is off by what it likes.
+/// X that halts at every point errs between points by 0.0962 of its step. With 8½ steps a turn two
+/// neighbouring passes err in opposite ways. The error of Z does not count here.
 fn halting(feed: f64, refined: bool) -> Job {
     Job {
         feed: inward(RIM / feed),
@@ -102,20 +102,20 @@ fn halting(feed: f64, refined: bool) -> Job {
 const STEP: f64 = 2.0 / 17.0;
 
 #[test]
-fn cusps_stay_below_the_residual_where_x_itself_is_off_between_points() {
-    let residual = |job: &Job| job.made().1.figures.residual.max / RESIDUAL;
+fn cusps_stay_below_the_residual_where_x_itself_errs_between_points() {
+    let residual = |job: &Job| job.path().1.figures.residual.max / RESIDUAL;
     let planned = Job {
         velocity: Arc::new(Exact),
         ..halting(0.0275, false)
     };
     let (planned, coarse) = (residual(&planned), residual(&halting(0.0275, false)));
     let growth = 1.0 + 2.0 * 0.096_225 * STEP;
-    // The saddle is steepest near the tops of X's error, not on them.
+    // The saddle is steepest near the largest errors of X, not exactly there.
     assert!((coarse / planned - growth * growth).abs() < 2e-3);
     assert!(planned < 0.997 && coarse > 1.03, "{planned} {coarse}");
-    let (path, outcome) = halting(0.0275, true).made();
+    let (path, outcome) = halting(0.0275, true).path();
     assert!(outcome.figures.residual.max <= 1.0006 * RESIDUAL);
-    // Where the section is hollow cusps are lower, and leave more room.
+    // Where the section is concave, cusps are lower and allow a larger error.
     let steps: Vec<f64> = path.c.windows(2).map(|c| c[1] - c[0]).collect();
     let longest = steps.iter().copied().fold(0.0, f64::max);
     let shortest = steps.iter().copied().fold(longest, f64::min);
@@ -123,8 +123,8 @@ fn cusps_stay_below_the_residual_where_x_itself_is_off_between_points() {
 }
 
 #[test]
-fn cusps_that_are_the_laws_own_add_no_points() {
-    let (_, outcome) = halting(0.029, true).made();
+fn cusps_that_come_from_the_law_add_no_points() {
+    let (_, outcome) = halting(0.029, true).path();
     assert!(outcome.figures.residual.max > 1.05 * RESIDUAL);
     assert_eq!(outcome.added_by_refine, 0);
 }
@@ -153,9 +153,9 @@ impl Compensator for Wobbling {
 }
 
 #[test]
-fn passes_in_one_place_add_no_points() {
+fn coinciding_passes_add_no_points() {
     const FEED: f64 = 0.01;
-    // A turn along the rim, from which the next one parts with the third power of the angle.
+    // A turn along the rim. The next turn leaves it with the third power of the angle.
     let turn = 0.9999;
     let parting = [[RIM, 0.0, 0.0], [RIM - FEED, -FEED, 0.0]];
     let parting = Stretch::between(parting[0], parting[1], 2.0);
@@ -172,5 +172,5 @@ fn passes_in_one_place_add_no_points() {
         refined: true,
         ..Job::default()
     };
-    assert_eq!(job.made().1.added_by_refine, 0);
+    assert_eq!(job.path().1.added_by_refine, 0);
 }

@@ -1,13 +1,14 @@
-//! The controller's steps of time, which nodes of leads lie on as all control points do.
+//! The controller's steps of time. Nodes of leads lie on them, as all control points do.
 
-/// Ticks: a controller's steps of time, or seconds where there is none.
+/// Counts time in ticks: a controller's steps of time, or seconds where the controller has no
+/// steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     steps: Option<f64>,
 }
 
 impl Clock {
-    /// A clock of so many steps a second, if a controller counts them.
+    /// A clock of so many steps a second, or of seconds.
     pub fn new(steps: Option<f64>) -> Self {
         Self { steps }
     }
@@ -26,13 +27,13 @@ impl Clock {
         self.whole(seconds * self.per_second())
     }
 
-    /// The nearest ticks that the clock can show.
+    /// The nearest count of ticks that the clock can show.
     pub fn whole(&self, ticks: f64) -> f64 {
         self.steps.map_or(ticks, |_| ticks.round())
     }
 
-    /// How long `ticks` take, s. Ticks as controllers count them stay exact in every sum, so that
-    /// the same instant is the same double wherever it is worked out.
+    /// How long `ticks` take, s. Whole ticks stay exact in every sum, so that the same instant is the
+    /// same double wherever it is computed.
     pub fn seconds(&self, ticks: f64) -> f64 {
         ticks / self.per_second()
     }

@@ -1,4 +1,4 @@
-//! How high the nose centre stands over the highest place of the whole part.
+//! Z of the nose centre where it stands highest on the whole part.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +9,13 @@ use crate::order::in_order;
 use crate::plan::Plan;
 use crate::{PipelineError, Result};
 
-/// Angles and radii at which the part is looked at: peaks finer than a degree, or than 1/256 of
-/// the radius, can be missed by a part of their own height.
+/// Angles and radii at which the part is scanned. A peak narrower than a degree, or than 1/256 of
+/// the radius, can be missed by a part of its own height.
 const ANGLES: usize = 360;
 const RADII: usize = 256;
 
-/// Z of the nose centre where it stands highest when it touches the part, mm: over all X that the
-/// path and the part have.
+/// The largest Z of the nose centre when it touches the part, mm, over all X of the path and the
+/// part.
 pub fn highest(plan: &Plan<'_>) -> Result<f64> {
     let (inner, outer) = reach(plan)?;
     let theta: Vec<f64> = (0..ANGLES)
@@ -24,11 +24,11 @@ pub fn highest(plan: &Plan<'_>) -> Result<f64> {
     let each = in_order((0..RADII + 1).into_par_iter().map(|i| {
         let x = inner + (outer - inner) * i as f64 / RADII as f64;
         let mut touches = Vec::new();
-        let touch = &plan.prepared.touch;
+        let touch = &plan.preparation.touch;
         touch
             .find(&theta, &[x; ANGLES], &mut touches)
             .map_err(PipelineError::Measure)?;
-        // Where the surface ends there is nothing to stand on.
+        // Beyond the end of the surface there is no touch: NaN, which `max` ignores.
         Ok(touches.iter().map(|touch| touch.z).fold(f64::NAN, f64::max))
     }))?;
     Ok(each.into_iter().fold(f64::NAN, f64::max))
@@ -36,20 +36,20 @@ pub fn highest(plan: &Plan<'_>) -> Result<f64> {
 
 /// The smallest and the largest |X| of the path and the part.
 fn reach(plan: &Plan<'_>) -> Result<(f64, f64)> {
-    let (job, compensator) = (&plan.prepared.job, &plan.chain.compensator);
+    let (job, compensator) = (&plan.preparation.job, &plan.chain.compensator);
     let theta: Vec<f64> = (0..ANGLES)
         .map(|i| TAU * i as f64 / ANGLES as f64)
         .collect();
     let (mut inner, mut outer) = (job.part.inner_radius, job.part.aperture_radius);
     for rho in [job.range.inner, job.range.outer] {
-        let mut room = CentreBuffers::default();
-        room.resize(ANGLES);
+        let mut centres = CentreBuffers::default();
+        centres.resize(ANGLES);
         let answer = plan
-            .prepared
+            .preparation
             .locus
-            .centre(&theta, &[rho; ANGLES], room.as_centres());
+            .centre(&theta, &[rho; ANGLES], centres.as_centres());
         answer.map_err(|error| compensator.failed(format!("at ρ = {rho} mm"), error))?;
-        for x in room.x.iter().filter(|x| x.is_finite()) {
+        for x in centres.x.iter().filter(|x| x.is_finite()) {
             (inner, outer) = (inner.min(x.abs()), outer.max(x.abs()));
         }
     }

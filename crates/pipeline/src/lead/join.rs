@@ -1,4 +1,4 @@
-//! Where a lead joins the cut: what the cut, as played, does there.
+//! Where a lead joins the cut, and how the cut as played moves there.
 
 use std::f64::consts::TAU;
 
@@ -8,17 +8,17 @@ use turnpath_verify::{AxesMotion, Meter};
 use crate::plan::Plan;
 use crate::{PipelineError, Result};
 
-/// Which of the two leads.
+/// One of the two leads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum LeadKind {
     /// From rest to the cut.
     In,
     /// From the cut to rest.
     Out,
 }
 
-impl Side {
-    /// Which way the time away from the join runs against the path's.
+impl LeadKind {
+    /// The sign of the time away from the join in the path's time.
     pub fn sign(self) -> f64 {
         match self {
             Self::In => -1.0,
@@ -26,7 +26,7 @@ impl Side {
         }
     }
 
-    /// As people say it.
+    /// Its name in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::In => "lead-in",
@@ -35,20 +35,20 @@ impl Side {
     }
 }
 
-/// The cut where a lead joins it.
+/// How the cut moves where a lead joins it.
 #[derive(Debug, Clone, Copy)]
 pub struct Join {
     /// The control point.
     pub point: ControlPoint,
-    /// Accelerations of C, X and Z there, of the cut's own segment as played.
+    /// Accelerations of C, X and Z there, of the cut's own segment as played, rad/s² and mm/s².
     pub acceleration: [f64; 3],
-    /// ρ, mm, and its first two derivatives in time by the law.
+    /// ρ of the law, mm.
     pub rho: f64,
-    /// mm/s.
+    /// dρ/dt of the law, mm/s.
     pub rho_rate: f64,
-    /// mm/s².
+    /// d²ρ/dt² of the law, mm/s².
     pub rho_bend: f64,
-    /// Z above the first touch, mm: none but a rounding where the compensator is right.
+    /// Z above the first touch, mm. Where the compensator is right it is only a rounding.
     pub above_touch: f64,
     /// Largest |played − first touch| of the cut's own segment there, mm.
     pub error: f64,
@@ -57,35 +57,35 @@ pub struct Join {
 }
 
 impl Join {
-    /// The join with a cut that begins or ends with the points `pair`, in order of time.
+    /// The join with a cut whose first or last points are `pair`, in order of time.
     pub fn new(
         plan: &Plan<'_>,
-        side: Side,
+        kind: LeadKind,
         pair: &[ControlPoint; 2],
         cut: AxesMotion,
     ) -> Result<Self> {
         let segment = Segment::between(&pair[0], &pair[1]);
-        let (point, s) = match side {
-            Side::In => (pair[0], 0.0),
-            Side::Out => (pair[1], 1.0),
+        let (point, s) = match kind {
+            LeadKind::In => (pair[0], 0.0),
+            LeadKind::Out => (pair[1], 1.0),
         };
         if !(point.vc > 0.0 && point.vc.is_finite()) {
             return Err(PipelineError::Lead {
-                which: side.name(),
+                which: kind.name(),
                 what: format!("C turns by {} rad/s where it would join the cut", point.vc),
             });
         }
         let per_time = (segment.duration * segment.duration).recip();
         let bend = |axis: &Cubic| axis.bend(s) * per_time;
-        let n = match side {
-            Side::In => plan.on_time(0.0).0,
-            Side::Out => plan.on_time(plan.law.end()).0,
+        let n = match kind {
+            LeadKind::In => plan.on_time(0.0).0,
+            LeadKind::Out => plan.on_time(plan.law.end()).0,
         };
-        let series = match side {
-            Side::In => plan.law.series(n),
-            Side::Out => plan.law.series_before(n),
+        let series = match kind {
+            LeadKind::In => plan.law.series(n),
+            LeadKind::Out => plan.law.series_before(n),
         };
-        let turning = plan.prepared.job.spindle.speed_at(n) / TAU;
+        let turning = plan.preparation.job.spindle.speed_at(n) / TAU;
         Ok(Self {
             point,
             acceleration: [bend(&segment.c), bend(&segment.x), bend(&segment.z)],
@@ -98,7 +98,7 @@ impl Join {
         })
     }
 
-    /// The same cut, later by `time` and with C farther on by so many revolutions.
+    /// The same join later by `time`, s, and with C farther on by so many revolutions.
     pub fn shifted(mut self, turns: f64, time: f64) -> Self {
         self.point.c += TAU * turns;
         self.point.t += time;
@@ -106,21 +106,22 @@ impl Join {
     }
 }
 
-/// The played error of the cut's segment between two points.
+/// The largest played error of the cut's segment between two points, mm.
 fn error(plan: &Plan<'_>, pair: &[ControlPoint; 2]) -> Result<f64> {
     let mut points = PathBlock {
         shape: plan.chain.velocity.strategy.segments(),
         ..PathBlock::default()
     };
     pair.iter().for_each(|point| points.push(*point));
-    let errors = Meter::segment_errors(&plan.prepared.touch, &points);
+    let errors = Meter::segment_errors(&plan.preparation.touch, &points);
     let errors = errors.map_err(PipelineError::Measure)?;
     Ok(errors.into_iter().fold(0.0, f64::max))
 }
 
+/// Z of a point above the first touch there, mm.
 fn above_touch(plan: &Plan<'_>, point: &ControlPoint) -> Result<f64> {
     let mut touches = Vec::new();
-    let touch = &plan.prepared.touch;
+    let touch = &plan.preparation.touch;
     touch
         .find(&[point.c.rem_euclid(TAU)], &[point.x], &mut touches)
         .map_err(PipelineError::Measure)?;

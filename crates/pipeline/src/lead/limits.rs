@@ -1,4 +1,4 @@
-//! What a lead may ask of the axes.
+//! How fast a lead may move the axes.
 
 use turnpath_core::{Axis, Derivative, Machine, Scalar};
 use turnpath_verify::{AxesMotion, AxisMotion};
@@ -14,17 +14,16 @@ pub struct AxisLimits {
     pub jerk: Option<f64>,
 }
 
-/// How much more than following the part asks for a lead may ask for: X drifts on a little beyond
-/// the cut, where slopes may be steeper.
+/// How much of the motion that follows the part a lead may add to its limits. X overshoots the cut
+/// a little, where slopes may be larger.
 const FOLLOWING: f64 = 1.25;
-/// The same against a machine's own limit, which is no matter of gentleness, where the cut itself is
-/// beyond it.
+/// By how much a lead may exceed the cut where the cut itself exceeds a limit of the machine.
 const AT_THE_LIMIT: f64 = 1.02;
-/// A machine's limit holds up to this part of it; half of what a verdict allows.
+/// A machine's limit counts as kept up to this part of it: half of what a verdict allows.
 const KEPT: f64 = 1.0005;
 
-/// Limits of the three axes. What following the part asks of them beside the join, as the cut does
-/// it, comes on top, and a quarter of it.
+/// Limits of the three axes. A lead may exceed them by the motion that follows the part beside the
+/// join, as the cut does it, and by a quarter more of that motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeadLimits {
     /// C, rad and s.
@@ -33,13 +32,13 @@ pub struct LeadLimits {
     pub x: AxisLimits,
     /// Z, mm and s.
     pub z: AxisLimits,
-    /// What the machine can do, which nothing comes on top of but what the cut itself asks for.
+    /// Limits of the machine. A lead may exceed them only where the cut itself does.
     pub machine: Machine,
 }
 
 impl Default for LeadLimits {
-    /// Gentle for any machine of the kind: an air-bearing spindle comes to 500 rpm within 1.6 s,
-    /// a slide moves at a tenth of what it can.
+    /// Gentle limits for any machine of the kind: an air-bearing spindle reaches 500 rpm within
+    /// 1.6 s, and a slide moves at a tenth of its capacity.
     fn default() -> Self {
         let axis = |velocity, acceleration| AxisLimits {
             velocity,
@@ -56,7 +55,7 @@ impl Default for LeadLimits {
 }
 
 impl LeadLimits {
-    /// Gentle ones, and within what a machine can do.
+    /// Gentle limits that are also within those of a machine.
     pub fn within(machine: Machine) -> Self {
         let gentle = Self::default();
         let tighter = |gentle: AxisLimits, axis| {
@@ -81,45 +80,45 @@ impl LeadLimits {
 pub struct LeadSettings {
     /// By how much the path rests above the highest place of the part, mm.
     pub clearance: f64,
-    /// What it may ask of the axes.
+    /// How fast it may move the axes.
     pub limits: LeadLimits,
 }
 
-/// Largest values of the derivatives of a step from 0 to 1 within a time of 1.
+/// Largest derivatives of a step from 0 to 1 within a time of 1.
 #[derive(Debug, Clone, Copy)]
-pub struct Shape {
+pub struct StepShape {
     velocity: f64,
     acceleration: f64,
     jerk: f64,
 }
 
-/// 10s³ − 15s⁴ + 6s⁵.
-pub const QUINTIC: Shape = Shape {
+/// The step 10s³ − 15s⁴ + 6s⁵.
+pub const QUINTIC: StepShape = StepShape {
     velocity: 1.875,
     acceleration: 5.773_502_691_896_258,
     jerk: 60.0,
 };
-/// The way of which 3s² − 2s³ is the velocity, per unit of that velocity.
-pub const SPEED_UP: Shape = Shape {
+/// The step whose velocity is 3s² − 2s³, per unit of that velocity.
+pub const SPEED_UP: StepShape = StepShape {
     velocity: 1.0,
     acceleration: 1.5,
     jerk: 6.0,
 };
 
 impl AxisLimits {
-    /// The least time for a step by `way`.
-    pub fn time_for(&self, way: f64, shape: Shape) -> f64 {
-        let way = way.abs();
-        let by_velocity = shape.velocity * way / self.velocity;
-        let by_acceleration = (shape.acceleration * way / self.acceleration).sqrt();
-        let by_jerk = self
-            .jerk
-            .map_or(0.0, |jerk| Scalar::powf(shape.jerk * way / jerk, 1.0 / 3.0));
+    /// The least time for a step by `distance`.
+    pub fn time_for(&self, distance: f64, shape: StepShape) -> f64 {
+        let distance = distance.abs();
+        let by_velocity = shape.velocity * distance / self.velocity;
+        let by_acceleration = (shape.acceleration * distance / self.acceleration).sqrt();
+        let by_jerk = self.jerk.map_or(0.0, |jerk| {
+            Scalar::powf(shape.jerk * distance / jerk, 1.0 / 3.0)
+        });
         by_velocity.max(by_acceleration).max(by_jerk)
     }
 
     /// The least time for a change of the velocity by `change`.
-    pub fn time_to_change(&self, change: f64, shape: Shape) -> f64 {
+    pub fn time_to_change(&self, change: f64, shape: StepShape) -> f64 {
         let change = change.abs();
         let by_jerk = self
             .jerk
@@ -127,7 +126,7 @@ impl AxisLimits {
         (shape.acceleration * change / self.acceleration).max(by_jerk)
     }
 
-    /// The parts that `motion` takes of what it may ask for.
+    /// The parts of these limits that `motion` uses.
     fn share(&self, motion: &AxisMotion, cut: &AxisMotion, part: &AxisMotion) -> Share {
         let share = |limit: f64, most: fn(&AxisMotion) -> f64| {
             most(motion) / (limit + FOLLOWING * most(cut).max(most(part)))
@@ -141,7 +140,7 @@ impl AxisLimits {
     }
 }
 
-/// The parts that a lead takes of what it may ask of an axis' velocity, acceleration and jerk.
+/// The parts that a lead uses of an axis' limits of velocity, acceleration and jerk.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Share([f64; 3]);
 
@@ -151,20 +150,21 @@ impl Share {
         self.0.into_iter().fold(0.0, f64::max)
     }
 
-    /// By which factors they are beyond all that there is; 1 where none is.
-    fn beyond(self) -> f64 {
+    /// The product of all parts beyond 1; 1 where none is.
+    fn excess(self) -> f64 {
         self.0.map(|part| part.max(1.0)).iter().product()
     }
 
-    fn or_more(self, other: Self) -> Self {
+    /// The larger part of each limit.
+    fn max(self, other: Self) -> Self {
         Self(std::array::from_fn(|k| self.0[k].max(other.0[k])))
     }
 }
 
-/// The part that a lead takes of what it may ask of each axis: 1 where it just keeps its limits.
+/// The parts that a lead uses of the limits of each axis. At 1 it just keeps a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shares {
-    /// Of C, which the spindle's speeding up decides.
+    /// Of C, which the spindle's change of speed decides.
     pub c: Share,
     /// Of X.
     pub x: Share,
@@ -179,36 +179,37 @@ impl Shares {
         c.max(x).max(z)
     }
 
-    /// By which factors all axes together are beyond what they may; 1 where none is. Each limit
-    /// counts by itself: one that cannot be kept must not hide another that can.
-    pub fn beyond(self) -> f64 {
-        self.c.beyond() * self.x.beyond() * self.z.beyond()
+    /// The product of all parts beyond 1, over all axes; 1 where none is. Each limit counts by
+    /// itself: a limit that cannot be kept must not hide another that can.
+    pub fn excess(self) -> f64 {
+        self.c.excess() * self.x.excess() * self.z.excess()
     }
 }
 
 /// How a lead moves.
 #[derive(Debug, Clone, Copy)]
 pub struct LeadMotion {
-    /// All of it.
+    /// The whole lead.
     pub whole: AxesMotion,
-    /// Without what is next to the join.
+    /// The lead without its segments next to the join.
     pub away: AxesMotion,
 }
 
 impl LeadLimits {
-    /// What a lead takes of these limits and of what the cut or the part itself asks for.
+    /// The parts that a lead uses of these limits. `cut` is how the cut moves, and `part` how the
+    /// axes would move if they followed the part.
     pub fn shares(&self, motion: &LeadMotion, cut: &AxesMotion, part: &AxesMotion) -> Shares {
         let away = &motion.away;
         let machine = |axis| self.machine_share(axis, motion, cut, part);
         Shares {
-            c: (self.c.share(&away.c, &cut.c, &part.c)).or_more(machine(Axis::C)),
-            x: (self.x.share(&away.x, &cut.x, &part.x)).or_more(machine(Axis::X)),
-            z: (self.z.share(&away.z, &cut.z, &part.z)).or_more(machine(Axis::Z)),
+            c: (self.c.share(&away.c, &cut.c, &part.c)).max(machine(Axis::C)),
+            x: (self.x.share(&away.x, &cut.x, &part.x)).max(machine(Axis::X)),
+            z: (self.z.share(&away.z, &cut.z, &part.z)).max(machine(Axis::Z)),
         }
     }
 
-    /// The machine's limits hold for all of a lead where they hold for the cut that it joins; where
-    /// they do not, it asks for hardly more than that.
+    /// The machine's limits hold for all of a lead where they hold for the cut that it joins. Where
+    /// they do not, the lead may hardly exceed the cut.
     fn machine_share(
         &self,
         axis: Axis,
@@ -233,8 +234,8 @@ impl LeadLimits {
     }
 }
 
-/// Largest derivatives of what goes through positions `p` at times `t`, by differences.
-pub fn of_differences(t: &[f64], p: &[f64]) -> AxisMotion {
+/// Largest derivatives of a motion through positions `p` at times `t`, by differences.
+pub fn motion_by_differences(t: &[f64], p: &[f64]) -> AxisMotion {
     let mut motion = AxisMotion::default();
     let (velocity, at) = divided(t, p);
     let (acceleration, at) = divided(&at, &velocity);
@@ -246,7 +247,7 @@ pub fn of_differences(t: &[f64], p: &[f64]) -> AxisMotion {
     motion
 }
 
-/// Slopes between neighbours, and the middles where they hold.
+/// Slopes between neighbours, and the middles of the intervals, where they hold.
 fn divided(t: &[f64], p: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let pairs = t.windows(2).zip(p.windows(2));
     pairs
@@ -262,7 +263,7 @@ mod tests {
     fn differences_of_a_cubic_come_close_to_its_derivatives() {
         let t: Vec<f64> = (0..=1000).map(|k| 0.002 * f64::from(k)).collect();
         let p: Vec<f64> = t.iter().map(|t| t * t * t - t).collect();
-        let motion = of_differences(&t, &p);
+        let motion = motion_by_differences(&t, &p);
         assert!((motion.velocity.amount - 11.0).abs() < 0.02);
         assert!((motion.acceleration.amount - 12.0).abs() < 0.02);
         assert!((motion.jerk.amount - 6.0).abs() < 1e-3);

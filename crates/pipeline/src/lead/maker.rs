@@ -1,60 +1,61 @@
-//! Makes one lead: as long as its limits ask for, in steps as fine as the part asks for.
+//! Makes one lead, as long as its limits require and in steps as fine as the part requires.
 
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
-use turnpath_verify::{AxesMotion, LeadBlockFigures, LeadMeter};
+use turnpath_verify::{AxesMotion, LeadMeter, LeadBlockFigures};
 
 use super::clock::Clock;
-use super::join::{Join, Side};
+use super::course::Course;
+use super::join::{Join, LeadKind};
 use super::limits::{self, LeadMotion, LeadSettings, QUINTIC, SPEED_UP, Shares};
 use super::nodes;
 use super::phases::Phases;
 use super::spline::{self, FEWEST_NODES, Motion};
-use super::target::Target;
 use crate::plan::Plan;
 use crate::{PipelineError, Result};
 
-/// Fewest revolutions from rest height to the part: the last tenth of a millimetre then takes
-/// most of one.
+/// Fewest revolutions from rest height to the part. The last tenth of a millimetre then takes most of
+/// one.
 const GENTLE_TURNS: f64 = 2.0;
-/// How often a lead that asks too much of the axes is laid anew at the most.
+/// How often a lead that exceeds its limits is laid out again at the most.
 const TRIALS: u32 = 18;
-/// How much longer a phase then gets.
+/// How much longer a phase then becomes.
 const LONGER: f64 = 1.4;
-/// How much finer steps near the part get at the most: a spline's acceleration is then right to
+/// How much finer steps near the part become at the most. A spline's acceleration is then right to
 /// 1e-4 where it was a tenth too large.
 const FINEST: u32 = 32;
-/// Longest phases, in revolutions at the cut's speed: longer ones come of limits that are a mistake,
-/// and the lead then does not keep them.
+/// Longest phases, in revolutions at the cut's speed. Limits that require longer ones are a mistake,
+/// and the lead does not keep them.
 const LONGEST_DESCENT: f64 = 2000.0;
 const LONGEST_SPIN: f64 = 20_000.0;
-/// Part of X's limits that its coming to rest may take.
-const DRIFTING: f64 = 0.125;
-/// A slower lead is worth it where it takes this much less of its limits.
-const WORTH_IT: f64 = 0.999;
-/// Instants from node to node at which the way itself is looked at.
-const FINER_LOOK: usize = 4;
+/// Part of X's limits that X may use to come to rest.
+const OVERSHOOT_SHARE: f64 = 0.125;
+/// A slower lead replaces the best so far where its excess is below this part of that one's.
+const IMPROVEMENT: f64 = 0.999;
+/// Instants from node to node at which the course itself is examined.
+const COURSE_INSTANTS: usize = 4;
 /// How often the steps near the part are halved at the most.
 const HALVINGS: u32 = 8;
-/// Part of the interpolation tolerance by which a lead may come below the first touch between
-/// its control points; by as much as the cut where that misses its own beside the join.
+/// Part of the interpolation tolerance by which a lead may come below the first touch between its
+/// control points. Where the cut misses its tolerance beside the join, the lead may come as low as
+/// the cut.
 const BELOW: f64 = 0.5;
-/// Control points come below the first touch by no more than this, mm: a hundredth of a nanometre.
+/// Most by which control points may come below the first touch, mm: a hundredth of a nanometre.
 const POINTS_BELOW: f64 = 1e-8;
-/// How much higher the way is laid for each length by which a control point comes too low: the
-/// point beside the join, which the spline places, follows it by 0.21.
+/// How much the course is raised for each length by which a control point comes too low. The point
+/// beside the join, which the spline places, follows the course by 0.21 of that.
 const RAISE: f64 = 5.0;
-/// How often it is raised at the most.
+/// How often the course is raised at the most.
 const RAISES: u32 = 8;
-/// Segments beside the join of which the axes' limits are not asked: there a spline gets from what
-/// the cut plays to the locus itself, by a quarter of it a node, and a cut that plays badly has
-/// accelerations that are far from the locus'.
+/// Segments beside the join to which the limits of the axes do not apply. There the spline goes from
+/// what the cut plays to the locus itself, by a quarter of the difference a node, and the
+/// accelerations of a cut that plays badly are far from those of the locus.
 const TRANSITION: usize = 8;
-/// What a spline through the nodes of the spindle's phase adds to its acceleration.
+/// Factor by which a spline through the nodes of the spindle's phase raises the acceleration.
 const PLAYED: f64 = 1.01;
 
-/// What all leads of a path have in common.
+/// Makes the leads of a path.
 pub struct Maker<'a> {
     pub plan: &'a Plan<'a>,
     pub settings: LeadSettings,
@@ -65,42 +66,43 @@ pub struct Maker<'a> {
     pub shape: SegmentShape,
 }
 
-/// A lead's phases and nodes, which hold for any join that differs by roundings alone.
+/// The phases and nodes of a lead. They hold for any join that differs by roundings only.
 #[derive(Debug, Clone)]
-pub struct Laid {
-    side: Side,
+pub struct LeadLayout {
+    kind: LeadKind,
     phases: Phases,
-    /// How long X may drift on, s.
-    drift: f64,
+    /// How long ρ may overshoot the cut, s.
+    overshoot: f64,
     /// From the join to rest, in ticks away from the join.
     nodes: Vec<f64>,
-    /// How much higher than the locus its way begins, mm.
+    /// How much higher than the locus the course begins, mm.
     raised: f64,
     /// Whole revolutions of a lead-in.
     pub turns: f64,
 }
 
-impl Laid {
+impl LeadLayout {
     /// How long the lead takes, in ticks.
     pub fn ticks(&self) -> f64 {
         self.nodes.last().copied().unwrap_or_default()
     }
 }
 
-/// How much more gently than at first a lead is laid.
+/// How much more gently than at first a lead is laid out.
 #[derive(Debug, Clone, Copy)]
 struct Pace {
-    /// Times as long.
+    /// Factor on the time of the descent.
     descent: f64,
-    /// Times as long.
+    /// Factor on the time of the spindle's phase.
     spin: f64,
-    /// Times as long, but no shorter than X takes to come to rest with a part of its limits.
-    drift: f64,
-    /// Steps near the part, times as fine.
+    /// Factor on the time of the overshoot. X still gets the time that it takes to come to rest with
+    /// a part of its limits.
+    overshoot: f64,
+    /// How many times as fine steps near the part are.
     finer: u32,
-    /// As fine as they may get.
+    /// How many times as fine they may become.
     finest: u32,
-    /// What was taken before steps were made finer the last time, if that was just now.
+    /// The excess before the last trial, if steps were made finer for that trial.
     before_finer: Option<f64>,
 }
 
@@ -108,17 +110,18 @@ impl Pace {
     const FIRST: Self = Self {
         descent: 1.0,
         spin: 1.0,
-        drift: 1.0,
+        overshoot: 1.0,
         finer: 1,
         finest: FINEST,
         before_finer: None,
     };
 
-    /// For a lead that takes these shares of its limits, on a way that takes those by itself.
-    fn gentler(&mut self, lead: Shares, way: Shares) {
+    /// Makes the pace gentler after a lead that used these shares of its limits, on a course that by
+    /// itself used those.
+    fn soften(&mut self, lead: Shares, course: Shares) {
         let before = self.before_finer.take();
-        if before.is_some_and(|before| lead.beyond() >= before) {
-            // What the cut plays at its end is not the way: short steps get there with a jolt.
+        if before.is_some_and(|before| lead.excess() >= before) {
+            // The cut as played is not on the course at its end: short steps join it with a jolt.
             self.finer /= 2;
             self.finest = self.finer;
         }
@@ -129,109 +132,109 @@ impl Pace {
         if slides(lead) <= 1.0 {
             return;
         }
-        // Splines ask for more than the way on which their nodes lie, coarse ones for most.
-        if slides(way) <= 1.0 && self.finer < self.finest {
+        // A spline moves the axes more than the course on which its nodes lie; a coarse one most.
+        if slides(course) <= 1.0 && self.finer < self.finest {
             self.finer *= 2;
-            self.before_finer = Some(lead.beyond());
+            self.before_finer = Some(lead.excess());
             return;
         }
         self.descent *= LONGER;
-        // Where X goes on less, it comes less to where slopes are steeper.
-        self.drift /= LONGER;
+        // A shorter overshoot keeps X away from larger slopes.
+        self.overshoot /= LONGER;
     }
 }
 
 impl Maker<'_> {
-    /// Lays a lead that clears the part and keeps its limits, or comes as near to them as one can.
-    /// The join of a lead-in is that of a cut which begins at once: the lead-in moves it.
-    pub fn lay(&self, side: Side, join: &Join) -> Result<Laid> {
+    /// Lays out a lead that clears the part and keeps its limits, or exceeds them as little as
+    /// possible. The join of a lead-in is that of a cut that begins at once; the lead-in moves it.
+    pub fn lay_out(&self, kind: LeadKind, join: &Join) -> Result<LeadLayout> {
         let mut pace = Pace::FIRST;
         let (mut best, mut least) = (None, f64::INFINITY);
         for _ in 0..TRIALS {
-            let (laid, points) = match (self.clear(side, join, pace), &best) {
+            let (layout, points) = match (self.clear(kind, join, pace), &best) {
                 (Ok(clear), _) => clear,
                 (Err(error), None) => return Err(error),
-                // Longer ones may find no place, or no room.
+                // A longer lead may leave the surface, or need too many nodes.
                 (Err(_), Some(_)) => break,
             };
-            let following = self.following(&laid, join)?;
+            let following = self.following(&layout, join)?;
             let limits = &self.settings.limits;
             let shares = |motion| limits.shares(&motion, &join.cut, &following);
-            let taken = shares(LeadMotion {
+            let of_lead = shares(LeadMotion {
                 whole: AxesMotion::of(&points),
-                away: AxesMotion::of(&away_from_join(side, &points)),
+                away: AxesMotion::of(&away_from_join(kind, &points)),
             });
-            let way = self.way(&laid, join)?;
-            if taken.largest() <= 1.0 {
-                return Ok(laid);
+            let course = self.course_motion(&layout, join)?;
+            if of_lead.largest() <= 1.0 {
+                return Ok(layout);
             }
-            let longest = laid.phases.descent * join.point.vc >= TAU * LONGEST_DESCENT;
-            if best.is_none() || taken.beyond() < WORTH_IT * least {
-                (best, least) = (Some(laid), taken.beyond());
+            let longest = layout.phases.descent * join.point.vc >= TAU * LONGEST_DESCENT;
+            if best.is_none() || of_lead.excess() < IMPROVEMENT * least {
+                (best, least) = (Some(layout), of_lead.excess());
             }
             if longest {
                 break;
             }
-            pace.gentler(
-                taken,
+            pace.soften(
+                of_lead,
                 shares(LeadMotion {
-                    whole: way,
-                    away: way,
+                    whole: course,
+                    away: course,
                 }),
             );
         }
-        best.ok_or_else(|| self.failed(side, "no trial was made".to_owned()))
+        best.ok_or_else(|| self.failed(kind, "no trial was made".to_owned()))
     }
 
-    /// What the way of the lead asks of X and Z near the part, whatever is played between nodes.
-    fn way(&self, laid: &Laid, join: &Join) -> Result<AxesMotion> {
-        let phases = laid.phases;
-        let sigma: Vec<f64> = laid.nodes.iter().map(|t| self.clock.seconds(*t)).collect();
+    /// How X and Z move on the course itself near the part, whatever is played between nodes.
+    fn course_motion(&self, layout: &LeadLayout, join: &Join) -> Result<AxesMotion> {
+        let phases = layout.phases;
+        let nodes = layout.nodes.iter();
+        let sigma: Vec<f64> = nodes.map(|t| self.clock.seconds(*t)).collect();
         let between = |pair: &[f64]| {
-            let (from, step) = (pair[0], (pair[1] - pair[0]) / FINER_LOOK as f64);
-            (0..FINER_LOOK).map(move |i| from + step * i as f64)
+            let (from, step) = (pair[0], (pair[1] - pair[0]) / COURSE_INSTANTS as f64);
+            (0..COURSE_INSTANTS).map(move |i| from + step * i as f64)
         };
         let near = sigma.windows(2).filter(|pair| pair[1] <= phases.descent);
         let sigma: Vec<f64> = near.flat_map(between).collect();
-        let target = self.target(laid, join)?;
-        let places = target.places(&sigma, laid.raised)?;
+        let course = self.course(layout, join)?;
+        let positions = course.positions(&sigma, layout.raised)?;
         Ok(AxesMotion {
-            x: limits::of_differences(&sigma, &places.x),
-            z: limits::of_differences(&sigma, &places.z),
+            x: limits::motion_by_differences(&sigma, &positions.x),
+            z: limits::motion_by_differences(&sigma, &positions.z),
             ..AxesMotion::default()
         })
     }
 
-    fn target<'b>(&'b self, laid: &Laid, join: &'b Join) -> Result<Target<'b>> {
-        let (side, phases) = (laid.side, laid.phases);
-        Target::new(self.plan, side, join, phases, self.rest_z, laid.drift)
+    fn course<'b>(&'b self, layout: &LeadLayout, join: &'b Join) -> Result<Course<'b>> {
+        let (kind, phases, overshoot) = (layout.kind, layout.phases, layout.overshoot);
+        Course::new(self.plan, kind, join, phases, self.rest_z, overshoot)
     }
 
-    /// What following the part asks of the axes at the lead's own nodes. The cut as played does
-    /// not always say it: its steps may be coarser than the part.
-    fn following(&self, laid: &Laid, join: &Join) -> Result<AxesMotion> {
-        let phases = laid.phases;
-        let sigma = laid.nodes.iter().map(|ticks| self.clock.seconds(*ticks));
+    /// How the axes would move at the lead's own nodes if they followed the part. The motion of the
+    /// cut as played does not always show it, since its steps may be too coarse for the part.
+    fn following(&self, layout: &LeadLayout, join: &Join) -> Result<AxesMotion> {
+        let phases = layout.phases;
+        let sigma = layout.nodes.iter().map(|ticks| self.clock.seconds(*ticks));
         let sigma: Vec<f64> = sigma.take_while(|s| *s <= phases.descent).collect();
-        let target = self.target(laid, join)?;
-        let [x, z] = target.on_the_part(&sigma)?;
+        let [x, z] = self.course(layout, join)?.on_the_part(&sigma)?;
         Ok(AxesMotion {
-            x: limits::of_differences(&sigma, &x),
-            z: limits::of_differences(&sigma, &z),
+            x: limits::motion_by_differences(&sigma, &x),
+            z: limits::motion_by_differences(&sigma, &z),
             ..AxesMotion::default()
         })
     }
 
-    /// Halves steps until the lead clears the part, then raises its way until its control points
+    /// Halves steps until the lead clears the part, then raises its course until its control points
     /// do.
-    fn clear(&self, side: Side, join: &Join, pace: Pace) -> Result<(Laid, PathBlock)> {
-        let mut laid = self.first(side, join, pace)?;
-        let join = match side {
-            Side::In => join.shifted(laid.turns, self.clock.seconds(laid.ticks())),
-            Side::Out => *join,
+    fn clear(&self, kind: LeadKind, join: &Join, pace: Pace) -> Result<(LeadLayout, PathBlock)> {
+        let mut layout = self.first(kind, join, pace)?;
+        let join = match kind {
+            LeadKind::In => join.shifted(layout.turns, self.clock.seconds(layout.ticks())),
+            LeadKind::Out => *join,
         };
-        let tolerance = self.plan.prepared.job.tolerance.interpolation;
-        // Where the cut itself misses its tolerance, which is told, its lead may do so as well.
+        let tolerance = self.plan.preparation.job.tolerance.interpolation;
+        // Where the cut itself misses its tolerance, which is reported, its lead may miss it too.
         let below = match join.error > tolerance {
             true => join.error,
             false => BELOW * tolerance,
@@ -239,42 +242,42 @@ impl Maker<'_> {
         let floor = join.above_touch.min(0.0) - below;
         let (mut halvings, mut raises) = (0, 0);
         loop {
-            let points = self.points(&laid, &join)?;
-            let stretch = self.measure(&points)?;
-            // A comparison that also finds what is no number.
+            let points = self.points(&layout, &join)?;
+            let figures = self.measure(&points)?;
+            // The comparison also finds what is no number.
             let clears = |clearance: &f64| *clearance >= floor;
-            let mut below: Vec<bool> = stretch.per_segment.iter().map(|c| !clears(c)).collect();
+            let mut below: Vec<bool> = figures.per_segment.iter().map(|c| !clears(c)).collect();
             if !below.contains(&true) {
-                let lowest = stretch.per_start.iter().copied().fold(0.0, f64::min);
+                let lowest = figures.per_start.iter().copied().fold(0.0, f64::min);
                 let missing = join.above_touch.min(0.0) - POINTS_BELOW - lowest;
                 if missing <= 0.0 || raises == RAISES {
-                    return Ok((laid, points));
+                    return Ok((layout, points));
                 }
-                laid.raised += RAISE * missing;
+                layout.raised += RAISE * missing;
                 raises += 1;
                 continue;
             }
             if halvings == HALVINGS {
-                let figures = &stretch.figures;
+                let lowest = &figures.figures;
                 let what = format!(
                     "at C = {:.3} deg, X = {:.6} mm it would come {:.3e} mm below the first touch, \
                      however fine its steps",
-                    figures.at_c / turnpath_core::DEG,
-                    figures.at_x,
-                    -figures.clearance
+                    lowest.at_c / turnpath_core::DEG,
+                    lowest.at_x,
+                    -lowest.clearance
                 );
-                return Err(self.failed(side, what));
+                return Err(self.failed(kind, what));
             }
-            if side == Side::In {
+            if kind == LeadKind::In {
                 below.reverse();
             }
-            laid.nodes = nodes::halve(&laid.nodes, &below, &self.clock);
+            layout.nodes = nodes::halve(&layout.nodes, &below, &self.clock);
             halvings += 1;
         }
     }
 
     /// Phases as short as the limits allow, and their nodes.
-    fn first(&self, side: Side, join: &Join, pace: Pace) -> Result<Laid> {
+    fn first(&self, kind: LeadKind, join: &Join, pace: Pace) -> Result<LeadLayout> {
         let (limits, speed) = (&self.settings.limits, join.point.vc);
         let down = limits.z.time_for(self.rest_z - join.point.z, QUINTIC);
         let gentle = GENTLE_TURNS * TAU / speed;
@@ -285,37 +288,39 @@ impl Maker<'_> {
             spin: spin.min(LONGEST_SPIN * turn),
             speed,
         };
-        let drift = limits.x.time_to_change(join.rho_rate / DRIFTING, SPEED_UP);
-        let too_many = || self.failed(side, format!("it would take {:.3e} s", least.all()));
-        let (phases, turns) = match side {
-            Side::In => least.on_whole_turns(&self.clock),
-            Side::Out => (least.on(&self.clock), 0.0),
+        let overshoot = limits
+            .x
+            .time_to_change(join.rho_rate / OVERSHOOT_SHARE, SPEED_UP);
+        let too_many = || self.failed(kind, format!("it would take {:.3e} s", least.all()));
+        let (phases, turns) = match kind {
+            LeadKind::In => least.on_whole_turns(&self.clock),
+            LeadKind::Out => (least.on(&self.clock), 0.0),
         };
         let nodes = nodes::place(&phases, &self.clock, pace.finer).ok_or_else(too_many)?;
         if nodes.len() < FEWEST_NODES {
             let what = "the controller's steps of time are too long for it".to_owned();
-            return Err(self.failed(side, what));
+            return Err(self.failed(kind, what));
         }
-        Ok(Laid {
-            side,
+        Ok(LeadLayout {
+            kind,
             phases,
-            drift: (pace.drift * gentle).max(drift),
+            overshoot: (pace.overshoot * gentle).max(overshoot),
             nodes,
             raised: 0.0,
             turns,
         })
     }
 
-    /// The control points in order of time, that of the join among them.
-    pub fn points(&self, laid: &Laid, join: &Join) -> Result<PathBlock> {
-        let side = laid.side;
-        let target = self.target(laid, join)?;
-        let joined = match side {
-            Side::In => laid.ticks(),
-            Side::Out => self.clock.nearest(join.point.t),
+    /// The control points in order of time, with that of the join.
+    pub fn points(&self, layout: &LeadLayout, join: &Join) -> Result<PathBlock> {
+        let kind = layout.kind;
+        let course = self.course(layout, join)?;
+        let at_join = match kind {
+            LeadKind::In => layout.ticks(),
+            LeadKind::Out => self.clock.nearest(join.point.t),
         };
-        let mut nodes = laid.nodes.clone();
-        if side == Side::In {
+        let mut nodes = layout.nodes.clone();
+        if kind == LeadKind::In {
             nodes.reverse();
         }
         let away: Vec<f64> = nodes
@@ -324,20 +329,20 @@ impl Maker<'_> {
             .collect();
         let t: Vec<f64> = nodes
             .iter()
-            .map(|ticks| self.clock.seconds(joined + side.sign() * ticks))
+            .map(|ticks| self.clock.seconds(at_join + kind.sign() * ticks))
             .collect();
-        let places = target.places(&away, laid.raised)?;
-        let rest = [target.rest_c(), target.rest_x, target.rest_z];
+        let positions = course.positions(&away, layout.raised)?;
+        let rest = [course.rest_c(), course.rest_x, course.rest_z];
         let ends = Ends::new(join, rest);
         let mut points = PathBlock {
             shape: self.shape,
             ..PathBlock::default()
         };
-        let [c, x, z] = [places.c, places.x, places.z];
+        let [c, x, z] = [positions.c, positions.x, positions.z];
         let mut axes = [c, x, z].into_iter().zip(ends.0).map(|(p, [join, rest])| {
-            let (first, last) = match side {
-                Side::In => (rest, join),
-                Side::Out => (join, rest),
+            let (first, last) = match kind {
+                LeadKind::In => (rest, join),
+                LeadKind::Out => (join, rest),
             };
             self.axis(&t, p, first, last)
         });
@@ -361,7 +366,7 @@ impl Maker<'_> {
     ) -> (Vec<f64>, Vec<f64>) {
         let end = p.len() - 1;
         if self.shape == SegmentShape::Cubic {
-            let slopes = spline::join(t, &mut p, first, last);
+            let slopes = spline::interpolate(t, &mut p, first, last);
             return (p, slopes);
         }
         (p[0], p[end]) = (first.position, last.position);
@@ -372,16 +377,16 @@ impl Maker<'_> {
 
     /// Measures a lead against the part.
     pub fn measure(&self, points: &PathBlock) -> Result<LeadBlockFigures> {
-        LeadMeter::measure(&self.plan.prepared.touch, points).map_err(PipelineError::Measure)
+        LeadMeter::measure(&self.plan.preparation.touch, points).map_err(PipelineError::Measure)
     }
 
-    fn failed(&self, side: Side, what: String) -> PipelineError {
-        let which = side.name();
+    fn failed(&self, kind: LeadKind, what: String) -> PipelineError {
+        let which = kind.name();
         PipelineError::Lead { which, what }
     }
 }
 
-/// What C, X and Z do at the join and at rest.
+/// The motions of C, X and Z at the join and at rest.
 struct Ends([[Motion; 2]; 3]);
 
 impl Ends {
@@ -398,30 +403,30 @@ impl Ends {
         let moving = [(c, vc), (x, vx), (z, vz)];
         Self(std::array::from_fn(|axis| {
             let (position, velocity) = moving[axis];
-            let joined = Motion {
+            let at_join = Motion {
                 position,
                 velocity,
                 acceleration: join.acceleration[axis],
             };
-            let resting = Motion {
+            let at_rest = Motion {
                 position: rest[axis],
                 ..Motion::default()
             };
-            [joined, resting]
+            [at_join, at_rest]
         }))
     }
 }
 
 /// The points of a lead without those of the transition.
-fn away_from_join(side: Side, points: &PathBlock) -> PathBlock {
+fn away_from_join(kind: LeadKind, points: &PathBlock) -> PathBlock {
     let skipped = TRANSITION.min(points.len());
     let mut rest = PathBlock {
         shape: points.shape,
         ..PathBlock::default()
     };
-    let (from, to) = match side {
-        Side::In => (0, points.len() - skipped),
-        Side::Out => (skipped, points.len()),
+    let (from, to) = match kind {
+        LeadKind::In => (0, points.len() - skipped),
+        LeadKind::Out => (skipped, points.len()),
     };
     let kept = points.points().skip(from).take(to - from);
     kept.for_each(|point| rest.push(point));

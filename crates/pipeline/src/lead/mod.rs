@@ -1,19 +1,20 @@
 //! Leads: from rest to the cut, and from the cut to rest.
 //!
-//! Away from the join a lead keeps to the tool's own locus: Z is a mean, moved smoothly from one
-//! to the other, of the first touch at C and X and of a height above the whole part. Both clear
-//! the part, so every mean of them does. C first goes on at the cut's speed, until X and Z rest,
-//! then its speed changes. The cubic spline through the nodes takes position, velocity and
-//! acceleration of the cut as played, so all three are continuous at every control point. Between
-//! nodes near the part a cubic is not the locus: each lead is played back and its steps are halved
-//! until it clears the part to half the interpolation tolerance, or as well as the cut does where
-//! they join.
+//! Away from the join a lead keeps to the tool's own locus: Z is a mean of the first touch at C
+//! and X and of a height above the whole part, and moves smoothly from the one to the other. Both
+//! clear the part, so every mean of them does. C first goes on at the cut's speed until X and Z
+//! rest, and then changes its speed. The cubic spline through the nodes takes position, velocity
+//! and acceleration of the cut as played, so all three are continuous at every control point.
+//! Between nodes near the part a cubic is not the locus. So each lead is played back, and its steps
+//! are halved until it clears the part to half the interpolation tolerance, or as well as the cut
+//! does at the join.
 //!
 //! The control point of a join belongs to the cutting section: the lead-in ends with the point
-//! before it, the lead-out begins with the point after it. Leads of straight segments have the same
-//! nodes and, as such paths have, jumps of the velocity at all of them, ends included.
+//! before it, and the lead-out begins with the point after it. Leads of straight segments have the
+//! same nodes. As in all such paths, their velocity jumps at every node, the ends included.
 
 mod clock;
+mod course;
 mod height;
 mod join;
 mod limits;
@@ -21,22 +22,20 @@ mod maker;
 mod nodes;
 mod phases;
 mod spline;
-mod target;
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_verify::{AxesMotion, LeadFigures, LeadMeter};
 
-use crate::make::{Depths, make};
+use crate::make::{Depths, first_state, make};
 use crate::plan::{Plan, Start};
-use crate::refine::first_state;
 use crate::{PipelineError, Result};
 
 use clock::Clock;
-use join::{Join, Side};
+use join::{Join, LeadKind};
 pub use limits::{AxisLimits, LeadLimits, LeadSettings};
 use maker::Maker;
 
-/// What leads a path has.
+/// The leads of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leads {
     /// How long the lead-in takes, s.
@@ -45,20 +44,20 @@ pub struct Leads {
     pub out_time: f64,
     /// Whole revolutions of C before the cut.
     pub turns_in: f64,
-    /// Revolutions of C behind the cut.
+    /// Revolutions of C after the cut.
     pub turns_out: f64,
     /// Z of the nose centre at rest, mm.
     pub rest_z: f64,
     /// Z of the nose centre where it stands highest on the part, mm.
     pub highest_z: f64,
-    /// Control points of both leads; those of the joins are the cut's.
+    /// Control points of both leads. The points of the joins belong to the cut.
     pub points: u64,
-    /// What was measured on them.
+    /// The figures measured on them.
     pub figures: LeadFigures,
 }
 
 impl Leads {
-    /// By how much the path rests above the highest place of the part, mm.
+    /// By how much the path rests above the highest point of the part, mm.
     pub fn rest_clearance(&self) -> f64 {
         self.rest_z - self.highest_z
     }
@@ -69,18 +68,19 @@ pub struct LeadRun {
     settings: LeadSettings,
     highest_z: f64,
     meter: LeadMeter,
-    made: Option<PathBlock>,
+    /// The points of the lead-in with the point of the join, once they are made.
+    lead_in: Option<PathBlock>,
     turns_in: f64,
 }
 
 impl LeadRun {
-    /// Makes the lead-in and moves the cut behind it. The cut's first block is made twice for it:
-    /// once to learn what the lead-in takes, and once more where it then stands.
+    /// Makes the lead-in and moves the cut after it. For this the cut's first block is made twice:
+    /// first to learn how long the lead-in takes, and again at its new time and angle.
     pub fn begin(plan: &mut Plan<'_>, depths: &[Depths], settings: LeadSettings) -> Result<Self> {
         let highest_z = height::highest(plan)?;
         if !highest_z.is_finite() {
             return Err(PipelineError::Lead {
-                which: Side::In.name(),
+                which: LeadKind::In.name(),
                 what: "the nose finds no height anywhere on the part".to_owned(),
             });
         }
@@ -88,61 +88,62 @@ impl LeadRun {
             settings,
             highest_z,
             meter: LeadMeter::default(),
-            made: None,
+            lead_in: None,
             turns_in: 0.0,
         };
         let (join, _) = first_join(plan, depths)?;
-        let laid = run.maker(plan).lay(Side::In, &join)?;
+        let layout = run.maker(plan).lay_out(LeadKind::In, &join)?;
         plan.start = Start {
-            turns: laid.turns,
-            time: laid.ticks(),
+            turns: layout.turns,
+            time: layout.ticks(),
         };
         let (join, cut) = first_join(plan, depths)?;
         let maker = run.maker(plan);
-        let points = maker.points(&laid, &join)?;
-        let stretch = maker.measure(&points)?;
-        run.turns_in = laid.turns;
-        run.meter.append(&stretch);
-        run.meter.append_cut(&block_of(&cut));
-        run.made = Some(points);
+        let points = maker.points(&layout, &join)?;
+        let figures = maker.measure(&points)?;
+        run.turns_in = layout.turns;
+        run.meter.append(&figures);
+        run.meter.pass(&block_of(&cut));
+        run.lead_in = Some(points);
         Ok(run)
     }
 
     /// The lead-in's points, without that of the join.
     pub fn lead_in(&self) -> PathBlock {
-        let mut points = self.made.clone().unwrap_or_default();
+        let mut points = self.lead_in_and_join();
         points.truncate(points.len().saturating_sub(1));
         points
     }
 
     /// The lead-in with the point of the join.
     pub fn lead_in_and_join(&self) -> PathBlock {
-        self.made.clone().unwrap_or_default()
+        self.lead_in.clone().unwrap_or_default()
     }
 
-    /// Makes the lead-out behind a cut that ends with `pair` and whose last block moves so; gives
-    /// its points, without that of the join, and what leads the path has.
+    /// Makes the lead-out after a cut that ends with the points `pair`, and whose last block moves
+    /// like `cut`. Gives the points of the lead-out without that of the join, and the leads of the
+    /// path.
     pub fn end(
         mut self,
         plan: &Plan<'_>,
         pair: &[ControlPoint; 2],
         cut: AxesMotion,
     ) -> Result<(PathBlock, Leads)> {
-        let join = Join::new(plan, Side::Out, pair, cut)?;
+        let join = Join::new(plan, LeadKind::Out, pair, cut)?;
         let maker = self.maker(plan);
-        let laid = maker.lay(Side::Out, &join)?;
-        let points = maker.points(&laid, &join)?;
-        let stretch = maker.measure(&points)?;
+        let layout = maker.lay_out(LeadKind::Out, &join)?;
+        let points = maker.points(&layout, &join)?;
+        let figures = maker.measure(&points)?;
         let mut meter = std::mem::take(&mut self.meter);
-        meter.append_cut(&block_of(pair));
-        meter.append(&stretch);
-        let time = |points: &PathBlock| span(&points.t);
-        let lead_in = self.made.take().unwrap_or_default();
+        meter.pass(&block_of(pair));
+        meter.append(&figures);
+        let time = |points: &PathBlock| extent(&points.t);
+        let lead_in = self.lead_in.take().unwrap_or_default();
         let leads = Leads {
             in_time: time(&lead_in),
             out_time: time(&points),
             turns_in: self.turns_in,
-            turns_out: span(&points.c) / std::f64::consts::TAU,
+            turns_out: extent(&points.c) / std::f64::consts::TAU,
             rest_z: self.highest_z + self.settings.clearance,
             highest_z: self.highest_z,
             points: (lead_in.len() + points.len()).saturating_sub(2) as u64,
@@ -162,22 +163,23 @@ impl LeadRun {
     }
 }
 
-/// The cut's first join as the plan now makes it, and its first two points.
+/// The join at the start of the cut as the plan now has it, and the first two points of the cut.
 fn first_join(plan: &Plan<'_>, depths: &[Depths]) -> Result<(Join, [ControlPoint; 2])> {
-    let made = make(plan, 0..1, depths, first_state(plan).as_mut())?;
-    let points = made.first().map(|made| &made.points);
+    let blocks = make(plan, 0..1, depths, first_state(plan).as_mut())?;
+    let points = blocks.first().map(|block| &block.points);
     let pair = points.and_then(|points| Some([points.get(0)?, points.get(1)?]));
     let Some((points, pair)) = points.zip(pair) else {
         return Err(PipelineError::Lead {
-            which: Side::In.name(),
+            which: LeadKind::In.name(),
             what: "the cut has no segment".to_owned(),
         });
     };
-    let join = Join::new(plan, Side::In, &pair, AxesMotion::of(points))?;
+    let join = Join::new(plan, LeadKind::In, &pair, AxesMotion::of(points))?;
     Ok((join, pair))
 }
 
-fn span(values: &[f64]) -> f64 {
+/// Last value − first value.
+fn extent(values: &[f64]) -> f64 {
     match (values.first(), values.last()) {
         (Some(first), Some(last)) => last - first,
         _ => 0.0,

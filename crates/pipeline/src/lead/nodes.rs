@@ -1,31 +1,31 @@
-//! Where the control points of a lead lie: by angle while it goes down, by angle and time while
-//! the spindle changes its speed.
+//! The nodes of a lead: by angle during the descent, by angle and time while the spindle changes
+//! its speed.
 
 use turnpath_core::DEG;
 
 use super::clock::Clock;
 use super::phases::Phases;
 
-/// Angle between neighbouring nodes of the descent, before any is halved.
+/// Angle between neighbouring nodes of the descent, before any segment is halved.
 const DESCENT_STEP: f64 = 5.0 * DEG;
-/// Part of the descent in which steps can be asked to be finer: beyond, a sixth of what following
-/// the part asks of the axes is gone.
+/// Part of the descent in which steps can be made finer. Beyond it, the motion that follows the part
+/// is smaller by a sixth or more.
 const NEAR_THE_PART: f64 = 0.3;
-/// Largest angle between nodes at rest height: programs with C within a revolution need less than
-/// half of one.
+/// Largest angle between nodes at rest height. Programs that wrap C need less than half a
+/// revolution.
 const SPIN_STEP: f64 = 80.0 * DEG;
-/// Fewest segments of the spindle's phase: its acceleration as played is then right to 0.3 %.
+/// Fewest segments of the spindle's phase. Its acceleration as played is then right to 0.3 %.
 const SPIN_SEGMENTS: f64 = 16.0;
 /// Longest segment, s: half of what controllers count to.
 const LONGEST: f64 = 2.0;
-/// How many segments beside one that must be halved are halved too: a spline's neighbours move
-/// with it.
+/// How many segments on either side of a halved one are halved too: in a spline the neighbours of a
+/// segment move with it.
 const SPREAD: usize = 3;
-/// Most nodes of a lead: beyond, its limits are a mistake.
+/// Most nodes of a lead. Limits that need more are a mistake.
 pub const MOST_NODES: usize = 2_000_000;
 
-/// Nodes from the join (0) to rest, in ticks of time away from the join, near the part `finer`
-/// times as close as they need be; `None` where there would be too many.
+/// Nodes from the join (0) to rest, in ticks of time away from the join. Near the part they are
+/// `finer` times as close as elsewhere. `None` where there would be too many.
 pub fn place(phases: &Phases, clock: &Clock, finer: u32) -> Option<Vec<f64>> {
     let step = (DESCENT_STEP / phases.speed).min(LONGEST);
     let down = (phases.descent / step).ceil().max(1.0);
@@ -62,7 +62,7 @@ pub fn place(phases: &Phases, clock: &Clock, finer: u32) -> Option<Vec<f64>> {
     Some(nodes)
 }
 
-/// Halves the segments that are chosen, and their neighbours, where the clock has a tick between.
+/// Halves the chosen segments and their neighbours, where the clock has a tick between the ends.
 pub fn halve(nodes: &[f64], chosen: &[bool], clock: &Clock) -> Vec<f64> {
     let mut halved = Vec::with_capacity(2 * nodes.len());
     for (k, pair) in nodes.windows(2).enumerate() {

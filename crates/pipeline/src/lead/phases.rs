@@ -1,7 +1,8 @@
-//! The two phases of a lead: the spindle changes its speed at rest height, X and Z go down or up.
+//! The two phases of a lead: X and Z go down or up, and the spindle changes its speed at rest
+//! height.
 //!
-//! Both leads are told in the time away from where they join the cut, σ ≥ 0: first the descent,
-//! while C turns at the cut's speed, then the spindle's phase. A lead-in plays it backwards.
+//! Both leads are described in the time away from the join with the cut, σ ≥ 0: first the descent,
+//! while C turns at the cut's speed, then the spindle's phase. A lead-in plays them backwards.
 
 use std::f64::consts::TAU;
 
@@ -10,16 +11,16 @@ use super::clock::Clock;
 /// How long the phases of a lead take, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phases {
-    /// Between rest height and part, C at the cut's speed.
+    /// From the part to rest height, with C at the cut's speed.
     pub descent: f64,
-    /// At rest height, C between rest and the cut's speed.
+    /// At rest height, with C between the cut's speed and rest.
     pub spin: f64,
     /// Speed of C in the cut, rad/s.
     pub speed: f64,
 }
 
 impl Phases {
-    /// Phases of a lead-out: at least as long as `self`, together a whole count of the clock's
+    /// Phases of a lead-out: at least as long as `self`, and together a whole number of the clock's
     /// ticks.
     pub fn on(self, clock: &Clock) -> Self {
         let ticks = clock.at_least(self.descent + self.spin);
@@ -27,9 +28,10 @@ impl Phases {
         Self { descent, ..self }
     }
 
-    /// Phases of a lead-in: at least as long as `self`, together a whole count of ticks, in which
-    /// C turns by whole revolutions; and how many. With C's angle ω(descent + spin/2) = 2πk and
-    /// the time descent + spin = T both phases follow from k and T.
+    /// Phases of a lead-in, and how many revolutions C turns in them. They are at least as long as
+    /// `self` and together a whole number of ticks, in which C turns by whole revolutions. With C's
+    /// angle ω(descent + spin/2) = 2πk and the time descent + spin = T, both phases follow from k
+    /// and T.
     pub fn on_whole_turns(self, clock: &Clock) -> (Self, f64) {
         let angle = self.speed * (self.descent + 0.5 * self.spin);
         let mut turns = (angle / TAU).ceil();
@@ -55,19 +57,19 @@ impl Phases {
         self.descent + self.spin
     }
 
-    /// By how much C turns within `sigma` of the join, rad. In the spindle's phase its speed falls
-    /// as 1 − 3s² + 2s³, so its acceleration is continuous, and zero at both ends.
+    /// The angle by which C turns within `sigma` of the join, rad. In the spindle's phase the speed
+    /// of C falls as 1 − 3s² + 2s³, so its acceleration is continuous, and zero at both ends.
     pub fn turned(&self, sigma: f64) -> f64 {
         if sigma <= self.descent {
             return self.speed * sigma;
         }
         let s = ((sigma - self.descent) / self.spin).min(1.0);
-        let way = s * (1.0 - s * s * (1.0 - 0.5 * s));
-        self.speed * (self.descent + self.spin * way)
+        let spun = s * (1.0 - s * s * (1.0 - 0.5 * s));
+        self.speed * (self.descent + self.spin * spun)
     }
 
-    /// How far the lead is from the part to rest height: 0 at the join, 1 at rest height, by
-    /// 10s³ − 15s⁴ + 6s⁵.
+    /// How far the lead has gone from the part to rest height: 0 at the join, 1 at rest height, and
+    /// 10s³ − 15s⁴ + 6s⁵ between them.
     pub fn lifted(&self, sigma: f64) -> f64 {
         let s = (sigma / self.descent).min(1.0);
         s * s * s * (10.0 + s * (6.0 * s - 15.0))
@@ -99,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_of_c_has_the_speed_that_is_told_and_ends_at_rest() {
+    fn c_turns_at_the_speed_of_the_cut_and_ends_at_rest() {
         let rate = |sigma: f64| (LEAST.turned(sigma + 1e-5) - LEAST.turned(sigma - 1e-5)) / 2e-5;
         assert!((rate(0.1) - LEAST.speed).abs() < 1e-6);
         assert!((rate(0.24) - LEAST.speed).abs() < 1e-6);

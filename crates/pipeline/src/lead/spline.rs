@@ -1,10 +1,10 @@
-//! The cubic spline of a lead: continuous acceleration, and at both ends position, velocity and
-//! acceleration given.
+//! The cubic spline of a lead. Its acceleration is continuous, and at both ends its position,
+//! velocity and acceleration are given.
 //!
-//! A spline through all nodes can take the velocity at its ends and no more. So the positions of
-//! the second and of the second-to-last node are left free: p₁ = p₀ + h₀(2 m₀/3 + m₁/3 + h₀ a₀/6)
-//! makes the first cubic bend as it must, the last one likewise, and the equations for the slopes
-//! m stay tridiagonal.
+//! A spline through all nodes can take the velocity at its ends, but not the acceleration. So the
+//! positions of the second and of the second-to-last node are left free. With
+//! p₁ = p₀ + h₀(2 m₀/3 + m₁/3 + h₀ a₀/6) the first cubic has the given acceleration, and the last
+//! cubic likewise; the equations for the slopes m stay tridiagonal.
 
 /// Position, velocity and acceleration of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -17,40 +17,41 @@ pub struct Motion {
     pub acceleration: f64,
 }
 
-/// Fewest nodes that can be joined so.
+/// Fewest nodes of such a spline.
 pub const FEWEST_NODES: usize = 4;
 
-/// A position that is known up to the slope at its node: q + g·m.
+/// The position of a node, which may depend on the slope m there: q + g·m.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct NodePosition {
     q: f64,
     g: f64,
 }
 
-/// Joins the nodes at times `t` (growing, [`FEWEST_NODES`] or more): puts the second and the
-/// second-to-last of `p` where the ends ask for them, sets its first and last to the ends'
-/// positions, and gives the slopes at all nodes.
-pub fn join(t: &[f64], p: &mut [f64], first: Motion, last: Motion) -> Vec<f64> {
+/// Lays the spline through nodes at times `t`, which grow and are [`FEWEST_NODES`] or more. Sets the
+/// first and the last of `p` to the positions of the ends, and moves the second and the
+/// second-to-last of `p` as the ends require. Gives the slopes at all nodes.
+pub fn interpolate(t: &[f64], p: &mut [f64], first: Motion, last: Motion) -> Vec<f64> {
     let end = t.len() - 1;
     let h: Vec<f64> = t.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let mut places: Vec<Place> = p.iter().map(|q| Place { q: *q, g: 0.0 }).collect();
-    (places[0].q, places[end].q) = (first.position, last.position);
-    places[1] = beside(first, h[0]);
-    places[end - 1] = beside(last, -h[end - 1]);
-    let mut slopes = slopes(&h, &places, first.velocity, last.velocity);
-    rest(&h, &places, &mut slopes);
-    for ((p, place), slope) in p.iter_mut().zip(&places).zip(&slopes) {
-        *p = place.q + place.g * slope;
+    let fixed = |q: &f64| NodePosition { q: *q, g: 0.0 };
+    let mut nodes: Vec<NodePosition> = p.iter().map(fixed).collect();
+    (nodes[0].q, nodes[end].q) = (first.position, last.position);
+    nodes[1] = beside(first, h[0]);
+    nodes[end - 1] = beside(last, -h[end - 1]);
+    let mut slopes = slopes(&h, &nodes, first.velocity, last.velocity);
+    clear_rounding(&h, &nodes, &mut slopes);
+    for ((p, node), slope) in p.iter_mut().zip(&nodes).zip(&slopes) {
+        *p = node.q + node.g * slope;
     }
     slopes
 }
 
-/// Puts to zero what a spline's slopes leave where nothing moves: they fall by a quarter a node and
-/// never vanish. Only what rounding of the positions would leave too is taken for that.
-fn rest(h: &[f64], places: &[Place], slopes: &mut [f64]) {
-    let largest = places.iter().map(|place| place.q.abs()).fold(0.0, f64::max);
+/// Sets tiny slopes to zero where nothing moves: there a spline's slopes fall by a quarter a node and
+/// never vanish. A slope counts as tiny if rounding of the positions would leave as much.
+fn clear_rounding(h: &[f64], nodes: &[NodePosition], slopes: &mut [f64]) {
+    let largest = nodes.iter().map(|node| node.q.abs()).fold(0.0, f64::max);
     for k in 1..h.len() {
-        let stays = places[k - 1].q == places[k].q && places[k].q == places[k + 1].q;
+        let stays = nodes[k - 1].q == nodes[k].q && nodes[k].q == nodes[k + 1].q;
         let rounding = f64::EPSILON * largest / h[k - 1].max(h[k]);
         if stays && slopes[k].abs() <= rounding {
             slopes[k] = 0.0;
@@ -58,34 +59,34 @@ fn rest(h: &[f64], places: &[Place], slopes: &mut [f64]) {
     }
 }
 
-/// The position of the node beside an end, `h` later; earlier where it is negative.
-fn beside(end: Motion, h: f64) -> Place {
-    Place {
+/// The position of the node beside an end, which is `h` later, or earlier where `h` is negative.
+fn beside(end: Motion, h: f64) -> NodePosition {
+    NodePosition {
         q: end.position + h * (2.0 * end.velocity / 3.0 + h * end.acceleration / 6.0),
         g: h / 3.0,
     }
 }
 
 /// Slopes with which the second derivatives of both sides agree at every inner node.
-fn slopes(h: &[f64], places: &[Place], first: f64, last: f64) -> Vec<f64> {
+fn slopes(h: &[f64], nodes: &[NodePosition], first: f64, last: f64) -> Vec<f64> {
     let end = h.len();
     let mut slopes = vec![0.0; end + 1];
     let mut above = vec![0.0; end + 1];
     (slopes[0], slopes[end]) = (first, last);
     for k in 1..end {
         let (left, right) = (h[k - 1], h[k]);
-        let (before, here, after) = (places[k - 1], places[k], places[k + 1]);
+        let (before, here, after) = (nodes[k - 1], nodes[k], nodes[k + 1]);
         let (left_squared, right_squared) = (left * left, right * right);
         let low = 1.0 / left + 3.0 * before.g / left_squared;
         let up = 1.0 / right - 3.0 * after.g / right_squared;
         let middle =
             2.0 / left + 2.0 / right - 3.0 * here.g / left_squared + 3.0 * here.g / right_squared;
-        let wanted =
+        let right_side =
             3.0 * ((here.q - before.q) / left_squared + (after.q - here.q) / right_squared);
-        // The slope of the first node is known; those of the others are swept down.
+        // Gaussian elimination downwards: the slope of the first node is known.
         let pivot = middle - low * above[k - 1];
         above[k] = up / pivot;
-        slopes[k] = (wanted - low * slopes[k - 1]) / pivot;
+        slopes[k] = (right_side - low * slopes[k - 1]) / pivot;
     }
     for k in (1..end).rev() {
         slopes[k] -= above[k] * slopes[k + 1];
@@ -114,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cubic_comes_back_also_at_the_nodes_that_are_free() {
+    fn a_cubic_is_reproduced_also_at_the_free_nodes() {
         let p = |t: f64| 2.0 + t * (-1.0 + t * (0.5 + t * 3.0));
         let motion = |t: f64| Motion {
             position: p(t),
@@ -125,7 +126,7 @@ mod tests {
             let t = &T[..=end];
             let mut nodes: Vec<f64> = t.iter().map(|t| p(*t)).collect();
             (nodes[1], nodes[end - 1]) = (f64::NAN, f64::NAN);
-            let slopes = join(t, &mut nodes, motion(t[0]), motion(t[end]));
+            let slopes = interpolate(t, &mut nodes, motion(t[0]), motion(t[end]));
             for (k, t) in t.iter().enumerate() {
                 assert!((nodes[k] - p(*t)).abs() < 1e-13, "{k} of {end}");
                 assert!((slopes[k] - motion(*t).velocity).abs() < 1e-12);
@@ -134,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_are_as_asked_and_acceleration_is_continuous() {
+    fn ends_are_as_given_and_acceleration_is_continuous() {
         let first = Motion {
             position: 1.0,
             velocity: -2.0,
@@ -148,7 +149,7 @@ mod tests {
             let t = &T[..=end];
             let mut p: Vec<f64> = t.iter().map(|t| t * t * (3.0 - t)).collect();
             let kept = p.clone();
-            let slopes = join(t, &mut p, first, last);
+            let slopes = interpolate(t, &mut p, first, last);
             assert_eq!((p[0], p[end]), (1.0, 5.0));
             assert_eq!((slopes[0], slopes[end]), (-2.0, 0.0));
             assert_eq!(p[2..end - 1], kept[2..end - 1]);
@@ -175,7 +176,7 @@ mod tests {
         };
         let t: Vec<f64> = (0..100).map(|k| 0.1 * f64::from(k)).collect();
         let mut p: Vec<f64> = t.iter().map(|t| 1.0 + t.min(2.0)).collect();
-        let slopes = join(&t, &mut p, first, last);
+        let slopes = interpolate(&t, &mut p, first, last);
         assert!(slopes[..40].iter().all(|slope| *slope != 0.0));
         assert!(slopes[60..].iter().all(|slope| *slope == 0.0));
     }
@@ -194,7 +195,7 @@ mod tests {
         let error = |count: usize| {
             let t: Vec<f64> = (0..=count).map(|k| 2.0 * k as f64 / count as f64).collect();
             let mut p: Vec<f64> = t.iter().map(|t| motion(*t).position).collect();
-            let slopes = join(&t, &mut p, motion(0.0), motion(2.0));
+            let slopes = interpolate(&t, &mut p, motion(0.0), motion(2.0));
             let cubics = cubics(&t, &p, &slopes);
             let each = cubics
                 .iter()

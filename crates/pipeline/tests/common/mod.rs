@@ -4,8 +4,8 @@
 
 pub mod solvers;
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
-use std::io;
 use std::sync::Arc;
 
 use turnpath_core::toolpath::{PathBlock, PathStretch, Section};
@@ -15,12 +15,13 @@ use turnpath_core::{
     SpindleLaw, StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
-    Chain, LeadSettings, Link, Making, Outcome, PipelineError, Quiet, Sink, Wanted, prepare, run,
+    Chain, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions, PipelineError, RunError,
+    SilentObserver, Sink, prepare, run,
 };
 
 /// The rim, mm.
 pub const RIM: f64 = 2.0;
-/// The highest cusp that is allowed, mm.
+/// The tolerance of the residual, mm.
 pub const RESIDUAL: f64 = 1e-4;
 /// z = 2 K x y, mm.
 pub const K: f64 = 0.02;
@@ -105,7 +106,7 @@ impl Compensator for BrokenBeyond90 {
     }
 }
 
-/// A feed whose pieces a function gives, call by call.
+/// A feed whose pieces come from a function, call by call.
 pub struct Feed<F>(pub F);
 
 struct Calls<F> {
@@ -143,17 +144,17 @@ pub fn straight(length: f64, start: f64, rate: f64) -> Stretch {
     }
 }
 
-/// Inward from the rim to the axis in so many revolutions, in one piece.
+/// A feed inward from the rim to the axis in so many revolutions, in one piece.
 pub fn inward(revolutions: f64) -> Arc<dyn FeedStrategy> {
     feed_of(vec![straight(revolutions, RIM, -RIM / revolutions)])
 }
 
-/// These pieces, in one call.
+/// A feed with these pieces, in one call.
 pub fn feed_of(pieces: Vec<Stretch>) -> Arc<dyn FeedStrategy> {
     Arc::new(Feed(move |_| (pieces.clone(), Onward::Done)))
 }
 
-/// A sampler whose nodes a function gives.
+/// A sampler whose nodes come from a function.
 pub struct Nodes<F>(pub F);
 
 impl<F> Sampler for Nodes<F>
@@ -166,7 +167,7 @@ where
     }
 }
 
-/// So many equal steps a revolution.
+/// A sampler with so many equal steps a revolution.
 pub fn even(steps: f64) -> Arc<dyn Sampler> {
     Arc::new(Nodes(move |_: &Path<'_>, block: Revolutions| {
         let turns = block.turns();
@@ -174,7 +175,7 @@ pub fn even(steps: f64) -> Arc<dyn Sampler> {
     }))
 }
 
-/// Node k lies at k steps from the start; `state` holds the next k.
+/// A sampler whose node k lies k steps from the start; `state` holds the next k.
 pub struct Counting {
     pub step: f64,
 }
@@ -209,7 +210,7 @@ impl Sampler for Counting {
     }
 }
 
-/// A job of small strategies; what a test does not set stays usual.
+/// A job of small strategies. A test sets the fields that matter to it.
 pub struct Job {
     pub feed: Arc<dyn FeedStrategy>,
     pub sampler: Arc<dyn Sampler>,
@@ -256,11 +257,25 @@ impl Job {
     /// The path and its outcome.
     pub fn run(&self) -> std::result::Result<(PathBlock, Outcome), Box<PipelineError>> {
         self.run_whole()
-            .map(|(kept, outcome)| (kept.points, outcome))
+            .map(|(sink, outcome)| (sink.points, outcome))
     }
 
     /// The path with its sections, and its outcome.
-    pub fn run_whole(&self) -> std::result::Result<(Kept, Outcome), Box<PipelineError>> {
+    pub fn run_whole(&self) -> std::result::Result<(MemorySink, Outcome), Box<PipelineError>> {
+        let mut sink = MemorySink::default();
+        match self.run_into(&mut sink, &SilentObserver) {
+            Ok(outcome) => Ok((sink, outcome)),
+            Err(RunError::Pipeline(error)) => Err(Box::new(error)),
+            Err(RunError::Sink(never)) => match never {},
+        }
+    }
+
+    /// Gives the path to a sink while an observer watches.
+    pub fn run_into<S: Sink>(
+        &self,
+        sink: &mut S,
+        observer: &dyn Observer,
+    ) -> std::result::Result<Outcome, RunError<S::Error>> {
         let surface: Arc<dyn SurfaceModel> = Arc::new(Saddle);
         let chain = Chain {
             surface: link(Slot::Surface, surface),
@@ -283,7 +298,7 @@ impl Job {
             interpolation: self.interpolation,
             residual: RESIDUAL,
         };
-        let wanted = Wanted {
+        let spec = JobSpec {
             part,
             tool,
             tolerance,
@@ -292,83 +307,75 @@ impl Job {
             spindle: SpindleLaw::constant(self.rpm / 60.0 * TAU),
             machine: Machine::default(),
         };
-        let prepared = prepare(&chain, wanted)?;
-        let mut kept = Kept::default();
-        let making = Making {
+        let preparation = prepare(&chain, spec)?;
+        let options = PathOptions {
             refine: self.refined,
             time_steps: self.time_steps,
             lead: self.lead,
             covers_centre: false,
             servo: None,
         };
-        let outcome = run(&chain, &prepared, making, &mut kept, &Quiet)?;
-        Ok((kept, outcome))
+        run(&chain, &preparation, options, sink, observer)
     }
 
     /// The path and its outcome of a job that works.
-    pub fn made(&self) -> (PathBlock, Outcome) {
+    pub fn path(&self) -> (PathBlock, Outcome) {
         self.run().expect("a path")
     }
 }
 
-/// Keeps the path.
-#[derive(Default)]
-pub struct Kept {
-    /// All control points.
-    pub points: PathBlock,
-    /// What each stretch was told: its section, its points, those before it, and whether it opens
-    /// its section.
-    pub stretches: Vec<(Section, usize, usize, bool)>,
+/// A block of the path as its sink got it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Delivery {
+    pub section: Section,
+    /// How many points it has.
+    pub points: usize,
+    /// How many points before it the sink was given.
+    pub before: usize,
+    pub opens_section: bool,
 }
 
-impl Kept {
+/// Keeps the path in memory.
+#[derive(Default)]
+pub struct MemorySink {
+    /// All control points.
+    pub points: PathBlock,
+    /// The blocks in the order in which they came.
+    pub deliveries: Vec<Delivery>,
+}
+
+impl MemorySink {
     /// Where the points of a section are.
     pub fn section(&self, section: Section) -> std::ops::Range<usize> {
-        let count = |wanted: &dyn Fn(Section) -> bool| -> usize {
-            let stretches = self.stretches.iter();
-            let chosen = stretches.filter(|stretch| wanted(stretch.0));
-            chosen.map(|stretch| stretch.1).sum()
+        let count = |is_counted: &dyn Fn(Section) -> bool| -> usize {
+            let deliveries = self.deliveries.iter();
+            let counted = deliveries.filter(|delivery| is_counted(delivery.section));
+            counted.map(|delivery| delivery.points).sum()
         };
         let before = count(&|s| s < section);
         before..before + count(&|s| s == section)
     }
 }
 
-impl Sink for Kept {
-    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
-        let numbers = stretch
-            .points
-            .points()
-            .flat_map(|p| [p.t, p.c, p.x, p.z, p.vc, p.vx, p.vz]);
-        let told = [
-            stretch.section as u8,
-            stretch.before.len() as u8,
-            u8::from(stretch.opens_section),
-        ];
-        Ok(vec![
-            told.to_vec(),
-            numbers.flat_map(f64::to_le_bytes).collect(),
-        ])
+impl Sink for MemorySink {
+    type Block = (Delivery, PathBlock);
+    type Error = Infallible;
+
+    fn encode(&self, block: &PathStretch<'_>) -> std::result::Result<Self::Block, Infallible> {
+        let delivery = Delivery {
+            section: block.section,
+            points: block.points.len(),
+            before: block.before.len(),
+            opens_section: block.opens_section,
+        };
+        Ok((delivery, block.points.clone()))
     }
 
-    fn take(&mut self, points: usize, encoded: &[Vec<u8>]) -> io::Result<()> {
-        let (told, encoded) = (&encoded[0], &encoded[1]);
-        let section = [Section::LeadIn, Section::Cutting, Section::LeadOut][usize::from(told[0])];
-        self.stretches
-            .push((section, points, usize::from(told[1]), told[2] == 1));
-        let (bytes, _) = encoded.as_chunks::<8>();
-        let numbers: Vec<f64> = bytes.iter().map(|b| f64::from_le_bytes(*b)).collect();
-        for [t, c, x, z, vc, vx, vz] in numbers.as_chunks::<7>().0 {
-            self.points.push(turnpath_core::toolpath::ControlPoint {
-                t: *t,
-                c: *c,
-                x: *x,
-                z: *z,
-                vc: *vc,
-                vx: *vx,
-                vz: *vz,
-            });
-        }
+    fn take(&mut self, points: usize, block: Self::Block) -> std::result::Result<(), Infallible> {
+        let (delivery, block) = block;
+        assert_eq!(points, delivery.points);
+        self.deliveries.push(delivery);
+        block.points().for_each(|point| self.points.push(point));
         Ok(())
     }
 }

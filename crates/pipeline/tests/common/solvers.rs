@@ -2,7 +2,7 @@
 
 use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
-/// The exact rates: local.
+/// The exact rates.
 pub struct Exact;
 
 impl VelocitySolver for Exact {
@@ -20,7 +20,7 @@ impl VelocitySolver for Exact {
     }
 }
 
-/// All velocities 0 but that of C: the error falls with the step alone.
+/// The exact rates of C and X, and no velocity of Z: the error falls only with the step.
 pub struct Resting;
 
 impl VelocitySolver for Resting {
@@ -53,7 +53,7 @@ impl VelocitySolver for Halting {
     }
 }
 
-/// The exact rates, and no number at the path's last node or where C passes 1000 rad.
+/// The exact rates, but no number for Z beyond C = 1000 rad.
 pub struct Broken;
 
 impl VelocitySolver for Broken {
@@ -127,8 +127,8 @@ fn spline(nodes: &Nodes<'_>, p: &[f64], rate: &[f64], slopes: &mut [f64]) {
     }
 }
 
-/// V₊ = V + (d − V)/c with c = 2/3, from the exact rates on: sequential. The state is the three
-/// velocities at the next block's first node.
+/// V₊ = V + (d − V)/c with c = 2/3, which begins with the exact rates. It is sequential: its state
+/// is the three velocities at the next block's first node.
 pub struct Area;
 
 impl VelocitySolver for Area {
@@ -163,8 +163,8 @@ impl VelocitySolver for Area {
     }
 }
 
-/// The exact rates, but for no rate of Z at the first node of every call: what one block's window
-/// says of a joint is not what the next one's says.
+/// The exact rates, but a zero rate of Z at the first node of every call: the windows of two
+/// neighbouring blocks then disagree about their joint.
 pub struct Disjoint;
 
 impl VelocitySolver for Disjoint {
@@ -180,7 +180,7 @@ impl VelocitySolver for Disjoint {
     }
 }
 
-/// Asks for all nodes.
+/// Requires an overlap of all nodes.
 pub struct Greedy;
 
 impl VelocitySolver for Greedy {

@@ -1,6 +1,6 @@
 //! Decimal fixed-point numbers into text.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use super::format::QUANTA_PER_MS;
 
@@ -10,25 +10,25 @@ const TIME_DECIMALS: u32 = 12;
 const TIME_STEP: i64 = 10i64.pow(TIME_DECIMALS) / QUANTA_PER_MS as i64;
 
 /// Appends `units` · 10^−`decimals`, without zeros at the end.
-pub(super) fn push(text: &mut Vec<u8>, units: i64, decimals: u32) -> io::Result<()> {
+pub(super) fn push(text: &mut Vec<u8>, units: i64, decimals: u32) {
     let (size, one) = (units.unsigned_abs(), 10u64.pow(decimals));
     if units < 0 {
         text.push(b'-');
     }
-    write!(text, "{}", size / one)?;
+    // Writing to memory cannot fail.
+    let _ = write!(text, "{}", size / one);
     let fraction = size % one;
     if fraction > 0 {
-        write!(text, ".{fraction:0width$}", width = decimals as usize)?;
+        let _ = write!(text, ".{fraction:0width$}", width = decimals as usize);
         while text.last() == Some(&b'0') {
             text.pop();
         }
     }
-    Ok(())
 }
 
 /// Appends a time as milliseconds, exactly.
-pub(super) fn push_ms(text: &mut Vec<u8>, quanta: i64) -> io::Result<()> {
-    push(text, quanta * TIME_STEP, TIME_DECIMALS)
+pub(super) fn push_ms(text: &mut Vec<u8>, quanta: i64) {
+    push(text, quanta * TIME_STEP, TIME_DECIMALS);
 }
 
 #[cfg(test)]
@@ -45,7 +45,7 @@ mod tests {
             (5, 0, "5"),
         ] {
             let mut written = Vec::new();
-            push(&mut written, units, decimals).unwrap();
+            push(&mut written, units, decimals);
             assert_eq!(String::from_utf8(written).unwrap(), text);
         }
         for (quanta, text) in [
@@ -54,7 +54,7 @@ mod tests {
             (6145, "1.500244140625"),
         ] {
             let mut written = Vec::new();
-            push_ms(&mut written, quanta).unwrap();
+            push_ms(&mut written, quanta);
             assert_eq!(String::from_utf8(written).unwrap(), text);
         }
     }

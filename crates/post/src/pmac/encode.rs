@@ -1,6 +1,6 @@
 //! Control points into program lines.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, PathStretch, Segment};
@@ -26,19 +26,20 @@ struct Digits {
 }
 
 /// The lines of a stretch.
-pub(super) fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> io::Result<Vec<u8>> {
+pub(super) fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> Result<Vec<u8>, PmacError> {
     let mut text = Vec::new();
     let mut trail = Trail::behind(format, stretch.before)?;
     if stretch.opens_section {
-        writeln!(text, "; {}", mark(stretch.section))?;
+        // Writing to memory cannot fail.
+        let _ = writeln!(text, "; {}", mark(stretch.section));
     }
     for point in stretch.points.points() {
-        let digits = Digits::of(format, &point, trail.point.as_ref()).map_err(io::Error::other)?;
+        let digits = Digits::of(format, &point, trail.point.as_ref())?;
         match trail.digits {
-            None => push_entry(&mut text, format, &digits)?,
+            None => push_entry(&mut text, format, &digits),
             Some(last) => {
-                let quanta = segment_time(&last, &digits, &point).map_err(io::Error::other)?;
-                push_time(&mut text, trail.quanta, quanta)?;
+                let quanta = segment_time(&last, &digits, &point)?;
+                push_time(&mut text, trail.quanta, quanta);
                 trail.quanta = quanta;
                 push_move(&mut text, format, &last, &digits, &point)?;
             }
@@ -58,15 +59,14 @@ struct Trail {
 }
 
 impl Trail {
-    fn behind(format: &PmacFormat, before: &[ControlPoint]) -> io::Result<Self> {
+    fn behind(format: &PmacFormat, before: &[ControlPoint]) -> Result<Self, PmacError> {
         let mut trail = Self {
             point: None,
             digits: None,
             quanta: i64::from(ENTRY_MS * QUANTA_PER_MS),
         };
         for point in before {
-            let digits =
-                Digits::of(format, point, trail.point.as_ref()).map_err(io::Error::other)?;
+            let digits = Digits::of(format, point, trail.point.as_ref())?;
             if let Some(last) = trail.digits {
                 trail.quanta = digits.quanta - last.quanta;
             }
@@ -153,23 +153,22 @@ fn segment_time(last: &Digits, digits: &Digits, point: &ControlPoint) -> Result<
 }
 
 /// The first point: a place, also where distances follow.
-fn push_entry(text: &mut Vec<u8>, format: &PmacFormat, digits: &Digits) -> io::Result<()> {
-    writeln!(text, "ABS\nPVT{ENTRY_MS}")?;
-    push_axes(text, format, places(format, digits), digits.velocity)?;
+fn push_entry(text: &mut Vec<u8>, format: &PmacFormat, digits: &Digits) {
+    // Writing to memory cannot fail.
+    let _ = writeln!(text, "ABS\nPVT{ENTRY_MS}");
+    push_axes(text, format, places(format, digits), digits.velocity);
     if format.incremental {
-        writeln!(text, "INC")?;
+        text.extend_from_slice(b"INC\n");
     }
-    Ok(())
 }
 
-fn push_time(text: &mut Vec<u8>, stands: i64, quanta: i64) -> io::Result<()> {
+fn push_time(text: &mut Vec<u8>, stands: i64, quanta: i64) {
     if quanta == stands {
-        return Ok(());
+        return;
     }
     text.extend_from_slice(b"PVT");
-    push_ms(text, quanta)?;
+    push_ms(text, quanta);
     text.push(b'\n');
-    Ok(())
 }
 
 fn push_move(
@@ -178,7 +177,7 @@ fn push_move(
     last: &Digits,
     digits: &Digits,
     point: &ControlPoint,
-) -> io::Result<()> {
+) -> Result<(), PmacError> {
     let [c, x, z] = digits.position;
     let [last_c, last_x, last_z] = last.position;
     let positions = if format.incremental {
@@ -187,11 +186,12 @@ fn push_move(
         let half_turn = turn(format) / 2;
         if format.c_wrapped && (c - last_c).abs() >= half_turn {
             let (t, c_deg) = (point.t, point.c / DEG);
-            return Err(io::Error::other(PmacError::HalfTurn { t, c_deg }));
+            return Err(PmacError::HalfTurn { t, c_deg });
         }
         places(format, digits)
     };
-    push_axes(text, format, positions, digits.velocity)
+    push_axes(text, format, positions, digits.velocity);
+    Ok(())
 }
 
 /// A revolution in last digits.
@@ -207,21 +207,15 @@ fn places(format: &PmacFormat, digits: &Digits) -> [i64; 3] {
     }
 }
 
-fn push_axes(
-    text: &mut Vec<u8>,
-    format: &PmacFormat,
-    positions: [i64; 3],
-    velocities: [i64; 3],
-) -> io::Result<()> {
+fn push_axes(text: &mut Vec<u8>, format: &PmacFormat, positions: [i64; 3], velocities: [i64; 3]) {
     for (k, axis) in AXES.into_iter().enumerate() {
         if k > 0 {
             text.push(b' ');
         }
         text.push(axis as u8);
-        push(text, positions[k], format.position_decimals)?;
+        push(text, positions[k], format.position_decimals);
         text.push(b':');
-        push(text, velocities[k], format.velocity_decimals)?;
+        push(text, velocities[k], format.velocity_decimals);
     }
     text.push(b'\n');
-    Ok(())
 }

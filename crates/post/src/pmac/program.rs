@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
 
 use super::encode;
+use super::error::PmacError;
 use super::format::{END_MARK, PmacFormat};
 use crate::{Draft, FileError};
 
@@ -64,8 +65,8 @@ impl PmacWriter {
     /// parallel.
     ///
     /// # Errors
-    /// A [`PmacError`](super::PmacError) within, where a program cannot carry the path.
-    pub fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> io::Result<Vec<u8>> {
+    /// When a program cannot carry the path.
+    pub fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> Result<Vec<u8>, PmacError> {
         encode::lines(format, stretch)
     }
 

@@ -1,0 +1,102 @@
+//! What a velocity solver gets, a column for each quantity.
+
+use std::ops::Range;
+
+use turnpath_core::Nodes;
+use turnpath_core::toolpath::ControlPoint;
+
+/// Nodes on the locus. The columns have the same length; units and meaning are those of
+/// [`Nodes`].
+#[derive(Default)]
+pub struct Columns {
+    pub t: Vec<f64>,
+    pub c: Vec<f64>,
+    pub x: Vec<f64>,
+    pub z: Vec<f64>,
+    pub c_rate: Vec<f64>,
+    pub x_rate: Vec<f64>,
+    pub z_theta: Vec<f64>,
+    pub z_x: Vec<f64>,
+}
+
+impl Columns {
+    fn each(&self) -> [&Vec<f64>; 8] {
+        let Self {
+            t,
+            c,
+            x,
+            z,
+            c_rate,
+            x_rate,
+            z_theta,
+            z_x,
+        } = self;
+        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
+    }
+
+    fn each_mut(&mut self) -> [&mut Vec<f64>; 8] {
+        let Self {
+            t,
+            c,
+            x,
+            z,
+            c_rate,
+            x_rate,
+            z_theta,
+            z_x,
+        } = self;
+        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
+    }
+
+    /// Appends the nodes `range` of another set.
+    pub fn append(&mut self, other: &Self, range: Range<usize>) {
+        for (own, other) in self.each_mut().into_iter().zip(other.each()) {
+            own.extend_from_slice(&other[range.clone()]);
+        }
+    }
+
+    /// How many nodes there are.
+    pub fn len(&self) -> usize {
+        self.t.len()
+    }
+
+    /// Whether every quantity of a node is a number.
+    pub fn is_finite(&self, node: usize) -> bool {
+        self.each().iter().all(|column| column[node].is_finite())
+    }
+
+    /// A further column without values.
+    pub fn unset(&self) -> Vec<f64> {
+        vec![f64::NAN; self.len()]
+    }
+
+    /// The nodes as a velocity solver gets them. `at_start` and `at_end` say whether the first
+    /// node is the path's first, and the last one its last.
+    pub fn nodes(&self, at_start: bool, at_end: bool) -> Nodes<'_> {
+        Nodes {
+            t: &self.t,
+            c: &self.c,
+            x: &self.x,
+            z: &self.z,
+            c_rate: &self.c_rate,
+            x_rate: &self.x_rate,
+            z_theta: &self.z_theta,
+            z_x: &self.z_x,
+            at_start,
+            at_end,
+        }
+    }
+
+    /// The control point of node `k` with these velocities.
+    pub fn point(&self, k: usize, vc: f64, vx: f64, vz: f64) -> ControlPoint {
+        ControlPoint {
+            t: self.t[k],
+            c: self.c[k],
+            x: self.x[k],
+            z: self.z[k],
+            vc,
+            vx,
+            vz,
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! How long a path will be, before it is made.
+
+use crate::observer::SilentObserver;
+use crate::plan::Plan;
+use crate::{Chain, Preparation, Result};
+
+/// About how many blocks are sampled to estimate the count of control points.
+const SAMPLED_BLOCKS: usize = 8;
+
+/// What a run will give, before refinement and without leads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Revolutions.
+    pub revolutions: f64,
+    /// Time, s.
+    pub cutting_time: f64,
+    /// Control points that the sampler will place, estimated from a few blocks.
+    pub control_points: f64,
+}
+
+/// Estimates the path from the chain's law and a few blocks of its sampler.
+///
+/// # Errors
+/// When a strategy fails.
+pub fn estimate(chain: &Chain, preparation: &Preparation) -> Result<Estimate> {
+    let plan = Plan::new(chain, preparation, &SilentObserver)?;
+    let revolutions = plan.law.end();
+    Ok(Estimate {
+        revolutions,
+        cutting_time: plan.preparation.job.spindle.time_at(revolutions),
+        control_points: nodes_per_revolution(&plan)? * revolutions + 1.0,
+    })
+}
+
+/// Mean count of the sampler's nodes on a revolution, from a few blocks.
+pub fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
+    let every = plan.blocks().div_ceil(SAMPLED_BLOCKS).max(1);
+    let (mut nodes, mut revolutions) = (0.0, 0.0);
+    for index in (0..plan.blocks()).step_by(every) {
+        let block = plan.revolutions(index);
+        nodes += plan.sample(index)?.len() as f64;
+        revolutions += block.end - block.start;
+    }
+    Ok(nodes / revolutions)
+}

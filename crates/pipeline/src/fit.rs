@@ -1,0 +1,106 @@
+//! Whether a nose of some radius fits a part.
+
+use std::sync::Arc;
+
+use turnpath_core::interference::{Extreme, Interference};
+use turnpath_core::largest_nose::{LargestNose, largest_that_fits};
+use turnpath_core::{
+    Compensator, Cut, Overrun, Part, RadialRange, StrategyError, SurfaceModel, Tool, ToolLocus,
+};
+
+use crate::attributed::{NamedCompensator, NamedSurface};
+use crate::contact::contact_range;
+use crate::range::range;
+use crate::{Chain, PipelineError, Result};
+
+/// The largest nose that is tried, in aperture radii. Beyond it the edge is straight for all that
+/// it does to the part.
+const STRAIGHT: f64 = 1e6;
+
+/// A part, its surface and its compensator, on which noses of any radius are tried.
+pub struct Fit<'a> {
+    pub chain: &'a Chain,
+    pub surface: Arc<dyn SurfaceModel>,
+    pub compensator: Arc<dyn Compensator>,
+    pub part: Part,
+    pub tool: Tool,
+    pub overrun: Overrun,
+}
+
+impl<'a> Fit<'a> {
+    /// The chain's surface and compensator on a part.
+    pub fn new(chain: &'a Chain, part: Part, tool: Tool, overrun: Overrun) -> Self {
+        Self {
+            chain,
+            surface: Arc::new(NamedSurface::new(&chain.surface)),
+            compensator: Arc::new(NamedCompensator::new(&chain.compensator)),
+            part,
+            tool,
+            overrun,
+        }
+    }
+
+    /// The radii of the part without its overrun.
+    pub fn whole_part(&self) -> RadialRange {
+        RadialRange {
+            inner: self.part.inner_radius,
+            outer: self.part.aperture_radius,
+        }
+    }
+
+    /// The largest nose that fits, where `on_part` is the largest curvature of the part itself.
+    pub fn largest_nose(&self, on_part: Extreme) -> Result<LargestNose> {
+        let most = STRAIGHT * self.part.aperture_radius;
+        largest_that_fits(on_part, most, |radius| {
+            let tool = Tool {
+                nose_radius: radius,
+                ..self.tool
+            };
+            match self.largest_curvature(tool) {
+                // The surface ends within the reach of so large a nose, or there is no contact.
+                Err(PipelineError::NoSurface(_) | PipelineError::BadAnswer { .. }) => Ok(Extreme {
+                    value: f64::INFINITY,
+                    ..on_part
+                }),
+                answer => answer,
+            }
+        })
+    }
+
+    /// The largest curvature where such a tool makes contact.
+    fn largest_curvature(&self, tool: Tool) -> Result<Extreme> {
+        let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
+        let region = contact_range(self.chain, &locus, &tool, self.range(tool)?)?;
+        Ok(self.interference(tool, region)?.curvature)
+    }
+
+    /// The range of ρ over which the path of such a tool runs.
+    pub fn range(&self, tool: Tool) -> Result<RadialRange> {
+        let (surface, compensator) = (self.surface.as_ref(), self.compensator.as_ref());
+        range(self.overrun, &self.part, &tool, surface, compensator)
+            .map_err(PipelineError::NoSurface)
+    }
+
+    /// What a region of the part requires of such a tool.
+    pub fn interference(&self, tool: Tool, region: RadialRange) -> Result<Interference> {
+        let cut = Cut {
+            surface: self.surface.as_ref(),
+            tool: &tool,
+        };
+        let answer = self.compensator.interference(cut, region);
+        let link = &self.chain.compensator;
+        let interference = answer.map_err(|error| match error {
+            StrategyError::Failed(_) => PipelineError::NoSurface(error),
+            other => link.failed("in the interference check", other),
+        })?;
+        let is_finite = |extreme: &Extreme| {
+            let all = [extreme.value, extreme.theta, extreme.rho];
+            all.iter().all(|number| number.is_finite())
+        };
+        if interference.extremes().iter().all(is_finite) {
+            return Ok(interference);
+        }
+        let what = format!("no numbers in its interference check: {interference:?}");
+        Err(link.bad_answer(what))
+    }
+}

@@ -1,0 +1,39 @@
+//! What a recipe asks for, before the range of ρ is known.
+
+use turnpath_core::{
+    Direction, Job, Machine, Overrun, Part, RadialRange, SpindleLaw, Tolerance, Tool,
+};
+
+/// A job as a recipe describes it, before the range of ρ is known.
+#[derive(Debug, Clone)]
+pub struct JobSpec {
+    /// The part.
+    pub part: Part,
+    /// The tool.
+    pub tool: Tool,
+    /// The tolerances of the path.
+    pub tolerance: Tolerance,
+    /// How far the path runs beyond the part.
+    pub overrun: Overrun,
+    /// The direction of the feed.
+    pub direction: Direction,
+    /// How fast the spindle turns.
+    pub spindle: SpindleLaw,
+    /// The limits of the machine.
+    pub machine: Machine,
+}
+
+impl JobSpec {
+    /// The job over a range of ρ.
+    pub(crate) fn over(self, range: RadialRange) -> Job {
+        Job {
+            part: self.part,
+            tool: self.tool,
+            tolerance: self.tolerance,
+            range,
+            direction: self.direction,
+            spindle: self.spindle,
+            machine: self.machine,
+        }
+    }
+}

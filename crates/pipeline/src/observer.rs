@@ -1,0 +1,49 @@
+//! Progress and cancellation of a long run.
+
+use crate::{PipelineError, Result};
+
+/// A stage of a run, in the order in which the stages come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Planning the spiral law; it counts as one block.
+    Law,
+    /// Playing the path back and refining it; the round counts from 1. Its blocks are those that
+    /// this round makes again.
+    Refine(u32),
+    /// Making, measuring and writing the path.
+    Write,
+    /// Reading back and measuring what was written.
+    ReadBack,
+    /// Making maps and profiles of the surface that is cut.
+    Map,
+}
+
+/// Watches a run, and may cancel it. All counts are blocks, of revolutions or of points.
+pub trait Observer: Sync {
+    /// A stage of so many blocks begins.
+    fn begin(&self, stage: Stage, blocks: u64);
+    /// So many more blocks of the stage are done.
+    fn advance(&self, blocks: u64);
+    /// Whether the run shall stop. The run asks between the steps of the law, before each batch of
+    /// blocks, and before each block that it gives to the sink. Where the answer is yes it ends
+    /// with [`PipelineError::Cancelled`].
+    fn is_cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// An observer that does nothing and never cancels.
+pub struct SilentObserver;
+
+impl Observer for SilentObserver {
+    fn begin(&self, _: Stage, _: u64) {}
+    fn advance(&self, _: u64) {}
+}
+
+/// Ends the run where its observer has cancelled it.
+pub fn stop_if_cancelled(observer: &dyn Observer) -> Result<()> {
+    match observer.is_cancelled() {
+        true => Err(PipelineError::Cancelled),
+        false => Ok(()),
+    }
+}

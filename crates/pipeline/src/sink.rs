@@ -1,0 +1,27 @@
+//! Where the path goes.
+
+use turnpath_core::toolpath::PathStretch;
+
+/// Takes the path while it is made. Blocks are encoded in parallel and taken in order.
+pub trait Sink: Sync {
+    /// A block in the form that this sink keeps: bytes of files, counts, columns.
+    type Block: Send;
+    /// Why a block could not be encoded or taken.
+    type Error: Send;
+
+    /// Puts a block into the form that this sink keeps.
+    ///
+    /// # Errors
+    /// When the form cannot carry the block. The run then ends with [`RunError::Sink`].
+    ///
+    /// [`RunError::Sink`]: crate::RunError::Sink
+    fn encode(&self, block: &PathStretch<'_>) -> Result<Self::Block, Self::Error>;
+
+    /// Takes the next block of the path, with its count of control points.
+    ///
+    /// # Errors
+    /// When the block cannot be kept. The run then ends with [`RunError::Sink`].
+    ///
+    /// [`RunError::Sink`]: crate::RunError::Sink
+    fn take(&mut self, points: usize, block: Self::Block) -> Result<(), Self::Error>;
+}

@@ -1,0 +1,160 @@
+//! A run ends early where its observer cancels it or its sink fails, and nothing is taken after
+//! that.
+
+mod common;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use common::{Job, MemorySink, inward};
+use turnpath_core::toolpath::PathStretch;
+use turnpath_pipeline::{Observer, Outcome, PipelineError, RunError, Sink, Stage};
+
+/// Counts events until there are `last` of them.
+struct Countdown {
+    events: AtomicUsize,
+    last: usize,
+}
+
+impl Countdown {
+    fn to(last: usize) -> Self {
+        let events = AtomicUsize::new(0);
+        Self { events, last }
+    }
+
+    fn count(&self) {
+        self.events.fetch_add(1, Ordering::SeqCst);
+    }
+
+    fn counted(&self) -> usize {
+        self.events.load(Ordering::SeqCst)
+    }
+
+    fn is_over(&self) -> bool {
+        self.counted() >= self.last
+    }
+}
+
+/// A path of four blocks, refined.
+fn job() -> Job {
+    Job {
+        feed: inward(200.0),
+        refined: true,
+        ..Job::default()
+    }
+}
+
+#[track_caller]
+fn assert_cancelled<E>(result: Result<Outcome, RunError<E>>) {
+    match result {
+        Err(RunError::Pipeline(PipelineError::Cancelled)) => {}
+        Err(RunError::Pipeline(other)) => panic!("{other}"),
+        Err(RunError::Sink(_)) => panic!("the sink failed"),
+        Ok(_) => panic!("a whole path"),
+    }
+}
+
+/// Cancels when a stage begins.
+struct CancelsAt {
+    stage: Stage,
+    reached: Countdown,
+}
+
+impl Observer for CancelsAt {
+    fn begin(&self, stage: Stage, _: u64) {
+        if stage == self.stage {
+            self.reached.count();
+        }
+    }
+
+    fn advance(&self, _: u64) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.reached.is_over()
+    }
+}
+
+#[test]
+fn a_run_that_is_cancelled_as_a_stage_begins_takes_nothing() {
+    for stage in [Stage::Law, Stage::Refine(1), Stage::Write] {
+        let observer = CancelsAt {
+            stage,
+            reached: Countdown::to(1),
+        };
+        let mut sink = MemorySink::default();
+        assert_cancelled(job().run_into(&mut sink, &observer));
+        assert!(sink.deliveries.is_empty(), "{stage:?}");
+    }
+    let message = PipelineError::Cancelled.to_string();
+    assert_eq!(message, "the run was cancelled");
+}
+
+/// Cancels once its sink has taken so many blocks.
+struct CancelsAfter(Arc<Countdown>);
+
+impl Observer for CancelsAfter {
+    fn begin(&self, _: Stage, _: u64) {}
+
+    fn advance(&self, _: u64) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.0.is_over()
+    }
+}
+
+/// Counts the blocks that it takes, and fails at the block `fails_at`.
+struct CountingSink {
+    taken: Arc<Countdown>,
+    fails_at: usize,
+}
+
+/// The block at which the sink failed.
+#[derive(Debug, PartialEq)]
+struct Full(usize);
+
+impl Sink for CountingSink {
+    type Block = usize;
+    type Error = Full;
+
+    fn encode(&self, block: &PathStretch<'_>) -> Result<usize, Full> {
+        Ok(block.points.len())
+    }
+
+    fn take(&mut self, points: usize, block: usize) -> Result<(), Full> {
+        assert_eq!(points, block);
+        let before = self.taken.counted();
+        if before == self.fails_at {
+            return Err(Full(before));
+        }
+        self.taken.count();
+        Ok(())
+    }
+}
+
+#[test]
+fn nothing_is_taken_after_a_run_is_cancelled_in_the_middle() {
+    for blocks in 1..4 {
+        let taken = Arc::new(Countdown::to(blocks));
+        let mut sink = CountingSink {
+            taken: taken.clone(),
+            fails_at: usize::MAX,
+        };
+        assert_cancelled(job().run_into(&mut sink, &CancelsAfter(taken.clone())));
+        assert_eq!(taken.counted(), blocks);
+    }
+}
+
+#[test]
+fn the_error_of_a_sink_comes_back_as_it_is_and_ends_the_run() {
+    let taken = Arc::new(Countdown::to(usize::MAX));
+    let mut sink = CountingSink {
+        taken: taken.clone(),
+        fails_at: 2,
+    };
+    match job().run_into(&mut sink, &CancelsAfter(taken.clone())) {
+        Err(RunError::Sink(error)) => assert_eq!(error, Full(2)),
+        Err(RunError::Pipeline(other)) => panic!("{other}"),
+        Ok(_) => panic!("a whole path"),
+    }
+    assert_eq!(taken.counted(), 2);
+}
