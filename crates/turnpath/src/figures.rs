@@ -6,8 +6,8 @@ use turnpath_report as report;
 use turnpath_report::{LimitFigure, PathPlace};
 use turnpath_verify::machined::{MachinedFigures, PartPoint};
 use turnpath_verify::{
-    AxesMotion, AxisMotion, CoverageFigures, Following, LeadFigures, PathFigures, Peak,
-    ResidualFigures, ServoFigures, Uncut, UnreachedFigures,
+    AxesMotion, AxisMotion, CoverageFigures, FollowingError, LeadFigures, PathFigures, Peak,
+    ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
 };
 
 /// The tolerances of a recipe.
@@ -83,7 +83,7 @@ fn residual(figures: &ResidualFigures, overrun: report::Overrun) -> report::Resi
 }
 
 fn coverage(figures: &CoverageFigures) -> report::Coverage {
-    let uncut = |uncut: Option<Uncut>| {
+    let uncut = |uncut: Option<UncutHeight>| {
         uncut.map(|uncut| report::Uncut {
             height: Some(uncut.height).filter(|height| height.is_finite()),
             c: uncut.at_theta,
@@ -181,7 +181,7 @@ pub fn lead(figures: &LeadFigures, leads: Option<&Leads>, recipe: &Recipe) -> re
 }
 
 fn servo_report(figures: &ServoFigures) -> report::ServoReport {
-    let linear = |error: &Following| report::LinearLag {
+    let linear = |error: &FollowingError| report::LinearLag {
         max: error.max,
         rms: error.rms(),
     };

@@ -59,8 +59,8 @@ impl PathMeters {
                     servo,
                     points,
                 } = cut.as_ref();
-                self.lead.pass(points);
-                self.anomalies.pass(points, &figures.per_point);
+                self.lead.append_cut(points);
+                self.anomalies.append(points, &figures.per_point);
                 if let (Some(meter), Some(block)) = (&mut self.servo, servo) {
                     meter.append(block);
                 }
@@ -68,7 +68,7 @@ impl PathMeters {
             }
             MeasuredBlock::Lead(lead) => {
                 let (figures, points) = lead.as_ref();
-                self.anomalies.pass(points, &[]);
+                self.anomalies.append(points, &[]);
                 self.lead.append(figures);
                 Ok(())
             }
@@ -133,7 +133,7 @@ pub fn measure(
         }
         let starts: Vec<Option<ServoStart>> = blocks
             .iter()
-            .map(|(_, block)| meters.servo.as_mut().map(|servo| servo.pass(block)))
+            .map(|(_, block)| meters.servo.as_mut().map(|servo| servo.advance(block)))
             .collect();
         let (touch, count) = (meters.cut.touch(), blocks.len() as u64);
         let measured: Vec<MeasuredBlock> = blocks

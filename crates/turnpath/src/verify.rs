@@ -128,7 +128,7 @@ impl<'a> Target<'a> {
             reach,
             path,
             files: self.draw(file, plots, &played, observer)?,
-            anomalies: anomalies(meters.anomalies.end()),
+            anomalies: anomalies(meters.anomalies.finish()),
             unreached,
         };
         Ok(report.judged())
@@ -186,14 +186,14 @@ fn anomalies((count, found): (u64, Vec<Anomaly>)) -> report::Anomalies {
             c: anomaly.c,
             x: anomaly.x,
         },
-        kind: match anomaly.what {
+        kind: match anomaly.kind {
             AnomalyKind::Height => report::AnomalyKind::ZPosition,
-            AnomalyKind::TurnsOfC => report::AnomalyKind::CMotion,
+            AnomalyKind::MotionOfC => report::AnomalyKind::CMotion,
             AnomalyKind::MotionOfX => report::AnomalyKind::XMotion,
             AnomalyKind::MotionOfZ => report::AnomalyKind::ZMotion,
             AnomalyKind::Gap => report::AnomalyKind::Gap,
         },
-        by: anomaly.by,
+        by: anomaly.amount,
         neighbours: anomaly.usual,
     };
     report::Anomalies {

@@ -103,7 +103,7 @@ impl LeadRun {
         let figures = maker.measure(&points)?;
         run.turns_in = layout.turns;
         run.meter.append(&figures);
-        run.meter.pass(&block_of(&cut));
+        run.meter.append_cut(&block_of(&cut));
         run.lead_in = Some(points);
         Ok(run)
     }
@@ -135,7 +135,7 @@ impl LeadRun {
         let points = maker.points(&layout, &join)?;
         let figures = maker.measure(&points)?;
         let mut meter = std::mem::take(&mut self.meter);
-        meter.pass(&block_of(pair));
+        meter.append_cut(&block_of(pair));
         meter.append(&figures);
         let time = |points: &PathBlock| extent(&points.t);
         let lead_in = self.lead_in.take().unwrap_or_default();
