@@ -48,7 +48,7 @@ pub fn check(args: &CheckArgs) -> Done {
     let job = Job::ready(&args.recipe, &args.work)?;
     let expected = expect(&job.chain, &job.prepared).map_err(|e| of_pipeline(&job.recipe, e))?;
     let programs = asked(&job.recipe, job.compensates_nose())?;
-    let radius = job.prepared.job.range.outer;
+    let radius = job.prepared.task.range.outer;
     let nose = largest_nose(&job.chain, &job.prepared);
     let nose = nose.map_err(|e| of_pipeline(&job.recipe, e))?;
     let checked = Checked {

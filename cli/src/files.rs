@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use turnpath_core::toolpath::PathStretch;
+use turnpath_core::toolpath::SectionBlock;
 use turnpath_pipeline::{Outcome, Sink};
 use turnpath_post::{Draft, FileError, PathReader, PathWriter, PmacWriter};
 
@@ -173,7 +173,7 @@ fn nothing_in_the_way<'a>(
 }
 
 impl Sink for Files {
-    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
+    fn encode(&self, stretch: &SectionBlock<'_>) -> io::Result<Vec<Vec<u8>>> {
         let mut encoded = Vec::new();
         if self.wants_path {
             encoded.push(PathWriter::rows(stretch.section, stretch.points)?);

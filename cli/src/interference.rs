@@ -98,7 +98,7 @@ enum On {
 impl Report {
     /// From the check and the search for the largest nose.
     pub fn new(prepared: &Prepared, nose: &LargestNose) -> Self {
-        let (found, job) = (&prepared.interference, &prepared.job);
+        let (found, job) = (&prepared.interference, &prepared.task);
         Self {
             largest_nose_radius_mm: finite(nose.radius),
             least_included_angle_deg: least_included(found),

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use turnpath_core::toolpath::{PathStretch, SegmentShape};
+use turnpath_core::toolpath::{SectionBlock, SegmentShape};
 use turnpath_pipeline::{Leads, Outcome, PipelineError, Progress, Stage};
 use turnpath_post::{
     Draft, FileError, PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacReader,
@@ -74,7 +74,7 @@ impl Program {
     }
 
     /// A stretch of the path as program lines.
-    pub fn lines(&self, stretch: &PathStretch<'_>) -> std::io::Result<Vec<u8>> {
+    pub fn lines(&self, stretch: &SectionBlock<'_>) -> std::io::Result<Vec<u8>> {
         PmacWriter::lines(&self.format, stretch)
     }
 

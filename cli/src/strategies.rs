@@ -131,7 +131,7 @@ fn not_made(
                 )
                 .into()
         }
-        panicked @ (StrategyError::Panicked(_) | StrategyError::Asked { .. }) => {
+        panicked @ (StrategyError::Panicked(_) | StrategyError::Delegate { .. }) => {
             let title = format!("the {} `{name}` of {plugin} {panicked}", slot.noun());
             let place = choice.name.place.clone();
             Failure::plugin(&recipe.complaint(place, title, "while it was made", []))

@@ -4,7 +4,7 @@ use std::io;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use turnpath_core::toolpath::{PathStretch, SegmentShape};
+use turnpath_core::toolpath::{SectionBlock, SegmentShape};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Quiet, Sink, run as run_pipeline};
 use turnpath_post::{PmacFormat, PmacWriter};
@@ -73,7 +73,7 @@ impl Sizes {
 
 impl Sink for Sizes {
     /// The count of bytes alone; nothing where there is no program.
-    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
+    fn encode(&self, stretch: &SectionBlock<'_>) -> io::Result<Vec<Vec<u8>>> {
         if self.program_bytes.is_none() {
             return Ok(Vec::new());
         }

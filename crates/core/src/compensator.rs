@@ -68,7 +68,7 @@ pub trait Compensator: Send + Sync {
     }
 
     /// Whether the nose goes no further than where it first touches with any part of its edge, so
-    /// that it cuts into nothing where it does not fit. Without this a job that asks for
+    /// that it cuts into nothing where it does not fit. Without this a task that asks for
     /// [`Misfit::CutWhatFits`](crate::Misfit) is refused on a part into which the nose does not
     /// fit.
     fn cuts_what_fits(&self) -> bool {

@@ -24,7 +24,7 @@ pub enum StrategyError {
     /// Another strategy that this one asked could not answer: a sampler asks the locus, a
     /// compensator the surface.
     #[error("{message}")]
-    Asked {
+    Delegate {
         /// The slot of the strategy that was asked.
         slot: Slot,
         /// What it said, with its name and its plugin's.

@@ -1,23 +1,23 @@
 //! The feed strategy: the spiral law, block by block.
 
-use crate::{Job, Locus, Result, quintic};
+use crate::{Locus, Result, Task, quintic};
 
-/// The job and the locus, before there is a law.
+/// The task and the locus, before there is a law.
 #[derive(Clone, Copy)]
 pub struct Setup<'a> {
     /// Part, tool, tolerance, range of ρ, direction, spindle.
-    pub job: &'a Job,
+    pub task: &'a Task,
     /// Where the nose centre goes.
     pub locus: &'a dyn Locus,
 }
 
 /// Whether a law goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Onward {
+pub enum Continuation {
     /// There is more to come.
     More,
     /// The law has reached its end.
-    Done,
+    End,
 }
 
 /// Plans how far the tool feeds against revolutions.
@@ -28,18 +28,18 @@ pub trait FeedStrategy: Send + Sync {
 
 /// One piece of a law in the making.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct FeedPiece {
     /// How many revolutions it covers.
     pub length: f64,
     /// Coefficients of ρ in mm against the revolutions since its start, lowest first.
     pub coefficients: [f64; 6],
 }
 
-impl Stretch {
+impl FeedPiece {
     /// The polynomial of degree 5 with a given ρ, dρ/dN and d²ρ/dN² at each of its ends.
     ///
     /// ```
-    /// let smooth = turnpath_core::Stretch::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
+    /// let smooth = turnpath_core::FeedPiece::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
     /// assert_eq!(smooth.coefficients, [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]);
     /// ```
     pub fn between(from: [f64; 3], to: [f64; 3], length: f64) -> Self {
@@ -64,5 +64,5 @@ pub trait FeedPlan: Send {
     /// follows the angle must close by itself, at N = 0 also: begin with a turn that hardly leaves
     /// the end of the range, let the feed come in over the turns that follow, and go on until the
     /// slowest angle has passed the other end.
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward>;
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation>;
 }

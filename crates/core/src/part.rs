@@ -22,7 +22,7 @@ pub struct Part {
 /// contact would leave the edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Misfit {
-    /// The job is refused.
+    /// The task is refused.
     #[default]
     Refuse,
     /// The tool goes where it first touches, and the part stays higher where it cannot go.
@@ -92,9 +92,9 @@ pub enum Direction {
     Outward,
 }
 
-/// All that a strategy may know of the job besides the locus.
+/// All that a strategy may know of the task besides the locus.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Job {
+pub struct Task {
     /// What is cut.
     pub part: Part,
     /// With what.

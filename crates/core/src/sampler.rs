@@ -1,7 +1,7 @@
 //! The sampler: where the control points lie along the spiral.
 
 use crate::locus::Locus;
-use crate::{Job, Result, Series, SpiralLaw, per_radian};
+use crate::{Result, Series, SpiralLaw, Task, per_radian};
 use std::f64::consts::TAU;
 
 /// How a strategy's answer for one block depends on the rest of the path.
@@ -15,11 +15,11 @@ pub enum Dependence {
     Sequential,
 }
 
-/// The path that is to be sampled: job, locus and spiral law.
+/// The path that is to be sampled: task, locus and spiral law.
 #[derive(Clone, Copy)]
 pub struct Path<'a> {
     /// Part, tool, tolerance, range of ρ, direction, spindle.
-    pub job: &'a Job,
+    pub task: &'a Task,
     /// Where the nose centre goes.
     pub locus: &'a dyn Locus,
     /// ρ = ℓ(N).
@@ -123,7 +123,7 @@ pub trait Sampler: Send + Sync {
     }
 
     /// The same for a `Sequential` sampler: `state` is what the block before left, empty at first.
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,

@@ -150,7 +150,7 @@ impl PathBlock {
 /// Neighbouring control points on their way to the files, with what came before them: enough to
 /// write times and distances that do not depend on where a block begins.
 #[derive(Debug, Clone, Copy)]
-pub struct PathStretch<'a> {
+pub struct SectionBlock<'a> {
     /// What the points are for.
     pub section: Section,
     /// Whether the section begins with the first of them.

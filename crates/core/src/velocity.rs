@@ -73,7 +73,7 @@ pub trait VelocitySolver: Send + Sync {
     /// The same for a `Sequential` solver. The nodes end with the next block's first one (but for
     /// the path's last block), which the next call gets again; `state` is what the call for the
     /// block before left, empty at first.
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: Nodes<'_>,
         state: &mut Vec<f64>,

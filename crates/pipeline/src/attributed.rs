@@ -1,7 +1,7 @@
 //! Strategies that others ask, with their names put into what they say.
 //!
 //! A sampler that fails because the surface panicked is not to blame: the surface's error crosses
-//! it as [`StrategyError::Asked`], and the message names the surface.
+//! it as [`StrategyError::Delegate`], and the message names the surface.
 
 use std::sync::Arc;
 
@@ -36,8 +36,8 @@ impl Name {
 
     fn put<T>(&self, answer: Result<T>) -> Result<T> {
         answer.map_err(|error| match error {
-            asked @ StrategyError::Asked { .. } => asked,
-            own => StrategyError::Asked {
+            asked @ StrategyError::Delegate { .. } => asked,
+            own => StrategyError::Delegate {
                 slot: self.slot,
                 message: format!("{}: {own}", self.text).into(),
             },

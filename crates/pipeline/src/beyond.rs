@@ -35,7 +35,7 @@ pub fn check(chain: &Chain, prepared: &Prepared, law: &SpiralLaw) -> Result<()> 
 
 /// θ and ρ of a turn's places beyond the range.
 fn places(prepared: &Prepared, law: &SpiralLaw, turn: u64) -> Vec<(f64, f64)> {
-    let range = prepared.job.range;
+    let range = prepared.task.range;
     let parts = (0..=ANGLES).map(|i| f64::from(i) / f64::from(ANGLES));
     let on_law = parts.filter(|part| turn as f64 + part <= law.end());
     let places = on_law.map(|part| (TAU * part, law.value(turn as f64 + part)));
@@ -46,7 +46,7 @@ fn places(prepared: &Prepared, law: &SpiralLaw, turn: u64) -> Vec<(f64, f64)> {
 }
 
 fn fits(chain: &Chain, prepared: &Prepared, places: &[(f64, f64)]) -> Result<()> {
-    let Prepared { job, locus, .. } = prepared;
+    let Prepared { task, locus, .. } = prepared;
     let (theta, rho): (Vec<f64>, Vec<f64>) = places.iter().copied().unzip();
     let mut room = CentreBuffers::default();
     room.resize(theta.len());
@@ -54,15 +54,15 @@ fn fits(chain: &Chain, prepared: &Prepared, places: &[(f64, f64)]) -> Result<()>
     answer.map_err(|error| attributed(chain, error))?;
     let feet = room.foot.iter().zip(places);
     if let Some((_, (theta, rho))) = feet.into_iter().find(|(foot, _)| !foot.is_finite()) {
-        return Err(no_contact(chain, &job.tool, *theta, *rho));
+        return Err(no_contact(chain, &task.tool, *theta, *rho));
     }
     let cut = Cut {
         surface: locus.surface(),
-        tool: &job.tool,
+        tool: &task.tool,
     };
     let found =
         interference::at(cut, &theta, &room.foot).map_err(|error| attributed(chain, error))?;
-    let conflicts = conflicts(&found, &job.tool, chain.compensator.strategy.as_ref());
+    let conflicts = conflicts(&found, &task.tool, chain.compensator.strategy.as_ref());
     if conflicts.is_empty() {
         return Ok(());
     }

@@ -24,7 +24,7 @@ impl<T: ?Sized> Link<T> {
     /// An error of this strategy, or of one that it asked; `place` says while doing what.
     pub fn failed(&self, place: impl Into<String>, error: StrategyError) -> PipelineError {
         let place = place.into();
-        if let StrategyError::Asked { slot, message } = error {
+        if let StrategyError::Delegate { slot, message } = error {
             let message = message.into_owned();
             return PipelineError::Asked {
                 slot,

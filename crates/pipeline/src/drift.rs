@@ -116,7 +116,7 @@ fn allowed(plan: &Plan<'_>, drifts: &[Drift], side: f64) -> Result<Vec<f64>> {
     let pairs: Vec<[f64; 2]> = drifts.iter().zip(&others).map(pair).collect();
     let heights =
         cusp_heights(&plan.prepared.touch, &theta, &pairs).map_err(PipelineError::Measure)?;
-    let residual = plan.prepared.job.tolerance.residual;
+    let residual = plan.prepared.task.tolerance.residual;
     let allowed = |(height, [x, other]): (Option<f64>, [f64; 2])| match height {
         Some(height) => left(height / residual, (other - x).abs()),
         None => f64::INFINITY,

@@ -21,9 +21,9 @@ const STRAIGHT: f64 = 1e6;
 /// # Errors
 /// When a strategy fails.
 pub fn largest_nose(chain: &Chain, prepared: &Prepared) -> Result<LargestNose> {
-    let job = &prepared.job;
-    let fit = Fit::new(chain, job.part, job.tool, prepared.overrun);
-    let on_part = fit.interference(job.tool, fit.whole_part())?;
+    let task = &prepared.task;
+    let fit = Fit::new(chain, task.part, task.tool, prepared.overrun);
+    let on_part = fit.interference(task.tool, fit.whole_part())?;
     fit.largest_nose(on_part.curvature)
 }
 

@@ -3,7 +3,9 @@
 //! A piece takes 56 bytes. Laws with one value a radius have some hundred pieces whatever the
 //! part; one that changes with the angle has some for every revolution.
 
-use turnpath_core::{Direction, Job, Locus, Onward, RadialRange, Setup, SpiralLaw, Stretch};
+use turnpath_core::{
+    Continuation, Direction, FeedPiece, Locus, RadialRange, Setup, SpiralLaw, Task,
+};
 
 use crate::{Chain, Result};
 
@@ -19,19 +21,19 @@ const LARGEST_JUMP: f64 = 1e-6;
 const SLACK: f64 = 1e-5;
 
 /// Plans the law and checks it.
-pub fn plan(chain: &Chain, job: &Job, locus: &dyn Locus) -> Result<SpiralLaw> {
-    let setup = Setup { job, locus };
+pub fn plan(chain: &Chain, task: &Task, locus: &dyn Locus) -> Result<SpiralLaw> {
+    let setup = Setup { task, locus };
     let failed = |error| chain.feed.failed("while planning the law", error);
     let mut plan = chain.feed.strategy.plan(setup).map_err(failed)?;
     let mut law = SpiralLaw::new();
-    let mut spiral = Spiral::new(job);
-    let mut pieces: Vec<Stretch> = Vec::new();
+    let mut spiral = Spiral::new(task);
+    let mut pieces: Vec<FeedPiece> = Vec::new();
     loop {
         pieces.clear();
-        let onward = plan
+        let continuation = plan
             .extend(setup, &mut pieces)
             .map_err(|error| chain.feed.failed(after(&law), error))?;
-        if pieces.is_empty() && onward == Onward::More {
+        if pieces.is_empty() && continuation == Continuation::More {
             let what = format!("no piece, {}", after(&law));
             return Err(chain.feed.bad_answer(what));
         }
@@ -41,11 +43,11 @@ pub fn plan(chain: &Chain, job: &Job, locus: &dyn Locus) -> Result<SpiralLaw> {
         spiral
             .follow(&law)
             .map_err(|what| chain.feed.bad_answer(what))?;
-        if onward == Onward::Done {
+        if continuation == Continuation::End {
             break;
         }
     }
-    covers(&law, job).map_err(|what| chain.feed.bad_answer(what))?;
+    covers(&law, task).map_err(|what| chain.feed.bad_answer(what))?;
     Ok(law)
 }
 
@@ -56,10 +58,10 @@ fn after(law: &SpiralLaw) -> String {
 type Checked = std::result::Result<(), String>;
 
 /// Appends a piece that begins where the law ends.
-fn add(law: &mut SpiralLaw, piece: &Stretch) -> Checked {
+fn add(law: &mut SpiralLaw, piece: &FeedPiece) -> Checked {
     let numbers = piece.coefficients.iter().all(|c| c.is_finite());
     if !(numbers && piece.length.is_finite() && piece.length > 0.0) {
-        let Stretch {
+        let FeedPiece {
             length,
             coefficients,
         } = piece;
@@ -79,13 +81,13 @@ fn add(law: &mut SpiralLaw, piece: &Stretch) -> Checked {
 }
 
 /// The law begins and ends at the two ends of the range, or beyond.
-fn covers(law: &SpiralLaw, job: &Job) -> Checked {
+fn covers(law: &SpiralLaw, task: &Task) -> Checked {
     if law.pieces().is_empty() {
         return Err("a law without pieces".to_owned());
     }
     let (start, end) = (law.value(0.0), law.value(law.end()));
-    let RadialRange { inner, outer } = job.range;
-    let (low, high) = match job.direction {
+    let RadialRange { inner, outer } = task.range;
+    let (low, high) = match task.direction {
         Direction::Outward => (start, end),
         Direction::Inward => (end, start),
     };
@@ -108,11 +110,11 @@ struct Spiral {
 }
 
 impl Spiral {
-    fn new(job: &Job) -> Self {
-        let RadialRange { inner, outer } = job.range;
-        let beyond = outer - inner + 2.0 * job.tool.nose_radius;
+    fn new(task: &Task) -> Self {
+        let RadialRange { inner, outer } = task.range;
+        let beyond = outer - inner + 2.0 * task.tool.nose_radius;
         Self {
-            outward: match job.direction {
+            outward: match task.direction {
                 Direction::Outward => 1.0,
                 Direction::Inward => -1.0,
             },

@@ -236,7 +236,7 @@ fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
 
 /// Puts nodes on the locus.
 fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
-    let (job, compensator) = (&plan.prepared.job, &plan.chain.compensator);
+    let (task, compensator) = (&plan.prepared.task, &plan.chain.compensator);
     let (n, t) = on_time(plan, nodes)?;
     let place = || match (n.first(), n.last()) {
         (Some(first), Some(last)) => format!("in revolutions {first:.3} to {last:.3}"),
@@ -262,7 +262,7 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
     locus
         .rates(&theta, &rho, rates)
         .map_err(|error| compensator.failed(place(), error))?;
-    let c_rate: Vec<f64> = n.iter().map(|n| job.spindle.speed_at(*n)).collect();
+    let c_rate: Vec<f64> = n.iter().map(|n| task.spindle.speed_at(*n)).collect();
     let x_rate = (0..n.len())
         .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
         .collect();
@@ -312,7 +312,7 @@ fn solve(
     };
     let link = &plan.chain.velocity;
     let answer = match state {
-        Some(state) => link.strategy.solve_onward(nodes, state, out),
+        Some(state) => link.strategy.solve_sequential(nodes, state, out),
         None => link.strategy.solve(nodes, out),
     };
     let start = columns.t.get(own.start).copied().unwrap_or_default();

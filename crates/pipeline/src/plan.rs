@@ -62,7 +62,7 @@ impl<'a> Plan<'a> {
         }
         let law = crate::seams::plan(chain, prepared)?;
         let Tapered { law, own } = match prepared.overrun {
-            Overrun::Contact => taper(&law, &prepared.job),
+            Overrun::Contact => taper(&law, &prepared.task),
             Overrun::None | Overrun::Length(_) => Tapered::not(law),
         };
         crate::beyond::check(chain, prepared, &law)?;
@@ -115,10 +115,10 @@ impl<'a> Plan<'a> {
     }
 
     fn path<'b>(&'b self, law: &'b SpiralLaw) -> Path<'b> {
-        let Prepared { job, locus, .. } = self.prepared;
+        let Prepared { task, locus, .. } = self.prepared;
         let prepared = &self.prepared_sampler;
         Path {
-            job,
+            task,
             locus,
             law,
             prepared,
@@ -142,7 +142,7 @@ impl<'a> Plan<'a> {
     /// A node and its time in the path, moved to the nearest step of the controller's time if it has such; the
     /// path's end to the one before, so that the path does not run beyond it.
     pub fn on_time(&self, n: f64) -> (f64, f64) {
-        let spindle = &self.prepared.job.spindle;
+        let spindle = &self.prepared.task.spindle;
         let t = spindle.time_at(n);
         let Some(steps) = self.time_steps else {
             return (n, self.start.time + t);
@@ -198,7 +198,7 @@ impl<'a> Plan<'a> {
         let answer = match sampler.strategy.dependence() {
             Dependence::Sequential => sampler
                 .strategy
-                .place_onward(&path, block, state, &mut nodes),
+                .place_sequential(&path, block, state, &mut nodes),
             _ => sampler.strategy.place(&path, block, &mut nodes),
         };
         answer.map_err(|error| sampler.failed(place_of(block), error))?;

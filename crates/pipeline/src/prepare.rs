@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use turnpath_core::interference::{Conflict, Interference};
 use turnpath_core::{
-    CentreBuffers, Compensator, Direction, Job, Locus, Machine, Misfit, Overrun, Part, RadialRange,
-    SpindleLaw, StrategyError, Tolerance, Tool, ToolLocus,
+    CentreBuffers, Compensator, Direction, Locus, Machine, Misfit, Overrun, Part, RadialRange,
+    SpindleLaw, StrategyError, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_verify::{FirstTouch, Subject};
 
@@ -38,8 +38,8 @@ pub struct Wanted {
 
 impl Wanted {
     /// The job over a range of ρ.
-    fn job(self, range: RadialRange) -> Job {
-        Job {
+    fn task(self, range: RadialRange) -> Task {
+        Task {
             part: self.part,
             tool: self.tool,
             tolerance: self.tolerance,
@@ -54,7 +54,7 @@ impl Wanted {
 /// A job whose tool fits its part.
 pub struct Prepared {
     /// Part, tool, tolerances, range of ρ, direction, spindle, machine.
-    pub job: Job,
+    pub task: Task,
     /// How far the path runs beyond the part.
     pub overrun: Overrun,
     /// Surface, compensator and tool put together.
@@ -105,7 +105,7 @@ fn settle(chain: &Chain, wanted: Wanted) -> Result<Prepared> {
     let interference = fit.interference(tool, region)?;
     refuse(&fit, &on_part, &interference, |_| true)?;
     Ok(Prepared {
-        job: wanted.job(range),
+        task: wanted.task(range),
         overrun,
         locus,
         interference,

@@ -158,7 +158,7 @@ fn look(plan: &Plan<'_>, made: &Made) -> Result<Vec<Found>> {
     }
     let touch = &plan.prepared.touch;
     let errors = Meter::segment_errors(touch, &made.points).map_err(PipelineError::Measure)?;
-    let aim = AIM * plan.prepared.job.tolerance.interpolation;
+    let aim = AIM * plan.prepared.task.tolerance.interpolation;
     let drifts = drift::loads(plan, made)?;
     let loads = errors
         .iter()

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use turnpath_core::Servo;
-use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 use turnpath_verify::machined::MachinedFigures;
 use turnpath_verify::{
     AxesMotion, FirstTouch, Measured, Meter, PathFigures, ServoFigures, ServoMeter, ServoStart,
@@ -29,7 +29,7 @@ const LOOKED_AT: usize = 8;
 /// in order.
 pub trait Sink: Sync {
     /// A block in the form of each file.
-    fn encode(&self, stretch: &PathStretch<'_>) -> std::io::Result<Vec<Vec<u8>>>;
+    fn encode(&self, stretch: &SectionBlock<'_>) -> std::io::Result<Vec<Vec<u8>>>;
     /// The next block in the form of each file, with its count of control points.
     fn take(&mut self, points: usize, encoded: &[Vec<u8>]) -> std::io::Result<()>;
 }
@@ -226,7 +226,7 @@ impl Taken {
             control_points: self.points,
             added_by_refine: self.points - self.sampled,
             revolutions,
-            cutting_time: plan.prepared.job.spindle.time_at(revolutions),
+            cutting_time: plan.prepared.task.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
@@ -276,7 +276,7 @@ impl Trail {
     /// Hands a whole section on.
     fn hand_on(&mut self, section: Section, points: &PathBlock, sink: &mut dyn Sink) -> Result<()> {
         let behind = self.behind(section, points, points.len());
-        let stretch = PathStretch {
+        let stretch = SectionBlock {
             section,
             opens_section: behind.opens_section,
             before: &behind.before,
@@ -305,7 +305,7 @@ fn ready(
     });
     let mut points = made.points;
     points.truncate(made.owner.len());
-    let stretch = PathStretch {
+    let stretch = SectionBlock {
         section: Section::Cutting,
         opens_section: behind.opens_section,
         before: &behind.before,
@@ -328,7 +328,7 @@ pub fn expect(chain: &Chain, prepared: &Prepared) -> Result<Expected> {
     let revolutions = plan.law.end();
     Ok(Expected {
         revolutions,
-        cutting_time: plan.prepared.job.spindle.time_at(revolutions),
+        cutting_time: plan.prepared.task.spindle.time_at(revolutions),
         control_points: nodes_per_revolution(&plan)? * revolutions + 1.0,
     })
 }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Direction, Job, SpiralLaw};
+use turnpath_core::{Direction, SpiralLaw, Task};
 use turnpath_verify::{Ride, rides};
 
 use crate::prepare::Prepared;
@@ -27,11 +27,11 @@ const ENOUGH: f64 = 0.98;
 const LISTENS: f64 = 1.02;
 /// The law of the chain's feed, with cusps beside seams within the residual as far as it can be had.
 pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
-    let job = &prepared.job;
-    let first = law::plan(chain, job, &prepared.locus)?;
-    let rides = rides(&prepared.touch, job.range.outer).map_err(PipelineError::Measure)?;
-    let mut asked = job.clone();
-    let mut over = over_feed(&first, job, &rides);
+    let task = &prepared.task;
+    let first = law::plan(chain, task, &prepared.locus)?;
+    let rides = rides(&prepared.touch, task.range.outer).map_err(PipelineError::Measure)?;
+    let mut asked = task.clone();
+    let mut over = over_feed(&first, task, &rides);
     let (mut best, mut least, mut turns) = (first, over, 0.0);
     for _ in 0..ROUNDS {
         if over <= ENOUGH {
@@ -42,7 +42,7 @@ pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
         let Ok(tried) = law::plan(chain, &asked, &prepared.locus) else {
             break;
         };
-        over = over_feed(&tried, job, &rides);
+        over = over_feed(&tried, task, &rides);
         let listens = tried.end() > LISTENS * best.end().max(turns);
         turns = tried.end();
         if over < least {
@@ -56,12 +56,12 @@ pub fn plan(chain: &Chain, prepared: &Prepared) -> Result<SpiralLaw> {
 }
 
 /// How many times as large as it may be a law's feed is over the worst ride.
-fn over_feed(law: &SpiralLaw, job: &Job, rides: &[Ride]) -> f64 {
-    let (radius, residual) = (job.tool.nose_radius, job.tolerance.residual);
+fn over_feed(law: &SpiralLaw, task: &Task, rides: &[Ride]) -> f64 {
+    let (radius, residual) = (task.tool.nose_radius, task.tolerance.residual);
     let over = |ride: &Ride| {
         let corner = ride.corner;
         let most = radius * ((corner * corner + 8.0 * residual / radius).sqrt() - corner);
-        feed_at(law, job.direction, ride) / most
+        feed_at(law, task.direction, ride) / most
     };
     rides.iter().map(over).fold(0.0, f64::max)
 }

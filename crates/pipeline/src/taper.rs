@@ -5,7 +5,7 @@
 //! turns, ρ(m) = f n (s³ − s⁴/2) with s = m/n, has its passes within ρ(1) of its end at every
 //! angle.
 
-use turnpath_core::{Direction, Job, Piece, SpiralLaw, quintic};
+use turnpath_core::{Direction, Piece, SpiralLaw, Task, quintic};
 
 /// Turns n over which the feed runs out: ρ(1) is 0.38 feeds, so that what stays at a rim is 0.6 of
 /// a cusp, and 0.45 feeds lie between the passes of both sides of the axis. It costs n/2 turns;
@@ -53,12 +53,12 @@ impl Tapered {
 }
 
 /// The law with its feed running out at both ends, where it does not close by itself.
-pub fn taper(law: &SpiralLaw, job: &Job) -> Tapered {
+pub fn taper(law: &SpiralLaw, task: &Task) -> Tapered {
     if law.end() < SHORT {
         let law = around(law);
         return Tapered { law, own: None };
     }
-    let (start, end) = (End::of(law, job, false), End::of(law, job, true));
+    let (start, end) = (End::of(law, task, false), End::of(law, task, true));
     let mut pieces = Vec::new();
     let mut at = 0.0;
     let mut put = |length: f64, coefficients: [f64; 6]| {
@@ -126,12 +126,12 @@ struct End {
 }
 
 impl End {
-    fn of(law: &SpiralLaw, job: &Job, last: bool) -> Self {
+    fn of(law: &SpiralLaw, task: &Task, last: bool) -> Self {
         let side = Side { law, last };
-        let outer = last == (job.direction == Direction::Outward);
+        let outer = last == (task.direction == Direction::Outward);
         let inside = |rho: f64| match outer {
-            true => job.range.outer - rho,
-            false => rho - job.range.inner,
+            true => task.range.outer - rho,
+            false => rho - task.range.inner,
         };
         Self {
             last,
@@ -256,13 +256,13 @@ mod tests {
     }
 
     /// The job whose range the law runs over.
-    fn job(law: &SpiralLaw) -> Job {
+    fn task(law: &SpiralLaw) -> Task {
         let (start, end) = (law.value(0.0), law.value(law.end()));
         let (direction, inner, outer) = match start < end {
             true => (Direction::Outward, start, end),
             false => (Direction::Inward, end, start),
         };
-        Job {
+        Task {
             part: Part {
                 aperture_radius: outer,
                 inner_radius: inner,
@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn both_ends_stay_where_they_were_and_come_to_rest() {
         for law in [law(), inward()] {
-            let Tapered { law: tapered, own } = taper(&law, &job(&law));
+            let Tapered { law: tapered, own } = taper(&law, &task(&law));
             assert_eq!(own, Some([TURNS, tapered.end() - TURNS]));
             for (n, whole) in [(0.0, 0.0), (tapered.end(), law.end())] {
                 let [value, rate, second, ..] = tapered.series_before(n);
@@ -304,7 +304,7 @@ mod tests {
 
     #[test]
     fn value_and_two_derivatives_are_continuous() {
-        let tapered = taper(&law(), &job(&law())).law;
+        let tapered = taper(&law(), &task(&law())).law;
         let knots: Vec<f64> = tapered.knots(0.0, tapered.end()).collect();
         assert_eq!(knots.len(), 3);
         for knot in knots {
@@ -318,7 +318,7 @@ mod tests {
     #[test]
     fn passes_close_at_rim_and_axis() {
         for law in [law(), inward()] {
-            let tapered = taper(&law, &job(&law)).law;
+            let tapered = taper(&law, &task(&law)).law;
             for last in [false, true] {
                 let side = Side {
                     law: &tapered,
@@ -344,7 +344,7 @@ mod tests {
         let mut law = SpiralLaw::new();
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(9.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        let held = taper(&law, &job(&law)).law;
+        let held = taper(&law, &task(&law)).law;
         assert_eq!(held.value(HOLD), 1.0);
         assert!((held.value(HOLD + 3.0) - law.value(3.0)).abs() < 1e-15);
     }
@@ -353,11 +353,11 @@ mod tests {
     #[test]
     fn an_end_that_lies_beyond_the_range_at_every_angle_is_left_alone() {
         let law = law();
-        let mut job = job(&law);
-        job.range.outer = law.value(law.end() - 1.0);
-        assert_eq!(End::of(&law, &job, true).close, Close::Not);
-        job.range.outer = law.value(law.end() - 0.5);
-        assert_ne!(End::of(&law, &job, true).close, Close::Not);
+        let mut task = task(&law);
+        task.range.outer = law.value(law.end() - 1.0);
+        assert_eq!(End::of(&law, &task, true).close, Close::Not);
+        task.range.outer = law.value(law.end() - 0.5);
+        assert_ne!(End::of(&law, &task, true).close, Close::Not);
     }
 
     #[test]
@@ -366,7 +366,7 @@ mod tests {
         law.push(1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(7.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(End::of(&law, &job(&law), false).close, Close::Not);
+        assert_eq!(End::of(&law, &task(&law), false).close, Close::Not);
     }
 
     #[test]
@@ -380,7 +380,7 @@ mod tests {
             let mut short = SpiralLaw::new();
             short.push(turns, [start, rate, bend, 0.0, 0.0, 0.0]);
             let slowest = short.rate(0.0).abs().min(short.rate(turns).abs());
-            let round = taper(&short, &job(&short)).law;
+            let round = taper(&short, &task(&short)).law;
             let end = round.end();
             let (from, to) = (short.value(0.0), short.value(turns));
             for i in 0..=100 {

@@ -7,7 +7,8 @@ use std::sync::Arc;
 use common::solvers::{Broken, Greedy};
 use common::{BrokenBeyond90, Feed, Job, Nodes, RIM, feed_of, straight};
 use turnpath_core::{
-    FeedPlan, FeedStrategy, Onward, Path, Result, Revolutions, Setup, Slot, StrategyError, Stretch,
+    Continuation, FeedPiece, FeedPlan, FeedStrategy, Path, Result, Revolutions, Setup, Slot,
+    StrategyError,
 };
 use turnpath_pipeline::PipelineError;
 
@@ -101,7 +102,7 @@ fn a_law_must_have_pieces_that_are_numbers() {
         assert_feed_says(feed_of(pieces), "after 10.000 revolutions");
     }
     assert_feed_says(feed_of(Vec::new()), "without pieces");
-    let silent = Feed(|_| (Vec::new(), Onward::More));
+    let silent = Feed(|_| (Vec::new(), Continuation::More));
     assert_feed_says(Arc::new(silent), "no piece, after 0.000 revolutions");
 }
 
@@ -132,11 +133,11 @@ fn a_law_must_cover_the_part_and_be_in_one_piece() {
 fn a_law_must_end() {
     let onward = |rate: f64| {
         let piece = move |call: usize| straight(10.0, RIM - 10.0 * rate * call as f64, -rate);
-        Feed(move |call| (vec![piece(call)], Onward::More))
+        Feed(move |call| (vec![piece(call)], Continuation::More))
     };
     assert_feed_says(Arc::new(onward(0.01)), "lies far off the part");
     assert_feed_says(Arc::new(onward(0.0)), "not beyond the one before");
-    let eternal = Feed(|_| (vec![straight(1e9, RIM, -1e-9)], Onward::Done));
+    let eternal = Feed(|_| (vec![straight(1e9, RIM, -1e-9)], Continuation::End));
     assert_feed_says(Arc::new(eternal), "more than 1e7 revolutions");
 }
 
@@ -146,7 +147,7 @@ fn a_law_of_endless_crumbs_is_refused() {
         let length = 1e-9;
         let start = RIM - 0.01 * length * 1e6 * call as f64;
         let piece = move |i: usize| straight(length, start - 0.01 * length * i as f64, -0.01);
-        ((0..1_000_000).map(piece).collect(), Onward::More)
+        ((0..1_000_000).map(piece).collect(), Continuation::More)
     };
     assert_feed_says(Arc::new(Feed(crumbs)), "pieces, after");
 }
@@ -179,13 +180,13 @@ struct OnePiece {
 }
 
 impl FeedPlan for OnePiece {
-    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
         if self.begun {
             return Err(StrategyError::failed("no idea"));
         }
         self.begun = true;
         pieces.push(straight(12.5, RIM, -0.01));
-        Ok(Onward::More)
+        Ok(Continuation::More)
     }
 }
 

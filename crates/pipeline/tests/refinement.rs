@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use common::solvers::{Area, Exact, Halting, Resting, Spline};
 use common::{Counting, Job, K, RESIDUAL, RIM, even, feed_of, inward, straight};
-use turnpath_core::{Centres, Compensator, Cut, Radial, Result, Scalar, Stretch, VelocitySolver};
+use turnpath_core::{Centres, Compensator, Cut, FeedPiece, Radial, Result, Scalar, VelocitySolver};
 use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
 
 fn refined(velocity: Arc<dyn VelocitySolver>, interpolation: f64) -> Job {
@@ -158,7 +158,7 @@ fn passes_in_one_place_add_no_points() {
     // A turn along the rim, from which the next one parts with the third power of the angle.
     let turn = 0.9999;
     let parting = [[RIM, 0.0, 0.0], [RIM - FEED, -FEED, 0.0]];
-    let parting = Stretch::between(parting[0], parting[1], 2.0);
+    let parting = FeedPiece::between(parting[0], parting[1], 2.0);
     let rest = RIM - FEED;
     let pieces = vec![
         straight(turn, RIM, 0.0),

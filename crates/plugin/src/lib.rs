@@ -53,13 +53,12 @@ pub mod prelude {
     pub use turnpath_core::interference::{self, Interference};
     pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{
-        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence,
-        Direction, Dual, FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus,
-        Machine, Mask, Misfit, NM, Nodes, Onward, Param, Params, Part, Path, Piece,
+        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Continuation, Cut, DEG,
+        Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries, Gradients,
+        Lanes, Locus, Machine, Mask, Misfit, NM, Nodes, Param, Params, Part, Path, Piece,
         PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler, Scalar,
-        Series, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Stretch, Surface,
-        SurfaceModel, Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle,
-        per_radian, quintic,
+        Series, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Surface, SurfaceModel, Task,
+        Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
     };
 }
 

@@ -6,7 +6,7 @@ use turnpath_plugin::prelude::*;
 ///
 /// With N(t) the revolutions, d²ρ/dt² = ρ''·(dN/dt)² + ρ'·d²N/dt²; at a constant spindle speed ω
 /// that is ρ''·(ω/2π)². Of each piece its ends are looked at, and where ρ''' = 0.
-pub fn largest_acceleration(stretches: &[Stretch], spindle: &SpindleLaw) -> f64 {
+pub fn largest_acceleration(stretches: &[FeedPiece], spindle: &SpindleLaw) -> f64 {
     let (mut largest, mut start) = (0.0f64, 0.0);
     for stretch in stretches {
         let turns = turning(stretch);
@@ -24,7 +24,7 @@ pub fn largest_acceleration(stretches: &[Stretch], spindle: &SpindleLaw) -> f64 
 }
 
 /// ρ' and ρ'' after `n` of a piece.
-fn derivatives(stretch: &Stretch, n: f64) -> (f64, f64) {
+fn derivatives(stretch: &FeedPiece, n: f64) -> (f64, f64) {
     let [_, a, b, c, d, e] = stretch.coefficients;
     let first = a + n * (2.0 * b + n * (3.0 * c + n * (4.0 * d + n * 5.0 * e)));
     let second = 2.0 * b + n * (6.0 * c + n * (12.0 * d + n * 20.0 * e));
@@ -32,7 +32,7 @@ fn derivatives(stretch: &Stretch, n: f64) -> (f64, f64) {
 }
 
 /// Where ρ''' = 6c + 24dn + 60en² is zero within a piece.
-fn turning(stretch: &Stretch) -> [Option<f64>; 2] {
+fn turning(stretch: &FeedPiece) -> [Option<f64>; 2] {
     let [_, _, _, c, d, e] = stretch.coefficients;
     let within = |n: f64| Some(n).filter(|n| (0.0..=stretch.length).contains(n));
     let discriminant = 4.0 * d * d - 10.0 * c * e;
@@ -48,8 +48,8 @@ fn turning(stretch: &Stretch) -> [Option<f64>; 2] {
 mod tests {
     use super::*;
 
-    fn piece(length: f64, coefficients: [f64; 6]) -> Stretch {
-        Stretch {
+    fn piece(length: f64, coefficients: [f64; 6]) -> FeedPiece {
+        FeedPiece {
             length,
             coefficients,
         }

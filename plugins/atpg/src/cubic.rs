@@ -109,7 +109,7 @@ impl CubicFit {
     ///
     /// # Errors
     /// Where the cubic does not grow all along.
-    pub fn piece(&self, range: RadialRange, turns: f64, direction: Direction) -> Result<Stretch> {
+    pub fn piece(&self, range: RadialRange, turns: f64, direction: Direction) -> Result<FeedPiece> {
         let from = self.reaches(range.inner, 0.0)?;
         let to = self.reaches(range.outer, turns)?;
         let c = &self.coefficients;
@@ -127,7 +127,7 @@ impl CubicFit {
             Direction::Inward => (to, range.outer, -1.0),
         };
         let second = c[2] + 3.0 * c[3] * start;
-        Ok(Stretch {
+        Ok(FeedPiece {
             length: to - from,
             coefficients: [rho, sign * self.rate(start), second, sign * c[3], 0.0, 0.0],
         })

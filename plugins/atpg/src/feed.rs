@@ -77,14 +77,14 @@ impl Strategy for AtpgFeed {
 
 impl FeedStrategy for AtpgFeed {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let job = setup.job;
+        let task = setup.task;
         let table = self.residual.table(setup)?;
         let stretches = match self.fit {
-            Fit::Smooth => smooth_law(&table, job)?,
+            Fit::Smooth => smooth_law(&table, task)?,
             Fit::Cubic => {
-                let pairs = explicit_pairs(&table, job.range)?;
+                let pairs = explicit_pairs(&table, task.range)?;
                 let turns = (pairs.len() - 1) as f64;
-                vec![CubicFit::through(&pairs)?.piece(job.range, turns, job.direction)?]
+                vec![CubicFit::through(&pairs)?.piece(task.range, turns, task.direction)?]
             }
         };
         Ok(Box::new(Planned(stretches)))
@@ -93,16 +93,16 @@ impl FeedStrategy for AtpgFeed {
 
 /// The law of the smooth feed; where the machine has a limit for X, of the first feed whose law
 /// keeps to it: a wider average changes less. At most it is as wide as the part.
-fn smooth_law(table: &FeedTable, job: &Job) -> Result<Vec<Stretch>> {
-    let aperture = 2.0 * job.part.aperture_radius;
+fn smooth_law(table: &FeedTable, task: &Task) -> Result<Vec<FeedPiece>> {
+    let aperture = 2.0 * task.part.aperture_radius;
     let mut smooth = smoothed(table, WINDOW * aperture);
-    let mut law = pieces(&smooth, job.range, job.direction)?;
-    let Some(limit) = job.machine.x.acceleration else {
+    let mut law = pieces(&smooth, task.range, task.direction)?;
+    let Some(limit) = task.machine.x.acceleration else {
         return Ok(law);
     };
-    while largest_acceleration(&law, &job.spindle) > SHARE * limit && smooth.window() < aperture {
+    while largest_acceleration(&law, &task.spindle) > SHARE * limit && smooth.window() < aperture {
         smooth = SmoothFeed::new(table, (GROWTH * smooth.window()).min(aperture));
-        law = pieces(&smooth, job.range, job.direction)?;
+        law = pieces(&smooth, task.range, task.direction)?;
     }
     Ok(law)
 }
@@ -123,11 +123,11 @@ fn smoothed(table: &FeedTable, widest: f64) -> SmoothFeed {
 }
 
 /// All pieces at once: F has one value a radius, so they are some hundred whatever the part.
-struct Planned(Vec<Stretch>);
+struct Planned(Vec<FeedPiece>);
 
 impl FeedPlan for Planned {
-    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
         pieces.append(&mut self.0);
-        Ok(Onward::Done)
+        Ok(Continuation::End)
     }
 }

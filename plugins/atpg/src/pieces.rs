@@ -64,7 +64,11 @@ struct Span {
 ///
 /// # Errors
 /// Where the feed cannot be followed.
-pub fn pieces(feed: &SmoothFeed, range: RadialRange, direction: Direction) -> Result<Vec<Stretch>> {
+pub fn pieces(
+    feed: &SmoothFeed,
+    range: RadialRange,
+    direction: Direction,
+) -> Result<Vec<FeedPiece>> {
     let RadialRange { inner, outer } = range;
     let knot = |i: usize| match i {
         FEWEST_PIECES => outer,
@@ -125,12 +129,12 @@ pub fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
 }
 
 impl Span {
-    fn stretch(&self) -> Stretch {
-        Stretch::between(self.from.ends(), self.to.ends(), self.length)
+    fn stretch(&self) -> FeedPiece {
+        FeedPiece::between(self.from.ends(), self.to.ends(), self.length)
     }
 
-    fn reversed_stretch(&self) -> Stretch {
-        Stretch::between(
+    fn reversed_stretch(&self) -> FeedPiece {
+        FeedPiece::between(
             self.to.reversed().ends(),
             self.from.reversed().ends(),
             self.length,

@@ -15,14 +15,14 @@ pub enum Residual {
 }
 
 impl Residual {
-    /// F over the job's range.
+    /// F over the task's range.
     ///
     /// # Errors
     /// Where the range has no length, or surface or locus no value.
     pub fn table(self, setup: Setup<'_>) -> Result<FeedTable> {
         match self {
             Residual::Held => FeedTable::held(setup),
-            Residual::Paper => FeedTable::of(setup.job.range, &|rho| paper_feed(setup, rho)),
+            Residual::Paper => FeedTable::of(setup.task.range, &|rho| paper_feed(setup, rho)),
         }
     }
 }
@@ -34,12 +34,12 @@ fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
     let flatness = |profile: &Profile| -profile.slope.abs();
     let curvature = least_over_angles(&sections(surface, &curvature), rho)?;
     let slope = least_over_angles(&sections(surface, &flatness), rho)?;
-    let radius = setup.job.tool.nose_radius;
+    let radius = setup.task.tool.nose_radius;
     let (gap, cap) = (1.0 - radius * curvature, LARGEST_FEED * radius);
     if gap <= 0.0 {
         return Ok(cap);
     }
-    let along = (8.0 * radius * setup.job.tolerance.residual / gap).sqrt();
+    let along = (8.0 * radius * setup.task.tolerance.residual / gap).sqrt();
     Ok((along / (1.0 + slope * slope).sqrt()).min(cap))
 }
 

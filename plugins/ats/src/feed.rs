@@ -58,7 +58,7 @@ impl Strategy for AtsFeed {
 
 impl FeedStrategy for AtsFeed {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let RadialRange { inner, outer } = setup.job.range;
+        let RadialRange { inner, outer } = setup.task.range;
         if !(inner.is_finite() && outer.is_finite() && inner < outer) {
             return Err(StrategyError::failed(format!(
                 "there is nothing to cut: ρ runs from {inner} mm to {outer} mm"
@@ -87,19 +87,19 @@ struct AtsPlan {
 }
 
 impl FeedPlan for AtsPlan {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        match (setup.job.direction, self.inward) {
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
+        match (setup.task.direction, self.inward) {
             (Direction::Inward, Inward::Backwards) => {
-                let goal = Goal::outward(setup.job, -1.0);
+                let goal = Goal::outward(setup.task, -1.0);
                 let mut law = Vec::new();
-                while self.further(setup, &goal, &mut law)? == Onward::More {}
+                while self.further(setup, &goal, &mut law)? == Continuation::More {}
                 pieces.extend(backwards(&law));
-                Ok(Onward::Done)
+                Ok(Continuation::End)
             }
             (Direction::Inward, Inward::Recursion) => {
-                self.further(setup, &Goal::inward(setup.job), pieces)
+                self.further(setup, &Goal::inward(setup.task), pieces)
             }
-            (Direction::Outward, _) => self.further(setup, &Goal::outward(setup.job, 1.0), pieces),
+            (Direction::Outward, _) => self.further(setup, &Goal::outward(setup.task, 1.0), pieces),
         }
     }
 }
@@ -110,8 +110,8 @@ impl AtsPlan {
         &mut self,
         setup: Setup<'_>,
         goal: &Goal,
-        pieces: &mut Vec<Stretch>,
-    ) -> Result<Onward> {
+        pieces: &mut Vec<FeedPiece>,
+    ) -> Result<Continuation> {
         let mut turns = Turns::new(setup, goal.way, self.count);
         for _ in 0..BATCH {
             let turn = turns.turn(self.made, goal.start, self.last.as_ref())?;
@@ -121,14 +121,14 @@ impl AtsPlan {
                 // Every angle has passed: the turn that began where the last fell short ends it.
                 (true, None, before) => {
                     cut(&turn, goal.needed(before.unwrap_or(0.0)), pieces);
-                    return Ok(Onward::Done);
+                    return Ok(Continuation::End);
                 }
                 _ => pieces.extend(&turn.pieces),
             }
             (self.last, self.short) = (Some(turn), short);
         }
         self.count = Some(turns.count());
-        Ok(Onward::More)
+        Ok(Continuation::More)
     }
 }
 
@@ -141,10 +141,10 @@ struct Goal {
 
 impl Goal {
     /// `sense` as in [`Way`].
-    fn outward(job: &Job, sense: f64) -> Self {
+    fn outward(task: &Task, sense: f64) -> Self {
         Self {
-            start: job.range.inner,
-            end: job.range.outer + beyond(job),
+            start: task.range.inner,
+            end: task.range.outer + beyond(task),
             way: Way {
                 outward: 1.0,
                 sense,
@@ -152,10 +152,10 @@ impl Goal {
         }
     }
 
-    fn inward(job: &Job) -> Self {
+    fn inward(task: &Task) -> Self {
         Self {
-            start: job.range.outer,
-            end: job.range.inner - beyond(job),
+            start: task.range.outer,
+            end: task.range.inner - beyond(task),
             way: Way {
                 outward: -1.0,
                 sense: 1.0,
@@ -189,19 +189,19 @@ impl Goal {
 }
 
 /// How far beyond the range's end every angle must come, mm.
-fn beyond(job: &Job) -> f64 {
-    BEYOND * LARGEST_FEED * job.tool.nose_radius
+fn beyond(task: &Task) -> f64 {
+    BEYOND * LARGEST_FEED * task.tool.nose_radius
 }
 
 /// The pieces of a turn up to a part of it.
-fn cut(turn: &Turn, part: f64, pieces: &mut Vec<Stretch>) {
+fn cut(turn: &Turn, part: f64, pieces: &mut Vec<FeedPiece>) {
     let mut left = part;
     for piece in &turn.pieces {
         if left <= SHORTEST {
             break;
         }
         let length = piece.length.min(left);
-        pieces.push(Stretch { length, ..*piece });
+        pieces.push(FeedPiece { length, ..*piece });
         left -= length;
     }
 }

@@ -74,15 +74,15 @@ pub struct HeldFeed<'a> {
 }
 
 impl<'a> HeldFeed<'a> {
-    /// For one job and locus.
+    /// For one task and locus.
     pub fn new(setup: Setup<'a>) -> Self {
         Self {
             setup,
             law: Law {
                 radial: setup.locus.radial(),
-                nose_radius: setup.job.tool.nose_radius,
-                residual: setup.job.tolerance.residual,
-                misfit: setup.job.tool.misfit,
+                nose_radius: setup.task.tool.nose_radius,
+                residual: setup.task.tolerance.residual,
+                misfit: setup.task.tool.misfit,
             },
             centres: CentreBuffers::default(),
             sections: Sections::default(),

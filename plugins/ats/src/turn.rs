@@ -44,7 +44,7 @@ const RUN_IN: [[f64; 6]; 2] = [
 #[derive(Debug, Clone)]
 pub struct Turn {
     /// The pieces, in order.
-    pub pieces: Vec<Stretch>,
+    pub pieces: Vec<FeedPiece>,
 }
 
 impl Turn {
@@ -62,13 +62,13 @@ impl Turn {
 }
 
 /// The pieces of a law the other way round: ρ(N) = ℓ(N_end − N).
-pub fn backwards(pieces: &[Stretch]) -> impl Iterator<Item = Stretch> {
+pub fn backwards(pieces: &[FeedPiece]) -> impl Iterator<Item = FeedPiece> {
     pieces.iter().rev().map(|piece| {
         let at = |n: f64| {
             let [value, rate, second] = polynomial(&piece.coefficients, n);
             [value, -rate, second]
         };
-        Stretch::between(at(piece.length), at(0.0), piece.length)
+        FeedPiece::between(at(piece.length), at(0.0), piece.length)
     })
 }
 
@@ -131,7 +131,7 @@ pub struct Turns<'a> {
 }
 
 impl<'a> Turns<'a> {
-    /// For one job, with `count` pieces to begin with; `None` for a law that begins.
+    /// For one task, with `count` pieces to begin with; `None` for a law that begins.
     pub fn new(setup: Setup<'a>, way: Way, count: Option<usize>) -> Self {
         Self {
             feed: HeldFeed::new(setup),
@@ -184,7 +184,7 @@ impl<'a> Turns<'a> {
         let pieces = states.windows(2);
         Ok(Turn {
             pieces: pieces
-                .map(|ends| Stretch::between(ends[0], ends[1], length))
+                .map(|ends| FeedPiece::between(ends[0], ends[1], length))
                 .collect(),
         })
     }

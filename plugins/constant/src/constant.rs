@@ -38,7 +38,7 @@ impl Strategy for Constant {
 
 impl FeedStrategy for Constant {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let RadialRange { inner, outer } = setup.job.range;
+        let RadialRange { inner, outer } = setup.task.range;
         let least = (outer - inner) / MOST_REVOLUTIONS;
         let feed = match self.feed {
             Some(feed) if feed < least => return Err(given_too_small(least)),
@@ -57,19 +57,19 @@ struct OnePiece {
 }
 
 impl FeedPlan for OnePiece {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        let RadialRange { inner, outer } = setup.job.range;
-        let (start, end) = match setup.job.direction {
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
+        let RadialRange { inner, outer } = setup.task.range;
+        let (start, end) = match setup.task.direction {
             Direction::Inward => (outer, inner),
             Direction::Outward => (inner, outer),
         };
         let length = (outer - inner) / self.feed;
         let rate = (end - start) / length;
-        pieces.push(Stretch {
+        pieces.push(FeedPiece {
             length,
             coefficients: [start, rate, 0.0, 0.0, 0.0, 0.0],
         });
-        Ok(Onward::Done)
+        Ok(Continuation::End)
     }
 }
 

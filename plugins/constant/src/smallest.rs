@@ -2,14 +2,14 @@
 
 use turnpath_plugin::prelude::*;
 
-/// The smallest feed over the job's range, mm, that leaves no cusp above the residual tolerance.
+/// The smallest feed over the task's range, mm, that leaves no cusp above the residual tolerance.
 ///
 /// # Errors
 /// Where the locus has no value.
 pub fn smallest_held_feed(setup: Setup<'_>) -> Result<f64> {
-    let (residual, radial) = (setup.job.tolerance.residual, setup.locus.radial());
+    let (residual, radial) = (setup.task.tolerance.residual, setup.locus.radial());
     let mut feed = Vec::new();
-    let [smallest] = extreme::largest(setup.job.range, &mut |theta, rho, out| {
+    let [smallest] = extreme::largest(setup.task.range, &mut |theta, rho, out| {
         feed.resize(theta.len(), f64::NAN);
         setup
             .locus

@@ -76,13 +76,13 @@ impl Strategy for FftAdaptiveFeed {
 
 impl FeedStrategy for FftAdaptiveFeed {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let RadialRange { inner, outer } = setup.job.range;
+        let RadialRange { inner, outer } = setup.task.range;
         if !(inner.is_finite() && outer.is_finite() && inner < outer) {
             return Err(StrategyError::failed(format!(
                 "there is nothing to cut: ρ runs from {inner} mm to {outer} mm"
             )));
         }
-        let (rho, outward) = match setup.job.direction {
+        let (rho, outward) = match setup.task.direction {
             Direction::Outward => (inner, 1.0),
             Direction::Inward => (outer, -1.0),
         };
@@ -93,7 +93,7 @@ impl FeedStrategy for FftAdaptiveFeed {
         Ok(Box::new(FftAdaptivePlan {
             rays: Rays::new(self.angles as usize),
             chord: self.chord,
-            tolerance: self.tolerance.unwrap_or(setup.job.tolerance.interpolation),
+            tolerance: self.tolerance.unwrap_or(setup.task.tolerance.interpolation),
             held,
             largest: LARGEST_PART * (outer - inner),
             rho,
@@ -116,27 +116,27 @@ struct FftAdaptivePlan {
 }
 
 impl FeedPlan for FftAdaptivePlan {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        let RadialRange { inner, outer } = setup.job.range;
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
+        let RadialRange { inner, outer } = setup.task.range;
         let end = if self.outward > 0.0 { outer } else { inner };
         for _ in 0..BATCH {
             let feed = self.feed(setup.locus.surface())?;
             let left = self.outward * (end - self.rho);
             let length = (left / feed).min(1.0);
-            pieces.push(Stretch {
+            pieces.push(FeedPiece {
                 length,
                 coefficients: [self.rho, self.outward * feed, 0.0, 0.0, 0.0, 0.0],
             });
             self.rho += self.outward * feed;
             self.revolutions += 1;
             if left <= feed {
-                return Ok(Onward::Done);
+                return Ok(Continuation::End);
             }
         }
         if self.revolutions > MOST_REVOLUTIONS {
             return Err(too_many(self.rho));
         }
-        Ok(Onward::More)
+        Ok(Continuation::More)
     }
 }
 

@@ -63,11 +63,11 @@ pub struct Rule {
 
 impl Rule {
     /// Steps of at most `longest` rad.
-    pub fn new(job: &Job, chord: Chord, longest: f64) -> Self {
+    pub fn new(task: &Task, chord: Chord, longest: f64) -> Self {
         Self {
             chord,
-            tolerance: job.tolerance.interpolation,
-            shortest: match job.tool.misfit {
+            tolerance: task.tolerance.interpolation,
+            shortest: match task.tool.misfit {
                 Misfit::Refuse => 0.0,
                 Misfit::CutWhatFits => LEAST_NEAR_SEAMS,
             },

@@ -73,7 +73,7 @@ impl Sampler for FftAdaptiveSampler {
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
         for turn in block.turns() {
             let longest = self.critical_step(path, turn.start)?;
-            let rule = Rule::new(path.job, self.chord, longest);
+            let rule = Rule::new(path.task, self.chord, longest);
             match self.curvature {
                 Curvature::Step => {
                     let revolution = Revolution::look(path, turn, rule)?;
@@ -106,7 +106,7 @@ impl FftAdaptiveSampler {
     /// the circle of the revolution's starting radius; and never more than `max_step`.
     fn critical_step(&self, path: &Path<'_>, start: f64) -> Result<f64> {
         let rho = path.radius_at(start);
-        let tolerance = path.job.tolerance.interpolation;
+        let tolerance = path.task.tolerance.interpolation;
         let highest = self
             .harmonics
             .highest(tolerance, |z| heights(path, rho, z))?;

@@ -71,8 +71,8 @@ impl EqualAngle {
     /// The largest step that the interpolation tolerance allows at the path's worst place, rad.
     fn derive(&self, path: &Path<'_>) -> Result<f64> {
         let Spot { n, sharpness } = sharpest(path)?;
-        let fourth_power = 384.0 * AIM * path.job.tolerance.interpolation / sharpness;
-        let step = match path.job.tool.misfit {
+        let fourth_power = 384.0 * AIM * path.task.tolerance.interpolation / sharpness;
+        let step = match path.task.tool.misfit {
             Misfit::Refuse => fourth_power.sqrt().sqrt(),
             Misfit::CutWhatFits => fourth_power.sqrt().sqrt().max(LEAST_NEAR_SEAMS),
         };

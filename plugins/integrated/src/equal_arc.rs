@@ -35,7 +35,7 @@ impl Sampler for EqualArc {
         self.steps.place(path, block, &mut Vec::new(), nodes)
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,

@@ -43,7 +43,7 @@ impl Sampler for Integrated {
         self.steps.place(path, block, &mut Vec::new(), nodes)
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,

@@ -59,11 +59,11 @@ impl VelocitySolver for Area {
     }
 
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
-        self.solve_onward(nodes, &mut Vec::new(), out)
+        self.solve_sequential(nodes, &mut Vec::new(), out)
     }
 
     /// The state is the velocity of each axis at the block's last node, the next block's first.
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: Nodes<'_>,
         state: &mut Vec<f64>,
@@ -77,9 +77,9 @@ impl VelocitySolver for Area {
             _ => [nodes.c_rate[0], nodes.x_rate[0], nodes.z_rate(0)],
         };
         *state = vec![
-            self.onward(nodes.t, nodes.c, first[0], out.c),
-            self.onward(nodes.t, nodes.x, first[1], out.x),
-            self.onward(nodes.t, nodes.z, first[2], out.z),
+            self.recurse(nodes.t, nodes.c, first[0], out.c),
+            self.recurse(nodes.t, nodes.x, first[1], out.x),
+            self.recurse(nodes.t, nodes.z, first[2], out.z),
         ];
         Ok(())
     }
@@ -87,7 +87,7 @@ impl VelocitySolver for Area {
 
 impl Area {
     /// The velocities of one axis from `first` on; gives the last.
-    fn onward(&self, t: &[f64], p: &[f64], first: f64, out: &mut [f64]) -> f64 {
+    fn recurse(&self, t: &[f64], p: &[f64], first: f64, out: &mut [f64]) -> f64 {
         let mut velocity = first;
         for (k, out) in out.iter_mut().enumerate() {
             if k > 0 {

@@ -156,7 +156,7 @@ impl<'a> Samples<'a> {
             still: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
             allowed,
             feed_part: steps.feed_part,
-            sharpest: sharpest(path.job.tool.misfit, allowed),
+            sharpest: sharpest(path.task.tool.misfit, allowed),
             theta: Vec::new(),
             rho: Vec::new(),
             x: Vec::new(),

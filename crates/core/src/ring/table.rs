@@ -37,20 +37,20 @@ pub struct FeedTable {
 }
 
 impl FeedTable {
-    /// Tabulates the feed that holds the residual at every angle, over the job's range.
+    /// Tabulates the feed that holds the residual at every angle, over the task's range.
     ///
     /// # Errors
     /// Where the range has no length, or surface or locus no value.
     pub fn held(setup: Setup<'_>) -> Result<Self> {
         let (locus, radial) = (setup.locus, setup.locus.radial());
-        let cusp = setup.job.tolerance.residual;
+        let cusp = setup.task.tolerance.residual;
         let measure: &Measure<'_> =
             &|theta, rho, out| locus.held_feed(cusp, radial, theta, rho, out);
-        let most = match setup.job.tool.misfit {
+        let most = match setup.task.tool.misfit {
             Misfit::Refuse => MOST_CELLS,
             Misfit::CutWhatFits => MOST_CELLS_OVER_SEAMS,
         };
-        Self::within(setup.job.range, most, &|rho| {
+        Self::within(setup.task.range, most, &|rho| {
             least_over_angles(measure, rho)
         })
     }

@@ -85,7 +85,7 @@ impl Join {
             Side::In => plan.law.series(n),
             Side::Out => plan.law.series_before(n),
         };
-        let turning = plan.prepared.job.spindle.speed_at(n) / TAU;
+        let turning = plan.prepared.task.spindle.speed_at(n) / TAU;
         Ok(Self {
             point,
             acceleration: [bend(&segment.c), bend(&segment.x), bend(&segment.z)],

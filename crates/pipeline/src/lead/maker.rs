@@ -230,7 +230,7 @@ impl Maker<'_> {
             Side::In => join.shifted(laid.turns, self.clock.seconds(laid.ticks())),
             Side::Out => *join,
         };
-        let tolerance = self.plan.prepared.job.tolerance.interpolation;
+        let tolerance = self.plan.prepared.task.tolerance.interpolation;
         // Where the cut itself misses its tolerance, which is told, its lead may do so as well.
         let below = match join.error > tolerance {
             true => join.error,

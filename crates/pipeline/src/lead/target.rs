@@ -79,7 +79,7 @@ impl<'a> Target<'a> {
         rest_z: f64,
         drift: f64,
     ) -> Result<Self> {
-        let nose_radius = plan.prepared.job.tool.nose_radius;
+        let nose_radius = plan.prepared.task.tool.nose_radius;
         let drift = Drift::new(side, join, phases.descent.min(drift), nose_radius);
         let mut target = Self {
             plan,

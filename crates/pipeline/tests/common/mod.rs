@@ -8,11 +8,12 @@ use std::f64::consts::TAU;
 use std::io;
 use std::sync::Arc;
 
-use turnpath_core::toolpath::{PathBlock, PathStretch, Section};
+use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Machine, Onward,
-    Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot,
-    SpindleLaw, StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    Centres, Compensator, Continuation, Cut, Dependence, Direction, FeedPiece, FeedPlan,
+    FeedStrategy, Machine, Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler,
+    Scalar, Setup, Slot, SpindleLaw, StrategyError, Surface, SurfaceModel, Tolerance, Tool,
+    VelocitySolver,
 };
 use turnpath_pipeline::{
     Chain, LeadSettings, Link, Making, Outcome, PipelineError, Quiet, Sink, Wanted, prepare, run,
@@ -115,7 +116,7 @@ struct Calls<F> {
 
 impl<F> FeedStrategy for Feed<F>
 where
-    F: Fn(usize) -> (Vec<Stretch>, Onward) + Clone + Send + Sync + 'static,
+    F: Fn(usize) -> (Vec<FeedPiece>, Continuation) + Clone + Send + Sync + 'static,
 {
     fn plan(&self, _: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
         let (pieces, call) = (self.0.clone(), 0);
@@ -125,9 +126,9 @@ where
 
 impl<F> FeedPlan for Calls<F>
 where
-    F: Fn(usize) -> (Vec<Stretch>, Onward) + Send,
+    F: Fn(usize) -> (Vec<FeedPiece>, Continuation) + Send,
 {
-    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
         let (more, onward) = (self.pieces)(self.call);
         self.call += 1;
         pieces.extend(more);
@@ -136,8 +137,8 @@ where
 }
 
 /// A piece of `length` revolutions from `start` on at a constant rate.
-pub fn straight(length: f64, start: f64, rate: f64) -> Stretch {
-    Stretch {
+pub fn straight(length: f64, start: f64, rate: f64) -> FeedPiece {
+    FeedPiece {
         length,
         coefficients: [start, rate, 0.0, 0.0, 0.0, 0.0],
     }
@@ -149,8 +150,8 @@ pub fn inward(revolutions: f64) -> Arc<dyn FeedStrategy> {
 }
 
 /// These pieces, in one call.
-pub fn feed_of(pieces: Vec<Stretch>) -> Arc<dyn FeedStrategy> {
-    Arc::new(Feed(move |_| (pieces.clone(), Onward::Done)))
+pub fn feed_of(pieces: Vec<FeedPiece>) -> Arc<dyn FeedStrategy> {
+    Arc::new(Feed(move |_| (pieces.clone(), Continuation::End)))
 }
 
 /// A sampler whose nodes a function gives.
@@ -188,7 +189,7 @@ impl Sampler for Counting {
         Dependence::Sequential
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         _: &Path<'_>,
         block: Revolutions,
@@ -335,7 +336,7 @@ impl Kept {
 }
 
 impl Sink for Kept {
-    fn encode(&self, stretch: &PathStretch<'_>) -> io::Result<Vec<Vec<u8>>> {
+    fn encode(&self, stretch: &SectionBlock<'_>) -> io::Result<Vec<Vec<u8>>> {
         let numbers = stretch
             .points
             .points()

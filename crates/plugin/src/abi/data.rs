@@ -3,8 +3,8 @@
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
-    AxisLimits, Direction, Job, Machine, Misfit, ParamValue, Params, Part, Piece,
-    PiecewisePolynomial, RadialRange, Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
+    AxisLimits, Direction, Machine, Misfit, ParamValue, Params, Part, Piece, PiecewisePolynomial,
+    RadialRange, Result, Slot, SpindleLaw, StrategyError, Task, Tolerance, Tool,
 };
 
 use crate::guard::guarded;
@@ -28,7 +28,7 @@ pub enum AbiErrorKind {
     Failed,
     Parameter,
     /// `parameter` holds the key of the slot that was asked.
-    Asked,
+    Delegate,
     Panicked,
 }
 
@@ -45,8 +45,8 @@ impl From<StrategyError> for AbiError {
         let (kind, parameter, message) = match error {
             StrategyError::Failed(message) => (AbiErrorKind::Failed, "".into(), message),
             StrategyError::Parameter { name, message } => (AbiErrorKind::Parameter, name, message),
-            StrategyError::Asked { slot, message } => {
-                (AbiErrorKind::Asked, slot.key().into(), message)
+            StrategyError::Delegate { slot, message } => {
+                (AbiErrorKind::Delegate, slot.key().into(), message)
             }
             StrategyError::Panicked(message) => (AbiErrorKind::Panicked, "".into(), message),
         };
@@ -71,8 +71,8 @@ impl From<AbiError> for StrategyError {
                 name: parameter.into(),
                 message,
             },
-            AbiErrorKind::Asked => match asked() {
-                Some(slot) => Self::Asked { slot, message },
+            AbiErrorKind::Delegate => match asked() {
+                Some(slot) => Self::Delegate { slot, message },
                 None => Self::Failed(message),
             },
         }
@@ -286,7 +286,7 @@ impl From<AbiMachine> for Machine {
 
 #[repr(C)]
 #[derive(StableAbi)]
-pub struct AbiJob {
+pub struct AbiTask {
     aperture_radius: f64,
     inner_radius: f64,
     tool: AbiTool,
@@ -298,43 +298,43 @@ pub struct AbiJob {
     machine: AbiMachine,
 }
 
-impl From<&Job> for AbiJob {
-    fn from(job: &Job) -> Self {
+impl From<&Task> for AbiTask {
+    fn from(task: &Task) -> Self {
         Self {
-            aperture_radius: job.part.aperture_radius,
-            inner_radius: job.part.inner_radius,
-            tool: (&job.tool).into(),
-            interpolation: job.tolerance.interpolation,
-            residual: job.tolerance.residual,
-            range: job.range.into(),
-            inward: job.direction == Direction::Inward,
-            spindle: job.spindle.as_time().into(),
-            machine: job.machine.into(),
+            aperture_radius: task.part.aperture_radius,
+            inner_radius: task.part.inner_radius,
+            tool: (&task.tool).into(),
+            interpolation: task.tolerance.interpolation,
+            residual: task.tolerance.residual,
+            range: task.range.into(),
+            inward: task.direction == Direction::Inward,
+            spindle: task.spindle.as_time().into(),
+            machine: task.machine.into(),
         }
     }
 }
 
-impl From<&AbiJob> for Job {
-    fn from(job: &AbiJob) -> Self {
+impl From<&AbiTask> for Task {
+    fn from(task: &AbiTask) -> Self {
         let part = Part {
-            aperture_radius: job.aperture_radius,
-            inner_radius: job.inner_radius,
+            aperture_radius: task.aperture_radius,
+            inner_radius: task.inner_radius,
         };
         Self {
             part,
-            tool: job.tool.into(),
+            tool: task.tool.into(),
             tolerance: Tolerance {
-                interpolation: job.interpolation,
-                residual: job.residual,
+                interpolation: task.interpolation,
+                residual: task.residual,
             },
-            range: job.range.into(),
-            direction: if job.inward {
+            range: task.range.into(),
+            direction: if task.inward {
                 Direction::Inward
             } else {
                 Direction::Outward
             },
-            spindle: SpindleLaw::from_time((&job.spindle).into()),
-            machine: job.machine.into(),
+            spindle: SpindleLaw::from_time((&task.spindle).into()),
+            machine: task.machine.into(),
         }
     }
 }
@@ -354,13 +354,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_job_comes_back_as_it_went() {
+    fn a_task_comes_back_as_it_went() {
         let limits = |velocity: f64| AxisLimits {
             velocity: Some(velocity),
             acceleration: None,
             jerk: Some(3.0 * velocity),
         };
-        let job = Job {
+        let task = Task {
             part: Part {
                 aperture_radius: 4.0,
                 inner_radius: 1.0,
@@ -387,6 +387,6 @@ mod tests {
                 c: limits(5.0),
             },
         };
-        assert_eq!(Job::from(&AbiJob::from(&job)), job);
+        assert_eq!(Task::from(&AbiTask::from(&task)), task);
     }
 }

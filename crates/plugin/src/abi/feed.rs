@@ -3,18 +3,18 @@
 use abi_stable::StableAbi;
 use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RVec};
-use turnpath_core::{FeedPlan, FeedStrategy, Job, Onward, Result, Setup, Stretch};
+use turnpath_core::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Result, Setup, Task};
 
 use super::contained::Contained;
-use super::data::{AbiJob, Answer, answer, result};
+use super::data::{AbiTask, Answer, answer, result};
 use super::locus::{self, IncomingLocus, LentLocus, OutgoingLocus};
 use super::surface::{self, LentSurface, Outgoing};
 
-/// Job and locus, lent for the time of a call.
+/// Task and locus, lent for the time of a call.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiSetup<'a> {
-    job: AbiJob,
+    task: AbiTask,
     locus: LentLocus<'a>,
     surface: LentSurface<'a>,
 }
@@ -23,7 +23,7 @@ pub struct AbiSetup<'a> {
 pub fn lend_setup<T>(setup: Setup<'_>, call: impl FnOnce(AbiSetup<'_>) -> T) -> T {
     let (locus, surface) = (OutgoingLocus(setup.locus), Outgoing(setup.locus.surface()));
     call(AbiSetup {
-        job: setup.job.into(),
+        task: setup.task.into(),
         locus: locus::lend(&locus),
         surface: surface::lend(&surface),
     })
@@ -32,10 +32,10 @@ pub fn lend_setup<T>(setup: Setup<'_>, call: impl FnOnce(AbiSetup<'_>) -> T) -> 
 impl AbiSetup<'_> {
     /// The setup as the core's, for the time of `call`.
     pub fn receive<T>(self, call: impl FnOnce(Setup<'_>) -> T) -> T {
-        let job = Job::from(&self.job);
+        let task = Task::from(&self.task);
         let locus = IncomingLocus::new(self.locus, self.surface);
         call(Setup {
-            job: &job,
+            task: &task,
             locus: &locus,
         })
     }
@@ -80,14 +80,14 @@ impl AbiPlan for OutgoingPlan {
     fn extend(&mut self, setup: AbiSetup<'_>, pieces: &mut RVec<[f64; 7]>) -> Answer<bool> {
         answer(|| {
             let mut made = Vec::new();
-            let onward = setup.receive(|setup| self.0.extend(setup, &mut made))?;
+            let continuation = setup.receive(|setup| self.0.extend(setup, &mut made))?;
             pieces.extend(made.iter().map(
-                |Stretch {
+                |FeedPiece {
                      length,
                      coefficients: c,
                  }| { [*length, c[0], c[1], c[2], c[3], c[4], c[5]] },
             ));
-            Ok(onward == Onward::More)
+            Ok(continuation == Continuation::More)
         })
     }
 }
@@ -105,13 +105,20 @@ impl FeedStrategy for IncomingFeed {
 struct IncomingPlan(OwnedPlan);
 
 impl FeedPlan for IncomingPlan {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
         let mut made = RVec::new();
         let more = result(lend_setup(setup, |setup| self.0.extend(setup, &mut made)))?;
-        pieces.extend(made.iter().map(|[length, c0, c1, c2, c3, c4, c5]| Stretch {
-            length: *length,
-            coefficients: [*c0, *c1, *c2, *c3, *c4, *c5],
-        }));
-        Ok(if more { Onward::More } else { Onward::Done })
+        pieces.extend(
+            made.iter()
+                .map(|[length, c0, c1, c2, c3, c4, c5]| FeedPiece {
+                    length: *length,
+                    coefficients: [*c0, *c1, *c2, *c3, *c4, *c5],
+                }),
+        );
+        Ok(if more {
+            Continuation::More
+        } else {
+            Continuation::End
+        })
     }
 }

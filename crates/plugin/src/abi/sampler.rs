@@ -60,7 +60,7 @@ fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'
     let Revolutions { start, end } = block;
     lend_setup(
         Setup {
-            job: path.job,
+            task: path.task,
             locus: path.locus,
         },
         |setup| {
@@ -83,10 +83,10 @@ impl AbiPath<'_, '_> {
         };
         let law = SpiralLaw::from(&self.law);
         let prepared = self.prepared;
-        self.setup.receive(|Setup { job, locus }| {
+        self.setup.receive(|Setup { task, locus }| {
             call(
                 &Path {
-                    job,
+                    task,
                     locus,
                     law: &law,
                     prepared: prepared.as_slice(),
@@ -103,7 +103,7 @@ pub trait AbiSampler: Send + Sync {
     fn prepare(&self, path: AbiPath<'_, '_>) -> Answer<RVec<f64>>;
     fn place(&self, path: AbiPath<'_, '_>, nodes: &mut RVec<f64>) -> Answer<()>;
     #[sabi(last_prefix_field)]
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: AbiPath<'_, '_>,
         state: &mut RVec<f64>,
@@ -135,7 +135,7 @@ impl AbiSampler for OutgoingSampler {
         })
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: AbiPath<'_, '_>,
         state: &mut RVec<f64>,
@@ -143,7 +143,9 @@ impl AbiSampler for OutgoingSampler {
     ) -> Answer<()> {
         answer(|| {
             let (mut kept, mut placed) = (state.to_vec(), Vec::new());
-            path.receive(|path, block| self.0.place_onward(path, block, &mut kept, &mut placed))?;
+            path.receive(|path, block| {
+                self.0.place_sequential(path, block, &mut kept, &mut placed)
+            })?;
             *state = kept.into();
             nodes.extend(placed);
             Ok(())
@@ -191,7 +193,7 @@ impl Sampler for IncomingSampler {
         Ok(())
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,
@@ -200,7 +202,7 @@ impl Sampler for IncomingSampler {
     ) -> Result<()> {
         let (mut kept, mut placed) = (RVec::from(std::mem::take(state)), RVec::new());
         let answer = lend_path(path, block, |path| {
-            self.sampler.place_onward(path, &mut kept, &mut placed)
+            self.sampler.place_sequential(path, &mut kept, &mut placed)
         });
         *state = kept.into();
         nodes.extend(placed);

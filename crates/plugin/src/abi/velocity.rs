@@ -96,7 +96,7 @@ pub trait AbiVelocity: Send + Sync {
         z: RSliceMut<'_, f64>,
     ) -> Answer<()>;
     #[sabi(last_prefix_field)]
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: AbiNodes<'_>,
         state: &mut RVec<f64>,
@@ -136,7 +136,7 @@ impl AbiVelocity for OutgoingVelocity {
         answer(|| self.0.solve(nodes.receive(), out))
     }
 
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: AbiNodes<'_>,
         state: &mut RVec<f64>,
@@ -151,7 +151,7 @@ impl AbiVelocity for OutgoingVelocity {
         };
         answer(|| {
             let mut kept = state.to_vec();
-            self.0.solve_onward(nodes.receive(), &mut kept, out)?;
+            self.0.solve_sequential(nodes.receive(), &mut kept, out)?;
             *state = kept.into();
             Ok(())
         })
@@ -214,7 +214,7 @@ impl VelocitySolver for IncomingVelocity {
         )
     }
 
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: Nodes<'_>,
         state: &mut Vec<f64>,
@@ -225,7 +225,7 @@ impl VelocitySolver for IncomingVelocity {
         let mut kept = RVec::from(std::mem::take(state));
         let answer =
             self.solver
-                .solve_onward(nodes.into(), &mut kept, c.into(), x.into(), z.into());
+                .solve_sequential(nodes.into(), &mut kept, c.into(), x.into(), z.into());
         *state = kept.into();
         result(answer)
     }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
 use super::encode;
 use super::format::{END_MARK, PmacFormat};
@@ -65,7 +65,7 @@ impl PmacWriter {
     ///
     /// # Errors
     /// A [`PmacError`](super::PmacError) within, where a program cannot carry the path.
-    pub fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> io::Result<Vec<u8>> {
+    pub fn lines(format: &PmacFormat, stretch: &SectionBlock<'_>) -> io::Result<Vec<u8>> {
         encode::lines(format, stretch)
     }
 
@@ -113,7 +113,7 @@ impl PmacWriter {
         let mut block = PathBlock::default();
         block.push(point(1));
         block.push(point(2));
-        let stretch = PathStretch {
+        let stretch = SectionBlock {
             section: Section::Cutting,
             opens_section: false,
             before: &[point(0)],
