@@ -266,7 +266,7 @@ fn section(label: &str, told: &str, somewhere: bool, at: &Place) -> String {
 
 impl Place {
     fn new(extreme: &Extreme, part: &Part) -> Self {
-        let at = extreme.place();
+        let at = extreme.position();
         let rho = extreme.rho;
         let inside = rho < part.inner_radius - ON_PART;
         let outside = rho > part.aperture_radius + ON_PART;

@@ -97,7 +97,7 @@ impl Case {
         let residual = self.task.tolerance.residual;
         let radial = self.locus.radial();
         self.locus
-            .held_feed(residual, radial, &[theta], &[rho], &mut feed)
+            .residual_feed(residual, radial, &[theta], &[rho], &mut feed)
             .unwrap();
         feed[0]
     }

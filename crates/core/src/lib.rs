@@ -1,7 +1,8 @@
 //! The vocabulary of turnpath and the traits of its five stages: ordinary Rust, no ABI, no files.
 //!
-//! Lengths are in mm, angles in rad, times in s. θ is the C axis' angle, ρ the distance from the
-//! spindle axis, z points to the tool, material lies below. N = θ/2π counts revolutions.
+//! Lengths are in mm, angles in rad, times in s. θ is the angle of the C axis and ρ is the distance
+//! from the spindle axis. z points to the tool, and the material lies below. N = θ/2π counts
+//! revolutions.
 
 mod compensator;
 mod decimal;

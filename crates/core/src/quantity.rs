@@ -1,7 +1,8 @@
-//! Quantities with units: the text of a recipe to inner units (mm, rad, 1/mm, rad/s, mm/s²), and back.
+//! Quantities with units: converts the text of a recipe to inner units (mm, rad, 1/mm, rad/s,
+//! mm/s²) and back.
 //!
-//! Decimal prefixes move the decimal point of the text before it becomes a double, so `"100 nm"`
-//! is exactly the double `1e-4` and `"1 in"` exactly `25.4`.
+//! A decimal prefix moves the decimal point of the text before the text becomes a double. So `"100
+//! nm"` is exactly the double `1e-4`, and `"1 in"` is exactly `25.4`.
 
 use crate::ParamKind;
 use crate::decimal::Decimal;
@@ -16,11 +17,11 @@ pub enum Quantity {
     Angle,
     /// A curvature or a spatial frequency; inside in 1/mm.
     PerLength,
-    /// A feed per revolution; inside in mm. A bare length will do.
+    /// A feed per revolution; inside in mm. A bare length is allowed too.
     Feed,
     /// A speed of rotation; inside in rad/s.
     RotationSpeed,
-    /// A time; inside in s. Known so that a message can name it.
+    /// A time; inside in s. No parameter is a time; the kind exists so that a message can name it.
     Time,
     /// A speed along a line; inside in mm/s.
     Velocity,
@@ -34,53 +35,53 @@ pub enum Quantity {
     AngularJerk,
 }
 
-/// Why a text is not a quantity of the kind that is wanted.
+/// Why a text is not a quantity of the expected kind.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum QuantityError {
-    /// A number stands there without a unit.
+    /// The text is a number without a unit.
     #[error("`{text}` has no unit, and {} needs one", wanted.noun())]
     NoUnit {
-        /// The text as it stands.
+        /// The text in the recipe.
         text: String,
-        /// The kind that belongs there.
+        /// The expected kind.
         wanted: Quantity,
     },
-    /// The unit is that of another kind of quantity.
+    /// The unit belongs to another kind of quantity.
     #[error("`{text}` is {}, where {} belongs", found.noun(), wanted.noun())]
     OtherKind {
-        /// The text as it stands.
+        /// The text in the recipe.
         text: String,
-        /// What the unit says it is.
+        /// The kind that the unit belongs to.
         found: Quantity,
-        /// The kind that belongs there.
+        /// The expected kind.
         wanted: Quantity,
     },
-    /// No such unit.
+    /// The unit does not exist.
     #[error("`{unit}` is not a unit of {}", wanted.noun())]
     UnknownUnit {
-        /// The unit as it stands.
+        /// The unit in the recipe.
         unit: String,
-        /// The kind that belongs there.
+        /// The expected kind.
         wanted: Quantity,
-        /// A unit that may be meant.
+        /// A unit that the author may have meant.
         meant: Option<&'static str>,
     },
-    /// No number stands before the unit.
+    /// There is no number before the unit.
     #[error("`{text}` does not begin with a number")]
     NotANumber {
-        /// The text as it stands.
+        /// The text in the recipe.
         text: String,
     },
     /// The number is infinite, not a number, or too large for a double.
     #[error("`{text}` is not a finite number")]
     NotFinite {
-        /// The text as it stands.
+        /// The text in the recipe.
         text: String,
     },
 }
 
 impl Quantity {
-    /// The quantity of a kind of parameter; none for pure numbers, flags, words and rows.
+    /// The quantity of a kind of parameter; `None` for pure numbers, flags, words and rows.
     pub const fn of(kind: ParamKind) -> Option<Self> {
         match kind {
             ParamKind::Length => Some(Self::Length),
@@ -91,7 +92,7 @@ impl Quantity {
         }
     }
 
-    /// The kind in words, with its article: "a length".
+    /// The kind in words, with an article: "a length".
     pub const fn noun(self) -> &'static str {
         match self {
             Self::Length => "a length",
@@ -108,7 +109,8 @@ impl Quantity {
         }
     }
 
-    /// All that can be written: those with a unit, in the order of the table of units.
+    /// All quantities that a recipe can contain: those with a unit, in the order of the table of
+    /// units.
     pub fn all() -> impl Iterator<Item = Self> {
         let is_first = |(at, unit): (usize, &Unit)| {
             let before = UNITS.iter().take(at);
@@ -118,7 +120,7 @@ impl Quantity {
         UNITS.iter().enumerate().filter_map(is_first)
     }
 
-    /// The units that it is written in, the usual one first.
+    /// The units of the quantity, the usual one first.
     pub fn units(self) -> impl Iterator<Item = &'static str> {
         UNITS
             .iter()
@@ -126,7 +128,7 @@ impl Quantity {
             .map(|unit| unit.symbol)
     }
 
-    /// A text that would do, for messages.
+    /// A correct text, for messages.
     pub const fn example(self) -> &'static str {
         match self {
             Self::Length => "5 mm",
@@ -143,10 +145,11 @@ impl Quantity {
         }
     }
 
-    /// Reads a text such as `"5 mm"`; the number in inner units.
+    /// Reads a text such as `"5 mm"`, and returns the number in inner units.
     ///
-    /// Lengths and what is per length are the nearest double. Degrees are `x * DEG`, as a
-    /// strategy's author writes a default, so a default written out changes nothing.
+    /// Lengths and quantities per length are the nearest double. Degrees are `x * DEG`, as the
+    /// author of a strategy writes a default. So a recipe that writes out a default changes
+    /// nothing.
     ///
     /// ```
     /// use turnpath_core::{DEG, Quantity};
@@ -206,7 +209,7 @@ impl Quantity {
         }
     }
 
-    /// Writes a value in inner units in the unit that a person would choose, to 12 digits.
+    /// Writes a value in inner units, to 12 digits, in the unit that a person would choose.
     ///
     /// ```
     /// use turnpath_core::Quantity;

@@ -165,7 +165,7 @@ fn refuse(
     });
     if let Some((radius, at)) = noses {
         let nose = fit.largest_nose(on_part.curvature)?;
-        (*radius, *at) = (nose.radius, nose.at.place());
+        (*radius, *at) = (nose.radius, nose.at.position());
     }
     let interference = Box::new(*found);
     Err(PipelineError::Gouge {

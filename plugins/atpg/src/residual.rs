@@ -21,8 +21,8 @@ impl Residual {
     /// Where the range has no length, or surface or locus no value.
     pub fn table(self, setup: Setup<'_>) -> Result<FeedTable> {
         match self {
-            Residual::Held => FeedTable::held(setup),
-            Residual::Paper => FeedTable::of(setup.task.range, &|rho| paper_feed(setup, rho)),
+            Residual::Held => FeedTable::for_residual(setup),
+            Residual::Paper => FeedTable::tabulate(setup.task.range, &|rho| paper_feed(setup, rho)),
         }
     }
 }

@@ -65,7 +65,7 @@ fn the_feed_at_2_mm_against_the_angle_is_that_of_figure_7() {
     let rho = vec![2.0; theta.len()];
     let residual = case.task.tolerance.residual;
     case.locus
-        .held_feed(residual, Radial::Contact, &theta, &rho, &mut feed)
+        .residual_feed(residual, Radial::Contact, &theta, &rho, &mut feed)
         .unwrap();
     let (least, most) = feed
         .iter()

@@ -64,7 +64,7 @@ impl Law {
 }
 
 /// Finds feeds in batches.
-pub struct HeldFeed<'a> {
+pub struct ResidualFeed<'a> {
     setup: Setup<'a>,
     law: Law,
     centres: CentreBuffers,
@@ -73,7 +73,7 @@ pub struct HeldFeed<'a> {
     glanced: Vec<(f64, f64)>,
 }
 
-impl<'a> HeldFeed<'a> {
+impl<'a> ResidualFeed<'a> {
     /// For one task and locus.
     pub fn new(setup: Setup<'a>) -> Self {
         Self {

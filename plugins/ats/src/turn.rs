@@ -7,7 +7,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::held::HeldFeed;
+use crate::held::ResidualFeed;
 use crate::jet::Jet;
 
 /// Pieces of a turn at first: enough for astigmatism and coma as they come.
@@ -120,7 +120,7 @@ pub struct Way {
 
 /// Makes turns.
 pub struct Turns<'a> {
-    feed: HeldFeed<'a>,
+    feed: ResidualFeed<'a>,
     way: Way,
     /// Pieces of the next turn, to begin with.
     count: usize,
@@ -134,7 +134,7 @@ impl<'a> Turns<'a> {
     /// For one task, with `count` pieces to begin with; `None` for a law that begins.
     pub fn new(setup: Setup<'a>, way: Way, count: Option<usize>) -> Self {
         Self {
-            feed: HeldFeed::new(setup),
+            feed: ResidualFeed::new(setup),
             way,
             count: count.unwrap_or(FEWEST),
             theta: Vec::new(),

@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::smallest::smallest_held_feed;
+use crate::smallest::smallest_residual_feed;
 
 /// By how much a derived feed stays below the smallest found on the part: more than the search
 /// misses it by, and a ten-thousandth more revolutions.
@@ -43,7 +43,7 @@ impl FeedStrategy for Constant {
         let feed = match self.feed {
             Some(feed) if feed < least => return Err(given_too_small(least)),
             Some(feed) => feed,
-            None => smallest_held_feed(setup)? * (1.0 - MARGIN),
+            None => smallest_residual_feed(setup)? * (1.0 - MARGIN),
         };
         if feed < least {
             return Err(derived_too_small(feed));

@@ -6,14 +6,14 @@ use turnpath_plugin::prelude::*;
 ///
 /// # Errors
 /// Where the locus has no value.
-pub fn smallest_held_feed(setup: Setup<'_>) -> Result<f64> {
+pub fn smallest_residual_feed(setup: Setup<'_>) -> Result<f64> {
     let (residual, radial) = (setup.task.tolerance.residual, setup.locus.radial());
     let mut feed = Vec::new();
     let [smallest] = extreme::largest(setup.task.range, &mut |theta, rho, out| {
         feed.resize(theta.len(), f64::NAN);
         setup
             .locus
-            .held_feed(residual, radial, theta, rho, &mut feed)?;
+            .residual_feed(residual, radial, theta, rho, &mut feed)?;
         for (i, feed) in feed.iter().enumerate() {
             if feed.is_nan() {
                 return Err(no_feed(theta[i], rho[i]));

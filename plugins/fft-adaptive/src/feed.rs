@@ -87,7 +87,7 @@ impl FeedStrategy for FftAdaptiveFeed {
             Direction::Inward => (outer, -1.0),
         };
         let held = match self.limit_residual {
-            true => Some(FeedTable::held(setup)?),
+            true => Some(FeedTable::for_residual(setup)?),
             false => None,
         };
         Ok(Box::new(FftAdaptivePlan {
@@ -145,7 +145,7 @@ impl FftAdaptivePlan {
     /// the tool is from the revolution before to the one after.
     fn feed(&mut self, surface: &dyn SurfaceModel) -> Result<f64> {
         let chord = self.rays.largest_feed(surface, self.rho, |profile| {
-            self.chord.length(profile.curvature(), self.tolerance) / profile.stretch()
+            self.chord.length(profile.curvature(), self.tolerance) / profile.slant()
         })?;
         let feed = chord.min(self.largest);
         Ok(match &self.held {

@@ -1,4 +1,4 @@
-//! Plain values that cross the boundary, and their way there and back.
+//! Plain values that cross the boundary, and their conversions in both directions.
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
@@ -9,15 +9,15 @@ use turnpath_core::{
 
 use crate::guard::guarded;
 
-/// What a call across the boundary gives.
+/// The result of a call across the boundary.
 pub type Answer<T> = RResult<T, AbiError>;
 
-/// Runs code on its own side of the boundary: no panic crosses.
+/// Runs code on its own side of the boundary, so that no panic crosses.
 pub fn answer<T>(run: impl FnOnce() -> Result<T>) -> Answer<T> {
     guarded(run).map_err(AbiError::from).into()
 }
 
-/// The answer as the core's traits give it.
+/// Converts an answer into a result of the core's traits.
 pub fn result<T>(answer: Answer<T>) -> Result<T> {
     answer.into_result().map_err(StrategyError::from)
 }
@@ -27,7 +27,7 @@ pub fn result<T>(answer: Answer<T>) -> Result<T> {
 pub enum AbiErrorKind {
     Failed,
     Parameter,
-    /// `parameter` holds the key of the slot that was asked.
+    /// `parameter` holds the key of the slot whose strategy was called.
     Delegate,
     Panicked,
 }
@@ -63,7 +63,7 @@ impl From<AbiError> for StrategyError {
     fn from(error: AbiError) -> Self {
         let message = error.message.into_string().into();
         let parameter = error.parameter.into_string();
-        let asked = || Slot::ALL.into_iter().find(|slot| slot.key() == parameter);
+        let slot = || Slot::ALL.into_iter().find(|slot| slot.key() == parameter);
         match error.kind {
             AbiErrorKind::Failed => Self::Failed(message),
             AbiErrorKind::Panicked => Self::Panicked(message),
@@ -71,7 +71,7 @@ impl From<AbiError> for StrategyError {
                 name: parameter.into(),
                 message,
             },
-            AbiErrorKind::Delegate => match asked() {
+            AbiErrorKind::Delegate => match slot() {
                 Some(slot) => Self::Delegate { slot, message },
                 None => Self::Failed(message),
             },
@@ -95,7 +95,7 @@ pub struct AbiArgument {
     value: AbiValue,
 }
 
-/// Parameters on their way to a plugin.
+/// Converts parameters on the host's side.
 pub fn arguments(params: &Params) -> RVec<AbiArgument> {
     let value = |value: &ParamValue| match value {
         ParamValue::Number(number) => AbiValue::Number(*number),
@@ -114,7 +114,7 @@ pub fn arguments(params: &Params) -> RVec<AbiArgument> {
         .collect()
 }
 
-/// Parameters as they arrive in a plugin.
+/// Converts parameters on the plugin's side.
 pub fn params(arguments: RVec<AbiArgument>) -> Params {
     let mut params = Params::new();
     for AbiArgument { name, value } in arguments {
@@ -339,7 +339,8 @@ impl From<&AbiTask> for Task {
     }
 }
 
-/// Whether all slices of a call have one length; a plugin may count on it, a host must check it.
+/// Checks that all slices of a call have one length. A plugin may rely on it, so the host must
+/// check it.
 pub fn same_length(lengths: &[usize]) -> Result<()> {
     match lengths.split_first() {
         Some((first, rest)) if rest.iter().any(|length| length != first) => Err(
@@ -354,7 +355,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_task_comes_back_as_it_went() {
+    fn a_task_is_the_same_after_both_conversions() {
         let limits = |velocity: f64| AxisLimits {
             velocity: Some(velocity),
             acceleration: None,

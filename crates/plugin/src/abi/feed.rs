@@ -5,12 +5,12 @@ use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RVec};
 use turnpath_core::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Result, Setup, Task};
 
-use super::contained::Contained;
 use super::data::{AbiTask, Answer, answer, result};
 use super::locus::{self, IncomingLocus, LentLocus, OutgoingLocus};
-use super::surface::{self, LentSurface, Outgoing};
+use super::panic_safe_box::PanicSafeBox;
+use super::surface::{self, LentSurface, OutgoingSurface};
 
-/// Task and locus, lent for the time of a call.
+/// Task and locus, lent for the duration of a call.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiSetup<'a> {
@@ -19,9 +19,12 @@ pub struct AbiSetup<'a> {
     surface: LentSurface<'a>,
 }
 
-/// Lends a setup for the time of `call`.
+/// Lends a setup for the duration of `call`.
 pub fn lend_setup<T>(setup: Setup<'_>, call: impl FnOnce(AbiSetup<'_>) -> T) -> T {
-    let (locus, surface) = (OutgoingLocus(setup.locus), Outgoing(setup.locus.surface()));
+    let (locus, surface) = (
+        OutgoingLocus(setup.locus),
+        OutgoingSurface(setup.locus.surface()),
+    );
     call(AbiSetup {
         task: setup.task.into(),
         locus: locus::lend(&locus),
@@ -30,7 +33,7 @@ pub fn lend_setup<T>(setup: Setup<'_>, call: impl FnOnce(AbiSetup<'_>) -> T) -> 
 }
 
 impl AbiSetup<'_> {
-    /// The setup as the core's, for the time of `call`.
+    /// Converts the setup to that of the core, for the duration of `call`.
     pub fn receive<T>(self, call: impl FnOnce(Setup<'_>) -> T) -> T {
         let task = Task::from(&self.task);
         let locus = IncomingLocus::new(self.locus, self.surface);
@@ -49,39 +52,39 @@ pub trait AbiFeed: Send + Sync {
 
 #[sabi_trait]
 pub trait AbiPlan: Send {
-    /// Appends pieces as (length, coefficients); false when the law is done.
+    /// Appends pieces as (length, coefficients). Returns false when the law is complete.
     #[sabi(last_prefix_field)]
     fn extend(&mut self, setup: AbiSetup<'_>, pieces: &mut RVec<[f64; 7]>) -> Answer<bool>;
 }
 
-/// A feed strategy that its plugin made.
+/// A feed strategy that belongs to its plugin.
 pub type OwnedFeed = AbiFeed_TO<'static, RBox<()>>;
-/// A law in the making that its plugin holds.
+/// A law that is being planned and belongs to its plugin.
 pub type OwnedPlan = AbiPlan_TO<'static, RBox<()>>;
 
-/// The author's strategy, on its way out.
-pub struct OutgoingFeed(pub Contained<dyn FeedStrategy>);
+/// The author's strategy, wrapped for the boundary.
+pub struct OutgoingFeed(pub PanicSafeBox<dyn FeedStrategy>);
 
 impl AbiFeed for OutgoingFeed {
     fn plan(&self, setup: AbiSetup<'_>) -> Answer<OwnedPlan> {
         answer(|| {
             let plan = setup.receive(|setup| self.0.plan(setup))?;
             Ok(AbiPlan_TO::from_value(
-                OutgoingPlan(Contained::new(plan)),
+                OutgoingPlan(PanicSafeBox::new(plan)),
                 sabi_trait::TD_Opaque,
             ))
         })
     }
 }
 
-struct OutgoingPlan(Contained<dyn FeedPlan>);
+struct OutgoingPlan(PanicSafeBox<dyn FeedPlan>);
 
 impl AbiPlan for OutgoingPlan {
     fn extend(&mut self, setup: AbiSetup<'_>, pieces: &mut RVec<[f64; 7]>) -> Answer<bool> {
         answer(|| {
-            let mut made = Vec::new();
-            let continuation = setup.receive(|setup| self.0.extend(setup, &mut made))?;
-            pieces.extend(made.iter().map(
+            let mut appended = Vec::new();
+            let continuation = setup.receive(|setup| self.0.extend(setup, &mut appended))?;
+            pieces.extend(appended.iter().map(
                 |FeedPiece {
                      length,
                      coefficients: c,
@@ -92,7 +95,7 @@ impl AbiPlan for OutgoingPlan {
     }
 }
 
-/// A plugin's feed strategy, as the core's.
+/// A plugin's feed strategy, wrapped as a strategy of the core.
 pub struct IncomingFeed(pub OwnedFeed);
 
 impl FeedStrategy for IncomingFeed {
@@ -106,10 +109,13 @@ struct IncomingPlan(OwnedPlan);
 
 impl FeedPlan for IncomingPlan {
     fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
-        let mut made = RVec::new();
-        let more = result(lend_setup(setup, |setup| self.0.extend(setup, &mut made)))?;
+        let mut appended = RVec::new();
+        let more = result(lend_setup(setup, |setup| {
+            self.0.extend(setup, &mut appended)
+        }))?;
         pieces.extend(
-            made.iter()
+            appended
+                .iter()
                 .map(|[length, c0, c1, c2, c3, c4, c5]| FeedPiece {
                     length: *length,
                     coefficients: [*c0, *c1, *c2, *c3, *c4, *c5],

@@ -5,11 +5,11 @@ use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RSlice, RVec};
 use turnpath_core::{Dependence, Path, Result, Revolutions, Sampler, Setup, SpiralLaw};
 
-use super::contained::Contained;
 use super::data::{AbiLaw, Answer, answer, result};
 use super::feed::{AbiSetup, lend_setup};
+use super::panic_safe_box::PanicSafeBox;
 
-/// How a strategy depends on its neighbours; `overlap` counts only for `kind` 1.
+/// How a strategy depends on its neighbours. `overlap` has a meaning for `kind` 1 alone.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiDependence {
@@ -111,11 +111,11 @@ pub trait AbiSampler: Send + Sync {
     ) -> Answer<()>;
 }
 
-/// A sampler that its plugin made.
+/// A sampler that belongs to its plugin.
 pub type OwnedSampler = AbiSampler_TO<'static, RBox<()>>;
 
-/// The author's sampler, on its way out.
-pub struct OutgoingSampler(pub Contained<dyn Sampler>);
+/// The author's sampler, wrapped for the boundary.
+pub struct OutgoingSampler(pub PanicSafeBox<dyn Sampler>);
 
 impl AbiSampler for OutgoingSampler {
     fn dependence(&self) -> Answer<AbiDependence> {
@@ -153,14 +153,15 @@ impl AbiSampler for OutgoingSampler {
     }
 }
 
-/// A plugin's sampler, as the core's. The dependence is asked once, when the plugin is loaded.
+/// A plugin's sampler, wrapped as a sampler of the core. The wrapper reads the dependence once,
+/// when it is built.
 pub struct IncomingSampler {
     sampler: OwnedSampler,
     dependence: Dependence,
 }
 
 impl IncomingSampler {
-    /// Asks the sampler how it depends on its neighbours, and unwraps it.
+    /// Reads the sampler's dependence and wraps the sampler.
     pub fn new(sampler: OwnedSampler) -> Result<Self> {
         let dependence = result(sampler.dependence())?.into();
         Ok(Self {
