@@ -1,26 +1,7 @@
 //! The compensator: from a point of the part to the position of the tool's nose centre.
 
 use crate::interference::{self, Interference};
-use crate::{RadialRange, Result, Series, SurfaceModel, Tool};
-
-/// What the radial parameter ρ of a compensator means. The feed that keeps the residual depends on
-/// it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Radial {
-    /// ρ is the radius of the contact: neighbouring contacts lie one feed apart.
-    Contact,
-    /// ρ is the tool centre's X: contacts lie further apart than centres on concave parts.
-    Centre,
-}
-
-/// What a compensator works on: a surface and a tool.
-#[derive(Clone, Copy)]
-pub struct Cut<'a> {
-    /// The surface to be cut.
-    pub surface: &'a dyn SurfaceModel,
-    /// The tool.
-    pub tool: &'a Tool,
-}
+use crate::{Cut, Radial, RadialRange, Result, Series};
 
 /// Where [`Compensator::centre`] writes. Each slice has one element for each point.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 use crate::extreme;
 pub use crate::extreme::Extreme;
-use crate::locus::{Profile, profile_at};
+use crate::profile::{Profile, profile_at};
 use crate::{Cut, Gradients, RadialRange, Result, Scalar, StrategyError, Tool};
 
 /// What the part demands of a tool: the extremes of its sectional curves, each with its position.

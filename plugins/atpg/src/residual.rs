@@ -1,16 +1,17 @@
-//! Which feed the law keeps to: the one that holds the residual, or the paper's.
+//! The feed that the law follows: the one that keeps the residual, or the paper's.
 
 use turnpath_plugin::locus::{LARGEST_FEED, Profile, profile_at};
 use turnpath_plugin::prelude::*;
 use turnpath_plugin::ring::{FeedTable, least_over_angles};
 
-/// Which feed F is the smallest of.
+/// The feed whose smallest value over the angles is F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Residual {
-    /// The feed that holds the residual for what ρ is, curvature and slope at the contact.
-    Held,
-    /// Wang et al. 2019, eq. 1–4: that of a contact's radius whatever ρ is, with the smallest
-    /// curvature and the largest slope on the bare surface at ρ, each at its own angle.
+    /// The feed that keeps the residual for the actual meaning of ρ, with curvature and slope at
+    /// the contact.
+    Exact,
+    /// Wang et al. 2019, eq. 1–4: the feed of a contact's radius, whatever ρ means. It takes the
+    /// smallest curvature and the largest slope of the bare surface at ρ, each at its own angle.
     Paper,
 }
 
@@ -18,10 +19,10 @@ impl Residual {
     /// F over the task's range.
     ///
     /// # Errors
-    /// Where the range has no length, or surface or locus no value.
+    /// If the range has no length, or if the surface or the locus has no value.
     pub fn table(self, setup: Setup<'_>) -> Result<FeedTable> {
         match self {
-            Residual::Held => FeedTable::for_residual(setup),
+            Residual::Exact => FeedTable::for_residual(setup),
             Residual::Paper => FeedTable::tabulate(setup.task.range, &|rho| paper_feed(setup, rho)),
         }
     }
@@ -43,7 +44,7 @@ fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
     Ok((along / (1.0 + slope * slope).sqrt()).min(cap))
 }
 
-/// What `of` says of the radial profiles of the bare surface.
+/// A measure of the bare surface: the value of `of` for each radial profile.
 fn sections<'a>(
     surface: &'a dyn SurfaceModel,
     of: &'a dyn Fn(&Profile) -> f64,

@@ -4,13 +4,13 @@ use turnpath_plugin::prelude::*;
 
 use crate::smallest::smallest_residual_feed;
 
-/// By how much a derived feed stays below the smallest found on the part: more than the search
-/// misses it by, and a ten-thousandth more revolutions.
+/// The part by which a derived feed stays below the smallest feed that the search finds on the
+/// part. It is more than the search misses, and costs a ten-thousandth more revolutions.
 const MARGIN: f64 = 1e-4;
-/// Most revolutions of a path: two weeks at 500 rpm. A feed that takes more is a slip of the unit.
+/// Most revolutions of a path: two weeks at 500 rpm. A feed that takes more has a wrong unit.
 const MOST_REVOLUTIONS: f64 = 1e7;
 
-/// ρ = start ± f·N over the whole range.
+/// The law ρ = start ± f·N over the whole range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constant {
     feed: Option<f64>,

@@ -1,11 +1,11 @@
-//! The smallest held feed on the part.
+//! The smallest residual feed on the part.
 
 use turnpath_plugin::prelude::*;
 
 /// The smallest feed over the task's range, mm, that leaves no cusp above the residual tolerance.
 ///
 /// # Errors
-/// Where the locus has no value.
+/// If the locus has no value somewhere in the range.
 pub fn smallest_residual_feed(setup: Setup<'_>) -> Result<f64> {
     let (residual, radial) = (setup.task.tolerance.residual, setup.locus.radial());
     let mut feed = Vec::new();

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::Steps;
 use super::bound::Jumps;
 use crate::{
     CentreSeries, DEG, Misfit, Path, Rates, Result, Revolutions, Series, StrategyError, angle,
@@ -154,15 +153,20 @@ pub struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    /// Samples for steps that are at most those of `steps`, with errors of at most `allowed` mm. No
-    /// sample is evaluated yet.
-    pub fn new(path: &Path<'a>, block: Revolutions, steps: &Steps, allowed: f64) -> Self {
-        let squared = steps.max_step * steps.max_step;
+    /// Samples for steps of at most `max_step` rad, with errors of at most `allowed` mm. X's own
+    /// error may take `feed_part` of the distance between passes. No sample is evaluated yet.
+    pub fn new(
+        path: &Path<'a>,
+        block: Revolutions,
+        (max_step, feed_part): (f64, f64),
+        allowed: f64,
+    ) -> Self {
+        let squared = max_step * max_step;
         let phi = PhiEvaluator {
             path: *path,
             negligible_fourth: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
             allowed,
-            feed_part: steps.feed_part,
+            feed_part,
             sharpest: sharpest(path.task.tool.misfit, allowed),
             theta: Vec::new(),
             rho: Vec::new(),

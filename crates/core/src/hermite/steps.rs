@@ -103,7 +103,7 @@ struct Step {
 impl<'a> Walk<'a> {
     fn new(path: &Path<'a>, block: Revolutions, steps: &Steps) -> Result<Self> {
         let allowed = AIM * path.task.tolerance.interpolation;
-        let mut samples = Samples::new(path, block, steps, allowed);
+        let mut samples = Samples::new(path, block, (steps.max_step, steps.feed_part), allowed);
         let knots = samples.knots()?;
         Ok(Self {
             samples,
