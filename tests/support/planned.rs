@@ -6,15 +6,15 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::{
-    CentreBuffers, Compensator, Direction, FeedStrategy, Job, Locus, Machine, NM, Onward,
+    CentreBuffers, Compensator, Continuation, Direction, FeedStrategy, Locus, Machine, NM,
     ParamValue, Params, Part, RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy,
-    SurfaceModel, Tolerance, Tool, ToolLocus,
+    SurfaceModel, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_surfaces::{Astigmatic, SinusoidalArray};
 
-/// A job and the locus that it is cut on.
+/// A task and the locus that it is cut on.
 pub struct Case {
-    pub job: Job,
+    pub task: Task,
     pub locus: ToolLocus,
     pub surface: Arc<dyn SurfaceModel>,
 }
@@ -34,7 +34,7 @@ impl Case {
             clearance_angle: None,
             misfit: turnpath_core::Misfit::Refuse,
         };
-        let job = Job {
+        let task = Task {
             part: Part {
                 aperture_radius: outer,
                 inner_radius: 0.0,
@@ -50,27 +50,27 @@ impl Case {
             spindle: SpindleLaw::constant(500.0 * TAU / 60.0),
         };
         Self {
-            job,
+            task,
             locus: ToolLocus::new(surface.clone(), compensator, tool),
             surface,
         }
     }
 
     pub fn inward(mut self) -> Self {
-        self.job.direction = Direction::Inward;
+        self.task.direction = Direction::Inward;
         self
     }
 
     /// With a hole of the given radius.
     pub fn with_hole(mut self, inner: f64) -> Self {
-        self.job.part.inner_radius = inner;
-        self.job.range.inner = inner;
+        self.task.part.inner_radius = inner;
+        self.task.range.inner = inner;
         self
     }
 
     pub fn setup(&self) -> Setup<'_> {
         Setup {
-            job: &self.job,
+            task: &self.task,
             locus: &self.locus,
         }
     }
@@ -80,8 +80,8 @@ impl Case {
         let mut plan = feed.plan(self.setup())?;
         let (mut law, mut pieces) = (SpiralLaw::new(), Vec::new());
         for _ in 0..1000 {
-            let onward = plan.extend(self.setup(), &mut pieces)?;
-            if onward == Onward::Done {
+            let continuation = plan.extend(self.setup(), &mut pieces)?;
+            if continuation == Continuation::End {
                 for piece in pieces {
                     law.push(piece.length, piece.coefficients);
                 }
@@ -94,10 +94,10 @@ impl Case {
     /// The held feed at one place.
     pub fn held(&self, theta: f64, rho: f64) -> f64 {
         let mut feed = [f64::NAN];
-        let residual = self.job.tolerance.residual;
+        let residual = self.task.tolerance.residual;
         let radial = self.locus.radial();
         self.locus
-            .held_feed(residual, radial, &[theta], &[rho], &mut feed)
+            .residual_feed(residual, radial, &[theta], &[rho], &mut feed)
             .unwrap();
         feed[0]
     }

@@ -1,27 +1,9 @@
-//! The compensator: from a place on the part to the place of the tool's nose centre.
+//! The compensator: from a point of the part to the position of the tool's nose centre.
 
 use crate::interference::{self, Interference};
-use crate::{RadialRange, Result, Series, SurfaceModel, Tool};
+use crate::{Cut, Radial, RadialRange, Result, Series};
 
-/// What the radial parameter ρ of a compensator is. It decides the feed that holds the residual.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Radial {
-    /// ρ is the radius of the contact: neighbouring contacts lie one feed apart.
-    Contact,
-    /// ρ is the tool centre's X: contacts lie further apart than centres on concave parts.
-    Centre,
-}
-
-/// What a compensator works on.
-#[derive(Clone, Copy)]
-pub struct Cut<'a> {
-    /// The surface to be cut.
-    pub surface: &'a dyn SurfaceModel,
-    /// The tool.
-    pub tool: &'a Tool,
-}
-
-/// Where [`Compensator::centre`] writes; as many places as points.
+/// Where [`Compensator::centre`] writes. Each slice has one element for each point.
 #[derive(Debug)]
 pub struct Centres<'a> {
     /// X of the nose centre, mm.
@@ -32,7 +14,7 @@ pub struct Centres<'a> {
     pub foot: &'a mut [f64],
 }
 
-/// Where [`Compensator::exact_series`] writes: the nose centre along each curve.
+/// Where [`Compensator::exact_series`] writes the nose centre along each curve.
 #[derive(Debug)]
 pub struct CentreSeries<'a> {
     /// X(t).
@@ -41,7 +23,7 @@ pub struct CentreSeries<'a> {
     pub z: &'a mut [Series],
 }
 
-/// Where [`Compensator::exact_rates`] writes: how the nose centre moves.
+/// Where [`Compensator::exact_rates`] writes how the nose centre moves.
 #[derive(Debug)]
 pub struct Rates<'a> {
     /// ∂X/∂θ at constant ρ, mm/rad.
@@ -56,30 +38,31 @@ pub struct Rates<'a> {
 
 /// Places the nose centre for a C angle θ and a radial parameter ρ.
 ///
-/// Only [`centre`](Compensator::centre) is needed. What a compensator does not give exactly the
-/// host fits numerically (see [`fit`](crate::fit)). All slices of one call have the same length.
+/// A compensator must implement [`centre`](Compensator::centre) alone. The host fits numerically
+/// what a compensator does not give exactly (see [`fit`](crate::fit)). All slices of one call have
+/// the same length.
 pub trait Compensator: Send + Sync {
-    /// What ρ is.
+    /// What ρ means.
     fn radial(&self) -> Radial;
 
-    /// Whether the nose radius is compensated; if not, the path is that of a point.
+    /// Whether the compensator compensates the nose radius. If it does not, the path is that of a
+    /// point.
     fn compensates_nose(&self) -> bool {
         true
     }
 
-    /// Whether the nose goes no further than where it first touches with any part of its edge, so
-    /// that it cuts into nothing where it does not fit. Without this a job that asks for
-    /// [`Misfit::CutWhatFits`](crate::Misfit) is refused on a part into which the nose does not
-    /// fit.
+    /// Whether the nose stops where any part of its edge first touches the surface, so that a nose
+    /// that does not fit cuts into nothing. If this is false, the host refuses a task with
+    /// [`Misfit::CutWhatFits`](crate::Misfit) on a part into which the nose does not fit.
     fn cuts_what_fits(&self) -> bool {
         false
     }
 
-    /// The nose centre and the contact for each (θ, ρ); NaN where there is none.
+    /// The nose centre and the contact for each (θ, ρ). NaN marks a point that has none.
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()>;
 
-    /// The exact order-4 series of the nose centre along the curves (θ(t), ρ(t)); `None` where
-    /// the compensator has none.
+    /// The exact order-4 series of the nose centre along the curves (θ(t), ρ(t)); `None` if the
+    /// compensator has no exact series.
     fn exact_series(
         &self,
         cut: Cut<'_>,
@@ -91,7 +74,7 @@ pub trait Compensator: Send + Sync {
         None
     }
 
-    /// The exact partial rates of the nose centre; `None` where the compensator has none.
+    /// The exact partial rates of the nose centre; `None` if the compensator has no exact rates.
     fn exact_rates(
         &self,
         cut: Cut<'_>,
@@ -103,7 +86,7 @@ pub trait Compensator: Send + Sync {
         None
     }
 
-    /// Looks for places within `region` (radii of contact) that the tool cannot cut.
+    /// Looks for points within `region` (radii of the contact) that the tool cannot cut.
     fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
         interference::check(cut, region)
     }

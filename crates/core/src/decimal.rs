@@ -1,4 +1,4 @@
-//! Decimal numbers as digits and an exponent: scaled exactly, before they become doubles.
+//! Decimal numbers as digits and an exponent. They are scaled exactly before they become doubles.
 
 /// A decimal number, `± digits · 10^exponent`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -8,13 +8,13 @@ pub(crate) struct Decimal {
     exponent: i64,
 }
 
-/// Beyond this an exponent only says "zero" or "infinite".
+/// A larger exponent only means "zero" or "infinite".
 const EXPONENT_LIMIT: i64 = 1_000_000_000_000;
-/// Significant digits of a written number: enough for any tolerance, too few to show rounding.
+/// Significant digits of a written number: enough for any tolerance, and too few to show rounding.
 const WRITTEN_DIGITS: usize = 12;
 
 impl Decimal {
-    /// Reads the number that `text` begins with; the rest of the text beside it.
+    /// Reads the number at the start of `text`, and also returns the rest of the text.
     pub(crate) fn take(text: &str) -> Option<(Self, &str)> {
         let (negative, rest) = take_sign(text);
         let (whole, rest) = take_digits(rest);
@@ -46,7 +46,7 @@ impl Decimal {
         }
     }
 
-    /// The number times a small whole factor, exactly.
+    /// The number times a small whole factor, exact.
     pub(crate) fn times(&self, factor: u32) -> Self {
         let mut carry = 0;
         let mut reversed = String::new();
@@ -72,7 +72,7 @@ impl Decimal {
         text.parse().unwrap_or(f64::NAN)
     }
 
-    /// A double to 12 significant digits; none if it is not finite.
+    /// A double, rounded to 12 significant digits; `None` if it is not finite.
     pub(crate) fn rounded(value: f64) -> Option<Self> {
         let text = format!("{value:.*e}", WRITTEN_DIGITS - 1);
         Self::take(&text).map(|(decimal, _)| decimal.trimmed())

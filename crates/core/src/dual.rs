@@ -16,9 +16,9 @@ use crate::Scalar;
 pub struct Dual<T> {
     /// The value.
     pub value: T,
-    /// Its derivative with respect to x.
+    /// The derivative with respect to x.
     pub dx: T,
-    /// Its derivative with respect to y.
+    /// The derivative with respect to y.
     pub dy: T,
 }
 
@@ -43,7 +43,7 @@ impl<T: Scalar> Dual<T> {
         }
     }
 
-    /// f(self), from the value of f and of its derivative there.
+    /// f(self), from the value of f and of f's derivative at `self`.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
         Self {

@@ -1,47 +1,47 @@
-//! What a strategy says when it cannot answer.
+//! The errors of strategies.
 
 use std::borrow::Cow;
 
 use crate::Slot;
 
-/// The answer of a strategy, or why there is none.
+/// The answer of a strategy, or the reason why there is none.
 pub type Result<T> = std::result::Result<T, StrategyError>;
 
-/// Why a strategy could not answer. The host adds the plugin's and the strategy's name.
+/// Why a strategy could not answer. The host adds the names of the plugin and of the strategy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StrategyError {
-    /// The strategy gave up; the text says why, for the person with the recipe open.
+    /// The strategy gave up. The text explains the reason to the person who has the recipe open.
     #[error("{0}")]
     Failed(Cow<'static, str>),
     /// A parameter has a value that the strategy cannot work with.
     #[error("parameter `{name}`: {message}")]
     Parameter {
-        /// The parameter as it stands in the recipe.
+        /// The parameter's key in the recipe.
         name: Cow<'static, str>,
-        /// What is wrong with it, and what would do.
+        /// What is wrong with the value, and which value would do.
         message: Cow<'static, str>,
     },
-    /// Another strategy that this one asked could not answer: a sampler asks the locus, a
-    /// compensator the surface.
+    /// A strategy that this one called could not answer. A sampler calls the locus, for example,
+    /// and a compensator calls the surface.
     #[error("{message}")]
-    Asked {
-        /// The slot of the strategy that was asked.
+    Delegate {
+        /// The slot of the strategy that was called.
         slot: Slot,
-        /// What it said, with its name and its plugin's.
+        /// That strategy's error, with its name and the name of its plugin.
         message: Cow<'static, str>,
     },
-    /// The strategy panicked; the text says with what, and where.
+    /// The strategy panicked. The text gives the panic's message and its source location.
     #[error("panicked: {0}")]
     Panicked(Cow<'static, str>),
 }
 
 impl StrategyError {
-    /// A failure with a text for the person with the recipe open.
+    /// A failure, with a text for the person who has the recipe open.
     pub fn failed(message: impl Into<Cow<'static, str>>) -> Self {
         Self::Failed(message.into())
     }
 
-    /// A complaint about one parameter; the host underlines it in the recipe.
+    /// An error in one parameter. The host underlines the parameter in the recipe.
     pub fn parameter(
         name: impl Into<Cow<'static, str>>,
         message: impl Into<Cow<'static, str>>,

@@ -1,9 +1,9 @@
-//! The largest values that quantities have over a ring of the part, and where.
+//! The largest values of quantities over a ring of the part, and their positions.
 //!
-//! A look at a polar grid, then closing in on several of its highest places at once, by a compass
-//! search of their own step each. One candidate would not do: a crest that lies between the grid's
-//! places may look lower there than a lesser one that lies on them. What is narrower than the
-//! grid's spacing can still be missed.
+//! The search evaluates a polar grid. It then refines several of the grid's highest points at once
+//! by a compass search, each with its own step. One candidate would not be enough: a crest between
+//! the points of the grid may look lower on the grid than a lesser crest that runs through them.
+//! The search can still miss what is narrower than the grid's spacing.
 
 use std::f64::consts::TAU;
 
@@ -11,20 +11,20 @@ use nalgebra::Vector2;
 
 use crate::{RadialRange, Result, Scalar};
 
-/// Angles of the grid: a wave with 36 periods on a revolution still has 10 of them.
+/// Angles of the grid. A wave with 36 periods on a revolution still gets 10 points a period.
 const ANGLES: usize = 360;
 /// Steps of the grid along the radius.
 const RADII: usize = 256;
-/// How many of the grid's highest places are closed in on: a lattice of equal hollows has many
-/// that look alike.
+/// How many of the grid's highest points the search refines. A lattice of equal hollows has many
+/// points that look alike.
 const CANDIDATES: usize = 24;
-/// How many of these may lie on one radius: a surface of revolution has its crest on all angles.
+/// How many of these may lie on one radius. A surface of revolution has its crest at every angle.
 const ON_ONE_RADIUS: usize = 8;
-/// Rounds of closing in; a step is halved where none of its neighbours is higher. 2⁻²⁰ of a grid
-/// step changes a value, flat at its largest, by less than rounding.
+/// Rounds of refinement. A round halves the step of a candidate that has no higher neighbour. Near
+/// a flat maximum, 2⁻²⁰ of a grid step changes the value by less than rounding.
 const ROUNDS: usize = 40;
 
-/// The eight neighbours of a place, in steps of the grid.
+/// The eight neighbours of a point, in steps of the grid.
 const NEIGHBOURS: [(f64, f64); 8] = [
     (-1.0, -1.0),
     (-1.0, 0.0),
@@ -36,7 +36,7 @@ const NEIGHBOURS: [(f64, f64); 8] = [
     (1.0, 1.0),
 ];
 
-/// The largest value of something on the part, and where.
+/// The largest value of a quantity on the part, and its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extreme {
     /// The value.
@@ -48,22 +48,22 @@ pub struct Extreme {
 }
 
 impl Extreme {
-    /// The place as (x, y), mm.
-    pub fn place(&self) -> Vector2<f64> {
+    /// The position as (x, y), mm.
+    pub fn position(&self) -> Vector2<f64> {
         let (s, c) = Scalar::sin_cos(self.theta);
         Vector2::new(self.rho * c, self.rho * s)
     }
 }
 
-/// Measures K quantities at each (θ, ρ) of a batch, all slices of one length. Where there is no
-/// number it is its own matter to complain: NaN is never the largest.
+/// Measures K quantities at each (θ, ρ) of a batch. All slices have one length. The measure itself
+/// must report a point without a value, since NaN is never the largest value.
 pub type Measure<'a, const K: usize> =
     dyn FnMut(&[f64], &[f64], &mut [[f64; K]]) -> Result<()> + 'a;
 
 /// The largest value of each of K quantities within `region`.
 ///
 /// # Errors
-/// Those of `measure`.
+/// The errors of `measure`.
 ///
 /// ```
 /// use turnpath_core::{RadialRange, extreme};
@@ -83,7 +83,7 @@ pub fn largest<const K: usize>(
     measure: &mut Measure<'_, K>,
 ) -> Result<[Extreme; K]> {
     let grid = Grid::new(region);
-    let rows = grid.look(measure)?;
+    let rows = grid.evaluate(measure)?;
     let mut found = [Extreme {
         value: f64::NEG_INFINITY,
         theta: 0.0,
@@ -91,7 +91,7 @@ pub fn largest<const K: usize>(
     }; K];
     for (which, found) in found.iter_mut().enumerate() {
         let candidates = grid.highest(&rows, which);
-        let closed_in = grid.close_in(candidates, which, measure)?;
+        let closed_in = grid.refine(candidates, which, measure)?;
         let highest = closed_in.into_iter().max_by(by_value);
         *found = highest.unwrap_or(*found);
     }
@@ -125,8 +125,8 @@ impl Grid {
         self.region.inner + i as f64 * self.rho_step
     }
 
-    /// All values, a row for each radius.
-    fn look<const K: usize>(&self, measure: &mut Measure<'_, K>) -> Result<Vec<Vec<[f64; K]>>> {
+    /// Evaluates all points of the grid; one row for each radius.
+    fn evaluate<const K: usize>(&self, measure: &mut Measure<'_, K>) -> Result<Vec<Vec<[f64; K]>>> {
         let theta: Vec<f64> = (0..ANGLES).map(|j| self.theta(j)).collect();
         let row = |i| {
             let mut values = vec![[f64::NAN; K]; ANGLES];
@@ -136,7 +136,7 @@ impl Grid {
         (0..=RADII).map(row).collect()
     }
 
-    /// The highest of the grid's places that are no lower than the four next to them.
+    /// The highest points of the grid among those that are no lower than their four neighbours.
     fn highest<const K: usize>(&self, rows: &[Vec<[f64; K]>], which: usize) -> Vec<Extreme> {
         let mut found = Vec::new();
         for (i, row) in rows.iter().enumerate() {
@@ -160,9 +160,9 @@ impl Grid {
         found
     }
 
-    /// Compass search from each candidate: the best of its eight neighbours, at half the step
-    /// where none is better.
-    fn close_in<const K: usize>(
+    /// Runs a compass search from each candidate. A candidate moves to the best of its eight
+    /// neighbours. If none is better, its step is halved.
+    fn refine<const K: usize>(
         &self,
         mut candidates: Vec<Extreme>,
         which: usize,
@@ -193,7 +193,7 @@ impl Grid {
         Ok(candidates)
     }
 
-    /// θ and ρ of the eight neighbours of each candidate, at its own part of the grid's step.
+    /// θ and ρ of the eight neighbours of each candidate, at the candidate's own step.
     fn neighbours(&self, candidates: &[Extreme], scales: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let around = candidates
             .iter()
@@ -234,8 +234,8 @@ mod tests {
         found
     }
 
-    /// A Gaussian hill of this height at (θ, ρ), `wide` mm wide.
-    fn hill(height: f64, wide: f64, at: (f64, f64)) -> impl Fn(f64, f64) -> f64 {
+    /// A Gaussian peak of this height at (θ, ρ), `wide` mm wide.
+    fn peak(height: f64, wide: f64, at: (f64, f64)) -> impl Fn(f64, f64) -> f64 {
         move |theta, rho| {
             let (sin, cos) = Scalar::sin_cos(theta);
             let (at_sin, at_cos) = Scalar::sin_cos(at.0);
@@ -244,29 +244,29 @@ mod tests {
         }
     }
 
-    /// Narrow hills between the grid's places look lower there than a lower one that lies on them.
+    /// Narrow peaks between the points of the grid look lower there than a lower peak on a point.
     #[test]
-    fn the_higher_of_hills_is_found_wherever_it_lies_between_the_grid() {
+    fn the_highest_peak_is_found_wherever_it_lies_between_the_points_of_the_grid() {
         let (theta_step, rho_step) = (TAU / 360.0, 2.5 / 256.0);
         for (turn, out) in [(0.5, 0.5), (0.5, 0.0), (0.3, 0.6), (0.1, 0.9)] {
             let at = ((40.0 + turn) * theta_step, (100.0 + out) * rho_step);
-            let narrow = hill(1.0, 0.02, at);
-            let on_grid = hill(0.97, 0.02, (90.0 * theta_step, 128.0 * rho_step));
+            let narrow = peak(1.0, 0.02, at);
+            let on_grid = peak(0.97, 0.02, (90.0 * theta_step, 128.0 * rho_step));
             let found = one(|theta, rho| narrow(theta, rho).max(on_grid(theta, rho)));
             assert!((found.value - 1.0).abs() < 1e-12, "{found:?}");
         }
     }
 
-    /// A crest that runs all around, a hundredth lower than a hill elsewhere.
+    /// A crest that runs all around, a hundredth lower than a peak elsewhere.
     #[test]
-    fn a_crest_on_all_angles_does_not_hide_a_hill() {
-        let peak = hill(1.0, 0.03, (1.234, 1.2345));
+    fn a_crest_on_all_angles_does_not_hide_a_peak() {
+        let peak = peak(1.0, 0.03, (1.234, 1.2345));
         let found = one(|theta, rho| peak(theta, rho).max(0.99 - (rho - 2.0) * (rho - 2.0)));
         assert!((found.value - 1.0).abs() < 1e-12, "{found:?}");
     }
 
     #[test]
-    fn each_quantity_has_its_own_place() {
+    fn each_quantity_has_its_own_position() {
         let [out, turned] = largest(DISC, &mut |theta, rho, out| {
             for ((out, theta), rho) in out.iter_mut().zip(theta).zip(rho) {
                 *out = [*rho, Scalar::cos(theta - 0.123)];

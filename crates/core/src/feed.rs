@@ -1,45 +1,46 @@
-//! The feed strategy: the spiral law, block by block.
+//! The feed strategy: it gives the spiral law, piece by piece.
 
-use crate::{Job, Locus, Result, quintic};
+use crate::{Locus, Result, Task, quintic};
 
-/// The job and the locus, before there is a law.
+/// What a feed strategy works on: the task and the locus. There is no law yet.
 #[derive(Clone, Copy)]
 pub struct Setup<'a> {
     /// Part, tool, tolerance, range of ρ, direction, spindle.
-    pub job: &'a Job,
-    /// Where the nose centre goes.
+    pub task: &'a Task,
+    /// The locus of the nose centre.
     pub locus: &'a dyn Locus,
 }
 
-/// Whether a law goes on.
+/// Whether a law continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Onward {
-    /// There is more to come.
+pub enum Continuation {
+    /// The law has more pieces.
     More,
-    /// The law has reached its end.
-    Done,
+    /// The law is complete.
+    End,
 }
 
-/// Plans how far the tool feeds against revolutions.
+/// Plans the radial parameter ρ as a function of revolutions.
 pub trait FeedStrategy: Send + Sync {
-    /// Prepares the law: whatever must be known of the whole part before its first piece.
+    /// Prepares the law. A strategy computes here what it must know of the whole part before the
+    /// first piece.
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>>;
 }
 
-/// One piece of a law in the making.
+/// One piece of a spiral law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
-    /// How many revolutions it covers.
+pub struct FeedPiece {
+    /// The number of revolutions that the piece covers.
     pub length: f64,
-    /// Coefficients of ρ in mm against the revolutions since its start, lowest first.
+    /// Coefficients of ρ in mm against the revolutions since the start of the piece, lowest first.
     pub coefficients: [f64; 6],
 }
 
-impl Stretch {
-    /// The polynomial of degree 5 with a given ρ, dρ/dN and d²ρ/dN² at each of its ends.
+impl FeedPiece {
+    /// The polynomial of degree 5 that has a given ρ, dρ/dN and d²ρ/dN² at each end of the piece.
     ///
     /// ```
-    /// let smooth = turnpath_core::Stretch::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
+    /// let smooth = turnpath_core::FeedPiece::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0);
     /// assert_eq!(smooth.coefficients, [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]);
     /// ```
     pub fn between(from: [f64; 3], to: [f64; 3], length: f64) -> Self {
@@ -50,19 +51,19 @@ impl Stretch {
     }
 }
 
-/// A law in the making: a state of one's own, asked for the next pieces until it is done.
+/// A law that is being planned. The host calls it for more pieces until the law is complete.
 pub trait FeedPlan: Send {
-    /// Appends at least one piece; about a revolution's worth or more is a good measure.
+    /// Appends at least one piece. Pieces for about one revolution or more are a good amount.
     ///
-    /// The law begins at N = 0 at the rim (inward) or at the inner end (outward). The host checks
-    /// that every turn lies beyond the last.
+    /// The law begins at N = 0. It begins at the rim if the tool feeds inward, and at the inner end
+    /// if the tool feeds outward. The host checks that every turn lies beyond the turn before it.
     ///
-    /// Where the path is to cover the whole part, the host lets the feed run out at both ends, unless
-    /// the law closes there by itself: at every angle its outermost pass lies beyond the end of the
-    /// range, or inside of it by no more than 0.41 of the way to the next pass. Running out adds up
-    /// to 0.6 turns an end, which turns the rest of the law against the part. So a law that
-    /// follows the angle must close by itself, at N = 0 also: begin with a turn that hardly leaves
-    /// the end of the range, let the feed come in over the turns that follow, and go on until the
-    /// slowest angle has passed the other end.
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward>;
+    /// If the path must cover the whole part, the host lets the feed run out at both ends. It
+    /// leaves an end alone if the law closes there by itself: at every angle, the law's outermost
+    /// pass lies beyond the end of the range, or inside of it by at most 0.41 of the distance to
+    /// the next pass. The run-out adds up to 0.6 turns at each end, and these turns rotate the rest
+    /// of the law against the part. A law that follows the angle must therefore close by itself,
+    /// also at N = 0: begin with a turn that hardly leaves the end of the range, let the feed grow
+    /// over the turns that follow, and continue until the slowest angle has passed the other end.
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation>;
 }

@@ -1,9 +1,10 @@
-//! Series of a tool centre by numerical fit, for compensators that give none exactly.
+//! The series of a tool centre by numerical fit, for compensators that give no exact series.
 //!
-//! The centre is evaluated at 9 points t = −4h … 4h along the curve, and central differences of
-//! orders 8 give c_1 … c_4 with an error of h⁶ to h⁸ times a 9th or 10th derivative, against a
-//! rounding error that grows as h⁻⁴. Which h balances them depends on the surface, so a ladder of
-//! steps is tried and, for every coefficient, the value taken where three steps agree best.
+//! The fit evaluates the centre at 9 points t = −4h … 4h along the curve. Central differences of
+//! order 8 give c_1 … c_4 with an error of h⁶ to h⁸ times a 9th or 10th derivative. The rounding
+//! error grows as h⁻⁴. The h that balances both depends on the surface. The fit therefore tries a
+//! ladder of steps and takes, for every coefficient, the value where three neighbouring steps agree
+//! best.
 
 use crate::Series;
 
@@ -11,11 +12,11 @@ use crate::Series;
 pub const STENCIL: usize = 9;
 /// Widest step of the ladder, as a part of the curve's own scale.
 const WIDEST: f64 = 0.25;
-/// How many steps the ladder has, each half of the one before.
+/// Number of steps of the ladder. Each step is half of the step before.
 pub const LADDER: usize = 7;
 
-/// Weights of the values at −4h … 4h for the coefficients c_1 … c_4, without their power of h: the
-/// central differences of highest order on 9 points, each over k!.
+/// Weights of the values at −4h … 4h for the coefficients c_1 … c_4, without their powers of h: the
+/// central differences of the highest order on 9 points, each divided by k!.
 const WEIGHTS: [[f64; STENCIL]; 4] = [
     [
         1.0 / 280.0,
@@ -63,8 +64,9 @@ const WEIGHTS: [[f64; STENCIL]; 4] = [
     ],
 ];
 
-/// The steps to try on a curve (θ(t), ρ(t)) for a nose of the given radius: the widest moves θ by
-/// a quarter of a radian or ρ by a quarter of the nose radius, whichever comes first.
+/// The steps of the ladder on a curve (θ(t), ρ(t)) for a nose of the given radius. The widest step
+/// moves θ by a quarter of a radian or ρ by a quarter of the nose radius, whichever is reached
+/// first.
 pub fn steps(theta: &Series, rho: &Series, nose_radius: f64) -> [f64; LADDER] {
     let fastest = theta[1].abs().max(rho[1].abs() / nose_radius);
     let scale = if fastest > 0.0 { 1.0 / fastest } else { 1.0 };
@@ -76,13 +78,13 @@ pub fn evaluate(series: &Series, t: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, c| sum * t + c)
 }
 
-/// The series at the stencil's middle from the values on every step of the ladder.
+/// The series at the middle of the stencil, from the values on every step of the ladder.
 pub fn fit(steps: &[f64; LADDER], values: &[[f64; STENCIL]; LADDER]) -> Series {
     let mut out = [values[0][STENCIL / 2], 0.0, 0.0, 0.0, 0.0];
     for (order, weights) in (1..).zip(&WEIGHTS) {
-        let tried: [f64; LADDER] =
+        let ladder: [f64; LADDER] =
             std::array::from_fn(|i| difference(weights, &values[i]) / power(steps[i], order));
-        out[order as usize] = most_agreed(&tried);
+        out[order as usize] = best_agreement(&ladder);
     }
     out
 }
@@ -95,11 +97,11 @@ fn power(base: f64, exponent: i32) -> f64 {
     (0..exponent).fold(1.0, |product, _| product * base)
 }
 
-/// The value on the ladder that differs least from both its neighbours: two alone may agree by
-/// chance.
-fn most_agreed(tried: &[f64; LADDER]) -> f64 {
+/// The value on the ladder that differs least from both its neighbours. Two values alone may agree
+/// by chance.
+fn best_agreement(ladder: &[f64; LADDER]) -> f64 {
     let mut best = (f64::INFINITY, f64::NAN);
-    for three in tried.windows(3) {
+    for three in ladder.windows(3) {
         let gap = (three[0] - three[1]).abs().max((three[1] - three[2]).abs());
         if gap < best.0 {
             best = (gap, three[1]);

@@ -1,28 +1,29 @@
 //! The interference check: can this tool cut this surface at all?
 //!
-//! Sectional curves (Fang et al. 2008): in the radial section through every place the nose must
-//! fit the hollow and the contact stay on the edge, rising outward and falling; along the cut the
-//! flank must clear the slope, up and down.
+//! The check uses sectional curves (Fang et al. 2008). In the radial section through every point,
+//! the nose must fit into the hollow, and the contact must stay on the edge where the section rises
+//! outward and where it falls. Along the cut, the flank must clear the slope, up and down.
 
 use nalgebra::Vector2;
 
 use crate::extreme;
 pub use crate::extreme::Extreme;
-use crate::locus::{Profile, profile_at};
+use crate::profile::{Profile, profile_at};
 use crate::{Cut, Gradients, RadialRange, Result, Scalar, StrategyError, Tool};
 
-/// What the part asks of a tool: its steepest sectional curves, each with its place.
+/// What the part demands of a tool: the extremes of its sectional curves, each with its position.
 ///
-/// Slopes are angles to the horizontal, rad; below 0 where the section rises, or falls, nowhere.
+/// Slopes are angles to the horizontal, rad. An angle is below 0 if the section rises (or falls)
+/// nowhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interference {
-    /// Largest curvature of a radial section, 1/mm; positive: a hollow.
+    /// Largest curvature of a radial section, 1/mm; positive in a hollow.
     pub curvature: Extreme,
     /// Steepest rise of a radial section outward.
     pub rise: Extreme,
     /// Steepest fall of a radial section outward.
     pub fall: Extreme,
-    /// Steepest rise along the cut, the way C turns.
+    /// Steepest rise along the cut, in the direction in which C turns.
     pub uphill: Extreme,
     /// Steepest fall along the cut.
     pub downhill: Extreme,
@@ -35,23 +36,23 @@ pub enum Conflict {
     NoseRadius {
         /// The largest nose radius that fits, mm.
         largest: f64,
-        /// What limits it.
+        /// The point that limits the radius.
         at: Vector2<f64>,
     },
     /// The contact would leave the edge.
     IncludedAngle {
-        /// The included angle that would do, rad.
+        /// The least included angle that would do, rad.
         least: f64,
-        /// Where it is needed.
+        /// The point that needs this angle.
         at: Vector2<f64>,
     },
     /// The flank would rub.
     Clearance {
-        /// The clearance angle that would do, rad.
+        /// The least clearance angle that would do, rad.
         least: f64,
-        /// Where it is needed.
+        /// The point that needs this angle.
         at: Vector2<f64>,
-        /// Whether the surface rises along the cut there; it falls if not.
+        /// Whether the surface rises along the cut at this point; otherwise it falls.
         uphill: bool,
     },
 }
@@ -68,7 +69,7 @@ impl Interference {
         ]
     }
 
-    /// From extremes in the order of [`extremes`](Interference::extremes).
+    /// The inverse of [`extremes`](Interference::extremes): takes the extremes in the same order.
     pub fn from_extremes([curvature, rise, fall, uphill, downhill]: [Extreme; 5]) -> Self {
         Self {
             curvature,
@@ -79,19 +80,19 @@ impl Interference {
         }
     }
 
-    /// Largest angle of a radial section to the horizontal, either way, rad.
+    /// Largest angle of a radial section to the horizontal, rising or falling, rad.
     pub fn contact_angle(&self) -> Extreme {
         larger(self.fall, self.rise)
     }
 
-    /// Largest angle of the surface along the cut to the horizontal, up or down, rad.
+    /// Largest angle of the surface along the cut to the horizontal, rising or falling, rad.
     pub fn cut_angle(&self) -> Extreme {
         larger(self.downhill, self.uphill)
     }
 
     /// The largest nose radius that fits where the check looked, mm; infinite on a part without
-    /// hollows. A larger nose touches other places, so it may find less: see
-    /// [`largest_nose`](crate::largest_nose).
+    /// hollows. A larger nose touches other points too, so the largest nose that fits may be
+    /// smaller: see [`largest_nose`](crate::largest_nose).
     pub fn largest_nose_radius(&self) -> f64 {
         if self.curvature.value > 0.0 {
             self.curvature.value.recip()
@@ -100,36 +101,36 @@ impl Interference {
         }
     }
 
-    /// In which ways the tool does not fit; empty where it does.
+    /// The ways in which the tool does not fit; empty if it fits.
     pub fn conflicts(&self, tool: &Tool) -> Vec<Conflict> {
-        let mut found = Vec::new();
+        let mut conflicts = Vec::new();
         if tool.nose_radius * self.curvature.value >= 1.0 {
-            found.push(Conflict::NoseRadius {
+            conflicts.push(Conflict::NoseRadius {
                 largest: self.largest_nose_radius(),
-                at: self.curvature.place(),
+                at: self.curvature.position(),
             });
         }
         let contact = self.contact_angle();
         let exceeded = |angle: f64| contact.value > 0.5 * angle;
         if tool.included_angle.is_some_and(exceeded) {
-            found.push(Conflict::IncludedAngle {
+            conflicts.push(Conflict::IncludedAngle {
                 least: 2.0 * contact.value,
-                at: contact.place(),
+                at: contact.position(),
             });
         }
         let cut = self.cut_angle();
         if tool.clearance_angle.is_some_and(|angle| cut.value > angle) {
-            found.push(Conflict::Clearance {
+            conflicts.push(Conflict::Clearance {
                 least: cut.value,
-                at: cut.place(),
+                at: cut.position(),
                 uphill: self.uphill.value > self.downhill.value,
             });
         }
-        found
+        conflicts
     }
 }
 
-/// The first where they are equal.
+/// The larger extreme; the first if both are equal.
 fn larger(first: Extreme, second: Extreme) -> Extreme {
     if second.value > first.value {
         second
@@ -138,20 +139,21 @@ fn larger(first: Extreme, second: Extreme) -> Extreme {
     }
 }
 
-/// Looks for the extremes within `region`, on a grid, then closing in on its highest places.
+/// Looks for the extremes within `region`: first on a grid, then closer and closer around its
+/// highest points.
 ///
 /// # Errors
-/// Where the surface has no height.
+/// If the surface has no height somewhere in `region`.
 pub fn check(cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
     let mut measure =
         |theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]| sections(cut, theta, rho, out);
     extreme::largest(region, &mut measure).map(Interference::from_extremes)
 }
 
-/// The extremes over single places of contact; at least one of each.
+/// The extremes over the given points of contact. There must be at least one point.
 ///
 /// # Errors
-/// Where the surface has no height.
+/// If the surface has no height at one of the points.
 pub fn at(cut: Cut<'_>, theta: &[f64], rho: &[f64]) -> Result<Interference> {
     let mut values = vec![[0.0; 5]; theta.len()];
     sections(cut, theta, rho, &mut values)?;
@@ -185,7 +187,8 @@ fn sections(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]) -> R
     Ok(())
 }
 
-/// g_θ/ρ at each (θ, ρ): the gradient's part across the radius, which the centre has too.
+/// g_θ/ρ at each (θ, ρ): the component of the gradient across the radius. It exists at the centre
+/// too.
 fn slopes_along_cut(cut: Cut<'_>, theta: &[f64], rho: &[f64]) -> Result<Vec<f64>> {
     let turned: Vec<(f64, f64)> = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
     let places = rho.iter().zip(&turned);
@@ -214,9 +217,9 @@ fn no_height(theta: f64, rho: f64) -> StrategyError {
         theta,
         rho,
     }
-    .place();
-    let place = format!("x = {:.4} mm, y = {:.4} mm", at.x, at.y);
+    .position();
+    let position = format!("x = {:.4} mm, y = {:.4} mm", at.x, at.y);
     StrategyError::failed(format!(
-        "the surface has no height, slope or curvature at {place}; choose a smaller aperture"
+        "the surface has no height, slope or curvature at {position}; choose a smaller aperture"
     ))
 }

@@ -1,4 +1,4 @@
-//! Several numbers side by side, for the compiler to put into vector registers.
+//! Several numbers side by side, so that the compiler can use vector registers.
 
 use std::array::from_fn;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -7,7 +7,7 @@ use crate::{Mask, Scalar};
 
 /// `N` numbers that go through a formula together.
 ///
-/// Each lane holds, bit for bit, what the formula gives on that number alone.
+/// Each lane is bit for bit equal to what the formula gives for that number alone.
 ///
 /// ```
 /// use turnpath_core::{Lanes, Scalar};
@@ -17,7 +17,7 @@ use crate::{Mask, Scalar};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lanes<const N: usize>(pub [f64; N]);
 
-/// One truth value a lane.
+/// One truth value for each lane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LaneMask<const N: usize>(pub [bool; N]);
 
@@ -32,7 +32,7 @@ impl<const N: usize> Lanes<N> {
         Self(from_fn(|i| function(self.0[i], other.0[i])))
     }
 
-    /// Both results of a function, each in its own lanes.
+    /// Applies a function with two results to each lane.
     #[inline(always)]
     fn map_pair(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
         let mut pair = (self, self);

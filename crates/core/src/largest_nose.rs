@@ -1,46 +1,48 @@
-//! The largest nose that fits, its own overrun taken into account.
+//! The largest nose that fits, with the nose's own overrun taken into account.
 //!
-//! A nose fits where Rκ < 1, and on the part alone that makes 1/κ. But where the tool's X ends at
-//! the rim of a slope the contact lies beyond it, the further the larger the nose: the region that
-//! must have room for it depends on R itself, and R·κ(region(R)) = 1 is solved.
+//! A nose fits where Rκ < 1. On the part alone the largest radius is therefore 1/κ. But if the
+//! tool's X ends at the rim of a slope, the contact lies beyond the rim, and it lies further out
+//! the larger the nose is. The region that must have room for the nose depends on R itself. The
+//! search solves R·κ(region(R)) = 1.
 
 use crate::extreme::Extreme;
 
-/// By how much, as a part of it, the radius that is found may be too small.
+/// The radius that the search finds may be too small by this part of itself.
 const PRECISION: f64 = 1e-6;
-/// Rκ up to which a nose fits, beyond 1 by what the search for κ may differ from itself.
-const FULL: f64 = 1.0 + 1e-9;
-/// Most radii that are tried between two: every third one halves what is left.
+/// A nose fits up to this Rκ. It is above 1 by as much as two searches for κ may differ.
+const LARGEST_FIT: f64 = 1.0 + 1e-9;
+/// The search tries at most this many radii. Every third trial halves the bracket.
 const MOST_TRIALS: usize = 100;
-/// A bracket is wide while its lower end is below this part of the upper one, and its next trial
-/// is no smaller than this one.
+/// A bracket is wide while its lower end is below this part of the upper end.
 const NARROW: f64 = 0.5;
-const WIDEST: f64 = 1.0 / 16.0;
+/// In a wide bracket the next trial is at least this part of the upper end.
+const LEAST_TRIAL: f64 = 1.0 / 16.0;
 
-/// The largest nose, and what limits it.
+/// The largest nose, and the point that limits it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LargestNose {
-    /// Its radius, mm; infinite where nothing limits it.
+    /// Radius of the nose, mm; infinite if nothing limits it.
     pub radius: f64,
-    /// The most curved place in its reach; where the surface ends there it has no value.
+    /// The most curved point that the nose touches. If the surface ends there, the extreme has no
+    /// value.
     pub at: Extreme,
 }
 
-/// One radius that was tried.
+/// One trial radius, and the most curved point that a nose of this radius touches.
 #[derive(Clone, Copy)]
-struct Tried {
+struct Trial {
     radius: f64,
     at: Extreme,
 }
 
-impl Tried {
+impl Trial {
     /// Rκ − 1: below 0 the nose fits.
     fn excess(&self) -> f64 {
         self.radius * self.at.value - 1.0
     }
 
     fn fits(&self) -> bool {
-        self.radius * self.at.value <= FULL
+        self.radius * self.at.value <= LARGEST_FIT
     }
 
     fn largest(&self) -> LargestNose {
@@ -51,24 +53,26 @@ impl Tried {
     }
 }
 
-/// The largest radius that fits, up to `most`, beyond which nothing limits it.
+/// The largest radius that fits. The search looks up to `most`; if a nose of that radius fits, the
+/// radius has no limit.
 ///
-/// `on_part` is the largest curvature of the part itself. `check` gives that of all the places
-/// which a nose of some radius touches, infinite where the surface ends within them.
+/// `on_part` is the largest curvature of the part itself. `check` gives the largest curvature over
+/// all the points that a nose of a radius touches. It gives infinity if the surface ends within
+/// them.
 ///
 /// # Errors
-/// Those of `check`.
+/// The errors of `check`.
 ///
 /// ```
 /// use turnpath_core::extreme::Extreme;
 /// use turnpath_core::largest_nose::largest_that_fits;
 /// // A hollow of 0.2 /mm on the part; beyond the rim it grows with the reach of the nose.
 /// let hollow = |value: f64| Extreme { value, theta: 0.0, rho: 5.0 };
-/// let found = largest_that_fits(hollow(0.2), 1e3, |radius| {
+/// let largest = largest_that_fits(hollow(0.2), 1e3, |radius| {
 ///     Ok::<_, ()>(hollow(0.2 + 0.1 * radius))
 /// })?;
 /// // 0.2 R + 0.1 R² = 1
-/// assert!((found.radius - (11f64.sqrt() - 1.0)).abs() < 1e-5);
+/// assert!((largest.radius - (11f64.sqrt() - 1.0)).abs() < 1e-5);
 /// # Ok::<(), ()>(())
 /// ```
 pub fn largest_that_fits<E>(
@@ -76,14 +80,14 @@ pub fn largest_that_fits<E>(
     most: f64,
     mut check: impl FnMut(f64) -> Result<Extreme, E>,
 ) -> Result<LargestNose, E> {
-    let mut attempt = |radius| check(radius).map(|at| Tried { radius, at });
+    let mut attempt = |radius| check(radius).map(|at| Trial { radius, at });
     let on_part = if on_part.value * most > 1.0 {
-        Tried {
+        Trial {
             radius: on_part.value.recip(),
             at: on_part,
         }
     } else {
-        Tried {
+        Trial {
             radius: most,
             at: on_part,
         }
@@ -103,14 +107,15 @@ pub fn largest_that_fits<E>(
     between(on_part, largest, attempt)
 }
 
-/// The largest radius that fits, below `above`, which does not.
+/// The largest radius that fits, below `above`, which does not fit.
 fn between<E>(
-    on_part: Tried,
-    mut above: Tried,
-    mut attempt: impl FnMut(f64) -> Result<Tried, E>,
+    on_part: Trial,
+    mut above: Trial,
+    mut attempt: impl FnMut(f64) -> Result<Trial, E>,
 ) -> Result<LargestNose, E> {
-    // The smaller the nose, the less lies beyond the part: with none at all, the part alone.
-    let mut below = Tried {
+    // The smaller the nose, the less it touches beyond the part. A nose of zero radius touches the
+    // part alone.
+    let mut below = Trial {
         radius: 0.0,
         at: on_part.at,
     };
@@ -118,15 +123,15 @@ fn between<E>(
         if above.radius - below.radius <= PRECISION * above.radius {
             break;
         }
-        let here = attempt(next(&below, &above, trial))?;
+        let here = attempt(next_trial(&below, &above, trial))?;
         if here.fits() {
             below = here;
         } else {
             above = here;
         }
     }
-    // What limits it is seen by the nose that does not fit; where that has no value, the surface
-    // ends there.
+    // The nose that does not fit shows what limits the radius. If the curvature has no value there,
+    // the surface ends there.
     let largest = LargestNose {
         at: above.at,
         ..below.largest()
@@ -134,12 +139,14 @@ fn between<E>(
     Ok(largest)
 }
 
-/// While the bracket is wide, its middle in powers. Then by turns where a straight line through
-/// both ends has Rκ = 1, a little to either side of it so that the bracket closes, and the middle.
-fn next(below: &Tried, above: &Tried, trial: usize) -> f64 {
+/// The next trial. While the bracket is wide, it is the geometric mean of the bracket's ends. After
+/// that two kinds of trials alternate. One is the radius at which a straight line through both ends
+/// has Rκ = 1, moved a little to either side so that the bracket closes. The other is the middle of
+/// the bracket.
+fn next_trial(below: &Trial, above: &Trial, trial: usize) -> f64 {
     let (low, high) = (below.radius, above.radius);
     if low < NARROW * high {
-        return (low * high).sqrt().max(WIDEST * high);
+        return (low * high).sqrt().max(LEAST_TRIAL * high);
     }
     let middle = 0.5 * (low + high);
     let rise = above.excess() - below.excess();
@@ -168,53 +175,53 @@ mod tests {
         }
     }
 
-    /// The largest radius for a curvature that depends on it, and how many were tried.
+    /// The largest radius for a curvature that depends on the radius, and the number of trials.
     fn search(on_part: f64, curvature: impl Fn(f64) -> f64) -> (f64, usize) {
-        let mut tried = 0;
-        let found = largest_that_fits(hollow(on_part), 1e3, |radius| {
-            tried += 1;
+        let mut trials = 0;
+        let largest = largest_that_fits(hollow(on_part), 1e3, |radius| {
+            trials += 1;
             Ok::<_, ()>(hollow(curvature(radius)))
         });
-        (found.unwrap().radius, tried)
+        (largest.unwrap().radius, trials)
     }
 
     #[test]
-    fn where_the_part_itself_limits_it_one_look_is_enough() {
+    fn where_the_part_itself_limits_the_nose_one_trial_is_enough() {
         assert_eq!(search(0.25, |_| 0.25), (4.0, 1));
     }
 
     #[test]
-    fn a_part_without_hollows_takes_any() {
+    fn a_part_without_hollows_fits_any_nose() {
         assert_eq!(search(-0.3, |_| -0.3).0, f64::INFINITY);
         assert_eq!(search(0.0, |_| 0.0).0, f64::INFINITY);
     }
 
     #[test]
-    fn a_hollow_that_comes_into_reach_at_once_limits_it_there() {
+    fn a_hollow_that_suddenly_comes_into_reach_is_the_limit() {
         for step in [0.01, 0.7, 2.0, 3.9] {
-            let (found, tried) = search(0.25, |radius| if radius < step { 0.25 } else { 9.0 });
+            let (largest, trials) = search(0.25, |radius| if radius < step { 0.25 } else { 9.0 });
             let known = step.max(1.0 / 9.0);
-            assert!((found / known - 1.0).abs() < 1e-5, "{found} {known}");
-            assert!(tried <= 60, "{tried}");
+            assert!((largest / known - 1.0).abs() < 1e-5, "{largest} {known}");
+            assert!(trials <= 60, "{trials}");
         }
     }
 
     #[test]
-    fn where_the_surface_ends_is_a_limit_too() {
-        let (found, _) = search(-1.0, |radius| match radius < 12.3 {
+    fn the_end_of_the_surface_is_a_limit_too() {
+        let (largest, _) = search(-1.0, |radius| match radius < 12.3 {
             true => -1.0,
             false => f64::INFINITY,
         });
-        assert!((found / 12.3 - 1.0).abs() < 1e-5);
+        assert!((largest / 12.3 - 1.0).abs() < 1e-5);
     }
 
     #[test]
-    fn a_smooth_growth_takes_few_looks() {
+    fn a_smooth_growth_takes_few_trials() {
         for (a, b) in [(0.2, 0.1), (0.9, 3.0), (1e-3, 1e-2), (-0.5, 0.3)] {
-            let (found, tried) = search(a, |radius| a + b * radius);
+            let (largest, trials) = search(a, |radius| a + b * radius);
             let known = ((a * a + 4.0 * b).sqrt() - a) / (2.0 * b);
-            assert!((found / known - 1.0).abs() < 1e-5, "{found} {known}");
-            assert!(tried < 35, "{tried}");
+            assert!((largest / known - 1.0).abs() < 1e-5, "{largest} {known}");
+            assert!(trials < 35, "{trials}");
         }
     }
 }

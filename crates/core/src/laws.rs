@@ -6,12 +6,12 @@ use crate::{PiecewisePolynomial, Series};
 
 /// The spiral law ρ = ℓ(N): the compensator's radial parameter, mm, against revolutions.
 ///
-/// Its knots matter: a bound that uses a 4th derivative does not hold across one.
+/// The knots of the law matter: a bound that uses a 4th derivative does not hold across a knot.
 pub type SpiralLaw = PiecewisePolynomial;
 
-/// How fast the spindle turns: ω as a function of N, held as the time t(N) that it takes.
+/// The spindle law ω(N), stored as the time t(N) that the spindle takes for N revolutions.
 ///
-/// Time, not speed, is the polynomial, because control points need t at N exactly, and the
+/// The polynomial is the time, not the speed, because control points need t at N exactly and the
 /// integral of 1/ω has no closed form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpindleLaw {
@@ -19,14 +19,14 @@ pub struct SpindleLaw {
 }
 
 impl SpindleLaw {
-    /// A constant speed in rad/s.
+    /// The law of a constant speed in rad/s.
     pub fn constant(speed: f64) -> Self {
         let mut time = PiecewisePolynomial::new();
         time.push(f64::MAX, [0.0, TAU / speed, 0.0, 0.0, 0.0, 0.0]);
         Self { time }
     }
 
-    /// From the time t(N) in s; t must grow.
+    /// The law for a time t(N) in s. t must grow with N.
     pub fn from_time(time: PiecewisePolynomial) -> Self {
         Self { time }
     }
@@ -36,18 +36,19 @@ impl SpindleLaw {
         &self.time
     }
 
-    /// When the spindle has made `n` revolutions, s.
+    /// The time at which the spindle has made `n` revolutions, s.
     pub fn time_at(&self, n: f64) -> f64 {
         self.time.value(n)
     }
 
-    /// How fast it turns there, rad/s.
+    /// The speed of the spindle after `n` revolutions, rad/s.
     pub fn speed_at(&self, n: f64) -> f64 {
         TAU / self.time.rate(n)
     }
 }
 
-/// The series in θ of a function of N, from its series in N: the k-th coefficient over (2π)^k.
+/// Converts the series in N of a function into its series in θ: divides the k-th coefficient by
+/// (2π)^k.
 pub fn per_radian(series: Series) -> Series {
     let mut scale = 1.0;
     series.map(|coefficient| {

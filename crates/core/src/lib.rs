@@ -1,9 +1,11 @@
 //! The vocabulary of turnpath and the traits of its five stages: ordinary Rust, no ABI, no files.
 //!
-//! Lengths are in mm, angles in rad, times in s. θ is the C axis' angle, ρ the distance from the
-//! spindle axis, z points to the tool, material lies below. N = θ/2π counts revolutions.
+//! Lengths are in mm, angles in rad, times in s. θ is the angle of the C axis and ρ is the distance
+//! from the spindle axis. z points to the tool, and the material lies below. N = θ/2π counts
+//! revolutions.
 
 mod compensator;
+mod cut;
 mod decimal;
 mod dual;
 mod error;
@@ -20,32 +22,37 @@ mod machine;
 mod param;
 mod part;
 mod piecewise;
+mod profile;
 mod quantity;
+mod quantity_text;
 pub mod ring;
 mod sampler;
 mod scalar;
 mod servo;
+mod slot;
 mod surface;
 mod taylor;
 pub mod toolpath;
 mod units;
 mod velocity;
 
-pub use compensator::{CentreSeries, Centres, Compensator, Cut, Radial, Rates};
+pub use compensator::{CentreSeries, Centres, Compensator, Rates};
+pub use cut::{Cut, Radial};
 pub use dual::Dual;
 pub use error::{Result, StrategyError};
-pub use feed::{FeedPlan, FeedStrategy, Onward, Setup, Stretch};
+pub use feed::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Setup};
 pub use lanes::Lanes;
 pub use laws::{SpindleLaw, SpiralLaw, per_radian};
 pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use machine::{Axis, AxisLimits, Derivative, Limit, Machine};
-pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Slot, Strategy, StrategyInfo};
-pub use part::{DEG, Direction, Job, Misfit, NM, Overrun, Part, RadialRange, Tolerance, Tool, UM};
+pub use param::{Param, ParamDefault, ParamKind, ParamValue, Params, Strategy, StrategyInfo};
+pub use part::{DEG, Direction, Misfit, NM, Overrun, Part, RadialRange, Task, Tolerance, Tool, UM};
 pub use piecewise::{Piece, PiecewisePolynomial, quintic};
 pub use quantity::{Quantity, QuantityError};
 pub use sampler::{Dependence, Path, Revolutions, Sampler, Turn, angle};
 pub use scalar::{Mask, Scalar};
 pub use servo::{AxisServo, Servo};
+pub use slot::Slot;
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
 pub use velocity::{Nodes, Velocities, VelocitySolver};

@@ -2,28 +2,18 @@
 
 use std::sync::Arc;
 
+pub use crate::profile::{LARGEST_FEED, LEAST_GAP, Profile, profile_at};
 use crate::{
-    CentreSeries, Centres, Compensator, Cut, Misfit, Radial, Rates, Result, Scalar, Series,
-    SurfaceModel, Tool, fit,
+    CentreSeries, Centres, Compensator, Cut, Radial, Rates, Result, Series, SurfaceModel, Tool, fit,
 };
 
-/// The largest feed is this part of the nose radius, however concave the part is: where Rκ comes
-/// near 1 the held feed would grow without bound, and its formula stops being true.
-pub const LARGEST_FEED: f64 = 0.1;
-
-/// With [`Misfit::CutWhatFits`] the held feed takes 1 − Rκ for this where it is less, a seventh of
-/// the feed on a flat. The formula goes to zero where the nose touches a hollow of its own radius,
-/// at one place; a seam beside it leaves cusps that grow with the feed itself, not with its
-/// square, and those no formula of the curvature knows.
-pub const LEAST_GAP: f64 = 0.02;
-
-/// The locus as strategies see it, and through it the bare surface. Batches; all slices of one
-/// call have the same length.
+/// The locus of the tool as strategies use it. It also gives access to the bare surface. Calls are
+/// in batches; all slices of one call have the same length.
 pub trait Locus: Send + Sync {
     /// The bare surface.
     fn surface(&self) -> &dyn SurfaceModel;
 
-    /// What the radial parameter ρ is.
+    /// What the radial parameter ρ means.
     fn radial(&self) -> Radial;
 
     /// The nose centre and the contact for each (θ, ρ).
@@ -35,13 +25,15 @@ pub trait Locus: Send + Sync {
     /// The partial rates of the nose centre at each (θ, ρ).
     fn rates(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()>;
 
-    /// The feed dρ/dN, mm, that leaves cusps of height `residual` (mm) at each (θ, ρ):
-    /// sqrt(8Rε/(1 − Rκ))/w where ρ is the contact's radius and sqrt(8Rε(1 − Rκ))/w where it is
-    /// the centre's X, with κ and w at the contact, and never above R/10; NaN where the surface
-    /// has no curvature. A tool that cuts what fits takes 1 − Rκ for [`LEAST_GAP`] at least.
+    /// The feed dρ/dN, mm, that leaves cusps of height `residual` (mm) at each (θ, ρ).
     ///
-    /// `radial` overrides what ρ is taken for.
-    fn held_feed(
+    /// The feed is sqrt(8Rε/(1 − Rκ))/w if ρ is the contact's radius, and sqrt(8Rε(1 − Rκ))/w if ρ
+    /// is the centre's X. κ and w are those of the contact. The feed is never above R/10. It is NaN
+    /// where the surface has no curvature. With a tool that cuts what fits, 1 − Rκ counts as at
+    /// least [`LEAST_GAP`].
+    ///
+    /// `radial` overrides the meaning of ρ.
+    fn residual_feed(
         &self,
         residual: f64,
         radial: Radial,
@@ -51,7 +43,7 @@ pub trait Locus: Send + Sync {
     ) -> Result<()>;
 }
 
-/// Room for the answer of [`Locus::centre`].
+/// Buffers for the answer of [`Locus::centre`].
 #[derive(Debug, Default, Clone)]
 pub struct CentreBuffers {
     /// X of the nose centre, mm.
@@ -63,14 +55,14 @@ pub struct CentreBuffers {
 }
 
 impl CentreBuffers {
-    /// Makes room for `count` points.
+    /// Resizes every buffer to `count` points.
     pub fn resize(&mut self, count: usize) {
         for places in [&mut self.x, &mut self.z, &mut self.foot] {
             places.resize(count, f64::NAN);
         }
     }
 
-    /// The room, to be written to.
+    /// The buffers as slices to write to.
     pub fn as_centres(&mut self) -> Centres<'_> {
         Centres {
             x: &mut self.x,
@@ -80,7 +72,7 @@ impl CentreBuffers {
     }
 }
 
-/// Surface, compensator and tool put together.
+/// The locus of one tool: a surface, a compensator and the tool.
 #[derive(Clone)]
 pub struct ToolLocus {
     surface: Arc<dyn SurfaceModel>,
@@ -128,7 +120,7 @@ impl ToolLocus {
         Ok(())
     }
 
-    /// Rates from the series along θ and along ρ.
+    /// Computes the rates from the series along θ and along ρ.
     fn rates_from_series(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
         let along = |values: &[f64], rate: f64| -> Vec<Series> {
             values
@@ -201,7 +193,7 @@ impl Locus for ToolLocus {
         }
     }
 
-    fn held_feed(
+    fn residual_feed(
         &self,
         residual: f64,
         radial: Radial,
@@ -215,80 +207,8 @@ impl Locus for ToolLocus {
         let mut profile = vec![Profile::default(); theta.len()];
         profile_at(self.surface.as_ref(), theta, &room.foot, &mut profile)?;
         for (feed, profile) in feed.iter_mut().zip(&profile) {
-            *feed = profile.held_feed(residual, radial, &self.tool);
+            *feed = profile.residual_feed(residual, radial, &self.tool);
         }
         Ok(())
     }
-}
-
-/// The radial profile z = g(θ, ρ) at one place.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Profile {
-    /// g, mm.
-    pub height: f64,
-    /// g_ρ.
-    pub slope: f64,
-    /// g_ρρ, 1/mm.
-    pub second: f64,
-}
-
-impl Profile {
-    /// w = sqrt(1 + g_ρ²).
-    pub fn stretch(&self) -> f64 {
-        (1.0 + self.slope * self.slope).sqrt()
-    }
-
-    /// κ = g_ρρ/w³, 1/mm; positive where the tool sees a hollow.
-    pub fn curvature(&self) -> f64 {
-        let w = self.stretch();
-        self.second / (w * w * w)
-    }
-
-    /// See [`Locus::held_feed`].
-    pub fn held_feed(&self, residual: f64, radial: Radial, tool: &Tool) -> f64 {
-        let nose_radius = tool.nose_radius;
-        let gap = match (1.0 - nose_radius * self.curvature(), tool.misfit) {
-            (gap, Misfit::CutWhatFits) if gap < LEAST_GAP => LEAST_GAP,
-            (gap, _) => gap,
-        };
-        let cap = LARGEST_FEED * nose_radius;
-        if gap <= 0.0 {
-            return cap;
-        }
-        let squared = match radial {
-            Radial::Contact => 8.0 * nose_radius * residual / gap,
-            Radial::Centre => 8.0 * nose_radius * residual * gap,
-        };
-        let feed = squared.sqrt() / self.stretch();
-        if feed > cap { cap } else { feed }
-    }
-}
-
-/// The radial profiles through each (θ, ρ), with the second derivative.
-pub fn profile_at(
-    surface: &dyn SurfaceModel,
-    theta: &[f64],
-    rho: &[f64],
-    out: &mut [Profile],
-) -> Result<()> {
-    let count = theta.len();
-    let (mut x, mut y, mut z) = (
-        vec![[0.0; 5]; count],
-        vec![[0.0; 5]; count],
-        vec![[0.0; 5]; count],
-    );
-    for i in 0..count {
-        let (s, c) = Scalar::sin_cos(theta[i]);
-        x[i] = [rho[i] * c, c, 0.0, 0.0, 0.0];
-        y[i] = [rho[i] * s, s, 0.0, 0.0, 0.0];
-    }
-    surface.height_series(&x, &y, &mut z)?;
-    for (profile, z) in out.iter_mut().zip(&z) {
-        *profile = Profile {
-            height: z[0],
-            slope: z[1],
-            second: 2.0 * z[2],
-        };
-    }
-    Ok(())
 }

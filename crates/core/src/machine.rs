@@ -1,8 +1,8 @@
-//! What a machine's axes can do: limits that a path is held against.
+//! What a machine's axes can do: the limits for a path.
 
 use crate::Quantity;
 
-/// A machine's axes.
+/// An axis of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
     /// The radial slide.
@@ -13,22 +13,22 @@ pub enum Axis {
     C,
 }
 
-/// A derivative of an axis' position in time.
+/// A time derivative of an axis' position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Derivative {
-    /// The first.
+    /// The first derivative.
     Velocity,
-    /// The second.
+    /// The second derivative.
     Acceleration,
-    /// The third.
+    /// The third derivative.
     Jerk,
 }
 
 impl Axis {
-    /// All of them.
+    /// All axes.
     pub const ALL: [Self; 3] = [Self::X, Self::Z, Self::C];
 
-    /// Its letter.
+    /// The axis' letter.
     pub const fn letter(self) -> &'static str {
         match self {
             Self::X => "X",
@@ -39,10 +39,11 @@ impl Axis {
 }
 
 impl Derivative {
-    /// All of them, from the first on.
+    /// All derivatives, from the first to the third.
     pub const ALL: [Self; 3] = [Self::Velocity, Self::Acceleration, Self::Jerk];
 
-    /// Which derivative it is: it grows with this power of the speed at which a path is played.
+    /// The order of the derivative. The derivative grows with this power of the speed at which a
+    /// path is played.
     pub const fn order(self) -> u8 {
         match self {
             Self::Velocity => 1,
@@ -51,7 +52,7 @@ impl Derivative {
         }
     }
 
-    /// Its name: `velocity`.
+    /// The derivative's name, such as `velocity`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
@@ -60,12 +61,12 @@ impl Derivative {
         }
     }
 
-    /// The key of its limit in a recipe: `x_velocity`.
+    /// The key of the derivative's limit in a recipe, such as `x_velocity`.
     pub fn key(self, axis: Axis) -> String {
         format!("{}_{}", axis.letter().to_ascii_lowercase(), self.name())
     }
 
-    /// The quantity that it is on an axis.
+    /// The quantity of the derivative on an axis.
     pub const fn quantity(self, axis: Axis) -> Quantity {
         match (axis, self) {
             (Axis::C, Self::Velocity) => Quantity::RotationSpeed,
@@ -89,7 +90,7 @@ pub struct AxisLimits {
     pub jerk: Option<f64>,
 }
 
-/// What a machine can do, as far as it is known. The default knows no limit.
+/// What a machine can do, as far as it is known. The default has no limits.
 ///
 /// ```
 /// use turnpath_core::{Axis, Derivative, Machine};
@@ -112,29 +113,29 @@ pub struct Machine {
 /// One limit of a machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// Of which axis.
+    /// The axis that the limit applies to.
     pub axis: Axis,
-    /// Of what.
+    /// The derivative that the limit applies to.
     pub derivative: Derivative,
-    /// The largest amount; mm or rad, and s.
+    /// The largest absolute value; in mm or rad, and s.
     pub value: f64,
 }
 
 impl Limit {
-    /// Its key in a recipe: `x_velocity`.
+    /// The limit's key in a recipe, such as `x_velocity`.
     pub fn key(&self) -> String {
         self.derivative.key(self.axis)
     }
 }
 
 impl Machine {
-    /// A limit, if there is one.
+    /// A limit, if it is known.
     pub fn limit(&self, axis: Axis, derivative: Derivative) -> Option<f64> {
         let mut machine = *self;
         *machine.limit_mut(axis, derivative)
     }
 
-    /// The place of a limit.
+    /// A mutable reference to a limit.
     pub fn limit_mut(&mut self, axis: Axis, derivative: Derivative) -> &mut Option<f64> {
         let limits = match axis {
             Axis::X => &mut self.x,
@@ -148,7 +149,7 @@ impl Machine {
         }
     }
 
-    /// Every limit that is known, axis by axis.
+    /// Every known limit, axis by axis.
     pub fn limits(&self) -> impl Iterator<Item = Limit> + '_ {
         let all = Axis::ALL
             .into_iter()

@@ -1,14 +1,14 @@
-//! Parameters of strategies: declared once, as data, and the values that a recipe gave them.
+//! Parameters of strategies: their declarations as data, and the values from a recipe.
 //!
-//! The host reads the declarations to validate a recipe, to fill in defaults and to explain a
-//! strategy; a strategy's constructor gets [`Params`], in which every declared parameter is
-//! present and in range.
+//! The host reads the declarations to check a recipe, to fill in defaults and to explain a
+//! strategy. A strategy's constructor gets [`Params`], in which every declared parameter is present
+//! and in range.
 
 use std::collections::BTreeMap;
 
-use crate::Result;
+use crate::{Result, Slot};
 
-/// What kind of quantity a parameter is. Inside turnpath a quantity is a number in mm, rad and s.
+/// The kind of quantity of a parameter. Inside turnpath a quantity is a number in mm, rad and s.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ParamKind {
     /// A length, `"5 mm"`; inside in mm.
@@ -17,7 +17,7 @@ pub enum ParamKind {
     Angle,
     /// A curvature or a spatial frequency, `"0.08 /mm"`; inside in 1/mm.
     PerLength,
-    /// A feed per revolution, `"10 um/rev"`; a bare length will do. Inside in mm.
+    /// A feed per revolution, `"10 um/rev"`. A bare length is allowed too. Inside in mm.
     Feed,
     /// A pure number, `0.5`.
     Number,
@@ -27,7 +27,7 @@ pub enum ParamKind {
     Flag,
     /// One of a few words.
     Choice(&'static [&'static str]),
-    /// A list of rows of numbers, each with this many columns: `[[2, 0, 0.01], [0, 2, 0.02]]`.
+    /// A list of rows of numbers. Each row has this many columns: `[[2, 0, 0.01], [0, 2, 0.02]]`.
     Rows(usize),
 }
 
@@ -40,16 +40,16 @@ pub enum ParamValue {
     Flag(bool),
     /// A choice.
     Text(String),
-    /// Rows of numbers, all of the declared length.
+    /// Rows of numbers, all with the declared number of columns.
     Rows(Vec<Vec<f64>>),
 }
 
-/// What stands for a parameter that the recipe leaves out.
+/// The value of a parameter that the recipe leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParamDefault {
-    /// The recipe must give it.
+    /// There is no default: the recipe must give the parameter.
     Required,
-    /// The strategy knows what to do without it.
+    /// There is no value: the strategy knows what to do without it.
     Absent,
     /// This number, in inner units.
     Number(f64),
@@ -75,9 +75,9 @@ pub struct Param {
     pub name: &'static str,
     /// One line of help.
     pub help: &'static str,
-    /// What kind of quantity it is.
+    /// The kind of quantity.
     pub kind: ParamKind,
-    /// What stands for it when the recipe leaves it out.
+    /// The value if the recipe leaves the parameter out.
     pub default: ParamDefault,
     /// Least value, in inner units.
     pub min: f64,
@@ -152,50 +152,50 @@ impl Param {
         Self::new(name, ParamKind::Rows(columns), help)
     }
 
-    /// The number, in inner units, that stands for it when the recipe leaves it out.
+    /// Sets the default, in inner units.
     pub const fn default(mut self, value: f64) -> Self {
         self.default = ParamDefault::Number(value);
         self
     }
 
-    /// The flag that stands for it when the recipe leaves it out.
+    /// Sets the default of a flag.
     pub const fn default_flag(mut self, value: bool) -> Self {
         self.default = ParamDefault::Flag(value);
         self
     }
 
-    /// The word that stands for it when the recipe leaves it out.
+    /// Sets the default of a choice.
     pub const fn default_choice(mut self, word: &'static str) -> Self {
         self.default = ParamDefault::Text(word);
         self
     }
 
-    /// It may be left out; the strategy then asks with [`Params::given`].
+    /// Allows a recipe to leave the parameter out. The strategy reads it with [`Params::given`].
     pub const fn optional(mut self) -> Self {
         self.default = ParamDefault::Absent;
         self
     }
 
-    /// Least value, in inner units.
+    /// Sets the least value, in inner units.
     pub const fn min(mut self, least: f64) -> Self {
         self.min = least;
         self
     }
 
-    /// Largest value, in inner units.
+    /// Sets the largest value, in inner units.
     pub const fn max(mut self, largest: f64) -> Self {
         self.max = largest;
         self
     }
 
-    /// Only values above zero.
+    /// Allows only values above zero.
     pub const fn positive(mut self) -> Self {
         self.min = 0.0;
         self.above_min = true;
         self
     }
 
-    /// Any value but zero.
+    /// Excludes zero.
     pub const fn nonzero(mut self) -> Self {
         self.nonzero = true;
         self
@@ -212,25 +212,26 @@ impl Param {
     }
 }
 
-/// The values of a strategy's parameters, by name, in inner units.
+/// The values of a strategy's parameters by name, in inner units.
 ///
-/// The getters panic on a name or a kind that the strategy did not declare: that is a mistake of
-/// its author, which shows at the first construction, and the boundary turns it into an error.
+/// The getters panic on a name or a kind that the strategy did not declare. That is a mistake of
+/// the strategy's author and shows at the first construction. The boundary turns the panic into an
+/// error.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Params(BTreeMap<String, ParamValue>);
 
 impl Params {
-    /// No values yet.
+    /// A set without values.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets a value; for the host and for tests.
+    /// Sets a value. The host and tests use it.
     pub fn set(&mut self, name: impl Into<String>, value: ParamValue) {
         self.0.insert(name.into(), value);
     }
 
-    /// Sets a number, in inner units; for tests and examples.
+    /// Sets a number, in inner units. Tests and examples use it.
     pub fn with(mut self, name: &str, value: f64) -> Self {
         self.set(name, ParamValue::Number(value));
         self
@@ -241,7 +242,7 @@ impl Params {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 
-    /// The number under `name`, in inner units, if the recipe gave it or it has a default.
+    /// The number of `name`, in inner units, if the recipe gives it or the parameter has a default.
     pub fn given(&self, name: &str) -> Option<f64> {
         match self.0.get(name) {
             Some(ParamValue::Number(value)) => Some(*value),
@@ -274,7 +275,7 @@ impl Params {
         self.declared_number(name)
     }
 
-    /// A whole number, as a float, ready to calculate with.
+    /// A whole number as a float, ready for arithmetic.
     pub fn count(&self, name: &str) -> f64 {
         self.declared_number(name)
     }
@@ -295,7 +296,7 @@ impl Params {
         }
     }
 
-    /// Rows of numbers, each with the declared count of columns.
+    /// Rows of numbers, each with the declared number of columns.
     pub fn rows(&self, name: &str) -> &[Vec<f64>] {
         match self.0.get(name) {
             Some(ParamValue::Rows(value)) => value,
@@ -310,96 +311,39 @@ impl Params {
 }
 
 fn undeclared(name: &str, kind: &str) -> ! {
-    panic!(
-        "the strategy asks for a {kind} `{name}` that it does not declare as one, or that is optional"
-    )
+    panic!("the strategy reads a {kind} `{name}`, but it declares none, or an optional one")
 }
 
-/// What every strategy says of itself, and how it is made.
+/// What every strategy declares about itself, and its constructor.
 ///
-/// It stands beside the slot's own trait ([`Surface`](crate::Surface),
+/// `Strategy` is not a supertrait of the slot's own trait ([`Surface`](crate::Surface),
 /// [`FeedStrategy`](crate::FeedStrategy), [`Sampler`](crate::Sampler),
-/// [`Compensator`](crate::Compensator), [`VelocitySolver`](crate::VelocitySolver)), which stays
-/// object-safe.
+/// [`Compensator`](crate::Compensator), [`VelocitySolver`](crate::VelocitySolver)), so that the
+/// slot's trait stays object-safe.
 pub trait Strategy: Sized {
-    /// The name in a recipe's `use = "…"`: lower case, words joined by hyphens.
+    /// The name in a recipe's `use = "…"`: lower case, with hyphens between words.
     const NAME: &'static str;
-    /// One line that says what it does.
+    /// One line that says what the strategy does.
     const SUMMARY: &'static str;
-    /// Where it comes from: paper and equation, or standard; empty where there is none.
+    /// The source of the method: a paper with the equation, or a standard; empty if there is none.
     const SOURCE: &'static str = "";
-    /// Its parameters.
+    /// The strategy's parameters.
     const PARAMS: &'static [Param] = &[];
-    /// Makes one from values that the host has checked against [`Self::PARAMS`].
+    /// Builds the strategy from values that the host has checked against [`Self::PARAMS`].
     fn new(params: &Params) -> Result<Self>;
-}
-
-/// The five slots of the pipeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u8)]
-pub enum Slot {
-    /// The surface model.
-    Surface,
-    /// The feed strategy.
-    Feed,
-    /// The sampler.
-    Sampler,
-    /// The compensator.
-    Compensator,
-    /// The PVT velocity solver.
-    Velocity,
-}
-
-impl Slot {
-    /// All slots, in the order of the pipeline.
-    pub const ALL: [Slot; 5] = [
-        Slot::Surface,
-        Slot::Feed,
-        Slot::Sampler,
-        Slot::Compensator,
-        Slot::Velocity,
-    ];
-
-    /// The slot's table in a recipe, and its name on the command line.
-    pub const fn key(self) -> &'static str {
-        match self {
-            Slot::Surface => "surface",
-            Slot::Feed => "feed",
-            Slot::Sampler => "sampler",
-            Slot::Compensator => "compensator",
-            Slot::Velocity => "velocity",
-        }
-    }
-
-    /// What fills the slot, in words.
-    pub const fn noun(self) -> &'static str {
-        match self {
-            Slot::Surface => "surface model",
-            Slot::Feed => "feed strategy",
-            Slot::Sampler => "sampler",
-            Slot::Compensator => "compensator",
-            Slot::Velocity => "velocity solver",
-        }
-    }
-}
-
-impl std::fmt::Display for Slot {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.key())
-    }
 }
 
 /// A strategy as `turnpath list` and `turnpath explain` show it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrategyInfo {
-    /// The slot it fills.
+    /// The slot that the strategy fills.
     pub slot: Slot,
-    /// Its name in a recipe.
+    /// The strategy's name in a recipe.
     pub name: &'static str,
-    /// One line that says what it does.
+    /// One line that says what the strategy does.
     pub summary: &'static str,
-    /// Paper and equation, or empty.
+    /// The paper and the equation, or empty.
     pub source: &'static str,
-    /// Its parameters.
+    /// The strategy's parameters.
     pub params: &'static [Param],
 }

@@ -1,4 +1,4 @@
-//! What is cut, with what, how exactly, and in which direction.
+//! The task: the part, the tool, the tolerances and the direction of the feed.
 
 use crate::{Machine, SpindleLaw};
 
@@ -18,32 +18,32 @@ pub struct Part {
     pub inner_radius: f64,
 }
 
-/// What happens where the nose does not fit: in hollows tighter than it, and on slopes where the
-/// contact would leave the edge.
+/// What happens where the nose does not fit: in hollows that are tighter than the nose, and on
+/// slopes where the contact would leave the edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Misfit {
-    /// The job is refused.
+    /// The host refuses the task.
     #[default]
     Refuse,
-    /// The tool goes where it first touches, and the part stays higher where it cannot go.
+    /// The tool stops where it first touches, and the part stays higher where the tool cannot go.
     CutWhatFits,
 }
 
-/// The tool: a round nose in the XZ plane, zero rake.
+/// The tool: a round nose in the XZ plane with zero rake.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tool {
     /// Nose radius R, mm.
     pub nose_radius: f64,
-    /// Included angle of the edge, rad: contact reaches half of it to either side.
+    /// Included angle of the edge, rad. The contact can move by half of this angle to either side.
     pub included_angle: Option<f64>,
-    /// Clearance angle below the edge, rad: the largest slope along the cut.
+    /// Clearance angle below the edge, rad. It is the largest slope along the cut.
     pub clearance_angle: Option<f64>,
     /// What happens where the nose does not fit.
     pub misfit: Misfit,
 }
 
 impl Tool {
-    /// How far the contact can lie from the centre's X, mm: R·sin(half the included angle).
+    /// The largest distance of the contact from the centre's X, mm: R·sin(half the included angle).
     pub fn reach(&self) -> f64 {
         match self.included_angle {
             Some(angle) if angle < std::f64::consts::PI => {
@@ -54,7 +54,7 @@ impl Tool {
     }
 }
 
-/// What the path must keep to.
+/// The tolerances of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Largest |played − true| tool centre along z, mm.
@@ -75,15 +75,15 @@ pub struct RadialRange {
 /// How far the path runs beyond the part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Overrun {
-    /// As far as it takes for the contact to cover the whole part at every angle.
+    /// As far as the contact needs to cover the whole part at every angle.
     Contact,
-    /// Not at all: ρ runs over the aperture exactly.
+    /// Not at all: ρ runs over exactly the aperture.
     None,
-    /// By this length, mm, at the rim, at the hole, and without a hole beyond the axis.
+    /// By this length, mm: at the rim, at the hole, and beyond the axis if there is no hole.
     Length(f64),
 }
 
-/// Which way the tool feeds. C increases with time either way.
+/// The direction of the feed. C increases with time in both directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
     /// From the rim to the centre.
@@ -92,21 +92,21 @@ pub enum Direction {
     Outward,
 }
 
-/// All that a strategy may know of the job besides the locus.
+/// All that a strategy may know of the task, apart from the locus.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Job {
-    /// What is cut.
+pub struct Task {
+    /// The part.
     pub part: Part,
-    /// With what.
+    /// The tool.
     pub tool: Tool,
-    /// How exactly.
+    /// The tolerances.
     pub tolerance: Tolerance,
-    /// The range of ρ that the path runs over, overrun included.
+    /// The range of ρ that the path covers, overrun included.
     pub range: RadialRange,
-    /// Which way it feeds.
+    /// The direction of the feed.
     pub direction: Direction,
-    /// How fast the spindle turns.
+    /// The speed of the spindle.
     pub spindle: SpindleLaw,
-    /// What the machine can do; a strategy may keep to it.
+    /// What the machine can do. A strategy may keep to these limits.
     pub machine: Machine,
 }

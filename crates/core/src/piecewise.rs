@@ -1,18 +1,18 @@
-//! Piecewise polynomials of degree 5 in the count of revolutions, with their knots.
+//! Piecewise polynomials of degree 5 against the number of revolutions, and their knots.
 
 use crate::Series;
 
-/// One polynomial: Σ c_i (n − start)^i from `start` to the next piece's start.
+/// One polynomial Σ c_i (n − start)^i, from `start` to the start of the next piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// Where it begins, in revolutions.
+    /// Start of the piece, in revolutions.
     pub start: f64,
-    /// Coefficients in local n − start, lowest first.
+    /// Coefficients against n − start, lowest first.
     pub coefficients: [f64; 6],
 }
 
 impl Piece {
-    /// The same polynomial's coefficients in local n − `at`, lowest first.
+    /// The coefficients of the same polynomial against n − `at`, lowest first.
     pub fn shifted(&self, at: f64) -> [f64; 6] {
         let s = at - self.start;
         let mut shifted = self.coefficients;
@@ -24,7 +24,7 @@ impl Piece {
         shifted
     }
 
-    /// Value and derivatives divided by factorials, up to the 4th, at `n`.
+    /// The value and the derivatives up to the 4th at `n`, each divided by its factorial.
     fn series(&self, n: f64) -> Series {
         let [value, rate, second, third, fourth, _] = self.shifted(n);
         [value, rate, second, third, fourth]
@@ -40,7 +40,7 @@ impl Piece {
 }
 
 /// The coefficients, lowest first, of the polynomial of degree 5 that goes within `length` from one
-/// value with its first and second derivative to another.
+/// value with its first and second derivative to another value with its own.
 pub fn quintic(from: [f64; 3], to: [f64; 3], length: f64) -> [f64; 6] {
     let t = length;
     let d = to[0] - from[0] - t * (from[1] + 0.5 * t * from[2]);
@@ -57,7 +57,7 @@ pub fn quintic(from: [f64; 3], to: [f64; 3], length: f64) -> [f64; 6] {
     ]
 }
 
-/// A function of N in pieces, from 0 to [`PiecewisePolynomial::end`].
+/// A function of N in pieces, defined from 0 to [`PiecewisePolynomial::end`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PiecewisePolynomial {
     pieces: Vec<Piece>,
@@ -65,17 +65,18 @@ pub struct PiecewisePolynomial {
 }
 
 impl PiecewisePolynomial {
-    /// No piece yet: it begins and ends at 0.
+    /// A function without pieces. It begins and ends at 0.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// From pieces in order and the end of the last one.
+    /// A function from pieces in order and the end of the last piece.
     pub fn from_pieces(pieces: Vec<Piece>, end: f64) -> Self {
         Self { pieces, end }
     }
 
-    /// Appends a piece of the given length; coefficients in local n, lowest first.
+    /// Appends a piece of the given length. The coefficients are against the revolutions since its
+    /// start, lowest first.
     pub fn push(&mut self, length: f64, coefficients: [f64; 6]) {
         self.pieces.push(Piece {
             start: self.end,
@@ -84,7 +85,7 @@ impl PiecewisePolynomial {
         self.end += length;
     }
 
-    /// The pieces that touch [from, to], and the same end: what a block needs to know.
+    /// The pieces that touch [from, to], with the end of the whole function: what one block needs.
     pub fn window(&self, from: f64, to: f64) -> Self {
         let first = self
             .pieces
@@ -98,7 +99,7 @@ impl PiecewisePolynomial {
         }
     }
 
-    /// Where the last piece ends, in revolutions.
+    /// End of the last piece, in revolutions.
     pub fn end(&self) -> f64 {
         self.end
     }
@@ -108,7 +109,7 @@ impl PiecewisePolynomial {
         &self.pieces
     }
 
-    /// The inner knots within (from, to): where two pieces join.
+    /// The inner knots within (from, to). A knot is where two pieces join.
     pub fn knots(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
         let first = self
             .pieces
@@ -120,25 +121,26 @@ impl PiecewisePolynomial {
             .take_while(move |start| *start < to)
     }
 
-    /// The value at `n`; the outer pieces go on beyond the ends. NaN without pieces.
+    /// The value at `n`. The first and the last piece continue beyond the ends. NaN if there are no
+    /// pieces.
     pub fn value(&self, n: f64) -> f64 {
         self.piece_after(n).map_or(f64::NAN, |piece| piece.value(n))
     }
 
-    /// The series in N at `n`; at a knot that of the piece that begins there.
+    /// The series in N at `n`. At a knot it is the series of the piece that begins there.
     pub fn series(&self, n: f64) -> Series {
         self.piece_after(n)
             .map_or([f64::NAN; 5], |piece| piece.series(n))
     }
 
-    /// The series in N at `n`; at a knot that of the piece that ends there.
+    /// The series in N at `n`. At a knot it is the series of the piece that ends there.
     pub fn series_before(&self, n: f64) -> Series {
         let next = self.pieces.partition_point(|piece| piece.start < n);
         let piece = self.pieces.get(next.saturating_sub(1));
         piece.map_or([f64::NAN; 5], |piece| piece.series(n))
     }
 
-    /// The rate at `n`; at a knot the mean of both sides.
+    /// The rate at `n`. At a knot it is the mean of both sides.
     pub fn rate(&self, n: f64) -> f64 {
         let after = self.series(n)[1];
         let before = self.series_before(n)[1];
@@ -201,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_window_answers_as_the_whole() {
+    fn a_window_gives_the_same_values_as_the_whole() {
         let (law, part) = (two_pieces(), two_pieces().window(2.5, 3.0));
         assert_eq!(part.pieces().len(), 1);
         assert_eq!(part.value(2.75), law.value(2.75));

@@ -1,30 +1,31 @@
-//! The sampler: where the control points lie along the spiral.
+//! The sampler: it decides where the control points lie along the spiral.
 
 use crate::locus::Locus;
-use crate::{Job, Result, Series, SpiralLaw, per_radian};
+use crate::{Result, Series, SpiralLaw, Task, per_radian};
 use std::f64::consts::TAU;
 
 /// How a strategy's answer for one block depends on the rest of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dependence {
-    /// On the block alone.
+    /// The answer depends on the block alone.
     Local,
-    /// On so many nodes before and after it too.
+    /// The answer also depends on this many nodes before and after the block.
     Overlap(usize),
-    /// On all before it: blocks are done in order, with a small state handed on.
+    /// The answer depends on everything before the block. The host processes the blocks in order
+    /// and passes a small state from one to the next.
     Sequential,
 }
 
-/// The path that is to be sampled: job, locus and spiral law.
+/// The path to sample: task, locus and spiral law.
 #[derive(Clone, Copy)]
 pub struct Path<'a> {
     /// Part, tool, tolerance, range of ρ, direction, spindle.
-    pub job: &'a Job,
-    /// Where the nose centre goes.
+    pub task: &'a Task,
+    /// The locus of the nose centre.
     pub locus: &'a dyn Locus,
-    /// ρ = ℓ(N).
+    /// The spiral law ρ = ℓ(N).
     pub law: &'a SpiralLaw,
-    /// What [`Sampler::prepare`] found; empty while it looks.
+    /// The result of [`Sampler::prepare`]; empty during `prepare` itself.
     pub prepared: &'a [f64],
 }
 
@@ -34,8 +35,8 @@ impl Path<'_> {
         self.law.value(n)
     }
 
-    /// The order-4 series in θ of the nose centre's (X, Z) along the true spiral, at each of `n`
-    /// revolutions; at a knot of the law those of the piece that begins there.
+    /// The order-4 series in θ of the nose centre's (X, Z) along the true spiral at each of `n`
+    /// revolutions. At a knot of the law the series are those of the piece that begins there.
     pub fn series_at(&self, n: &[f64], x: &mut [Series], z: &mut [Series]) -> Result<()> {
         let theta: Vec<Series> = n.iter().map(|n| [angle(*n), 1.0, 0.0, 0.0, 0.0]).collect();
         let rho: Vec<Series> = n.iter().map(|n| per_radian(self.law.series(*n))).collect();
@@ -44,22 +45,23 @@ impl Path<'_> {
     }
 }
 
-/// θ after `n` revolutions, reduced to one turn before it is scaled: large N keep their digits.
+/// θ after `n` revolutions. The function reduces `n` to one turn before it scales, so that large N
+/// keep their digits.
 pub fn angle(n: f64) -> f64 {
     TAU * (n - n.floor())
 }
 
-/// A block: a range of revolutions, whole ones but for the path's last.
+/// A block: a range of whole revolutions. Only the path's last block may end with a part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Revolutions {
-    /// First revolution, included.
+    /// Start of the block in revolutions, included.
     pub start: f64,
-    /// Where the block ends, not included.
+    /// End of the block in revolutions, excluded.
     pub end: f64,
 }
 
 impl Revolutions {
-    /// The revolutions of the block one by one; the path's last may be a part of one.
+    /// The revolutions of the block one by one. The path's last one may be a part of a revolution.
     pub fn turns(&self) -> impl Iterator<Item = Turn> + use<> {
         let Revolutions { start, end } = *self;
         let count = (end - start).ceil().max(0.0) as usize;
@@ -73,17 +75,17 @@ impl Revolutions {
 /// One revolution, or the part of it that belongs to the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
-    /// Where it starts, in revolutions.
+    /// Start of the turn in revolutions.
     pub start: f64,
-    /// Where it ends, in revolutions.
+    /// End of the turn in revolutions.
     pub end: f64,
 }
 
 impl Turn {
-    /// Nodes from the turn's start at 1/`steps` of a revolution each, up to its end (excluded).
+    /// Nodes from the turn's start to its end (excluded), 1/`steps` of a revolution apart.
     ///
-    /// `steps` is rounded up to a whole number. One that is not a number, or not at least 1,
-    /// gives a node that the host refuses.
+    /// `steps` is rounded up to a whole number. If `steps` is NaN or less than 1, the result is a
+    /// node that the host refuses.
     pub fn subdivide(&self, steps: f64) -> impl Iterator<Item = f64> + use<> {
         let Turn { start, end } = *self;
         let whole = steps.ceil();
@@ -99,31 +101,35 @@ impl Turn {
     }
 }
 
-/// Most nodes on a revolution that [`Turn::subdivide`] gives: beyond, a mistake is likelier.
+/// The most nodes that [`Turn::subdivide`] gives on a revolution. A larger number is likely a
+/// mistake.
 const MOST_STEPS: f64 = 1e7;
-/// A node closer to the turn's end than this part of a step is left out: it would be the end.
+/// A node that lies closer to the turn's end than this part of a step is left out: it would
+/// coincide with the end.
 const NODE_SLACK: f64 = 1e-9;
 
 /// Places the control points along the spiral.
 pub trait Sampler: Send + Sync {
-    /// Appends the nodes of `block`, in revolutions, increasing, from block.start (included) to
-    /// block.end (excluded). The host adds the path's first and last point.
+    /// Appends the nodes of `block` in revolutions, in increasing order, from block.start
+    /// (included) to block.end (excluded). The host adds the first and the last point of the path.
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()>;
 
-    /// Looks at the whole path once, before any block: what it gives is in [`Path::prepared`] of
-    /// every call that follows. In those, `path.law` may be the part around the block.
+    /// Looks at the whole path once, before any block. Every later call gets the result in
+    /// [`Path::prepared`]. In those calls `path.law` may be only the part of the law around the
+    /// block.
     fn prepare(&self, path: &Path<'_>) -> Result<Vec<f64>> {
         let _ = path;
         Ok(Vec::new())
     }
 
-    /// How a block depends on the others; `Local` unless it says otherwise.
+    /// How a block depends on the others. The default is `Local`.
     fn dependence(&self) -> Dependence {
         Dependence::Local
     }
 
-    /// The same for a `Sequential` sampler: `state` is what the block before left, empty at first.
-    fn place_onward(
+    /// Does the same as [`place`](Sampler::place) for a `Sequential` sampler. `state` is what the
+    /// call for the block before left; it is empty at first.
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,

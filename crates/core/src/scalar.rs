@@ -1,22 +1,23 @@
 //! The number that a surface formula is written in.
 //!
-//! A formula written once over [`Scalar`] gives its value (`f64`), many values at a time
+//! A formula is written once over [`Scalar`]. It gives its value (`f64`), many values at a time
 //! ([`Lanes`](crate::Lanes)), its gradient ([`Dual`](crate::Dual)), its derivatives along a curve
 //! ([`Taylor`](crate::Taylor)), and the derivatives of its gradient (`Taylor<Dual<f64>>`).
 //!
-//! All elementary functions end in the crate `libm`, never in the standard library: the latter's
-//! results depend on the CPU, and the same recipe must give the same bytes everywhere.
+//! All elementary functions come from the crate `libm`, never from the standard library. The
+//! results of the standard library depend on the CPU, and the same recipe must give the same bytes
+//! everywhere.
 
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// The answer of a comparison: one truth value, or one a lane.
+/// The result of a comparison: one truth value, or one for each lane.
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
-    /// Whether it holds in every lane.
+    /// Whether the mask is true in every lane.
     fn all(self) -> bool;
-    /// Whether it holds in some lane.
+    /// Whether the mask is true in some lane.
     fn any(self) -> bool;
 }
 
@@ -32,7 +33,7 @@ impl Mask for bool {
 
 /// A number type with the arithmetic and the elementary functions that surfaces need.
 ///
-/// Comparisons look at the value alone, never at derivatives. A formula chooses with
+/// Comparisons use the value alone, never the derivatives. A formula chooses with
 /// [`Scalar::select`] instead of `if`, because lanes may differ.
 ///
 /// ```
@@ -60,14 +61,14 @@ pub trait Scalar:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
-    /// What a comparison gives.
+    /// The result of a comparison.
     type Mask: Mask;
 
-    /// A constant: no derivatives, the same in all lanes.
+    /// A constant: its derivatives are zero, and it is the same in all lanes.
     fn constant(value: f64) -> Self;
     /// `self < other`, by value.
     fn less(self, other: Self) -> Self::Mask;
-    /// `yes` where the mask holds, `no` elsewhere.
+    /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
     /// 1 / self.
@@ -97,7 +98,7 @@ pub trait Scalar:
     /// A real power of a positive number.
     fn powf(self, exponent: f64) -> Self;
 
-    /// An integer power, by squaring; exact derivatives at zero too.
+    /// An integer power, by repeated squaring. The derivatives are exact at zero too.
     fn powi(self, exponent: i32) -> Self {
         let mut left = exponent.unsigned_abs();
         let mut square = self;
@@ -139,12 +140,12 @@ pub trait Scalar:
         self.sinh_cosh().1
     }
 
-    /// sqrt(self² + other²); like `sqrt`, without derivatives at the origin.
+    /// sqrt(self² + other²). Like `sqrt`, it has no derivatives at the origin.
     fn hypot(self, other: Self) -> Self {
         (self.squared() + other.squared()).sqrt()
     }
 
-    /// Absolute value; at zero the derivatives are those of `self`.
+    /// Absolute value. At zero the derivatives are those of `self`.
     fn abs(self) -> Self {
         Self::select(self.less(Self::constant(0.0)), -self, self)
     }
@@ -160,7 +161,7 @@ pub trait Scalar:
     }
 }
 
-/// On `libm`, the square root apart, which is exact everywhere.
+/// The functions come from `libm`, except for the square root, which is exact everywhere.
 impl Scalar for f64 {
     type Mask = bool;
 

@@ -1,19 +1,21 @@
-//! Surface models: the formula that an author writes, and the batches that the rest uses.
+//! Surface models: the formula that an author writes, and the batches that everything else uses.
 
 use std::array::from_fn;
 
 use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
 
-/// A surface z = f(x, y), written once for every number type. Lengths in mm, z towards the tool.
+/// A surface z = f(x, y), written once for every number type. Lengths are in mm, and z points to
+/// the tool.
 ///
-/// The formula stands on its own beyond the aperture too: the tool runs over the rim. Where it
-/// has no value it gives NaN.
+/// The formula must also hold beyond the aperture, since the tool runs over the rim. Where the
+/// formula has no value it gives NaN.
 pub trait Surface: Send + Sync {
     /// The height at (x, y).
     fn sag<S: Scalar>(&self, x: S, y: S) -> S;
 }
 
-/// Where [`SurfaceModel::gradient`] writes height and slopes: as many places as there are points.
+/// Where [`SurfaceModel::gradient`] writes the height and the slopes. Each slice has one element
+/// for each point.
 #[derive(Debug)]
 pub struct Gradients<'a> {
     /// z in mm.
@@ -24,7 +26,8 @@ pub struct Gradients<'a> {
     pub zy: &'a mut [f64],
 }
 
-/// Where [`SurfaceModel::series`] writes: order-4 series of height and slopes along each curve.
+/// Where [`SurfaceModel::series`] writes the order-4 series of the height and of the slopes along
+/// each curve.
 #[derive(Debug)]
 pub struct GradientSeries<'a> {
     /// z(t).
@@ -35,9 +38,11 @@ pub struct GradientSeries<'a> {
     pub zy: &'a mut [Series],
 }
 
-/// A surface as its users hold it: object-safe, in batches. Every [`Surface`] is one.
+/// A surface as its users call it: object-safe and in batches. Every [`Surface`] is a
+/// `SurfaceModel`.
 ///
-/// All slices of one call have the same length. A place where the surface has no value holds NaN.
+/// All slices of one call have the same length. NaN marks a point at which the surface has no
+/// value.
 pub trait SurfaceModel: Send + Sync {
     /// z at each (x, y).
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()>;
@@ -49,12 +54,14 @@ pub trait SurfaceModel: Send + Sync {
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()>;
 }
 
-/// How many points go through a formula together: long enough to fill the vector registers and
-/// to hide latencies. On x86-64 with SSE2, 8 measured best of 1, 2, 4, 8 for values and slopes.
+/// How many points go through a formula together. The number is large enough to fill the vector
+/// registers and to hide latencies. On x86-64 with SSE2, 8 was the fastest of 1, 2, 4 and 8 for
+/// values and slopes.
 const WIDTH: usize = 8;
 
-/// How many curves, for the height alone; wider ones only move data around. Series of duals go one
-/// by one: their 15 numbers fill the registers as they are.
+/// How many curves go through a formula together for the height alone. With more curves the program
+/// only moves data around. Series of duals go one by one: their 15 numbers already fill the
+/// registers.
 const CURVES: usize = 2;
 
 impl<T: Surface> SurfaceModel for T {
@@ -139,7 +146,7 @@ fn series_of_sag_and_slopes<T: Surface + ?Sized>(
     surface.sag(along_x, along_y).0
 }
 
-/// The same coefficient of all curves in the lanes of one number.
+/// Puts the same coefficient of all curves into the lanes of one number.
 fn side_by_side(curves: &[Series; CURVES]) -> [Lanes<CURVES>; ORDER + 1] {
     from_fn(|k| Lanes(curves.map(|curve| curve[k])))
 }

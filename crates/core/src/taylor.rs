@@ -1,8 +1,8 @@
-//! Truncated power series of order 4, and how the elementary functions act on them.
+//! Truncated power series of order 4, and the elementary functions on them.
 //!
 //! The recurrences are the usual ones of automatic differentiation (Griewank and Walther,
-//! *Evaluating Derivatives*, 2nd ed., 2008, §13.2): each function f with f′ = g·a′ gives its
-//! coefficients one after the other, exactly up to rounding.
+//! *Evaluating Derivatives*, 2nd ed., 2008, §13.2). A function f with f′ = g·a′ gives its
+//! coefficients one after the other, exact up to rounding.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -10,16 +10,18 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use crate::Scalar;
 use crate::dual::one_minus_square;
 
-/// The order of all series: that of the derivative which bounds the error of a cubic segment.
+/// The order of all series. It is the order of the derivative that bounds the error of a cubic
+/// segment.
 pub const ORDER: usize = 4;
 
-/// Coefficients c_k of Σ c_k t^k, k = 0 to 4, `ORDER`; the k-th derivative is k!·c_k.
+/// The coefficients c_k of Σ c_k t^k for k = 0 to `ORDER`, which is 4. The k-th derivative is
+/// k!·c_k.
 pub type Series = [f64; ORDER + 1];
 
-/// How many coefficients a series has.
+/// The number of coefficients of a series.
 const COUNT: usize = ORDER + 1;
 
-/// 1/k, for the recurrences; the first is never used.
+/// 1/k for the recurrences. The first element is never used.
 const OVER: [f64; COUNT] = [0.0, 1.0, 0.5, 1.0 / 3.0, 0.25];
 
 /// A series Σ c_k t^k, truncated after order 4, over any other number type.
@@ -45,7 +47,7 @@ impl<T: Scalar> Taylor<T> {
         from_fn(|k| self.0[k] * k as f64)
     }
 
-    /// The series with this constant term whose derivative is `slope` times that of `self`.
+    /// The series with the constant term `value` whose derivative is `slope` times that of `self`.
     #[inline(always)]
     fn integrate(self, value: T, slope: Self) -> Self {
         let inner = self.weighted();
@@ -56,7 +58,7 @@ impl<T: Scalar> Taylor<T> {
         Self(out)
     }
 
-    /// The two functions with s′ = c·a′, c′ = sign·s·a′.
+    /// The two functions s and c with s′ = c·a′ and c′ = sign·s·a′.
     #[inline(always)]
     fn coupled(self, start: (T, T), sign: f64) -> (Self, Self) {
         let inner = self.weighted();
@@ -68,7 +70,8 @@ impl<T: Scalar> Taylor<T> {
         (Self(s), Self(c))
     }
 
-    /// The function with f′ = (w₀ + sign·(f² − f₀²))·a′, where w₀ is its slope at the start.
+    /// The function with f′ = (w₀ + sign·(f² − f₀²))·a′, where w₀ is the function's slope at the
+    /// start.
     #[inline(always)]
     fn riccati(self, start: T, slope: T, sign: f64) -> Self {
         let inner = self.weighted();

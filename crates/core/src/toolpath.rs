@@ -1,25 +1,25 @@
 //! The tool path: control points in blocks, and the cubics that the controller plays between them.
 
-/// What a part of the path is for.
+/// The section of the path to which a point belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Section {
-    /// From rest to the part.
+    /// The way from rest to the part.
     LeadIn = 0,
-    /// On the part.
+    /// The cut on the part.
     Cutting = 1,
-    /// From the part to rest.
+    /// The way from the part to rest.
     LeadOut = 2,
 }
 
-/// What is played between neighbouring control points.
+/// What the controller plays between neighbouring control points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SegmentShape {
-    /// The cubic Hermite of both points' positions and velocities: a PVT move.
+    /// The cubic Hermite segment of both points' positions and velocities: a PVT move.
     #[default]
     Cubic,
-    /// A straight line at constant speed on each axis. Velocities are not used; those that stand
-    /// at a point are the rates of the segment that follows.
+    /// A straight line at constant speed on each axis. The line does not use the velocities of the
+    /// points. The velocity of a point is the rate of the segment that follows it.
     Linear,
 }
 
@@ -43,7 +43,7 @@ pub struct ControlPoint {
 }
 
 impl ControlPoint {
-    /// Whether every number is one.
+    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         [self.t, self.c, self.x, self.z, self.vc, self.vx, self.vz]
             .iter()
@@ -51,7 +51,7 @@ impl ControlPoint {
     }
 }
 
-/// Neighbouring control points of one section, a column for each quantity.
+/// Neighbouring control points of one section, with a column for each quantity.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PathBlock {
     /// Time, s.
@@ -68,17 +68,17 @@ pub struct PathBlock {
     pub vx: Vec<f64>,
     /// dZ/dt, mm/s.
     pub vz: Vec<f64>,
-    /// What is played between the points.
+    /// What the controller plays between the points.
     pub shape: SegmentShape,
 }
 
 impl PathBlock {
-    /// How many control points there are.
+    /// The number of control points.
     pub fn len(&self) -> usize {
         self.t.len()
     }
 
-    /// Whether there are none.
+    /// Whether the block has no control points.
     pub fn is_empty(&self) -> bool {
         self.t.is_empty()
     }
@@ -94,7 +94,7 @@ impl PathBlock {
         self.vz.push(point.vz);
     }
 
-    /// Puts `point` in the place of the last one.
+    /// Replaces the last point by `point`.
     pub fn set_last(&mut self, point: ControlPoint) {
         self.truncate(self.len().saturating_sub(1));
         self.push(point);
@@ -135,7 +135,7 @@ impl PathBlock {
         (0..self.len()).filter_map(|index| self.get(index))
     }
 
-    /// The segments between neighbouring points, of the block's shape.
+    /// The segments between neighbouring points, in the block's shape.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
         let between = match self.shape {
             SegmentShape::Cubic => Segment::between,
@@ -147,26 +147,27 @@ impl PathBlock {
     }
 }
 
-/// Neighbouring control points on their way to the files, with what came before them: enough to
-/// write times and distances that do not depend on where a block begins.
+/// A block of neighbouring control points of one section on its way to the files, with the points
+/// before it. That is enough to write times and distances that do not depend on where a block
+/// begins.
 #[derive(Debug, Clone, Copy)]
-pub struct PathStretch<'a> {
-    /// What the points are for.
+pub struct SectionBlock<'a> {
+    /// The section of the points.
     pub section: Section,
-    /// Whether the section begins with the first of them.
+    /// Whether the section begins with the block's first point.
     pub opens_section: bool,
-    /// The two points before the first, as far as the path has them.
+    /// The two points before the block's first one, as far as the path has them.
     pub before: &'a [ControlPoint],
-    /// The points; each point of a path is in one stretch.
+    /// The points. Each point of a path is in exactly one block.
     pub points: &'a PathBlock,
 }
 
-/// A cubic on s = 0 … 1 in Σ a_i s^i.
+/// A cubic Σ a_i s^i on s = 0 … 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic(pub [f64; 4]);
 
 impl Cubic {
-    /// The cubic Hermite through (p0, v0) and (p1, v1) that takes `duration`.
+    /// The cubic Hermite polynomial from (p0, v0) to (p1, v1) within `duration`.
     pub fn hermite(p0: f64, v0: f64, p1: f64, v1: f64, duration: f64) -> Self {
         let (rise, m0, m1) = (p1 - p0, v0 * duration, v1 * duration);
         Self([p0, m0, 3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise])
@@ -177,36 +178,36 @@ impl Cubic {
         Self([p0, p1 - p0, 0.0, 0.0])
     }
 
-    /// Its value at `s`.
+    /// The value at `s`.
     pub fn value(&self, s: f64) -> f64 {
         let [a, b, c, d] = self.0;
         a + s * (b + s * (c + s * d))
     }
 
-    /// Its derivative in s.
+    /// The derivative in s.
     pub fn slope(&self, s: f64) -> f64 {
         let [_, b, c, d] = self.0;
         b + s * (2.0 * c + s * 3.0 * d)
     }
 
-    /// Its second derivative in s.
+    /// The second derivative in s.
     pub fn bend(&self, s: f64) -> f64 {
         let [_, _, c, d] = self.0;
         2.0 * c + 6.0 * s * d
     }
 
-    /// Its third derivative in s.
+    /// The third derivative in s.
     pub fn jerk(&self) -> f64 {
         6.0 * self.0[3]
     }
 }
 
-/// What the controller plays between two control points: a cubic per axis in s = 0 … 1.
+/// What the controller plays between two control points: one cubic for each axis on s = 0 … 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// When it begins, s.
+    /// Time at which the segment begins, s.
     pub start: f64,
-    /// How long it takes, s.
+    /// Duration of the segment, s.
     pub duration: f64,
     /// C, rad.
     pub c: Cubic,
@@ -229,7 +230,7 @@ impl Segment {
         }
     }
 
-    /// The straight move from one control point to the next; their velocities are not used.
+    /// The straight move from one control point to the next. It does not use their velocities.
     pub fn straight(from: &ControlPoint, to: &ControlPoint) -> Self {
         Self {
             start: from.t,

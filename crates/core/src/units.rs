@@ -1,4 +1,4 @@
-//! The table of units, how each scales to inner units, and guesses at misspelt ones.
+//! The table of units, the scale of each unit to inner units, and suggestions for misspelt units.
 
 use std::f64::consts::TAU;
 

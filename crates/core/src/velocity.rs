@@ -1,9 +1,9 @@
-//! The PVT velocity solver: the velocities that the controller's cubics take at the nodes.
+//! The PVT velocity solver: it chooses the velocities at the nodes for the controller's cubics.
 
 use crate::toolpath::SegmentShape;
 use crate::{Dependence, Result};
 
-/// What a solver gets of the nodes; all slices have the same length.
+/// The nodes as a solver gets them. All slices have the same length.
 #[derive(Debug, Clone, Copy)]
 pub struct Nodes<'a> {
     /// Time, s.
@@ -14,38 +14,38 @@ pub struct Nodes<'a> {
     pub x: &'a [f64],
     /// Z of the nose centre, mm.
     pub z: &'a [f64],
-    /// The locus' own dC/dt, rad/s.
+    /// dC/dt of the locus itself, rad/s.
     pub c_rate: &'a [f64],
-    /// The locus' own dX/dt, mm/s; at a knot of the law the mean of both sides.
+    /// dX/dt of the locus itself, mm/s. At a knot of the law it is the mean of both sides.
     pub x_rate: &'a [f64],
     /// ∂Z/∂θ at constant X, mm/rad.
     pub z_theta: &'a [f64],
     /// ∂Z/∂X at constant θ.
     pub z_x: &'a [f64],
-    /// Whether the first node is the path's first, not just the first one handed over.
+    /// Whether the first node is the first of the path, not only of this call.
     pub at_start: bool,
-    /// Whether the last node is the path's last, not just the last one handed over.
+    /// Whether the last node is the last of the path, not only of this call.
     pub at_end: bool,
 }
 
 impl Nodes<'_> {
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn len(&self) -> usize {
         self.t.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no nodes.
     pub fn is_empty(&self) -> bool {
         self.t.is_empty()
     }
 
-    /// The locus' own dZ/dt at node `k`, mm/s: Z_θ·vC + Z_X·vX.
+    /// dZ/dt of the locus itself at node `k`, mm/s: Z_θ·vC + Z_X·vX.
     pub fn z_rate(&self, k: usize) -> f64 {
         self.z_theta[k] * self.c_rate[k] + self.z_x[k] * self.x_rate[k]
     }
 }
 
-/// Where a solver writes its velocities; as many places as nodes.
+/// Where a solver writes the velocities. Each slice has one element for each node.
 #[derive(Debug)]
 pub struct Velocities<'a> {
     /// vC, rad/s.
@@ -58,22 +58,24 @@ pub struct Velocities<'a> {
 
 /// Chooses the velocities at the nodes.
 pub trait VelocitySolver: Send + Sync {
-    /// How a block depends on its neighbours' nodes. With `Overlap(n)` the host hands over n nodes
-    /// more on either side (fewer only at the path's ends) and keeps the block's own.
+    /// How a block depends on its neighbours' nodes. With `Overlap(n)` the host passes n more nodes
+    /// on either side (fewer only at the path's ends) and keeps the velocities of the block's own
+    /// nodes.
     fn dependence(&self) -> Dependence;
 
-    /// What is to be played between the control points: cubics, unless it says otherwise.
+    /// What the controller must play between the control points. The default is cubics.
     fn segments(&self) -> SegmentShape {
         SegmentShape::Cubic
     }
 
-    /// The velocities at all nodes handed over.
+    /// Computes the velocities at all nodes of the call.
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()>;
 
-    /// The same for a `Sequential` solver. The nodes end with the next block's first one (but for
-    /// the path's last block), which the next call gets again; `state` is what the call for the
-    /// block before left, empty at first.
-    fn solve_onward(
+    /// Does the same as [`solve`](VelocitySolver::solve) for a `Sequential` solver. Except in the
+    /// path's last block, the nodes end with the first node of the next block, and the next call
+    /// gets this node again. `state` is what the call for the block before left; it is empty at
+    /// first.
+    fn solve_sequential(
         &self,
         nodes: Nodes<'_>,
         state: &mut Vec<f64>,

@@ -6,7 +6,7 @@ mod common;
 
 use std::fs;
 
-use common::{fixtures, nodes, onward, with_file, with_fixture};
+use common::{fixtures, nodes, place_more, with_file, with_fixture};
 use sha2::{Digest, Sha256};
 use turnpath_core::{Dependence, ParamValue, Params, Slot};
 use turnpath_host::Catalogue;
@@ -157,8 +157,8 @@ fn a_sequential_samplers_state_goes_on_over_blocks() {
     let sampler = strategy.offer().sampler(&Params::new()).unwrap();
     assert_eq!(sampler.dependence(), Dependence::Sequential);
     let mut state = Vec::new();
-    let mut in_two = onward(sampler.as_ref(), 0.0, 1.0, &mut state).unwrap();
-    in_two.extend(onward(sampler.as_ref(), 1.0, 2.0, &mut state).unwrap());
+    let mut in_two = place_more(sampler.as_ref(), 0.0, 1.0, &mut state).unwrap();
+    in_two.extend(place_more(sampler.as_ref(), 1.0, 2.0, &mut state).unwrap());
     let whole = nodes(sampler.as_ref(), 0.0, 2.0).unwrap();
     assert_eq!(in_two.len(), whole.len());
     for (one, other) in in_two.iter().zip(&whole) {

@@ -1,7 +1,7 @@
 //! Strategies that others call, with their names in their errors.
 //!
 //! A sampler that fails because the surface panicked is not to blame. The surface's error crosses
-//! it as [`StrategyError::Asked`], and the message names the surface.
+//! it as [`StrategyError::Delegate`], and the message names the surface.
 
 use std::sync::Arc;
 
@@ -37,8 +37,8 @@ impl StrategyName {
     /// Puts the name into the error, unless the error names another strategy already.
     fn attribute<T>(&self, answer: Result<T>) -> Result<T> {
         answer.map_err(|error| match error {
-            inner @ StrategyError::Asked { .. } => inner,
-            own => StrategyError::Asked {
+            inner @ StrategyError::Delegate { .. } => inner,
+            own => StrategyError::Delegate {
                 slot: self.slot,
                 message: format!("{}: {own}", self.text).into(),
             },

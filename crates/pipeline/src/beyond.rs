@@ -38,7 +38,7 @@ pub fn check(chain: &Chain, preparation: &Preparation, law: &SpiralLaw) -> Resul
 
 /// θ and ρ of the checked points of a turn that lie beyond the range.
 fn points_beyond(preparation: &Preparation, law: &SpiralLaw, turn: u64) -> Vec<(f64, f64)> {
-    let range = preparation.job.range;
+    let range = preparation.task.range;
     let parts = (0..=ANGLES).map(|i| f64::from(i) / f64::from(ANGLES));
     let on_law = parts.filter(|part| turn as f64 + part <= law.end());
     let points = on_law.map(|part| (TAU * part, law.value(turn as f64 + part)));
@@ -49,7 +49,7 @@ fn points_beyond(preparation: &Preparation, law: &SpiralLaw, turn: u64) -> Vec<(
 }
 
 fn check_points(chain: &Chain, preparation: &Preparation, points: &[(f64, f64)]) -> Result<()> {
-    let Preparation { job, locus, .. } = preparation;
+    let Preparation { task, locus, .. } = preparation;
     let (theta, rho): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
     let mut centres = CentreBuffers::default();
     centres.resize(theta.len());
@@ -57,17 +57,17 @@ fn check_points(chain: &Chain, preparation: &Preparation, points: &[(f64, f64)])
     answer.map_err(|error| attribute(chain, error))?;
     let feet = centres.foot.iter().zip(points);
     if let Some((_, (theta, rho))) = feet.into_iter().find(|(foot, _)| !foot.is_finite()) {
-        return Err(no_contact(chain, &job.tool, *theta, *rho));
+        return Err(no_contact(chain, &task.tool, *theta, *rho));
     }
     let cut = Cut {
         surface: locus.surface(),
-        tool: &job.tool,
+        tool: &task.tool,
     };
     let interference =
         interference::at(cut, &theta, &centres.foot).map_err(|error| attribute(chain, error))?;
     let conflicts = conflicts(
         &interference,
-        &job.tool,
+        &task.tool,
         chain.compensator.strategy.as_ref(),
     );
     if conflicts.is_empty() {

@@ -1,4 +1,4 @@
-//! The five strategies of a job, with the names that messages need.
+//! The five strategies of a task, with the names that messages need.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ impl<T: ?Sized> Link<T> {
     /// says what the strategy was doing, or for which part of the path.
     pub fn failed(&self, context: impl Into<Box<str>>, error: StrategyError) -> PipelineError {
         let context = context.into();
-        if let StrategyError::Asked { slot, message } = error {
+        if let StrategyError::Delegate { slot, message } = error {
             let message = message.into_owned();
             return PipelineError::InnerStrategy {
                 slot,
@@ -53,7 +53,7 @@ impl<T: ?Sized> Link<T> {
     }
 }
 
-/// The five strategies of a job.
+/// The five strategies of a task.
 pub struct Chain {
     /// The surface to cut.
     pub surface: Link<dyn SurfaceModel>,

@@ -122,7 +122,7 @@ fn allowed(plan: &Plan<'_>, drifts: &[Drift], side: f64) -> Result<Vec<f64>> {
     let pairs: Vec<[f64; 2]> = drifts.iter().zip(&others).map(pair).collect();
     let heights =
         cusp_heights(&plan.preparation.touch, &theta, &pairs).map_err(PipelineError::Measure)?;
-    let residual = plan.preparation.job.tolerance.residual;
+    let residual = plan.preparation.task.tolerance.residual;
     let allowed = |(height, [x, other]): (Option<f64>, [f64; 2])| match height {
         Some(height) => allowance(height / residual, (other - x).abs()),
         None => f64::INFINITY,

@@ -1,10 +1,10 @@
 //! What a recipe asks for, before the range of ρ is known.
 
 use turnpath_core::{
-    Direction, Job, Machine, Overrun, Part, RadialRange, SpindleLaw, Tolerance, Tool,
+    Direction, Task, Machine, Overrun, Part, RadialRange, SpindleLaw, Tolerance, Tool,
 };
 
-/// A job as a recipe describes it, before the range of ρ is known.
+/// A task as a recipe describes it, before the range of ρ is known.
 #[derive(Debug, Clone)]
 pub struct JobSpec {
     /// The part.
@@ -24,9 +24,9 @@ pub struct JobSpec {
 }
 
 impl JobSpec {
-    /// The job over a range of ρ.
-    pub(crate) fn over(self, range: RadialRange) -> Job {
-        Job {
+    /// The task over a range of ρ.
+    pub(crate) fn over(self, range: RadialRange) -> Task {
+        Task {
             part: self.part,
             tool: self.tool,
             tolerance: self.tolerance,

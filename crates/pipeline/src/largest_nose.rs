@@ -5,13 +5,13 @@ use turnpath_core::largest_nose::LargestNose;
 use crate::fit::Fit;
 use crate::{Chain, Preparation, Result};
 
-/// The largest nose for the chain and the job, with what limits it.
+/// The largest nose for the chain and the task, with what limits it.
 ///
 /// # Errors
 /// When a strategy fails.
 pub fn largest_nose(chain: &Chain, preparation: &Preparation) -> Result<LargestNose> {
-    let job = &preparation.job;
-    let fit = Fit::new(chain, job.part, job.tool, preparation.overrun);
-    let on_part = fit.interference(job.tool, fit.whole_part())?;
+    let task = &preparation.task;
+    let fit = Fit::new(chain, task.part, task.tool, preparation.overrun);
+    let on_part = fit.interference(task.tool, fit.whole_part())?;
     fit.largest_nose(on_part.curvature)
 }

@@ -4,14 +4,14 @@
 //! A piece takes 56 bytes. A law with one feed for each radius has some hundred pieces, whatever
 //! the part. A law that changes with the angle has some pieces for every revolution.
 
-use turnpath_core::{Direction, Job, Locus, Onward, RadialRange, Setup, SpiralLaw, Stretch};
+use turnpath_core::{Direction, Task, Locus, Continuation, RadialRange, Setup, SpiralLaw, FeedPiece};
 
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::{Chain, Result};
 
 /// Angles of a revolution at which each turn must lie beyond the one before.
 const CHECKED_ANGLES: usize = 72;
-/// More revolutions than any job has. A law that exceeds them does not end.
+/// More revolutions than any task has. A law that exceeds them does not end.
 const MOST_REVOLUTIONS: f64 = 1e7;
 /// Most pieces of a law, which take half a gigabyte. They suffice for some pieces in each of
 /// 100,000 revolutions.
@@ -24,23 +24,23 @@ const SLACK: f64 = 1e-5;
 /// Plans the law and checks it.
 pub fn plan(
     chain: &Chain,
-    job: &Job,
+    task: &Task,
     locus: &dyn Locus,
     observer: &dyn Observer,
 ) -> Result<SpiralLaw> {
-    let setup = Setup { job, locus };
+    let setup = Setup { task, locus };
     let failed = |error| chain.feed.failed("while planning the law", error);
     let mut plan = chain.feed.strategy.plan(setup).map_err(failed)?;
     let mut law = SpiralLaw::new();
-    let mut check = SpiralCheck::new(job);
-    let mut pieces: Vec<Stretch> = Vec::new();
+    let mut check = SpiralCheck::new(task);
+    let mut pieces: Vec<FeedPiece> = Vec::new();
     loop {
         stop_if_cancelled(observer)?;
         pieces.clear();
         let onward = plan
             .extend(setup, &mut pieces)
             .map_err(|error| chain.feed.failed(after(&law), error))?;
-        if pieces.is_empty() && onward == Onward::More {
+        if pieces.is_empty() && onward == Continuation::More {
             let what = format!("no piece, {}", after(&law));
             return Err(chain.feed.bad_answer(what));
         }
@@ -50,11 +50,11 @@ pub fn plan(
         check
             .follow(&law)
             .map_err(|what| chain.feed.bad_answer(what))?;
-        if onward == Onward::Done {
+        if onward == Continuation::End {
             break;
         }
     }
-    covers(&law, job).map_err(|what| chain.feed.bad_answer(what))?;
+    covers(&law, task).map_err(|what| chain.feed.bad_answer(what))?;
     Ok(law)
 }
 
@@ -66,10 +66,10 @@ fn after(law: &SpiralLaw) -> String {
 type CheckResult = std::result::Result<(), String>;
 
 /// Appends a piece that begins where the law ends.
-fn add(law: &mut SpiralLaw, piece: &Stretch) -> CheckResult {
+fn add(law: &mut SpiralLaw, piece: &FeedPiece) -> CheckResult {
     let numbers = piece.coefficients.iter().all(|c| c.is_finite());
     if !(numbers && piece.length.is_finite() && piece.length > 0.0) {
-        let Stretch {
+        let FeedPiece {
             length,
             coefficients,
         } = piece;
@@ -89,13 +89,13 @@ fn add(law: &mut SpiralLaw, piece: &Stretch) -> CheckResult {
 }
 
 /// Checks that the law begins and ends at the two ends of the range, or beyond.
-fn covers(law: &SpiralLaw, job: &Job) -> CheckResult {
+fn covers(law: &SpiralLaw, task: &Task) -> CheckResult {
     if law.pieces().is_empty() {
         return Err("a law without pieces".to_owned());
     }
     let (start, end) = (law.value(0.0), law.value(law.end()));
-    let RadialRange { inner, outer } = job.range;
-    let (low, high) = match job.direction {
+    let RadialRange { inner, outer } = task.range;
+    let (low, high) = match task.direction {
         Direction::Outward => (start, end),
         Direction::Inward => (end, start),
     };
@@ -118,11 +118,11 @@ struct SpiralCheck {
 }
 
 impl SpiralCheck {
-    fn new(job: &Job) -> Self {
-        let RadialRange { inner, outer } = job.range;
-        let beyond = outer - inner + 2.0 * job.tool.nose_radius;
+    fn new(task: &Task) -> Self {
+        let RadialRange { inner, outer } = task.range;
+        let beyond = outer - inner + 2.0 * task.tool.nose_radius;
         Self {
-            outward: match job.direction {
+            outward: match task.direction {
                 Direction::Outward => 1.0,
                 Direction::Inward => -1.0,
             },

@@ -174,7 +174,7 @@ fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
 
 /// Puts nodes on the locus.
 fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
-    let (job, compensator) = (&plan.preparation.job, &plan.chain.compensator);
+    let (task, compensator) = (&plan.preparation.task, &plan.chain.compensator);
     let (n, t) = on_time(plan, nodes)?;
     let context = || match (n.first(), n.last()) {
         (Some(first), Some(last)) => format!("in revolutions {first:.3} to {last:.3}"),
@@ -200,7 +200,7 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
     locus
         .rates(&theta, &rho, rates)
         .map_err(|error| compensator.failed(context(), error))?;
-    let c_rate: Vec<f64> = n.iter().map(|n| job.spindle.speed_at(*n)).collect();
+    let c_rate: Vec<f64> = n.iter().map(|n| task.spindle.speed_at(*n)).collect();
     let x_rate = (0..n.len())
         .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
         .collect();
@@ -247,7 +247,7 @@ fn solve(
     };
     let link = &plan.chain.velocity;
     let answer = match state {
-        Some(state) => link.strategy.solve_onward(nodes, state, out),
+        Some(state) => link.strategy.solve_sequential(nodes, state, out),
         None => link.strategy.solve(nodes, out),
     };
     let start = columns.t.get(own.start).copied().unwrap_or_default();

@@ -1,10 +1,10 @@
-//! How a path is made, besides its chain and its job.
+//! How a path is made, besides its chain and its task.
 
 use turnpath_core::Servo;
 
 use crate::lead::LeadSettings;
 
-/// How a path is made, besides its chain and its job.
+/// How a path is made, besides its chain and its task.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PathOptions {
     /// Whether segments whose error exceeds the tolerance are halved.

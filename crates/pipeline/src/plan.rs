@@ -1,4 +1,4 @@
-//! What every block is made from: the chain, the job, the locus, the law, and the borders of the
+//! What every block is made from: the chain, the task, the locus, the law, and the borders of the
 //! blocks.
 
 use std::f64::consts::TAU;
@@ -13,7 +13,7 @@ use crate::{Chain, Preparation, Result, beyond, seams};
 /// a percent of points; larger blocks take more memory and leave less to do in parallel.
 pub const BLOCK: f64 = 64.0;
 /// Nodes of a block above which it takes half the revolutions, down to one, so that memory stays
-/// bounded on the finest paths. The choice depends on the job alone, so the bytes do not depend on
+/// bounded on the finest paths. The choice depends on the task alone, so the bytes do not depend on
 /// the machine.
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
 /// Most nodes that a sampler may place in a block. More are taken for a mistake.
@@ -34,11 +34,11 @@ pub struct Start {
     pub time: f64,
 }
 
-/// A job with its law and its blocks.
+/// A task with its law and its blocks.
 pub struct Plan<'a> {
     /// The strategies.
     pub chain: &'a Chain,
-    /// The job, the locus, the first touch.
+    /// The task, the locus, the first touch.
     pub preparation: &'a Preparation,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
@@ -69,7 +69,7 @@ impl<'a> Plan<'a> {
         }
         let law = seams::plan(chain, preparation, observer)?;
         let CutLaw { law, own } = match preparation.overrun {
-            Overrun::Contact => taper(&law, &preparation.job),
+            Overrun::Contact => taper(&law, &preparation.task),
             Overrun::None | Overrun::Length(_) => CutLaw::without_taper(law),
         };
         beyond::check(chain, preparation, &law)?;
@@ -123,9 +123,9 @@ impl<'a> Plan<'a> {
     }
 
     fn path<'b>(&'b self, law: &'b SpiralLaw) -> Path<'b> {
-        let Preparation { job, locus, .. } = self.preparation;
+        let Preparation { task, locus, .. } = self.preparation;
         Path {
-            job,
+            task,
             locus,
             law,
             prepared: &self.sampler_data,
@@ -150,7 +150,7 @@ impl<'a> Plan<'a> {
     /// to the nearest step. The path's end is moved to the step before it, so that the path does
     /// not run beyond its end.
     pub fn on_time(&self, n: f64) -> (f64, f64) {
-        let spindle = &self.preparation.job.spindle;
+        let spindle = &self.preparation.task.spindle;
         let t = spindle.time_at(n);
         let Some(steps) = self.time_steps else {
             return (n, self.start.time + t);
@@ -206,7 +206,7 @@ impl<'a> Plan<'a> {
         let answer = match sampler.strategy.dependence() {
             Dependence::Sequential => sampler
                 .strategy
-                .place_onward(&path, block, state, &mut nodes),
+                .place_sequential(&path, block, state, &mut nodes),
             _ => sampler.strategy.place(&path, block, &mut nodes),
         };
         answer.map_err(|error| sampler.failed(in_revolutions(block), error))?;

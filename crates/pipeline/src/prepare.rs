@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::interference::{Conflict, Interference};
-use turnpath_core::{Compensator, Job, Misfit, Overrun, Part, Scalar, Tool, ToolLocus};
+use turnpath_core::{Compensator, Task, Misfit, Overrun, Part, Scalar, Tool, ToolLocus};
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::contact::contact_range;
@@ -14,10 +14,10 @@ use crate::{Chain, PipelineError, Result};
 /// Points on the part's inner ring at which the surface is looked for.
 const RING_POINTS: usize = 8;
 
-/// A job whose tool fits its part.
+/// A task whose tool fits its part.
 pub struct Preparation {
     /// Part, tool, tolerances, range of ρ, direction, spindle, machine.
-    pub job: Job,
+    pub task: Task,
     /// How far the path runs beyond the part.
     pub overrun: Overrun,
     /// Surface, compensator and tool together.
@@ -68,7 +68,7 @@ fn settle(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     let interference = fit.interference(tool, region)?;
     refuse(&fit, &on_part, &interference, |_| true)?;
     Ok(Preparation {
-        job: spec.over(range),
+        task: spec.over(range),
         overrun,
         locus,
         interference,

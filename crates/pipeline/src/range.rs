@@ -125,7 +125,7 @@ impl Rim<'_> {
         profile_at(self.surface, theta, &rho, &mut profiles)?;
         let reach = self.tool.reach();
         let offset = |profile: &Profile| {
-            let normal = self.tool.nose_radius * profile.slope / profile.stretch();
+            let normal = self.tool.nose_radius * profile.slope / profile.slant();
             -self.outward * normal.clamp(-reach, reach)
         };
         let points: Vec<(f64, f64)> = theta

@@ -150,7 +150,7 @@ fn play(plan: &Plan<'_>, block: &BlockPoints) -> Result<Vec<SegmentState>> {
     }
     let touch = &plan.preparation.touch;
     let errors = Meter::segment_errors(touch, &block.points).map_err(PipelineError::Measure)?;
-    let aim = AIM * plan.preparation.job.tolerance.interpolation;
+    let aim = AIM * plan.preparation.task.tolerance.interpolation;
     let drifts = drift::loads(plan, block)?;
     let loads = errors
         .iter()

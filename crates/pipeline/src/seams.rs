@@ -9,7 +9,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Direction, Job, SpiralLaw};
+use turnpath_core::{Direction, Task, SpiralLaw};
 use turnpath_verify::{Ride, rides};
 
 use crate::observer::Observer;
@@ -35,11 +35,11 @@ pub fn plan(
     preparation: &Preparation,
     observer: &dyn Observer,
 ) -> Result<SpiralLaw> {
-    let job = &preparation.job;
-    let first = law::plan(chain, job, &preparation.locus, observer)?;
-    let rides = rides(&preparation.touch, job.range.outer).map_err(PipelineError::Measure)?;
-    let mut stricter = job.clone();
-    let mut over = over_feed(&first, job, &rides);
+    let task = &preparation.task;
+    let first = law::plan(chain, task, &preparation.locus, observer)?;
+    let rides = rides(&preparation.touch, task.range.outer).map_err(PipelineError::Measure)?;
+    let mut stricter = task.clone();
+    let mut over = over_feed(&first, task, &rides);
     let (mut best, mut least, mut turns) = (first, over, 0.0);
     for _ in 0..ROUNDS {
         if over <= ENOUGH {
@@ -52,7 +52,7 @@ pub fn plan(
             // No law holds so small a residual: the best so far is measured as it is.
             Err(_) => break,
         };
-        over = over_feed(&candidate, job, &rides);
+        over = over_feed(&candidate, task, &rides);
         let responds = candidate.end() > RESPONSE * best.end().max(turns);
         turns = candidate.end();
         if over < least {
@@ -66,12 +66,12 @@ pub fn plan(
 }
 
 /// A law's feed over the worst ride, as a multiple of the largest feed that holds the residual there.
-fn over_feed(law: &SpiralLaw, job: &Job, rides: &[Ride]) -> f64 {
-    let (radius, residual) = (job.tool.nose_radius, job.tolerance.residual);
+fn over_feed(law: &SpiralLaw, task: &Task, rides: &[Ride]) -> f64 {
+    let (radius, residual) = (task.tool.nose_radius, task.tolerance.residual);
     let over = |ride: &Ride| {
         let corner = ride.corner;
         let most = radius * ((corner * corner + 8.0 * residual / radius).sqrt() - corner);
-        feed_at(law, job.direction, ride) / most
+        feed_at(law, task.direction, ride) / most
     };
     rides.iter().map(over).fold(0.0, f64::max)
 }

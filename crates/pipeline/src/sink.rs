@@ -1,6 +1,6 @@
 //! Where the path goes.
 
-use turnpath_core::toolpath::PathStretch;
+use turnpath_core::toolpath::SectionBlock;
 
 /// Takes the path while it is made. Blocks are encoded in parallel and taken in order.
 pub trait Sink: Sync {
@@ -15,7 +15,7 @@ pub trait Sink: Sync {
     /// When the form cannot carry the block. The run then ends with [`RunError::Sink`].
     ///
     /// [`RunError::Sink`]: crate::RunError::Sink
-    fn encode(&self, block: &PathStretch<'_>) -> Result<Self::Block, Self::Error>;
+    fn encode(&self, block: &SectionBlock<'_>) -> Result<Self::Block, Self::Error>;
 
     /// Takes the next block of the path, with its count of control points.
     ///

@@ -1,6 +1,6 @@
 //! The end of the path so far: what the next block of the path follows.
 
-use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Section};
 
 /// What comes before a block of the path.
 pub struct BlockContext {
@@ -11,8 +11,8 @@ pub struct BlockContext {
 
 impl BlockContext {
     /// These points in this context.
-    pub fn block<'a>(&'a self, section: Section, points: &'a PathBlock) -> PathStretch<'a> {
-        PathStretch {
+    pub fn block<'a>(&'a self, section: Section, points: &'a PathBlock) -> SectionBlock<'a> {
+        SectionBlock {
             section,
             opens_section: self.opens_section,
             before: &self.before,

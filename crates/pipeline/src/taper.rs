@@ -5,7 +5,7 @@
 //! over n turns, ρ(m) = f n (s³ − s⁴/2) with s = m/n, has its passes within ρ(1) of its end at
 //! every angle.
 
-use turnpath_core::{Direction, Job, Piece, SpiralLaw, quintic};
+use turnpath_core::{Direction, Task, Piece, SpiralLaw, quintic};
 
 /// Turns n over which the feed runs out. ρ(1) is then 0.38 feeds, so that 0.6 of a cusp stays at a
 /// rim, and 0.45 feeds lie between the passes of both sides of the axis. The taper costs n/2 turns;
@@ -54,12 +54,12 @@ impl CutLaw {
 }
 
 /// The law, with a feed that runs out at those ends that do not close by themselves.
-pub fn taper(law: &SpiralLaw, job: &Job) -> CutLaw {
+pub fn taper(law: &SpiralLaw, task: &Task) -> CutLaw {
     if law.end() < SHORT {
         let law = replacement(law);
         return CutLaw { law, own: None };
     }
-    let (start, end) = (End::of(law, job, false), End::of(law, job, true));
+    let (start, end) = (End::of(law, task, false), End::of(law, task, true));
     let mut pieces = Vec::new();
     let mut at = 0.0;
     let mut put = |length: f64, coefficients: [f64; 6]| {
@@ -127,12 +127,12 @@ struct End {
 }
 
 impl End {
-    fn of(law: &SpiralLaw, job: &Job, last: bool) -> Self {
+    fn of(law: &SpiralLaw, task: &Task, last: bool) -> Self {
         let side = EndView { law, last };
-        let outer = last == (job.direction == Direction::Outward);
+        let outer = last == (task.direction == Direction::Outward);
         let inside = |rho: f64| match outer {
-            true => job.range.outer - rho,
-            false => rho - job.range.inner,
+            true => task.range.outer - rho,
+            false => rho - task.range.inner,
         };
         Self {
             last,
@@ -257,14 +257,14 @@ mod tests {
         back
     }
 
-    /// The job whose range the law runs over.
-    fn job(law: &SpiralLaw) -> Job {
+    /// The task whose range the law runs over.
+    fn task(law: &SpiralLaw) -> Task {
         let (start, end) = (law.value(0.0), law.value(law.end()));
         let (direction, inner, outer) = match start < end {
             true => (Direction::Outward, start, end),
             false => (Direction::Inward, end, start),
         };
-        Job {
+        Task {
             part: Part {
                 aperture_radius: outer,
                 inner_radius: inner,
@@ -289,7 +289,7 @@ mod tests {
     #[test]
     fn both_ends_keep_their_values_and_come_to_rest() {
         for law in [law(), inward()] {
-            let CutLaw { law: tapered, own } = taper(&law, &job(&law));
+            let CutLaw { law: tapered, own } = taper(&law, &task(&law));
             assert_eq!(own, Some([TURNS, tapered.end() - TURNS]));
             for (n, whole) in [(0.0, 0.0), (tapered.end(), law.end())] {
                 let [value, rate, second, ..] = tapered.series_before(n);
@@ -306,7 +306,7 @@ mod tests {
 
     #[test]
     fn value_and_two_derivatives_are_continuous() {
-        let tapered = taper(&law(), &job(&law())).law;
+        let tapered = taper(&law(), &task(&law())).law;
         let knots: Vec<f64> = tapered.knots(0.0, tapered.end()).collect();
         assert_eq!(knots.len(), 3);
         for knot in knots {
@@ -320,7 +320,7 @@ mod tests {
     #[test]
     fn passes_close_at_rim_and_axis() {
         for law in [law(), inward()] {
-            let tapered = taper(&law, &job(&law)).law;
+            let tapered = taper(&law, &task(&law)).law;
             for last in [false, true] {
                 let side = EndView {
                     law: &tapered,
@@ -346,7 +346,7 @@ mod tests {
         let mut law = SpiralLaw::new();
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(9.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        let held = taper(&law, &job(&law)).law;
+        let held = taper(&law, &task(&law)).law;
         assert_eq!(held.value(HOLD), 1.0);
         assert!((held.value(HOLD + 3.0) - law.value(3.0)).abs() < 1e-15);
     }
@@ -355,11 +355,11 @@ mod tests {
     #[test]
     fn an_end_that_lies_beyond_the_range_at_every_angle_is_left_alone() {
         let law = law();
-        let mut job = job(&law);
-        job.range.outer = law.value(law.end() - 1.0);
-        assert_eq!(End::of(&law, &job, true).treatment, EndTreatment::None);
-        job.range.outer = law.value(law.end() - 0.5);
-        assert_ne!(End::of(&law, &job, true).treatment, EndTreatment::None);
+        let mut task = task(&law);
+        task.range.outer = law.value(law.end() - 1.0);
+        assert_eq!(End::of(&law, &task, true).treatment, EndTreatment::None);
+        task.range.outer = law.value(law.end() - 0.5);
+        assert_ne!(End::of(&law, &task, true).treatment, EndTreatment::None);
     }
 
     #[test]
@@ -369,7 +369,7 @@ mod tests {
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(7.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(
-            End::of(&law, &job(&law), false).treatment,
+            End::of(&law, &task(&law), false).treatment,
             EndTreatment::None
         );
     }
@@ -385,7 +385,7 @@ mod tests {
             let mut short = SpiralLaw::new();
             short.push(turns, [start, rate, bend, 0.0, 0.0, 0.0]);
             let slowest = short.rate(0.0).abs().min(short.rate(turns).abs());
-            let round = taper(&short, &job(&short)).law;
+            let round = taper(&short, &task(&short)).law;
             let end = round.end();
             let (from, to) = (short.value(0.0), short.value(turns));
             for i in 0..=100 {

@@ -5,40 +5,41 @@ mod common;
 use std::sync::Arc;
 
 use common::solvers::{Broken, Greedy};
-use common::{BrokenBeyond90, Feed, Job, Nodes, RIM, feed_of, straight};
+use common::{BrokenBeyond90, Feed, Task, Nodes, RIM, feed_of, straight};
 use turnpath_core::{
-    FeedPlan, FeedStrategy, Onward, Path, Result, Revolutions, Setup, Slot, StrategyError, Stretch,
+    Continuation, FeedPiece, FeedPlan, FeedStrategy, Path, Result, Revolutions, Setup, Slot,
+    StrategyError,
 };
 use turnpath_pipeline::PipelineError;
 
 /// The slot that is to blame for a bad answer, and what is wrong with the answer.
-fn bad_answer(job: &Job) -> (Slot, String) {
-    match job.run().map_err(|error| *error) {
+fn bad_answer(task: &Task) -> (Slot, String) {
+    match task.run().map_err(|error| *error) {
         Err(PipelineError::BadAnswer { slot, what, .. }) => (slot, what),
         Err(other) => panic!("{other:?}"),
         Ok((path, _)) => panic!("a path of {} points", path.len()),
     }
 }
 
-fn assert_says(job: &Job, slot: Slot, text: &str) {
-    let (blamed, what) = bad_answer(job);
+fn assert_says(task: &Task, slot: Slot, text: &str) {
+    let (blamed, what) = bad_answer(task);
     assert!(blamed == slot && what.contains(text), "{blamed:?}: {what}");
 }
 
 fn assert_feed_says(feed: Arc<dyn FeedStrategy>, text: &str) {
-    let job = Job {
+    let task = Task {
         feed,
-        ..Job::default()
+        ..Task::default()
     };
-    assert_says(&job, Slot::Feed, text);
+    assert_says(&task, Slot::Feed, text);
 }
 
 fn assert_nodes_say(nodes: impl Fn(Revolutions) -> Vec<f64> + Send + Sync + 'static, text: &str) {
-    let job = Job {
+    let task = Task {
         sampler: Arc::new(Nodes(move |_: &Path<'_>, block: Revolutions| nodes(block))),
-        ..Job::default()
+        ..Task::default()
     };
-    assert_says(&job, Slot::Sampler, text);
+    assert_says(&task, Slot::Sampler, text);
 }
 
 #[test]
@@ -62,22 +63,22 @@ fn nodes_must_be_numbers_in_order_within_their_block() {
 
 #[test]
 fn velocities_must_be_numbers() {
-    let job = Job {
+    let task = Task {
         velocity: Arc::new(Broken),
-        ..Job::default()
+        ..Task::default()
     };
-    assert_says(&job, Slot::Velocity, "are not finite");
+    assert_says(&task, Slot::Velocity, "are not finite");
 }
 
 #[test]
 fn tool_centres_must_be_numbers() {
     for value in [f64::NAN, f64::INFINITY] {
-        let job = Job {
+        let task = Task {
             compensator: Arc::new(BrokenBeyond90(value)),
-            ..Job::default()
+            ..Task::default()
         };
         assert_says(
-            &job,
+            &task,
             Slot::Compensator,
             "no number for the tool centre at C = 100.000",
         );
@@ -101,7 +102,7 @@ fn a_law_must_have_pieces_that_are_numbers() {
         assert_feed_says(feed_of(pieces), "after 10.000 revolutions");
     }
     assert_feed_says(feed_of(Vec::new()), "without pieces");
-    let silent = Feed(|_| (Vec::new(), Onward::More));
+    let silent = Feed(|_| (Vec::new(), Continuation::More));
     assert_feed_says(Arc::new(silent), "no piece, after 0.000 revolutions");
 }
 
@@ -132,11 +133,11 @@ fn a_law_must_cover_the_part_and_be_continuous() {
 fn a_law_must_end() {
     let onward = |rate: f64| {
         let piece = move |call: usize| straight(10.0, RIM - 10.0 * rate * call as f64, -rate);
-        Feed(move |call| (vec![piece(call)], Onward::More))
+        Feed(move |call| (vec![piece(call)], Continuation::More))
     };
     assert_feed_says(Arc::new(onward(0.01)), "lies far off the part");
     assert_feed_says(Arc::new(onward(0.0)), "not beyond the one before");
-    let eternal = Feed(|_| (vec![straight(1e9, RIM, -1e-9)], Onward::Done));
+    let eternal = Feed(|_| (vec![straight(1e9, RIM, -1e-9)], Continuation::End));
     assert_feed_says(Arc::new(eternal), "more than 1e7 revolutions");
 }
 
@@ -146,19 +147,19 @@ fn a_law_of_too_many_short_pieces_is_refused() {
         let length = 1e-9;
         let start = RIM - 0.01 * length * 1e6 * call as f64;
         let piece = move |i: usize| straight(length, start - 0.01 * length * i as f64, -0.01);
-        ((0..1_000_000).map(piece).collect(), Onward::More)
+        ((0..1_000_000).map(piece).collect(), Continuation::More)
     };
     assert_feed_says(Arc::new(Feed(short_pieces)), "pieces, after");
 }
 
 #[test]
 fn a_solver_may_not_require_all_nodes() {
-    let job = Job {
+    let task = Task {
         velocity: Arc::new(Greedy),
-        ..Job::default()
+        ..Task::default()
     };
     assert_says(
-        &job,
+        &task,
         Slot::Velocity,
         "an overlap of 18446744073709551615 nodes; it must be below 10000",
     );
@@ -183,13 +184,13 @@ struct OnePiece {
 }
 
 impl FeedPlan for OnePiece {
-    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
         if self.begun {
             return Err(StrategyError::failed("no idea"));
         }
         self.begun = true;
         pieces.push(straight(12.5, RIM, -0.01));
-        Ok(Onward::More)
+        Ok(Continuation::More)
     }
 }
 
@@ -199,11 +200,11 @@ fn a_strategy_that_gives_up_is_named_with_what_it_was_doing() {
         (true, "while planning the law"),
         (false, "after 12.500 revolutions"),
     ] {
-        let job = Job {
+        let task = Task {
             feed: Arc::new(GivesUp { at_once }),
-            ..Job::default()
+            ..Task::default()
         };
-        let Err(error) = job.run() else {
+        let Err(error) = task.run() else {
             panic!("a path");
         };
         let message = error.to_string();

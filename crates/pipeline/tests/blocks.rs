@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use common::solvers::{Area, Disjoint, Exact, Spline};
-use common::{Counting, Job, K, Nodes, RIM, Saddle, even, feed_of, inward, straight};
+use common::{Counting, Task, K, Nodes, RIM, Saddle, even, feed_of, inward, straight};
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Direction, Part, Path, Revolutions, Scalar, Tool, Velocities, VelocitySolver};
 use turnpath_verify::{FirstTouch, Meter, Subject};
@@ -59,13 +59,13 @@ const REVOLUTIONS: [f64; 7] = [0.3, 3.0, 64.0, 64.001, 65.0, 128.0, 200.3];
 #[test]
 fn a_spline_in_blocks_is_the_spline_of_the_whole_path() {
     for revolutions in REVOLUTIONS {
-        let job = Job {
+        let task = Task {
             feed: inward(revolutions),
             velocity: Arc::new(Spline { overlap: 64 }),
-            ..Job::default()
+            ..Task::default()
         };
-        let (path, _) = job.path();
-        let whole = whole(&Spline { overlap: 64 }, &path, -RIM / revolutions, job.rpm);
+        let (path, _) = task.path();
+        let whole = whole(&Spline { overlap: 64 }, &path, -RIM / revolutions, task.rpm);
         let difference = difference(&path, &whole);
         assert!(
             difference < 1e-12,
@@ -77,17 +77,17 @@ fn a_spline_in_blocks_is_the_spline_of_the_whole_path() {
 #[test]
 fn an_overlap_may_reach_over_several_small_blocks() {
     // 16 nodes a block: 64 are four blocks.
-    let job = Job {
+    let task = Task {
         feed: inward(640.25),
         sampler: Arc::new(Nodes(|_: &Path<'_>, block: Revolutions| {
             let step = |i| block.start + 3.97 * f64::from(i);
             (0..16).map(step).take_while(|n| *n < block.end).collect()
         })),
         velocity: Arc::new(Spline { overlap: 64 }),
-        ..Job::default()
+        ..Task::default()
     };
-    let (path, _) = job.path();
-    let whole = whole(&Spline { overlap: 64 }, &path, -RIM / 640.25, job.rpm);
+    let (path, _) = task.path();
+    let whole = whole(&Spline { overlap: 64 }, &path, -RIM / 640.25, task.rpm);
     let difference = difference(&path, &whole);
     assert!(difference < 1e-12, "{difference}");
 }
@@ -95,13 +95,13 @@ fn an_overlap_may_reach_over_several_small_blocks() {
 #[test]
 fn a_sequential_solver_gets_its_state_in_order() {
     for revolutions in REVOLUTIONS {
-        let job = Job {
+        let task = Task {
             feed: inward(revolutions),
             velocity: Arc::new(Area),
-            ..Job::default()
+            ..Task::default()
         };
-        let (path, _) = job.path();
-        let whole = whole(&Area, &path, -RIM / revolutions, job.rpm);
+        let (path, _) = task.path();
+        let whole = whole(&Area, &path, -RIM / revolutions, task.rpm);
         let difference = difference(&path, &whole);
         assert!(
             difference < 1e-12,
@@ -112,12 +112,12 @@ fn a_sequential_solver_gets_its_state_in_order() {
 
 #[test]
 fn a_sequential_sampler_gets_its_state_in_order() {
-    let job = Job {
+    let task = Task {
         sampler: Arc::new(Counting { step: 0.0377 }),
         velocity: Arc::new(Spline { overlap: 64 }),
-        ..Job::default()
+        ..Task::default()
     };
-    let (path, outcome) = job.path();
+    let (path, outcome) = task.path();
     assert_eq!(
         outcome.control_points,
         (200.0f64 / 0.0377).ceil() as u64 + 1
@@ -139,11 +139,11 @@ fn a_path_runs_from_end_to_end_without_a_point_too_many() {
         128.0,
         130.0,
     ] {
-        let job = Job {
+        let task = Task {
             feed: inward(revolutions),
-            ..Job::default()
+            ..Task::default()
         };
-        let (path, outcome) = job.path();
+        let (path, outcome) = task.path();
         let last = path.get(path.len() - 1).unwrap();
         assert_eq!(path.get(0).unwrap().c, 0.0);
         assert_eq!(path.get(0).unwrap().x, RIM);
@@ -161,12 +161,12 @@ fn a_path_runs_from_end_to_end_without_a_point_too_many() {
 
 #[test]
 fn outward_runs_from_the_axis_to_the_rim() {
-    let job = Job {
+    let task = Task {
         feed: feed_of(vec![straight(100.0, 0.0, RIM / 100.0)]),
         direction: Direction::Outward,
-        ..Job::default()
+        ..Task::default()
     };
-    let (path, _) = job.path();
+    let (path, _) = task.path();
     assert_eq!((path.c[0], path.x[0]), (0.0, 0.0));
     assert!(path.x.windows(2).all(|x| x[1] > x[0]));
 }
@@ -175,7 +175,7 @@ fn outward_runs_from_the_axis_to_the_rim() {
 fn at_a_knot_x_has_the_mean_of_both_rates() {
     // 0.02 mm a revolution to N = 70.3, then 0.03 mm.
     let (knot, x) = (70.3, RIM - 0.02 * 70.3);
-    let job = Job {
+    let task = Task {
         feed: feed_of(vec![
             straight(knot, RIM, -0.02),
             straight(x / 0.03, x, -0.03),
@@ -187,9 +187,9 @@ fn at_a_knot_x_has_the_mean_of_both_rates() {
             nodes.sort_by(f64::total_cmp);
             nodes
         })),
-        ..Job::default()
+        ..Task::default()
     };
-    let (path, _) = job.path();
+    let (path, _) = task.path();
     let at = path
         .c
         .iter()
@@ -204,16 +204,16 @@ fn at_a_knot_x_has_the_mean_of_both_rates() {
 fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let job = Job {
+        let task = Task {
             feed: inward(500.0),
             sampler: even(11.0),
             velocity: Arc::new(Spline { overlap: 64 }),
             refined: true,
             interpolation: 1e-5,
-            ..Job::default()
+            ..Task::default()
         };
         let pool = pool.build().expect("a pool");
-        let (path, outcome) = pool.install(|| job.path());
+        let (path, outcome) = pool.install(|| task.path());
         (path, format!("{outcome:?}"))
     };
     let alone = on(1);
@@ -223,13 +223,13 @@ fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn a_node_just_after_the_start_is_the_start() {
-    let job = Job {
+    let task = Task {
         feed: inward(2.0),
         sampler: Arc::new(Nodes(|_: &Path<'_>, _: Revolutions| vec![1e-12, 0.5, 1.5])),
         velocity: Arc::new(Exact),
-        ..Job::default()
+        ..Task::default()
     };
-    let (path, outcome) = job.path();
+    let (path, outcome) = task.path();
     assert_eq!(path.c, [0.0, 0.5 * TAU, 1.5 * TAU, 2.0 * TAU]);
     assert_eq!(outcome.control_points, 4);
 }
@@ -257,11 +257,11 @@ fn measured_whole(path: &PathBlock) -> f64 {
 
 #[test]
 fn joints_are_measured_as_they_are_written_whatever_the_windows_have() {
-    let job = Job {
+    let task = Task {
         velocity: Arc::new(Disjoint),
-        ..Job::default()
+        ..Task::default()
     };
-    let (path, outcome) = job.path();
+    let (path, outcome) = task.path();
     let (here, whole) = (outcome.figures.playback.max(), measured_whole(&path));
     assert!((here - whole).abs() <= 1e-12 * whole, "{here}, not {whole}");
 }
@@ -269,19 +269,19 @@ fn joints_are_measured_as_they_are_written_whatever_the_windows_have() {
 #[test]
 fn control_points_lie_on_the_steps_of_the_controllers_time() {
     let steps = 4_096_000.0;
-    let job = Job {
+    let task = Task {
         rpm: 433.0,
         time_steps: Some(steps),
         sampler: even(37.0),
-        ..Job::default()
+        ..Task::default()
     };
-    let (path, outcome) = job.path();
+    let (path, outcome) = task.path();
     for (t, c) in path.t.iter().zip(&path.c) {
         assert_eq!((t * steps).round() / steps, *t);
         let spindle = t * 433.0 / 60.0 * TAU;
         assert!((c - spindle).abs() <= 1e-12 * spindle, "{c}, not {spindle}");
     }
-    let (free, _) = Job {
+    let (free, _) = Task {
         time_steps: None,
         ..job
     }

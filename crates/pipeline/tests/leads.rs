@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use common::solvers::{Area, Disjoint, Exact, Resting, Spline};
-use common::{Bare, Job, K, MemorySink, RIM, Saddle, even, feed_of, inward, straight};
+use common::{Bare, Task, K, MemorySink, RIM, Saddle, even, feed_of, inward, straight};
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, Segment, SegmentShape};
 use turnpath_core::{
     Axis, Centres, Compensator, Cut, Dependence, Derivative, Direction, Machine, Misfit, Nodes,
@@ -64,27 +64,27 @@ fn settings(clearance: f64) -> LeadSettings {
     }
 }
 
-fn job() -> Job {
-    Job {
+fn task() -> Task {
+    Task {
         feed: inward(70.3),
         lead: Some(settings(0.5)),
         rpm: 300.0,
         refined: true,
-        ..Job::default()
+        ..Task::default()
     }
 }
 
-fn outward() -> Job {
-    Job {
+fn outward() -> Task {
+    Task {
         feed: feed_of(vec![straight(70.3, 0.0, RIM / 70.3)]),
         direction: Direction::Outward,
-        ..job()
+        ..task()
     }
 }
 
 #[track_caller]
-fn with_leads(job: &Job) -> (MemorySink, Outcome, Leads) {
-    let (sink, outcome) = job.run_whole().unwrap_or_else(|error| panic!("{error}"));
+fn with_leads(task: &Task) -> (MemorySink, Outcome, Leads) {
+    let (sink, outcome) = task.run_whole().unwrap_or_else(|error| panic!("{error}"));
     let leads = outcome.lead.unwrap();
     (sink, outcome, leads)
 }
@@ -109,8 +109,8 @@ fn touch_of(compensator: &dyn Compensator) -> FirstTouch {
 
 /// The smallest played − first touch, mm, at 37 instants of every segment except those between
 /// cutting points; `shape` is that of the segments.
-fn smallest_clearance(job: &Job, sink: &MemorySink, shape: SegmentShape) -> f64 {
-    let touch = touch_of(job.compensator.as_ref());
+fn smallest_clearance(task: &Task, sink: &MemorySink, shape: SegmentShape) -> f64 {
+    let touch = touch_of(task.compensator.as_ref());
     let cut = sink.section(Section::Cutting);
     let (mut theta, mut x, mut z) = (Vec::new(), Vec::new(), Vec::new());
     let points: Vec<_> = sink.points.points().collect();
@@ -136,8 +136,8 @@ fn smallest_clearance(job: &Job, sink: &MemorySink, shape: SegmentShape) -> f64 
 }
 
 /// The smallest control point − first touch, mm, over the points that do not cut.
-fn smallest_at_points(job: &Job, sink: &MemorySink) -> f64 {
-    let touch = touch_of(job.compensator.as_ref());
+fn smallest_at_points(task: &Task, sink: &MemorySink) -> f64 {
+    let touch = touch_of(task.compensator.as_ref());
     let cut = sink.section(Section::Cutting);
     let all = sink.points.points().enumerate();
     let of_leads: Vec<_> = all.filter(|(k, _)| !cut.contains(k)).collect();
@@ -196,8 +196,8 @@ fn check_smooth(sink: &MemorySink) {
 
 /// Checks what holds for every path with leads.
 #[track_caller]
-fn check(job: &Job) -> (MemorySink, Outcome, Leads) {
-    let (sink, outcome, leads) = with_leads(job);
+fn check(task: &Task) -> (MemorySink, Outcome, Leads) {
+    let (sink, outcome, leads) = with_leads(task);
     let path = &sink.points;
     let cut = sink.section(Section::Cutting);
     assert_eq!(cut.len() as u64, outcome.control_points);
@@ -211,16 +211,16 @@ fn check(job: &Job) -> (MemorySink, Outcome, Leads) {
     assert!((path.t[cut.start] - leads.in_time).abs() < 1e-12);
     let all = leads.in_time + outcome.cutting_time + leads.out_time;
     assert!((path.t[path.len() - 1] - all).abs() < 1e-6);
-    let cubic = job.velocity.segments() == SegmentShape::Cubic;
+    let cubic = task.velocity.segments() == SegmentShape::Cubic;
     if cubic {
         check_smooth(&sink);
         // C never turns back.
         assert!(path.vc.iter().all(|vc| *vc >= 0.0));
     }
-    let lowest = smallest_at_points(job, &sink);
+    let lowest = smallest_at_points(task, &sink);
     assert!(lowest >= -2e-8, "{lowest}");
-    let smallest = smallest_clearance(job, &sink, job.velocity.segments());
-    let missed = outcome.figures.playback.max().max(job.interpolation);
+    let smallest = smallest_clearance(task, &sink, task.velocity.segments());
+    let missed = outcome.figures.playback.max().max(task.interpolation);
     assert!(smallest >= -missed, "{smallest}");
     let reported = leads.figures.clearance;
     assert!(
@@ -228,10 +228,10 @@ fn check(job: &Job) -> (MemorySink, Outcome, Leads) {
         "{reported} {smallest}"
     );
     // At rest the tool is clear of the whole part.
-    let clearance = job.lead.unwrap().clearance;
+    let clearance = task.lead.unwrap().clearance;
     for end in [0, path.len() - 1] {
         let highest = K * RIM * RIM
-            + if job.compensator.compensates_nose() {
+            + if task.compensator.compensates_nose() {
                 NOSE
             } else {
                 0.0
@@ -246,26 +246,26 @@ fn check(job: &Job) -> (MemorySink, Outcome, Leads) {
 #[test]
 fn leads_are_smooth_clear_the_part_and_begin_and_end_at_rest() {
     let normal: Arc<dyn Compensator> = Arc::new(Normal);
-    for job in [
-        job(),
+    for task in [
+        task(),
         outward(),
-        Job {
+        Task {
             compensator: normal.clone(),
-            ..job()
+            ..task()
         },
-        Job {
+        Task {
             compensator: normal,
             velocity: Arc::new(Spline { overlap: 64 }),
             ..outward()
         },
     ] {
         for time_steps in [None, Some(STEPS)] {
-            check(&Job {
+            check(&Task {
                 time_steps,
-                feed: job.feed.clone(),
-                compensator: job.compensator.clone(),
-                velocity: job.velocity.clone(),
-                sampler: job.sampler.clone(),
+                feed: task.feed.clone(),
+                compensator: task.compensator.clone(),
+                velocity: task.velocity.clone(),
+                sampler: task.sampler.clone(),
                 ..job
             });
         }
@@ -285,11 +285,11 @@ fn solvers_of_every_kind_are_joined_as_they_play() {
     for velocity in solvers {
         for tolerance in [1e-4, 1e-6] {
             // A coarse solver ends coarsely too, and its lead need not be finer.
-            check(&Job {
+            check(&Task {
                 velocity: velocity.clone(),
                 interpolation: tolerance,
                 sampler: even(120.0),
-                ..job()
+                ..task()
             });
         }
     }
@@ -298,12 +298,12 @@ fn solvers_of_every_kind_are_joined_as_they_play() {
 #[test]
 fn a_lead_in_shifts_the_cut_and_changes_nothing_else() {
     for time_steps in [None, Some(STEPS)] {
-        let with = Job {
+        let with = Task {
             time_steps,
-            ..job()
+            ..task()
         };
         let (sink, outcome, _) = with_leads(&with);
-        let (alone, before) = Job { lead: None, ..with }.path();
+        let (alone, before) = Task { lead: None, ..with }.path();
         let cut = sink.section(Section::Cutting);
         assert_eq!(cut.len(), alone.len());
         assert_eq!(outcome.revolutions, before.revolutions);
@@ -327,9 +327,9 @@ fn a_lead_in_shifts_the_cut_and_changes_nothing_else() {
 
 #[test]
 fn blocks_carry_their_section_and_the_two_points_before() {
-    let (sink, ..) = with_leads(&Job {
+    let (sink, ..) = with_leads(&Task {
         feed: inward(200.0),
-        ..job()
+        ..task()
     });
     let sections: Vec<Section> = sink.deliveries.iter().map(|block| block.section).collect();
     use Section::{Cutting, LeadIn, LeadOut};
@@ -369,15 +369,15 @@ fn leads_exceed_their_limits_by_the_motion_of_the_cut_at_most() {
             ..LeadLimits::default()
         },
     ] {
-        let job = Job {
+        let task = Task {
             lead: Some(LeadSettings {
                 clearance: 0.5,
                 limits,
             }),
             feed: inward(20.0),
-            ..job()
+            ..task()
         };
-        let (_, outcome, leads) = check(&job);
+        let (_, outcome, leads) = check(&task);
         let (lead, cut) = (leads.figures.axes, outcome.figures.axes);
         for (lead, cut, limit) in [
             (lead.c, cut.c, limits.c),
@@ -397,11 +397,11 @@ fn leads_exceed_their_limits_by_the_motion_of_the_cut_at_most() {
 #[test]
 fn a_law_that_ends_in_full_motion_lets_x_overshoot_by_a_part_of_the_nose_at_most() {
     // 0.2 mm a revolution inward, and some of that beyond either end.
-    let job = Job {
+    let task = Task {
         feed: inward(10.0),
-        ..job()
+        ..task()
     };
-    let (sink, ..) = check(&job);
+    let (sink, ..) = check(&task);
     let x = &sink.points.x;
     assert!(x[0] > RIM && x[0] < RIM + 0.3, "{}", x[0]);
     let last = x[x.len() - 1];
@@ -432,10 +432,10 @@ fn a_lead_that_cannot_keep_its_limits_is_made_and_its_motion_reported() {
             clearance: 0.5,
             limits,
         });
-        let (_, _, leads) = check(&Job {
+        let (_, _, leads) = check(&Task {
             feed: inward(20.0),
             lead,
-            ..job()
+            ..task()
         });
         let axes = leads.figures.axes;
         assert!(axes.c.acceleration.amount > 1e-9);
@@ -449,7 +449,7 @@ fn a_lead_that_cannot_keep_its_limits_is_made_and_its_motion_reported() {
 #[test]
 fn a_lead_keeps_what_the_cut_just_keeps() {
     let peak = |axes: &AxesMotion, derivative| axes.peak(Axis::Z, derivative).unwrap().amount;
-    for first in [job(), outward()] {
+    for first in [task(), outward()] {
         let (_, outcome, _) = with_leads(&first);
         for derivative in Derivative::ALL {
             let slower = match derivative {
@@ -460,16 +460,16 @@ fn a_lead_keeps_what_the_cut_just_keeps() {
             let limit = peak(&outcome.figures.axes, derivative) / slack;
             let mut machine = Machine::default();
             *machine.limit_mut(Axis::Z, derivative) = Some(limit);
-            let job = Job {
+            let task = Task {
                 lead: Some(LeadSettings {
                     clearance: 0.5,
                     limits: LeadLimits::within(machine),
                 }),
                 feed: first.feed.clone(),
                 direction: first.direction,
-                ..job()
+                ..task()
             };
-            let (_, _, leads) = check(&job);
+            let (_, _, leads) = check(&task);
             let most = peak(&leads.figures.axes, derivative);
             assert!(most <= 1.001 * limit, "{derivative:?}: {most} of {limit}");
         }
@@ -480,11 +480,11 @@ fn a_lead_keeps_what_the_cut_just_keeps() {
 /// own jerk cannot be kept. Limits of their velocity and acceleration can be kept.
 #[test]
 fn a_limit_that_cannot_be_kept_leaves_the_others_kept() {
-    let coarse = || Job {
+    let coarse = || Task {
         sampler: even(9.0),
         refined: false,
         interpolation: 1e-2,
-        ..job()
+        ..task()
     };
     let peak = |axes: &AxesMotion, derivative| axes.peak(Axis::Z, derivative).unwrap().amount;
     let (_, outcome, _) = with_leads(&coarse());
@@ -493,7 +493,7 @@ fn a_limit_that_cannot_be_kept_leaves_the_others_kept() {
         let limit = peak(&outcome.figures.axes, derivative);
         *machine.limit_mut(Axis::Z, derivative) = Some(1.02 * limit);
     }
-    let (_, _, leads) = with_leads(&Job {
+    let (_, _, leads) = with_leads(&Task {
         lead: Some(LeadSettings {
             clearance: 5.0,
             limits: LeadLimits::within(machine),
@@ -511,9 +511,9 @@ fn a_limit_that_cannot_be_kept_leaves_the_others_kept() {
 
 #[test]
 fn a_path_without_leads_reports_none() {
-    let (sink, outcome) = Job {
+    let (sink, outcome) = Task {
         lead: None,
-        ..job()
+        ..task()
     }
     .run_whole()
     .unwrap();

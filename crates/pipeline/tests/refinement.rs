@@ -5,18 +5,18 @@ mod common;
 use std::sync::Arc;
 
 use common::solvers::{Area, Exact, Halting, Resting, Spline};
-use common::{Counting, Job, K, RESIDUAL, RIM, even, feed_of, inward, straight};
-use turnpath_core::{Centres, Compensator, Cut, Radial, Result, Scalar, Stretch, VelocitySolver};
+use common::{Counting, Task, K, RESIDUAL, RIM, even, feed_of, inward, straight};
+use turnpath_core::{Centres, Compensator, Cut, FeedPiece, Radial, Result, Scalar, VelocitySolver};
 use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
 
-fn refined(velocity: Arc<dyn VelocitySolver>, interpolation: f64) -> Job {
-    Job {
+fn refined(velocity: Arc<dyn VelocitySolver>, interpolation: f64) -> Task {
+    Task {
         feed: inward(150.0),
         sampler: even(8.0),
         velocity,
         interpolation,
         refined: true,
-        ..Job::default()
+        ..Task::default()
     }
 }
 
@@ -29,12 +29,12 @@ fn the_tolerance_holds_for_solvers_of_every_dependence() {
         Arc::new(Area),
     ];
     for velocity in solvers {
-        let mut job = refined(velocity, tolerance);
-        let (path, outcome) = job.path();
+        let mut task = refined(velocity, tolerance);
+        let (path, outcome) = task.path();
         assert!(outcome.figures.playback.max() <= tolerance);
         assert_eq!(outcome.control_points, path.len() as u64);
-        job.refined = false;
-        let (coarse, before) = job.path();
+        task.refined = false;
+        let (coarse, before) = task.path();
         assert!(before.figures.playback.max() > 100.0 * tolerance);
         assert_eq!(before.added_by_refine, 0);
         let added = (path.len() - coarse.len()) as u64;
@@ -61,12 +61,12 @@ fn without_need_nothing_is_added() {
 #[test]
 fn segments_stop_at_the_smallest_and_the_outcome_shows_the_missed_tolerance() {
     let tolerance = 1e-7;
-    let job = Job {
+    let task = Task {
         feed: inward(2.0),
         rpm: 500.0,
         ..refined(Arc::new(Resting), tolerance)
     };
-    let (path, outcome) = job.path();
+    let (path, outcome) = task.path();
     let shortest = path.t.windows(2).map(|t| t[1] - t[0]).fold(1.0, f64::min);
     assert!((SMALLEST_SEGMENT..2.0 * SMALLEST_SEGMENT).contains(&shortest));
     assert!(outcome.figures.playback.max() > tolerance);
@@ -75,12 +75,12 @@ fn segments_stop_at_the_smallest_and_the_outcome_shows_the_missed_tolerance() {
 #[test]
 fn rounds_end_and_the_outcome_shows_the_missed_tolerance() {
     let tolerance = 1e-9;
-    let job = Job {
+    let task = Task {
         feed: inward(0.25),
         rpm: 1.0,
         ..refined(Arc::new(Resting), tolerance)
     };
-    let (_, outcome) = job.path();
+    let (_, outcome) = task.path();
     let halved = 1u64 << MOST_ROUNDS;
     assert_eq!(outcome.control_points, 2 * halved + 1);
     assert!(outcome.figures.playback.max() > tolerance);
@@ -88,14 +88,14 @@ fn rounds_end_and_the_outcome_shows_the_missed_tolerance() {
 
 /// X that halts at every point errs between points by 0.0962 of its step. With 8½ steps a turn two
 /// neighbouring passes err in opposite ways. The error of Z does not count here.
-fn halting(feed: f64, refined: bool) -> Job {
-    Job {
+fn halting(feed: f64, refined: bool) -> Task {
+    Task {
         feed: inward(RIM / feed),
         sampler: Arc::new(Counting { step: STEP }),
         velocity: Arc::new(Halting),
         interpolation: 1.0,
         refined,
-        ..Job::default()
+        ..Task::default()
     }
 }
 
@@ -103,8 +103,8 @@ const STEP: f64 = 2.0 / 17.0;
 
 #[test]
 fn cusps_stay_below_the_residual_where_x_itself_errs_between_points() {
-    let residual = |job: &Job| job.path().1.figures.residual.max / RESIDUAL;
-    let planned = Job {
+    let residual = |task: &Task| task.path().1.figures.residual.max / RESIDUAL;
+    let planned = Task {
         velocity: Arc::new(Exact),
         ..halting(0.0275, false)
     };
@@ -158,19 +158,19 @@ fn coinciding_passes_add_no_points() {
     // A turn along the rim. The next turn leaves it with the third power of the angle.
     let turn = 0.9999;
     let parting = [[RIM, 0.0, 0.0], [RIM - FEED, -FEED, 0.0]];
-    let parting = Stretch::between(parting[0], parting[1], 2.0);
+    let parting = FeedPiece::between(parting[0], parting[1], 2.0);
     let rest = RIM - FEED;
     let pieces = vec![
         straight(turn, RIM, 0.0),
         parting,
         straight(rest / FEED, rest, -FEED),
     ];
-    let job = Job {
+    let task = Task {
         feed: feed_of(pieces),
         compensator: Arc::new(Wobbling),
         interpolation: 1.0,
         refined: true,
-        ..Job::default()
+        ..Task::default()
     };
-    assert_eq!(job.path().1.added_by_refine, 0);
+    assert_eq!(task.path().1.added_by_refine, 0);
 }

@@ -6,8 +6,8 @@ mod common;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Job, MemorySink, inward};
-use turnpath_core::toolpath::PathStretch;
+use common::{Task, MemorySink, inward};
+use turnpath_core::toolpath::SectionBlock;
 use turnpath_pipeline::{Observer, Outcome, PipelineError, RunError, Sink, Stage};
 
 /// Counts events until there are `last` of them.
@@ -36,11 +36,11 @@ impl Countdown {
 }
 
 /// A path of four blocks, refined.
-fn job() -> Job {
-    Job {
+fn task() -> Task {
+    Task {
         feed: inward(200.0),
         refined: true,
-        ..Job::default()
+        ..Task::default()
     }
 }
 
@@ -82,7 +82,7 @@ fn a_run_that_is_cancelled_as_a_stage_begins_takes_nothing() {
             reached: Countdown::to(1),
         };
         let mut sink = MemorySink::default();
-        assert_cancelled(job().run_into(&mut sink, &observer));
+        assert_cancelled(task().run_into(&mut sink, &observer));
         assert!(sink.deliveries.is_empty(), "{stage:?}");
     }
     let message = PipelineError::Cancelled.to_string();
@@ -116,7 +116,7 @@ impl Sink for CountingSink {
     type Block = usize;
     type Error = Full;
 
-    fn encode(&self, block: &PathStretch<'_>) -> Result<usize, Full> {
+    fn encode(&self, block: &SectionBlock<'_>) -> Result<usize, Full> {
         Ok(block.points.len())
     }
 
@@ -139,7 +139,7 @@ fn nothing_is_taken_after_a_run_is_cancelled_in_the_middle() {
             taken: taken.clone(),
             fails_at: usize::MAX,
         };
-        assert_cancelled(job().run_into(&mut sink, &CancelsAfter(taken.clone())));
+        assert_cancelled(task().run_into(&mut sink, &CancelsAfter(taken.clone())));
         assert_eq!(taken.counted(), blocks);
     }
 }
@@ -151,7 +151,7 @@ fn the_error_of_a_sink_comes_back_as_it_is_and_ends_the_run() {
         taken: taken.clone(),
         fails_at: 2,
     };
-    match job().run_into(&mut sink, &CancelsAfter(taken.clone())) {
+    match task().run_into(&mut sink, &CancelsAfter(taken.clone())) {
         Err(RunError::Sink(error)) => assert_eq!(error, Full(2)),
         Err(RunError::Pipeline(other)) => panic!("{other}"),
         Ok(_) => panic!("a whole path"),

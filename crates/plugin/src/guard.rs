@@ -1,4 +1,4 @@
-//! Panics of strategies become errors, and stay off the user's screen.
+//! Turns panics of strategies into errors, and keeps them off the user's screen.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -8,21 +8,22 @@ use std::sync::Once;
 use turnpath_core::{Result, StrategyError};
 
 thread_local! {
-    /// How many guarded calls this thread is in, and where the last panic in one was.
+    /// The number of guarded calls that this thread is in, and the location of the last panic in
+    /// one.
     static GUARD: RefCell<(usize, Option<String>)> = const { RefCell::new((0, None)) };
 }
 
-/// Runs a strategy's code; a panic in it becomes [`StrategyError::Panicked`].
+/// Runs a strategy's code. A panic in it becomes [`StrategyError::Panicked`].
 ///
-/// Every dynamic library has its own copy of the standard library, so each installs its own
-/// quiet panic hook; panics outside guarded calls reach the hook that was there before.
+/// Every dynamic library has its own copy of the standard library, so each library installs its own
+/// quiet panic hook. Panics outside guarded calls reach the hook that was installed before.
 pub fn guarded<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
     install_quiet_hook();
     GUARD.with_borrow_mut(|(depth, _)| *depth += 1);
     let answer = catch_unwind(AssertUnwindSafe(run));
-    let place = GUARD.with_borrow_mut(|(depth, place)| {
+    let location = GUARD.with_borrow_mut(|(depth, location)| {
         *depth -= 1;
-        place.take()
+        location.take()
     });
     answer.unwrap_or_else(|payload| {
         let what: Cow<'_, str> = if let Some(text) = payload.downcast_ref::<&str>() {
@@ -30,12 +31,12 @@ pub fn guarded<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
         } else if let Some(text) = payload.downcast_ref::<String>() {
             Cow::Owned(text.clone())
         } else {
-            // It is the author's own type, and may panic when it is dropped.
+            // The payload has the author's own type, which may panic when it is dropped.
             std::mem::forget(payload);
             Cow::Borrowed("a value that is not text")
         };
-        let place = place.map_or_else(String::new, |place| format!(", at {place}"));
-        Err(StrategyError::Panicked(format!("{what}{place}").into()))
+        let location = location.map_or_else(String::new, |location| format!(", at {location}"));
+        Err(StrategyError::Panicked(format!("{what}{location}").into()))
     })
 }
 
@@ -44,9 +45,9 @@ fn install_quiet_hook() {
     INSTALLED.call_once(|| {
         let before = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
-            let guarded = GUARD.with_borrow_mut(|(depth, place)| {
+            let guarded = GUARD.with_borrow_mut(|(depth, location)| {
                 if *depth > 0 {
-                    *place = info.location().map(ToString::to_string);
+                    *location = info.location().map(ToString::to_string);
                 }
                 *depth > 0
             });

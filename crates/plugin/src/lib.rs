@@ -1,16 +1,17 @@
 //! The only crate that a turnpath plugin depends on: the prelude, the parameters and [`export!`].
 //!
-//! A strategy is an ordinary type with [`Strategy`](prelude::Strategy) and the trait of its slot:
+//! A strategy is an ordinary type that implements [`Strategy`](prelude::Strategy) and the trait of
+//! its slot:
 //!
 //! ```
 //! use turnpath_plugin::prelude::*;
 //!
-//! /// The same count of nodes on every revolution.
+//! /// The same number of nodes on every revolution.
 //! struct Even(f64);
 //!
 //! impl Strategy for Even {
 //!     const NAME: &'static str = "even";
-//!     const SUMMARY: &'static str = "the same count of nodes on every revolution";
+//!     const SUMMARY: &'static str = "the same number of nodes on every revolution";
 //!     const PARAMS: &'static [Param] = &[Param::count("nodes", "nodes a revolution").min(3.0)];
 //!     fn new(p: &Params) -> Result<Self> {
 //!         Ok(Self(p.count("nodes")))
@@ -28,22 +29,22 @@
 //! # fn main() {}
 //! ```
 //!
-//! With `crate-type = ["cdylib"]` that is a plugin; with `"rlib"` beside it the same crate links
-//! into a program. The crate's version is the boundary's version: a program loads plugins that
-//! were built against the same one.
+//! With `crate-type = ["cdylib"]` this crate is a plugin. With `"rlib"` in addition, the same crate
+//! links into a program. The version of `turnpath-plugin` is the version of the boundary: a program
+//! loads plugins that were built against the same version.
 
 mod abi;
 mod guard;
 mod offer;
 mod registration;
 
-// For the host, and for what `export!` expands to.
+// For the host, and for the expansion of `export!`.
 #[doc(hidden)]
 pub use offer::{Offer, linked};
 #[doc(hidden)]
 pub use registration::{Build, Registration};
 
-// For samplers and feeds of one's own. Each has a sentence of its own in the documentation.
+// For samplers and feeds that a lab writes. The documentation has a sentence on each.
 pub use turnpath_core::{hermite, locus, ring};
 
 /// Everything that a strategy's author needs.
@@ -53,17 +54,16 @@ pub mod prelude {
     pub use turnpath_core::interference::{self, Interference};
     pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{
-        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Cut, DEG, Dependence,
-        Direction, Dual, FeedPlan, FeedStrategy, GradientSeries, Gradients, Job, Lanes, Locus,
-        Machine, Mask, Misfit, NM, Nodes, Onward, Param, Params, Part, Path, Piece,
+        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Continuation, Cut, DEG,
+        Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries, Gradients,
+        Lanes, Locus, Machine, Mask, Misfit, NM, Nodes, Param, Params, Part, Path, Piece,
         PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler, Scalar,
-        Series, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Stretch, Surface,
-        SurfaceModel, Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle,
-        per_radian, quintic,
+        Series, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Surface, SurfaceModel, Task,
+        Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
     };
 }
 
-/// For the host: how a library's plugin is opened.
+/// For the host: functions that open a library's plugin.
 #[doc(hidden)]
 pub mod loading {
     pub use crate::abi::root::{
@@ -72,23 +72,23 @@ pub mod loading {
     pub use crate::offer::open;
 }
 
-/// For the macros: what their expansion names.
+/// For the macros: the items that their expansion names.
 #[doc(hidden)]
 pub mod macros {
     pub use crate::abi::root::{PluginEntry, plugin_entry};
     pub use inventory;
 }
 
-/// Makes strategies known: to the program that the crate is linked into, and to the host that
+/// Registers strategies with the program that the crate is linked into, and with the host that
 /// loads it as a library.
 ///
 /// ```text
 /// turnpath_plugin::export!(feeds: [MyFeed], samplers: [MySampler, MyOther]);
 /// ```
 ///
-/// Slots: `surfaces`, `feeds`, `samplers`, `compensators`, `velocities`. Once a crate. A plugin
-/// must unwind on panic: `panic = "abort"` in its profile would end the whole program, so it is
-/// refused here.
+/// The slots are `surfaces`, `feeds`, `samplers`, `compensators` and `velocities`. Use the macro
+/// once in a crate. A plugin must unwind on panic. `panic = "abort"` in its profile would end the
+/// whole program, so the macro refuses it.
 #[macro_export]
 macro_rules! export {
     ($($slot:ident : [$($strategy:ty),+ $(,)?]),+ $(,)?) => {

@@ -1,11 +1,11 @@
-//! What a plugin crate says of its strategies, and how each one is made.
+//! What a plugin crate registers for each strategy: its description and its constructor.
 
 use turnpath_core::{
     Compensator, FeedStrategy, Params, Result, Sampler, Slot, Strategy, StrategyInfo, Surface,
     SurfaceModel, VelocitySolver,
 };
 
-/// How a strategy of each slot is made from its parameters.
+/// The constructor of a strategy from its parameters, one variant for each slot.
 #[derive(Debug, Clone, Copy)]
 pub enum Build {
     /// A surface model.
@@ -23,13 +23,13 @@ pub enum Build {
 /// One strategy of one plugin crate.
 #[derive(Debug, Clone, Copy)]
 pub struct Registration {
-    /// The crate that registered it; a library may hold other plugins' code too.
+    /// The crate that registered the strategy. A library may contain the code of other plugins too.
     pub crate_name: &'static str,
     /// The crate's version.
     pub crate_version: &'static str,
     /// Name, summary, source and parameters.
     pub info: StrategyInfo,
-    /// How it is made.
+    /// The constructor.
     pub build: Build,
 }
 

@@ -1,19 +1,19 @@
-//! The paper's own law: explicit pairs (i, ρ_i), and one cubic through them by least squares.
+//! The paper's own law: explicit pairs (i, ρ_i), and one least-squares cubic through them.
 
 use nalgebra::{DMatrix, DVector};
 use turnpath_plugin::prelude::*;
 
 use turnpath_plugin::ring::FeedTable;
 
-/// More revolutions than a part has.
+/// More revolutions than any part takes.
 const MOST_PAIRS: usize = 1_000_000;
-/// Rounds of closing in on a root: more than it takes to halve any interval down to rounding.
+/// Rounds of the search for a root: more than it takes to halve any interval down to rounding.
 const ROUNDS: usize = 200;
 
-/// ρ_{i+1} = ρ_i + F(ρ_i) from the inner end until the rim is reached (eq. 5 and 6).
+/// ρ_{i+1} = ρ_i + F(ρ_i) from the inner end until it reaches the rim (eq. 5 and 6).
 ///
 /// # Errors
-/// Where the rim is not reached.
+/// If the pairs do not reach the rim.
 pub fn explicit_pairs(table: &FeedTable, range: RadialRange) -> Result<Vec<f64>> {
     let mut rho = vec![range.inner];
     let mut last = range.inner;
@@ -41,10 +41,10 @@ pub struct CubicFit {
 }
 
 impl CubicFit {
-    /// The least squares through all pairs (i, `rho[i]`).
+    /// The least-squares cubic through all pairs (i, `rho[i]`).
     ///
     /// # Errors
-    /// With fewer than five pairs.
+    /// If there are fewer than five pairs.
     pub fn through(rho: &[f64]) -> Result<Self> {
         let turns = rho.len().saturating_sub(1);
         if turns < 4 {
@@ -57,11 +57,11 @@ impl CubicFit {
         let design = DMatrix::from_fn(rho.len(), 4, |i, power| {
             (0..power).fold(1.0, |product, _| product * (i as f64 / scale))
         });
-        let wanted = DVector::from_column_slice(rho);
-        let solved = least_squares(design.clone(), wanted.clone()).ok_or_else(|| {
-            StrategyError::failed("no cubic can be found: the pairs are no numbers")
+        let right_side = DVector::from_column_slice(rho);
+        let solved = least_squares(design.clone(), right_side.clone()).ok_or_else(|| {
+            StrategyError::failed("no cubic can be found: the pairs are not numbers")
         })?;
-        let squared_error = (design * &solved - wanted).norm_squared();
+        let squared_error = (design * &solved - right_side).norm_squared();
         let mut coefficients = [0.0; 4];
         let mut power = 1.0;
         for (coefficient, solved) in coefficients.iter_mut().zip(solved.iter()) {
@@ -85,10 +85,10 @@ impl CubicFit {
         (3.0 * c[3] * n + 2.0 * c[2]) * n + c[1]
     }
 
-    /// The N at which ρ is `rho`, near `n`.
+    /// The N near `n` at which the cubic reaches `rho`.
     ///
     /// # Errors
-    /// Where the cubic does not get there while it grows.
+    /// If the cubic stops growing before it reaches `rho`.
     pub fn reaches(&self, rho: f64, n: f64) -> Result<f64> {
         let mut n = n;
         for _ in 0..ROUNDS {
@@ -108,8 +108,8 @@ impl CubicFit {
     /// The law over `range` as one piece.
     ///
     /// # Errors
-    /// Where the cubic does not grow all along.
-    pub fn piece(&self, range: RadialRange, turns: f64, direction: Direction) -> Result<Stretch> {
+    /// If the cubic does not grow everywhere in `range`.
+    pub fn piece(&self, range: RadialRange, turns: f64, direction: Direction) -> Result<FeedPiece> {
         let from = self.reaches(range.inner, 0.0)?;
         let to = self.reaches(range.outer, turns)?;
         let c = &self.coefficients;
@@ -127,21 +127,22 @@ impl CubicFit {
             Direction::Inward => (to, range.outer, -1.0),
         };
         let second = c[2] + 3.0 * c[3] * start;
-        Ok(Stretch {
+        Ok(FeedPiece {
             length: to - from,
             coefficients: [rho, sign * self.rate(start), second, sign * c[3], 0.0, 0.0],
         })
     }
 }
 
-/// By Householder's QR, whose sums nalgebra makes in one order on every machine.
-fn least_squares(design: DMatrix<f64>, mut wanted: DVector<f64>) -> Option<DVector<f64>> {
+/// Least squares by Householder's QR. nalgebra computes its sums in the same order on every
+/// machine.
+fn least_squares(design: DMatrix<f64>, mut right_side: DVector<f64>) -> Option<DVector<f64>> {
     let columns = design.ncols();
     let qr = design.qr();
-    qr.q_tr_mul(&mut wanted);
+    qr.q_tr_mul(&mut right_side);
     let solved = qr
         .r()
-        .solve_upper_triangular(&wanted.rows(0, columns).into_owned())?;
+        .solve_upper_triangular(&right_side.rows(0, columns).into_owned())?;
     solved.iter().all(|c| c.is_finite()).then_some(solved)
 }
 

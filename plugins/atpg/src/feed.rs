@@ -9,18 +9,18 @@ use crate::pieces::{pieces, revolutions};
 use crate::residual::Residual;
 use crate::smooth::SmoothFeed;
 
-/// Half width h of the average over ρ, as a part of the aperture: wider makes X smoother, and
-/// costs revolutions where the feed varies (AST-5: 0.2 % at this width).
+/// Half width h of the average over ρ, as a part of the aperture. A wider average makes X smoother,
+/// and costs revolutions where the feed varies (AST-5: 0.2 % at this width).
 const WINDOW: f64 = 0.01;
-/// What smoothing may cost in revolutions against the fastest law: where the feed goes up and
-/// down with every lens of an array, the window is halved until it costs no more.
+/// What smoothing may cost in revolutions, compared with the fastest law. The feed goes up and down
+/// with every lens of an array; the window is halved there until it costs no more than this.
 const LARGEST_COST: f64 = 0.01;
-/// The narrowest window, in feeds: narrower, X would change its speed within a turn.
+/// The narrowest window, in feeds. With a narrower one X would change its speed within a turn.
 const NARROWEST: f64 = 0.25;
 
-/// By how much the window grows at a time while X accelerates more than the machine can.
+/// The factor by which the window grows in each step while X accelerates more than the machine can.
 const GROWTH: f64 = 1.5;
-/// What part of the machine's limit the law may take: played cubics follow it up to some
+/// The part of the machine's limit that the law may take. Played cubics follow the law up to a few
 /// thousandths.
 const SHARE: f64 = 0.99;
 
@@ -31,7 +31,7 @@ enum Fit {
     Cubic,
 }
 
-/// ρ' = F(ρ), the feed that holds the residual at every angle of a radius: X does not follow the
+/// ρ' = F(ρ), the feed that keeps the residual at every angle of a radius. X does not follow the
 /// angle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtpgFeed {
@@ -65,7 +65,7 @@ impl Strategy for AtpgFeed {
     fn new(params: &Params) -> Result<Self> {
         let residual = match params.choice("residual") {
             "paper" => Residual::Paper,
-            _ => Residual::Held,
+            _ => Residual::Exact,
         };
         let fit = match params.choice("fit") {
             "cubic" => Fit::Cubic,
@@ -77,37 +77,38 @@ impl Strategy for AtpgFeed {
 
 impl FeedStrategy for AtpgFeed {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let job = setup.job;
+        let task = setup.task;
         let table = self.residual.table(setup)?;
-        let stretches = match self.fit {
-            Fit::Smooth => smooth_law(&table, job)?,
+        let law = match self.fit {
+            Fit::Smooth => smooth_law(&table, task)?,
             Fit::Cubic => {
-                let pairs = explicit_pairs(&table, job.range)?;
+                let pairs = explicit_pairs(&table, task.range)?;
                 let turns = (pairs.len() - 1) as f64;
-                vec![CubicFit::through(&pairs)?.piece(job.range, turns, job.direction)?]
+                vec![CubicFit::through(&pairs)?.piece(task.range, turns, task.direction)?]
             }
         };
-        Ok(Box::new(Planned(stretches)))
+        Ok(Box::new(CompletePlan(law)))
     }
 }
 
-/// The law of the smooth feed; where the machine has a limit for X, of the first feed whose law
-/// keeps to it: a wider average changes less. At most it is as wide as the part.
-fn smooth_law(table: &FeedTable, job: &Job) -> Result<Vec<Stretch>> {
-    let aperture = 2.0 * job.part.aperture_radius;
+/// The law of the smooth feed. If the machine has a limit for X, the window grows until the law
+/// keeps to the limit, since a wider average changes less. At most the window is as wide as the
+/// part.
+fn smooth_law(table: &FeedTable, task: &Task) -> Result<Vec<FeedPiece>> {
+    let aperture = 2.0 * task.part.aperture_radius;
     let mut smooth = smoothed(table, WINDOW * aperture);
-    let mut law = pieces(&smooth, job.range, job.direction)?;
-    let Some(limit) = job.machine.x.acceleration else {
+    let mut law = pieces(&smooth, task.range, task.direction)?;
+    let Some(limit) = task.machine.x.acceleration else {
         return Ok(law);
     };
-    while largest_acceleration(&law, &job.spindle) > SHARE * limit && smooth.window() < aperture {
+    while largest_acceleration(&law, &task.spindle) > SHARE * limit && smooth.window() < aperture {
         smooth = SmoothFeed::new(table, (GROWTH * smooth.window()).min(aperture));
-        law = pieces(&smooth, job.range, job.direction)?;
+        law = pieces(&smooth, task.range, task.direction)?;
     }
     Ok(law)
 }
 
-/// The smooth feed with the widest window that is not too dear.
+/// The smooth feed with the widest window that does not cost too many revolutions.
 fn smoothed(table: &FeedTable, widest: f64) -> SmoothFeed {
     let (from, to) = table.range();
     let fastest = table.fewest_revolutions();
@@ -122,12 +123,13 @@ fn smoothed(table: &FeedTable, widest: f64) -> SmoothFeed {
     }
 }
 
-/// All pieces at once: F has one value a radius, so they are some hundred whatever the part.
-struct Planned(Vec<Stretch>);
+/// All pieces at once. F has one value at each radius, so there are some hundred pieces for any
+/// part.
+struct CompletePlan(Vec<FeedPiece>);
 
-impl FeedPlan for Planned {
-    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+impl FeedPlan for CompletePlan {
+    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
         pieces.append(&mut self.0);
-        Ok(Onward::Done)
+        Ok(Continuation::End)
     }
 }

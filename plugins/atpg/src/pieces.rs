@@ -1,24 +1,23 @@
 //! The law of a smooth feed: dN = dρ/F₂(ρ) integrated, as quintic pieces in N.
 //!
-//! A piece has ρ, ρ' = F₂ and ρ'' = F₂F₂' at both its ends, so the law is C² wherever pieces
-//! join.
+//! A piece has ρ, ρ' = F₂ and ρ'' = F₂F₂' at both its ends, so the law is C² where pieces join.
 
 use turnpath_plugin::prelude::*;
 
 use crate::smooth::{MARGIN, SmoothFeed};
 
-/// Pieces of the whole range at first.
+/// Pieces of the whole range before any is halved.
 const FEWEST_PIECES: usize = 8;
-/// How often a piece is halved at most: far below the width of a table's cell.
+/// The most times that a piece is halved. This is far below the width of a table's cell.
 const MOST_HALVINGS: usize = 24;
-/// Places within a piece at which its rate is held against the feed, in 1/n of the piece.
-const LOOKS: usize = 12;
-/// Nodes and weights of Gauss' rule of 10th order on (−1, 1), without the middle.
+/// Number of parts of a piece. The rate is compared with the feed between them.
+const PARTS: usize = 12;
+/// Nodes and weights of Gauss' rule of 10th order on (−1, 1), without the middle node.
 const GAUSS: [(f64, f64); 2] = [
     (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
-/// Weight of the middle.
+/// Weight of the middle node.
 const GAUSS_MIDDLE: f64 = 128.0 / 225.0;
 
 /// ρ and its first two derivatives in N.
@@ -43,7 +42,7 @@ impl State {
         [self.rho, self.rate, self.second]
     }
 
-    /// The same place when the law runs backwards.
+    /// The same state when the law runs backwards.
     fn reversed(self) -> Self {
         Self {
             rate: -self.rate,
@@ -54,7 +53,7 @@ impl State {
 
 /// The part of a law between two radii.
 #[derive(Debug, Clone, Copy)]
-struct Span {
+struct Interval {
     from: State,
     to: State,
     length: f64,
@@ -63,20 +62,28 @@ struct Span {
 /// The pieces of the law over `range`, in the order of cutting.
 ///
 /// # Errors
-/// Where the feed cannot be followed.
-pub fn pieces(feed: &SmoothFeed, range: RadialRange, direction: Direction) -> Result<Vec<Stretch>> {
+/// If no pieces can follow the feed.
+pub fn pieces(
+    feed: &SmoothFeed,
+    range: RadialRange,
+    direction: Direction,
+) -> Result<Vec<FeedPiece>> {
     let RadialRange { inner, outer } = range;
     let knot = |i: usize| match i {
         FEWEST_PIECES => outer,
         _ => inner + (outer - inner) * i as f64 / FEWEST_PIECES as f64,
     };
-    let mut spans = Vec::new();
+    let mut intervals = Vec::new();
     for i in 0..FEWEST_PIECES {
-        divide(feed, knot(i), knot(i + 1), MOST_HALVINGS, &mut spans)?;
+        divide(feed, knot(i), knot(i + 1), MOST_HALVINGS, &mut intervals)?;
     }
     Ok(match direction {
-        Direction::Outward => spans.iter().map(Span::stretch).collect(),
-        Direction::Inward => spans.iter().rev().map(Span::reversed_stretch).collect(),
+        Direction::Outward => intervals.iter().map(Interval::piece).collect(),
+        Direction::Inward => intervals
+            .iter()
+            .rev()
+            .map(Interval::reversed_piece)
+            .collect(),
     })
 }
 
@@ -86,21 +93,21 @@ fn divide(
     from: f64,
     to: f64,
     halvings: usize,
-    out: &mut Vec<Span>,
+    out: &mut Vec<Interval>,
 ) -> Result<()> {
-    let span = Span {
+    let interval = Interval {
         from: State::at(feed, from),
         to: State::at(feed, to),
         length: revolutions(feed, from, to),
     };
-    if span.follows(feed) {
-        out.push(span);
+    if interval.follows(feed) {
+        out.push(interval);
         return Ok(());
     }
     if halvings == 0 {
         return Err(StrategyError::failed(format!(
             "the feed cannot be followed at ρ = {from} mm, where it is {} mm per revolution",
-            span.from.rate
+            interval.from.rate
         )));
     }
     let middle = 0.5 * (from + to);
@@ -124,28 +131,28 @@ pub fn revolutions(feed: &SmoothFeed, from: f64, to: f64) -> f64 {
     sum * half
 }
 
-impl Span {
-    fn stretch(&self) -> Stretch {
-        Stretch::between(self.from.ends(), self.to.ends(), self.length)
+impl Interval {
+    fn piece(&self) -> FeedPiece {
+        FeedPiece::between(self.from.ends(), self.to.ends(), self.length)
     }
 
-    fn reversed_stretch(&self) -> Stretch {
-        Stretch::between(
+    fn reversed_piece(&self) -> FeedPiece {
+        FeedPiece::between(
             self.to.reversed().ends(),
             self.from.reversed().ends(),
             self.length,
         )
     }
 
-    /// Whether the piece's rate is the feed's, to half the margin that the feed leaves.
+    /// Whether the piece's rate equals the feed, to within half the margin that the feed leaves.
     fn follows(&self, feed: &SmoothFeed) -> bool {
-        let c = self.stretch().coefficients;
-        (1..LOOKS).all(|i| {
-            let n = self.length * i as f64 / LOOKS as f64;
+        let c = self.piece().coefficients;
+        (1..PARTS).all(|i| {
+            let n = self.length * i as f64 / PARTS as f64;
             let rho = c.iter().rev().fold(0.0, |sum, c| sum * n + c);
             let rate = (1..6).rev().fold(0.0, |sum, k| sum * n + k as f64 * c[k]);
-            let wanted = feed.at(rho).0;
-            (rate - wanted).abs() <= 0.5 * MARGIN * wanted
+            let expected = feed.at(rho).0;
+            (rate - expected).abs() <= 0.5 * MARGIN * expected
         })
     }
 }

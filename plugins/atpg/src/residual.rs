@@ -1,28 +1,29 @@
-//! Which feed the law keeps to: the one that holds the residual, or the paper's.
+//! The feed that the law follows: the one that keeps the residual, or the paper's.
 
 use turnpath_plugin::locus::{LARGEST_FEED, Profile, profile_at};
 use turnpath_plugin::prelude::*;
 use turnpath_plugin::ring::{FeedTable, least_over_angles};
 
-/// Which feed F is the smallest of.
+/// The feed whose smallest value over the angles is F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Residual {
-    /// The feed that holds the residual for what ρ is, curvature and slope at the contact.
-    Held,
-    /// Wang et al. 2019, eq. 1–4: that of a contact's radius whatever ρ is, with the smallest
-    /// curvature and the largest slope on the bare surface at ρ, each at its own angle.
+    /// The feed that keeps the residual for the actual meaning of ρ, with curvature and slope at
+    /// the contact.
+    Exact,
+    /// Wang et al. 2019, eq. 1–4: the feed of a contact's radius, whatever ρ means. It takes the
+    /// smallest curvature and the largest slope of the bare surface at ρ, each at its own angle.
     Paper,
 }
 
 impl Residual {
-    /// F over the job's range.
+    /// F over the task's range.
     ///
     /// # Errors
-    /// Where the range has no length, or surface or locus no value.
+    /// If the range has no length, or if the surface or the locus has no value.
     pub fn table(self, setup: Setup<'_>) -> Result<FeedTable> {
         match self {
-            Residual::Held => FeedTable::held(setup),
-            Residual::Paper => FeedTable::of(setup.job.range, &|rho| paper_feed(setup, rho)),
+            Residual::Exact => FeedTable::for_residual(setup),
+            Residual::Paper => FeedTable::tabulate(setup.task.range, &|rho| paper_feed(setup, rho)),
         }
     }
 }
@@ -34,16 +35,16 @@ fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
     let flatness = |profile: &Profile| -profile.slope.abs();
     let curvature = least_over_angles(&sections(surface, &curvature), rho)?;
     let slope = least_over_angles(&sections(surface, &flatness), rho)?;
-    let radius = setup.job.tool.nose_radius;
+    let radius = setup.task.tool.nose_radius;
     let (gap, cap) = (1.0 - radius * curvature, LARGEST_FEED * radius);
     if gap <= 0.0 {
         return Ok(cap);
     }
-    let along = (8.0 * radius * setup.job.tolerance.residual / gap).sqrt();
+    let along = (8.0 * radius * setup.task.tolerance.residual / gap).sqrt();
     Ok((along / (1.0 + slope * slope).sqrt()).min(cap))
 }
 
-/// What `of` says of the radial profiles of the bare surface.
+/// A measure of the bare surface: the value of `of` for each radial profile.
 fn sections<'a>(
     surface: &'a dyn SurfaceModel,
     of: &'a dyn Fn(&Profile) -> f64,

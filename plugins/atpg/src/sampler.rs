@@ -3,11 +3,11 @@
 use turnpath_plugin::hermite::{MAX_STEP, Steps};
 use turnpath_plugin::prelude::*;
 
-/// Part of the feed that X's own interpolation may take: the cusp grows by 4e-4 of itself.
+/// The part of the feed that X's own interpolation error may take. The cusp grows by 4e-4 of
+/// itself.
 const FEED_PART: f64 = 1e-4;
 
-/// Steps as long as eq. 10 allows, ε ≥ L⁴/384 max|φ⁗| over the step, along the path that is
-/// played.
+/// Steps as long as eq. 10 allows, ε ≥ L⁴/384 max|φ⁗| over the step, along the played path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtpgSampler {
     steps: Steps,

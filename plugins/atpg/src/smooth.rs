@@ -1,22 +1,22 @@
-//! A smooth feed that nowhere exceeds F: eroded, then averaged.
+//! A smooth feed that never exceeds F: F is eroded first, and then averaged.
 //!
-//! F₁(ρ) = min of F over |s| ≤ h + f_max, and F₂ = F₁ * W with W(s) ∝ (1 − (s/h)²)⁴. An average
-//! of F₁ over |s| ≤ h is no more than its largest there, each of which is no more than F within
-//! f_max of ρ: F₂(ρ) ≤ F wherever the tool is during the turn before and after. F is even at the
-//! axis and constant beyond the rim.
+//! F₁(ρ) = min of F over |s| ≤ h + f_max, and F₂ = F₁ * W with W(s) ∝ (1 − (s/h)²)⁴. An average of
+//! F₁ over |s| ≤ h is at most the largest F₁ there, and each F₁ there is at most every F within
+//! f_max of ρ. So F₂(ρ) ≤ F wherever the tool is during the turn before and the turn after. F is
+//! even at the axis and constant beyond the rim.
 //!
-//! F₁ is constant in cells, from the table's floors, so the average is exact: F₂ is a sum of
-//! steps Φ, the integral of W, and has four continuous derivatives.
+//! F₁ comes from the table's floors and is constant in each cell, so the average is exact: F₂ is a
+//! sum of steps Φ, where Φ is the integral of W. It has four continuous derivatives.
 
 use std::collections::VecDeque;
 
 use turnpath_plugin::ring::{FLOORS, FeedTable};
 
-/// By how much the smooth feed stays below what is proven: room for the polynomial pieces, whose
-/// rate follows it to half of this. It costs a ten-thousandth more revolutions.
+/// The smooth feed stays below its proven bound by this part. The margin is for the polynomial
+/// pieces, whose rate follows the feed to half of it. It costs a ten-thousandth more revolutions.
 pub const MARGIN: f64 = 1e-4;
 
-/// F₂ and its derivative.
+/// F₂, with its derivative.
 #[derive(Debug, Clone)]
 pub struct SmoothFeed {
     origin: f64,
@@ -54,12 +54,12 @@ impl SmoothFeed {
         }
     }
 
-    /// Half the width h of the average, mm.
+    /// Half width h of the average, mm.
     pub fn window(&self) -> f64 {
         self.window
     }
 
-    /// A length over which it is as good as a polynomial of low degree, mm.
+    /// A length over which F₂ is as good as a polynomial of low degree, mm.
     pub fn scale(&self) -> f64 {
         0.125 * self.window
     }
@@ -104,7 +104,7 @@ fn share(s: f64) -> f64 {
     0.5 + 315.0 / 256.0 * s * odd
 }
 
-/// The least of each value and of `reach` neighbours to either side.
+/// The least of each value and its `reach` neighbours to either side.
 fn eroded(values: &[f64], reach: usize) -> Vec<f64> {
     let mut least: VecDeque<usize> = VecDeque::new();
     let mut out = Vec::with_capacity(values.len());
@@ -132,7 +132,7 @@ fn eroded(values: &[f64], reach: usize) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A table whose floors go up and down; of its feeds only the largest counts.
+    /// A table whose floors go up and down. Of its feeds only the largest one matters.
     fn table(even: bool) -> FeedTable {
         let floor: Vec<f64> = (0..200 * FLOORS)
             .map(|i| {
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rate_is_that_of_the_value_and_nought_at_the_axis() {
+    fn the_rate_is_that_of_the_value_and_zero_at_the_axis() {
         let smooth = SmoothFeed::new(&table(true), 0.05);
         assert!(smooth.at(0.0).1.abs() < 1e-15);
         for i in 1..200 {

@@ -29,7 +29,7 @@ fn off(found: f64, expected: f64) -> f64 {
 fn the_cubic_on_the_saddle_is_the_papers_equation_19() {
     let case = ast_5(ZDirection);
     let table = Residual::Paper.table(case.setup()).unwrap();
-    let pairs = explicit_pairs(&table, case.job.range).unwrap();
+    let pairs = explicit_pairs(&table, case.task.range).unwrap();
     assert_eq!(pairs.len(), 99);
     let fit = CubicFit::through(&pairs).unwrap();
     let expected = [-1.14122e-4, 2.62844e-2, -8.77466e-7, -4.94691e-8];
@@ -63,9 +63,9 @@ fn the_feed_at_2_mm_against_the_angle_is_that_of_figure_7() {
     let theta: Vec<f64> = (0..3600).map(|i| TAU * f64::from(i) / 3600.0).collect();
     let mut feed = vec![f64::NAN; theta.len()];
     let rho = vec![2.0; theta.len()];
-    let residual = case.job.tolerance.residual;
+    let residual = case.task.tolerance.residual;
     case.locus
-        .held_feed(residual, Radial::Contact, &theta, &rho, &mut feed)
+        .residual_feed(residual, Radial::Contact, &theta, &rho, &mut feed)
         .unwrap();
     let (least, most) = feed
         .iter()
@@ -135,13 +135,13 @@ fn on_arrays_the_smooth_law_costs_little_against_the_fastest() {
 
 fn with_limit(case: Case, acceleration: f64) -> Case {
     let mut case = case;
-    case.job.machine.x.acceleration = Some(acceleration);
+    case.task.machine.x.acceleration = Some(acceleration);
     case
 }
 
 /// The largest |d²ρ/dt²| on a dense grid, mm/s².
 fn acceleration(case: &Case, law: &SpiralLaw) -> f64 {
-    let turning = case.job.spindle.speed_at(0.0) / TAU;
+    let turning = case.task.spindle.speed_at(0.0) / TAU;
     let second = |i: u32| -> f64 { 2.0 * law.series(law.end() * f64::from(i) / 20_000.0)[2] };
     let largest = (0..=20_000).fold(0.0, |most: f64, i| most.max(second(i).abs()));
     largest * turning * turning
@@ -197,7 +197,7 @@ fn a_limit_that_is_kept_anyway_changes_no_bit_and_one_that_no_law_keeps_ends_the
 /// Everything that a smooth law promises, on a dense grid.
 fn check(case: &Case, offset: f64) {
     let law = case.planned("held", "smooth").unwrap();
-    let RadialRange { inner, outer } = case.job.range;
+    let RadialRange { inner, outer } = case.task.range;
     assert_eq!(law.value(0.0), inner);
     assert!((law.value(law.end()) - outer).abs() < 1e-13 * (1.0 + outer));
     for n in joints(&law) {
@@ -316,7 +316,7 @@ fn thin_rings_far_out_have_a_law() {
 #[test]
 fn a_law_may_start_beyond_the_axis() {
     let mut case = ast_5(ZDirection);
-    case.job.range.inner = -0.1;
+    case.task.range.inner = -0.1;
     check(&case, 0.5);
     let beyond = case.planned("held", "smooth").unwrap().end();
     let turns = ast_5(ZDirection).planned("held", "smooth").unwrap().end();

@@ -29,7 +29,7 @@ fn sampler(max_step: f64) -> AtpgSampler {
 
 fn nodes_of_block(case: &Case, law: &SpiralLaw, max_step: f64, start: f64) -> Result<Vec<f64>> {
     let path = Path {
-        job: &case.job,
+        task: &case.task,
         locus: &case.locus,
         law,
         prepared: &[],
@@ -165,7 +165,7 @@ fn largest(errors: &[f64]) -> f64 {
 /// Nodes and errors of a path; the errors keep the tolerance.
 fn held(played: &Case, truth: &Case, law: &SpiralLaw, max_step: f64) -> (Vec<f64>, Vec<f64>) {
     let nodes = nodes(played, law, max_step);
-    let tolerance = played.job.tolerance.interpolation;
+    let tolerance = played.task.tolerance.interpolation;
     let errors = errors(played, truth, law, &nodes);
     for (k, error) in errors.iter().enumerate() {
         let place = 360.0 * nodes[k];
@@ -177,7 +177,7 @@ fn held(played: &Case, truth: &Case, law: &SpiralLaw, max_step: f64) -> (Vec<f64
 /// The same, and where the largest step does not bind most steps use half of it or more.
 fn held_and_used(played: &Case, truth: &Case, law: &SpiralLaw, max_step: f64) {
     let (nodes, errors) = held(played, truth, law, max_step);
-    let tolerance = played.job.tolerance.interpolation;
+    let tolerance = played.task.tolerance.interpolation;
     let free: Vec<f64> = nodes
         .windows(2)
         .zip(&errors)
@@ -328,7 +328,7 @@ fn on_a_flat_the_largest_step_binds() {
 #[test]
 fn steps_end_where_the_law_is_not_smooth() {
     let mut case = ast_5(ZDirection);
-    case.job.tolerance.interpolation = 10.0 * NM;
+    case.task.tolerance.interpolation = 10.0 * NM;
     let mut law = SpiralLaw::new();
     law.push(10.3, [1.0, 0.02, 0.0, 0.0, 0.0, 0.0]);
     law.push(5.37, [1.206, 0.06, 0.0, 0.0, 0.0, 0.0]);
@@ -411,6 +411,6 @@ proptest! {
         let law = played.planned("held", "smooth").unwrap();
         let nodes = nodes(&played, &law, max_step);
         let worst = largest(&errors(&played, &truth, &law, &nodes));
-        proptest::prop_assert!(worst <= played.job.tolerance.interpolation, "{}", worst / NM);
+        proptest::prop_assert!(worst <= played.task.tolerance.interpolation, "{}", worst / NM);
     }
 }

@@ -3,32 +3,32 @@
 use turnpath_plugin::locus::LARGEST_FEED;
 use turnpath_plugin::prelude::*;
 
-use crate::turn::{Turn, Turns, Way, backwards};
+use crate::turn::{Orientation, Turn, Turns, backwards};
 
-/// Places of a piece at which it is held against the end of the range.
-const LOOKS: usize = 32;
-/// How far beyond its end every angle must come, in feeds of the largest size, R/10: between the
-/// looks ρ may lie lower by less than that.
+/// Number of parts of a piece. ρ is compared with the end of the range at the points between them.
+const PARTS: usize = 32;
+/// How far every angle must pass the end of the range, in feeds of the largest size, R/10. Between
+/// the points that are checked, ρ may fall short by less than this.
 const BEYOND: f64 = 2.5e-4;
-/// What is left of a turn below this is rounding.
+/// A remaining part of a turn below this is rounding.
 const SHORTEST: f64 = 1e-9;
-/// Turns handed out together.
+/// Number of turns in each answer.
 const BATCH: usize = 8;
 
-/// At every cutting point the feed that holds the residual there:
-/// ℓ(N + 1) = ℓ(N) ± f, so that X moves back and forth within each turn.
+/// At every cutting point the feed that keeps the residual there: ℓ(N + 1) = ℓ(N) ± f. X therefore
+/// moves back and forth within each turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct AtsFeed {
     inward: Inward,
 }
 
-/// What an inward law is.
+/// The kind of an inward law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Inward {
     /// The recursion in the direction of cutting, from the rim's circle.
     #[default]
     Recursion,
-    /// The outward law backwards, which ends on the inner circle at every angle.
+    /// The outward law run backwards. It ends on the inner circle at every angle.
     Backwards,
 }
 
@@ -58,7 +58,7 @@ impl Strategy for AtsFeed {
 
 impl FeedStrategy for AtsFeed {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let RadialRange { inner, outer } = setup.job.range;
+        let RadialRange { inner, outer } = setup.task.range;
         if !(inner.is_finite() && outer.is_finite() && inner < outer) {
             return Err(StrategyError::failed(format!(
                 "there is nothing to cut: ρ runs from {inner} mm to {outer} mm"
@@ -66,7 +66,7 @@ impl FeedStrategy for AtsFeed {
         }
         Ok(Box::new(AtsPlan {
             inward: self.inward,
-            made: 0,
+            planned: 0,
             last: None,
             count: None,
             short: None,
@@ -74,113 +74,122 @@ impl FeedStrategy for AtsFeed {
     }
 }
 
-/// The law as far as it has come: one turn is all that the next one needs.
+/// A law that is being planned. The next turn needs only the last one.
 struct AtsPlan {
     inward: Inward,
-    /// How many turns are made.
-    made: usize,
+    /// Number of turns planned so far.
+    planned: usize,
     last: Option<Turn>,
-    /// Pieces that the next turn should try.
+    /// Number of pieces that the next turn tries first.
     count: Option<usize>,
-    /// Where in the last turn ρ last fell short of the range's end, in parts of it.
+    /// The last part of the last turn at which ρ fell short of the range's end.
     short: Option<f64>,
 }
 
 impl FeedPlan for AtsPlan {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        match (setup.job.direction, self.inward) {
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
+        match (setup.task.direction, self.inward) {
             (Direction::Inward, Inward::Backwards) => {
-                let goal = Goal::outward(setup.job, -1.0);
+                let goal = Goal::outward(setup.task, -1.0);
                 let mut law = Vec::new();
-                while self.further(setup, &goal, &mut law)? == Onward::More {}
+                while self.plan_turns(setup, &goal, &mut law)? == Continuation::More {}
                 pieces.extend(backwards(&law));
-                Ok(Onward::Done)
+                Ok(Continuation::End)
             }
             (Direction::Inward, Inward::Recursion) => {
-                self.further(setup, &Goal::inward(setup.job), pieces)
+                self.plan_turns(setup, &Goal::inward(setup.task), pieces)
             }
-            (Direction::Outward, _) => self.further(setup, &Goal::outward(setup.job, 1.0), pieces),
+            (Direction::Outward, _) => {
+                self.plan_turns(setup, &Goal::outward(setup.task, 1.0), pieces)
+            }
         }
     }
 }
 
 impl AtsPlan {
-    /// Some turns more.
-    fn further(
+    /// Plans the next turns.
+    fn plan_turns(
         &mut self,
         setup: Setup<'_>,
         goal: &Goal,
-        pieces: &mut Vec<Stretch>,
-    ) -> Result<Onward> {
-        let mut turns = Turns::new(setup, goal.way, self.count);
+        pieces: &mut Vec<FeedPiece>,
+    ) -> Result<Continuation> {
+        let mut turns = Turns::new(setup, goal.orientation, self.count);
         for _ in 0..BATCH {
-            let turn = turns.turn(self.made, goal.start, self.last.as_ref())?;
-            self.made += 1;
+            let turn = turns.turn(self.planned, goal.start, self.last.as_ref())?;
+            self.planned += 1;
             let short = goal.last_short(&turn);
             match (self.last.is_some(), short, self.short) {
-                // Every angle has passed: the turn that began where the last fell short ends it.
+                // Every angle has passed. The last turn fell short up to some part, and this turn
+                // ends at that part.
                 (true, None, before) => {
-                    cut(&turn, goal.needed(before.unwrap_or(0.0)), pieces);
-                    return Ok(Onward::Done);
+                    append_until(&turn, goal.needed(before.unwrap_or(0.0)), pieces);
+                    return Ok(Continuation::End);
                 }
                 _ => pieces.extend(&turn.pieces),
             }
             (self.last, self.short) = (Some(turn), short);
         }
         self.count = Some(turns.count());
-        Ok(Onward::More)
+        Ok(Continuation::More)
     }
 }
 
-/// Which circle the law goes to, and from which.
+/// The circle at which the law begins, and the circle that it must pass.
 struct Goal {
     start: f64,
     end: f64,
-    way: Way,
+    orientation: Orientation,
 }
 
 impl Goal {
-    /// `sense` as in [`Way`].
-    fn outward(job: &Job, sense: f64) -> Self {
+    /// The goal of an outward law. `sense` is that of [`Orientation`].
+    fn outward(task: &Task, sense: f64) -> Self {
         Self {
-            start: job.range.inner,
-            end: job.range.outer + beyond(job),
-            way: Way {
+            start: task.range.inner,
+            end: task.range.outer + beyond(task),
+            orientation: Orientation {
                 outward: 1.0,
                 sense,
             },
         }
     }
 
-    fn inward(job: &Job) -> Self {
+    fn inward(task: &Task) -> Self {
         Self {
-            start: job.range.outer,
-            end: job.range.inner - beyond(job),
-            way: Way {
+            start: task.range.outer,
+            end: task.range.inner - beyond(task),
+            orientation: Orientation {
                 outward: -1.0,
                 sense: 1.0,
             },
         }
     }
 
-    /// Which part of the last turn is wanted: all of it where the path begins there, at θ = 0.
+    /// The part of the last turn that the law needs. A law that runs backwards needs the whole
+    /// turn, since the path begins there, at θ = 0.
     fn needed(&self, part: f64) -> f64 {
-        if self.way.sense < 0.0 { 1.0 } else { part }
+        if self.orientation.sense < 0.0 {
+            1.0
+        } else {
+            part
+        }
     }
 
-    /// The last part of the turn at which ρ is short of the end; `None` where it nowhere is.
+    /// The last part of the turn at which ρ falls short of the end; `None` if ρ falls short
+    /// nowhere.
     fn last_short(&self, turn: &Turn) -> Option<f64> {
         let count = turn.pieces.len() as f64;
         for (i, piece) in turn.pieces.iter().enumerate().rev() {
-            let short = |look: usize| {
-                let n = piece.length * look as f64 / LOOKS as f64;
+            let short = |k: usize| {
+                let n = piece.length * k as f64 / PARTS as f64;
                 let rho = piece.coefficients.iter().rev();
                 let rho = rho.fold(0.0, |sum, c| sum * n + c);
-                self.way.outward * (self.end - rho) > 0.0
+                self.orientation.outward * (self.end - rho) > 0.0
             };
-            if let Some(look) = (0..=LOOKS).rev().find(|look| short(*look)) {
-                // The next look is not short: up to there it may be.
-                let part = (i as f64 + (look + 1) as f64 / LOOKS as f64) / count;
+            if let Some(k) = (0..=PARTS).rev().find(|k| short(*k)) {
+                // ρ reaches the end at the next point. It may fall short up to there.
+                let part = (i as f64 + (k + 1) as f64 / PARTS as f64) / count;
                 return Some(part.min(1.0));
             }
         }
@@ -188,20 +197,20 @@ impl Goal {
     }
 }
 
-/// How far beyond the range's end every angle must come, mm.
-fn beyond(job: &Job) -> f64 {
-    BEYOND * LARGEST_FEED * job.tool.nose_radius
+/// How far every angle must pass the range's end, mm.
+fn beyond(task: &Task) -> f64 {
+    BEYOND * LARGEST_FEED * task.tool.nose_radius
 }
 
-/// The pieces of a turn up to a part of it.
-fn cut(turn: &Turn, part: f64, pieces: &mut Vec<Stretch>) {
+/// Appends the pieces of a turn up to a part of it.
+fn append_until(turn: &Turn, part: f64, pieces: &mut Vec<FeedPiece>) {
     let mut left = part;
     for piece in &turn.pieces {
         if left <= SHORTEST {
             break;
         }
         let length = piece.length.min(left);
-        pieces.push(Stretch { length, ..*piece });
+        pieces.push(FeedPiece { length, ..*piece });
         left -= length;
     }
 }

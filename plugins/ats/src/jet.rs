@@ -1,4 +1,4 @@
-//! Functions of (θ, ρ) to second order, and how they are put into one another.
+//! Functions of (θ, ρ) to second order, and their compositions.
 
 use turnpath_plugin::prelude::*;
 
@@ -32,7 +32,7 @@ impl Jet {
         }
     }
 
-    /// `self` + `scale`·`other`.
+    /// The sum `self` + `scale`·`other`.
     pub fn plus(&self, scale: f64, other: &Self) -> Self {
         Self {
             value: self.value + scale * other.value,
@@ -44,7 +44,7 @@ impl Jet {
         }
     }
 
-    /// A function of (θ, a), where a is itself a function of (θ, ρ).
+    /// The composition: a function of (θ, a), where a is itself a function of (θ, ρ).
     pub fn through(&self, a: &Self) -> Self {
         Self {
             value: self.value,
@@ -56,7 +56,8 @@ impl Jet {
         }
     }
 
-    /// a as a function of (θ, ρ), where `self` is ρ as a function of (θ, a) at the given a.
+    /// The inverse: a as a function of (θ, ρ), where `self` is ρ as a function of (θ, a), at the
+    /// given a.
     pub fn inverse(&self, at: f64) -> Self {
         let r = 1.0 / self.r;
         let t = -self.t * r;
@@ -70,7 +71,7 @@ impl Jet {
         }
     }
 
-    /// As a number for formulas.
+    /// The jet as a number for formulas.
     pub fn to_dual(self) -> Dual<Dual<f64>> {
         let dual = |value, dx, dy| Dual { value, dx, dy };
         Dual {
@@ -80,7 +81,7 @@ impl Jet {
         }
     }
 
-    /// From what a formula gave.
+    /// The jet of a formula's result.
     pub fn from_dual(of: Dual<Dual<f64>>) -> Self {
         Self {
             value: of.value.value,

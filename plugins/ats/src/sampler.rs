@@ -3,9 +3,10 @@
 use turnpath_plugin::hermite::{MAX_STEP, Steps};
 use turnpath_plugin::prelude::*;
 
-/// Part of the distance between passes that X's own interpolation may take. X moves all the time
-/// here, and it is often what binds: with five times ATPG's part steps are half as long again. The
-/// feed's margin has room for two passes that err apart by it.
+/// The part of the distance between passes that X's own interpolation error may take. X moves all
+/// the time here, and it is often X that decides: with a fifth of this part, ATPG's, steps would be
+/// shorter by half again. The feed's margin has room for two passes that err in opposite directions
+/// by this part.
 const FEED_PART: f64 = 5e-4;
 
 /// Steps as long as the error of a cubic segment allows on a path whose X moves too.

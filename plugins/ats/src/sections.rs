@@ -1,8 +1,8 @@
-//! The radial sections of the surface, with slope and second derivative to second order.
+//! The radial sections of the surface: their slope and second derivative, each to second order.
 //!
-//! Five series of order 4 through a place, along (θ, a) = (θ₀ + pt, a₀ + t) with p = 0, ±σ, ±2σ,
-//! hold every mixed derivative that is needed: of the coefficients g_ij of θ^i a^j, those with
-//! i ≤ 2. Nothing is differentiated numerically.
+//! Five series of order 4 through a point, along (θ, a) = (θ₀ + pt, a₀ + t) with p = 0, ±σ, ±2σ,
+//! contain every mixed derivative that the feed needs: of the coefficients g_ij of θ^i a^j, those
+//! with i ≤ 2. Nothing is differentiated numerically.
 
 use turnpath_plugin::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::jet::Jet;
 /// p/σ of the five curves.
 const TURNS: [f64; 5] = [0.0, 1.0, -1.0, 2.0, -2.0];
 
-/// Slope g_a and second derivative g_aa of the section at one place, as functions of (θ, a).
+/// Slope g_a and second derivative g_aa of the section at one point, as functions of (θ, a).
 #[derive(Debug, Clone, Copy)]
 pub struct Section {
     /// g_a.
@@ -20,7 +20,7 @@ pub struct Section {
     pub second: Jet,
 }
 
-/// Looks at sections in batches.
+/// Evaluates sections in batches.
 #[derive(Debug, Default)]
 pub struct Sections {
     x: Vec<Series>,
@@ -30,7 +30,7 @@ pub struct Sections {
 
 impl Sections {
     /// The sections at each (θ, a).
-    pub fn look(
+    pub fn evaluate(
         &mut self,
         surface: &dyn SurfaceModel,
         theta: &[f64],
@@ -50,8 +50,8 @@ impl Sections {
         Ok(())
     }
 
-    /// Slope and second derivative alone.
-    pub fn glance(
+    /// Only the values of slope and second derivative.
+    pub fn values(
         &mut self,
         surface: &dyn SurfaceModel,
         theta: &[f64],
@@ -86,7 +86,7 @@ impl Sections {
     }
 }
 
-/// σ, rad/mm: the curves turn about as far as they go out, so that no term drowns the others.
+/// σ, rad/mm. The curves turn about as far as they go outward, so that no term drowns the others.
 fn turning(a: f64) -> f64 {
     1.0 / a.abs().max(1.0)
 }
@@ -97,7 +97,7 @@ fn section(z: &[Series], sigma: f64) -> Section {
     let odd = |k: usize| 0.5 * (at(1, k) - at(2, k));
     let odd_twice = |k: usize| 0.5 * (at(3, k) - at(4, k));
     let even_twice = |k: usize| 0.5 * (at(3, k) + at(4, k));
-    // Of t^k: p^0, p^1 and p^2, for k up to 4.
+    // The coefficients of t^k that belong to p^0, p^1 and p^2, for k up to 4.
     let zeroth = |k: usize| at(0, k);
     let first = |k: usize| (8.0 * odd(k) - odd_twice(k)) / (6.0 * sigma);
     let second = |k: usize| {
@@ -127,15 +127,15 @@ fn section(z: &[Series], sigma: f64) -> Section {
 mod tests {
     use super::*;
 
-    struct Hills;
+    struct Waves;
 
-    impl Surface for Hills {
+    impl Surface for Waves {
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             (x * 0.4 + y.squared() * 0.1).sin() * 0.3 + x.powi(3) * y * 0.01
         }
     }
 
-    /// Each derivative against a difference of the one below it.
+    /// Compares each derivative with a difference of the derivative below it.
     #[test]
     fn the_derivatives_are_those_of_the_slopes_and_curvatures() {
         let (theta, h) = (0.7, 1e-5);
@@ -150,13 +150,15 @@ mod tests {
             let (theta, radius): (Vec<f64>, Vec<f64>) = places.into_iter().unzip();
             let mut found = Vec::new();
             let mut sections = Sections::default();
-            sections.look(&Hills, &theta, &radius, &mut found).unwrap();
-            let mut glanced = Vec::new();
             sections
-                .glance(&Hills, &theta, &radius, &mut glanced)
+                .evaluate(&Waves, &theta, &radius, &mut found)
                 .unwrap();
-            for (section, glanced) in found.iter().zip(glanced) {
-                assert_eq!((section.slope.value, section.second.value), glanced);
+            let mut values = Vec::new();
+            sections
+                .values(&Waves, &theta, &radius, &mut values)
+                .unwrap();
+            for (section, values) in found.iter().zip(values) {
+                assert_eq!((section.slope.value, section.second.value), values);
             }
             for of in [|s: &Section| s.slope, |s: &Section| s.second] {
                 let j: Vec<Jet> = found.iter().map(of).collect();

@@ -1,40 +1,40 @@
-//! One turn of the law from the one before, as polynomials of degree 5.
+//! One turn of the law from the turn before, as polynomials of degree 5.
 //!
-//! With F(ρ, θ) the feed in the middle of a step, ℓ(N + 1) = ℓ(N) ± F(ℓ(N), 2πN), and so do rate and
-//! second derivative follow from those a turn before, by the chain rule: all three are exact at
-//! the nodes, and the law is C² wherever pieces join. Nodes are halved apart until the pieces
-//! follow the recursion between them.
+//! With F(ρ, θ) the feed in the middle of a step, ℓ(N + 1) = ℓ(N) ± F(ℓ(N), 2πN). The rate and the
+//! second derivative follow from those of the turn before by the chain rule. All three are exact at
+//! the nodes, and the law is C² where pieces join. The distance of the nodes is halved until the
+//! pieces follow the recursion between the nodes.
 
 use turnpath_plugin::prelude::*;
 
-use crate::held::HeldFeed;
 use crate::jet::Jet;
+use crate::residual_feed::ResidualFeed;
 
-/// Pieces of a turn at first: enough for astigmatism and coma as they come.
+/// Number of pieces of a turn that is tried first: enough for usual astigmatism and coma.
 const FEWEST: usize = 24;
-/// Pieces of a turn at which it is given up: the feed has edges.
+/// Number of pieces of a turn at which the search gives up, because the feed has edges.
 const MOST: usize = 24 << 8;
-/// How far a piece may stray from the recursion, as a part of the feed: a cusp then changes by
-/// 4e-5 of itself.
-const STRAY: f64 = 1e-5;
-/// Halving the count of pieces makes the error 64 times larger; below this part of what is allowed
-/// it is tried.
+/// How far a piece may deviate from the recursion, as a part of the feed. A cusp then changes by 4e-5
+/// of itself.
+const LARGEST_DEVIATION: f64 = 1e-5;
+/// Half the number of pieces makes the error 64 times larger. Half of them are tried if the error
+/// is below this part of the limit.
 const SLACK: f64 = 1.0 / 256.0;
-/// Where in a piece it is held against the recursion, in parts of its length: in step with
-/// nothing.
+/// The points at which a piece is compared with the recursion, in parts of its length. They are in
+/// step with nothing.
 const PROBES: [f64; 2] = [0.381_966, 0.763_932];
 
 /// ρ, dρ/dN and d²ρ/dN².
 pub type State = [f64; 3];
 
-/// How much q of the feed is taken in the first two turns, against the part of each, lowest power
-/// first: u⁴ − 0.6u⁵, then 0.4 + u − u⁴ + 0.6u⁵, and all of it from then on.
+/// The share q of the feed in the first two turns, as polynomials of the part of each turn, lowest
+/// power first: u⁴ − 0.6u⁵, then 0.4 + u − u⁴ + 0.6u⁵. From then on q is 1.
 ///
-/// q comes from rest and ends at rest, with two continuous derivatives. Since every turn adds what q
-/// does on it to the rate of those before, and q'(u) + q'(1 + u) = 1, the rate is even from the second
-/// turn on where nothing follows the angle: one turn alone, from rest to rest, would stop X at every
-/// whole turn of the path. The first turn keeps within q(1) = 0.4 feeds of its circle, so no more
-/// than 0.64 of a cusp stays at the edge.
+/// q begins at rest and ends at rest, with two continuous derivatives. Every turn adds to its rate
+/// what q did on the turns before, and q'(u) + q'(1 + u) = 1. So the rate is even from the second
+/// turn on where nothing follows the angle. A q over one turn alone, from rest to rest, would stop
+/// X at every whole turn of the path. The first turn stays within q(1) = 0.4 feeds of its circle,
+/// so at most 0.64 of a cusp stays at the edge.
 const RUN_IN: [[f64; 6]; 2] = [
     [0.0, 0.0, 0.0, 0.0, 1.0, -0.6],
     [0.4, 1.0, 0.0, 0.0, -1.0, 0.6],
@@ -44,11 +44,11 @@ const RUN_IN: [[f64; 6]; 2] = [
 #[derive(Debug, Clone)]
 pub struct Turn {
     /// The pieces, in order.
-    pub pieces: Vec<Stretch>,
+    pub pieces: Vec<FeedPiece>,
 }
 
 impl Turn {
-    /// Value, rate and second derivative at a part of the turn, in N.
+    /// Value, rate and second derivative in N at a part of the turn.
     fn state(&self, part: f64) -> State {
         let count = self.pieces.len();
         let place = part * count as f64;
@@ -61,18 +61,18 @@ impl Turn {
     }
 }
 
-/// The pieces of a law the other way round: ρ(N) = ℓ(N_end − N).
-pub fn backwards(pieces: &[Stretch]) -> impl Iterator<Item = Stretch> {
+/// The pieces of a law in reverse: ρ(N) = ℓ(N_end − N).
+pub fn backwards(pieces: &[FeedPiece]) -> impl Iterator<Item = FeedPiece> {
     pieces.iter().rev().map(|piece| {
         let at = |n: f64| {
             let [value, rate, second] = polynomial(&piece.coefficients, n);
             [value, -rate, second]
         };
-        Stretch::between(at(piece.length), at(0.0), piece.length)
+        FeedPiece::between(at(piece.length), at(0.0), piece.length)
     })
 }
 
-/// Value, rate and second derivative.
+/// Value, rate and second derivative of a polynomial at `n`.
 fn polynomial(c: &[f64; 6], n: f64) -> State {
     let value = c.iter().rev().fold(0.0, |sum, c| sum * n + c);
     let rate = (1..6).rev().fold(0.0, |sum, k| sum * n + k as f64 * c[k]);
@@ -82,17 +82,17 @@ fn polynomial(c: &[f64; 6], n: f64) -> State {
     [value, rate, second]
 }
 
-/// What a turn is made from.
-struct Before<'a> {
-    /// The turn before; none where the path begins.
+/// What precedes a turn.
+struct Predecessor<'a> {
+    /// The turn before; `None` at the start of the path.
     turn: Option<&'a Turn>,
-    /// The circle that the path begins at, mm.
+    /// The circle at which the path begins, mm.
     circle: f64,
-    /// The turn's number, from 0 on.
+    /// The number of the turn, from 0 on.
     number: usize,
 }
 
-impl Before<'_> {
+impl Predecessor<'_> {
     fn state(&self, part: f64) -> State {
         match self.turn {
             None => [self.circle, 0.0, 0.0],
@@ -100,7 +100,7 @@ impl Before<'_> {
         }
     }
 
-    /// q with its derivatives.
+    /// q and its derivatives.
     fn share(&self, part: f64) -> State {
         match RUN_IN.get(self.number) {
             Some(share) => polynomial(share, part),
@@ -109,20 +109,20 @@ impl Before<'_> {
     }
 }
 
-/// Which way a law is made.
+/// The orientation of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Way {
+pub struct Orientation {
     /// 1 outward, −1 inward.
     pub outward: f64,
-    /// 1 where θ grows with N; −1 for a law that is run backwards.
+    /// 1 if θ grows with N; −1 for a law that is run backwards.
     pub sense: f64,
 }
 
-/// Makes turns.
+/// Computes turns.
 pub struct Turns<'a> {
-    feed: HeldFeed<'a>,
-    way: Way,
-    /// Pieces of the next turn, to begin with.
+    feed: ResidualFeed<'a>,
+    orientation: Orientation,
+    /// Number of pieces that the next turn tries first.
     count: usize,
     theta: Vec<f64>,
     rho: Vec<f64>,
@@ -131,11 +131,12 @@ pub struct Turns<'a> {
 }
 
 impl<'a> Turns<'a> {
-    /// For one job, with `count` pieces to begin with; `None` for a law that begins.
-    pub fn new(setup: Setup<'a>, way: Way, count: Option<usize>) -> Self {
+    /// The turns of one task. `count` is the number of pieces to try first; `None` for a law that
+    /// begins.
+    pub fn new(setup: Setup<'a>, orientation: Orientation, count: Option<usize>) -> Self {
         Self {
-            feed: HeldFeed::new(setup),
-            way,
+            feed: ResidualFeed::new(setup),
+            orientation,
             count: count.unwrap_or(FEWEST),
             theta: Vec::new(),
             rho: Vec::new(),
@@ -144,26 +145,26 @@ impl<'a> Turns<'a> {
         }
     }
 
-    /// How many pieces the next turn should try.
+    /// The number of pieces that the next turn should try first.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Turn `number` of a law that begins at the radius `circle`, after the turn before it.
+    /// Turn number `number` of a law that begins at the radius `circle`, after the turn before it.
     pub fn turn(&mut self, number: usize, circle: f64, before: Option<&Turn>) -> Result<Turn> {
-        self.next(&Before {
+        self.next(&Predecessor {
             turn: before,
             circle,
             number,
         })
     }
 
-    fn next(&mut self, before: &Before<'_>) -> Result<Turn> {
+    fn next(&mut self, before: &Predecessor<'_>) -> Result<Turn> {
         loop {
             let turn = self.fit(before)?;
-            let stray = self.stray(before, &turn)?;
-            if stray <= STRAY {
-                if stray <= SLACK * STRAY && self.count > FEWEST {
+            let deviation = self.deviation(before, &turn)?;
+            if deviation <= LARGEST_DEVIATION {
+                if deviation <= SLACK * LARGEST_DEVIATION && self.count > FEWEST {
                     self.count /= 2;
                 }
                 return Ok(turn);
@@ -175,8 +176,8 @@ impl<'a> Turns<'a> {
         }
     }
 
-    /// Pieces with the recursion's states at their ends.
-    fn fit(&mut self, before: &Before<'_>) -> Result<Turn> {
+    /// Pieces with the states of the recursion at their ends.
+    fn fit(&mut self, before: &Predecessor<'_>) -> Result<Turn> {
         let count = self.count;
         let parts: Vec<f64> = (0..=count).map(|i| i as f64 / count as f64).collect();
         let states = self.states(before, &parts)?;
@@ -184,22 +185,22 @@ impl<'a> Turns<'a> {
         let pieces = states.windows(2);
         Ok(Turn {
             pieces: pieces
-                .map(|ends| Stretch::between(ends[0], ends[1], length))
+                .map(|ends| FeedPiece::between(ends[0], ends[1], length))
                 .collect(),
         })
     }
 
-    /// The states a turn on from those at the given parts of the turn before.
-    fn states(&mut self, before: &Before<'_>, parts: &[f64]) -> Result<Vec<State>> {
-        self.hold(before, parts);
-        let Way { outward, sense } = self.way;
+    /// The states one turn later than those at the given parts of the turn before.
+    fn states(&mut self, before: &Predecessor<'_>, parts: &[f64]) -> Result<Vec<State>> {
+        self.load(before, parts);
+        let Orientation { outward, sense } = self.orientation;
         let feeds = self.feeds()?;
         Ok(feeds
             .iter()
             .zip(parts)
             .map(|(feed, part)| {
                 let state = before.state(*part);
-                onward(
+                advance(
                     state,
                     before.share(*part),
                     along(feed, state, sense),
@@ -209,9 +210,10 @@ impl<'a> Turns<'a> {
             .collect())
     }
 
-    /// F at the places held: the feed at ρ ± ½f(ρ), as a function of (θ, ρ). The places move there.
+    /// F at the points in the buffers: the feed at ρ ± ½f(ρ), as a function of (θ, ρ). The points
+    /// move there.
     fn feeds(&mut self) -> Result<&[Jet]> {
-        let half = 0.5 * self.way.outward;
+        let half = 0.5 * self.orientation.outward;
         let [inner, outer] = &mut self.jets;
         self.feed.jets(&self.theta, &self.rho, inner)?;
         for (jet, rho) in inner.iter_mut().zip(&mut self.rho) {
@@ -226,31 +228,31 @@ impl<'a> Turns<'a> {
     }
 
     /// The largest distance of a turn from the recursion, in parts of the feed.
-    fn stray(&mut self, before: &Before<'_>, turn: &Turn) -> Result<f64> {
+    fn deviation(&mut self, before: &Predecessor<'_>, turn: &Turn) -> Result<f64> {
         let count = turn.pieces.len() as f64;
         let parts: Vec<f64> = (0..turn.pieces.len())
             .flat_map(|i| PROBES.map(|probe| (i as f64 + probe) / count))
             .collect();
-        self.hold(before, &parts);
-        let half = 0.5 * self.way.outward;
+        self.load(before, &parts);
+        let half = 0.5 * self.orientation.outward;
         let [inner, outer] = &mut self.values;
         self.feed.values(&self.theta, &self.rho, inner)?;
         for (rho, feed) in self.rho.iter_mut().zip(inner.iter()) {
             *rho += half * feed;
         }
         self.feed.values(&self.theta, &self.rho, outer)?;
-        let mut stray: f64 = 0.0;
+        let mut deviation: f64 = 0.0;
         for (part, feed) in parts.iter().zip(outer.iter()) {
-            let taken = self.way.outward * before.share(*part)[0] * feed;
-            let exact = before.state(*part)[0] + taken;
-            stray = stray.max((turn.state(*part)[0] - exact).abs() / feed);
+            let step = self.orientation.outward * before.share(*part)[0] * feed;
+            let exact = before.state(*part)[0] + step;
+            deviation = deviation.max((turn.state(*part)[0] - exact).abs() / feed);
         }
-        Ok(stray)
+        Ok(deviation)
     }
 
-    fn hold(&mut self, before: &Before<'_>, parts: &[f64]) {
+    fn load(&mut self, before: &Predecessor<'_>, parts: &[f64]) {
         self.theta.clear();
-        let turn = self.way.sense * TAU;
+        let turn = self.orientation.sense * TAU;
         self.theta.extend(parts.iter().map(|part| turn * part));
         self.rho.clear();
         self.rho
@@ -258,7 +260,7 @@ impl<'a> Turns<'a> {
     }
 }
 
-/// A function of (θ, ρ) along the law, as one of N with its first two derivatives.
+/// Turns a function of (θ, ρ) into a function of N along the law, with its first two derivatives.
 fn along(feed: &Jet, [_, rate, second]: State, sense: f64) -> State {
     let turn = sense * TAU;
     [
@@ -269,13 +271,13 @@ fn along(feed: &Jet, [_, rate, second]: State, sense: f64) -> State {
 }
 
 /// ℓ ± q·F.
-fn onward(state: State, share: State, feed: State, outward: f64) -> State {
-    let taken = [
+fn advance(state: State, share: State, feed: State, outward: f64) -> State {
+    let step = [
         share[0] * feed[0],
         share[1] * feed[0] + share[0] * feed[1],
         share[2] * feed[0] + 2.0 * share[1] * feed[1] + share[0] * feed[2],
     ];
-    std::array::from_fn(|k| state[k] + outward * taken[k])
+    std::array::from_fn(|k| state[k] + outward * step[k])
 }
 
 fn no_edges(rho: f64) -> StrategyError {

@@ -28,7 +28,7 @@ fn ats(case: &Case) -> SpiralLaw {
 }
 
 fn outward(case: &Case) -> f64 {
-    match case.job.direction {
+    match case.task.direction {
         Direction::Outward => 1.0,
         Direction::Inward => -1.0,
     }
@@ -37,8 +37,8 @@ fn outward(case: &Case) -> f64 {
 /// ρ and its first two derivatives go on across every knot, and the path begins and ends where the
 /// range says: every angle has passed, and one of them only just.
 fn check_shape(case: &Case, law: &SpiralLaw) {
-    let (sign, range) = (outward(case), case.job.range);
-    let (from, to) = match case.job.direction {
+    let (sign, range) = (outward(case), case.task.range);
+    let (from, to) = match case.task.direction {
         Direction::Outward => (range.inner, range.outer),
         Direction::Inward => (range.outer, range.inner),
     };
@@ -75,7 +75,7 @@ fn check_shape(case: &Case, law: &SpiralLaw) {
 /// How far the crossing of two noses stands above the surface, by a search of the nearest place on
 /// finer and finer grids.
 fn cusp(case: &Case, theta: f64, one: [f64; 2], two: [f64; 2]) -> f64 {
-    let radius = case.job.tool.nose_radius;
+    let radius = case.task.tool.nose_radius;
     let (dx, dz) = (two[0] - one[0], two[1] - one[1]);
     let half = 0.5 * (dx * dx + dz * dz).sqrt();
     let down = (radius * radius - half * half).sqrt() / (2.0 * half);
@@ -114,8 +114,8 @@ fn check_cusps(case: &Case, law: &SpiralLaw, offset: f64) {
 
 /// The same of passes from one turn to another.
 fn check_cusps_between(case: &Case, law: &SpiralLaw, offset: f64, [from, to]: [f64; 2]) {
-    let tolerance = case.job.tolerance.residual;
-    let cap = 0.1 * case.job.tool.nose_radius;
+    let tolerance = case.task.tolerance.residual;
+    let cap = 0.1 * case.task.tool.nose_radius;
     let places = 150;
     for i in 0..places {
         let n = from + (to - from) * (f64::from(i) + offset) / f64::from(places);
@@ -320,7 +320,7 @@ fn nothing_to_cut_is_an_error() {
 fn thin_rings_have_a_law_of_a_few_turns() {
     for direction in [Direction::Outward, Direction::Inward] {
         let mut case = ast_5(ZDirection).with_hole(2.4999);
-        case.job.direction = direction;
+        case.task.direction = direction;
         let law = ats(&case);
         check_shape(&case, &law);
         assert!(law.end() < 3.0, "{}", law.end());
@@ -344,7 +344,7 @@ fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
     let surface = Arc::new(Conic::new(&params).unwrap());
     for direction in [Direction::Outward, Direction::Inward] {
         let mut case = Case::new(surface.clone(), Arc::new(ZDirection), 20.0, 1.0, 100.0);
-        case.job.direction = direction;
+        case.task.direction = direction;
         let law = ats(&case);
         check_shape(&case, &law);
         for i in 0..500 {

@@ -27,7 +27,7 @@ fn law(case: &Case) -> SpiralLaw {
 
 fn path<'a>(case: &'a Case, law: &'a SpiralLaw) -> Path<'a> {
     Path {
-        job: &case.job,
+        task: &case.task,
         locus: &case.locus,
         law,
         prepared: &[],
@@ -90,7 +90,7 @@ fn check(case: &Case, max_step: f64) {
             );
             let slope = slope(case, *n, law.value(*n));
             let error = (off_z - slope * off_x).abs();
-            let tolerance = case.job.tolerance.interpolation;
+            let tolerance = case.task.tolerance.interpolation;
             assert!(error <= tolerance, "{error} at {n}");
         }
     }

@@ -2,15 +2,15 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::smallest::smallest_held_feed;
+use crate::smallest::smallest_residual_feed;
 
-/// By how much a derived feed stays below the smallest found on the part: more than the search
-/// misses it by, and a ten-thousandth more revolutions.
+/// The part by which a derived feed stays below the smallest feed that the search finds on the
+/// part. It is more than the search misses, and costs a ten-thousandth more revolutions.
 const MARGIN: f64 = 1e-4;
-/// Most revolutions of a path: two weeks at 500 rpm. A feed that takes more is a slip of the unit.
+/// Most revolutions of a path: two weeks at 500 rpm. A feed that takes more has a wrong unit.
 const MOST_REVOLUTIONS: f64 = 1e7;
 
-/// ρ = start ± f·N over the whole range.
+/// The law ρ = start ± f·N over the whole range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constant {
     feed: Option<f64>,
@@ -38,12 +38,12 @@ impl Strategy for Constant {
 
 impl FeedStrategy for Constant {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let RadialRange { inner, outer } = setup.job.range;
+        let RadialRange { inner, outer } = setup.task.range;
         let least = (outer - inner) / MOST_REVOLUTIONS;
         let feed = match self.feed {
             Some(feed) if feed < least => return Err(given_too_small(least)),
             Some(feed) => feed,
-            None => smallest_held_feed(setup)? * (1.0 - MARGIN),
+            None => smallest_residual_feed(setup)? * (1.0 - MARGIN),
         };
         if feed < least {
             return Err(derived_too_small(feed));
@@ -57,19 +57,19 @@ struct OnePiece {
 }
 
 impl FeedPlan for OnePiece {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        let RadialRange { inner, outer } = setup.job.range;
-        let (start, end) = match setup.job.direction {
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
+        let RadialRange { inner, outer } = setup.task.range;
+        let (start, end) = match setup.task.direction {
             Direction::Inward => (outer, inner),
             Direction::Outward => (inner, outer),
         };
         let length = (outer - inner) / self.feed;
         let rate = (end - start) / length;
-        pieces.push(Stretch {
+        pieces.push(FeedPiece {
             length,
             coefficients: [start, rate, 0.0, 0.0, 0.0, 0.0],
         });
-        Ok(Onward::Done)
+        Ok(Continuation::End)
     }
 }
 

@@ -1,19 +1,19 @@
-//! The smallest held feed on the part.
+//! The smallest residual feed on the part.
 
 use turnpath_plugin::prelude::*;
 
-/// The smallest feed over the job's range, mm, that leaves no cusp above the residual tolerance.
+/// The smallest feed over the task's range, mm, that leaves no cusp above the residual tolerance.
 ///
 /// # Errors
-/// Where the locus has no value.
-pub fn smallest_held_feed(setup: Setup<'_>) -> Result<f64> {
-    let (residual, radial) = (setup.job.tolerance.residual, setup.locus.radial());
+/// If the locus has no value somewhere in the range.
+pub fn smallest_residual_feed(setup: Setup<'_>) -> Result<f64> {
+    let (residual, radial) = (setup.task.tolerance.residual, setup.locus.radial());
     let mut feed = Vec::new();
-    let [smallest] = extreme::largest(setup.job.range, &mut |theta, rho, out| {
+    let [smallest] = extreme::largest(setup.task.range, &mut |theta, rho, out| {
         feed.resize(theta.len(), f64::NAN);
         setup
             .locus
-            .held_feed(residual, radial, theta, rho, &mut feed)?;
+            .residual_feed(residual, radial, theta, rho, &mut feed)?;
         for (i, feed) in feed.iter().enumerate() {
             if feed.is_nan() {
                 return Err(no_feed(theta[i], rho[i]));

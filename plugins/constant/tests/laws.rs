@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use turnpath_constant::Constant;
 use turnpath_core::{
-    Compensator, Direction, FeedStrategy, Job, Machine, NM, Onward, Params, Part, RadialRange,
-    Result, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Tolerance, Tool, ToolLocus, UM,
+    Compensator, Continuation, Direction, FeedStrategy, Machine, NM, Params, Part, RadialRange,
+    Result, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Task, Tolerance, Tool,
+    ToolLocus, UM,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic};
@@ -19,8 +20,8 @@ const RESIDUAL: f64 = 100.0 * NM;
 /// By how much a derived feed stays below the smallest.
 const MARGIN: f64 = 1e-4;
 
-fn job(inner: f64, direction: Direction) -> Job {
-    Job {
+fn task(inner: f64, direction: Direction) -> Task {
+    Task {
         part: Part {
             aperture_radius: RIM,
             inner_radius: inner,
@@ -47,15 +48,15 @@ fn saddle(compensator: Arc<dyn Compensator>) -> ToolLocus {
     ToolLocus::new(
         Arc::new(surface),
         compensator,
-        job(0.0, Direction::Inward).tool,
+        task(0.0, Direction::Inward).tool,
     )
 }
 
-fn law(params: &Params, job: &Job, locus: &ToolLocus) -> Result<SpiralLaw> {
-    let setup = Setup { job, locus };
+fn law(params: &Params, task: &Task, locus: &ToolLocus) -> Result<SpiralLaw> {
+    let setup = Setup { task, locus };
     let mut pieces = Vec::new();
     let mut plan = Constant::new(params)?.plan(setup)?;
-    assert_eq!(plan.extend(setup, &mut pieces)?, Onward::Done);
+    assert_eq!(plan.extend(setup, &mut pieces)?, Continuation::End);
     let mut law = SpiralLaw::new();
     for piece in pieces {
         law.push(piece.length, piece.coefficients);
@@ -64,8 +65,8 @@ fn law(params: &Params, job: &Job, locus: &ToolLocus) -> Result<SpiralLaw> {
 }
 
 fn derived_feed(compensator: Arc<dyn Compensator>) -> f64 {
-    let job = job(0.0, Direction::Outward);
-    law(&Params::new(), &job, &saddle(compensator))
+    let task = task(0.0, Direction::Outward);
+    law(&Params::new(), &task, &saddle(compensator))
         .unwrap()
         .series(0.0)[1]
 }
@@ -75,9 +76,9 @@ fn a_given_feed_runs_from_one_end_of_the_range_to_the_other() {
     for feed in [10.0 * UM, 7.3 * UM, 1.0 / 3.0] {
         let params = Params::new().with("feed", feed);
         for inner in [0.0, 0.31] {
-            let outward = job(inner, Direction::Outward);
+            let outward = task(inner, Direction::Outward);
             let out = law(&params, &outward, &saddle(Arc::new(ZDirection))).unwrap();
-            let inward = job(inner, Direction::Inward);
+            let inward = task(inner, Direction::Inward);
             let back = law(&params, &inward, &saddle(Arc::new(ZDirection))).unwrap();
             assert_eq!((out.value(0.0), back.value(0.0)), (inner, RIM));
             assert!((out.value(out.end()) - RIM).abs() < 1e-15);
@@ -128,9 +129,9 @@ fn the_derived_feed_on_the_saddle_is_the_centre_laws_minimum() {
 
 #[test]
 fn a_given_feed_of_too_many_revolutions_is_an_error_on_feed() {
-    let job = job(0.0, Direction::Inward);
+    let task = task(0.0, Direction::Inward);
     let locus = saddle(Arc::new(ZDirection));
-    let law = |feed| law(&Params::new().with("feed", feed), &job, &locus);
+    let law = |feed| law(&Params::new().with("feed", feed), &task, &locus);
     assert!(law(RIM / 0.99e7).is_ok());
     for feed in [RIM / 1.01e7, 1e-300] {
         let error = law(feed).unwrap_err();
@@ -143,9 +144,9 @@ fn a_given_feed_of_too_many_revolutions_is_an_error_on_feed() {
 
 #[test]
 fn a_derived_feed_of_too_many_revolutions_names_what_it_comes_from() {
-    let mut job = job(0.0, Direction::Inward);
-    job.tolerance.residual = 1e-18;
-    let error = law(&Params::new(), &job, &saddle(Arc::new(ZDirection))).unwrap_err();
+    let mut task = task(0.0, Direction::Inward);
+    task.tolerance.residual = 1e-18;
+    let error = law(&Params::new(), &task, &saddle(Arc::new(ZDirection))).unwrap_err();
     let said = error.to_string();
     assert!(matches!(error, StrategyError::Failed(_)), "{said}");
     for word in ["tolerance.residual", "nose radius", "1e7 revolutions"] {
@@ -157,9 +158,9 @@ fn a_derived_feed_of_too_many_revolutions_names_what_it_comes_from() {
 fn where_the_surface_ends_within_the_range_the_error_says_where() {
     let params = Params::new().with("radius", 2.0).with("conic", 0.0);
     let surface = Arc::new(Conic::new(&params).unwrap());
-    let job = job(0.0, Direction::Inward);
-    let locus = ToolLocus::new(surface, Arc::new(Normal), job.tool);
-    let error = law(&Params::new(), &job, &locus).unwrap_err();
+    let task = task(0.0, Direction::Inward);
+    let locus = ToolLocus::new(surface, Arc::new(Normal), task.tool);
+    let error = law(&Params::new(), &task, &locus).unwrap_err();
     assert!(
         error
             .to_string()

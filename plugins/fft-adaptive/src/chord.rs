@@ -1,16 +1,16 @@
 //! Eq. 1: how long a straight segment may be on a curve of a given radius.
 
-/// Which chord a tolerance e allows on a circle of radius ϱ.
+/// The chord that a tolerance e allows on a circle of radius ϱ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Chord {
     /// The whole chord of sagitta e, as printed: 2·sqrt(2ϱe − e²).
     Full,
-    /// Half of it.
+    /// Half of that chord.
     Half,
 }
 
 impl Chord {
-    /// From a parameter's word.
+    /// The chord for the word of a parameter.
     pub fn from_word(word: &str) -> Self {
         match word {
             "half" => Self::Half,
@@ -18,10 +18,11 @@ impl Chord {
         }
     }
 
-    /// Its length, mm, for a curvature 1/ϱ (1/mm, of either sign) and a tolerance in mm.
+    /// The length, mm, for a curvature 1/ϱ (1/mm, of either sign) and a tolerance in mm.
     ///
-    /// Where the circle is smaller than the tolerance (ϱ < e) a chord of sagitta e does not exist;
-    /// sqrt(ϱe), which is half of it where ϱ = e, goes on from there.
+    /// If the circle is smaller than the tolerance (ϱ < e), a chord of sagitta e does not exist.
+    /// The length is then sqrt(ϱe), which continues the formula from ϱ = e on, where it is half of
+    /// the chord.
     pub fn length(self, curvature: f64, tolerance: f64) -> f64 {
         let product = tolerance / curvature.abs();
         let half = (2.0 * product - tolerance * tolerance).max(product).sqrt();

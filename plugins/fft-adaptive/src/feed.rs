@@ -1,4 +1,4 @@
-//! The feed strategy `fft-adaptive`: eq. 1 to 3 and 5, one feed a revolution.
+//! The feed strategy `fft-adaptive`: eq. 1 to 3 and 5, with one feed for each revolution.
 
 use turnpath_plugin::locus::{Profile, profile_at};
 use turnpath_plugin::prelude::*;
@@ -6,19 +6,19 @@ use turnpath_plugin::ring::FeedTable;
 
 use crate::chord::Chord;
 
-/// Fewest radial profiles of a revolution: with 36 the feed that they allow is not yet settled
+/// Fewest radial profiles of a revolution. With 36 the feed that they allow has not settled yet
 /// (121 revolutions instead of 122 on the paper's part).
 const FEWEST_ANGLES: f64 = 72.0;
-/// Most of them: one every 36 arc seconds.
+/// Most radial profiles of a revolution: one every 36 arc seconds.
 const MOST_ANGLES: f64 = 36_000.0;
-/// The largest feed, as a part of the range: where nothing is curved the chord has no end.
+/// The largest feed, as a part of the range. The chord has no limit where nothing is curved.
 const LARGEST_PART: f64 = 0.1;
-/// By how much a feed that is capped stays below what holds: between the floors of the table and
-/// the passes of two feeds that meet.
+/// The part by which a capped feed stays below the one that keeps the residual. It covers what lies
+/// between the floors of the table, and the passes where two feeds meet.
 const MARGIN: f64 = 2e-4;
-/// The least sagitta, mm: as the recipe's own tolerances, a thousandth of a nanometre.
+/// The least sagitta, mm: a thousandth of a nanometre, like the recipe's own tolerances.
 const LEAST_SAGITTA: f64 = 1e-9;
-/// Revolutions handed out together.
+/// Number of revolutions in each answer.
 const BATCH: usize = 64;
 /// Most revolutions: two weeks at 500 rpm.
 const MOST_REVOLUTIONS: usize = 10_000_000;
@@ -76,25 +76,25 @@ impl Strategy for FftAdaptiveFeed {
 
 impl FeedStrategy for FftAdaptiveFeed {
     fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
-        let RadialRange { inner, outer } = setup.job.range;
+        let RadialRange { inner, outer } = setup.task.range;
         if !(inner.is_finite() && outer.is_finite() && inner < outer) {
             return Err(StrategyError::failed(format!(
                 "there is nothing to cut: ρ runs from {inner} mm to {outer} mm"
             )));
         }
-        let (rho, outward) = match setup.job.direction {
+        let (rho, outward) = match setup.task.direction {
             Direction::Outward => (inner, 1.0),
             Direction::Inward => (outer, -1.0),
         };
-        let held = match self.limit_residual {
-            true => Some(FeedTable::held(setup)?),
+        let residual_feed = match self.limit_residual {
+            true => Some(FeedTable::for_residual(setup)?),
             false => None,
         };
         Ok(Box::new(FftAdaptivePlan {
             rays: Rays::new(self.angles as usize),
             chord: self.chord,
-            tolerance: self.tolerance.unwrap_or(setup.job.tolerance.interpolation),
-            held,
+            tolerance: self.tolerance.unwrap_or(setup.task.tolerance.interpolation),
+            residual_feed,
             largest: LARGEST_PART * (outer - inner),
             rho,
             outward,
@@ -103,12 +103,12 @@ impl FeedStrategy for FftAdaptiveFeed {
     }
 }
 
-/// The law up to the radius ρ.
+/// A law that is planned up to the radius ρ.
 struct FftAdaptivePlan {
     rays: Rays,
     chord: Chord,
     tolerance: f64,
-    held: Option<FeedTable>,
+    residual_feed: Option<FeedTable>,
     largest: f64,
     rho: f64,
     outward: f64,
@@ -116,51 +116,51 @@ struct FftAdaptivePlan {
 }
 
 impl FeedPlan for FftAdaptivePlan {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        let RadialRange { inner, outer } = setup.job.range;
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
+        let RadialRange { inner, outer } = setup.task.range;
         let end = if self.outward > 0.0 { outer } else { inner };
         for _ in 0..BATCH {
             let feed = self.feed(setup.locus.surface())?;
             let left = self.outward * (end - self.rho);
             let length = (left / feed).min(1.0);
-            pieces.push(Stretch {
+            pieces.push(FeedPiece {
                 length,
                 coefficients: [self.rho, self.outward * feed, 0.0, 0.0, 0.0, 0.0],
             });
             self.rho += self.outward * feed;
             self.revolutions += 1;
             if left <= feed {
-                return Ok(Onward::Done);
+                return Ok(Continuation::End);
             }
         }
         if self.revolutions > MOST_REVOLUTIONS {
             return Err(too_many(self.rho));
         }
-        Ok(Onward::More)
+        Ok(Continuation::More)
     }
 }
 
 impl FftAdaptivePlan {
-    /// Δr_max of the revolution that begins at ρ (eq. 3), and not above the held feed anywhere that
-    /// the tool is from the revolution before to the one after.
+    /// Δr_max of the revolution that begins at ρ (eq. 3). It is not above the residual feed at any
+    /// radius that the tool reaches between the revolution before and the one after.
     fn feed(&mut self, surface: &dyn SurfaceModel) -> Result<f64> {
         let chord = self.rays.largest_feed(surface, self.rho, |profile| {
-            self.chord.length(profile.curvature(), self.tolerance) / profile.stretch()
+            self.chord.length(profile.curvature(), self.tolerance) / profile.slant()
         })?;
         let feed = chord.min(self.largest);
-        Ok(match &self.held {
+        Ok(match &self.residual_feed {
             None => feed,
-            Some(held) => feed.min(self.held_around(held)),
+            Some(residual_feed) => feed.min(self.least_residual_feed(residual_feed)),
         })
     }
 
-    fn held_around(&self, held: &FeedTable) -> f64 {
-        let reach = held.largest();
+    fn least_residual_feed(&self, residual_feed: &FeedTable) -> f64 {
+        let reach = residual_feed.largest();
         let (behind, ahead) = (
             self.rho - self.outward * reach,
             self.rho + self.outward * 2.0 * reach,
         );
-        held.least(behind.min(ahead), behind.max(ahead)) * (1.0 - MARGIN)
+        residual_feed.least(behind.min(ahead), behind.max(ahead)) * (1.0 - MARGIN)
     }
 }
 
@@ -181,7 +181,8 @@ impl Rays {
         }
     }
 
-    /// min over i of (2π/θ_i)·Δr_i, all at the radius `rho`: by θ_i only so much of the feed is done.
+    /// min over i of (2π/θ_i)·Δr_i, all at the radius `rho`. Up to θ_i the tool has fed only by
+    /// this part of the feed.
     fn largest_feed(
         &mut self,
         surface: &dyn SurfaceModel,

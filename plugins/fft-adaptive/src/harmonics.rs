@@ -1,9 +1,9 @@
-//! The highest harmonic of a height over one revolution that is as large as a tolerance.
+//! The highest harmonic of a height over one revolution whose amplitude reaches a tolerance.
 //!
-//! rustfft takes its sines and cosines from the standard library, whose last digit follows the
-//! CPU. Nothing of a spectrum is handed on but one number, and where an amplitude is so close to
-//! the tolerance that rounding could decide, it is summed anew with sines and cosines of the
-//! `Scalar` kind: the answer is the same on every machine.
+//! rustfft takes its sines and cosines from the standard library, whose last digit depends on the
+//! CPU. Only one number of a spectrum leaves this file. If an amplitude is so close to the
+//! tolerance that rounding could decide, the sum is computed again with sines and cosines of
+//! `Scalar`. So the answer is the same on every machine.
 
 use std::sync::Arc;
 
@@ -11,15 +11,15 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 use turnpath_plugin::prelude::*;
 
-/// Samples of a revolution, at first.
+/// Samples of a revolution in the first transform.
 pub const SAMPLES: usize = 4096;
 /// Most samples.
 const MOST_SAMPLES: usize = 1 << 16;
-/// A harmonic above this part of the samples asks for more of them: what lies above half of them
-/// shows at a wrong place.
+/// A harmonic above this part of the number of samples makes the search double the samples. A
+/// harmonic above half of them shows at a wrong frequency.
 const TRUSTED: f64 = 0.25;
-/// An amplitude this close to the tolerance is summed anew, as a part of the largest |height|: a
-/// thousand times what the transform's rounding amounts to.
+/// An amplitude this close to the tolerance is summed again, as a part of the largest |height|.
+/// This is a thousand times the rounding of the transform.
 const DOUBT: f64 = 1e-11;
 
 /// Transforms of one size, shared by all blocks.
@@ -35,33 +35,34 @@ impl Default for Harmonics {
 }
 
 impl Harmonics {
-    /// The scalar planner does not ask the CPU what it can do.
+    /// Plans the transform with the scalar planner, which does not depend on the features of the
+    /// CPU.
     fn of(samples: usize) -> Self {
         Self {
             transform: FftPlannerScalar::new().plan_fft_forward(samples),
         }
     }
 
-    /// The highest k ≥ 1 with 2|F_k|/n ≥ `tolerance`, 0 where there is none. `heights` gives the
-    /// heights at even angles from 0 on, as many as there are places.
+    /// The highest k ≥ 1 with 2|F_k|/n ≥ `tolerance`, or 0 if there is none. `heights` fills the
+    /// slice with the heights at even angles from 0 on.
     ///
     /// # Errors
-    /// Those of `heights`.
+    /// The errors of `heights`.
     pub fn highest(
         &self,
         tolerance: f64,
         mut heights: impl FnMut(&mut [f64]) -> Result<()>,
     ) -> Result<usize> {
         let mut samples = self.transform.len();
-        let mut found = self.look(tolerance, &mut heights)?;
-        while found as f64 > TRUSTED * samples as f64 && samples < MOST_SAMPLES {
+        let mut highest = self.transform(tolerance, &mut heights)?;
+        while highest as f64 > TRUSTED * samples as f64 && samples < MOST_SAMPLES {
             samples *= 4;
-            found = Self::of(samples).look(tolerance, &mut heights)?;
+            highest = Self::of(samples).transform(tolerance, &mut heights)?;
         }
-        Ok(found)
+        Ok(highest)
     }
 
-    fn look(
+    fn transform(
         &self,
         tolerance: f64,
         heights: &mut impl FnMut(&mut [f64]) -> Result<()>,
@@ -89,7 +90,7 @@ fn size(re: f64, im: f64, count: usize) -> f64 {
     2.0 * (re * re + im * im).sqrt() / count as f64
 }
 
-/// 2|F_k|/n, term by term.
+/// 2|F_k|/n, summed term by term.
 fn summed(z: &[f64], k: usize, circle: &mut Vec<(f64, f64)>) -> f64 {
     let count = z.len();
     if circle.is_empty() {
@@ -108,7 +109,7 @@ fn summed(z: &[f64], k: usize, circle: &mut Vec<(f64, f64)>) -> f64 {
 mod tests {
     use super::*;
 
-    /// 1 + 3 cos 5θ + 0.2 sin 40θ + 0.01 cos 900θ, and one wave more.
+    /// 1 + 3 cos 5θ + 0.2 sin 40θ + 0.01 cos 900θ, and one more wave.
     fn heights(wave: (f64, f64)) -> impl FnMut(&mut [f64]) -> Result<()> {
         move |z| {
             let count = z.len() as f64;
@@ -131,22 +132,22 @@ mod tests {
     }
 
     #[test]
-    fn the_highest_harmonic_of_the_tolerances_size_counts() {
+    fn the_result_is_the_highest_harmonic_as_large_as_the_tolerance() {
         for (tolerance, expected) in [(4.0, 0), (1.0, 5), (0.19, 40), (0.21, 5), (0.005, 900)] {
             assert_eq!(highest(tolerance, (0.0, 0.0)), expected, "{tolerance}");
         }
     }
 
-    /// Amplitudes that are the tolerance but for a few units of their last digit.
+    /// Amplitudes that differ from the tolerance by a few units of the last digit.
     #[test]
     fn at_the_tolerance_itself_the_sum_decides() {
         assert_eq!(highest(0.1, (77.0, 0.1 + 1e-14)), 77);
         assert_eq!(highest(0.1, (77.0, 0.1 - 1e-14)), 40);
     }
 
-    /// 3000 of 4096 samples would show as 1096.
+    /// With 4096 samples, harmonic 3000 would show as 1096.
     #[test]
-    fn a_harmonic_above_half_of_the_samples_is_looked_at_again() {
+    fn a_harmonic_above_half_of_the_samples_takes_more_samples() {
         assert_eq!(highest(0.1, (3000.0, 0.5)), 3000);
     }
 

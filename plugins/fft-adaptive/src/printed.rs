@@ -1,4 +1,4 @@
-//! The step as eq. 4 prints it: by the curvature at its start alone, z = f(r_j, l), l = r_j θ.
+//! The step as eq. 4 prints it: from the curvature at its start alone, z = f(r_j, l), l = r_j θ.
 
 use turnpath_plugin::hermite::SHORTEST;
 use turnpath_plugin::prelude::*;
@@ -6,11 +6,11 @@ use turnpath_plugin::prelude::*;
 use crate::revolution::{no_bend, too_short};
 use crate::rule::{Bend, Rule};
 
-/// Δθ from `n`, rad, on the circle of ρ = r_j through the place: the printed curve, which the
-/// spiral leaves by the feed.
+/// Δθ from `n`, rad, on the circle of ρ = r_j through the start. This circle is the printed curve;
+/// the spiral leaves it by the feed.
 ///
 /// # Errors
-/// Where that circle has no curvature, or one that asks for steps below the shortest.
+/// If the circle has no curvature at the start, or a curvature that needs steps below the shortest.
 pub fn step_from(path: &Path<'_>, turn: Turn, n: f64, rule: &Rule) -> Result<f64> {
     let rho = path.radius_at(n);
     let theta = [TAU * (n - n.floor()), 1.0, 0.0, 0.0, 0.0];

@@ -1,18 +1,18 @@
-//! One revolution of the path on an even grid of angles: what step each place allows.
+//! One revolution of the path on an even grid of angles, with the step that each point allows.
 
 use turnpath_plugin::hermite::SHORTEST;
 use turnpath_plugin::prelude::*;
 
 use crate::rule::{Bend, Rule};
 
-/// Places of the grid, at first.
+/// Points of the first grid.
 const FEWEST: usize = 512;
-/// Most places: what asks for more has no steps that are long enough.
+/// Most points of a grid. A surface that needs more has no steps that are long enough.
 const MOST: usize = 1 << 20;
-/// Places within a step, at least.
-const LOOKS: f64 = 16.0;
+/// The least number of points within a step.
+const LEAST_POINTS: f64 = 16.0;
 
-/// The steps that a revolution's places allow.
+/// The steps that the points of a revolution allow.
 pub struct Revolution {
     turn: Turn,
     bends: Vec<Bend>,
@@ -20,11 +20,11 @@ pub struct Revolution {
 }
 
 impl Revolution {
-    /// Looks at a revolution on a grid of which the smallest step has 16 places.
+    /// Evaluates a revolution on a grid on which the smallest step has 16 points.
     ///
     /// # Errors
-    /// Where the path has no curvature, or one that asks for steps below the shortest.
-    pub fn look(path: &Path<'_>, turn: Turn, rule: Rule) -> Result<Self> {
+    /// If the path has no curvature, or a curvature that needs steps below the shortest.
+    pub fn evaluate(path: &Path<'_>, turn: Turn, rule: Rule) -> Result<Self> {
         let mut revolution = Self {
             turn,
             bends: Vec::new(),
@@ -34,7 +34,7 @@ impl Revolution {
         loop {
             revolution.sample(path, places)?;
             let least = revolution.least_step();
-            let needed = LOOKS * TAU * (turn.end - turn.start) / least;
+            let needed = LEAST_POINTS * TAU * (turn.end - turn.start) / least;
             if needed <= places as f64 {
                 return Ok(revolution);
             }
@@ -72,7 +72,7 @@ impl Revolution {
         steps.fold(f64::INFINITY, f64::min)
     }
 
-    /// A place in steps of the grid, and the bend there.
+    /// The position of `n` in steps of the grid, and the bend there.
     fn at(&self, n: f64) -> (f64, Bend) {
         let Turn { start, end } = self.turn;
         let last = self.bends.len().saturating_sub(1);
@@ -85,7 +85,8 @@ impl Revolution {
         (place, bend)
     }
 
-    /// Δθ from `n` by the largest curvature on the step that the start's own would allow, rad.
+    /// Δθ from `n`, rad, by the largest curvature on the step that the curvature at `n` alone would
+    /// allow.
     pub fn step_over(&self, n: f64) -> f64 {
         let (from, start) = self.at(n);
         let trial = self.allowed(start);
@@ -98,7 +99,7 @@ impl Revolution {
     }
 }
 
-/// What a place without a curvature says.
+/// The error of a point without a curvature.
 pub fn no_bend(n: f64, rho: f64) -> StrategyError {
     StrategyError::failed(format!(
         "the tool centre's path has no curvature at C = {:.3} deg, ρ = {rho:.4} mm",
@@ -106,11 +107,11 @@ pub fn no_bend(n: f64, rho: f64) -> StrategyError {
     ))
 }
 
-/// What steps below the shortest say.
+/// The error of steps below the shortest.
 pub fn too_short(path: &Path<'_>, turn: Turn, least: f64) -> StrategyError {
     StrategyError::failed(format!(
-        "the tolerance asks for steps of {:.2e} deg in revolution {:.0}, ρ = {:.4} mm, and the \
-         shortest is {:.3} deg: choose a larger interpolation tolerance, or another sampler",
+        "the tolerance needs steps of {:.2e} deg in revolution {:.0}, ρ = {:.4} mm, but the \
+         shortest allowed step is {:.3} deg: choose a larger interpolation tolerance, or another sampler",
         least / DEG,
         turn.start,
         path.radius_at(turn.start),

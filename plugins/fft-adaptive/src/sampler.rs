@@ -1,4 +1,4 @@
-//! The sampler `fft-adaptive`: eq. 1 and 4, and the critical rate from a spectrum.
+//! The sampler `fft-adaptive`: eq. 1 and 4, and the critical step from a spectrum.
 
 use turnpath_plugin::hermite::MAX_STEP;
 use turnpath_plugin::prelude::*;
@@ -9,20 +9,20 @@ use crate::printed::step_from;
 use crate::revolution::Revolution;
 use crate::rule::Rule;
 
-/// A node closer to the revolution's end than this part of its step is left out.
+/// A node that lies closer to the revolution's end than this part of its step is left out.
 const SLACK: f64 = 1e-3;
 
-/// Which curvature a step goes by.
+/// The curvature that decides the length of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Curvature {
-    /// The largest on the step.
+    /// The largest curvature on the step.
     Step,
-    /// That at its start, on the circle through it.
+    /// The curvature at the step's start, on the circle through it.
     Start,
 }
 
-/// Steps whose chord stays within the interpolation tolerance, and two of them in the shortest
-/// wave that is as high as it.
+/// Steps whose chord stays within the interpolation tolerance, and at least two steps in the
+/// shortest wave that is as high as the tolerance.
 #[derive(Clone)]
 pub struct FftAdaptiveSampler {
     chord: Chord,
@@ -73,10 +73,10 @@ impl Sampler for FftAdaptiveSampler {
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
         for turn in block.turns() {
             let longest = self.critical_step(path, turn.start)?;
-            let rule = Rule::new(path.job, self.chord, longest);
+            let rule = Rule::new(path.task, self.chord, longest);
             match self.curvature {
                 Curvature::Step => {
-                    let revolution = Revolution::look(path, turn, rule)?;
+                    let revolution = Revolution::evaluate(path, turn, rule)?;
                     walk(turn, nodes, |n| Ok(revolution.step_over(n)))?;
                 }
                 Curvature::Start => walk(turn, nodes, |n| step_from(path, turn, n, &rule))?,
@@ -86,7 +86,7 @@ impl Sampler for FftAdaptiveSampler {
     }
 }
 
-/// Nodes from the turn's start on, each a step (rad) after the one before.
+/// Appends nodes from the turn's start on. Each lies one step (rad) after the node before.
 fn walk(turn: Turn, nodes: &mut Vec<f64>, mut step: impl FnMut(f64) -> Result<f64>) -> Result<()> {
     let mut n = turn.start;
     while n < turn.end {
@@ -102,11 +102,11 @@ fn walk(turn: Turn, nodes: &mut Vec<f64>, mut step: impl FnMut(f64) -> Result<f6
 }
 
 impl FftAdaptiveSampler {
-    /// Δθ_ct = π/k, rad: two steps in a period of the highest harmonic that the tool centre has on
-    /// the circle of the revolution's starting radius; and never more than `max_step`.
+    /// Δθ_ct = π/k, rad: two steps in a period of the highest harmonic of the tool centre on the
+    /// circle of the revolution's starting radius. It is never more than `max_step`.
     fn critical_step(&self, path: &Path<'_>, start: f64) -> Result<f64> {
         let rho = path.radius_at(start);
-        let tolerance = path.job.tolerance.interpolation;
+        let tolerance = path.task.tolerance.interpolation;
         let highest = self
             .harmonics
             .highest(tolerance, |z| heights(path, rho, z))?;

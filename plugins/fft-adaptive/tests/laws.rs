@@ -96,8 +96,8 @@ fn worst(case: &Case, law: &SpiralLaw, offset: f64) -> f64 {
 
 /// From end to end of the range, one piece a revolution, each turn beyond the last.
 fn check_shape(case: &Case, law: &SpiralLaw) {
-    let range = case.job.range;
-    let (from, to, sign) = match case.job.direction {
+    let range = case.task.range;
+    let (from, to, sign) = match case.task.direction {
         Direction::Outward => (range.inner, range.outer, 1.0),
         Direction::Inward => (range.outer, range.inner, -1.0),
     };

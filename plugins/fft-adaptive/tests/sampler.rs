@@ -35,7 +35,7 @@ fn place(
     end: f64,
 ) -> Result<Vec<f64>> {
     let path = Path {
-        job: &case.job,
+        task: &case.task,
         locus: &case.locus,
         law,
         prepared: &[],
@@ -138,7 +138,7 @@ fn as_printed_the_curve_is_the_circle_through_the_start() {
 fn the_steps_own_curvature_keeps_the_chord_within_the_tolerance() {
     let case = mla_5(Uncompensated);
     let mut case = case;
-    case.job.tolerance.interpolation = 20.0 * NM;
+    case.task.tolerance.interpolation = 20.0 * NM;
     let law = circles(4.3, 1.0);
     let worst = |curvature: &str| {
         let mut nodes = place(&sampler("full", curvature, 45.0), &case, &law, 0.0, 1.0).unwrap();

@@ -2,7 +2,8 @@
 
 use turnpath_plugin::prelude::*;
 
-/// Smallest step: 360,000 points a revolution are a slip of the unit, and finer ones fill the memory.
+/// Smallest step. 360,000 points on a revolution come from a wrong unit, and finer steps fill the
+/// memory.
 pub const SMALLEST_STEP: f64 = 1e-3 * DEG;
 /// The parameter `spacing`.
 pub const SPACING: Param = Param::length(
@@ -10,24 +11,25 @@ pub const SPACING: Param = Param::length(
     "largest arc between neighbouring points, in the plane of the part",
 )
 .positive();
-/// Nodes and weights of Gauss' rule of 6th order on (0, 1), around the middle.
+/// Nodes and weights of Gauss' rule of 6th order on (0, 1), relative to the middle node.
 const GAUSS: f64 = 0.387_298_334_620_741_7;
 const OUTER: f64 = 5.0 / 18.0;
 const MIDDLE: f64 = 8.0 / 18.0;
-/// A panel of the integral, in revolutions: over an eighth the rule is exact to a millionth where
+/// A panel of the integral, in revolutions. Over an eighth the rule is exact to a millionth where
 /// the radius is no less than the feed.
 const PANEL: f64 = 0.125;
-/// Closing in on a step's end: more rounds than it takes to halve any step down to rounding.
+/// Rounds of the search for a step's end: more than it takes to halve any step down to rounding.
 const ROUNDS: usize = 60;
-/// A step is known when it is known to this part.
+/// The search for a step ends when it changes the step by less than this part.
 const SETTLED: f64 = 1e-12;
-/// A node closer to the path's end than this part of a step is left out: it would be the end.
+/// A node that lies closer to the path's end than this part of a step is left out: it would
+/// coincide with the end.
 const SLACK: f64 = 1e-6;
 
-/// Steps of one arc, and none longer than an angle.
+/// Steps of one arc length, none longer than an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcSteps {
-    /// Arc of a step, mm.
+    /// Arc length of a step, mm.
     pub spacing: f64,
     /// Largest step, rad.
     pub max_step: f64,
@@ -42,8 +44,8 @@ impl ArcSteps {
         }
     }
 
-    /// Appends the nodes of a block. `state` holds where the block before left the next node, in
-    /// revolutions; empty for the first.
+    /// Appends the nodes of a block. `state` holds the next node after the block before, in
+    /// revolutions; it is empty for the first block.
     pub fn place(
         &self,
         path: &Path<'_>,
@@ -72,7 +74,7 @@ impl ArcSteps {
         Ok(())
     }
 
-    /// The step from `n`, in revolutions.
+    /// The length of the step from `n`, in revolutions.
     fn step_from(&self, path: &Path<'_>, n: f64) -> f64 {
         let longest = self.max_step / TAU;
         if arc(path, n, longest) <= self.spacing {

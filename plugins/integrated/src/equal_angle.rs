@@ -2,29 +2,32 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::sharpest::{Spot, sharpest, where_is};
+use crate::sharpest::{Spot, position, sharpest};
 
-/// A count of steps a revolution this close to a whole one is that one: 6 deg in rad is not a
-/// 60th of a revolution to the last digit, and the 60th node must not drift off.
+/// A number of steps on a revolution that lies this close to a whole number counts as that number.
+/// 6 deg in rad is not exactly a 60th of a revolution, and the 60th node must not drift off.
 const WHOLE: f64 = 1e-9;
-/// A node closer than this part of a step to the path's end is left out: it would be the end.
+/// A node that lies closer to the path's end than this part of a step is left out: it would
+/// coincide with the end.
 const SLACK: f64 = 1e-6;
-/// Part of the interpolation tolerance that a derived step aims at: a little below what refinement
-/// takes for good, so that it finds nothing to do, for half a percent more points.
+/// The part of the interpolation tolerance that a derived step aims at. It lies a little below what
+/// refinement accepts, so that refinement finds nothing to halve. It costs half a percent more
+/// points.
 const AIM: f64 = 0.98;
-/// Smallest step, given or derived: 360,000 points a revolution are a slip of the unit or a kink
-/// of the surface, not what somebody wants, and finer ones fill the memory: a block of 64 revolutions
-/// is 23 million points already.
+/// Smallest step, given or derived. 360,000 points on a revolution come from a wrong unit or from a
+/// kink of the surface; nobody wants them. Finer steps fill the memory: a block of 64 revolutions
+/// already has 23 million points.
 const SMALLEST_STEP: f64 = 1e-3 * DEG;
-/// With [`Misfit::CutWhatFits`] a derived step is no smaller than this: where the nose passes from one
-/// side of a seam to the other no step is right, and refinement halves those that are too long.
+/// With [`Misfit::CutWhatFits`] no derived step is smaller than this. No step is right where the
+/// nose passes from one side of a seam to the other, and refinement halves the steps that are too
+/// long.
 const LEAST_NEAR_SEAMS: f64 = 0.25 * DEG;
 
 /// Node k lies at k steps of the C angle from the path's start, on whatever revolution that is.
 ///
-/// A step that is not given is the largest for which L⁴/384·max|φ⁗| over the whole path, the
-/// error of cubics with exact slopes, stays within the interpolation tolerance. It knows nothing
-/// of knots of the feed's law; refinement sees what they do.
+/// If no step is given, the sampler takes the largest step for which L⁴/384·max|φ⁗| over the whole
+/// path, the error of cubics with exact slopes, stays within the interpolation tolerance. This step
+/// does not consider knots of the feed's law; refinement corrects their effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EqualAngle {
     step: Option<f64>,
@@ -68,11 +71,12 @@ impl Strategy for EqualAngle {
 }
 
 impl EqualAngle {
-    /// The largest step that the interpolation tolerance allows at the path's worst place, rad.
+    /// The largest step that the interpolation tolerance allows at the sharpest point of the path,
+    /// rad.
     fn derive(&self, path: &Path<'_>) -> Result<f64> {
         let Spot { n, sharpness } = sharpest(path)?;
-        let fourth_power = 384.0 * AIM * path.job.tolerance.interpolation / sharpness;
-        let step = match path.job.tool.misfit {
+        let fourth_power = 384.0 * AIM * path.task.tolerance.interpolation / sharpness;
+        let step = match path.task.tool.misfit {
             Misfit::Refuse => fourth_power.sqrt().sqrt(),
             Misfit::CutWhatFits => fourth_power.sqrt().sqrt().max(LEAST_NEAR_SEAMS),
         };
@@ -82,7 +86,7 @@ impl EqualAngle {
                 "tolerance.interpolation would take steps of {:.2e} deg: the tool centre's path \
                  bends too sharply at {}; give `step`",
                 step / DEG,
-                where_is(path, n)
+                position(path, n)
             )));
         }
         Ok(step)
@@ -92,7 +96,7 @@ impl EqualAngle {
         match self.step.or(path.prepared.first().copied()) {
             Some(step) => Ok(Steps::of(step)),
             None => Err(StrategyError::failed(
-                "the path has not been looked at, and no step is given",
+                "no step is given, and the path was not prepared",
             )),
         }
     }
@@ -113,7 +117,7 @@ impl Steps {
         }
     }
 
-    /// Where node `k` lies, in revolutions.
+    /// Position of node `k`, in revolutions.
     fn node(&self, k: u64) -> f64 {
         k as f64 / self.per_turn
     }

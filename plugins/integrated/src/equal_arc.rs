@@ -4,10 +4,10 @@ use turnpath_plugin::prelude::*;
 
 use crate::arc::{ArcSteps, SPACING};
 
-/// Largest angle of a step: near the centre the arc of one turn is shorter than any spacing.
+/// Largest angle of a step. Near the centre the arc of one turn is shorter than any spacing.
 const LARGEST_STEP: f64 = 90.0 * DEG;
 
-/// Neighbouring nodes lie one arc apart along the spiral, as seen from above.
+/// Neighbouring nodes lie one arc length apart along the spiral, seen from above.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EqualArc {
     steps: ArcSteps,
@@ -35,7 +35,7 @@ impl Sampler for EqualArc {
         self.steps.place(path, block, &mut Vec::new(), nodes)
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,

@@ -4,7 +4,7 @@ use turnpath_plugin::prelude::*;
 
 use crate::arc::{ArcSteps, SMALLEST_STEP, SPACING};
 
-/// Equal arcs outside; from where they would span more than the largest angle on inwards, equal
+/// Equal arcs outside. Further in, where these arcs would span more than the largest angle, equal
 /// angles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Integrated {
@@ -43,7 +43,7 @@ impl Sampler for Integrated {
         self.steps.place(path, block, &mut Vec::new(), nodes)
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,

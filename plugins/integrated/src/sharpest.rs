@@ -1,27 +1,28 @@
-//! The largest fourth derivative that the played coordinate has on the path: what limits a step.
+//! The largest fourth derivative of the played coordinate on the path. It limits the step.
 //!
-//! A look along the spiral, then closing in on the sharpest places. The played coordinate φ is Z
-//! of the tool centre along the true spiral. Where X bends too, its own error moves the place at
-//! which Z is compared, by the slope: φ⁗ = Z⁗ − ∂Z/∂X·X⁗ (after Wang et al. 2019, §3.4, for the
-//! tool centre instead of the contact).
+//! The search evaluates points along the spiral and then refines the sharpest of them. The played
+//! coordinate φ is Z of the tool centre along the true spiral. Where X bends too, its own error
+//! moves the position at which Z is compared, by the slope: φ⁗ = Z⁗ − ∂Z/∂X·X⁗ (after Wang et al.
+//! 2019, §3.4, for the tool centre instead of the contact).
 
 use turnpath_plugin::prelude::*;
 
-/// Places of a revolution that are looked at: one in a degree. Not a whole number, so that the
-/// next revolution's lie between them: ripples narrower than a degree are met as well.
-const PLACES: f64 = 360.618;
-/// Most places that are looked at. On longer paths only every so many revolutions are: there
-/// they are a thousandth of the radius apart, or less.
-const MOST_PLACES: f64 = 2e6;
-/// Places in a batch.
+/// Points of a revolution: one in each degree. The number is not whole, so that the points of the
+/// next revolution lie between them. In this way the search also meets ripples that are narrower
+/// than a degree.
+const POINTS: f64 = 360.618;
+/// Most points of a path. On longer paths the search evaluates only every so many revolutions.
+/// These are a thousandth of the radius apart, or less.
+const MOST_POINTS: f64 = 2e6;
+/// Points in a batch.
 const BATCH: usize = 4096;
-/// How many of the sharpest places are closed in on: waves have many crests that look alike.
+/// How many of the sharpest points the search refines. Waves have many crests that look alike.
 const CANDIDATES: usize = 16;
-/// Rounds of closing in; a round that finds nothing sharper halves the distance. After ten such
-/// a crest is known to a thousandth of a degree, where it is flat to 1e-6.
+/// Rounds of refinement. A round that finds nothing sharper halves the distance. After ten such
+/// rounds a crest is known to a thousandth of a degree, where it is flat to 1e-6.
 const ROUNDS: usize = 24;
 
-/// A place of the path, and |d⁴φ/dθ⁴| there, mm.
+/// A point of the path, and |d⁴φ/dθ⁴| there, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spot {
     /// Revolutions.
@@ -30,23 +31,24 @@ pub struct Spot {
     pub sharpness: f64,
 }
 
-/// The sharpest place of the path.
+/// The sharpest point of the path.
 ///
 /// # Errors
-/// Where the tool centre has no fourth derivative.
+/// If the tool centre has no fourth derivative somewhere.
 pub fn sharpest(path: &Path<'_>) -> Result<Spot> {
     let scan = Scan::new(path.law.end());
-    let mut best = scan.look(path)?;
-    let mut reach = vec![(0.5 / PLACES, scan.stride / 2.0); best.len()];
+    let mut best = scan.evaluate(path)?;
+    let mut reach = vec![(0.5 / POINTS, scan.stride / 2.0); best.len()];
     for _ in 0..ROUNDS {
         let around: Vec<f64> = best
             .iter()
             .zip(&reach)
             .flat_map(|(spot, reach)| scan.neighbours(spot.n, *reach))
             .collect();
-        let tried = measure(path, &around)?;
-        for ((spot, reach), tried) in best.iter_mut().zip(&mut reach).zip(tried.chunks(8)) {
-            match tried.iter().max_by(by_sharpness) {
+        let neighbours = measure(path, &around)?;
+        for ((spot, reach), neighbours) in best.iter_mut().zip(&mut reach).zip(neighbours.chunks(8))
+        {
+            match neighbours.iter().max_by(by_sharpness) {
                 Some(sharper) if sharper.sharpness > spot.sharpness => *spot = *sharper,
                 _ => *reach = (0.5 * reach.0, 0.5 * reach.1),
             }
@@ -66,34 +68,34 @@ fn by_sharpness(a: &&Spot, b: &&Spot) -> std::cmp::Ordering {
     a.sharpness.total_cmp(&b.sharpness)
 }
 
-/// Which places of a path are looked at.
+/// The points of a path that the search evaluates.
 struct Scan {
     end: f64,
-    /// Revolutions from one that is looked at to the next.
+    /// Revolutions from the start of one evaluated revolution to the start of the next.
     stride: f64,
 }
 
 impl Scan {
     fn new(end: f64) -> Self {
-        let stride = (end * PLACES / MOST_PLACES).ceil().max(1.0);
+        let stride = (end * POINTS / MOST_POINTS).ceil().max(1.0);
         Self { end, stride }
     }
 
-    /// The sharpest of the places that are no flatter than the two next to them.
-    fn look(&self, path: &Path<'_>) -> Result<Vec<Spot>> {
+    /// The sharpest of the points that are no flatter than the two next to them.
+    fn evaluate(&self, path: &Path<'_>) -> Result<Vec<Spot>> {
         let mut found = Vec::new();
         let mut start = 0.0;
         while start < self.end {
-            self.look_at_turn(path, start, &mut found)?;
+            self.evaluate_turn(path, start, &mut found)?;
             start += self.stride;
         }
         if self.stride > 1.0 {
-            self.look_at_turn(path, self.end - 1.0, &mut found)?;
+            self.evaluate_turn(path, self.end - 1.0, &mut found)?;
         }
         Ok(found)
     }
 
-    fn look_at_turn(&self, path: &Path<'_>, start: f64, found: &mut Vec<Spot>) -> Result<()> {
+    fn evaluate_turn(&self, path: &Path<'_>, start: f64, found: &mut Vec<Spot>) -> Result<()> {
         let spots = measure(path, &self.turn(start))?;
         for (k, spot) in spots.iter().enumerate() {
             let next = [k.checked_sub(1), Some(k + 1)];
@@ -110,16 +112,17 @@ impl Scan {
         Ok(())
     }
 
-    /// The places from `start` on over one revolution, with both ends.
+    /// The points from `start` on over one revolution, with both ends.
     fn turn(&self, start: f64) -> Vec<f64> {
         let end = (start + 1.0).min(self.end);
-        let first = (start * PLACES).floor() + 1.0;
-        let inner = (0..).map(|k| (first + f64::from(k)) / PLACES);
+        let first = (start * POINTS).floor() + 1.0;
+        let inner = (0..).map(|k| (first + f64::from(k)) / POINTS);
         let inner = inner.take_while(|n| *n < end);
         std::iter::once(start).chain(inner).chain([end]).collect()
     }
 
-    /// The eight places next to `n`, so many revolutions on along the path and whole ones across.
+    /// The eight points next to `n`: `along` revolutions away along the path, and `across` whole
+    /// revolutions away across it.
     fn neighbours(&self, n: f64, (along, across): (f64, f64)) -> impl Iterator<Item = f64> {
         let (end, turns) = (self.end, across.floor());
         let steps = [-1.0, 0.0, 1.0];
@@ -130,7 +133,7 @@ impl Scan {
     }
 }
 
-/// |φ⁗| at places of the path.
+/// |φ⁗| at points of the path.
 fn measure(path: &Path<'_>, places: &[f64]) -> Result<Vec<Spot>> {
     let mut spots = Vec::with_capacity(places.len());
     for batch in places.chunks(BATCH) {
@@ -149,7 +152,7 @@ fn measure(path: &Path<'_>, places: &[f64]) -> Result<Vec<Spot>> {
     Ok(spots)
 }
 
-/// ∂Z/∂X at the places; 0 everywhere where X has no fourth derivative.
+/// ∂Z/∂X at the points; 0 everywhere if X has no fourth derivative.
 fn slopes(path: &Path<'_>, places: &[f64], x: &[Series]) -> Result<Vec<f64>> {
     let mut slopes = vec![0.0; places.len()];
     if x.iter().all(|x| x[4] == 0.0) {
@@ -169,8 +172,8 @@ fn slopes(path: &Path<'_>, places: &[f64], x: &[Series]) -> Result<Vec<f64>> {
     Ok(slopes)
 }
 
-/// Where a place lies on the part, for messages.
-pub fn where_is(path: &Path<'_>, n: f64) -> String {
+/// The position of a point on the part, for messages.
+pub fn position(path: &Path<'_>, n: f64) -> String {
     let (sin, cos) = Scalar::sin_cos(angle(n));
     let rho = path.radius_at(n);
     format!("x = {:.4} mm, y = {:.4} mm", rho * cos, rho * sin)
@@ -179,6 +182,6 @@ pub fn where_is(path: &Path<'_>, n: f64) -> String {
 fn no_derivative(path: &Path<'_>, n: f64) -> StrategyError {
     StrategyError::failed(format!(
         "no step can be found at {}: the tool centre has no fourth derivative there; give `step`",
-        where_is(path, n)
+        position(path, n)
     ))
 }

@@ -5,8 +5,8 @@ use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, propte
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use turnpath_core::{
-    DEG, Direction, Job, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler, Series,
-    SpindleLaw, SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
+    DEG, Direction, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler, Series,
+    SpindleLaw, SpiralLaw, Strategy, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::{EqualAngle, EqualArc, Integrated};
 use turnpath_nose_radius::Uncompensated;
@@ -16,8 +16,8 @@ use turnpath_surfaces::Astigmatic;
 const K: f64 = 0.0015;
 const RIM: f64 = 20.0;
 
-fn job() -> Job {
-    Job {
+fn task() -> Task {
+    Task {
         part: Part {
             aperture_radius: RIM,
             inner_radius: 0.0,
@@ -67,27 +67,27 @@ fn equal_angle(step: f64) -> Box<dyn Sampler> {
     Box::new(EqualAngle::new(&params).unwrap())
 }
 
-fn locus(job: &Job) -> ToolLocus {
+fn locus(task: &Task) -> ToolLocus {
     let surface = Arc::new(Astigmatic::new(&Params::new().with("k", K)).unwrap());
-    ToolLocus::new(surface, Arc::new(Uncompensated), job.tool)
+    ToolLocus::new(surface, Arc::new(Uncompensated), task.tool)
 }
 
 /// The nodes of a path, made in blocks of so many revolutions.
 fn nodes(sampler: &dyn Sampler, law: &SpiralLaw, block: f64) -> Vec<f64> {
-    let job = job();
-    let locus = locus(&job);
+    let task = task();
+    let locus = locus(&task);
     let (mut nodes, mut state, mut start) = (Vec::new(), Vec::new(), 0.0);
     while start < law.end() {
         let end = (start + block).min(law.end());
         let window = law.window(start - 1.0, end + 1.0);
         let path = Path {
-            job: &job,
+            task: &task,
             locus: &locus,
             law: &window,
             prepared: &[],
         };
         sampler
-            .place_onward(&path, Revolutions { start, end }, &mut state, &mut nodes)
+            .place_sequential(&path, Revolutions { start, end }, &mut state, &mut nodes)
             .unwrap();
         start = end;
     }
@@ -146,10 +146,10 @@ fn where_the_tool_stands_still_on_the_axis_the_largest_step_binds() {
 /// 20 mm and 0.001° are 0.349 µm.
 #[test]
 fn a_spacing_of_too_many_points_is_an_error_on_it() {
-    let (job, law) = (job(), spiral(RIM, -0.05, 400.0));
-    let locus = locus(&job);
+    let (task, law) = (task(), spiral(RIM, -0.05, 400.0));
+    let locus = locus(&task);
     let path = Path {
-        job: &job,
+        task: &task,
         locus: &locus,
         law: &law,
         prepared: &[],
@@ -192,11 +192,11 @@ fn middle(from: &Series, to: &Series, h: f64) -> f64 {
 /// The largest error, mm, of cubics with exact rates in each of `rings` rings of one width, inner
 /// ring first.
 fn error_against_radius(sampler: &dyn Sampler, rings: usize) -> Vec<f64> {
-    let (job, law) = (job(), spiral(RIM, -0.05, 400.0));
-    let locus = locus(&job);
+    let (task, law) = (task(), spiral(RIM, -0.05, 400.0));
+    let locus = locus(&task);
     let nodes = nodes(sampler, &law, 64.0);
     let path = Path {
-        job: &job,
+        task: &task,
         locus: &locus,
         law: &law,
         prepared: &[],

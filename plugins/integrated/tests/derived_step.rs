@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, DEG, Direction, Job, Machine, NM, ParamValue, Params, Part, Path, RadialRange,
-    Result, Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Strategy, SurfaceModel, Tolerance,
+    Compensator, DEG, Direction, Machine, NM, ParamValue, Params, Part, Path, RadialRange, Result,
+    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Strategy, SurfaceModel, Task, Tolerance,
     Tool, ToolLocus,
 };
 use turnpath_integrated::EqualAngle;
@@ -50,7 +50,7 @@ impl Case {
             aperture_radius: self.rim,
             inner_radius: 0.0,
         };
-        let job = Job {
+        let task = Task {
             part,
             tool,
             tolerance: Tolerance {
@@ -70,7 +70,7 @@ impl Case {
         let rate = -self.rim / self.revolutions;
         law.push(self.revolutions, [self.rim, rate, 0.0, 0.0, 0.0, 0.0]);
         call(&Path {
-            job: &job,
+            task: &task,
             locus: &locus,
             law: &law,
             prepared,

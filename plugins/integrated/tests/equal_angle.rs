@@ -4,15 +4,15 @@
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
 use std::sync::Arc;
 use turnpath_core::{
-    DEG, Direction, Job, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler,
-    SpindleLaw, SpiralLaw, Strategy, Tolerance, Tool, ToolLocus,
+    DEG, Direction, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler, SpindleLaw,
+    SpiralLaw, Strategy, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::EqualAngle;
 use turnpath_nose_radius::Uncompensated;
 use turnpath_surfaces::Astigmatic;
 
-fn job() -> Job {
-    Job {
+fn task() -> Task {
+    Task {
         part: Part {
             aperture_radius: 2.5,
             inner_radius: 0.0,
@@ -39,9 +39,9 @@ fn job() -> Job {
 
 /// The nodes of a path of so many revolutions, made in blocks.
 fn nodes(step: f64, revolutions: f64, block: f64) -> Vec<f64> {
-    let job = job();
+    let task = task();
     let surface = Arc::new(Astigmatic::new(&Params::new().with("k", 0.08)).unwrap());
-    let locus = ToolLocus::new(surface, Arc::new(Uncompensated), job.tool);
+    let locus = ToolLocus::new(surface, Arc::new(Uncompensated), task.tool);
     let mut law = SpiralLaw::new();
     law.push(revolutions, [2.5, -2.5 / revolutions, 0.0, 0.0, 0.0, 0.0]);
     let params = Params::new()
@@ -53,7 +53,7 @@ fn nodes(step: f64, revolutions: f64, block: f64) -> Vec<f64> {
     while start < revolutions {
         let end = (start + block).min(revolutions);
         let path = Path {
-            job: &job,
+            task: &task,
             locus: &locus,
             law: &law,
             prepared: &[],

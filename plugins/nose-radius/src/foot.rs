@@ -1,70 +1,39 @@
 //! The foot: where the nose at a given X touches the radial section from above.
 //!
-//! With d = the foot's distance from the centre's X, the touching circle has d = R g_ρ/w at the
-//! foot, so the root of G(d) = d − R g_ρ(ρ + d)/w is sought. G′ = 1 − Rκ: where the nose fits
-//! (Rκ < 1 over its reach) G grows, the root is the only one, and G(−R) < 0 < G(R) brackets it.
-//! Where the nose need not fit, a scan brackets all roots that may be the highest place.
+//! Let d be the foot's distance from the centre's X. The touching circle has d = R g_ρ/w at the
+//! foot, so d is a root of G(d) = d − R g_ρ(ρ + d)/w. G′ = 1 − Rκ: where the nose fits (Rκ < 1 over
+//! its reach) G grows, the root is the only one, and G(−R) < 0 < G(R) is its bracket. Where the nose
+//! need not fit, a scan brackets all roots that may be the highest point.
 
 use turnpath_plugin::prelude::*;
 
-use crate::polar::{Ray, Room};
-use crate::scan::{Hill, scan};
+use crate::polar::Evaluation;
+use crate::scan::{Maximum, scan};
+use crate::touch::{Nose, Touch, rise};
 
-/// A step below this part of ρ and R is no more than the rounding of the foot itself.
+/// A step below this part of ρ and R is within the rounding of the foot itself.
 const FINEST: f64 = 4.0 * f64::EPSILON;
-/// Trials closer than this part of R tell nothing new of the rate of G: their difference drowns
-/// in rounding, and the rate that is known is good to this part.
+/// Trials that are closer than this part of R give no new rate of G: their difference drowns in
+/// rounding, and the known rate is good to this part.
 const CLOSEST: f64 = 1e-7;
 /// Steps below this part of R that no longer shrink are noise.
 const NOISE: f64 = 1e-12;
-/// From this trial on every second one halves the bracket, so that no shape of G stalls.
+/// From this trial on every second trial halves the bracket, so that no shape of G stalls the
+/// search.
 const PATIENCE: usize = 12;
-/// Trials enough to halve any bracket down to rounding.
+/// More trials than it takes to halve any bracket down to rounding.
 const MOST_TRIALS: usize = 160;
 
-/// A top this part of R below the highest place of a scan still counts as that place: more than
-/// rounding, and than what hills differ by that lie closer together than a scan can tell.
-const UNSEEN: f64 = 1e-11;
+/// A maximum counts as the highest if it lies below the highest point of a scan by less than this
+/// part of R. This is more than rounding, and more than the difference of maxima that are too close
+/// for a scan to separate.
+const INSEPARABLE: f64 = 1e-11;
 
-/// sqrt(R² − d²): how far the centre lies above the contact.
-pub fn rise<S: Scalar>(radius: f64, offset: S) -> S {
-    ((-offset + radius) * (offset + radius)).sqrt()
-}
-
-/// Where the nose touches.
-#[derive(Debug, Clone, Copy)]
-pub struct Touch {
-    /// The ray at the nose's angle.
-    pub ray: Ray,
-    /// X of the nose centre, mm.
-    pub rho: f64,
-    /// The foot's radius less the centre's X, mm; NaN where there is none.
-    pub offset: f64,
-    /// Whether the edge ends there, so that the contact does not lie on its normal.
-    pub at_edge_end: bool,
-}
-
-impl Touch {
-    fn unknown(theta: f64, rho: f64) -> Self {
-        Self {
-            ray: Ray::at(theta),
-            rho,
-            offset: f64::NAN,
-            at_edge_end: false,
-        }
-    }
-
-    /// Radius of the foot, mm.
-    pub fn foot(&self) -> f64 {
-        self.rho + self.offset
-    }
-}
-
-/// Finds feet in batches; one serves for any count of them.
+/// Finds feet in batches. One finder serves for any number of batches.
 #[derive(Default)]
 pub struct FootFinder {
     active: Vec<Search>,
-    room: Room<f64>,
+    points: Evaluation<f64>,
     touches: Vec<Touch>,
 }
 
@@ -76,9 +45,9 @@ impl FootFinder {
             reach: cut.tool.reach(),
         };
         self.touches.clear();
-        let places = theta.iter().zip(rho);
+        let pairs = theta.iter().zip(rho);
         self.touches
-            .extend(places.map(|(theta, rho)| Touch::unknown(*theta, *rho)));
+            .extend(pairs.map(|(theta, rho)| Touch::unknown(*theta, *rho)));
         self.active.clear();
         match cut.tool.misfit {
             Misfit::Refuse => {
@@ -91,32 +60,32 @@ impl FootFinder {
         Ok(&self.touches)
     }
 
-    /// The touch on the highest of all hills. None where the surface goes on rising towards a
-    /// border of its own within the reach: what would be touched there is not known.
+    /// The touch at the highest of all maxima. There is none if the surface rises up to a border of
+    /// its own within the reach: nobody knows what the nose would touch there.
     fn find_highest(&mut self, surface: &dyn SurfaceModel, nose: Nose) -> Result<()> {
-        let scan = scan(surface, nose, &self.touches, &mut self.room)?;
-        let points = std::mem::take(&mut self.touches);
+        let scan = scan(surface, nose, &self.touches, &mut self.points)?;
+        let unknown = std::mem::take(&mut self.touches);
         for (rival, candidate) in scan.candidates.iter().enumerate() {
-            let mut touch = points[candidate.point];
-            match candidate.hill {
-                Hill::Between { lower, upper } => {
+            let mut touch = unknown[candidate.point];
+            match candidate.maximum {
+                Maximum::Between { lower, upper } => {
                     self.active.push(Search::between(rival, lower, upper));
                 }
-                Hill::EdgeEnd(offset) => (touch.offset, touch.at_edge_end) = (offset, true),
+                Maximum::EdgeEnd(offset) => (touch.offset, touch.at_edge_end) = (offset, true),
             }
             self.touches.push(touch);
         }
         self.search(surface, nose)?;
-        let rivals = std::mem::replace(&mut self.touches, points);
-        let (touches, room) = (&mut self.touches, &mut self.room);
-        room.hold(rivals.iter().map(|rival| rival.ray.place(rival.foot())));
-        room.gradient(surface)?;
+        let rivals = std::mem::replace(&mut self.touches, unknown);
+        let (touches, points) = (&mut self.touches, &mut self.points);
+        points.set(rivals.iter().map(|rival| rival.ray.point(rival.foot())));
+        points.gradient(surface)?;
         let mut tops: Vec<f64> = scan
             .highest
             .iter()
-            .map(|highest| highest - UNSEEN * nose.radius)
+            .map(|highest| highest - INSEPARABLE * nose.radius)
             .collect();
-        for ((rival, candidate), height) in rivals.iter().zip(&scan.candidates).zip(&room.z) {
+        for ((rival, candidate), height) in rivals.iter().zip(&scan.candidates).zip(&points.z) {
             let top = height + rise(nose.radius, rival.offset);
             if top > tops[candidate.point] {
                 tops[candidate.point] = top;
@@ -126,7 +95,7 @@ impl FootFinder {
         Ok(())
     }
 
-    /// Goes on until every search has ended.
+    /// Runs all searches until every one has ended.
     fn search(&mut self, surface: &dyn SurfaceModel, nose: Nose) -> Result<()> {
         for trial in 0..MOST_TRIALS {
             if self.active.is_empty() {
@@ -137,16 +106,16 @@ impl FootFinder {
         Ok(())
     }
 
-    /// One more trial for every search that goes on; those that are done leave.
+    /// Makes one more trial for every search, and removes the searches that have ended.
     fn try_all(&mut self, surface: &dyn SurfaceModel, nose: Nose, trial: usize) -> Result<()> {
-        let (touches, room) = (&mut self.touches, &mut self.room);
-        let place = |search: &Search| {
+        let (touches, points) = (&mut self.touches, &mut self.points);
+        let point = |search: &Search| {
             let touch = &touches[search.point];
-            touch.ray.place(touch.rho + search.trial)
+            touch.ray.point(touch.rho + search.trial)
         };
-        room.hold(self.active.iter().map(place));
-        room.gradient(surface)?;
-        let mut slopes = room.zx.iter().zip(&room.zy);
+        points.set(self.active.iter().map(point));
+        points.gradient(surface)?;
+        let mut slopes = points.zx.iter().zip(&points.zy);
         self.active.retain_mut(|search| {
             let touch = &mut touches[search.point];
             let slope = slopes
@@ -154,7 +123,7 @@ impl FootFinder {
                 .map_or(f64::NAN, |(zx, zy)| touch.ray.along(*zx, *zy));
             match search.advance(slope, touch.rho, nose, trial) {
                 Progress::Searching => true,
-                Progress::Found(offset) => {
+                Progress::Root(offset) => {
                     touch.offset = offset;
                     false
                 }
@@ -168,18 +137,10 @@ impl FootFinder {
     }
 }
 
-#[derive(Debug, Clone, Copy)]
-pub struct Nose {
-    /// Its radius, mm.
-    pub radius: f64,
-    /// How far from the centre's X the edge reaches, mm.
-    pub reach: f64,
-}
-
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Progress {
     Searching,
-    Found(f64),
+    Root(f64),
     BeyondEdge(f64),
 }
 
@@ -187,13 +148,13 @@ enum Progress {
 #[derive(Debug)]
 struct Search {
     point: usize,
-    /// The d to be tried next.
+    /// The next d to try.
     trial: f64,
-    /// The bracket, and whether its ends have been tried.
+    /// The bracket, and whether the search has tried its ends.
     lower: f64,
     upper: f64,
     ends_tried: [bool; 2],
-    /// The last d with a value, that value, and the rate of G known there.
+    /// The last d at which G has a value, that value, and the known rate of G there.
     last: f64,
     gap: f64,
     rate: f64,
@@ -209,7 +170,7 @@ impl Search {
         }
     }
 
-    /// Nothing tried yet, no bracket.
+    /// A search that has tried nothing and has no bracket.
     fn at(point: usize) -> Self {
         Self {
             point,
@@ -224,7 +185,7 @@ impl Search {
         }
     }
 
-    /// The search for the one root between two offsets, G below zero at the lower one.
+    /// The search for the only root between two offsets. G is below zero at the lower one.
     fn between(point: usize, lower: f64, upper: f64) -> Self {
         Self {
             trial: 0.5 * (lower + upper),
@@ -235,32 +196,32 @@ impl Search {
         }
     }
 
-    /// Takes the slope at the trial and chooses the next one.
+    /// Takes the slope at the trial and chooses the next trial.
     fn advance(&mut self, slope: f64, rho: f64, nose: Nose, trial: usize) -> Progress {
         let gap = self.trial - nose.radius * slope / (1.0 + slope * slope).sqrt();
         if gap.is_nan() {
             return self.retreat();
         }
-        if let Some(found) = self.narrow(gap, nose) {
-            return found;
+        if let Some(end) = self.narrow(gap, nose) {
+            return end;
         }
         self.learn_rate(gap, nose);
         let next = self.choose(gap, trial);
         let step = (next - self.trial).abs();
         let noise = step < NOISE * nose.radius && step > 0.5 * self.step;
         if noise || step <= FINEST * (rho.abs() + nose.radius) {
-            return Progress::Found(next);
+            return Progress::Root(next);
         }
         (self.last, self.gap, self.step) = (self.trial, gap, step);
         self.trial = next;
         Progress::Searching
     }
 
-    /// Half way back to where the surface has a value, if there is such a place.
+    /// Goes half way back to the last d at which the surface has a value, if there is one.
     fn retreat(&mut self) -> Progress {
         self.trial = 0.5 * (self.last + self.trial);
         if self.trial.is_nan() || self.trial == self.last {
-            Progress::Found(f64::NAN)
+            Progress::Root(f64::NAN)
         } else {
             Progress::Searching
         }
@@ -268,7 +229,7 @@ impl Search {
 
     fn narrow(&mut self, gap: f64, nose: Nose) -> Option<Progress> {
         if gap == 0.0 {
-            return Some(Progress::Found(self.trial));
+            return Some(Progress::Root(self.trial));
         }
         let outside = if gap > 0.0 {
             (self.upper, self.ends_tried[1]) = (self.trial, true);
@@ -287,7 +248,8 @@ impl Search {
         }
     }
 
-    /// The secant's root; where it leaves the bracket the end that is untried, else the middle.
+    /// The root of the secant. If it leaves the bracket, the end that the search has not tried, or
+    /// else the middle.
     fn choose(&self, gap: f64, trial: usize) -> f64 {
         let middle = 0.5 * (self.lower + self.upper);
         if trial > PATIENCE && trial.is_multiple_of(2) {

@@ -2,9 +2,9 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::polar::{Ray, Room, TurningRay, batches};
+use crate::polar::{Evaluation, Ray, TurningRay, batches};
 
-/// X = ρ, Z = g(θ, ρ): the path that the contact would take, whatever the nose.
+/// X = ρ, Z = g(θ, ρ): the path of the contact, whatever the nose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Uncompensated;
 
@@ -33,12 +33,12 @@ impl Compensator for Uncompensated {
     }
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
-        let mut room = Room::default();
+        let mut points = Evaluation::default();
         for batch in batches(theta.len()) {
             let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-            room.hold(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).place(*r)));
-            room.gradient(cut.surface)?;
-            out.z[batch].copy_from_slice(&room.z);
+            points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).point(*r)));
+            points.gradient(cut.surface)?;
+            out.z[batch].copy_from_slice(&points.z);
         }
         out.x.copy_from_slice(rho);
         out.foot.copy_from_slice(rho);
@@ -54,7 +54,7 @@ impl Compensator for Uncompensated {
     ) -> Option<Result<()>> {
         let mut curves = (Vec::new(), Vec::new());
         for (theta, rho) in theta.iter().zip(rho) {
-            let (x, y) = TurningRay::at(*theta).place(Taylor(*rho));
+            let (x, y) = TurningRay::at(*theta).point(Taylor(*rho));
             curves.0.push(x);
             curves.1.push(y);
         }
@@ -74,13 +74,13 @@ impl Compensator for Uncompensated {
 }
 
 fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
-    let mut room = Room::default();
+    let mut points = Evaluation::default();
     for batch in batches(theta.len()) {
         let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-        room.hold(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).place(*r)));
-        room.gradient(cut.surface)?;
+        points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).point(*r)));
+        points.gradient(cut.surface)?;
         for (i, at) in batch.enumerate() {
-            let (ray, zx, zy) = (Ray::at(theta[i]), room.zx[i], room.zy[i]);
+            let (ray, zx, zy) = (Ray::at(theta[i]), points.zx[i], points.zy[i]);
             out.z_theta[at] = rho[i] * ray.across(zx, zy);
             out.z_x[at] = ray.along(zx, zy);
         }

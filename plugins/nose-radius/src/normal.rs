@@ -2,12 +2,12 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::polar::{Ray, Room, TurningRay, batches};
+use crate::polar::{Evaluation, Ray, TurningRay, batches};
 
 /// X = ρ − R g_ρ/w, Z = g + R/w: the nose touches the radial section at ρ.
 ///
-/// X follows the slope, so it moves to and fro within a revolution; near the centre of a tilted
-/// part it is negative, and the tool crosses the axis.
+/// X follows the slope, so it moves back and forth within a revolution. Near the centre of a tilted
+/// part X is negative, and the tool crosses the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Normal;
 
@@ -29,14 +29,14 @@ impl Compensator for Normal {
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
         let radius = cut.tool.nose_radius;
-        let mut room = Room::default();
+        let mut points = Evaluation::default();
         for batch in batches(theta.len()) {
             let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-            room.hold(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).place(*r)));
-            room.gradient(cut.surface)?;
+            points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).point(*r)));
+            points.gradient(cut.surface)?;
             for (i, at) in batch.enumerate() {
-                let slope = Ray::at(theta[i]).along(room.zx[i], room.zy[i]);
-                (out.x[at], out.z[at]) = centre(radius, rho[i], room.z[i], slope);
+                let slope = Ray::at(theta[i]).along(points.zx[i], points.zy[i]);
+                (out.x[at], out.z[at]) = centre(radius, rho[i], points.z[i], slope);
             }
         }
         out.foot.copy_from_slice(rho);
@@ -71,7 +71,7 @@ fn centre<S: Scalar>(nose_radius: f64, rho: S, height: S, slope: S) -> (S, S) {
 }
 
 fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
-    let mut room = Room::default();
+    let mut points = Evaluation::default();
     let mut rays = Vec::new();
     for batch in batches(theta.len()) {
         let rho = &rho[batch.clone()];
@@ -81,18 +81,18 @@ fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>)
                 .iter()
                 .map(|theta| TurningRay::at(*theta)),
         );
-        room.hold(
+        points.set(
             rays.iter()
                 .zip(rho)
-                .map(|(ray, rho)| ray.place(Taylor(*rho))),
+                .map(|(ray, rho)| ray.point(Taylor(*rho))),
         );
-        room.series(cut.surface)?;
+        points.series(cut.surface)?;
         for (i, at) in batch.enumerate() {
-            let slope = rays[i].along(room.zx[i], room.zy[i]);
+            let slope = rays[i].along(points.zx[i], points.zy[i]);
             let (x, z) = centre(
                 cut.tool.nose_radius,
                 Taylor(rho[i]),
-                Taylor(room.z[i]),
+                Taylor(points.z[i]),
                 slope,
             );
             (out.x[at], out.z[at]) = (x.0, z.0);
@@ -101,15 +101,15 @@ fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>)
     Ok(())
 }
 
-/// The gradient's change along the ray gives g_ρρ and g_ρθ at once.
+/// Computes the rates. The gradient's change along the ray gives g_ρρ and g_ρθ at once.
 fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
-    let mut room = Room::default();
+    let mut points = Evaluation::default();
     for batch in batches(theta.len()) {
         let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-        room.hold(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).line(*r)));
-        room.series(cut.surface)?;
+        points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).line(*r)));
+        points.series(cut.surface)?;
         for (i, at) in batch.enumerate() {
-            let (ray, zx, zy) = (Ray::at(theta[i]), &room.zx[i], &room.zy[i]);
+            let (ray, zx, zy) = (Ray::at(theta[i]), &points.zx[i], &points.zy[i]);
             let (slope, across) = (ray.along(zx[0], zy[0]), ray.across(zx[0], zy[0]));
             let slope_rho = ray.along(zx[1], zy[1]);
             let slope_theta = across + rho[i] * ray.across(zx[1], zy[1]);

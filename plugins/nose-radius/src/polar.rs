@@ -1,13 +1,14 @@
-//! Places and curves of the polar plane in the surface's own x and y, in batches.
+//! Points and curves of the polar plane in the surface's own x and y, in batches.
 
 use std::ops::Range;
 
 use turnpath_plugin::prelude::*;
 
-/// Points that go through a surface together: their intermediate results stay in the cache.
+/// Number of points that go through a surface together. Their intermediate results stay in the
+/// cache.
 const BATCH: usize = 256;
 
-/// The ranges of at most [`BATCH`] points that make up `count`.
+/// Splits `count` points into ranges of at most [`BATCH`] points.
 pub fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {
     (0..count.div_ceil(BATCH)).map(move |i| i * BATCH..((i + 1) * BATCH).min(count))
 }
@@ -27,7 +28,7 @@ impl Ray {
     }
 
     /// (x, y) at the radius `rho`.
-    pub fn place(&self, rho: f64) -> (f64, f64) {
+    pub fn point(&self, rho: f64) -> (f64, f64) {
         (rho * self.cos, rho * self.sin)
     }
 
@@ -37,18 +38,18 @@ impl Ray {
         (along(self.cos), along(self.sin))
     }
 
-    /// The part of a gradient along the ray: g_ρ.
+    /// The component of a gradient along the ray: g_ρ.
     pub fn along(&self, zx: f64, zy: f64) -> f64 {
         zx * self.cos + zy * self.sin
     }
 
-    /// The part of a gradient across the ray: g_θ/ρ.
+    /// The component of a gradient across the ray: g_θ/ρ.
     pub fn across(&self, zx: f64, zy: f64) -> f64 {
         zy * self.cos - zx * self.sin
     }
 }
 
-/// The ray's direction along a curve.
+/// The direction of a ray that turns along a curve.
 #[derive(Debug, Clone, Copy)]
 pub struct TurningRay {
     sin: Taylor<f64>,
@@ -63,19 +64,19 @@ impl TurningRay {
     }
 
     /// (x(t), y(t)) at the radius ρ(t).
-    pub fn place(&self, rho: Taylor<f64>) -> (Series, Series) {
+    pub fn point(&self, rho: Taylor<f64>) -> (Series, Series) {
         ((rho * self.cos).0, (rho * self.sin).0)
     }
 
-    /// The part of a gradient along the ray: g_ρ(t).
+    /// The component of a gradient along the ray: g_ρ(t).
     pub fn along(&self, zx: Series, zy: Series) -> Taylor<f64> {
         Taylor(zx) * self.cos + Taylor(zy) * self.sin
     }
 }
 
-/// Places or curves (x, y), and what the surface says of them.
+/// Points or curves (x, y), and the surface's answers for them.
 #[derive(Debug, Default)]
-pub struct Room<T> {
+pub struct Evaluation<T> {
     x: Vec<T>,
     y: Vec<T>,
     /// Height.
@@ -86,37 +87,37 @@ pub struct Room<T> {
     pub zy: Vec<T>,
 }
 
-impl<T: Copy> Room<T> {
-    /// Takes places or curves in place of those before.
-    pub fn hold(&mut self, places: impl Iterator<Item = (T, T)>) {
+impl<T: Copy> Evaluation<T> {
+    /// Replaces the points or curves.
+    pub fn set(&mut self, points: impl Iterator<Item = (T, T)>) {
         self.x.clear();
         self.y.clear();
-        for (x, y) in places {
+        for (x, y) in points {
             self.x.push(x);
             self.y.push(y);
         }
     }
 
-    fn make_room(&mut self, blank: T) {
-        for places in [&mut self.z, &mut self.zx, &mut self.zy] {
-            places.resize(self.x.len(), blank);
+    fn resize(&mut self, blank: T) {
+        for columns in [&mut self.z, &mut self.zx, &mut self.zy] {
+            columns.resize(self.x.len(), blank);
         }
     }
 }
 
-impl Room<f64> {
-    /// Height and slopes at the places held.
+impl Evaluation<f64> {
+    /// Evaluates height and slopes at the points.
     pub fn gradient(&mut self, surface: &dyn SurfaceModel) -> Result<()> {
-        self.make_room(f64::NAN);
+        self.resize(f64::NAN);
         let (z, zx, zy) = (&mut self.z, &mut self.zx, &mut self.zy);
         surface.gradient(&self.x, &self.y, Gradients { z, zx, zy })
     }
 }
 
-impl Room<Series> {
-    /// Height and slopes along the curves held.
+impl Evaluation<Series> {
+    /// Evaluates height and slopes along the curves.
     pub fn series(&mut self, surface: &dyn SurfaceModel) -> Result<()> {
-        self.make_room([f64::NAN; 5]);
+        self.resize([f64::NAN; 5]);
         let (z, zx, zy) = (&mut self.z, &mut self.zx, &mut self.zy);
         surface.series(&self.x, &self.y, GradientSeries { z, zx, zy })
     }

@@ -1,69 +1,71 @@
-//! The scan: all places where the nose may touch first when more than one hill of the section can.
+//! The scan: it finds all maxima of the section at which the nose may touch first.
 //!
 //! Over the edge's angle φ, with the foot at ρ + R sin φ, the centre stands at h(φ) = g + R cos φ,
-//! whose rate is h′ = R (g_ρ cos φ − sin φ). The edge is looked at in coarse steps; of these the
-//! ones that may come up to the highest place are looked at in fine ones. A hill lies where h′
-//! falls through zero between two places, or at an end of the edge towards which h rises.
+//! whose rate is h′ = R (g_ρ cos φ − sin φ). The scan evaluates the edge in coarse steps. The coarse
+//! steps in which h may reach the highest point are evaluated again in fine steps. A maximum lies
+//! where h′ falls through zero between two positions, or at an end of the edge towards which h
+//! rises.
 
 use turnpath_plugin::prelude::*;
 
-use crate::foot::{Nose, Touch};
-use crate::polar::Room;
+use crate::polar::Evaluation;
+use crate::touch::{Nose, Touch};
 
-/// Coarse steps along the edge: 4° on a full one.
+/// Number of coarse steps along the edge: 4° on a full edge.
 const STEPS: usize = 45;
-/// Fine steps in a coarse one: half a degree. A ripple narrower than two of them is not seen.
+/// Number of fine steps in a coarse one: half a degree each. The scan misses a ripple that is
+/// narrower than two fine steps.
 const PARTS: usize = 8;
-/// Parts of a fine step in which a hill hides beside a valley.
+/// Number of parts of a fine step that hides a maximum beside a minimum.
 const HIDDEN: usize = 32;
-/// A coarse step may rise by so many times what its steeper end says.
+/// Within a coarse step h may rise by this many times the rise that the steeper end gives.
 const DOUBT: f64 = 2.0;
 
-/// A stretch of the edge that holds one hill.
+/// A maximum of h along the edge.
 #[derive(Debug, Clone, Copy)]
-pub enum Hill {
-    /// h rises at the lower offset and falls at the upper one.
+pub enum Maximum {
+    /// The maximum lies between two offsets: h rises at the lower one and falls at the upper one.
     Between {
         /// Lower offset from the centre's X, mm.
         lower: f64,
         /// Upper offset, mm.
         upper: f64,
     },
-    /// h rises towards an end of the edge: the end touches, at this offset.
+    /// h rises towards an end of the edge, so the end touches, at this offset.
     EdgeEnd(f64),
 }
 
-/// A hill of one point, and how high its top can be.
+/// A maximum for one point, with an upper limit of its height.
 #[derive(Debug, Clone, Copy)]
 pub struct Candidate {
-    /// Which point it belongs to.
+    /// The number of the point.
     pub point: usize,
-    /// Where it is.
-    pub hill: Hill,
+    /// The maximum.
+    pub maximum: Maximum,
     at_most: f64,
 }
 
-/// What a scan found.
+/// The maxima of a scan.
 #[derive(Debug, Default)]
-pub struct Found {
-    /// The hills that may be a first touch.
+pub struct Maxima {
+    /// The maxima that may be a first touch.
     pub candidates: Vec<Candidate>,
-    /// The highest place seen of each point, mm.
+    /// The highest evaluated h of each point, mm.
     pub highest: Vec<f64>,
 }
 
-impl Found {
-    fn see(&mut self, point: usize, here: &Place) {
+impl Maxima {
+    fn include(&mut self, point: usize, here: &Position) {
         if here.height > self.highest[point] {
             self.highest[point] = here.height;
         }
     }
 
-    fn add(&mut self, point: usize, hill: Option<(Hill, f64)>) {
+    fn add(&mut self, point: usize, maximum: Option<(Maximum, f64)>) {
         self.candidates
-            .extend(hill.map(|(hill, at_most)| Candidate {
+            .extend(maximum.map(|(maximum, at_most)| Candidate {
                 point,
-                hill,
+                maximum,
                 at_most,
             }));
     }
@@ -74,55 +76,55 @@ pub fn scan(
     surface: &dyn SurfaceModel,
     nose: Nose,
     touches: &[Touch],
-    room: &mut Room<f64>,
-) -> Result<Found> {
-    let mut found = Found {
+    points: &mut Evaluation<f64>,
+) -> Result<Maxima> {
+    let mut maxima = Maxima {
         candidates: Vec::new(),
         highest: vec![f64::NEG_INFINITY; touches.len()],
     };
     let edge = Edge::of(nose);
-    let coarse = edge.look_everywhere(surface, touches, room)?;
-    for places in coarse.chunks(touches.len().max(1)) {
-        for (point, here) in places.iter().enumerate() {
-            found.see(point, here);
+    let coarse = edge.evaluate_coarse(surface, touches, points)?;
+    for positions in coarse.chunks(touches.len().max(1)) {
+        for (point, here) in positions.iter().enumerate() {
+            maxima.include(point, here);
         }
     }
     let mut hidden = Vec::new();
-    let mut open = edge.open_steps(&coarse, &found.highest);
+    let mut open = edge.open_steps(&coarse, &maxima.highest);
     for part in 1..PARTS {
-        room.hold(open.iter().map(|step| {
+        points.set(open.iter().map(|step| {
             let touch = &touches[step.point];
-            touch.ray.place(touch.rho + edge.place(step.from + part).0)
+            touch.ray.point(touch.rho + edge.angle(step.from + part).0)
         }));
-        room.gradient(surface)?;
+        points.gradient(surface)?;
         for (i, step) in open.iter_mut().enumerate() {
-            let here = edge.seen(step.from + part, &touches[step.point], room, i);
-            found.add(step.point, step.last.hill_until(&here, edge.step));
-            found.see(step.point, &here);
-            hidden.extend(step.hidden_until(&here, step.from + part - 1));
+            let here = edge.position_at(step.from + part, &touches[step.point], points, i);
+            maxima.add(step.point, step.last.maximum_until(&here, edge.step));
+            maxima.include(step.point, &here);
+            hidden.extend(step.hidden_maximum_until(&here, step.from + part - 1));
             step.last = here;
         }
     }
     for step in &open {
-        found.add(step.point, step.last.hill_until(&step.right, edge.step));
-        hidden.extend(step.hidden_until(&step.right, step.from + PARTS - 1));
+        maxima.add(step.point, step.last.maximum_until(&step.right, edge.step));
+        hidden.extend(step.hidden_maximum_until(&step.right, step.from + PARTS - 1));
     }
-    edge.look_closely(surface, touches, room, hidden, &mut found)?;
+    edge.search_hidden(surface, touches, points, hidden, &mut maxima)?;
     let ends = [0, STEPS].map(|at| coarse.iter().skip(at * touches.len()).take(touches.len()));
-    for (hill, places) in [Place::falling_from, Place::rising_to]
+    for (maximum, positions) in [Position::falling_from, Position::rising_to]
         .into_iter()
         .zip(ends)
     {
-        for (point, place) in places.enumerate() {
-            found.add(point, hill(place));
+        for (point, position) in positions.enumerate() {
+            maxima.add(point, maximum(position));
         }
     }
-    let Found {
+    let Maxima {
         candidates,
         highest,
-    } = &mut found;
+    } = &mut maxima;
     candidates.retain(|candidate| candidate.at_most >= highest[candidate.point]);
-    Ok(found)
+    Ok(maxima)
 }
 
 /// The edge in fine steps, counted from its inner end.
@@ -133,14 +135,14 @@ struct Edge {
     step: f64,
 }
 
-/// A coarse step that is looked at in fine ones.
+/// A coarse step that the scan evaluates in fine steps.
 struct OpenStep {
     point: usize,
-    /// The fine step that it begins with.
+    /// The number of its first fine step.
     from: usize,
-    /// The place last looked at.
-    last: Place,
-    right: Place,
+    /// The position evaluated last.
+    last: Position,
+    right: Position,
 }
 
 impl Edge {
@@ -151,7 +153,7 @@ impl Edge {
     }
 
     /// Offset from the centre's X, sine and cosine of φ.
-    fn place(&self, index: usize) -> (f64, f64, f64) {
+    fn angle(&self, index: usize) -> (f64, f64, f64) {
         let (offset, sin, cos) = self.within(index, 0);
         match index {
             0 => (-self.nose.reach, sin, cos),
@@ -160,83 +162,89 @@ impl Edge {
         }
     }
 
-    /// The same so many parts of [`HIDDEN`] further on.
+    /// The same `part` parts of a fine step further on; [`HIDDEN`] parts make a fine step.
     fn within(&self, index: usize, part: usize) -> (f64, f64, f64) {
         let steps = index as f64 + part as f64 / HIDDEN as f64;
         let (sin, cos) = Scalar::sin_cos(steps * self.step - self.half);
         (self.nose.radius * sin, sin, cos)
     }
 
-    /// What the room has of a place.
-    fn seen(&self, index: usize, touch: &Touch, room: &Room<f64>, at: usize) -> Place {
-        self.of_room(self.place(index), touch, room, at)
+    /// The position number `index` of a touch's edge, from element `at` of the evaluation.
+    fn position_at(
+        &self,
+        index: usize,
+        touch: &Touch,
+        points: &Evaluation<f64>,
+        at: usize,
+    ) -> Position {
+        self.position_from(self.angle(index), touch, points, at)
     }
 
-    fn of_room(
+    fn position_from(
         &self,
         (offset, sin, cos): (f64, f64, f64),
         touch: &Touch,
-        room: &Room<f64>,
+        points: &Evaluation<f64>,
         at: usize,
-    ) -> Place {
-        let slope = touch.ray.along(room.zx[at], room.zy[at]);
-        Place {
+    ) -> Position {
+        let slope = touch.ray.along(points.zx[at], points.zy[at]);
+        Position {
             offset,
-            height: room.z[at] + self.nose.radius * cos,
+            height: points.z[at] + self.nose.radius * cos,
             rate: self.nose.radius * (slope * cos - sin),
         }
     }
 
-    /// All points at the first coarse place, then all at the next.
-    fn look_everywhere(
+    /// Evaluates all points at the first coarse position, then all points at the next.
+    fn evaluate_coarse(
         &self,
         surface: &dyn SurfaceModel,
         touches: &[Touch],
-        room: &mut Room<f64>,
-    ) -> Result<Vec<Place>> {
-        let mut places = Vec::with_capacity((STEPS + 1) * touches.len());
+        points: &mut Evaluation<f64>,
+    ) -> Result<Vec<Position>> {
+        let mut positions = Vec::with_capacity((STEPS + 1) * touches.len());
         for index in (0..=STEPS).map(|step| step * PARTS) {
-            let offset = self.place(index).0;
-            room.hold(touches.iter().map(|at| at.ray.place(at.rho + offset)));
-            room.gradient(surface)?;
-            let seen = |(at, touch)| self.seen(index, touch, room, at);
-            places.extend(touches.iter().enumerate().map(seen));
+            let offset = self.angle(index).0;
+            points.set(touches.iter().map(|at| at.ray.point(at.rho + offset)));
+            points.gradient(surface)?;
+            let position = |(at, touch)| self.position_at(index, touch, points, at);
+            positions.extend(touches.iter().enumerate().map(position));
         }
-        Ok(places)
+        Ok(positions)
     }
 
-    /// Looks for the hills in fine steps that hide one.
-    fn look_closely(
+    /// Looks for the maxima in fine steps that hide one.
+    fn search_hidden(
         &self,
         surface: &dyn SurfaceModel,
         touches: &[Touch],
-        room: &mut Room<f64>,
+        points: &mut Evaluation<f64>,
         mut hidden: Vec<OpenStep>,
-        found: &mut Found,
+        maxima: &mut Maxima,
     ) -> Result<()> {
         let step = self.step / HIDDEN as f64;
-        hidden.retain(|one| one.reaches(found.highest[one.point], self.step));
+        hidden.retain(|one| one.reaches(maxima.highest[one.point], self.step));
         for part in 1..HIDDEN {
-            room.hold(hidden.iter().map(|one| {
+            points.set(hidden.iter().map(|one| {
                 let touch = &touches[one.point];
-                touch.ray.place(touch.rho + self.within(one.from, part).0)
+                touch.ray.point(touch.rho + self.within(one.from, part).0)
             }));
-            room.gradient(surface)?;
+            points.gradient(surface)?;
             for (i, one) in hidden.iter_mut().enumerate() {
-                let place = self.within(one.from, part);
-                let here = self.of_room(place, &touches[one.point], room, i);
-                found.add(one.point, one.last.hill_until(&here, step));
+                let angle = self.within(one.from, part);
+                let here = self.position_from(angle, &touches[one.point], points, i);
+                maxima.add(one.point, one.last.maximum_until(&here, step));
                 one.last = here;
             }
         }
         for one in &hidden {
-            found.add(one.point, one.last.hill_until(&one.right, step));
+            maxima.add(one.point, one.last.maximum_until(&one.right, step));
         }
         Ok(())
     }
 
-    /// The coarse steps that may come up to the highest place of their point.
-    fn open_steps(&self, coarse: &[Place], highest: &[f64]) -> Vec<OpenStep> {
+    /// The coarse steps in which h may reach the highest h of their point.
+    fn open_steps(&self, coarse: &[Position], highest: &[f64]) -> Vec<OpenStep> {
         let points = highest.len();
         let pairs = coarse.iter().zip(coarse.iter().skip(points)).enumerate();
         pairs
@@ -254,14 +262,14 @@ impl Edge {
 }
 
 impl OpenStep {
-    /// Whether its ends let it come up to the highest place.
+    /// Whether h may reach `highest` between the step's ends.
     fn reaches(&self, highest: f64, step: f64) -> bool {
         may_reach(&self.last, &self.right, highest, step)
     }
 
-    /// The fine step from the last place to the next, if it hides a hill beside a valley: h falls
-    /// at both and yet has risen, or rises at both and yet has fallen.
-    fn hidden_until(&self, next: &Place, from: usize) -> Option<Self> {
+    /// The fine step from the last position to the next, if it hides a maximum beside a minimum: h
+    /// falls at both and yet is higher at the next, or rises at both and yet is lower.
+    fn hidden_maximum_until(&self, next: &Position, from: usize) -> Option<Self> {
         let last = self.last;
         let falls = last.rate <= 0.0 && next.rate <= 0.0 && next.height > last.height;
         let rises = last.rate > 0.0 && next.rate > 0.0 && next.height < last.height;
@@ -274,44 +282,44 @@ impl OpenStep {
     }
 }
 
-/// Whether h may come up to `highest` between two places `step` rad apart.
-fn may_reach(left: &Place, right: &Place, highest: f64, step: f64) -> bool {
+/// Whether h may reach `highest` between two positions that are `step` rad apart.
+fn may_reach(left: &Position, right: &Position, highest: f64, step: f64) -> bool {
     let rise = DOUBT * step * left.rate.abs().max(right.rate.abs());
     let top = left.height.max(right.height) + rise;
     let known = (left.height + right.height + top).is_finite();
     !known || top >= highest
 }
 
-/// h and h′ at one place of the edge; NaN where the surface has no height.
+/// h and h′ at one position on the edge; NaN if the surface has no height.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct Position {
     offset: f64,
     height: f64,
     rate: f64,
 }
 
-impl Place {
-    /// The hill between this place and the next, `step` rad on. Its top lies below the higher one
-    /// of the tangents at both places where h is concave.
-    fn hill_until(&self, next: &Self, step: f64) -> Option<(Hill, f64)> {
+impl Position {
+    /// The maximum between this position and the next, which is `step` rad further. Where h is
+    /// concave, the maximum lies below the higher one of the tangents at both positions.
+    fn maximum_until(&self, next: &Self, step: f64) -> Option<(Maximum, f64)> {
         let turns = self.rate > 0.0 && next.rate <= 0.0;
         let (lower, upper) = (self.offset, next.offset);
         let top = (self.height + step * self.rate).max(next.height - step * next.rate);
-        turns.then_some((Hill::Between { lower, upper }, top))
+        turns.then_some((Maximum::Between { lower, upper }, top))
     }
 
-    /// The hill at the edge's inner end, if h falls from there.
-    fn falling_from(&self) -> Option<(Hill, f64)> {
-        self.end_if(self.rate <= 0.0)
+    /// The maximum at the edge's inner end, if h falls from there.
+    fn falling_from(&self) -> Option<(Maximum, f64)> {
+        self.end_maximum(self.rate <= 0.0)
     }
 
-    /// The hill at the edge's outer end, if h rises up to it.
-    fn rising_to(&self) -> Option<(Hill, f64)> {
-        self.end_if(self.rate > 0.0)
+    /// The maximum at the edge's outer end, if h rises towards it.
+    fn rising_to(&self) -> Option<(Maximum, f64)> {
+        self.end_maximum(self.rate > 0.0)
     }
 
-    fn end_if(&self, is_hill: bool) -> Option<(Hill, f64)> {
-        let known = is_hill && self.height.is_finite();
-        known.then_some((Hill::EdgeEnd(self.offset), self.height))
+    fn end_maximum(&self, is_maximum: bool) -> Option<(Maximum, f64)> {
+        let known = is_maximum && self.height.is_finite();
+        known.then_some((Maximum::EdgeEnd(self.offset), self.height))
     }
 }

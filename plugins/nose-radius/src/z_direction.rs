@@ -1,19 +1,20 @@
-//! Compensation along z: X stays what the feed says, and the nose comes down until it touches.
+//! Compensation along z: X stays as the feed gives it, and the nose comes down until it touches.
 
 use turnpath_plugin::prelude::*;
 
-use crate::foot::{FootFinder, Touch, rise};
-use crate::polar::{Room, TurningRay, batches};
+use crate::foot::FootFinder;
+use crate::polar::{Evaluation, TurningRay, batches};
+use crate::touch::{Touch, rise};
 
-/// Least −F_d·R that the foot's motion is reckoned with. It is 1/cos³φ − Rκ, above zero at a highest
-/// place but where the section osculates the nose: there the foot moves without bound.
+/// The least −F_d·R that the motion of the foot uses. It is 1/cos³φ − Rκ. It is above zero at a
+/// highest point, except where the section osculates the nose: there the foot moves without bound.
 const LEAST_STEEPNESS: f64 = 1e-6;
 
 /// X = ρ; Z = max over ρ′ of g(θ, ρ′) + sqrt(R² − (ρ − ρ′)²), ρ′ within the edge's reach.
 ///
-/// X does not follow the surface, so the X axis moves as smoothly as the feed. The foot is the
-/// only one where Rκ < 1 over the reach; with [`Misfit::CutWhatFits`] the whole reach is scanned
-/// for it. Where the edge ends before the normal does, it touches with its end.
+/// X does not follow the surface, so the X axis moves as smoothly as the feed. Where Rκ < 1 over
+/// the reach, there is only one foot. With [`Misfit::CutWhatFits`] a scan of the whole reach looks
+/// for the foot. Where the edge ends before the normal does, it touches with its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ZDirection;
 
@@ -38,12 +39,12 @@ impl Compensator for ZDirection {
     }
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
-        let (mut finder, mut room) = (FootFinder::default(), Room::default());
+        let (mut finder, mut points) = (FootFinder::default(), Evaluation::default());
         for batch in batches(theta.len()) {
             let touches = finder.find(cut, &theta[batch.clone()], &rho[batch.clone()])?;
-            room.hold(touches.iter().map(|touch| touch.ray.place(touch.foot())));
-            room.gradient(cut.surface)?;
-            for ((touch, height), at) in touches.iter().zip(&room.z).zip(batch) {
+            points.set(touches.iter().map(|touch| touch.ray.point(touch.foot())));
+            points.gradient(cut.surface)?;
+            for ((touch, height), at) in touches.iter().zip(&points.z).zip(batch) {
                 out.x[at] = touch.rho;
                 out.z[at] = height + rise(cut.tool.nose_radius, touch.offset);
                 out.foot[at] = touch.foot();
@@ -62,7 +63,7 @@ impl Compensator for ZDirection {
         Some(series(cut, theta, rho, out))
     }
 
-    /// The height is extreme at the foot, so the foot's own motion does not count.
+    /// The height is extreme at the foot, so the motion of the foot itself does not count.
     fn exact_rates(
         &self,
         cut: Cut<'_>,
@@ -75,13 +76,13 @@ impl Compensator for ZDirection {
 }
 
 fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
-    let (mut finder, mut room) = (FootFinder::default(), Room::default());
+    let (mut finder, mut points) = (FootFinder::default(), Evaluation::default());
     for batch in batches(theta.len()) {
         let touches = finder.find(cut, &theta[batch.clone()], &rho[batch.clone()])?;
-        room.hold(touches.iter().map(|touch| touch.ray.place(touch.foot())));
-        room.gradient(cut.surface)?;
+        points.set(touches.iter().map(|touch| touch.ray.point(touch.foot())));
+        points.gradient(cut.surface)?;
         for ((i, touch), at) in touches.iter().enumerate().zip(batch) {
-            let (zx, zy) = (room.zx[i], room.zy[i]);
+            let (zx, zy) = (points.zx[i], points.zy[i]);
             out.z_theta[at] = touch.foot() * touch.ray.across(zx, zy);
             out.z_x[at] = touch.ray.along(zx, zy);
         }
@@ -92,7 +93,7 @@ fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()>
 }
 
 fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
-    let (mut finder, mut room) = (FootFinder::default(), Room::default());
+    let (mut finder, mut points) = (FootFinder::default(), Evaluation::default());
     let (mut theta_0, mut rho_0) = (Vec::new(), Vec::new());
     let mut descents = Vec::new();
     for batch in batches(theta.len()) {
@@ -108,7 +109,7 @@ fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>)
                 .zip(touches)
                 .map(|((theta, rho), touch)| Descent::new(theta, rho, touch)),
         );
-        heights(cut, &mut descents, &mut room)?;
+        heights(cut, &mut descents, &mut points)?;
         for (descent, at) in descents.iter().zip(batch) {
             (out.x[at], out.z[at]) = (descent.rho.0, descent.height.0);
         }
@@ -117,37 +118,37 @@ fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>)
 }
 
 /// Moves the feet along the curves, order by order, and the heights with them.
-fn heights(cut: Cut<'_>, descents: &mut [Descent], room: &mut Room<Series>) -> Result<()> {
+fn heights(cut: Cut<'_>, descents: &mut [Descent], points: &mut Evaluation<Series>) -> Result<()> {
     let radius = cut.tool.nose_radius;
-    room.hold(descents.iter().map(Descent::section));
-    room.series(cut.surface)?;
+    points.set(descents.iter().map(Descent::section));
+    points.series(cut.surface)?;
     for (i, descent) in descents.iter_mut().enumerate() {
-        descent.learn_steepness(radius, room.zx[i][1], room.zy[i][1]);
+        descent.learn_steepness(radius, points.zx[i][1], points.zy[i][1]);
     }
-    room.hold(descents.iter().map(Descent::curve));
-    room.series(cut.surface)?;
+    points.set(descents.iter().map(Descent::curve));
+    points.series(cut.surface)?;
     for (i, descent) in descents.iter_mut().enumerate() {
-        descent.move_foot(radius, room.zx[i], room.zy[i]);
+        descent.move_foot(radius, points.zx[i], points.zy[i]);
     }
-    room.hold(descents.iter().map(Descent::curve));
-    room.series(cut.surface)?;
+    points.set(descents.iter().map(Descent::curve));
+    points.series(cut.surface)?;
     for (i, descent) in descents.iter_mut().enumerate() {
-        descent.settle(radius, room.z[i], room.zx[i], room.zy[i]);
+        descent.settle(radius, points.z[i], points.zx[i], points.zy[i]);
     }
     Ok(())
 }
 
-/// The nose coming down along one curve: ρ_t(t) = ρ(t) + d(t) is the foot.
+/// The descent of the nose along one curve. ρ_t(t) = ρ(t) + d(t) is the foot.
 ///
-/// With h(t, d) = g(θ(t), ρ(t) + d) + sqrt(R² − d²) and F = ∂h/∂d, the foot has F = 0. A foot
-/// d₀ + at that is right to order 1 leaves F = F₂t² + …, and what is still missing of Z = max h
-/// is −F₂²/(2F_d)·t⁴ + O(t⁵): three series of the surface give Z exactly through order 4.
+/// With h(t, d) = g(θ(t), ρ(t) + d) + sqrt(R² − d²) and F = ∂h/∂d, the foot has F = 0. A foot d₀ +
+/// at that is right to order 1 leaves F = F₂t² + …, and Z = max h then still lacks −F₂²/(2F_d)·t⁴ +
+/// O(t⁵). So three series of the surface give Z exactly through order 4.
 struct Descent {
     touch: Touch,
     ray: TurningRay,
     rho: Taylor<f64>,
     offset: Taylor<f64>,
-    /// F_d at t = 0, negative; −∞ where the edge's end touches, whose offset does not move.
+    /// F_d at t = 0, negative; −∞ if the end of the edge touches, whose offset does not move.
     steepness: f64,
     height: Taylor<f64>,
 }
@@ -169,9 +170,9 @@ impl Descent {
         self.touch.ray.line(self.touch.foot())
     }
 
-    /// The foot's curve, as far as it is known.
+    /// The foot's curve, to the order that is known so far.
     fn curve(&self) -> (Series, Series) {
-        self.ray.place(self.rho + self.offset)
+        self.ray.point(self.rho + self.offset)
     }
 
     /// F_d = g_ρρ − R²/(R² − d²)^{3/2}, from the gradient's change along the section.
@@ -184,7 +185,7 @@ impl Descent {
         }
     }
 
-    /// F(t) = g_ρ − d/sqrt(R² − d²) at the foot as far as it is known.
+    /// F(t) = g_ρ − d/sqrt(R² − d²) at the foot, to the order that is known so far.
     fn tilt(&self, radius: f64, zx: Series, zy: Series) -> Taylor<f64> {
         self.ray.along(zx, zy) - self.offset / rise(radius, self.offset)
     }

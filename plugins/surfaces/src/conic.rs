@@ -4,7 +4,7 @@ use turnpath_plugin::prelude::*;
 
 /// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)), c = 1/radius, K the conic number.
 ///
-/// K = 0 is a sphere, −1 a paraboloid. Where the conicoid does not reach, z is NaN.
+/// K = 0 is a sphere, −1 a paraboloid. Where the conicoid has no point, z is NaN.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conic {
     curvature: f64,

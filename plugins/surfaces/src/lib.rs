@@ -1,6 +1,6 @@
-//! The surface models of turnpath: one formula a file, written once for every number type.
+//! The surface models of turnpath. Each file has one formula, written once for every number type.
 //!
-//! z(x, y) in mm, x and y from the spindle axis, z towards the tool; ρ² = x² + y².
+//! z(x, y) is in mm, with x and y from the spindle axis and z towards the tool. ρ² = x² + y².
 
 mod astigmatic;
 mod conic;

@@ -1,8 +1,8 @@
-//! The segment of a paraboloid away from its axis, in the frame of the segment's own normal.
+//! The segment of a paraboloid away from the axis, in the frame of the segment's own normal.
 
 use turnpath_plugin::prelude::*;
 
-/// A paraboloid's segment, turned so that its middle lies flat at the origin.
+/// A segment of a paraboloid, turned so that its middle lies flat at the origin.
 ///
 /// The parent has radius R_v at its vertex, and the segment's middle lies x₀ from the parent's
 /// axis, on the side of positive x. With α = atan(x₀/R_v), c = cos α, s = sin α,

@@ -1,14 +1,14 @@
-//! The torus: a base arc turned about an axis.
+//! The torus: a base arc that is turned about an axis.
 
 use turnpath_plugin::prelude::*;
 
 /// z = R − sqrt((R − a + sqrt(a² − y²))² − x²): the base arc of radius a in the YZ plane, turned
 /// about an axis parallel to Y at the distance R.
 ///
-/// R is the radius of curvature along x, a that along y; each positive where concave. Evaluated
-/// without cancellation: with u = y²/a / (1 + sqrt(1 − y²/a²)) the height of the base arc,
-/// z = (2u + (x² − u²)/R) / (1 + sqrt((1 − u/R)² − x²/R²)). Beyond the base arc, and where it
-/// has reached the axis, z is NaN.
+/// R is the radius of curvature along x and a that along y; each is positive if concave. The
+/// formula is evaluated without cancellation: with u = y²/a / (1 + sqrt(1 − y²/a²)) the height of
+/// the base arc, z = (2u + (x² − u²)/R) / (1 + sqrt((1 − u/R)² − x²/R²)). Beyond the base arc, and
+/// where the arc has reached the axis, z is NaN.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Toric {
     /// 1/R.

@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-/// Largest power of x or y: far beyond what optics use, and small enough for dense coefficients.
+/// Largest power of x or y: far more than optics use, and small enough for dense coefficients.
 const LARGEST_POWER: usize = 40;
 
 /// z = Σ c·xⁱ·yʲ, by Horner's rule.
@@ -42,8 +42,8 @@ impl Strategy for XyPolynomial {
                     "term {number}: the coefficient {c} is not finite"
                 )));
             }
-            let place = place_of(&mut given, power(i, number)?, power(j, number)?);
-            if place.replace(c).is_some() {
+            let coefficient = coefficient(&mut given, power(i, number)?, power(j, number)?);
+            if coefficient.replace(c).is_some() {
                 return Err(bad_terms(format!("x^{i}·y^{j} stands in two terms")));
             }
         }
@@ -77,8 +77,8 @@ fn in_y<S: Scalar>(row: &[f64], y: S) -> S {
     }
 }
 
-/// The place of xⁱ·yʲ, made if it is not there yet.
-fn place_of(given: &mut Vec<Vec<Option<f64>>>, i: usize, j: usize) -> &mut Option<f64> {
+/// The coefficient of xⁱ·yʲ. The function creates it if it does not exist.
+fn coefficient(given: &mut Vec<Vec<Option<f64>>>, i: usize, j: usize) -> &mut Option<f64> {
     if given.len() <= i {
         given.resize(i + 1, Vec::new());
     }

@@ -2,11 +2,11 @@
 
 use turnpath_plugin::prelude::*;
 
-/// vC and vX from the laws, vZ = Z_θ·vC + Z_X·vX with that same vX.
+/// vC and vX come from the laws, and vZ = Z_θ·vC + Z_X·vX with that same vX.
 ///
-/// The cubics then meet value and slope of the true path at every node: the error of position is
-/// of order 4 in the step, and no node depends on another. At a knot of the feed vX is the mean of
-/// both sides, and vZ goes with it.
+/// The cubics then have the value and the slope of the true path at every node. The error of
+/// position is of order 4 in the step, and no node depends on another. At a knot of the feed vX is
+/// the mean of both sides, and vZ follows from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Analytic;
 

@@ -1,22 +1,22 @@
-//! The area method: velocities from one node to the next, so that their curve has the right area.
+//! The area method: velocities from one node to the next, such that their curve has the right area.
 
 use turnpath_plugin::prelude::*;
 
-/// Least share of the later velocity: below, each error comes back larger at the next node.
+/// Least share of the later velocity. Below it, each error is larger at the next node.
 const LEAST: f64 = 0.5;
-/// Largest share: with 1 the area is that of the later velocity alone.
+/// Largest share. With 1 the area is that of the later velocity alone.
 const LARGEST: f64 = 1.0;
 
-/// The mean velocity of a segment is taken as V_k + c(V_{k+1} − V_k), so that
-/// V_{k+1} = V_k + (ΔP_k/h_k − V_k)/c, from the exact rate at the path's start.
+/// The method takes the mean velocity of a segment as V_k + c(V_{k+1} − V_k). So V_{k+1} = V_k +
+/// (ΔP_k/h_k − V_k)/c, starting from the exact rate at the path's start.
 ///
-/// The publications' formula is lost in the texts at hand; this one is derived from what they say
-/// of it, and gives the pattern of their figures. Each velocity carries the one before with the
-/// factor 1 − 1/c: with c = ⅔ an error halves from node to node and the error of position is of
-/// order 2 in the step; with c = ½ it is of order 3 on even steps, halved ones and those that
-/// change smoothly, of order 2½ on steps in no order, since no error ever dies out: all ring
-/// through the rest of the path. Hence it is solved in order from the path's start, for every c:
-/// no overlap is long enough for all of them.
+/// The available texts of the publications have lost the formula. This one is derived from their
+/// description, and it gives the pattern of their figures. Each velocity contains the one before
+/// with the factor 1 − 1/c. With c = ⅔ an error halves from node to node, and the error of position
+/// is of order 2 in the step. With c = ½ it is of order 3 on even steps, on halved steps and on
+/// steps that change smoothly. On steps in no order it is of order 2½, since no error ever decays:
+/// all of them ring through the rest of the path. Therefore the method solves in order from the
+/// path's start for every c: no overlap is long enough for all values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Area {
     c: f64,
@@ -36,7 +36,7 @@ impl Strategy for Area {
     .default(0.5)
     .max(LARGEST)];
 
-    /// Not the declared range but this refuses what is below ½, since it can say why.
+    /// The constructor, not the declared range, refuses c below ½, since it can give the reason.
     fn new(params: &Params) -> Result<Self> {
         let c = params.number("c");
         if c < LEAST {
@@ -59,11 +59,12 @@ impl VelocitySolver for Area {
     }
 
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
-        self.solve_onward(nodes, &mut Vec::new(), out)
+        self.solve_sequential(nodes, &mut Vec::new(), out)
     }
 
-    /// The state is the velocity of each axis at the block's last node, the next block's first.
-    fn solve_onward(
+    /// The state is the velocity of each axis at the block's last node, which is the next block's
+    /// first.
+    fn solve_sequential(
         &self,
         nodes: Nodes<'_>,
         state: &mut Vec<f64>,
@@ -77,17 +78,17 @@ impl VelocitySolver for Area {
             _ => [nodes.c_rate[0], nodes.x_rate[0], nodes.z_rate(0)],
         };
         *state = vec![
-            self.onward(nodes.t, nodes.c, first[0], out.c),
-            self.onward(nodes.t, nodes.x, first[1], out.x),
-            self.onward(nodes.t, nodes.z, first[2], out.z),
+            self.recurse(nodes.t, nodes.c, first[0], out.c),
+            self.recurse(nodes.t, nodes.x, first[1], out.x),
+            self.recurse(nodes.t, nodes.z, first[2], out.z),
         ];
         Ok(())
     }
 }
 
 impl Area {
-    /// The velocities of one axis from `first` on; gives the last.
-    fn onward(&self, t: &[f64], p: &[f64], first: f64, out: &mut [f64]) -> f64 {
+    /// The velocities of one axis, starting with `first`. Returns the last velocity.
+    fn recurse(&self, t: &[f64], p: &[f64], first: f64, out: &mut [f64]) -> f64 {
         let mut velocity = first;
         for (k, out) in out.iter_mut().enumerate() {
             if k > 0 {

@@ -2,12 +2,12 @@
 
 use turnpath_plugin::prelude::*;
 
-/// Straight lines between the control points, each axis at constant speed: no velocities are
-/// played. Those given are the rates of the segment that follows a node, at the path's last one
-/// those of the segment before.
+/// Straight lines between the control points, with each axis at constant speed. The controller
+/// plays no velocities. The velocity of a node is the rate of the segment after it; at the path's
+/// last node it is the rate of the segment before.
 ///
-/// The error of position is of order 2 in the step, h²/8·P″; a bound made for cubics promises
-/// nothing here, so refinement has more to do.
+/// The error of position is of order 2 in the step, h²/8·P″. A bound for cubics does not hold here,
+/// so refinement has more to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Linear;
 
@@ -38,7 +38,7 @@ impl VelocitySolver for Linear {
     }
 }
 
-/// The rates of one axis; a lone node is at rest.
+/// The rates of one axis. A single node is at rest.
 fn rates(t: &[f64], p: &[f64], out: &mut [f64]) {
     let mut rate = 0.0;
     for (k, out) in out.iter_mut().enumerate() {

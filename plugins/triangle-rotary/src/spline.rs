@@ -1,11 +1,11 @@
-//! The cubic spline in slope form on uneven nodes: one tridiagonal matrix, any count of axes.
+//! The cubic spline in slope form on uneven nodes: one tridiagonal matrix for any number of axes.
 //!
-//! With h_k = t_{k+1} − t_k, d_k = Δp_k/h_k, λ_k = h_k/(h_{k−1} + h_k) and μ_k = 1 − λ_k, equal
-//! second derivatives on both sides of node k ask of the slopes m that
-//! λ_k m_{k−1} + 2 m_k + μ_k m_{k+1} = 3(λ_k d_{k−1} + μ_k d_k) (de Boor, *A Practical Guide to
-//! Splines*, ch. IV). Elimination needs no pivots, however uneven the steps: λ_k + μ_k = 1 < 2.
+//! Let h_k = t_{k+1} − t_k, d_k = Δp_k/h_k, λ_k = h_k/(h_{k−1} + h_k) and μ_k = 1 − λ_k. Second
+//! derivatives are equal on both sides of node k if the slopes m satisfy λ_k m_{k−1} + 2 m_k + μ_k
+//! m_{k+1} = 3(λ_k d_{k−1} + μ_k d_k) (de Boor, *A Practical Guide to Splines*, ch. IV).
+//! Elimination needs no pivots, however uneven the steps are: λ_k + μ_k = 1 < 2.
 
-/// What holds at an end of the spline.
+/// The condition at an end of the spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
     /// The slope is given.
@@ -26,9 +26,9 @@ struct Row {
     upper: f64,
 }
 
-/// A row after the forward sweep: m_k = (right side − lower·m_{k−1})·scale − upper·m_{k+1}.
+/// A row after forward elimination: m_k = (right side − lower·m_{k−1})·scale − upper·m_{k+1}.
 #[derive(Debug, Clone, Copy)]
-struct Swept {
+struct EliminatedRow {
     lower: f64,
     scale: f64,
     upper: f64,
@@ -38,24 +38,24 @@ struct Swept {
 pub struct System<'a> {
     t: &'a [f64],
     ends: [End; 2],
-    swept: Vec<Swept>,
+    rows: Vec<EliminatedRow>,
 }
 
 impl<'a> System<'a> {
-    /// Forward sweep over the matrix; a single node has a slope only if it is given one.
+    /// Factors the matrix by a forward sweep. A single node has a slope only if the slope is given.
     pub fn factor(t: &'a [f64], ends: [End; 2]) -> Self {
         let ends = solvable(ends, t.len());
         let mut system = Self {
             t,
             ends,
-            swept: Vec::with_capacity(t.len()),
+            rows: Vec::with_capacity(t.len()),
         };
         let mut before = 0.0;
         for k in 0..t.len() {
             let row = system.row(k);
             let scale = 1.0 / (row.middle - row.lower * before);
             before = row.upper * scale;
-            system.swept.push(Swept {
+            system.rows.push(EliminatedRow {
                 lower: row.lower,
                 scale,
                 upper: before,
@@ -64,16 +64,17 @@ impl<'a> System<'a> {
         system
     }
 
-    /// The slopes of the spline through `p`; `clamp` knows the slope at node 0 and at the last.
+    /// The slopes of the spline through `p`. `clamp` gives the slope at node 0 and at the last
+    /// node.
     pub fn solve(&self, p: &[f64], clamp: impl Fn(usize) -> f64, slopes: &mut [f64]) {
         let mut before = 0.0;
-        for (k, (swept, slope)) in self.swept.iter().zip(slopes.iter_mut()).enumerate() {
-            before = (self.right_side(k, p, &clamp) - swept.lower * before) * swept.scale;
+        for (k, (row, slope)) in self.rows.iter().zip(slopes.iter_mut()).enumerate() {
+            before = (self.right_side(k, p, &clamp) - row.lower * before) * row.scale;
             *slope = before;
         }
         let mut after = 0.0;
-        for (swept, slope) in self.swept.iter().zip(slopes.iter_mut()).rev() {
-            *slope -= swept.upper * after;
+        for (row, slope) in self.rows.iter().zip(slopes.iter_mut()).rev() {
+            *slope -= row.upper * after;
             after = *slope;
         }
     }
@@ -122,7 +123,8 @@ impl<'a> System<'a> {
         (after / both, before / both)
     }
 
-    /// The factors of the end's slope and of its neighbour's; segments named from the end inwards.
+    /// The factors of the end's slope and of its neighbour's slope. Segments are numbered from the
+    /// end inwards.
     fn end_row(&self, end: End, first: usize, second: usize) -> (f64, f64) {
         match end {
             End::Clamped => (1.0, 0.0),
@@ -165,15 +167,15 @@ impl<'a> System<'a> {
     }
 }
 
-/// The right side of m₀ + (h₀ + h₁)/h₁·m₁ = [(3h₀ + 2h₁)d₀ + h₀²/h₁·d₁]/(h₀ + h₁): the third
-/// derivative does not jump at node 1.
+/// The right side of m₀ + (h₀ + h₁)/h₁·m₁ = [(3h₀ + 2h₁)d₀ + h₀²/h₁·d₁]/(h₀ + h₁), which says that
+/// the third derivative does not jump at node 1.
 fn not_a_knot([h0, h1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
     ((3.0 * h0 + 2.0 * h1) * d0 + h0 * h0 / h1 * d1) / (h0 + h1)
 }
 
-/// The same ends where `count` nodes are enough for them; else the nearest that have a solution:
-/// two segments as one cubic through three nodes with no more known are a parabola, a lone
-/// segment is a parabola or a straight line.
+/// The same ends if `count` nodes are enough for them; otherwise the nearest ends that have a
+/// solution. Two segments as one cubic through three nodes, with nothing else known, are a
+/// parabola. A single segment is a parabola or a straight line.
 fn solvable(ends: [End; 2], count: usize) -> [End; 2] {
     use End::{Clamped, Natural, NotAKnot, Parabola};
     match (count, ends) {

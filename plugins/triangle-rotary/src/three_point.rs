@@ -1,12 +1,13 @@
-//! Three points: velocities from each node and its two neighbours.
+//! The three-point method: velocities from each node and its two neighbours.
 
 use turnpath_plugin::prelude::*;
 
-/// The slope, at each node, of the parabola through it and its neighbours:
-/// V_k = (h_k d_{k−1} + h_{k−1} d_k)/(h_{k−1} + h_k) with d_k = ΔP_k/h_k.
+/// The slope, at each node, of the parabola through the node and its neighbours: V_k = (h_k d_{k−1}
+/// + h_{k−1} d_k)/(h_{k−1} + h_k) with d_k = ΔP_k/h_k.
 ///
-/// Exact rates at the path's two ends. The velocity is off by h_{k−1}h_k/6·P‴, which makes the
-/// error of position of order 3 in the step, and at the ends no larger.
+/// At the path's two ends the velocities are the exact rates. The velocity is off by
+/// h_{k−1}h_k/6·P‴, which makes the error of position of order 3 in the step, and no larger at the
+/// ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ThreePoint;
 
@@ -34,7 +35,7 @@ impl VelocitySolver for ThreePoint {
     }
 }
 
-/// The slopes of one axis; the outermost nodes take the exact `rate`.
+/// The slopes of one axis. The first and the last node take the exact `rate`.
 fn slopes(t: &[f64], p: &[f64], rate: impl Fn(usize) -> f64, out: &mut [f64]) {
     let inner = t.windows(3).zip(p.windows(3)).zip(out.iter_mut().skip(1));
     for ((t, p), slope) in inner {

@@ -4,15 +4,15 @@ use turnpath_plugin::prelude::*;
 
 use crate::spline::{End, System};
 
-/// Nodes that a block needs on either side: an end's influence falls to less than half a node, so
-/// what lies beyond 64 is 2⁻⁶⁴ of it, far below a rounding.
+/// Number of nodes that a block needs on either side. The influence of an end falls to less than
+/// half from node to node, so what lies beyond 64 nodes has 2⁻⁶⁴ of it, far below rounding.
 const OVERLAP: usize = 64;
 
 /// The slopes of the C² cubic spline through the nodes of each axis.
 ///
-/// The error of position is of order 4 in the step, on any steps; with natural ends of order 2
-/// near the path's two ends, where the true acceleration is not 0. `ends` holds at the two ends of
-/// the path; a window of it is clamped to the exact rates.
+/// The error of position is of order 4 in the step, for any steps. With natural ends it is of order
+/// 2 near the path's two ends, where the true acceleration is not 0. `ends` applies to the two ends
+/// of the path; a window of the path is clamped to the exact rates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TriangleRotary {
     ends: Ends,

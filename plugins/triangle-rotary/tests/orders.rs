@@ -94,7 +94,7 @@ impl Axes {
                 z: vz,
             };
             match solver.dependence() {
-                Dependence::Sequential => solver.solve_onward(nodes, &mut state, out).unwrap(),
+                Dependence::Sequential => solver.solve_sequential(nodes, &mut state, out).unwrap(),
                 _ => solver.solve(nodes, out).unwrap(),
             }
             path.truncate(start);

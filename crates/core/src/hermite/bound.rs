@@ -1,32 +1,32 @@
-//! How far a step may go: the error of cubic Hermite interpolation, across knots too.
+//! How long a step may be: the error of cubic Hermite interpolation, across knots too.
 //!
-//! On a step of length L the error at x is E(x) = ∫ K(x, t) φ⁗(t) dt with Peano's kernel K ≥ 0,
-//! whose integral is at most L⁴/384 (eq. 10 of Wang et al. 2019). Where a derivative of φ jumps
-//! within the step, φ⁗ holds a delta or one of its derivatives there, which gives the kernel or
-//! its derivative at the knot. With J_m the jump of the m-th derivative, and the largest amounts
-//! of K, ∂K/∂t and ∂²K/∂t² over all x and t,
+//! On a step of length L the error at x is E(x) = ∫ K(x, t) φ⁗(t) dt. Peano's kernel K is ≥ 0, and
+//! its integral is at most L⁴/384 (eq. 10 of Wang et al. 2019). If a derivative of φ jumps within
+//! the step, φ⁗ holds a delta or a derivative of a delta there. The integral then takes the kernel
+//! or a derivative of the kernel at the knot. With J_m the jump of the m-th derivative, and with
+//! the largest absolute values of K, ∂K/∂t and ∂²K/∂t² over all x and t,
 //!
-//! |E| ≤ L⁴/384 max|φ⁗| + L³/192 Σ|J₃| + 0.016152 L² Σ|J₂| + 4/27 L Σ|J₁|,
+//! |E| ≤ L⁴/384 max|φ⁗| + L³/192 Σ|J₃| + 0.016152 L² Σ|J₂| + 4/27 L Σ|J₁|.
 //!
-//! where max|φ⁗| takes both sides of each knot. A law whose pieces join almost as smoothly as
-//! they are within costs next to nothing by this; at any other knot the sampler ends its step.
+//! Here max|φ⁗| takes both sides of each knot. If the pieces of a law join almost as smoothly as
+//! they are inside, a knot costs next to nothing. At any other knot the sampler ends its step.
 
-/// max |∂K/∂t| for L = 1, at x = 0.566, t = 0.767 (or mirrored), rounded up.
+/// max |∂K/∂t| for L = 1. It lies at x = 0.566, t = 0.767 (and mirrored), and is rounded up.
 const SECOND: f64 = 0.016_152;
 
-/// Σ|J_m| of the knots within a step; the m-th derivatives are in mm/rad^m.
+/// Σ|J_m| over the knots within a step. The m-th derivatives are in mm/rad^m.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Jumps {
-    /// Of the first derivative.
+    /// The sum for the first derivative.
     pub first: f64,
-    /// Of the second.
+    /// The sum for the second derivative.
     pub second: f64,
-    /// Of the third.
+    /// The sum for the third derivative.
     pub third: f64,
 }
 
 impl Jumps {
-    /// With those of one more knot.
+    /// The sums with the jumps of one more knot.
     pub fn and(self, other: Self) -> Self {
         Self {
             first: self.first + other.first,
@@ -36,17 +36,17 @@ impl Jumps {
     }
 }
 
-/// What is known of φ on a step.
+/// What a step's error bound is computed from.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Bound {
     /// max |φ⁗|, mm/rad⁴.
     pub fourth: f64,
-    /// The knots' share.
+    /// The jumps at the knots.
     pub jumps: Jumps,
 }
 
 impl Bound {
-    /// The largest error on a step of `length` rad, mm.
+    /// The bound of the error on a step of `length` rad, mm.
     pub fn error(&self, length: f64) -> f64 {
         let Jumps {
             first,
@@ -57,13 +57,13 @@ impl Bound {
         length * (4.0 / 27.0 * first + length * (SECOND * second + length * inner))
     }
 
-    /// The length of a step without knots at which the error is `allowed`, rad.
+    /// The length of a step without knots whose error is `allowed`, rad.
     pub fn natural_length(&self, allowed: f64) -> f64 {
         (384.0 * allowed / self.fourth).sqrt().sqrt()
     }
 
-    /// The largest length in [`shorter`, `longer`] whose error is at most `allowed`; `shorter`
-    /// where there is none.
+    /// The largest length in [`shorter`, `longer`] whose error is at most `allowed`, or `shorter`
+    /// if there is none.
     pub fn length_between(&self, allowed: f64, shorter: f64, longer: f64) -> f64 {
         if self.jumps == Jumps::default() {
             return self.natural_length(allowed).clamp(shorter, longer);
@@ -81,14 +81,14 @@ impl Bound {
     }
 }
 
-/// Halvings of a cell of samples: to less than a millionth of it.
+/// Number of bisections within a cell of samples: to less than a millionth of the cell.
 const HALVINGS: usize = 20;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The largest error of Hermite's cubic for (x − c)₊^m/m! on the unit step.
+    /// The largest error of the Hermite cubic for (x − c)₊^m/m! on the unit step.
     fn worst(power: usize) -> f64 {
         const PLACES: usize = 400;
         let raised = |u: f64, n: usize| (0..n).fold(1.0, |product, _| product * u);

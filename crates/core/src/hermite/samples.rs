@@ -1,33 +1,32 @@
-//! |φ⁗| along the path on an even grid of angles, in batches that follow the steps.
+//! |φ⁗| along the path on an even grid of angles, sampled in batches as the steps advance.
 
 use std::f64::consts::TAU;
 
-use super::Steps;
 use super::bound::Jumps;
 use crate::{
     CentreSeries, DEG, Misfit, Path, Rates, Result, Revolutions, Series, StrategyError, angle,
     per_radian,
 };
 
-/// Samples a revolution on the coarsest grid. A prime, so that no array of equal features on a
-/// ring has all its samples at the same phase.
+/// Samples on a revolution of the coarsest grid. The number is a prime, so that no ring of equal
+/// features has all its samples at the same phase.
 const COARSEST: f64 = 367.0;
-/// Samples of a batch.
+/// Number of samples in a batch.
 const BATCH: u64 = 256;
-/// Slopes up to this count when it is judged whether X's own interpolation matters.
+/// The largest slope that is assumed in the test whether X's own interpolation matters.
 const STEEPEST: f64 = 10.0;
-/// It does not where it changes Z by less than this part of the tolerance.
+/// X's own interpolation does not matter if it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// With [`Misfit::CutWhatFits`] steps are no shorter than this, rad: where the nose passes from one
-/// side of a seam to the other the path has a kink, and no step of any length is right. Refinement
-/// halves there what is too long.
+/// With [`Misfit::CutWhatFits`] no step is shorter than this, rad. The path has a kink where the
+/// nose passes from one side of a seam to the other, and no step of any length is right there.
+/// Refinement halves the segments that are too long there.
 const LEAST_NEAR_SEAMS: f64 = 0.1 * DEG;
 
-/// A knot of the law: |φ⁗| before and after it, and what jumps there.
+/// A knot of the law: |φ⁗| before and after it, and the jumps there.
 #[derive(Debug, Clone, Copy)]
 pub struct Knot {
-    /// Where it is, in revolutions.
+    /// Position of the knot, in revolutions.
     pub n: f64,
     /// |φ⁗| of the piece that ends, mm/rad⁴.
     pub before: f64,
@@ -37,17 +36,17 @@ pub struct Knot {
     pub jumps: Jumps,
 }
 
-/// φ = e_Z − Z_X·e_X: what interpolation of Z and of X together leave between the played and the
-/// true tool centre at the played X.
-struct Played<'a> {
+/// Evaluates φ = e_Z − Z_X·e_X: the error that interpolation of Z and of X together leaves between
+/// the played and the true tool centre at the played X.
+struct PhiEvaluator<'a> {
     path: Path<'a>,
-    /// X's 4th derivative below this does not matter, mm/rad⁴.
-    still: f64,
+    /// A 4th derivative of X below this does not matter, mm/rad⁴.
+    negligible_fourth: f64,
     /// Largest error of φ, mm.
     allowed: f64,
     /// Part of the distance between passes that X's own error may take.
     feed_part: f64,
-    /// |φ⁗| counts as no more than this, mm/rad⁴.
+    /// Upper limit for |φ⁗|, mm/rad⁴.
     sharpest: f64,
     theta: Vec<f64>,
     rho: Vec<f64>,
@@ -57,12 +56,16 @@ struct Played<'a> {
     slope: Vec<f64>,
 }
 
-impl Played<'_> {
-    /// Fills x and z with the series at `n`, and slope with ∂Z/∂X where it matters, else 0.
-    fn look(&mut self, n: &[f64]) -> Result<()> {
-        self.make_room(n.len());
+impl PhiEvaluator<'_> {
+    /// Fills `x` and `z` with the series at each `n`, and `slope` with ∂Z/∂X where it matters, else
+    /// with 0.
+    fn evaluate(&mut self, n: &[f64]) -> Result<()> {
+        self.resize(n.len());
         self.path.series_at(n, &mut self.x, &mut self.z)?;
-        let moves = self.x.iter().any(|x| 24.0 * x[4].abs() > self.still);
+        let moves = self
+            .x
+            .iter()
+            .any(|x| 24.0 * x[4].abs() > self.negligible_fourth);
         if moves {
             self.find_slopes(n)?;
         }
@@ -74,7 +77,7 @@ impl Played<'_> {
         Ok(())
     }
 
-    fn make_room(&mut self, count: usize) {
+    fn resize(&mut self, count: usize) {
         self.x.resize(count, [f64::NAN; 5]);
         self.z.resize(count, [f64::NAN; 5]);
         self.slope.clear();
@@ -99,30 +102,32 @@ impl Played<'_> {
         self.path.locus.rates(&self.theta, &self.rho, rates)
     }
 
-    /// |φ⁗| at place `i` of the last look, `n` revolutions on; or |X⁗| in the measure in which X's
-    /// own error may be as large as φ's, where that is more.
+    /// |φ⁗| at element `i` of the last evaluation, where N = `n`; or |X⁗| in the measure of
+    /// [`x_weight`](Self::x_weight), if that is larger.
     fn fourth(&self, i: usize, n: f64) -> f64 {
         let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
         if x == 0.0 {
             return (24.0 * phi).min(self.sharpest);
         }
-        (24.0 * phi.max(x * self.x_measure(n))).min(self.sharpest)
+        (24.0 * phi.max(x * self.x_weight(n))).min(self.sharpest)
     }
 
-    /// What X's own error counts against φ's, `n` revolutions on.
-    fn x_measure(&self, n: f64) -> f64 {
+    /// The weight of X's own error against φ's at `n` revolutions. With this weight X's error may
+    /// be as large as φ's.
+    fn x_weight(&self, n: f64) -> f64 {
         self.allowed / (self.feed_part * pitch(&self.path, n))
     }
 
-    /// The series of φ at place `i` of the last look.
+    /// The series of φ at element `i` of the last evaluation.
     fn phi(&self, i: usize) -> Series {
         let (x, z, slope) = (&self.x[i], &self.z[i], self.slope[i]);
         std::array::from_fn(|k| z[k] - slope * x[k])
     }
 }
 
-/// How far the next turn lies, mm; at the path's last turn, the one before. The rate is no measure of
-/// it: a law may come to rest at its ends, and one that follows the angle moves back and forth.
+/// The distance to the next turn, mm; on the path's last turn, the distance to the turn before. The
+/// rate is no measure of this distance: a law may come to rest at its ends, and a law that follows
+/// the angle moves back and forth.
 fn pitch(path: &Path<'_>, n: f64) -> f64 {
     let law = path.law;
     let to = |other: f64| (law.value(other) - law.value(n)).abs();
@@ -135,28 +140,34 @@ fn pitch(path: &Path<'_>, n: f64) -> f64 {
     }
 }
 
-/// |φ⁗| on the grid around the step in hand, or |X⁗| in its measure.
+/// |φ⁗|, or |X⁗| in its measure, on the grid around the current step.
 pub struct Samples<'a> {
-    played: Played<'a>,
+    phi: PhiEvaluator<'a>,
     block: Revolutions,
     /// The grid's spacing, in revolutions.
     spacing: f64,
-    /// Number of the first sample held; sample i lies at block.start + i·spacing.
+    /// Number of the first sample in the buffer. Sample i lies at block.start + i·spacing.
     first: u64,
     fourth: Vec<f64>,
     n: Vec<f64>,
 }
 
 impl<'a> Samples<'a> {
-    /// None yet. Steps will be at most those of `steps`, errors at most `allowed` mm.
-    pub fn new(path: &Path<'a>, block: Revolutions, steps: &Steps, allowed: f64) -> Self {
-        let squared = steps.max_step * steps.max_step;
-        let played = Played {
+    /// Samples for steps of at most `max_step` rad, with errors of at most `allowed` mm. X's own
+    /// error may take `feed_part` of the distance between passes. No sample is evaluated yet.
+    pub fn new(
+        path: &Path<'a>,
+        block: Revolutions,
+        (max_step, feed_part): (f64, f64),
+        allowed: f64,
+    ) -> Self {
+        let squared = max_step * max_step;
+        let phi = PhiEvaluator {
             path: *path,
-            still: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
+            negligible_fourth: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
             allowed,
-            feed_part: steps.feed_part,
-            sharpest: sharpest(path.job.tool.misfit, allowed),
+            feed_part,
+            sharpest: sharpest(path.task.tool.misfit, allowed),
             theta: Vec::new(),
             rho: Vec::new(),
             x: Vec::new(),
@@ -165,7 +176,7 @@ impl<'a> Samples<'a> {
             slope: Vec::new(),
         };
         Self {
-            played,
+            phi,
             block,
             spacing: 1.0 / COARSEST,
             first: 0,
@@ -179,26 +190,26 @@ impl<'a> Samples<'a> {
         TAU * self.spacing
     }
 
-    /// Whether the grid is finer than need be anywhere.
+    /// Whether the grid is the coarsest one.
     pub fn is_coarsest(&self) -> bool {
         self.spacing >= 1.0 / COARSEST
     }
 
-    /// Scales the spacing, and starts anew.
+    /// Scales the spacing and starts anew.
     pub fn rescale(&mut self, factor: f64) {
         self.spacing *= factor;
         self.fourth.clear();
     }
 
-    /// Where sample `i` lies, in revolutions; the last ones at the block's end.
-    pub fn place(&self, i: u64) -> f64 {
+    /// Position of sample `i`, in revolutions. The last samples lie at the block's end.
+    pub fn position(&self, i: u64) -> f64 {
         (self.block.start + i as f64 * self.spacing).min(self.block.end)
     }
 
-    /// The sample at or before `n`, before which none are needed any more.
+    /// The number of the sample at or before `n`. Samples before it are no longer needed.
     pub fn begin(&mut self, n: f64) -> u64 {
         let near = ((n - self.block.start) / self.spacing).floor().max(0.0) as u64;
-        let start = if self.place(near) > n {
+        let start = if self.position(near) > n {
             near.saturating_sub(1)
         } else {
             near
@@ -214,7 +225,7 @@ impl<'a> Samples<'a> {
         start
     }
 
-    /// |φ⁗| at sample `i`, not before the last [`begin`](Self::begin).
+    /// |φ⁗| at sample `i`, which must not lie before the result of the last [`begin`](Self::begin).
     pub fn fourth(&mut self, i: u64) -> Result<f64> {
         let at = i.saturating_sub(self.first) as usize;
         while self.fourth.len() <= at {
@@ -227,10 +238,10 @@ impl<'a> Samples<'a> {
         let from = self.first + self.fourth.len() as u64;
         let mut n = std::mem::take(&mut self.n);
         n.clear();
-        n.extend((from..from + BATCH).map(|i| self.place(i)));
-        self.played.look(&n)?;
+        n.extend((from..from + BATCH).map(|i| self.position(i)));
+        self.phi.evaluate(&n)?;
         for (i, n) in n.iter().enumerate() {
-            self.fourth.push(self.played.fourth(i, *n));
+            self.fourth.push(self.phi.fourth(i, *n));
         }
         self.n = n;
         Ok(())
@@ -238,37 +249,37 @@ impl<'a> Samples<'a> {
 
     /// The knots of the law within the block.
     pub fn knots(&mut self) -> Result<Vec<Knot>> {
-        let law = self.played.path.law;
+        let law = self.phi.path.law;
         let places: Vec<f64> = law.knots(self.block.start, self.block.end).collect();
         let mut knots = Vec::with_capacity(places.len());
         for batch in places.chunks(BATCH as usize) {
-            self.played.look(batch)?;
-            let after = self.played.watched(batch);
-            self.played.look_before(batch)?;
-            let before = self.played.watched(batch);
+            self.phi.evaluate(batch)?;
+            let after = self.phi.series_of_phi_z_x(batch);
+            self.phi.evaluate_before(batch)?;
+            let before = self.phi.series_of_phi_z_x(batch);
             for ((n, before), after) in batch.iter().zip(before).zip(after) {
-                knots.push(Knot::between(*n, before, after, self.played.sharpest));
+                knots.push(Knot::between(*n, before, after, self.phi.sharpest));
             }
         }
         Ok(knots)
     }
 }
 
-impl Played<'_> {
-    /// The series of φ, of Z, and of X in φ's measure, at every place `n` of the last look.
-    fn watched(&self, n: &[f64]) -> Vec<[Series; 3]> {
+impl PhiEvaluator<'_> {
+    /// The series of φ, of Z, and of X in φ's measure, at every `n` of the last evaluation.
+    fn series_of_phi_z_x(&self, n: &[f64]) -> Vec<[Series; 3]> {
         n.iter()
             .enumerate()
             .map(|(i, n)| {
-                let measure = self.x_measure(*n);
+                let measure = self.x_weight(*n);
                 let x = self.x[i].map(|c| if c == 0.0 { 0.0 } else { c * measure });
                 [self.phi(i), self.z[i], x]
             })
             .collect()
     }
 
-    /// Looks at knots as the pieces have them that end there; the slopes are at hand.
-    fn look_before(&mut self, knots: &[f64]) -> Result<()> {
+    /// Evaluates at knots with the pieces that end there. The slopes are already known.
+    fn evaluate_before(&mut self, knots: &[f64]) -> Result<()> {
         let law = self.path.law;
         let theta: Vec<Series> = knots
             .iter()
@@ -287,8 +298,9 @@ impl Played<'_> {
 }
 
 impl Knot {
-    /// From φ, Z and X on both sides. A jump counts as the largest of theirs: in φ those of Z and X
-    /// cancel at the knot's own slope, which is not the slope all over the step.
+    /// Builds a knot from φ, Z and X on both sides. A jump counts as the largest jump of the three.
+    /// The jumps of Z and X cancel in φ at the knot's own slope, but the slope differs elsewhere on
+    /// the step.
     fn between(n: f64, before: [Series; 3], after: [Series; 3], sharpest: f64) -> Self {
         let jump = |k: usize, factorial: f64| {
             let of = |which: usize| (after[which][k] - before[which][k]).abs();
@@ -311,7 +323,7 @@ impl Knot {
     }
 }
 
-/// The largest |φ⁗| that counts, mm/rad⁴: that of the least step where there may be seams.
+/// The upper limit for |φ⁗|, mm/rad⁴: the value for the least step, if there may be seams.
 fn sharpest(misfit: Misfit, allowed: f64) -> f64 {
     match misfit {
         Misfit::Refuse => f64::INFINITY,
@@ -324,7 +336,7 @@ fn sharpest(misfit: Misfit, allowed: f64) -> f64 {
 
 fn no_value(n: f64, rho: f64) -> StrategyError {
     StrategyError::failed(format!(
-        "the path's 4th derivative is no number at C = {:.3} deg, ρ = {rho:.4} mm",
+        "the path's 4th derivative is not a number at C = {:.3} deg, ρ = {rho:.4} mm",
         360.0 * n
     ))
 }

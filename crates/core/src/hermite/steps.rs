@@ -1,4 +1,4 @@
-//! Steps along one block, each as long as the bound allows.
+//! Steps along one block. Each step is as long as the bound allows.
 
 use std::f64::consts::TAU;
 
@@ -6,53 +6,55 @@ use super::bound::Bound;
 use super::samples::{Knot, Samples};
 use crate::{DEG, Param, Params, Path, Result, Revolutions, StrategyError};
 
-/// Part of the tolerance that is aimed at: below refinement's own aim of 0.99, so that a
-/// prediction that is right is never halved for what samples and rounding miss. A step shrinks
-/// by 0.5 % for it.
+/// The part of the tolerance that steps aim at. It lies below refinement's aim of 0.99, so that
+/// refinement never halves a correct step because of what samples and rounding miss. It makes a
+/// step 0.5 % shorter.
 const AIM: f64 = 0.98;
-/// Samples within the length of a step, at least.
-const LOOKS: f64 = 16.0;
-/// The grid is made coarser again where steps are this many times longer than it asks for.
+/// The least number of samples within the length of a step.
+const LEAST_SAMPLES: f64 = 16.0;
+/// The grid becomes coarser again if steps are this many times longer than the grid needs.
 const TOO_FINE: f64 = 4.0;
-/// See [`SHORTEST`].
+/// [`SHORTEST`] in degrees.
 const SHORTEST_DEG: f64 = 0.004;
-/// The part of the tolerance that knots within a step may take; a step ends on one that might
+/// The part of the tolerance that knots within a step may take. A step ends on a knot that might
 /// take more.
 const KNOTS_SHARE: f64 = 0.1;
-/// A knot no further on than this, in revolutions, is where the step begins: lengths of pieces that
-/// are added up miss a block's start by their rounding. The shortest step is 10,000 times that.
-const SAME_PLACE: f64 = 1e-9;
-/// A node closer to the block's end than this part of its step is left out.
+/// A step begins at a knot if it begins no further than this before the knot, in revolutions. The
+/// sums of the pieces' lengths miss the start of a block by their rounding. The shortest step is
+/// 10,000 times as long.
+const SAME_POSITION: f64 = 1e-9;
+/// A node that lies closer to the block's end than this part of its step is left out.
 const SLACK: f64 = 1e-3;
 
-/// Steps as long as the interpolation tolerance allows on the path that is played: the core of
-/// the samplers that go by the error of a cubic Hermite segment.
+/// Steps that are as long as the interpolation tolerance allows on the played path. This is the
+/// core of the samplers that use the error of a cubic Hermite segment.
 ///
-/// Each step is as long as ε ≥ L⁴/384 max|φ⁗| holds over all of it, where
-/// φ⁗ = Z⁗ − ∂Z/∂X·X⁗ of the tool centre along the true spiral; X's own error stays a part of the
-/// distance between passes. See [`Bound`] for what happens at knots of the law.
+/// Each step is as long as ε ≥ L⁴/384 max|φ⁗| allows over the whole step, with φ⁗ = Z⁗ − ∂Z/∂X·X⁗
+/// of the tool centre along the true spiral. X's own error stays below a part of the distance
+/// between passes. See [`Bound`] for steps across knots of the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steps {
     /// Largest step, rad.
     pub max_step: f64,
-    /// Part of the distance between neighbouring passes that X's own interpolation may take. Two
-    /// passes may err apart, and the cusp grows with the square of their distance: by four times
-    /// this part of itself at the most.
+    /// Part of the distance between neighbouring passes that X's own interpolation error may take.
+    /// Two passes may err in opposite directions, and a cusp grows with the square of their
+    /// distance. So the cusp grows by at most four times this part of itself.
     pub feed_part: f64,
 }
 
-/// The shortest step, rad: 90,000 points a revolution. What asks for less is no smooth surface.
+/// The shortest step, rad: 90,000 points on a revolution. A surface that needs shorter steps is not
+/// smooth.
 pub const SHORTEST: f64 = SHORTEST_DEG * DEG;
 
-/// The parameter `max_step` of samplers that look for the longest step: 45 deg, and never more
-/// than 90.
+/// The parameter `max_step` of the samplers that look for the longest step. The default is 45 deg,
+/// and the limit is 90 deg.
 pub const MAX_STEP: Param = Param::angle("max_step", "largest angle step")
     .default(45.0 * DEG)
     .min(SHORTEST)
     .max(90.0 * DEG);
 
 impl Steps {
-    /// Steps of a strategy that declares [`MAX_STEP`].
+    /// The steps of a strategy that declares [`MAX_STEP`].
     pub fn new(params: &Params, feed_part: f64) -> Self {
         Self {
             max_step: params.angle_rad(MAX_STEP.name),
@@ -60,10 +62,10 @@ impl Steps {
         }
     }
 
-    /// Appends the nodes of `block`: as [`Sampler::place`](crate::Sampler::place) asks for.
+    /// Appends the nodes of `block`, as [`Sampler::place`](crate::Sampler::place) must.
     ///
     /// # Errors
-    /// Where the path has no 4th derivative, or one that asks for steps below [`SHORTEST`].
+    /// If the path has no 4th derivative, or needs steps below [`SHORTEST`].
     pub fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
         let mut walk = Walk::new(path, block, self)?;
         let mut n = block.start;
@@ -90,18 +92,18 @@ struct Walk<'a> {
     allowed: f64,
 }
 
-/// How far a step goes.
+/// One step.
 struct Step {
-    /// Where it ends, in revolutions.
+    /// End of the step, in revolutions.
     end: f64,
-    /// max |φ⁗| on it.
+    /// What the step's error bound is computed from.
     bound: Bound,
 }
 
 impl<'a> Walk<'a> {
     fn new(path: &Path<'a>, block: Revolutions, steps: &Steps) -> Result<Self> {
-        let allowed = AIM * path.job.tolerance.interpolation;
-        let mut samples = Samples::new(path, block, steps, allowed);
+        let allowed = AIM * path.task.tolerance.interpolation;
+        let mut samples = Samples::new(path, block, (steps.max_step, steps.feed_part), allowed);
         let knots = samples.knots()?;
         Ok(Self {
             samples,
@@ -113,12 +115,12 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// Where the step from `n` ends, on a grid as fine as it asks for.
+    /// The end of the step from `n`, on a grid as fine as the step needs.
     fn step_from(&mut self, n: f64) -> Result<f64> {
         while self
             .knots
             .get(self.next_knot)
-            .is_some_and(|knot| knot.n <= n + SAME_PLACE)
+            .is_some_and(|knot| knot.n <= n + SAME_POSITION)
         {
             self.next_knot += 1;
         }
@@ -129,19 +131,19 @@ impl<'a> Walk<'a> {
                 return Err(too_short(n, natural));
             }
             let looks = natural / self.samples.spacing();
-            if looks < LOOKS {
+            if looks < LEAST_SAMPLES {
                 self.samples.rescale(0.5);
                 continue;
             }
-            if looks > TOO_FINE * LOOKS && !self.samples.is_coarsest() {
+            if looks > TOO_FINE * LEAST_SAMPLES && !self.samples.is_coarsest() {
                 self.samples.rescale(2.0);
             }
             return Ok(step.end);
         }
     }
 
-    /// The longest step from `n` on the grid as it is: mark by mark, a sample or a knot, until
-    /// the bound is met.
+    /// The longest step from `n` on the present grid. The walk goes from mark to mark, where a mark
+    /// is a sample or a knot, until the error reaches the bound.
     fn longest(&mut self, n: f64) -> Result<Step> {
         let limit = (n + self.max_step / TAU).min(self.end);
         let length = |to: f64| TAU * (to - n);
@@ -153,7 +155,7 @@ impl<'a> Walk<'a> {
         let mut reached = n;
         sample += 1;
         loop {
-            let place = self.samples.place(sample);
+            let place = self.samples.position(sample);
             let crossed = self.knots.get(knot).filter(|knot| knot.n <= place);
             let (mark, fourth) = match crossed {
                 Some(knot) => (knot.n, knot.before),
@@ -190,7 +192,7 @@ impl<'a> Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Whether the jumps of a knot could take more than their share on a step over it.
+    /// Whether the jumps of a knot could take more than their share on a step across it.
     fn is_hard(&self, knot: &Knot, bound: &Bound, limit: f64) -> bool {
         let jumps = Bound {
             fourth: 0.0,
@@ -203,8 +205,8 @@ impl Walk<'_> {
 
 fn too_short(n: f64, natural: f64) -> StrategyError {
     StrategyError::failed(format!(
-        "the tolerance asks for steps of {:.2e} deg at C = {:.3} deg, and the shortest is \
-         {SHORTEST_DEG} deg: the tool centre's path is not smooth there; choose a larger \
+        "the tolerance needs steps of {:.2e} deg at C = {:.3} deg, but the shortest \
+         allowed step is {SHORTEST_DEG} deg: the tool centre's path is not smooth there; choose a larger \
          interpolation tolerance, a smaller tool, or another sampler",
         natural / DEG,
         360.0 * n

@@ -1,18 +1,19 @@
-//! The smallest of a quantity over all angles at one radius: rings of angles, then closing in.
+//! The smallest value of a quantity over all angles at one radius: rings of angles, then a refined
+//! search.
 
 use std::f64::consts::TAU;
 
 use crate::{Result, Scalar, StrategyError};
 
-/// Angles of one ring.
+/// Number of angles of a ring.
 const ANGLES: usize = 180;
-/// Where the rings stand between each other's angles, in steps of a ring: each halves the gaps.
+/// Offset of each ring's angles, in steps of a ring. The rings halve each other's gaps.
 const RINGS: [f64; 8] = [0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875];
-/// A ring that lowers the smallest by less than this part of it is the last.
+/// The search ends with a ring that lowers the smallest value by less than this part of it.
 const SETTLED: f64 = 1e-6;
-/// How many of a ring's lowest places are closed in on.
+/// How many of a ring's lowest points the search refines.
 const CANDIDATES: usize = 3;
-/// Rounds of closing in, before a parabola gives the rest: from 2° to about 0.03°.
+/// Rounds of refinement, from 2° to about 0.03°, before a parabola gives the rest.
 const ROUNDS: usize = 8;
 
 /// A quantity at each (θ, ρ) of a batch.
@@ -21,7 +22,7 @@ pub type Measure<'a> = dyn Fn(&[f64], &[f64], &mut [f64]) -> Result<()> + 'a;
 /// The smallest value of `measure` over all angles at `rho`.
 ///
 /// # Errors
-/// Where it is not a number.
+/// If `measure` gives NaN somewhere on the ring.
 pub fn least_over_angles(measure: &Measure<'_>, rho: f64) -> Result<f64> {
     let mut search = Search::new(measure, rho);
     let mut least = f64::INFINITY;
@@ -36,7 +37,7 @@ pub fn least_over_angles(measure: &Measure<'_>, rho: f64) -> Result<f64> {
     Ok(least)
 }
 
-/// A place on the ring that is closed in on.
+/// A point on the ring that the search refines.
 #[derive(Clone, Copy)]
 struct Candidate {
     theta: f64,
@@ -63,8 +64,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Measures at the angles held; the values stand in order.
-    fn look(&mut self) -> Result<()> {
+    /// Measures at the present angles. The values are in the order of the angles.
+    fn evaluate(&mut self) -> Result<()> {
         let count = self.theta.len();
         self.rho.resize(count, self.radius);
         self.value.clear();
@@ -76,18 +77,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The smallest value found from one ring of angles.
+    /// The smallest value that a search from one ring of angles finds.
     fn ring(&mut self, offset: f64) -> Result<f64> {
         let step = TAU / ANGLES as f64;
         self.theta.clear();
         self.theta
             .extend((0..ANGLES).map(|j| (j as f64 + offset) * step));
-        self.look()?;
+        self.evaluate()?;
         let mut candidates = self.lowest(0.5 * step);
         for _ in 0..ROUNDS {
-            self.close_in(&mut candidates)?;
+            self.refine(&mut candidates)?;
         }
-        self.look_around(&candidates)?;
+        self.evaluate_around(&candidates)?;
         let around = candidates.iter().zip(self.value.chunks(2));
         Ok(around
             .map(|(candidate, sides)| vertex(candidate.value, sides))
@@ -110,21 +111,21 @@ impl<'a> Search<'a> {
     }
 
     /// Measures one step to either side of each candidate.
-    fn look_around(&mut self, candidates: &[Candidate]) -> Result<()> {
+    fn evaluate_around(&mut self, candidates: &[Candidate]) -> Result<()> {
         self.theta.clear();
         self.theta.extend(
             candidates
                 .iter()
                 .flat_map(|c| [c.theta - c.scale, c.theta + c.scale]),
         );
-        self.look()
+        self.evaluate()
     }
 
-    /// Moves each candidate to a lower neighbour, or halves its step where there is none.
-    fn close_in(&mut self, candidates: &mut [Candidate]) -> Result<()> {
-        self.look_around(candidates)?;
-        let tried = self.theta.chunks(2).zip(self.value.chunks(2));
-        for (candidate, (theta, value)) in candidates.iter_mut().zip(tried) {
+    /// Moves each candidate to a lower neighbour. If there is none, halves the candidate's step.
+    fn refine(&mut self, candidates: &mut [Candidate]) -> Result<()> {
+        self.evaluate_around(candidates)?;
+        let neighbours = self.theta.chunks(2).zip(self.value.chunks(2));
+        for (candidate, (theta, value)) in candidates.iter_mut().zip(neighbours) {
             let lower = if value[0] <= value[1] { 0 } else { 1 };
             if value[lower] < candidate.value {
                 (candidate.theta, candidate.value) = (theta[lower], value[lower]);
@@ -136,7 +137,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The lowest of the parabola through a value and those to either side, if it is between them.
+/// The lowest value of the parabola through a value and those to either side, if it lies between
+/// them.
 fn vertex(value: f64, sides: &[f64]) -> f64 {
     let [before, after] = sides else {
         return value;
@@ -174,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn the_minimum_between_the_angles_of_a_ring_is_found() {
+    fn the_search_finds_a_minimum_between_the_angles_of_a_ring() {
         for waves in [1.0, 2.0, 7.0, 36.0, 90.0, 180.0, 251.0] {
             let found = least(|theta| 3.0 + Scalar::cos(waves * theta + 0.123)).unwrap();
             assert!((found - 2.0).abs() < 1e-6, "{waves} waves: {found}");
@@ -182,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn no_number_is_an_error_that_names_the_place() {
+    fn a_value_that_is_not_a_number_is_an_error_that_names_the_position() {
         let error = least(|theta| if theta > 6.2 { f64::NAN } else { 1.0 }).unwrap_err();
         assert!(error.to_string().contains("x = 0.99"), "{error}");
     }

@@ -1,5 +1,6 @@
-//! What a ring of angles says of its radius: the smallest of a quantity over all angles, and the
-//! smallest held feed tabulated over the radius. For feeds whose rate does not follow the angle.
+//! Minima over a ring of angles: the smallest value of a quantity over all angles of a radius, and
+//! a table of the smallest residual feed against the radius. Feeds that do not depend on the angle
+//! use them.
 
 mod least;
 mod table;

@@ -1,65 +1,65 @@
-//! F(ρ), the feed that holds the residual at every angle, tabulated over the radius.
+//! F(ρ), the feed that keeps the residual at every angle, tabulated against the radius.
 
 use super::{Measure, least_over_angles};
 use crate::{Misfit, RadialRange, Result, Setup, StrategyError};
 
-/// Cells of the table at first.
+/// Cells of the first table.
 const FEWEST_CELLS: usize = 256;
-/// Cells at which the table is no longer halved.
+/// The table is no longer halved at this number of cells.
 const MOST_CELLS: usize = 4096;
-/// The same where the nose may leave seams: the feed has kinks there that no table resolves, and
-/// every look at it is a scan of the edge.
+/// The same limit if the nose may leave seams. The feed has kinks there that no table resolves, and
+/// every evaluation of the feed is a scan of the edge.
 const MOST_CELLS_OVER_SEAMS: usize = FEWEST_CELLS;
-/// Cells are halved while their floors lie this much below the feed, over the whole table: it is
-/// what the table costs in revolutions.
+/// Cells are halved while their floors lie further below the feed than this, relatively and on
+/// average over the table. This is what the table costs in revolutions.
 const TABLE_COST: f64 = 1e-4;
-/// Where in a cell it is probed, as a part of its width: the golden section, in step with nothing.
+/// Where a cell is probed, as a part of its width. The golden section is in step with nothing.
 const PROBE: f64 = 0.381_966;
-/// Parts of a cell, each with a floor of its own: more borders without more angles to look at.
+/// Parts of a cell, each with a floor of its own. They give more borders without more evaluations.
 pub const FLOORS: usize = 8;
 
 /// F at one radius, mm.
 pub type FeedAt<'a> = dyn Fn(f64) -> Result<f64> + 'a;
 
-/// F at equal steps of ρ, and a floor under it in every cell between them.
+/// F at equal steps of ρ, and floors below F in every cell between them.
 #[derive(Debug, Clone)]
 pub struct FeedTable {
-    /// Where the first cell begins, mm.
+    /// Radius at which the first cell begins, mm.
     pub from: f64,
     /// Width of a cell, mm.
     pub step: f64,
     /// F at the cells' borders, mm.
     pub feed: Vec<f64>,
-    /// What F does not fall below in each eighth of a cell, as far as the cells resolve it, mm.
+    /// A lower limit of F in each eighth of a cell, as far as the cells resolve F, mm.
     pub floor: Vec<f64>,
-    /// Whether the table begins at the axis, and F(−ρ) = F(ρ).
+    /// Whether the table begins at the axis. Then F(−ρ) = F(ρ).
     pub even: bool,
 }
 
 impl FeedTable {
-    /// Tabulates the feed that holds the residual at every angle, over the job's range.
+    /// Tabulates the feed that keeps the residual at every angle, over the task's range.
     ///
     /// # Errors
-    /// Where the range has no length, or surface or locus no value.
-    pub fn held(setup: Setup<'_>) -> Result<Self> {
+    /// If the range has no length, or if the surface or the locus has no value.
+    pub fn for_residual(setup: Setup<'_>) -> Result<Self> {
         let (locus, radial) = (setup.locus, setup.locus.radial());
-        let cusp = setup.job.tolerance.residual;
+        let cusp = setup.task.tolerance.residual;
         let measure: &Measure<'_> =
-            &|theta, rho, out| locus.held_feed(cusp, radial, theta, rho, out);
-        let most = match setup.job.tool.misfit {
+            &|theta, rho, out| locus.residual_feed(cusp, radial, theta, rho, out);
+        let most = match setup.task.tool.misfit {
             Misfit::Refuse => MOST_CELLS,
             Misfit::CutWhatFits => MOST_CELLS_OVER_SEAMS,
         };
-        Self::within(setup.job.range, most, &|rho| {
+        Self::within(setup.task.range, most, &|rho| {
             least_over_angles(measure, rho)
         })
     }
 
-    /// Tabulates a feed of one value a radius over a range.
+    /// Tabulates a feed that has one value at each radius, over a range.
     ///
     /// # Errors
-    /// Where the range has no length; those of `feed_at`.
-    pub fn of(range: RadialRange, feed_at: &FeedAt<'_>) -> Result<Self> {
+    /// If the range has no length. The errors of `feed_at`.
+    pub fn tabulate(range: RadialRange, feed_at: &FeedAt<'_>) -> Result<Self> {
         Self::within(range, MOST_CELLS, feed_at)
     }
 
@@ -86,18 +86,19 @@ impl FeedTable {
         while table.cells() < FEWEST_CELLS {
             table.halve(feed_at)?;
         }
-        table.lay_floor();
-        while table.cells() < most && (table.cost() > TABLE_COST || table.sink(feed_at)?) {
+        table.set_floors();
+        while table.cells() < most && (table.cost() > TABLE_COST || table.lower_floors(feed_at)?) {
             table.halve(feed_at)?;
-            table.lay_floor();
+            table.set_floors();
         }
-        table.sink(feed_at)?;
+        table.lower_floors(feed_at)?;
         Ok(table)
     }
 
-    /// Probes every cell at an inner place, off the borders' rhythm: a ripple in step with the
-    /// cells shows there. Sinks the floors of cells that F falls through; whether there were any.
-    fn sink(&mut self, feed_at: &FeedAt<'_>) -> Result<bool> {
+    /// Probes every cell at an inner point that is out of step with the borders, so that a ripple
+    /// in step with the cells shows there. Lowers the floors of the cells in which F lies below
+    /// them, and returns whether there were any.
+    fn lower_floors(&mut self, feed_at: &FeedAt<'_>) -> Result<bool> {
         let mut any = false;
         for (cell, floors) in self.floor.chunks_mut(FLOORS).enumerate() {
             let rho = self.from + (cell as f64 + PROBE) * self.step;
@@ -124,12 +125,12 @@ impl FeedTable {
             .fold(0.0, |largest, feed| feed.max(largest))
     }
 
-    /// The radii that the table covers, mm.
+    /// The range of radii that the table covers, mm.
     pub fn range(&self) -> (f64, f64) {
         (self.from, self.from + self.step * self.cells() as f64)
     }
 
-    /// The least of the floors from one radius to another, as far as the table goes, mm.
+    /// The least floor between two radii, as far as the table reaches, mm.
     pub fn least(&self, from: f64, to: f64) -> f64 {
         let width = self.step / FLOORS as f64;
         let last = self.floor.len().saturating_sub(1);
@@ -145,13 +146,13 @@ impl FeedTable {
             .fold(f64::INFINITY, |least, floor| floor.min(least))
     }
 
-    /// ∫ dρ/F over the table: revolutions of the fastest law that holds.
+    /// ∫ dρ/F over the table: the revolutions of the fastest law that keeps the residual.
     pub fn fewest_revolutions(&self) -> f64 {
         let turns = |pair: &[f64]| 0.5 / pair[0] + 0.5 / pair[1];
         self.step * self.feed.windows(2).map(turns).sum::<f64>()
     }
 
-    /// F at `rho` by the cubic through the four borders around it.
+    /// F at `rho`, from the cubic through the four borders around it.
     pub fn value(&self, rho: f64) -> f64 {
         let place = ((rho - self.from) / self.step).clamp(0.0, self.cells() as f64);
         let first = (place.floor() as usize)
@@ -188,10 +189,11 @@ impl FeedTable {
         (cell.saturating_sub(1)..cell + 3).fold(0.0, |most: f64, i| most.max(second(i)))
     }
 
-    /// Within a cell a parabola falls below its chord by at most an eighth of its second
-    /// difference. Twice that, with the largest second difference around the cell, also serves
-    /// where F changes from one angle's branch to another's, which is an arch above the chord.
-    fn lay_floor(&mut self) {
+    /// Sets the floors of all cells. Within a cell a parabola falls below its chord by at most an
+    /// eighth of its second difference. The floor takes twice that, with the largest second
+    /// difference around the cell. It therefore also holds where F changes from one angle's branch
+    /// to another's, which is an arch above the chord.
+    fn set_floors(&mut self) {
         let mut floor = Vec::with_capacity(FLOORS * self.cells());
         for (cell, ends) in self.feed.windows(2).enumerate() {
             let sag = 0.25 * self.bend(cell);
@@ -204,7 +206,7 @@ impl FeedTable {
         self.floor = floor;
     }
 
-    /// How far the floors lie below the feed, relatively and on average.
+    /// The relative distance of the floors below the feed, on average.
     fn cost(&self) -> f64 {
         let cells = self.feed.windows(2).enumerate();
         let lost: f64 = cells

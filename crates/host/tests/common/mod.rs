@@ -1,4 +1,4 @@
-//! A small job for strategies to work on, and shorthands for the catalogue.
+//! A small task for strategies to work on, and shorthands for the catalogue.
 #![allow(dead_code, reason = "each test uses what it needs")]
 
 #[path = "../../../../tests/support/fixtures.rs"]
@@ -8,8 +8,8 @@ use std::path::Path as FilePath;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Centres, Compensator, Cut, Direction, Job, Machine, Part, Path, Radial, RadialRange, Result,
-    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Tolerance, Tool, ToolLocus,
+    Centres, Compensator, Cut, Direction, Machine, Part, Path, Radial, RadialRange, Result,
+    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_host::{Catalogue, LoadError};
 
@@ -62,8 +62,8 @@ pub const TOOL: Tool = Tool {
 };
 
 /// From 2 mm inwards, 10 µm a revolution.
-pub fn job() -> Job {
-    Job {
+pub fn task() -> Task {
+    Task {
         part: Part {
             aperture_radius: 2.0,
             inner_radius: 0.0,
@@ -89,27 +89,27 @@ pub fn law() -> SpiralLaw {
     law
 }
 
-/// What the sampler gives for a block of that job.
+/// What the sampler gives for a block of that task.
 pub fn nodes(sampler: &dyn Sampler, start: f64, end: f64) -> Result<Vec<f64>> {
-    onward(sampler, start, end, &mut Vec::new())
+    place_more(sampler, start, end, &mut Vec::new())
 }
 
 /// The same with a state from the block before.
-pub fn onward(
+pub fn place_more(
     sampler: &dyn Sampler,
     start: f64,
     end: f64,
     state: &mut Vec<f64>,
 ) -> Result<Vec<f64>> {
     let locus = ToolLocus::new(Arc::new(Saddle), Arc::new(Above), TOOL);
-    let (job, law) = (job(), law());
+    let (task, law) = (task(), law());
     let path = Path {
-        job: &job,
+        task: &task,
         locus: &locus,
         law: &law,
         prepared: &[],
     };
     let mut nodes = Vec::new();
-    sampler.place_onward(&path, Revolutions { start, end }, state, &mut nodes)?;
+    sampler.place_sequential(&path, Revolutions { start, end }, state, &mut nodes)?;
     Ok(nodes)
 }

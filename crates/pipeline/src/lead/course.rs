@@ -84,7 +84,7 @@ impl<'a> Course<'a> {
         rest_z: f64,
         overshoot: f64,
     ) -> Result<Self> {
-        let nose_radius = plan.preparation.job.tool.nose_radius;
+        let nose_radius = plan.preparation.task.tool.nose_radius;
         let overshoot = Overshoot::new(kind, join, phases.descent.min(overshoot), nose_radius);
         let mut course = Self {
             plan,

@@ -36,12 +36,12 @@ pub fn highest(plan: &Plan<'_>) -> Result<f64> {
 
 /// The smallest and the largest |X| of the path and the part.
 fn reach(plan: &Plan<'_>) -> Result<(f64, f64)> {
-    let (job, compensator) = (&plan.preparation.job, &plan.chain.compensator);
+    let (task, compensator) = (&plan.preparation.task, &plan.chain.compensator);
     let theta: Vec<f64> = (0..ANGLES)
         .map(|i| TAU * i as f64 / ANGLES as f64)
         .collect();
-    let (mut inner, mut outer) = (job.part.inner_radius, job.part.aperture_radius);
-    for rho in [job.range.inner, job.range.outer] {
+    let (mut inner, mut outer) = (task.part.inner_radius, task.part.aperture_radius);
+    for rho in [task.range.inner, task.range.outer] {
         let mut centres = CentreBuffers::default();
         centres.resize(ANGLES);
         let answer = plan

@@ -233,7 +233,7 @@ impl Maker<'_> {
             LeadKind::In => join.shifted(layout.turns, self.clock.seconds(layout.ticks())),
             LeadKind::Out => *join,
         };
-        let tolerance = self.plan.preparation.job.tolerance.interpolation;
+        let tolerance = self.plan.preparation.task.tolerance.interpolation;
         // Where the cut itself misses its tolerance, which is reported, its lead may miss it too.
         let below = match join.error > tolerance {
             true => join.error,

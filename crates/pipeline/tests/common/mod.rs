@@ -8,11 +8,11 @@ use std::convert::Infallible;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use turnpath_core::toolpath::{PathBlock, PathStretch, Section};
+use turnpath_core::toolpath::{PathBlock, SectionBlock, Section};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Machine, Onward,
+    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Machine, Continuation,
     Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot,
-    SpindleLaw, StrategyError, Stretch, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    SpindleLaw, StrategyError, FeedPiece, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
     Chain, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions, PipelineError, RunError,
@@ -116,7 +116,7 @@ struct Calls<F> {
 
 impl<F> FeedStrategy for Feed<F>
 where
-    F: Fn(usize) -> (Vec<Stretch>, Onward) + Clone + Send + Sync + 'static,
+    F: Fn(usize) -> (Vec<FeedPiece>, Continuation) + Clone + Send + Sync + 'static,
 {
     fn plan(&self, _: Setup<'_>) -> Result<Box<dyn FeedPlan>> {
         let (pieces, call) = (self.0.clone(), 0);
@@ -126,9 +126,9 @@ where
 
 impl<F> FeedPlan for Calls<F>
 where
-    F: Fn(usize) -> (Vec<Stretch>, Onward) + Send,
+    F: Fn(usize) -> (Vec<FeedPiece>, Continuation) + Send,
 {
-    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
+    fn extend(&mut self, _: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
         let (more, onward) = (self.pieces)(self.call);
         self.call += 1;
         pieces.extend(more);
@@ -137,8 +137,8 @@ where
 }
 
 /// A piece of `length` revolutions from `start` on at a constant rate.
-pub fn straight(length: f64, start: f64, rate: f64) -> Stretch {
-    Stretch {
+pub fn straight(length: f64, start: f64, rate: f64) -> FeedPiece {
+    FeedPiece {
         length,
         coefficients: [start, rate, 0.0, 0.0, 0.0, 0.0],
     }
@@ -150,8 +150,8 @@ pub fn inward(revolutions: f64) -> Arc<dyn FeedStrategy> {
 }
 
 /// A feed with these pieces, in one call.
-pub fn feed_of(pieces: Vec<Stretch>) -> Arc<dyn FeedStrategy> {
-    Arc::new(Feed(move |_| (pieces.clone(), Onward::Done)))
+pub fn feed_of(pieces: Vec<FeedPiece>) -> Arc<dyn FeedStrategy> {
+    Arc::new(Feed(move |_| (pieces.clone(), Continuation::End)))
 }
 
 /// A sampler whose nodes come from a function.
@@ -189,7 +189,7 @@ impl Sampler for Counting {
         Dependence::Sequential
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         _: &Path<'_>,
         block: Revolutions,
@@ -210,8 +210,8 @@ impl Sampler for Counting {
     }
 }
 
-/// A job of small strategies. A test sets the fields that matter to it.
-pub struct Job {
+/// A task of small strategies. A test sets the fields that matter to it.
+pub struct Task {
     pub feed: Arc<dyn FeedStrategy>,
     pub sampler: Arc<dyn Sampler>,
     pub compensator: Arc<dyn Compensator>,
@@ -225,7 +225,7 @@ pub struct Job {
     pub lead: Option<LeadSettings>,
 }
 
-impl Default for Job {
+impl Default for Task {
     fn default() -> Self {
         Self {
             feed: inward(200.0),
@@ -253,7 +253,7 @@ fn link<T: ?Sized>(slot: Slot, strategy: Arc<T>) -> Link<T> {
     }
 }
 
-impl Job {
+impl Task {
     /// The path and its outcome.
     pub fn run(&self) -> std::result::Result<(PathBlock, Outcome), Box<PipelineError>> {
         self.run_whole()
@@ -318,7 +318,7 @@ impl Job {
         run(&chain, &preparation, options, sink, observer)
     }
 
-    /// The path and its outcome of a job that works.
+    /// The path and its outcome of a task that works.
     pub fn path(&self) -> (PathBlock, Outcome) {
         self.run().expect("a path")
     }
@@ -361,7 +361,7 @@ impl Sink for MemorySink {
     type Block = (Delivery, PathBlock);
     type Error = Infallible;
 
-    fn encode(&self, block: &PathStretch<'_>) -> std::result::Result<Self::Block, Infallible> {
+    fn encode(&self, block: &SectionBlock<'_>) -> std::result::Result<Self::Block, Infallible> {
         let delivery = Delivery {
             section: block.section,
             points: block.points.len(),

@@ -137,10 +137,10 @@ impl VelocitySolver for Area {
     }
 
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
-        self.solve_onward(nodes, &mut Vec::new(), out)
+        self.solve_sequential(nodes, &mut Vec::new(), out)
     }
 
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: Nodes<'_>,
         state: &mut Vec<f64>,

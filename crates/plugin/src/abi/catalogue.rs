@@ -1,4 +1,4 @@
-//! The list of a library's strategies, as it crosses the boundary.
+//! The list of a library's strategies, in the form that crosses the boundary.
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{RStr, RVec};
@@ -6,7 +6,7 @@ use turnpath_core::{Param, ParamDefault, ParamKind, Slot, StrategyInfo};
 
 use crate::Registration;
 
-/// One strategy: texts live as long as the library, which is never unloaded.
+/// One strategy. Its texts live as long as the library, which is never unloaded.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiStrategy {
@@ -121,22 +121,23 @@ impl From<ParamDefault> for AbiDefault {
     }
 }
 
-/// A strategy of a catalogue, on the host's side.
+/// A strategy of a library, on the host's side.
 #[derive(Debug, Clone, Copy)]
-pub struct Listed {
-    /// The crate that registered it.
+pub struct CatalogueEntry {
+    /// The crate that registered the strategy.
     pub crate_name: &'static str,
     /// The crate's version.
     pub crate_version: &'static str,
-    /// Name, summary, source, parameters.
+    /// Name, summary, source and parameters.
     pub info: StrategyInfo,
 }
 
 impl AbiStrategy {
     /// The strategy on the host's side; `None` for a slot that this host does not know.
     ///
-    /// Lists of parameters are kept for good, like the library whose texts they point to.
-    pub fn receive(self) -> Option<Listed> {
+    /// The host never frees the list of parameters, just as it never unloads the library with their
+    /// texts.
+    pub fn receive(self) -> Option<CatalogueEntry> {
         let slot = Slot::ALL
             .into_iter()
             .find(|slot| *slot as u8 == self.slot)?;
@@ -149,7 +150,7 @@ impl AbiStrategy {
             params: params.leak(),
         };
         let (crate_name, crate_version) = (self.crate_name.as_str(), self.crate_version.as_str());
-        Some(Listed {
+        Some(CatalogueEntry {
             crate_name,
             crate_version,
             info,

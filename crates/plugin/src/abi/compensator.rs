@@ -8,11 +8,11 @@ use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, Radial, RadialRange, Rates, Result, Series, Tool,
 };
 
-use super::contained::Contained;
 use super::data::{AbiRange, AbiTool, Answer, answer, result, same_length};
-use super::surface::{self, Incoming, LentSurface, Outgoing};
+use super::panic_safe_box::PanicSafeBox;
+use super::surface::{self, IncomingSurface, LentSurface, OutgoingSurface};
 
-/// Surface and tool, lent for the time of a call.
+/// Surface and tool, lent for the duration of a call.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiCut<'a> {
@@ -21,7 +21,7 @@ pub struct AbiCut<'a> {
 }
 
 fn lend_cut<T>(cut: Cut<'_>, call: impl FnOnce(AbiCut<'_>) -> T) -> T {
-    let surface = Outgoing(cut.surface);
+    let surface = OutgoingSurface(cut.surface);
     call(AbiCut {
         surface: surface::lend(&surface),
         tool: cut.tool.into(),
@@ -30,7 +30,7 @@ fn lend_cut<T>(cut: Cut<'_>, call: impl FnOnce(AbiCut<'_>) -> T) -> T {
 
 impl AbiCut<'_> {
     fn receive<T>(self, call: impl FnOnce(Cut<'_>) -> T) -> T {
-        let (surface, tool) = (Incoming(self.surface), Tool::from(self.tool));
+        let (surface, tool) = (IncomingSurface(self.surface), Tool::from(self.tool));
         call(Cut {
             surface: &surface,
             tool: &tool,
@@ -38,7 +38,7 @@ impl AbiCut<'_> {
     }
 }
 
-/// What a compensator is and what it gives exactly.
+/// The properties of a compensator.
 #[repr(C)]
 #[derive(StableAbi, Clone, Copy)]
 pub struct AbiTraits {
@@ -47,7 +47,7 @@ pub struct AbiTraits {
     cuts_what_fits: bool,
 }
 
-/// Value, θ and ρ of each, in the order of [`Interference::extremes`].
+/// The value, θ and ρ of each extreme, in the order of [`Interference::extremes`].
 type Extremes = [[f64; 3]; 5];
 
 #[sabi_trait]
@@ -62,7 +62,7 @@ pub trait AbiCompensator: Send + Sync {
         z: RSliceMut<'_, f64>,
         foot: RSliceMut<'_, f64>,
     ) -> Answer<()>;
-    /// False where there are no exact series.
+    /// Returns false if the compensator has no exact series.
     fn series(
         &self,
         cut: AbiCut<'_>,
@@ -71,7 +71,7 @@ pub trait AbiCompensator: Send + Sync {
         x: RSliceMut<'_, Series>,
         z: RSliceMut<'_, Series>,
     ) -> Answer<bool>;
-    /// False where there are no exact rates.
+    /// Returns false if the compensator has no exact rates.
     fn rates(
         &self,
         cut: AbiCut<'_>,
@@ -86,11 +86,11 @@ pub trait AbiCompensator: Send + Sync {
     fn interference(&self, cut: AbiCut<'_>, region: AbiRange) -> Answer<Extremes>;
 }
 
-/// A compensator that its plugin made.
+/// A compensator that belongs to its plugin.
 pub type OwnedCompensator = AbiCompensator_TO<'static, RBox<()>>;
 
-/// The author's compensator, on its way out.
-pub struct OutgoingCompensator(pub Contained<dyn Compensator>);
+/// The author's compensator, wrapped for the boundary.
+pub struct OutgoingCompensator(pub PanicSafeBox<dyn Compensator>);
 
 impl AbiCompensator for OutgoingCompensator {
     fn traits(&self) -> Answer<AbiTraits> {
@@ -132,7 +132,7 @@ impl AbiCompensator for OutgoingCompensator {
             x: &mut x,
             z: &mut z,
         };
-        answer(|| given(cut.receive(|cut| self.0.exact_series(cut, &theta, &rho, out))))
+        answer(|| is_exact(cut.receive(|cut| self.0.exact_series(cut, &theta, &rho, out))))
     }
 
     fn rates(
@@ -151,19 +151,19 @@ impl AbiCompensator for OutgoingCompensator {
             z_theta: &mut z_theta,
             z_x: &mut z_x,
         };
-        answer(|| given(cut.receive(|cut| self.0.exact_rates(cut, &theta, &rho, out))))
+        answer(|| is_exact(cut.receive(|cut| self.0.exact_rates(cut, &theta, &rho, out))))
     }
 
     fn interference(&self, cut: AbiCut<'_>, region: AbiRange) -> Answer<Extremes> {
         answer(|| {
-            let found = cut.receive(|cut| self.0.interference(cut, region.into()))?;
+            let interference = cut.receive(|cut| self.0.interference(cut, region.into()))?;
             let flat = |extreme: Extreme| [extreme.value, extreme.theta, extreme.rho];
-            Ok(found.extremes().map(flat))
+            Ok(interference.extremes().map(flat))
         })
     }
 }
 
-fn given(answer: Option<Result<()>>) -> Result<bool> {
+fn is_exact(answer: Option<Result<()>>) -> Result<bool> {
     answer.map_or(Ok(false), |done| done.map(|()| true))
 }
 
@@ -175,14 +175,14 @@ fn optional(answer: Result<bool>) -> Option<Result<()>> {
     }
 }
 
-/// A plugin's compensator, as the core's.
+/// A plugin's compensator, wrapped as a compensator of the core.
 pub struct IncomingCompensator {
     compensator: OwnedCompensator,
     traits: AbiTraits,
 }
 
 impl IncomingCompensator {
-    /// Asks the compensator what it is, and unwraps it.
+    /// Reads the compensator's properties and wraps it.
     pub fn new(compensator: OwnedCompensator) -> Result<Self> {
         let traits = result(compensator.traits())?;
         Ok(Self {
@@ -274,10 +274,10 @@ impl Compensator for IncomingCompensator {
     }
 
     fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
-        let found = result(lend_cut(cut, |cut| {
+        let interference = result(lend_cut(cut, |cut| {
             self.compensator.interference(cut, region.into())
         }))?;
         let extreme = |[value, theta, rho]: [f64; 3]| Extreme { value, theta, rho };
-        Ok(Interference::from_extremes(found.map(extreme)))
+        Ok(Interference::from_extremes(interference.map(extreme)))
     }
 }

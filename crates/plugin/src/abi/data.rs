@@ -1,23 +1,23 @@
-//! Plain values that cross the boundary, and their way there and back.
+//! Plain values that cross the boundary, and their conversions in both directions.
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
-    AxisLimits, Direction, Job, Machine, Misfit, ParamValue, Params, Part, Piece,
-    PiecewisePolynomial, RadialRange, Result, Slot, SpindleLaw, StrategyError, Tolerance, Tool,
+    AxisLimits, Direction, Machine, Misfit, ParamValue, Params, Part, Piece, PiecewisePolynomial,
+    RadialRange, Result, Slot, SpindleLaw, StrategyError, Task, Tolerance, Tool,
 };
 
 use crate::guard::guarded;
 
-/// What a call across the boundary gives.
+/// The result of a call across the boundary.
 pub type Answer<T> = RResult<T, AbiError>;
 
-/// Runs code on its own side of the boundary: no panic crosses.
+/// Runs code on its own side of the boundary, so that no panic crosses.
 pub fn answer<T>(run: impl FnOnce() -> Result<T>) -> Answer<T> {
     guarded(run).map_err(AbiError::from).into()
 }
 
-/// The answer as the core's traits give it.
+/// Converts an answer into a result of the core's traits.
 pub fn result<T>(answer: Answer<T>) -> Result<T> {
     answer.into_result().map_err(StrategyError::from)
 }
@@ -27,8 +27,8 @@ pub fn result<T>(answer: Answer<T>) -> Result<T> {
 pub enum AbiErrorKind {
     Failed,
     Parameter,
-    /// `parameter` holds the key of the slot that was asked.
-    Asked,
+    /// `parameter` holds the key of the slot whose strategy was called.
+    Delegate,
     Panicked,
 }
 
@@ -45,8 +45,8 @@ impl From<StrategyError> for AbiError {
         let (kind, parameter, message) = match error {
             StrategyError::Failed(message) => (AbiErrorKind::Failed, "".into(), message),
             StrategyError::Parameter { name, message } => (AbiErrorKind::Parameter, name, message),
-            StrategyError::Asked { slot, message } => {
-                (AbiErrorKind::Asked, slot.key().into(), message)
+            StrategyError::Delegate { slot, message } => {
+                (AbiErrorKind::Delegate, slot.key().into(), message)
             }
             StrategyError::Panicked(message) => (AbiErrorKind::Panicked, "".into(), message),
         };
@@ -63,7 +63,7 @@ impl From<AbiError> for StrategyError {
     fn from(error: AbiError) -> Self {
         let message = error.message.into_string().into();
         let parameter = error.parameter.into_string();
-        let asked = || Slot::ALL.into_iter().find(|slot| slot.key() == parameter);
+        let slot = || Slot::ALL.into_iter().find(|slot| slot.key() == parameter);
         match error.kind {
             AbiErrorKind::Failed => Self::Failed(message),
             AbiErrorKind::Panicked => Self::Panicked(message),
@@ -71,8 +71,8 @@ impl From<AbiError> for StrategyError {
                 name: parameter.into(),
                 message,
             },
-            AbiErrorKind::Asked => match asked() {
-                Some(slot) => Self::Asked { slot, message },
+            AbiErrorKind::Delegate => match slot() {
+                Some(slot) => Self::Delegate { slot, message },
                 None => Self::Failed(message),
             },
         }
@@ -95,7 +95,7 @@ pub struct AbiArgument {
     value: AbiValue,
 }
 
-/// Parameters on their way to a plugin.
+/// Converts parameters on the host's side.
 pub fn arguments(params: &Params) -> RVec<AbiArgument> {
     let value = |value: &ParamValue| match value {
         ParamValue::Number(number) => AbiValue::Number(*number),
@@ -114,7 +114,7 @@ pub fn arguments(params: &Params) -> RVec<AbiArgument> {
         .collect()
 }
 
-/// Parameters as they arrive in a plugin.
+/// Converts parameters on the plugin's side.
 pub fn params(arguments: RVec<AbiArgument>) -> Params {
     let mut params = Params::new();
     for AbiArgument { name, value } in arguments {
@@ -286,7 +286,7 @@ impl From<AbiMachine> for Machine {
 
 #[repr(C)]
 #[derive(StableAbi)]
-pub struct AbiJob {
+pub struct AbiTask {
     aperture_radius: f64,
     inner_radius: f64,
     tool: AbiTool,
@@ -298,48 +298,49 @@ pub struct AbiJob {
     machine: AbiMachine,
 }
 
-impl From<&Job> for AbiJob {
-    fn from(job: &Job) -> Self {
+impl From<&Task> for AbiTask {
+    fn from(task: &Task) -> Self {
         Self {
-            aperture_radius: job.part.aperture_radius,
-            inner_radius: job.part.inner_radius,
-            tool: (&job.tool).into(),
-            interpolation: job.tolerance.interpolation,
-            residual: job.tolerance.residual,
-            range: job.range.into(),
-            inward: job.direction == Direction::Inward,
-            spindle: job.spindle.as_time().into(),
-            machine: job.machine.into(),
+            aperture_radius: task.part.aperture_radius,
+            inner_radius: task.part.inner_radius,
+            tool: (&task.tool).into(),
+            interpolation: task.tolerance.interpolation,
+            residual: task.tolerance.residual,
+            range: task.range.into(),
+            inward: task.direction == Direction::Inward,
+            spindle: task.spindle.as_time().into(),
+            machine: task.machine.into(),
         }
     }
 }
 
-impl From<&AbiJob> for Job {
-    fn from(job: &AbiJob) -> Self {
+impl From<&AbiTask> for Task {
+    fn from(task: &AbiTask) -> Self {
         let part = Part {
-            aperture_radius: job.aperture_radius,
-            inner_radius: job.inner_radius,
+            aperture_radius: task.aperture_radius,
+            inner_radius: task.inner_radius,
         };
         Self {
             part,
-            tool: job.tool.into(),
+            tool: task.tool.into(),
             tolerance: Tolerance {
-                interpolation: job.interpolation,
-                residual: job.residual,
+                interpolation: task.interpolation,
+                residual: task.residual,
             },
-            range: job.range.into(),
-            direction: if job.inward {
+            range: task.range.into(),
+            direction: if task.inward {
                 Direction::Inward
             } else {
                 Direction::Outward
             },
-            spindle: SpindleLaw::from_time((&job.spindle).into()),
-            machine: job.machine.into(),
+            spindle: SpindleLaw::from_time((&task.spindle).into()),
+            machine: task.machine.into(),
         }
     }
 }
 
-/// Whether all slices of a call have one length; a plugin may count on it, a host must check it.
+/// Checks that all slices of a call have one length. A plugin may rely on it, so the host must
+/// check it.
 pub fn same_length(lengths: &[usize]) -> Result<()> {
     match lengths.split_first() {
         Some((first, rest)) if rest.iter().any(|length| length != first) => Err(
@@ -354,13 +355,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_job_comes_back_as_it_went() {
+    fn a_task_is_the_same_after_both_conversions() {
         let limits = |velocity: f64| AxisLimits {
             velocity: Some(velocity),
             acceleration: None,
             jerk: Some(3.0 * velocity),
         };
-        let job = Job {
+        let task = Task {
             part: Part {
                 aperture_radius: 4.0,
                 inner_radius: 1.0,
@@ -387,6 +388,6 @@ mod tests {
                 c: limits(5.0),
             },
         };
-        assert_eq!(Job::from(&AbiJob::from(&job)), job);
+        assert_eq!(Task::from(&AbiTask::from(&task)), task);
     }
 }

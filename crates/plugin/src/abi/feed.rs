@@ -3,39 +3,42 @@
 use abi_stable::StableAbi;
 use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RVec};
-use turnpath_core::{FeedPlan, FeedStrategy, Job, Onward, Result, Setup, Stretch};
+use turnpath_core::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Result, Setup, Task};
 
-use super::contained::Contained;
-use super::data::{AbiJob, Answer, answer, result};
+use super::data::{AbiTask, Answer, answer, result};
 use super::locus::{self, IncomingLocus, LentLocus, OutgoingLocus};
-use super::surface::{self, LentSurface, Outgoing};
+use super::panic_safe_box::PanicSafeBox;
+use super::surface::{self, LentSurface, OutgoingSurface};
 
-/// Job and locus, lent for the time of a call.
+/// Task and locus, lent for the duration of a call.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiSetup<'a> {
-    job: AbiJob,
+    task: AbiTask,
     locus: LentLocus<'a>,
     surface: LentSurface<'a>,
 }
 
-/// Lends a setup for the time of `call`.
+/// Lends a setup for the duration of `call`.
 pub fn lend_setup<T>(setup: Setup<'_>, call: impl FnOnce(AbiSetup<'_>) -> T) -> T {
-    let (locus, surface) = (OutgoingLocus(setup.locus), Outgoing(setup.locus.surface()));
+    let (locus, surface) = (
+        OutgoingLocus(setup.locus),
+        OutgoingSurface(setup.locus.surface()),
+    );
     call(AbiSetup {
-        job: setup.job.into(),
+        task: setup.task.into(),
         locus: locus::lend(&locus),
         surface: surface::lend(&surface),
     })
 }
 
 impl AbiSetup<'_> {
-    /// The setup as the core's, for the time of `call`.
+    /// Converts the setup to that of the core, for the duration of `call`.
     pub fn receive<T>(self, call: impl FnOnce(Setup<'_>) -> T) -> T {
-        let job = Job::from(&self.job);
+        let task = Task::from(&self.task);
         let locus = IncomingLocus::new(self.locus, self.surface);
         call(Setup {
-            job: &job,
+            task: &task,
             locus: &locus,
         })
     }
@@ -49,50 +52,50 @@ pub trait AbiFeed: Send + Sync {
 
 #[sabi_trait]
 pub trait AbiPlan: Send {
-    /// Appends pieces as (length, coefficients); false when the law is done.
+    /// Appends pieces as (length, coefficients). Returns false when the law is complete.
     #[sabi(last_prefix_field)]
     fn extend(&mut self, setup: AbiSetup<'_>, pieces: &mut RVec<[f64; 7]>) -> Answer<bool>;
 }
 
-/// A feed strategy that its plugin made.
+/// A feed strategy that belongs to its plugin.
 pub type OwnedFeed = AbiFeed_TO<'static, RBox<()>>;
-/// A law in the making that its plugin holds.
+/// A law that is being planned and belongs to its plugin.
 pub type OwnedPlan = AbiPlan_TO<'static, RBox<()>>;
 
-/// The author's strategy, on its way out.
-pub struct OutgoingFeed(pub Contained<dyn FeedStrategy>);
+/// The author's strategy, wrapped for the boundary.
+pub struct OutgoingFeed(pub PanicSafeBox<dyn FeedStrategy>);
 
 impl AbiFeed for OutgoingFeed {
     fn plan(&self, setup: AbiSetup<'_>) -> Answer<OwnedPlan> {
         answer(|| {
             let plan = setup.receive(|setup| self.0.plan(setup))?;
             Ok(AbiPlan_TO::from_value(
-                OutgoingPlan(Contained::new(plan)),
+                OutgoingPlan(PanicSafeBox::new(plan)),
                 sabi_trait::TD_Opaque,
             ))
         })
     }
 }
 
-struct OutgoingPlan(Contained<dyn FeedPlan>);
+struct OutgoingPlan(PanicSafeBox<dyn FeedPlan>);
 
 impl AbiPlan for OutgoingPlan {
     fn extend(&mut self, setup: AbiSetup<'_>, pieces: &mut RVec<[f64; 7]>) -> Answer<bool> {
         answer(|| {
-            let mut made = Vec::new();
-            let onward = setup.receive(|setup| self.0.extend(setup, &mut made))?;
-            pieces.extend(made.iter().map(
-                |Stretch {
+            let mut appended = Vec::new();
+            let continuation = setup.receive(|setup| self.0.extend(setup, &mut appended))?;
+            pieces.extend(appended.iter().map(
+                |FeedPiece {
                      length,
                      coefficients: c,
                  }| { [*length, c[0], c[1], c[2], c[3], c[4], c[5]] },
             ));
-            Ok(onward == Onward::More)
+            Ok(continuation == Continuation::More)
         })
     }
 }
 
-/// A plugin's feed strategy, as the core's.
+/// A plugin's feed strategy, wrapped as a strategy of the core.
 pub struct IncomingFeed(pub OwnedFeed);
 
 impl FeedStrategy for IncomingFeed {
@@ -105,13 +108,23 @@ impl FeedStrategy for IncomingFeed {
 struct IncomingPlan(OwnedPlan);
 
 impl FeedPlan for IncomingPlan {
-    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<Stretch>) -> Result<Onward> {
-        let mut made = RVec::new();
-        let more = result(lend_setup(setup, |setup| self.0.extend(setup, &mut made)))?;
-        pieces.extend(made.iter().map(|[length, c0, c1, c2, c3, c4, c5]| Stretch {
-            length: *length,
-            coefficients: [*c0, *c1, *c2, *c3, *c4, *c5],
-        }));
-        Ok(if more { Onward::More } else { Onward::Done })
+    fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation> {
+        let mut appended = RVec::new();
+        let more = result(lend_setup(setup, |setup| {
+            self.0.extend(setup, &mut appended)
+        }))?;
+        pieces.extend(
+            appended
+                .iter()
+                .map(|[length, c0, c1, c2, c3, c4, c5]| FeedPiece {
+                    length: *length,
+                    coefficients: [*c0, *c1, *c2, *c3, *c4, *c5],
+                }),
+        );
+        Ok(if more {
+            Continuation::More
+        } else {
+            Continuation::End
+        })
     }
 }

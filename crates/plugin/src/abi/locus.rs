@@ -6,7 +6,7 @@ use abi_stable::std_types::{RSlice, RSliceMut};
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
 use super::data::{Answer, answer, result, same_length};
-use super::surface::{Incoming, LentSurface};
+use super::surface::{IncomingSurface, LentSurface};
 
 #[sabi_trait]
 pub trait AbiLocus: Send + Sync {
@@ -36,7 +36,7 @@ pub trait AbiLocus: Send + Sync {
         z_x: RSliceMut<'_, f64>,
     ) -> Answer<()>;
     #[sabi(last_prefix_field)]
-    fn held_feed(
+    fn residual_feed(
         &self,
         residual: f64,
         centre_radial: bool,
@@ -46,10 +46,10 @@ pub trait AbiLocus: Send + Sync {
     ) -> Answer<()>;
 }
 
-/// A locus lent for the time of a call.
+/// A locus, lent for the duration of a call.
 pub type LentLocus<'a> = AbiLocus_TO<'a, RRef<'a, ()>>;
 
-/// The host's locus, on its way out.
+/// The host's locus, wrapped for the boundary.
 pub struct OutgoingLocus<'a>(pub &'a dyn Locus);
 
 impl AbiLocus for OutgoingLocus<'_> {
@@ -122,7 +122,7 @@ impl AbiLocus for OutgoingLocus<'_> {
         })
     }
 
-    fn held_feed(
+    fn residual_feed(
         &self,
         residual: f64,
         centre_radial: bool,
@@ -132,7 +132,7 @@ impl AbiLocus for OutgoingLocus<'_> {
     ) -> Answer<()> {
         answer(|| {
             self.0
-                .held_feed(residual, radial(centre_radial), &theta, &rho, &mut feed)
+                .residual_feed(residual, radial(centre_radial), &theta, &rho, &mut feed)
         })
     }
 }
@@ -150,18 +150,18 @@ pub fn lend<'a>(outgoing: &'a OutgoingLocus<'a>) -> LentLocus<'a> {
     AbiLocus_TO::from_ptr(RRef::new(outgoing), sabi_trait::TD_Opaque)
 }
 
-/// The locus as it arrives in a plugin.
+/// The host's locus, wrapped as a locus of the core on the plugin's side.
 pub struct IncomingLocus<'a> {
     locus: LentLocus<'a>,
-    surface: Incoming<LentSurface<'a>>,
+    surface: IncomingSurface<LentSurface<'a>>,
 }
 
 impl<'a> IncomingLocus<'a> {
-    /// From the two objects that the host lent.
+    /// Wraps the two objects that the host lends.
     pub fn new(locus: LentLocus<'a>, surface: LentSurface<'a>) -> Self {
         Self {
             locus,
-            surface: Incoming(surface),
+            surface: IncomingSurface(surface),
         }
     }
 }
@@ -212,7 +212,7 @@ impl Locus for IncomingLocus<'_> {
         )
     }
 
-    fn held_feed(
+    fn residual_feed(
         &self,
         residual: f64,
         radial: Radial,
@@ -224,7 +224,7 @@ impl Locus for IncomingLocus<'_> {
         let centre = radial == Radial::Centre;
         result(
             self.locus
-                .held_feed(residual, centre, theta.into(), rho.into(), feed.into()),
+                .residual_feed(residual, centre, theta.into(), rho.into(), feed.into()),
         )
     }
 }

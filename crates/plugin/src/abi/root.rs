@@ -1,4 +1,4 @@
-//! What a plugin library exports, and how it is opened.
+//! What a plugin library exports, and how the host opens it.
 
 use std::sync::OnceLock;
 
@@ -12,37 +12,37 @@ use abi_stable::sabi_types::VersionStrings;
 use abi_stable::std_types::{RStr, RString, RVec};
 use turnpath_core::{Params, Result, Slot, StrategyError};
 
-use super::catalogue::{AbiStrategy, Listed};
+use super::catalogue::{AbiStrategy, CatalogueEntry};
 use super::compensator::{AbiCompensator_TO, OutgoingCompensator, OwnedCompensator};
-use super::contained::Contained;
 use super::data::{AbiArgument, Answer, answer, params};
 use super::feed::{AbiFeed_TO, OutgoingFeed, OwnedFeed};
+use super::panic_safe_box::PanicSafeBox;
 use super::sampler::{AbiSampler_TO, OutgoingSampler, OwnedSampler};
-use super::surface::{AbiSurface_TO, Outgoing, OwnedSurface};
+use super::surface::{AbiSurface_TO, OutgoingSurface, OwnedSurface};
 use super::velocity::{AbiVelocity_TO, OutgoingVelocity, OwnedVelocity};
 use crate::{Build, Registration};
 
-/// Which strategy to make, and from what.
+/// Which strategy to build, and from which parameters.
 #[repr(C)]
 #[derive(StableAbi)]
-pub struct AbiOrder {
+pub struct AbiRequest {
     pub crate_name: RString,
     pub name: RString,
     pub arguments: RVec<AbiArgument>,
 }
 
-/// A library's functions: the catalogue, and one maker for each slot.
+/// A library's functions: the catalogue, and one constructor for each slot.
 #[repr(C)]
 #[derive(StableAbi)]
 #[sabi(kind(Prefix(prefix_ref = RootRef)))]
 pub struct Root {
     pub catalogue: extern "C" fn() -> RVec<AbiStrategy>,
-    pub surface: extern "C" fn(AbiOrder) -> Answer<OwnedSurface>,
-    pub feed: extern "C" fn(AbiOrder) -> Answer<OwnedFeed>,
-    pub sampler: extern "C" fn(AbiOrder) -> Answer<OwnedSampler>,
-    pub compensator: extern "C" fn(AbiOrder) -> Answer<OwnedCompensator>,
+    pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
+    pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
+    pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
+    pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
     #[sabi(last_prefix_field)]
-    pub velocity: extern "C" fn(AbiOrder) -> Answer<OwnedVelocity>,
+    pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
 }
 
 impl RootModule for RootRef {
@@ -52,7 +52,7 @@ impl RootModule for RootRef {
     const VERSION_STRINGS: VersionStrings = VersionStrings::new(env!("CARGO_PKG_VERSION"));
 }
 
-/// This program's or library's own root.
+/// The root of this program or library itself.
 pub fn own_root() -> RootRef {
     static ROOT: OnceLock<RootRef> = OnceLock::new();
     *ROOT.get_or_init(|| {
@@ -72,31 +72,31 @@ extern "C" fn catalogue() -> RVec<AbiStrategy> {
     registrations().iter().map(AbiStrategy::from).collect()
 }
 
-/// The registrations linked in here, in one order whatever the linker did.
+/// The registrations that are linked in here, in an order that does not depend on the linker.
 fn registrations() -> Vec<Registration> {
     let mut all: Vec<Registration> = inventory::iter::<Registration>().copied().collect();
     all.sort_by_key(|one| (one.info.slot, one.info.name, one.crate_name));
     all
 }
 
-/// Finds what was ordered and makes it.
-fn make<T>(
+/// Finds the requested strategy and builds it.
+fn build<T>(
     slot: Slot,
-    order: AbiOrder,
+    request: AbiRequest,
     with: impl FnOnce(Build, &Params) -> Option<Result<T>>,
 ) -> Answer<T> {
     answer(|| {
-        let AbiOrder {
+        let AbiRequest {
             crate_name,
             name,
             arguments,
-        } = order;
-        let ordered = |one: &Registration| {
+        } = request;
+        let matches = |one: &Registration| {
             one.info.slot == slot && one.info.name == name && one.crate_name == crate_name
         };
         registrations()
             .iter()
-            .find(|one| ordered(one))
+            .find(|one| matches(one))
             .and_then(|one| with(one.build, &params(arguments)))
             .unwrap_or_else(|| {
                 Err(StrategyError::failed(format!(
@@ -107,38 +107,42 @@ fn make<T>(
     })
 }
 
-macro_rules! maker {
+macro_rules! constructor {
     ($function:ident, $slot:ident, $owned:ident, $object:ident, $outgoing:ident) => {
-        extern "C" fn $function(order: AbiOrder) -> Answer<$owned> {
-            make(Slot::$slot, order, |build, params| match build {
-                Build::$slot(build) => {
-                    Some(build(params).map(|made| {
-                        $object::from_value($outgoing(Contained::new(made)), TD_Opaque)
-                    }))
-                }
+        extern "C" fn $function(request: AbiRequest) -> Answer<$owned> {
+            build(Slot::$slot, request, |build, params| match build {
+                Build::$slot(build) => Some(build(params).map(|strategy| {
+                    $object::from_value($outgoing(PanicSafeBox::new(strategy)), TD_Opaque)
+                })),
                 _ => None,
             })
         }
     };
 }
 
-maker!(surface, Surface, OwnedSurface, AbiSurface_TO, Outgoing);
-maker!(feed, Feed, OwnedFeed, AbiFeed_TO, OutgoingFeed);
-maker!(
+constructor!(
+    surface,
+    Surface,
+    OwnedSurface,
+    AbiSurface_TO,
+    OutgoingSurface
+);
+constructor!(feed, Feed, OwnedFeed, AbiFeed_TO, OutgoingFeed);
+constructor!(
     sampler,
     Sampler,
     OwnedSampler,
     AbiSampler_TO,
     OutgoingSampler
 );
-maker!(
+constructor!(
     compensator,
     Compensator,
     OwnedCompensator,
     AbiCompensator_TO,
     OutgoingCompensator
 );
-maker!(
+constructor!(
     velocity,
     Velocity,
     OwnedVelocity,
@@ -146,23 +150,23 @@ maker!(
     OutgoingVelocity
 );
 
-/// The strategies behind a root, as the host knows them.
-pub fn listed(root: RootRef) -> Vec<Listed> {
+/// The strategies behind a root, as entries for the host.
+pub fn catalogue_entries(root: RootRef) -> Vec<CatalogueEntry> {
     root.catalogue()()
         .into_iter()
         .filter_map(AbiStrategy::receive)
         .collect()
 }
 
-/// The version of what crosses the boundary: that of this crate.
+/// The version of the boundary, which is the version of this crate.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BoundaryVersion {
-    /// Changes that break.
+    /// The number of changes that break plugins.
     pub major: u32,
-    /// Below 1.0, changes that break too.
+    /// Below 1.0, the number of changes that break plugins too.
     pub minor: u32,
-    /// Changes that do not.
+    /// The number of changes that do not break plugins.
     pub patch: u32,
 }
 
@@ -188,13 +192,13 @@ const fn digits(text: &str) -> u32 {
     value
 }
 
-/// What the exported symbol's name begins with; the crate's name follows.
+/// The prefix of the exported symbol's name. The crate's name follows.
 pub const SYMBOL_PREFIX: &str = "turnpath_plugin_root__";
-/// What the exported static begins with.
+/// The first bytes of the exported static.
 const MAGIC: [u8; 16] = *b"turnpath plugin\0";
 
-/// The beginning of [`PluginEntry`]. It never changes, in any version, so that a host can tell
-/// another version before it looks at anything whose layout may differ.
+/// The beginning of [`PluginEntry`]. It never changes in any version, so that a host recognises
+/// another version before it reads anything whose layout may differ.
 #[repr(C)]
 #[derive(Clone, Copy)]
 struct EntryHead {
@@ -203,7 +207,7 @@ struct EntryHead {
 }
 
 impl EntryHead {
-    /// From the bytes of an entry in a file; `None` where they are too few.
+    /// Reads the head from the bytes of an entry in a file; `None` if there are too few bytes.
     fn read(entry: &[u8]) -> Option<Self> {
         let (magic, rest) = entry.split_first_chunk::<16>()?;
         let (words, _) = rest.as_chunks::<4>();
@@ -240,9 +244,9 @@ pub struct PluginEntry {
     header: LibHeader,
 }
 
-/// The entry of the crate with this name; for [`export!`](crate::export).
+/// The entry of the crate with this name. [`export!`](crate::export) uses it.
 pub const fn plugin_entry(crate_name: &'static str) -> PluginEntry {
-    // SAFETY: `constructor` gives a `PrefixRef` that was a `RootRef`.
+    // SAFETY: `constructor` returns a `PrefixRef` that was a `RootRef`.
     let header =
         unsafe { LibHeader::from_constructor::<RootRef>(constructor, CheckTypeLayout::Yes) };
     PluginEntry {
@@ -259,22 +263,22 @@ extern "C" fn constructor() -> RootModuleResult {
     abi_stable::library::__call_root_module_loader(own_root)
 }
 
-/// Why a library's entry could not be opened.
+/// Why the host could not open a library's entry.
 #[derive(Debug)]
 pub enum OpenError {
-    /// What the symbol points to is no plugin entry.
+    /// The symbol does not point to a plugin entry.
     NotAPlugin,
     /// The plugin was built against another version of the boundary.
     Version(BoundaryVersion),
-    /// Same version, another layout: another compiler target or a changed boundary crate. The
-    /// text is abi_stable's, hundreds of lines long.
+    /// The version is the same, but the layout is not: the compiler target differs, or the boundary
+    /// crate was changed. The text is from abi_stable and hundreds of lines long.
     Layout(String),
 }
 
-/// Looks at an entry as it stands in the library's file, before anything of the library runs.
+/// Checks an entry in the library's file, before any code of the library runs.
 ///
 /// # Errors
-/// As `open`, but for the layout, which can only be compared after loading.
+/// The errors of `open`, except for the layout, which can be compared only after loading.
 pub fn inspect(entry: &[u8]) -> std::result::Result<(), OpenError> {
     EntryHead::read(entry)
         .ok_or(OpenError::NotAPlugin)?
@@ -290,17 +294,23 @@ pub fn inspect(entry: &[u8]) -> std::result::Result<(), OpenError> {
 /// # Safety
 /// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`], in a library that
 /// stays loaded for the rest of the program.
-pub unsafe fn open(entry: *const u8) -> std::result::Result<(RootRef, Vec<Listed>), OpenError> {
-    // SAFETY: every version of a plugin entry begins with a head; the symbol's name vouches for it.
+pub unsafe fn open(
+    entry: *const u8,
+) -> std::result::Result<(RootRef, Vec<CatalogueEntry>), OpenError> {
+    // SAFETY: every version of a plugin entry begins with a head, and the symbol's name marks an
+    // entry.
     let head = unsafe { entry.cast::<EntryHead>().read_unaligned() };
     head.check()?;
-    // SAFETY: magic and version say that this is a `PluginEntry`, in a library that stays.
+    // SAFETY: magic and version show that this is a `PluginEntry`, and its library stays loaded.
     let entry = unsafe { &*entry.cast::<PluginEntry>() };
     // SAFETY: an `AbiHeaderRef` is the address of the header with which a `LibHeader` begins.
     let header: AbiHeaderRef = unsafe { std::mem::transmute(&raw const entry.header) };
     let layout = |error: LibraryError| OpenError::Layout(error.to_string());
     let library = header.upgrade().map_err(layout)?;
     let root = library.init_root_module::<RootRef>().map_err(layout)?;
-    let own = |one: &Listed| one.crate_name == entry.crate_name.as_str();
-    Ok((root, listed(root).into_iter().filter(own).collect()))
+    let own = |one: &CatalogueEntry| one.crate_name == entry.crate_name.as_str();
+    Ok((
+        root,
+        catalogue_entries(root).into_iter().filter(own).collect(),
+    ))
 }

@@ -5,11 +5,11 @@ use abi_stable::sabi_trait;
 use abi_stable::std_types::{RBox, RSlice, RVec};
 use turnpath_core::{Dependence, Path, Result, Revolutions, Sampler, Setup, SpiralLaw};
 
-use super::contained::Contained;
 use super::data::{AbiLaw, Answer, answer, result};
 use super::feed::{AbiSetup, lend_setup};
+use super::panic_safe_box::PanicSafeBox;
 
-/// How a strategy depends on its neighbours; `overlap` counts only for `kind` 1.
+/// How a strategy depends on its neighbours. `overlap` has a meaning for `kind` 1 alone.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiDependence {
@@ -60,7 +60,7 @@ fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'
     let Revolutions { start, end } = block;
     lend_setup(
         Setup {
-            job: path.job,
+            task: path.task,
             locus: path.locus,
         },
         |setup| {
@@ -83,10 +83,10 @@ impl AbiPath<'_, '_> {
         };
         let law = SpiralLaw::from(&self.law);
         let prepared = self.prepared;
-        self.setup.receive(|Setup { job, locus }| {
+        self.setup.receive(|Setup { task, locus }| {
             call(
                 &Path {
-                    job,
+                    task,
                     locus,
                     law: &law,
                     prepared: prepared.as_slice(),
@@ -103,7 +103,7 @@ pub trait AbiSampler: Send + Sync {
     fn prepare(&self, path: AbiPath<'_, '_>) -> Answer<RVec<f64>>;
     fn place(&self, path: AbiPath<'_, '_>, nodes: &mut RVec<f64>) -> Answer<()>;
     #[sabi(last_prefix_field)]
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: AbiPath<'_, '_>,
         state: &mut RVec<f64>,
@@ -111,11 +111,11 @@ pub trait AbiSampler: Send + Sync {
     ) -> Answer<()>;
 }
 
-/// A sampler that its plugin made.
+/// A sampler that belongs to its plugin.
 pub type OwnedSampler = AbiSampler_TO<'static, RBox<()>>;
 
-/// The author's sampler, on its way out.
-pub struct OutgoingSampler(pub Contained<dyn Sampler>);
+/// The author's sampler, wrapped for the boundary.
+pub struct OutgoingSampler(pub PanicSafeBox<dyn Sampler>);
 
 impl AbiSampler for OutgoingSampler {
     fn dependence(&self) -> Answer<AbiDependence> {
@@ -135,7 +135,7 @@ impl AbiSampler for OutgoingSampler {
         })
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: AbiPath<'_, '_>,
         state: &mut RVec<f64>,
@@ -143,7 +143,9 @@ impl AbiSampler for OutgoingSampler {
     ) -> Answer<()> {
         answer(|| {
             let (mut kept, mut placed) = (state.to_vec(), Vec::new());
-            path.receive(|path, block| self.0.place_onward(path, block, &mut kept, &mut placed))?;
+            path.receive(|path, block| {
+                self.0.place_sequential(path, block, &mut kept, &mut placed)
+            })?;
             *state = kept.into();
             nodes.extend(placed);
             Ok(())
@@ -151,14 +153,15 @@ impl AbiSampler for OutgoingSampler {
     }
 }
 
-/// A plugin's sampler, as the core's. The dependence is asked once, when the plugin is loaded.
+/// A plugin's sampler, wrapped as a sampler of the core. The wrapper reads the dependence once,
+/// when it is built.
 pub struct IncomingSampler {
     sampler: OwnedSampler,
     dependence: Dependence,
 }
 
 impl IncomingSampler {
-    /// Asks the sampler how it depends on its neighbours, and unwraps it.
+    /// Reads the sampler's dependence and wraps the sampler.
     pub fn new(sampler: OwnedSampler) -> Result<Self> {
         let dependence = result(sampler.dependence())?.into();
         Ok(Self {
@@ -191,7 +194,7 @@ impl Sampler for IncomingSampler {
         Ok(())
     }
 
-    fn place_onward(
+    fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,
@@ -200,7 +203,7 @@ impl Sampler for IncomingSampler {
     ) -> Result<()> {
         let (mut kept, mut placed) = (RVec::from(std::mem::take(state)), RVec::new());
         let answer = lend_path(path, block, |path| {
-            self.sampler.place_onward(path, &mut kept, &mut placed)
+            self.sampler.place_sequential(path, &mut kept, &mut placed)
         });
         *state = kept.into();
         nodes.extend(placed);

@@ -1,5 +1,5 @@
-//! Surface models across the boundary, in both directions: a plugin's to the host, and the host's
-//! to a compensator or a feed strategy.
+//! Surface models across the boundary, in both directions: from a plugin to the host, and from the
+//! host to a compensator or a feed strategy.
 
 use std::ops::Deref;
 
@@ -38,15 +38,15 @@ pub trait AbiSurface: Send + Sync {
     ) -> Answer<()>;
 }
 
-/// A surface that its plugin made.
+/// A surface that belongs to its plugin.
 pub type OwnedSurface = AbiSurface_TO<'static, RBox<()>>;
-/// A surface lent for the time of a call.
+/// A surface, lent for the duration of a call.
 pub type LentSurface<'a> = AbiSurface_TO<'a, RRef<'a, ()>>;
 
-/// The core's surface, on its way out.
-pub struct Outgoing<P>(pub P);
+/// A surface of the core, wrapped for the boundary.
+pub struct OutgoingSurface<P>(pub P);
 
-impl<'a, P: Deref<Target = dyn SurfaceModel + 'a> + Send + Sync> AbiSurface for Outgoing<P> {
+impl<'a, P: Deref<Target = dyn SurfaceModel + 'a> + Send + Sync> AbiSurface for OutgoingSurface<P> {
     fn heights(
         &self,
         x: RSlice<'_, f64>,
@@ -109,16 +109,16 @@ impl<'a, P: Deref<Target = dyn SurfaceModel + 'a> + Send + Sync> AbiSurface for 
 }
 
 /// Lends a surface to the other side.
-pub fn lend<'a>(outgoing: &'a Outgoing<&'a dyn SurfaceModel>) -> LentSurface<'a> {
+pub fn lend<'a>(outgoing: &'a OutgoingSurface<&'a dyn SurfaceModel>) -> LentSurface<'a> {
     AbiSurface_TO::from_ptr(RRef::new(outgoing), sabi_trait::TD_Opaque)
 }
 
-/// A surface from the other side, as the core's.
-pub struct Incoming<T>(pub T);
+/// A surface from the other side, wrapped as a surface of the core.
+pub struct IncomingSurface<T>(pub T);
 
 macro_rules! incoming {
     ($object:ty, [$($lifetime:lifetime)?]) => {
-        impl$(<$lifetime>)? SurfaceModel for Incoming<$object> {
+        impl$(<$lifetime>)? SurfaceModel for IncomingSurface<$object> {
             fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
                 same_length(&[x.len(), y.len(), z.len()])?;
                 result(self.0.heights(x.into(), y.into(), z.into()))

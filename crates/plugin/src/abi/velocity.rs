@@ -6,8 +6,8 @@ use abi_stable::std_types::{RBox, RSlice, RSliceMut, RVec};
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
-use super::contained::Contained;
 use super::data::{Answer, answer, result, same_length};
+use super::panic_safe_box::PanicSafeBox;
 use super::sampler::AbiDependence;
 
 #[repr(C)]
@@ -96,7 +96,7 @@ pub trait AbiVelocity: Send + Sync {
         z: RSliceMut<'_, f64>,
     ) -> Answer<()>;
     #[sabi(last_prefix_field)]
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: AbiNodes<'_>,
         state: &mut RVec<f64>,
@@ -106,11 +106,11 @@ pub trait AbiVelocity: Send + Sync {
     ) -> Answer<()>;
 }
 
-/// A velocity solver that its plugin made.
+/// A velocity solver that belongs to its plugin.
 pub type OwnedVelocity = AbiVelocity_TO<'static, RBox<()>>;
 
-/// The author's solver, on its way out.
-pub struct OutgoingVelocity(pub Contained<dyn VelocitySolver>);
+/// The author's solver, wrapped for the boundary.
+pub struct OutgoingVelocity(pub PanicSafeBox<dyn VelocitySolver>);
 
 impl AbiVelocity for OutgoingVelocity {
     fn dependence(&self) -> Answer<AbiDependence> {
@@ -136,7 +136,7 @@ impl AbiVelocity for OutgoingVelocity {
         answer(|| self.0.solve(nodes.receive(), out))
     }
 
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: AbiNodes<'_>,
         state: &mut RVec<f64>,
@@ -151,14 +151,15 @@ impl AbiVelocity for OutgoingVelocity {
         };
         answer(|| {
             let mut kept = state.to_vec();
-            self.0.solve_onward(nodes.receive(), &mut kept, out)?;
+            self.0.solve_sequential(nodes.receive(), &mut kept, out)?;
             *state = kept.into();
             Ok(())
         })
     }
 }
 
-/// A plugin's solver, as the core's. Dependence and shape are asked once, when it is made.
+/// A plugin's solver, wrapped as a solver of the core. The wrapper reads the dependence and the
+/// shape once, when it is built.
 pub struct IncomingVelocity {
     solver: OwnedVelocity,
     dependence: Dependence,
@@ -166,7 +167,7 @@ pub struct IncomingVelocity {
 }
 
 impl IncomingVelocity {
-    /// Asks the solver how it depends on its neighbours and what is played, and unwraps it.
+    /// Reads the solver's dependence and the shape of its segments, and wraps the solver.
     pub fn new(solver: OwnedVelocity) -> Result<Self> {
         let dependence = result(solver.dependence())?.into();
         let shape = result(solver.segments())?.into();
@@ -214,7 +215,7 @@ impl VelocitySolver for IncomingVelocity {
         )
     }
 
-    fn solve_onward(
+    fn solve_sequential(
         &self,
         nodes: Nodes<'_>,
         state: &mut Vec<f64>,
@@ -225,7 +226,7 @@ impl VelocitySolver for IncomingVelocity {
         let mut kept = RVec::from(std::mem::take(state));
         let answer =
             self.solver
-                .solve_onward(nodes.into(), &mut kept, c.into(), x.into(), z.into());
+                .solve_sequential(nodes.into(), &mut kept, c.into(), x.into(), z.into());
         *state = kept.into();
         result(answer)
     }

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use turnpath_core::DEG;
-use turnpath_core::toolpath::{ControlPoint, PathStretch, Segment};
+use turnpath_core::toolpath::{ControlPoint, SectionBlock, Segment};
 
 use super::decimal::{push, push_ms};
 use super::error::PmacError;
@@ -26,7 +26,7 @@ struct Digits {
 }
 
 /// The lines of a stretch.
-pub(super) fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> Result<Vec<u8>, PmacError> {
+pub(super) fn lines(format: &PmacFormat, stretch: &SectionBlock<'_>) -> Result<Vec<u8>, PmacError> {
     let mut text = Vec::new();
     let mut trail = Trail::behind(format, stretch.before)?;
     if stretch.opens_section {

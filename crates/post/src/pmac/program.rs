@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use turnpath_core::toolpath::{ControlPoint, PathBlock, PathStretch, Section};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Section};
 
 use super::encode;
 use super::error::PmacError;
@@ -66,7 +66,7 @@ impl PmacWriter {
     ///
     /// # Errors
     /// When a program cannot carry the path.
-    pub fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> Result<Vec<u8>, PmacError> {
+    pub fn lines(format: &PmacFormat, stretch: &SectionBlock<'_>) -> Result<Vec<u8>, PmacError> {
         encode::lines(format, stretch)
     }
 
@@ -114,7 +114,7 @@ impl PmacWriter {
         let mut block = PathBlock::default();
         block.push(point(1));
         block.push(point(2));
-        let stretch = PathStretch {
+        let stretch = SectionBlock {
             section: Section::Cutting,
             opens_section: false,
             before: &[point(0)],

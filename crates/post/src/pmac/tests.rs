@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use turnpath_core::DEG;
-use turnpath_core::toolpath::{ControlPoint, Cubic, PathBlock, PathStretch, Section, Segment};
+use turnpath_core::toolpath::{ControlPoint, Cubic, PathBlock, Section, SectionBlock, Segment};
 
 use super::format::{QUANTA_PER_S, TURN_DEG};
 use super::{PmacFormat, PmacReader, PmacWriter};
@@ -74,7 +74,7 @@ fn lines_in_sections(
         points[begin..end]
             .iter()
             .for_each(|point| block.push(*point));
-        let stretch = PathStretch {
+        let stretch = SectionBlock {
             section,
             opens_section,
             before: &points[begin.saturating_sub(2)..begin],
@@ -452,7 +452,7 @@ fn what_a_program_cannot_carry_is_refused_with_its_place() {
         path_of(steps)
             .into_iter()
             .for_each(|point| block.push(point));
-        let stretch = PathStretch {
+        let stretch = SectionBlock {
             section: Section::Cutting,
             opens_section: true,
             before: &[],

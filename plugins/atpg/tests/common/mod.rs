@@ -41,7 +41,7 @@ impl AtpgCase for Case {
     }
 
     fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64 {
-        let RadialRange { inner, outer } = self.job.range;
+        let RadialRange { inner, outer } = self.task.range;
         let step = (outer - inner) / radii as f64;
         let turns = (0..radii).map(|i| {
             let feed = self.held_over(inner + (i as f64 + 0.5) * step, angles);

@@ -1,7 +1,7 @@
-//! The feed that holds the residual, with its derivatives, and smooth where it is capped.
+//! The residual feed with its pairs. It is smooth where it is capped.
 //!
-//! It is the host's held feed f, but for two things: a margin, and (f⁻⁸ + cap⁻⁸)^(−1/8) in place of
-//! min(f, cap), so that it has derivatives wherever the surface has.
+//! It is the host's residual feed f with two differences. It keeps a margin, and it takes (f⁻⁸ +
+//! cap⁻⁸)^(−1/8) in place of min(f, cap), so that it has pairs wherever the surface has them.
 
 use turnpath_plugin::locus::{LARGEST_FEED, LEAST_GAP};
 use turnpath_plugin::prelude::*;
@@ -9,12 +9,12 @@ use turnpath_plugin::prelude::*;
 use crate::jet::Jet;
 use crate::sections::{Section, Sections};
 
-/// By how much the feed stays below what holds: room for X's own interpolation, to which the
-/// sampler `ats` gives a thousandth of the distance between passes. It costs as much in
-/// revolutions.
+/// The part by which the feed stays below the one that keeps the residual. The margin is for X's
+/// own interpolation error, to which the sampler `ats` gives a thousandth of the distance between
+/// passes. It costs as much in revolutions.
 pub const MARGIN: f64 = 1.5e-3;
 
-/// The formula's constants.
+/// The constants of the formula.
 #[derive(Debug, Clone, Copy)]
 struct Law {
     radial: Radial,
@@ -24,8 +24,8 @@ struct Law {
 }
 
 impl Law {
-    /// From slope and second derivative of the radial section at the contact. With y = (cap/f)²
-    /// it is cap/(1 + y⁴)^(1/8); where the nose does not fit, the cap.
+    /// The feed from the slope and the second derivative of the radial section at the contact. With
+    /// y = (cap/f)² it is cap/(1 + y⁴)^(1/8). Where the nose does not fit, it is the cap.
     fn feed<S: Scalar>(&self, slope: S, second: S) -> S {
         let cap = LARGEST_FEED * self.nose_radius;
         let squared = slope.squared() + 1.0;
@@ -63,44 +63,45 @@ impl Law {
     }
 }
 
-/// Finds feeds in batches.
-pub struct HeldFeed<'a> {
+/// Computes feeds in batches.
+pub struct ResidualFeed<'a> {
     setup: Setup<'a>,
     law: Law,
     centres: CentreBuffers,
     sections: Sections,
-    looked: Vec<Section>,
-    glanced: Vec<(f64, f64)>,
+    evaluated: Vec<Section>,
+    pairs: Vec<(f64, f64)>,
 }
 
-impl<'a> HeldFeed<'a> {
-    /// For one job and locus.
+impl<'a> ResidualFeed<'a> {
+    /// The residual feed of one task and locus.
     pub fn new(setup: Setup<'a>) -> Self {
         Self {
             setup,
             law: Law {
                 radial: setup.locus.radial(),
-                nose_radius: setup.job.tool.nose_radius,
-                residual: setup.job.tolerance.residual,
-                misfit: setup.job.tool.misfit,
+                nose_radius: setup.task.tool.nose_radius,
+                residual: setup.task.tolerance.residual,
+                misfit: setup.task.tool.misfit,
             },
             centres: CentreBuffers::default(),
             sections: Sections::default(),
-            looked: Vec::new(),
-            glanced: Vec::new(),
+            evaluated: Vec::new(),
+            pairs: Vec::new(),
         }
     }
 
-    /// The feed at each (θ, ρ) as a function of both.
+    /// The feed at each (θ, ρ), as a function of both.
     pub fn jets(&mut self, theta: &[f64], rho: &[f64], out: &mut Vec<Jet>) -> Result<()> {
         self.touch(theta, rho)?;
         let surface = self.setup.locus.surface();
         let feet = &self.centres.foot;
-        self.sections.look(surface, theta, feet, &mut self.looked)?;
+        self.sections
+            .evaluate(surface, theta, feet, &mut self.evaluated)?;
         out.clear();
         let law = self.law;
         out.extend(
-            self.looked
+            self.evaluated
                 .iter()
                 .zip(feet)
                 .map(|(section, foot)| law.jet(section, *foot)),
@@ -108,16 +109,16 @@ impl<'a> HeldFeed<'a> {
         check(theta, rho, out.iter().map(|jet| jet.value))
     }
 
-    /// The feed alone.
+    /// The values of the feed at each (θ, ρ), without pairs.
     pub fn values(&mut self, theta: &[f64], rho: &[f64], out: &mut Vec<f64>) -> Result<()> {
         self.touch(theta, rho)?;
         let surface = self.setup.locus.surface();
         self.sections
-            .glance(surface, theta, &self.centres.foot, &mut self.glanced)?;
+            .values(surface, theta, &self.centres.foot, &mut self.pairs)?;
         out.clear();
         let law = self.law;
         out.extend(
-            self.glanced
+            self.pairs
                 .iter()
                 .map(|(slope, second)| law.feed(*slope, *second)),
         );
@@ -132,7 +133,7 @@ impl<'a> HeldFeed<'a> {
     }
 }
 
-/// Every feed must be a number above 0.
+/// Checks that every feed is a number above 0.
 fn check(theta: &[f64], rho: &[f64], feeds: impl Iterator<Item = f64>) -> Result<()> {
     for ((feed, theta), rho) in feeds.zip(theta).zip(rho) {
         if !(feed.is_finite() && feed > 0.0) {
