@@ -125,7 +125,7 @@ fn refuse(
     });
     if let Some((radius, at)) = too_large {
         let nose = fit.largest_nose(on_part.curvature)?;
-        (*radius, *at) = (nose.radius, nose.at.place());
+        (*radius, *at) = (nose.radius, nose.at.position());
     }
     Err(PipelineError::Gouge {
         conflicts,

@@ -283,7 +283,7 @@ fn control_points_lie_on_the_steps_of_the_controllers_time() {
     }
     let (free, _) = Task {
         time_steps: None,
-        ..job
+        ..task
     }
     .path();
     assert_eq!(path.len(), free.len());

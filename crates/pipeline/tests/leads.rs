@@ -266,7 +266,7 @@ fn leads_are_smooth_clear_the_part_and_begin_and_end_at_rest() {
                 compensator: task.compensator.clone(),
                 velocity: task.velocity.clone(),
                 sampler: task.sampler.clone(),
-                ..job
+                ..task
             });
         }
     }

@@ -117,7 +117,7 @@ fn sections(found: &Interference, part: &Part) -> report::Sections {
 }
 
 fn place(extreme: &Extreme, part: &Part) -> report::ContactPlace {
-    let (at, rho) = (extreme.place(), extreme.rho);
+    let (at, rho) = (extreme.position(), extreme.rho);
     let inside = rho < part.inner_radius - ON_PART;
     let outside = rho > part.aperture_radius + ON_PART;
     report::ContactPlace {
