@@ -86,22 +86,22 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
             Failure::recipe(&all.collect::<Vec<_>>())
         }
         PipelineError::NoSurface(_) => {
-            let place = recipe.nearest_place("part.aperture");
+            let place = recipe.nearest_span("part.aperture");
             let longer = matches!(recipe.overrun, Overrun::Length(length) if length > 0.0);
             let help = longer.then(|| "or choose a shorter `overrun` under [path]".to_owned());
             recipe
-                .complaint(place, title, "the part reaches there", help)
+                .diagnostic(place, title, "the part reaches there", help)
                 .into()
         }
         PipelineError::Lead { .. } => {
-            let place = recipe.nearest_place("path.lead");
+            let place = recipe.nearest_span("path.lead");
             let what = match recipe.machine.has_limits() {
                 true => "choose another `clearance`, wider limits under [machine]",
                 false => "choose another `clearance`, a slower spindle",
             };
             let help = format!("{what}, or write lead = false under [path]");
             recipe
-                .complaint(place, title, "leads are made here", [help])
+                .diagnostic(place, title, "leads are made here", [help])
                 .into()
         }
         PipelineError::Measure(_) => Failure::plugin(&at_choice(recipe, Slot::Surface, title)),
@@ -117,8 +117,8 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
 }
 
 fn at_choice(recipe: &Recipe, slot: Slot, title: String) -> Diagnostic {
-    recipe.complaint(
-        recipe.choice(slot).name.place.clone(),
+    recipe.diagnostic(
+        recipe.choice(slot).name.span.clone(),
         title,
         "chosen here",
         [],
@@ -169,8 +169,8 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
     if cuts_rest {
         return cannot_cut_what_fits(recipe, title, help);
     }
-    recipe.complaint(
-        recipe.nearest_place(key),
+    recipe.diagnostic(
+        recipe.nearest_span(key),
         title,
         "does not fit",
         [help.to_owned()],
@@ -180,8 +180,8 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
 /// The message for a compensator that would gouge where it should leave something standing.
 fn cannot_cut_what_fits(recipe: &Recipe, title: String, help: &str) -> Diagnostic {
     let compensator = &recipe.choice(Slot::Compensator).name;
-    recipe.complaint(
-        compensator.place.clone(),
+    recipe.diagnostic(
+        compensator.span.clone(),
         title,
         format!("`{}` cannot cut what fits", compensator.value),
         [

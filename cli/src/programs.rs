@@ -10,7 +10,7 @@ use turnpath_post::{
     Draft, FileError, PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacReader,
     PmacWriter, ReadPath, Template,
 };
-use turnpath_recipe::{Located, Recipe, ZReference};
+use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_verify::FirstTouch;
 
 use crate::failure::Failure;
@@ -182,18 +182,15 @@ impl Program {
 /// A template of the recipe, or the post's own.
 fn template(
     recipe: &Recipe,
-    given: Option<&Located<String>>,
+    given: Option<&Spanned<String>>,
     own: &str,
 ) -> Result<Template, Failure> {
     let text = given.map_or(own, |given| &given.value);
     Template::parse(text).map_err(|error| {
-        let place = given.map_or_else(
-            || recipe.nearest_place("output"),
-            |given| given.place.clone(),
-        );
+        let place = given.map_or_else(|| recipe.nearest_span("output"), |given| given.span.clone());
         let known = format!("placeholders: {{{}}}", PLACEHOLDERS.join("}, {"));
         recipe
-            .complaint(place, error.to_string(), "in this template", [known])
+            .diagnostic(place, error.to_string(), "in this template", [known])
             .into()
     })
 }
@@ -210,9 +207,9 @@ fn sha256(text: &str) -> String {
 /// A path that the post cannot carry is the recipe's fault.
 pub fn not_carried(recipe: &Recipe, error: &PmacError) -> Failure {
     let post = recipe.output.posts.first();
-    let place = post.map_or_else(|| recipe.nearest_place("output"), |post| post.place.clone());
+    let place = post.map_or_else(|| recipe.nearest_span("output"), |post| post.span.clone());
     let title = format!("the post `{PMAC_PVT}` cannot carry this path: {error}");
     recipe
-        .complaint(place, title, "chosen here", [error.help().to_owned()])
+        .diagnostic(place, title, "chosen here", [error.help().to_owned()])
         .into()
 }

@@ -40,7 +40,7 @@ pub fn catalogue_for(recipe: &Recipe, args: &RecipeArgs) -> Result<Catalogue, Fa
                     `plugins` out and give folders that you trust with `--plugin-dir`";
         let help = [help.to_owned()];
         return Err(recipe
-            .complaint(first.place.clone(), title, label, help)
+            .diagnostic(first.span.clone(), title, label, help)
             .into());
     }
     let mut catalogue = catalogue(&args.plugins)?;
@@ -56,8 +56,8 @@ pub fn catalogue_for(recipe: &Recipe, args: &RecipeArgs) -> Result<Catalogue, Fa
                 true => format!("there is no file or folder {}", path.display()),
                 false => error.to_string(),
             };
-            let place = listed.place.clone();
-            let diagnostic = recipe.complaint(place, title, "listed here", []);
+            let place = listed.span.clone();
+            let diagnostic = recipe.diagnostic(place, title, "listed here", []);
             Failure::listed_load(&error, &diagnostic, args.plugins.layout_details)
         })?;
     }
@@ -123,8 +123,8 @@ fn not_made(
         StrategyError::Failed(message) => {
             let title = format!("the {} `{name}` cannot be made: {message}", slot.noun());
             recipe
-                .complaint(
-                    choice.name.place.clone(),
+                .diagnostic(
+                    choice.name.span.clone(),
                     title,
                     format!("from {plugin}"),
                     [],
@@ -133,8 +133,8 @@ fn not_made(
         }
         panicked @ (StrategyError::Panicked(_) | StrategyError::Asked { .. }) => {
             let title = format!("the {} `{name}` of {plugin} {panicked}", slot.noun());
-            let place = choice.name.place.clone();
-            Failure::plugin(&recipe.complaint(place, title, "while it was made", []))
+            let place = choice.name.span.clone();
+            Failure::plugin(&recipe.diagnostic(place, title, "while it was made", []))
         }
     }
 }
@@ -147,9 +147,9 @@ pub fn wrong_parameter(recipe: &Recipe, slot: Slot, parameter: &str, message: &s
         slot.noun(),
         choice.name()
     );
-    let place = choice.param_place(parameter);
+    let place = choice.param_span(parameter);
     recipe
-        .complaint(place, title, format!("`{parameter}`"), [])
+        .diagnostic(place, title, format!("`{parameter}`"), [])
         .into()
 }
 

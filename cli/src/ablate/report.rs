@@ -42,7 +42,7 @@ fn entry(variant: &Variant, outcome: &Outcome) -> Value {
             entry.insert("error".to_owned(), json!(failure.title()));
         }
     }
-    let varied = variant.varied.iter();
+    let varied = variant.variations.iter();
     let varied: Map<String, Value> = varied
         .map(|varied| (varied.key.clone(), json!(varied.value)))
         .collect();
@@ -89,7 +89,9 @@ impl Report {
         variants: &[Variant],
         entries: &[Value],
     ) -> Result<Vec<PathBuf>, FileError> {
-        let first = variants.first().map(|variant| variant.varied.as_slice());
+        let first = variants
+            .first()
+            .map(|variant| variant.variations.as_slice());
         let keys = first.unwrap_or_default().iter();
         let keys: Vec<&str> = keys.map(|varied| varied.key.as_str()).collect();
         let (csv, json) = (self.folder.join(CSV), self.folder.join(JSON));
