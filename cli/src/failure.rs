@@ -63,7 +63,7 @@ impl Failure {
 
     /// A plugin that could not be loaded.
     pub fn load(error: &LoadError, details: bool) -> Self {
-        Self::load_told(error, format!("error: {error}"), details)
+        Self::load_told(error, with_sources(error), details)
     }
 
     /// The same where the recipe lists the plugin.
@@ -86,6 +86,11 @@ impl Failure {
     pub fn output(error: &std::io::Error) -> Self {
         Self::File(format!("error: cannot write to standard output: {error}"))
     }
+}
+
+/// An error with its sources, as the user sees it.
+pub fn with_sources(error: &dyn std::error::Error) -> String {
+    format!("error: {}", Diagnostic::from_error(error).title())
 }
 
 /// Whether messages are coloured: on a terminal, unless the user says otherwise.
@@ -117,13 +122,13 @@ impl From<Diagnostic> for Failure {
 
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
-        Self::File(format!("error: {error}"))
+        Self::File(with_sources(&error))
     }
 }
 
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
-        Self::File(format!("error: {error}"))
+        Self::File(with_sources(&error))
     }
 }
 

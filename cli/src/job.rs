@@ -7,7 +7,7 @@ use turnpath_pipeline::{Chain, PipelineError, Prepared, Wanted, prepare};
 use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{RecipeArgs, WorkArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, with_sources};
 use crate::figures::{millimetres, nose_radius};
 use crate::programs::not_carried;
 use crate::strategies;
@@ -111,7 +111,7 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Failure {
                 return not_carried(recipe, error);
             }
             // It names its file itself.
-            Failure::File(format!("error: {error}"))
+            Failure::File(with_sources(&error))
         }
     }
 }

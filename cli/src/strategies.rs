@@ -5,7 +5,7 @@ use std::sync::Arc;
 use turnpath_core::{Params, Slot, StrategyError, SurfaceModel};
 use turnpath_host::{Catalogue, LoadError, Strategy};
 use turnpath_pipeline::{Chain, Link};
-use turnpath_recipe::Recipe;
+use turnpath_recipe::{Diagnostic, Recipe};
 
 use crate::args::{PluginArgs, RecipeArgs};
 use crate::failure::Failure;
@@ -54,7 +54,7 @@ pub fn catalogue_for(recipe: &Recipe, args: &RecipeArgs) -> Result<Catalogue, Fa
             // Whether a file or a folder was meant is not to be seen.
             let title = match error.is_missing() && !path.exists() {
                 true => format!("there is no file or folder {}", path.display()),
-                false => error.to_string(),
+                false => Diagnostic::from_error(&error).title().to_owned(),
             };
             let place = listed.span.clone();
             let diagnostic = recipe.diagnostic(place, title, "listed here", []);
