@@ -160,7 +160,7 @@ impl Program {
         progress.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = PathMeters::new(recipe, touch);
         let measured = measure(recipe, meters, SegmentShape::Cubic, &mut reader, progress)?;
-        let count = reader.counted().count();
+        let count = reader.read_count().points();
         if count != points {
             let name = name.display();
             let message = format!("error: {name} has {count} points of the path's {points}");

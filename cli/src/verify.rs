@@ -93,9 +93,9 @@ fn verified(
     let touch = FirstTouch::new(held.subject).map_err(failed)?;
     let meters = PathMeters::new(recipe, touch).with_servo(recipe);
     let meters = measure(recipe, meters, shape, reader.as_mut(), &Quiet)?;
-    let (meter, read) = (&meters.cut, reader.counted());
+    let (meter, read) = (&meters.cut, reader.read_count());
     let range = meter.reach(held.radial).map_err(failed)?;
-    let Some(range) = range.filter(|_| read.cutting() >= 2) else {
+    let Some(range) = range.filter(|_| read.cutting_points() >= 2) else {
         let file = args.file.display();
         let message = format!("error: {file} has no cutting section to measure");
         return Err(Failure::File(message));
@@ -115,13 +115,13 @@ fn verified(
         touch: meter.touch(),
         shape,
         largest_error: figures.playback.max(),
-        points: read.count(),
+        points: read.points(),
     };
     Ok(Verified {
         name: recipe.name.clone(),
         file: args.file.display().to_string(),
-        control_points: read.cutting(),
-        rows: read.count(),
+        control_points: read.cutting_points(),
+        rows: read.points(),
         reach_mm: reach,
         measured,
         files: drawn(args, wishes, &played, compensates_nose)?,

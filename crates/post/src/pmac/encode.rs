@@ -1,4 +1,4 @@
-//! Control points into program lines.
+//! Writes control points as program lines.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use super::decimal::{push, push_ms};
 use super::error::PmacError;
 use super::format::{ENTRY_MS, LONGEST, PmacFormat, QUANTA_PER_MS, QUANTA_PER_S, TURN_DEG, mark};
 
-/// Beyond this a double times a power of ten is not exact.
+/// Above this, a double times a power of ten is not exact.
 const LARGEST_UNITS: f64 = 9e15;
 /// The program's axes, in the order in which they are written.
 const AXES: [char; 3] = ['C', 'X', 'Z'];
@@ -19,9 +19,9 @@ const AXES: [char; 3] = ['C', 'X', 'Z'];
 struct Digits {
     /// Time in quanta.
     quanta: i64,
-    /// C, X, Z in last digits; C unwrapped.
+    /// C, X, Z in units of the last digit; C unwrapped.
     position: [i64; 3],
-    /// Their velocities.
+    /// The velocities of C, X, Z.
     velocity: [i64; 3],
 }
 
@@ -49,11 +49,11 @@ pub(super) fn lines(format: &PmacFormat, stretch: &PathStretch<'_>) -> io::Resul
     Ok(text)
 }
 
-/// What the last line left.
+/// The point and the time that the last line left.
 struct Trail {
     point: Option<ControlPoint>,
     digits: Option<Digits>,
-    /// The time that stands, in quanta.
+    /// The time that applies until another is written, in quanta.
     quanta: i64,
 }
 
@@ -110,13 +110,13 @@ impl Digits {
     }
 }
 
-/// A value in last digits, if it fits.
+/// A value in units of the last digit, if it fits.
 fn units(value: f64, decimals: u32) -> Option<i64> {
     let scaled = (value * 10u64.pow(decimals) as f64).round();
     (scaled.abs() <= LARGEST_UNITS).then_some(scaled as i64)
 }
 
-/// The point moved along the cubic that ends at it, by half a quantum at the most.
+/// The point, moved along the cubic that ends at it to another time, by half a quantum at the most.
 fn at_time(point: &ControlPoint, before: Option<&ControlPoint>, time: f64) -> ControlPoint {
     let by = time - point.t;
     let bends = before.map_or([(0.0, 0.0); 3], |before| {
@@ -152,7 +152,7 @@ fn segment_time(last: &Digits, digits: &Digits, point: &ControlPoint) -> Result<
     }
 }
 
-/// The first point: a place, also where distances follow.
+/// The first point: always a position, even if distances follow.
 fn push_entry(text: &mut Vec<u8>, format: &PmacFormat, digits: &Digits) -> io::Result<()> {
     writeln!(text, "ABS\nPVT{ENTRY_MS}")?;
     push_axes(text, format, places(format, digits), digits.velocity)?;
@@ -194,7 +194,7 @@ fn push_move(
     push_axes(text, format, positions, digits.velocity)
 }
 
-/// A revolution in last digits.
+/// A revolution in units of the last digit.
 fn turn(format: &PmacFormat) -> i64 {
     TURN_DEG * 10i64.pow(format.position_decimals)
 }
