@@ -327,7 +327,7 @@ fn a_pipe_where_the_summary_should_be_is_told_before_the_work() {
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.is_ok_and(|status| status.success()));
     let said = bench.line("run recipe.toml -o out").ends(4);
-    let told = "error: cannot write out/summary.json: it is no regular file\n";
+    let told = "error: cannot write out/summary.json: it is not a regular file\n";
     assert_eq!(said.stderr, told);
     assert_eq!(bench.files(), ["out/summary.json", "recipe.toml"]);
 }

@@ -233,7 +233,7 @@ fn what_the_post_cannot_do_is_the_recipes_fault_and_leaves_nothing() {
     for (set, says) in [
         (
             "spindle.speed=\"0.1 rpm\"",
-            "takes 15000.0000 ms; the controller counts to 4095.9998 ms",
+            "takes 15000.0000 ms; the controller allows 4095.9998 ms at the most",
         ),
         (
             "output.pmac-pvt.position_decimals=12",
@@ -243,7 +243,7 @@ fn what_the_post_cannot_do_is_the_recipes_fault_and_leaves_nothing() {
             "output.pmac-pvt.header=\"{nam}\"",
             "no placeholder named `{nam}`",
         ),
-        ("output.pmac-pvt.footer=\"{\"", "a brace stands alone"),
+        ("output.pmac-pvt.footer=\"{\"", "a single brace"),
         ("output.posts=[\"pmac\"]", "no post named `pmac`"),
     ] {
         let run = Run::of(&astigmatic(), &[set]).ends(2);
@@ -261,13 +261,13 @@ fn a_damaged_program_is_refused_with_its_line() {
     for (spoiled, says) in [
         (
             text.replacen("C18:", "D18:", 1),
-            "spoiled.PMC, line 16: `D18:3000` is no word",
+            "spoiled.PMC, line 16: `D18:3000` is not a word",
         ),
         (
             text.replacen("C18:3000", "C18:NaN", 1),
             "spoiled.PMC, line 16: the velocity of C",
         ),
-        (half.join("\n") + "\n", "it is not whole"),
+        (half.join("\n") + "\n", "it is not complete"),
         (text.replacen("-- cutting --", "", 1), "there is no path"),
     ] {
         fs::write(&program, spoiled).unwrap();

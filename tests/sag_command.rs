@@ -100,7 +100,7 @@ fn what_is_no_file_is_not_replaced_by_one() {
     let said = bench.line("sag recipe.toml --grid 3 -o pipe").ends(4);
     assert_eq!(
         said.stderr,
-        "error: cannot write pipe: it is no regular file\n"
+        "error: cannot write pipe: it is not a regular file\n"
     );
     assert_eq!(bench.files(), ["pipe", "recipe.toml"]);
     assert!(!std::fs::metadata(pipe).unwrap().is_file());

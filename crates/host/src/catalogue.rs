@@ -13,10 +13,10 @@ use turnpath_plugin::Offer;
 use crate::library::{self, Library};
 use crate::{LoadError, Plugin, Strategy};
 
-/// What the name of a library ends with; a plugin folder may hold other files too.
+/// The extensions of libraries. A plugin folder may hold other files too.
 const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
 
-/// The strategies by slot and name, from plugins linked in and loaded.
+/// The strategies by slot and name, of linked and of loaded plugins.
 #[derive(Debug, Clone, Default)]
 pub struct Catalogue {
     strategies: BTreeMap<(Slot, &'static str), Strategy>,
@@ -29,10 +29,10 @@ impl Catalogue {
         Self::default()
     }
 
-    /// The strategies that are linked into the program; none where no plugin crate is.
+    /// The strategies of the plugin crates that are linked into the program.
     ///
     /// # Errors
-    /// [`LoadError::TwoOfOneName`] when two crates linked in share a name.
+    /// [`LoadError::TwoOfOneName`] when two linked crates have a strategy of one name.
     pub fn linked() -> Result<Self, LoadError> {
         let mut catalogue = Self::new();
         let mut by_crate: BTreeMap<&'static str, Vec<Offer>> = BTreeMap::new();
@@ -47,25 +47,51 @@ impl Catalogue {
         Ok(catalogue)
     }
 
-    /// Takes the plugins that lie directly in a folder: its `*.so`, `*.dylib` and `*.dll`, by
-    /// name. Other files, and folders, are ignored.
+    /// The catalogue with the plugins of a folder, as [`add_folder`](Self::add_folder) adds them.
+    ///
+    /// ```no_run
+    /// use turnpath_host::Catalogue;
+    ///
+    /// let catalogue = Catalogue::linked()?.with_folder("plugins")?;
+    /// # Ok::<(), turnpath_host::LoadError>(())
+    /// ```
     ///
     /// # Errors
-    /// At the first library that cannot be taken; those before it stay in the catalogue.
-    pub fn add_folder(&mut self, folder: &Path) -> Result<(), LoadError> {
-        for file in libraries_in(folder)? {
+    /// When a library of the folder cannot be loaded.
+    pub fn with_folder(mut self, folder: impl AsRef<Path>) -> Result<Self, LoadError> {
+        self.add_folder(folder)?;
+        Ok(self)
+    }
+
+    /// The catalogue with the plugin of a file, as [`add_file`](Self::add_file) adds it.
+    ///
+    /// # Errors
+    /// When the plugin cannot be loaded.
+    pub fn with_file(mut self, file: impl AsRef<Path>) -> Result<Self, LoadError> {
+        self.add_file(file)?;
+        Ok(self)
+    }
+
+    /// Adds the plugins that lie directly in a folder, in the order of their names: the files
+    /// `*.so`, `*.dylib` and `*.dll`. Other files and folders are ignored.
+    ///
+    /// # Errors
+    /// When a library cannot be loaded. The libraries before it stay in the catalogue.
+    pub fn add_folder(&mut self, folder: impl AsRef<Path>) -> Result<(), LoadError> {
+        for file in libraries_in(folder.as_ref())? {
             self.add_file(&file)?;
         }
         Ok(())
     }
 
-    /// Takes the plugin in a file. One that is there already, under whatever path, is left alone.
+    /// Adds the plugin of a file. Nothing happens if the catalogue has the same library already,
+    /// under whatever path.
     ///
     /// # Errors
-    /// When the file cannot be read, is no plugin for this program, or brings a name that is
-    /// taken; nothing of it is in the catalogue then.
-    pub fn add_file(&mut self, file: &Path) -> Result<(), LoadError> {
-        let image = library::read(file)?;
+    /// When the file cannot be read, is not a plugin for this program, or has a strategy with a name
+    /// that the catalogue has already. The catalogue then has nothing of the plugin.
+    pub fn add_file(&mut self, file: impl AsRef<Path>) -> Result<(), LoadError> {
+        let image = library::read(file.as_ref())?;
         let same = |plugin: &Arc<Plugin>| plugin.sha256.as_ref() == Some(&image.sha256);
         if self.plugins.iter().any(same) {
             return Ok(());
@@ -104,7 +130,7 @@ impl Catalogue {
         self.strategies.values()
     }
 
-    /// The names in one slot, sorted.
+    /// The names of the strategies in a slot, sorted.
     pub fn names(&self, slot: Slot) -> Vec<&'static str> {
         self.strategies
             .keys()
@@ -115,14 +141,14 @@ impl Catalogue {
 
     /// The strategy of this name, if there is one.
     pub fn find(&self, slot: Slot, name: &str) -> Option<&Strategy> {
-        // A map with borrowed keys of two parts cannot be asked with a shorter-lived name.
+        // The map's keys hold static names, so `get` would take no name that lives shorter.
         self.strategies
             .iter()
             .find(|((of, known), _)| *of == slot && *known == name)
             .map(|(_, strategy)| strategy)
     }
 
-    /// The plugins in the order in which they came.
+    /// The plugins in the order in which they were added.
     pub fn plugins(&self) -> &[Arc<Plugin>] {
         &self.plugins
     }

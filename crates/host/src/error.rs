@@ -1,4 +1,4 @@
-//! Why plugins could not be loaded, in one or two lines each.
+//! The errors of loading plugins. Each text has one or two lines.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::io;
@@ -10,46 +10,47 @@ use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion, OpenError};
 
 use crate::Plugin;
 
-/// Why a catalogue could not take a plugin.
+/// Why a plugin could not be added to a catalogue.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadError {
     /// The file or folder could not be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}", path.display())]
     Unreadable {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's reason.
         source: io::Error,
     },
-    /// No private copy of the library could be written.
-    #[error("cannot write a copy of {} to {}: {source}", path.display(), folder.display())]
+    /// The private copy of the library could not be written.
+    #[error("cannot write a copy of {} to {}", path.display(), folder.display())]
     NoCopy {
         /// The library.
         path: PathBuf,
         /// The folder for temporary files.
         folder: PathBuf,
-        /// What the system says.
+        /// The system's reason.
         source: io::Error,
     },
     /// A plugin folder does not exist, or is a file.
     #[error("there is no plugin folder {}", path.display())]
     NoFolder {
-        /// The folder that was asked for.
+        /// The path of the folder as the caller gave it.
         path: PathBuf,
     },
     /// A plugin file does not exist, or is a folder or a device.
     #[error("there is no plugin file {}", path.display())]
     NoFile {
-        /// The file that was asked for.
+        /// The path of the file as the caller gave it.
         path: PathBuf,
     },
-    /// The file is there, and is not a plugin for this program.
-    #[error("{}: {refusal}", path.display())]
+    /// The file exists, but is not a plugin for this program.
+    #[error("cannot load the plugin {}", path.display())]
     Refused {
         /// The library.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Why.
+        #[source]
         refusal: Refusal,
     },
     /// Two strategies have one name in one slot.
@@ -59,50 +60,52 @@ pub enum LoadError {
         slot.noun()
     )]
     TwoOfOneName {
-        /// The slot of both.
+        /// The slot of both strategies.
         slot: Slot,
-        /// The name of both.
+        /// The name of both strategies.
         name: String,
-        /// The plugin that was there first.
+        /// The plugin that was added first.
         first: Arc<Plugin>,
-        /// The plugin that came later.
+        /// The plugin that was added later.
         second: Arc<Plugin>,
     },
 }
 
-/// What is wrong with a file that should be a plugin.
+/// Why a file is not a plugin for this program.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// It is no dynamic library at all.
-    #[error("not a dynamic library, but {0}")]
+    /// It is not a dynamic library.
+    #[error("it is not a dynamic library but {0}")]
     NotALibrary(&'static str),
-    /// Its headers speak of more than there is.
+    /// The file ends before the parts that its headers name.
     #[error("the file is cut short; copy or build it again")]
     Truncated,
-    /// Its headers contradict each other.
+    /// Parts of it contradict each other or are missing.
     #[error("the file is damaged ({0}); copy or build it again")]
     Damaged(&'static str),
-    /// It is larger than any plugin.
+    /// It is larger than a plugin may be.
     #[error("the file is larger than a plugin may be ({} MiB)", limit >> 20)]
     TooLarge {
         /// The limit in bytes.
         limit: u64,
     },
     /// It is for another processor or operating system.
-    #[error("built for {found}, but this program is for {ours}; build the plugin for this machine")]
+    #[error(
+        "it is built for {found}, but this program is for {ours}; build the plugin for this machine"
+    )]
     WrongMachine {
-        /// What it is for.
+        /// The machine that the library is for.
         found: String,
-        /// What this program is for.
+        /// The machine that this program is for.
         ours: String,
     },
     /// It is a dynamic library, but exports no plugin.
-    #[error("not a turnpath plugin: a library without `turnpath_plugin::export!`")]
+    #[error("it is not a turnpath plugin: the library has no `turnpath_plugin::export!`")]
     NotAPlugin,
-    /// It exports several plugins, and its name is that of none.
+    /// It exports several plugins, and its name matches none of them.
     #[error(
-        "holds several plugins ({}); name the file after the one that is meant, \
+        "it holds several plugins ({}); name the file after the one that you want, \
          {DLL_PREFIX}{}{DLL_SUFFIX}",
         .0.join(", "),
         .0.first().map_or("plugin", String::as_str)
@@ -113,34 +116,34 @@ pub enum Refusal {
     ),
     /// It was built against another version of the boundary.
     #[error(
-        "built against turnpath-plugin {found}, but this program has {ours}; \
+        "it is built against turnpath-plugin {found}, but this program has {ours}; \
          rebuild the plugin against turnpath-plugin {}.{}",
         ours.major,
         ours.minor
     )]
     OtherVersion {
-        /// The plugin's.
+        /// The version of the plugin.
         found: BoundaryVersion,
-        /// This program's.
+        /// The version of this program.
         ours: BoundaryVersion,
     },
-    /// The version is right, but the data are laid out differently.
+    /// The version is right, but the data have another layout.
     #[error(
-        "says turnpath-plugin {ours} like this program, but its data are laid out differently; \
-         rebuild the plugin against this program's turnpath-plugin"
+        "it is built against turnpath-plugin {ours} like this program, but its data have another \
+         layout; rebuild the plugin against this program's turnpath-plugin"
     )]
     Layout {
         /// The version of both.
         ours: BoundaryVersion,
-        /// The comparison, hundreds of lines long.
+        /// The comparison of both layouts, hundreds of lines long.
         details: String,
     },
     /// The system's loader refused it.
-    #[error("the system cannot load it: {reason}{}", hint.map(|hint| format!("\n{hint}")).unwrap_or_default())]
+    #[error("the system's loader refuses it: {reason}{}", hint.map(|hint| format!("\n{hint}")).unwrap_or_default())]
     Loader {
-        /// What the loader says.
+        /// The loader's message.
         reason: String,
-        /// What may be done about it.
+        /// What the user may try.
         hint: Option<&'static str>,
     },
 }
@@ -157,18 +160,18 @@ impl From<OpenError> for Refusal {
 }
 
 impl LoadError {
-    /// Whether a file could not be read or written. What is neither this nor
-    /// [missing](Self::is_missing) is a plugin's fault.
+    /// Whether a file could not be read or written. An error that is neither of this kind nor
+    /// [missing](Self::is_missing) is the plugin's fault.
     pub fn is_io(&self) -> bool {
         matches!(self, Self::Unreadable { .. } | Self::NoCopy { .. })
     }
 
-    /// Whether what was asked for is not there: then the call, or the recipe, is wrong.
+    /// Whether a file or folder does not exist: then the call or the recipe is wrong.
     pub fn is_missing(&self) -> bool {
         matches!(self, Self::NoFolder { .. } | Self::NoFile { .. })
     }
 
-    /// The file or folder that was asked for; for two of one name the file that came later.
+    /// The file or folder of the error; for two strategies of one name the file that was added later.
     pub fn path(&self) -> Option<&Path> {
         match self {
             Self::Unreadable { path, .. }
@@ -180,7 +183,7 @@ impl LoadError {
         }
     }
 
-    /// The long comparison behind a [`Refusal::Layout`].
+    /// The long comparison of a [`Refusal::Layout`].
     pub fn layout_details(&self) -> Option<&str> {
         match self {
             Self::Refused {
@@ -194,6 +197,8 @@ impl LoadError {
 
 #[cfg(test)]
 mod tests {
+    use std::error::Error;
+
     use super::*;
 
     fn refused(refusal: impl Into<Refusal>) -> LoadError {
@@ -204,28 +209,29 @@ mod tests {
     }
 
     #[test]
-    fn another_layout_is_one_line_and_its_details_are_apart() {
+    fn the_message_of_another_layout_has_one_line_and_the_details_are_separate() {
         let error = refused(OpenError::Layout("line\n".repeat(500)));
+        assert_eq!(error.to_string(), "cannot load the plugin libx.so");
         assert_eq!(
-            error.to_string(),
-            format!(
-                "libx.so: says turnpath-plugin {BOUNDARY_VERSION} like this program, but its data \
-                 are laid out differently; rebuild the plugin against this program's \
+            error.source().map(ToString::to_string),
+            Some(format!(
+                "it is built against turnpath-plugin {BOUNDARY_VERSION} like this program, but its \
+                 data have another layout; rebuild the plugin against this program's \
                  turnpath-plugin"
-            )
+            ))
         );
         assert_eq!(error.layout_details().map(str::len), Some(2500));
         assert_eq!(refused(Refusal::NotAPlugin).layout_details(), None);
     }
 
     #[test]
-    fn a_hint_stands_on_a_line_of_its_own() {
+    fn a_hint_has_a_line_of_its_own() {
         let loader = |hint| {
             let reason = "no".to_owned();
-            refused(Refusal::Loader { reason, hint }).to_string()
+            Refusal::Loader { reason, hint }.to_string()
         };
-        assert_eq!(loader(None), "libx.so: the system cannot load it: no");
-        let both = "libx.so: the system cannot load it: no\nset TMPDIR";
+        assert_eq!(loader(None), "the system's loader refuses it: no");
+        let both = "the system's loader refuses it: no\nset TMPDIR";
         assert_eq!(loader(Some("set TMPDIR")), both);
     }
 }

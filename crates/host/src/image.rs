@@ -1,4 +1,5 @@
-//! What a library's bytes say before any of it runs: its kind, and the plugin entry it exports.
+//! What a library's bytes say before any of its code runs: the kind of file, and the plugin entry
+//! that it exports.
 
 use object::read::NameOrOrdinal;
 use object::{FileKind, Object};
@@ -7,9 +8,10 @@ use turnpath_plugin::loading::SYMBOL_PREFIX;
 use crate::elf;
 use crate::{Refusal, machine};
 
-/// The exported symbol of the plugin in a library, after all checks that need no loading.
+/// The exported symbol of the plugin in a library, after all checks that can be made without loading
+/// the library.
 ///
-/// `file_stem` (`libmy_plugin`) decides when the library holds the code of other plugins too.
+/// If the library holds the code of other plugins too, `file_stem` (`libmy_plugin`) decides.
 ///
 /// # Errors
 /// When the bytes are not those of a plugin for this program.
@@ -50,7 +52,7 @@ impl System {
     }
 }
 
-/// Whose libraries are of this kind: those of this program's system, or an error.
+/// The system that the library is for, if that is this program's system.
 fn kind(bytes: &[u8]) -> Result<System, Refusal> {
     if bytes.is_empty() {
         return Err(Refusal::NotALibrary("an empty file"));
@@ -99,14 +101,14 @@ fn exports(bytes: &[u8]) -> Result<Vec<String>, Refusal> {
     Ok(found)
 }
 
-/// The one entry, or among several the one that the file is named after.
+/// The only entry, or among several entries the one with the name of the file.
 fn choose(mut symbols: Vec<String>, file_stem: &str) -> Result<String, Refusal> {
     symbols.sort();
     if symbols.len() > 1 {
         let stem = file_stem.strip_prefix("lib").unwrap_or(file_stem);
-        let named = format!("{SYMBOL_PREFIX}{}", stem.replace('-', "_"));
-        if symbols.contains(&named) {
-            return Ok(named);
+        let expected = format!("{SYMBOL_PREFIX}{}", stem.replace('-', "_"));
+        if symbols.contains(&expected) {
+            return Ok(expected);
         }
         let crate_of = |symbol: &String| symbol.replacen(SYMBOL_PREFIX, "", 1);
         return Err(Refusal::SeveralPlugins(
@@ -126,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn one_entry_is_taken_whatever_the_file_is_called() {
+    fn a_single_entry_is_chosen_whatever_the_name_of_the_file() {
         let symbol = choose(symbols(&["my_plugin"]), "renamed").unwrap();
         assert_eq!(symbol, format!("{SYMBOL_PREFIX}my_plugin"));
     }
@@ -142,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn files_that_are_no_libraries_are_told_apart() {
+    fn files_of_other_kinds_are_named() {
         let texts = [
             (&b""[..], "an empty file"),
             (b"hello, this is a text", "a text file"),

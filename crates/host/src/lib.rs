@@ -1,8 +1,7 @@
 //! Finds, checks and loads turnpath plugins, and looks strategies up by name.
 //!
-//! A [`Catalogue`] starts with the strategies that are linked into the program, or with none, and
-//! takes more from libraries. A loaded [`Strategy`] cannot be told from a linked one but by its
-//! [`Plugin`].
+//! A [`Catalogue`] begins empty or with the strategies that are linked into the program, and more
+//! can be added from libraries. Only its [`Plugin`] shows whether a [`Strategy`] is linked or loaded.
 //!
 //! ```
 //! use turnpath_core::Slot;
@@ -13,13 +12,14 @@
 //! # Ok::<(), turnpath_host::LoadError>(())
 //! ```
 //!
-//! A library is native code with the user's rights: whether to trust it is the caller's to decide,
-//! before it is handed over. What is checked here keeps damaged, foreign and outdated files from
-//! being run; it does not make a hostile one harmless.
+//! A library is native code with the user's rights. The caller decides whether to trust it before
+//! adding it. The checks here keep damaged, foreign and outdated files from running; they do not
+//! make a hostile library harmless.
 
 mod catalogue;
 mod elf;
 mod error;
+mod hash;
 mod image;
 mod library;
 mod machine;
@@ -28,5 +28,6 @@ mod plugin;
 
 pub use catalogue::Catalogue;
 pub use error::{LoadError, Refusal};
+pub use hash::{sha256_hex, sha256_hex_of_file};
 pub use plugin::{Plugin, Strategy};
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

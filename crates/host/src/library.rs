@@ -1,4 +1,4 @@
-//! One library: read once, checked, and loaded from exactly the bytes that were hashed.
+//! One library. It is read once; the bytes that were hashed are checked and loaded.
 
 use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions};
@@ -6,40 +6,43 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use sha2::{Digest, Sha256};
 use turnpath_plugin::Offer;
 use turnpath_plugin::loading::SYMBOL_PREFIX;
 
+use crate::hash::sha256_hex;
 use crate::native::{self, NativeError};
 use crate::{LoadError, Refusal, image};
 
-/// No plugin is larger, debug information included; it bounds the memory that a file can claim.
+/// Largest plugin with its debug information. It limits the memory that a file can take.
 const MOST_BYTES: u64 = 1 << 30;
-/// What may help when the loader cannot map a file that is whole.
+/// Help for a complete file that the loader cannot map.
 const NOEXEC_HINT: &str = "the folder for temporary files may be mounted without permission to \
                            execute; set TMPDIR to another";
 
-/// A library's file, read.
+/// The bytes of a library's file.
 pub struct Image {
-    /// Its absolute path.
+    /// The absolute path of the file.
     pub path: PathBuf,
     /// SHA-256 of `bytes`.
     pub sha256: String,
     bytes: Vec<u8>,
 }
 
-/// A library, loaded.
+/// A loaded library.
 #[derive(Debug, Clone)]
 pub struct Library {
     /// The crate that exports the plugin.
     pub crate_name: String,
     /// That crate's version.
     pub version: String,
-    /// Its strategies.
+    /// The strategies of the plugin.
     pub offers: Vec<Offer>,
 }
 
-/// Reads a library, once: what is hashed, checked and loaded are these bytes.
+/// Reads a library. These bytes are hashed, checked and loaded; the file is not read again.
+///
+/// # Errors
+/// When there is no such file, or it cannot be read or is too large.
 pub fn read(file: &Path) -> Result<Image, LoadError> {
     let unreadable = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => LoadError::NoFile {
@@ -51,7 +54,7 @@ pub fn read(file: &Path) -> Result<Image, LoadError> {
         },
     };
     let path = fs::canonicalize(file).map_err(unreadable)?;
-    // A device or a pipe would not end, or not even open.
+    // A device or a pipe may never end, or not even open.
     if !fs::metadata(&path).map_err(unreadable)?.is_file() {
         return Err(LoadError::NoFile { path });
     }
@@ -65,7 +68,7 @@ pub fn read(file: &Path) -> Result<Image, LoadError> {
         let refusal = Refusal::TooLarge { limit: MOST_BYTES };
         return Err(LoadError::Refused { path, refusal });
     }
-    let sha256 = hexadecimal(&Sha256::digest(&bytes));
+    let sha256 = sha256_hex(&bytes);
     Ok(Image {
         path,
         sha256,
@@ -73,17 +76,16 @@ pub fn read(file: &Path) -> Result<Image, LoadError> {
     })
 }
 
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 impl Image {
-    /// Checks and loads the library. The same bytes are loaded once in a program.
+    /// Checks and loads the library. The same bytes are loaded only once in a program.
+    ///
+    /// # Errors
+    /// When the library is not a plugin for this program, or cannot be loaded.
     pub fn load(&self) -> Result<Library, LoadError> {
         static LOADED: Mutex<Option<HashMap<(String, String), Library>>> = Mutex::new(None);
         let symbol = image::entry_symbol(&self.bytes, &self.stem())
             .map_err(|refusal| self.refused(refusal))?;
-        // A panic while the lock is held leaves nothing half done: what is in the map is loaded.
+        // A panic while the lock is held leaves a valid map: each library in it is loaded.
         let mut loaded = LOADED.lock().unwrap_or_else(PoisonError::into_inner);
         let loaded = loaded.get_or_insert_default();
         let key = (self.sha256.clone(), symbol);
@@ -121,7 +123,7 @@ impl Image {
     }
 }
 
-/// Says it with the name of the user's file, not with that of the copy.
+/// The refusal, with the name of the user's file instead of that of the copy.
 fn refusal(error: NativeError, copy: &Path, path: &Path) -> Refusal {
     match error {
         NativeError::Open(error) => error.into(),
@@ -130,26 +132,28 @@ fn refusal(error: NativeError, copy: &Path, path: &Path) -> Refusal {
             let reason = reason
                 .replace(&format!("{copy}: "), "")
                 .replace(&*copy, &path);
-            let unmapped = reason.contains("failed to map") || reason.contains("not permitted");
-            let hint = unmapped.then_some(NOEXEC_HINT);
+            let cannot_map = reason.contains("failed to map") || reason.contains("not permitted");
+            let hint = cannot_map.then_some(NOEXEC_HINT);
             Refusal::Loader { reason, hint }
         }
     }
 }
 
-/// The bytes in a file that no other user can read or change, for as long as the loader needs it.
+/// A copy of the bytes in a file that no other user can read or change. It exists as long as the
+/// loader needs it.
 struct PrivateCopy {
     file: PathBuf,
-    /// Removes itself, with the file, when dropped.
+    /// The folder removes itself and the file when it is dropped.
     _folder: tempfile::TempDir,
 }
 
 impl PrivateCopy {
     fn of(bytes: &[u8]) -> io::Result<Self> {
         let mut folder = tempfile::Builder::new().prefix("turnpath-").tempdir()?;
-        // Windows keeps a loaded library's file; its folder for temporary files is the user's own.
+        // Windows keeps the file of a loaded library; its folder for temporary files belongs to the
+        // user alone.
         folder.disable_cleanup(cfg!(windows));
-        // Windows takes a name without an ending for one that ends in .dll.
+        // Windows reads a name without an extension as one that ends in .dll.
         let name = format!("plugin{}", std::env::consts::DLL_SUFFIX);
         let file = fs::canonicalize(folder.path())?.join(name);
         let mut options = OpenOptions::new();

@@ -2,7 +2,7 @@
 
 use std::env::consts::{ARCH, OS};
 
-/// `std::env::consts::ARCH`, the number in `e_machine`, what people call it.
+/// `std::env::consts::ARCH`, the number in `e_machine`, and the usual name.
 const PROCESSORS: [(&str, u16, &str); 9] = [
     ("x86_64", 62, "x86-64"),
     ("aarch64", 183, "64-bit ARM"),
@@ -15,13 +15,13 @@ const PROCESSORS: [(&str, u16, &str); 9] = [
     ("mips64", 8, "MIPS"),
 ];
 
-/// The number of this program's processor, where it is known.
+/// The number of this program's processor, if it is known.
 pub fn our_number() -> Option<u16> {
     let ours = PROCESSORS.iter().find(|(arch, ..)| *arch == ARCH);
     ours.map(|(_, number, _)| *number)
 }
 
-/// The processor with this number, in words.
+/// The name of the processor with this number.
 pub fn name(number: u16) -> String {
     match PROCESSORS.iter().find(|(_, known, _)| *known == number) {
         Some((.., name)) => (*name).to_owned(),
@@ -29,7 +29,7 @@ pub fn name(number: u16) -> String {
     }
 }
 
-/// This program's processor and system, in words.
+/// The names of this program's processor and system.
 pub fn ours() -> String {
     format!("{} {OS}", our_number().map_or(ARCH.to_owned(), name))
 }

@@ -1,4 +1,4 @@
-//! The system's loader: the one place of the host with `unsafe` in it.
+//! The system's loader. Only this file of the host has `unsafe` code.
 #![allow(unsafe_code)] // loading native code cannot be checked by the compiler
 
 use std::error::Error;
@@ -9,20 +9,20 @@ use turnpath_plugin::loading::{self, OpenError};
 
 /// Why a library could not be opened.
 pub enum NativeError {
-    /// The system's loader refused it; its own words.
+    /// The system's loader refused it; this is the loader's message.
     Loader(String),
-    /// The loader took it, the boundary refused it.
+    /// The loader accepted it, but the boundary refused it.
     Open(OpenError),
 }
 
 /// Loads a library for the rest of the program, and opens the entry that it exports as `symbol`.
 ///
-/// All symbols are resolved at once, so that a missing one shows here, and stay private to the
-/// library. It is never unloaded, not even when its entry is refused: objects and texts from it
-/// may be alive anywhere, and threads that it started may run.
+/// All symbols are resolved at once, so that a missing one is found here. The symbols stay private
+/// to the library. The library is never unloaded, not even when its entry is refused: objects and
+/// texts from it may be in use anywhere, and threads that it started may run.
 pub fn load(file: &Path, symbol: &str) -> Result<Vec<Offer>, NativeError> {
-    // SAFETY: the library's initialisers run. That they behave is what a user vouches for who
-    // trusts a plugin; the caller has checked that the file is whole and for this machine.
+    // SAFETY: the library's initialisers run. A user who trusts a plugin vouches that they behave.
+    // The caller has checked that the file is complete and for this machine.
     let library = unsafe { open_library(file) }.map_err(loader_error)?;
     // SAFETY: the symbol is a static, so its address may be taken as a pointer of any type.
     let entry = unsafe { library.get::<*const u8>(symbol) }.map(|symbol| *symbol);
@@ -46,7 +46,7 @@ unsafe fn open_library(file: &Path) -> Result<libloading::Library, libloading::E
     unsafe { libloading::Library::new(file) }
 }
 
-/// The reason stands in the source; the error itself says only which call failed.
+/// The source of the error has the reason; the error itself says only which call failed.
 fn loader_error(error: libloading::Error) -> NativeError {
     NativeError::Loader(
         error

@@ -1,4 +1,4 @@
-//! Where a strategy comes from.
+//! Plugins, and the strategies that they register.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -7,16 +7,16 @@ use std::sync::Arc;
 use turnpath_core::StrategyInfo;
 use turnpath_plugin::Offer;
 
-/// A plugin: a crate that registered strategies, linked in or loaded from a file.
+/// A crate that registers strategies. It is linked into the program or loaded from a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plugin {
     /// The package's name, `turnpath-surfaces`.
     pub name: String,
     /// The package's version.
     pub version: String,
-    /// The library that it was loaded from, as an absolute path; `None` for one linked in.
+    /// The absolute path of the library that was loaded; `None` for a linked crate.
     pub file: Option<PathBuf>,
-    /// SHA-256 of the bytes that were loaded, in lower-case hexadecimal; `None` for one linked in.
+    /// SHA-256 of the bytes that were loaded, in lower-case hexadecimal; `None` for a linked crate.
     pub sha256: Option<String>,
 }
 
@@ -30,7 +30,7 @@ impl fmt::Display for Plugin {
     }
 }
 
-/// A strategy in the catalogue: what it is, how it is made, and whose it is.
+/// A strategy in the catalogue: its declaration, its constructor and its plugin.
 #[derive(Debug, Clone)]
 pub struct Strategy {
     offer: Offer,
@@ -47,7 +47,7 @@ impl Strategy {
         self.offer.info()
     }
 
-    /// How it is made.
+    /// The constructor.
     pub fn offer(&self) -> &Offer {
         &self.offer
     }

@@ -1,4 +1,4 @@
-//! Good plugins through the catalogue: found, loaded once, each with its own strategies.
+//! Good plugins in the catalogue: found, loaded once, each with its own strategies.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
@@ -7,14 +7,8 @@ mod common;
 use std::fs;
 
 use common::{fixtures, nodes, place_more, with_file, with_fixture};
-use sha2::{Digest, Sha256};
 use turnpath_core::{Dependence, ParamValue, Params, Slot};
-use turnpath_host::Catalogue;
-
-fn sha256_of(file: &std::path::Path) -> String {
-    let digest = Sha256::digest(fs::read(file).unwrap());
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
-}
+use turnpath_host::{Catalogue, sha256_hex_of_file};
 
 #[test]
 fn the_authors_sampler_is_listed_with_its_parameters_and_answers() {
@@ -41,7 +35,7 @@ fn the_origin_is_the_package_the_file_and_the_hash_of_its_bytes() {
     };
     assert_eq!((&*plugin.name, &*plugin.version), ("constant-arc", "0.1.0"));
     assert_eq!(plugin.file, Some(fs::canonicalize(&file).unwrap()));
-    assert_eq!(plugin.sha256, Some(sha256_of(&file)));
+    assert_eq!(plugin.sha256, Some(sha256_hex_of_file(&file).unwrap()));
 }
 
 #[test]
@@ -54,8 +48,7 @@ fn several_plugins_each_give_their_own_strategies() {
         "plain-compensator",
         "twins-b",
     ]);
-    let mut catalogue = Catalogue::new();
-    catalogue.add_folder(folder.path()).unwrap();
+    let catalogue = Catalogue::new().with_folder(folder.path()).unwrap();
     let found: Vec<(&str, &str, &str)> = catalogue
         .strategies()
         .map(|one| {
@@ -114,7 +107,7 @@ fn a_renamed_library_is_the_same_plugin() {
 }
 
 #[test]
-fn a_library_found_twice_is_taken_once() {
+fn a_library_in_two_folders_is_added_once() {
     let (one, two) = (
         fixtures::plugin_folder(&["constant-arc"]),
         fixtures::plugin_folder(&["constant-arc", "sequential"]),
@@ -151,7 +144,7 @@ fn a_plugin_that_holds_anothers_code_gives_its_own_strategies() {
 }
 
 #[test]
-fn a_sequential_samplers_state_goes_on_over_blocks() {
+fn a_sequential_sampler_hands_its_state_to_the_next_block() {
     let catalogue = with_fixture("sequential");
     let strategy = catalogue.find(Slot::Sampler, "phase").unwrap();
     let sampler = strategy.offer().sampler(&Params::new()).unwrap();
@@ -188,7 +181,7 @@ fn loaded_strategies_work_on_many_threads() {
 }
 
 #[test]
-fn catalogues_made_on_many_threads_hold_the_same() {
+fn catalogues_of_many_threads_hold_the_same() {
     let names = || {
         let catalogue = with_fixture("unordered");
         let strategy = catalogue.find(Slot::Sampler, "too-few").unwrap();

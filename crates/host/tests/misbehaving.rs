@@ -1,4 +1,4 @@
-//! Plugins that misbehave: what they do becomes an error or a value that the caller can check.
+//! Plugins that misbehave: the caller gets an error or a value that it can check.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
@@ -52,7 +52,7 @@ fn panics_on_many_threads_at_once_stay_apart() {
 }
 
 #[test]
-fn a_panic_in_drop_ends_there() {
+fn a_panic_in_drop_goes_no_further() {
     drop(sampler("panics", "panics-in-drop").unwrap());
 }
 

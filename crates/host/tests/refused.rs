@@ -1,4 +1,5 @@
-//! Files that are no plugins for this program: each its own message, and none ends the program.
+//! Files that are not plugins for this program: each has its own message, and none ends the
+//! program.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
@@ -7,7 +8,7 @@ mod common;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::{fixtures, with_file};
+use common::{fixtures, with_file, with_sources};
 use turnpath_host::{Catalogue, LoadError, Refusal};
 
 /// A file with these bytes, in a folder of its own.
@@ -21,17 +22,18 @@ fn file_of(bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
 fn error_of(file: &Path) -> LoadError {
     match with_file(file) {
         Err(error) => error,
-        Ok(catalogue) => panic!("taken: {:?}", catalogue.plugins()),
+        Ok(catalogue) => panic!("loaded: {:?}", catalogue.plugins()),
     }
 }
 
-/// The whole message, with the file's folder left out.
+/// The message with that of its source, without the file's folder.
 fn message(error: &LoadError, file: &Path) -> String {
     let folder = fs::canonicalize(file.parent().unwrap()).unwrap();
     let folder = format!("{}/", folder.display());
     assert!(!error.is_io(), "{error}");
-    assert!(error.to_string().contains(&folder), "{error}");
-    error.to_string().replace(&folder, "")
+    let text = with_sources(error);
+    assert!(text.contains(&folder), "{text}");
+    text.replace(&folder, "")
 }
 
 fn refusal_of(bytes: &[u8]) -> Refusal {
@@ -47,7 +49,7 @@ fn a_text_file() {
     let (_folder, file) = file_of(b"a plugin should be here\n");
     assert_eq!(
         message(&error_of(&file), &file),
-        "libplugin.so: not a dynamic library, but a text file"
+        "cannot load the plugin libplugin.so: it is not a dynamic library but a text file"
     );
 }
 
@@ -56,7 +58,7 @@ fn an_empty_file() {
     let (_folder, file) = file_of(b"");
     assert_eq!(
         message(&error_of(&file), &file),
-        "libplugin.so: not a dynamic library, but an empty file"
+        "cannot load the plugin libplugin.so: it is not a dynamic library but an empty file"
     );
 }
 
@@ -76,7 +78,8 @@ fn a_foreign_library() {
     assert_eq!(
         message(&error_of(&file), &file),
         format!(
-            "{}: not a turnpath plugin: a library without `turnpath_plugin::export!`",
+            "cannot load the plugin {}: it is not a turnpath plugin: the library has no \
+             `turnpath_plugin::export!`",
             fixtures::file_name("foreign")
         )
     );
@@ -88,7 +91,7 @@ fn another_version_of_the_boundary() {
     assert_eq!(
         message(&error_of(&file), &file),
         format!(
-            "{}: built against turnpath-plugin 0.999.3, but this program has 0.1.0; \
+            "cannot load the plugin {}: it is built against turnpath-plugin 0.999.3, but this program has 0.1.0; \
              rebuild the plugin against turnpath-plugin 0.1",
             fixtures::file_name("other-version")
         )
@@ -124,8 +127,8 @@ fn a_library_with_several_plugins_under_another_name() {
     fs::copy(fixtures::library("builds-on"), &file).unwrap();
     assert_eq!(
         message(&error_of(&file), &file),
-        "libplugin.so: holds several plugins (builds_on, turnpath_surfaces); \
-         name the file after the one that is meant, libbuilds_on.so"
+        "cannot load the plugin libplugin.so: it holds several plugins (builds_on, \
+         turnpath_surfaces); name the file after the one that you want, libbuilds_on.so"
     );
 }
 
@@ -185,7 +188,7 @@ fn a_file_that_cannot_be_read_is_no_fault_of_a_plugin() {
     );
 }
 
-/// What follows patches ELF headers of the 64-bit little-endian kind.
+/// These tests patch 64-bit little-endian ELF headers.
 #[cfg(all(
     target_os = "linux",
     target_pointer_width = "64",
@@ -207,7 +210,7 @@ mod elf {
         u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize
     }
 
-    /// The places of the program headers in a library.
+    /// The offsets of the program headers in a library.
     fn program_headers(bytes: &[u8]) -> Vec<usize> {
         let count = usize::from(u16::from_le_bytes([bytes[56], bytes[57]]));
         let first = word(bytes, PROGRAM_HEADERS);
@@ -227,7 +230,7 @@ mod elf {
                 lengths.extend([offset + 1, offset + size / 2, offset + size - 1]);
             }
         }
-        // Less than the magic number is any file.
+        // With less than the magic number it could be any file.
         lengths.retain(|length| *length >= 4);
         for length in lengths {
             let refusal = refusal_of(&bytes[..length]);
@@ -236,9 +239,9 @@ mod elf {
     }
 
     #[test]
-    fn a_library_cut_within_a_segment_whose_section_headers_say_nothing() {
+    fn a_library_without_section_headers_cut_within_a_segment() {
         let mut bytes = good();
-        // No section headers, so that only the program headers tell.
+        // Without section headers, only the program headers show that bytes are missing.
         bytes[40..48].fill(0);
         bytes[58..64].fill(0);
         bytes.truncate(bytes.len() / 3);
@@ -250,7 +253,7 @@ mod elf {
         let mut bytes = good();
         bytes[MACHINE] = if bytes[MACHINE] == 183 { 62 } else { 183 };
         let Refusal::WrongMachine { found, ours } = refusal_of(&bytes) else {
-            panic!("taken for this processor");
+            panic!("accepted for this processor");
         };
         assert!(
             ["64-bit ARM", "x86-64"].contains(&found.as_str()),
@@ -261,9 +264,9 @@ mod elf {
 
     #[test]
     fn a_library_of_another_word_length_or_byte_order() {
-        for (place, other) in [(4, 1), (5, 2)] {
+        for (offset, other) in [(4, 1), (5, 2)] {
             let mut bytes = good();
-            bytes[place] = other;
+            bytes[offset] = other;
             let refusal = refusal_of(&bytes);
             assert!(matches!(refusal, Refusal::WrongMachine { .. }), "{refusal}");
         }
@@ -277,7 +280,7 @@ mod elf {
         windows[0x80..0x84].copy_from_slice(b"PE\0\0");
         windows[0x80 + 24..0x80 + 26].copy_from_slice(&0x20b_u16.to_le_bytes());
         let Refusal::WrongMachine { found, .. } = refusal_of(&windows) else {
-            panic!("taken for a library of this system");
+            panic!("accepted for this system");
         };
         assert_eq!(found, "Windows");
     }
@@ -304,16 +307,16 @@ mod elf {
     fn a_library_that_needs_another_that_is_not_there() {
         let mut bytes = good();
         let needed = b"\0libc.so.6\0";
-        let place = bytes.windows(needed.len()).position(|w| w == needed);
-        bytes[place.unwrap() + 4] = b'q';
+        let offset = bytes.windows(needed.len()).position(|w| w == needed);
+        bytes[offset.unwrap() + 4] = b'q';
         let (_folder, file) = file_of(&bytes);
         let message = message(&error_of(&file), &file);
-        let expected = "libplugin.so: the system cannot load it: libq.so.6: \
+        let expected = "cannot load the plugin libplugin.so: the system's loader refuses it: libq.so.6: \
                         cannot open shared object file: No such file or directory";
         assert_eq!(message, expected);
     }
 
-    /// As an unfinished copy has it: the right length, and blocks of zeros.
+    /// An unfinished copy has the right length and blocks of zeros.
     #[test]
     fn a_library_with_a_hole_in_its_code() {
         let mut bytes = good();

@@ -1,4 +1,4 @@
-//! Built-ins linked into the program, and the same plugins loaded: the same bits.
+//! Built-in surfaces give the same bits whether they are linked into the program or loaded.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
@@ -53,7 +53,7 @@ fn params(name: &str) -> Params {
     params
 }
 
-/// Points all over the part, of a number that fills no batch evenly.
+/// Points all over the part. Their number is no multiple of a batch.
 fn points() -> (Vec<f64>, Vec<f64>) {
     let at = |i: u32, step: f64| (f64::from(i) * step) % 6.0 - 3.0;
     (0..1003).map(|i| (at(i, 0.737), at(i, 0.291))).unzip()
@@ -110,17 +110,17 @@ fn every_surface_gives_the_same_bits_linked_and_loaded() {
         "{names:?}"
     );
     for name in names {
-        let made = [&linked, &loaded].map(|catalogue| {
+        let surfaces = [&linked, &loaded].map(|catalogue| {
             let strategy = catalogue.find(Slot::Surface, name).unwrap();
             strategy.offer().surface(&params(name)).unwrap()
         });
-        let [linked, loaded] = made.map(|surface| all_bits(surface.as_ref()));
+        let [linked, loaded] = surfaces.map(|surface| all_bits(surface.as_ref()));
         assert!(linked == loaded, "`{name}` differs");
     }
 }
 
 #[test]
-fn what_is_said_of_every_surface_is_the_same_linked_and_loaded() {
+fn every_surface_has_the_same_declaration_linked_and_loaded() {
     let (linked, loaded) = (Catalogue::linked().unwrap(), loaded());
     for (one, other) in linked.strategies().zip(loaded.strategies()) {
         assert_eq!(one.info(), other.info());
@@ -142,7 +142,7 @@ fn a_built_in_has_neither_file_nor_hash() {
 fn a_built_in_and_the_same_plugin_loaded_are_two_of_one_name() {
     let mut catalogue = Catalogue::linked().unwrap();
     let before = catalogue.strategies().count();
-    let error = catalogue.add_file(&surfaces_library()).unwrap_err();
+    let error = catalogue.add_file(surfaces_library()).unwrap_err();
     assert!(matches!(&error, LoadError::TwoOfOneName { .. }), "{error}");
     let text = error.to_string();
     assert!(text.contains("(built in)"), "{text}");

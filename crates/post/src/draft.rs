@@ -1,4 +1,4 @@
-//! A file in the making, under another name until it is complete.
+//! A file that has a temporary name until it is complete.
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -6,37 +6,37 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
-/// Bytes that are gathered before they are written.
+/// Size of the buffer, bytes.
 const BUFFER: usize = 1 << 18;
 
-/// A file that could not be made.
+/// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {error}", path.display())]
+#[error("cannot write {}", path.display())]
 pub struct FileError {
-    /// The file, or the folder that it was to lie in.
+    /// The file or its folder.
     pub path: PathBuf,
     /// Why.
     #[source]
     pub error: io::Error,
 }
 
-/// A file in the making: removed when it is dropped, named when it is complete.
+/// An unfinished file. It is removed when it is dropped, and gets its name when it is complete.
 ///
-/// A link is followed: the file that it points to is replaced, and the link stays.
+/// A link is followed: the file behind the link is replaced, and the link stays.
 #[derive(Debug)]
 pub struct Draft {
     file: BufWriter<NamedTempFile>,
-    /// As it was asked for.
+    /// The path as the caller gave it.
     path: PathBuf,
-    /// The same with links followed.
+    /// The path with links followed.
     target: PathBuf,
 }
 
 impl Draft {
-    /// Whether a file of this name can be made or replaced, as far as its name tells.
+    /// Checks that nothing under this name prevents writing the file.
     ///
     /// # Errors
-    /// When something else stands there: a folder, a device, a link that leads nowhere.
+    /// When the name belongs to a folder, a device or a link to nothing.
     pub fn can_be(path: &Path) -> Result<(), FileError> {
         target(path).map(|_| ()).map_err(|error| FileError {
             path: path.to_owned(),
@@ -44,14 +44,14 @@ impl Draft {
         })
     }
 
-    /// Begins `path`, whose folder must be there.
+    /// Begins the file `path`. Its folder must exist.
     ///
     /// # Errors
-    /// When the folder takes no file, or something else than a file stands at `path`.
+    /// When no file can be created in the folder, or `path` is something else than a file.
     pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
-        let begun = target(&path).and_then(|target| Ok((begin_beside(&target)?, target)));
-        match begun {
+        let draft = target(&path).and_then(|target| Ok((begin_beside(&target)?, target)));
+        match draft {
             Ok((file, target)) => Ok(Self {
                 file: BufWriter::with_capacity(BUFFER, file),
                 path,
@@ -61,12 +61,15 @@ impl Draft {
         }
     }
 
-    /// Where it will stand.
+    /// The path that the complete file will have.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What has been written so far, as a file that can be read under another name.
+    /// Everything written so far, as a file that can be read under a temporary name.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn readable(&mut self) -> Result<&Path, FileError> {
         match self.flush() {
             Ok(()) => Ok(self.file.get_ref().path()),
@@ -77,7 +80,10 @@ impl Draft {
         }
     }
 
-    /// Everything has been written: the file takes its name, in place of what stood there.
+    /// Gives the complete file its name, and replaces a file that had it before.
+    ///
+    /// # Errors
+    /// When the file cannot be written or renamed.
     pub fn complete(self) -> Result<PathBuf, FileError> {
         let Self { file, path, target } = self;
         let finish = || -> io::Result<()> {
@@ -103,7 +109,8 @@ impl Write for Draft {
     }
 }
 
-/// The file that a name stands for. Only a file is replaced: a device or a pipe would be gone.
+/// The file behind a name. Only a regular file may be replaced: replacing a device or a pipe would
+/// remove it.
 fn target(path: &Path) -> io::Result<PathBuf> {
     let is_link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
     match fs::metadata(path) {
@@ -113,12 +120,12 @@ fn target(path: &Path) -> io::Result<PathBuf> {
             io::ErrorKind::IsADirectory,
             "it is a folder",
         )),
-        Ok(_) => Err(io::Error::other("it is no regular file")),
+        Ok(_) => Err(io::Error::other("it is not a regular file")),
         Err(error) if error.kind() == io::ErrorKind::NotFound && is_link => Err(io::Error::new(
             error.kind(),
-            "it is a link to a file that is not there",
+            "it is a link to a file that does not exist",
         )),
-        // Whatever else stops the way there stops the beginning too, which tells it.
+        // Any other error occurs again when the draft is created, and is reported then.
         Err(_) => Ok(path.to_owned()),
     }
 }
@@ -130,20 +137,20 @@ fn begin_beside(target: &Path) -> io::Result<NamedTempFile> {
     };
     let mut builder = Builder::new();
     builder.prefix(".turnpath-").suffix(".part");
-    // Temporary files are their owner's alone; a result is whoever's the user's umask says.
+    // Only the owner may read a temporary file; the permissions of a result follow the umask.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder).map_err(without_name)
 }
 
-/// What tempfile puts between an error and the name of its file.
+/// The words that tempfile puts between an error and the name of the file.
 const BEFORE_NAME: &str = " at path ";
 
-/// The error without the draft's own name, which tells nobody anything.
+/// The error without the temporary name, which means nothing to the user.
 fn without_name(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(BEFORE_NAME) {
-        Some((said, _)) => io::Error::new(error.kind(), said.to_owned()),
+        Some((reason, _)) => io::Error::new(error.kind(), reason.to_owned()),
         None => error,
     }
 }
@@ -174,33 +181,31 @@ mod tests {
     #[test]
     fn a_folder_that_is_not_there_is_named() {
         let error = Draft::begin("no/such/folder/result.txt").unwrap_err();
-        let said = error.to_string();
-        assert!(said.contains("no/such/folder/result.txt"), "{said}");
-        assert!(!said.contains(".part"), "{said}");
+        let text = error.to_string();
+        assert_eq!(text, "cannot write no/such/folder/result.txt");
+        let source = error.error.to_string();
+        assert!(!source.contains(".part"), "{source}");
     }
 
     #[test]
     fn a_folder_is_not_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let error = Draft::begin(folder.path()).unwrap_err();
-        assert!(error.to_string().ends_with("it is a folder"), "{error}");
+        assert_eq!(error.error.to_string(), "it is a folder");
     }
 
     #[cfg(unix)]
     #[test]
-    fn a_pipe_is_not_replaced_nor_through_a_link() {
+    fn a_pipe_is_not_replaced_not_even_through_a_link() {
         let folder = tempfile::tempdir().unwrap();
         let (pipe, link) = (folder.path().join("pipe"), folder.path().join("link"));
-        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
-        assert!(made.unwrap().success());
+        let mkfifo = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(mkfifo.unwrap().success());
         std::os::unix::fs::symlink(&pipe, &link).unwrap();
         for path in [&pipe, &link] {
             let error = Draft::begin(path).unwrap_err();
             assert_eq!(&error.path, path);
-            assert!(
-                error.to_string().ends_with("it is no regular file"),
-                "{error}"
-            );
+            assert_eq!(error.error.to_string(), "it is not a regular file");
         }
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     }
@@ -223,11 +228,14 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_link_that_leads_nowhere_is_told() {
+    fn a_link_to_nothing_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let link = folder.path().join("link");
         std::os::unix::fs::symlink("nothing", &link).unwrap();
         let error = Draft::begin(&link).unwrap_err();
-        assert!(error.to_string().contains("a link to a file"), "{error}");
+        assert!(
+            error.error.to_string().contains("a link to a file"),
+            "{error:?}"
+        );
     }
 }

@@ -1,7 +1,8 @@
 //! Files of a tool path: writers of data files and motion programs, and the readers that check
 //! them.
 //!
-//! A file is written beside its final name ([`Draft`]) and takes that name when it is complete.
+//! A file is written under a temporary name in its folder ([`Draft`]) and gets its own name when it
+//! is complete. Data files and programs can be written to memory instead, and read from memory.
 //! A reader shares no code with the writer of its format.
 
 mod draft;
@@ -9,19 +10,22 @@ mod maps;
 mod path_reader;
 mod pmac;
 mod read_csv;
+mod read_error;
 mod row;
 mod short_lines;
 #[cfg(test)]
 mod tests;
+mod turn;
 mod write_csv;
 
 pub use draft::{Draft, FileError};
 pub use maps::{GsfWriter, XyzWriter};
-pub use path_reader::{Counted, ReadPath};
+pub use path_reader::{ReadCount, ReadPath};
 pub use pmac::{
-    ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError, PmacFormat,
-    PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template, TemplateError,
+    ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError, PmacFileBody,
+    PmacFormat, PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template, TemplateError,
 };
-pub use read_csv::{PathReader, ReadError};
+pub use read_csv::PathReader;
+pub use read_error::ReadError;
 pub use row::HEADER;
 pub use write_csv::PathWriter;

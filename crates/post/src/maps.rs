@@ -1,21 +1,21 @@
-//! Writers of maps: `.gsf` (Gwyddion Simple Field) and `.xyz`. Lengths in metres, as Gwyddion
-//! takes them where nothing else is said.
+//! Writers of maps: `.gsf` (Gwyddion Simple Field) and `.xyz`. Lengths are in metres, the default
+//! unit of Gwyddion.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use crate::{Draft, FileError};
+use crate::draft::{Draft, FileError};
 
 /// Metres in a millimetre.
 const M_PER_MM: f64 = 1e-3;
 /// The first line of a simple field.
 const MAGIC: &str = "Gwyddion Simple Field 1.0";
-/// The data begin at a multiple of this many bytes.
+/// The data begin at a multiple of this number of bytes.
 const ALIGNMENT: usize = 4;
 
-/// A map on a square grid around the axis, as Gwyddion Simple Field: a header in text, then
-/// 32-bit floats, row after row from the top, from the left. What has no value is NaN.
+/// A map on a square grid around the axis, as Gwyddion Simple Field: a text header, then 32-bit
+/// floats, row by row from the top, each row from the left. A cell without a value is NaN.
 #[derive(Debug)]
 pub struct GsfWriter {
     draft: Draft,
@@ -50,7 +50,7 @@ impl GsfWriter {
         Ok(Self { draft })
     }
 
-    /// The next row: errors in mm.
+    /// Writes the next row: errors in mm.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -60,13 +60,13 @@ impl GsfWriter {
         put(&mut self.draft, &bytes)
     }
 
-    /// The file, whole but without its name.
+    /// The complete file, still without its name.
     pub fn whole(self) -> Draft {
         self.draft
     }
 }
 
-/// A map as lines `x y z` of plain numbers.
+/// A map as text: lines `x y z`.
 #[derive(Debug)]
 pub struct XyzWriter {
     draft: Draft,
@@ -84,11 +84,11 @@ impl XyzWriter {
         Ok(Self { draft, line })
     }
 
-    /// The next place and its value, mm.
+    /// Writes the next point and its value, mm.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn place(&mut self, x: f64, y: f64, value: f32) -> Result<(), FileError> {
+    pub fn point(&mut self, x: f64, y: f64, value: f32) -> Result<(), FileError> {
         let [x, y, z] = [x, y, f64::from(value)].map(|mm| mm * M_PER_MM);
         self.line.clear();
         // Writing to a string cannot fail.
@@ -96,7 +96,7 @@ impl XyzWriter {
         put(&mut self.draft, self.line.as_bytes())
     }
 
-    /// The file, whole but without its name.
+    /// The complete file, still without its name.
     pub fn whole(self) -> Draft {
         self.draft
     }
@@ -123,7 +123,7 @@ mod tests {
         std::fs::read(&path).unwrap()
     }
 
-    /// The format asks for one to four NULs after the header, so that data begin at a multiple of
+    /// The format requires one to four NULs after the header, so that the data begin at a multiple of
     /// four.
     #[test]
     fn data_begin_at_a_multiple_of_four_whatever_the_title() {
@@ -151,7 +151,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("map.xyz");
         let mut writer = XyzWriter::begin(&path).unwrap();
-        writer.place(2.5, -1.0, 1e-4).unwrap();
+        writer.point(2.5, -1.0, 1e-4).unwrap();
         writer.whole().complete().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(text, "2.500000000e-3 -1.000000000e-3 1.000000e-7\n");

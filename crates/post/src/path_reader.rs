@@ -1,54 +1,54 @@
-//! What the readers of all files have in common: points one after the other, and blocks of them.
+//! The common part of the readers of all files: they give points one by one, or in blocks.
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
 
-use crate::ReadError;
+use crate::read_error::ReadError;
 
-/// How far a reader is.
+/// How many points a reader has read.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Counted {
+pub struct ReadCount {
     last: Option<(ControlPoint, Section)>,
-    /// The segment that was read and belongs to the next block.
-    kept: Option<Between>,
-    count: u64,
-    cutting: u64,
+    /// A segment that was read and belongs to the next block.
+    pending: Option<ReadSegment>,
+    points: u64,
+    cutting_points: u64,
 }
 
-impl Counted {
-    /// One more point was read.
-    pub(crate) fn see(&mut self, point: ControlPoint, section: Section) {
+impl ReadCount {
+    /// Counts one more point.
+    pub(crate) fn add(&mut self, point: ControlPoint, section: Section) {
         self.last = Some((point, section));
-        self.count += 1;
-        self.cutting += u64::from(section == Section::Cutting);
+        self.points += 1;
+        self.cutting_points += u64::from(section == Section::Cutting);
     }
 
-    /// The last point.
+    /// The last point and its section.
     pub(crate) fn last(&self) -> Option<&(ControlPoint, Section)> {
         self.last.as_ref()
     }
 
-    /// Points read so far.
-    pub fn count(&self) -> u64 {
-        self.count
+    /// Points read so far, of all sections.
+    pub fn points(&self) -> u64 {
+        self.points
     }
 
-    /// Points of the cutting section so far.
-    pub fn cutting(&self) -> u64 {
-        self.cutting
+    /// Points of the cutting section read so far.
+    pub fn cutting_points(&self) -> u64 {
+        self.cutting_points
     }
 }
 
-/// What lies between two neighbouring points.
+/// The segment between two neighbouring points, and its section.
 #[derive(Debug, Clone, Copy)]
-struct Between {
+struct ReadSegment {
     from: ControlPoint,
     to: ControlPoint,
     section: Section,
 }
 
-impl Between {
-    /// Only what lies between two cutting points is cut: the lead-in goes on to the first of
-    /// them, the lead-out begins at the last.
+impl ReadSegment {
+    /// A segment belongs to the cutting section only if both its points do: the lead-in reaches to
+    /// the first cutting point, and the lead-out begins at the last.
     fn new(from: (ControlPoint, Section), to: (ControlPoint, Section)) -> Self {
         let section = match to.1 {
             Section::LeadOut => Section::LeadOut,
@@ -62,23 +62,23 @@ impl Between {
     }
 }
 
-/// A path that is read from a file.
+/// A path that is read point by point, from a file or from memory.
 pub trait ReadPath {
     /// The next control point; `None` at the end.
     ///
     /// # Errors
-    /// When the file cannot be read, or is not what it should be.
+    /// When the file cannot be read or is damaged.
     fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError>;
 
-    /// How far it is.
-    fn counted(&self) -> &Counted;
+    /// How many points were read so far.
+    fn read_count(&self) -> &ReadCount;
 
-    /// The same, to be changed.
-    fn counted_mut(&mut self) -> &mut Counted;
+    /// The same count, mutable.
+    fn read_count_mut(&mut self) -> &mut ReadCount;
 
-    /// The next segments of one section, `most` of them or fewer, as the control points that they
-    /// lie between, and the section: a block begins with the point that the one before ended with.
-    /// What joins a lead to the cut belongs to the lead. `None` at the end.
+    /// The next segments of one section, at most `most` of them: the section, and the control points
+    /// of the segments. A block begins with the last point of the previous block. The segment
+    /// between a lead and the cutting section belongs to the lead. `None` at the end.
     ///
     /// # Errors
     /// As [`ReadPath::next_point`].
@@ -86,34 +86,34 @@ pub trait ReadPath {
         let mut block = PathBlock::default();
         let mut section = None;
         while block.len() <= most {
-            let Some(between) = next_between(self)? else {
+            let Some(segment) = next_segment(self)? else {
                 break;
             };
-            if section.is_some_and(|section| section != between.section) {
-                self.counted_mut().kept = Some(between);
+            if section.is_some_and(|section| section != segment.section) {
+                self.read_count_mut().pending = Some(segment);
                 break;
             }
-            if section.replace(between.section).is_none() {
-                block.push(between.from);
+            if section.replace(segment.section).is_none() {
+                block.push(segment.from);
             }
-            block.push(between.to);
+            block.push(segment.to);
         }
         Ok(section.map(|section| (section, block)))
     }
 }
 
-/// The next segment: that which was kept, or one to the next point.
-fn next_between<R: ReadPath + ?Sized>(reader: &mut R) -> Result<Option<Between>, ReadError> {
-    if let Some(kept) = reader.counted_mut().kept.take() {
-        return Ok(Some(kept));
+/// The next segment: the pending one, or else the one to the next point.
+fn next_segment<R: ReadPath + ?Sized>(reader: &mut R) -> Result<Option<ReadSegment>, ReadError> {
+    if let Some(pending) = reader.read_count_mut().pending.take() {
+        return Ok(Some(pending));
     }
     loop {
-        let from = reader.counted().last().copied();
+        let from = reader.read_count().last().copied();
         let Some(to) = reader.next_point()? else {
             return Ok(None);
         };
         if let Some(from) = from {
-            return Ok(Some(Between::new(from, to)));
+            return Ok(Some(ReadSegment::new(from, to)));
         }
     }
 }

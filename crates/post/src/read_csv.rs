@@ -1,76 +1,58 @@
-//! Reads `toolpath.csv`, and says at which line something is wrong.
+//! Reads `toolpath.csv`. An error names the line.
 
 use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, Section};
 
-use crate::path_reader::{Counted, ReadPath};
+use crate::path_reader::{ReadCount, ReadPath};
+use crate::read_error::ReadError;
 use crate::row::{HEADER, Row};
 use crate::short_lines::ShortLines;
+use crate::turn::check_turn;
 
-/// Most degrees that C may turn between two rows: beyond, rows are missing.
-const LARGEST_TURN_DEG: f64 = 360.0;
-/// Largest C: half a year at 10⁴ rpm, and still known to a ten-thousandth of a degree.
-/// Far beyond, sections of a turn could no longer be told apart.
-const LARGEST_C_DEG: f64 = 1e12;
 /// Largest time, s: three hundred thousand years.
 const LATEST: f64 = 1e13;
 
-/// Why a tool path could not be read.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadError {
-    /// The file could not be opened or read.
-    #[error("cannot read {}: {error}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        #[source]
-        error: std::io::Error,
-    },
-    /// A line is not what it should be.
-    #[error("{}, line {line}: {what}", path.display())]
-    Line {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: u64,
-        /// What is wrong.
-        what: String,
-    },
-}
-
-impl ReadError {
-    /// The same of a file that goes by another name.
-    pub fn named(mut self, name: &Path) -> Self {
-        let (Self::File { path, .. } | Self::Line { path, .. }) = &mut self;
-        *path = name.to_owned();
-        self
-    }
-}
-
-/// `toolpath.csv`, read block by block.
-pub struct PathReader {
-    rows: csv::Reader<ShortLines>,
+/// Reads `toolpath.csv` block by block, from a file or from any other [`Read`].
+pub struct PathReader<R = File> {
+    rows: csv::Reader<ShortLines<R>>,
     path: PathBuf,
-    counted: Counted,
+    read_count: ReadCount,
 }
 
 impl PathReader {
     /// Opens a file and checks its first line.
+    ///
+    /// # Errors
+    /// When the file cannot be read or begins with another line.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, ReadError> {
         let path = path.into();
-        let file = match File::open(&path) {
-            Ok(file) => file,
-            Err(error) => return Err(ReadError::File { path, error }),
-        };
-        // Numbers need no quotes, and one that does not end would take in all the lines behind it.
+        match File::open(&path) {
+            Ok(file) => Self::from_reader(file, path),
+            Err(error) => Err(ReadError::File { path, error }),
+        }
+    }
+}
+
+impl<R: Read> PathReader<R> {
+    /// Reads from `reader`, for example from bytes in memory, and checks the first line. Errors
+    /// name `path`.
+    ///
+    /// # Errors
+    /// When the reader fails or begins with another line.
+    pub fn from_reader(reader: R, path: impl Into<PathBuf>) -> Result<Self, ReadError> {
+        let path = path.into();
+        // Numbers need no quotes. A quote without an end would swallow all lines after it.
         let mut rows = csv::ReaderBuilder::new()
             .quoting(false)
             .trim(csv::Trim::All)
-            .from_reader(ShortLines::of(file));
-        let header = rows.headers().map_err(|error| of_csv(&path, &error))?;
+            .from_reader(ShortLines::new(reader));
+        let header = match rows.headers() {
+            Ok(header) => header,
+            Err(error) => return Err(from_csv(&path, error)),
+        };
         if !header.iter().eq(HEADER) {
             let what = format!(
                 "this is not the header of a tool path, `{}`",
@@ -82,34 +64,33 @@ impl PathReader {
                 what,
             });
         }
-        let counted = Counted::default();
         Ok(Self {
             rows,
             path,
-            counted,
+            read_count: ReadCount::default(),
         })
     }
 }
 
-impl ReadPath for PathReader {
-    fn counted(&self) -> &Counted {
-        &self.counted
+impl<R: Read> ReadPath for PathReader<R> {
+    fn read_count(&self) -> &ReadCount {
+        &self.read_count
     }
 
-    fn counted_mut(&mut self) -> &mut Counted {
-        &mut self.counted
+    fn read_count_mut(&mut self) -> &mut ReadCount {
+        &mut self.read_count
     }
 
     fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
         let mut record = csv::StringRecord::new();
         let read = self.rows.read_record(&mut record);
-        if !read.map_err(|error| of_csv(&self.path, &error))? {
+        if !read.map_err(|error| from_csv(&self.path, error))? {
             return Ok(None);
         }
         let line = record.position().map_or(0, csv::Position::line);
         let row: Row = record
             .deserialize(None)
-            .map_err(|error| of_csv_at(&self.path, line, &error))?;
+            .map_err(|error| from_csv_at(&self.path, line, error))?;
         let wrong = |what: String| ReadError::Line {
             path: self.path.clone(),
             line,
@@ -119,8 +100,8 @@ impl ReadPath for PathReader {
             .section()
             .ok_or_else(|| wrong("the section must be 0, 1 or 2".to_owned()))?;
         let point = row.point();
-        check(self.counted.last(), &point, section).map_err(wrong)?;
-        self.counted.see(point, section);
+        check(self.read_count.last(), &point, section).map_err(wrong)?;
+        self.read_count.add(point, section);
         Ok(Some((point, section)))
     }
 }
@@ -143,7 +124,7 @@ fn check(
     check_turn(last, point, section)
 }
 
-/// Each a number, and the time not beyond what any machine takes.
+/// Checks that each value is a finite number, and that the time is not absurdly large.
 fn check_numbers(point: &ControlPoint) -> Result<(), String> {
     let &ControlPoint {
         t,
@@ -160,52 +141,25 @@ fn check_numbers(point: &ControlPoint) -> Result<(), String> {
         }
     }
     if t.abs() > LATEST {
-        return Err(format!(
-            "time_s is {t:e} s, beyond all that a machine takes"
-        ));
+        return Err(format!("time_s is {t:e} s, longer than any machine runs"));
     }
     Ok(())
 }
 
-/// C must be an angle that a double can tell from its neighbours. While it cuts it must grow, and not
-/// by more than rows that are missing would make it.
-pub(crate) fn check_turn(
-    last: Option<&(ControlPoint, Section)>,
-    point: &ControlPoint,
-    section: Section,
-) -> Result<(), String> {
-    let turn = last.map(|(last, _)| (point.c - last.c) / turnpath_core::DEG);
-    let grows = |turn: f64| turn > 0.0 && turn <= LARGEST_TURN_DEG;
-    if let Some(turn) = turn.filter(|turn| section == Section::Cutting && !grows(*turn)) {
-        return Err(format!(
-            "C turns by {turn:?} deg from the point before; it must grow, by 360 deg at the most"
-        ));
-    }
-    let c = point.c / turnpath_core::DEG;
-    if c.abs() > LARGEST_C_DEG {
-        return Err(format!(
-            "C = {c:e} deg is more than {LARGEST_C_DEG:e} deg, which no path turns"
-        ));
-    }
-    Ok(())
-}
-
-fn of_csv(path: &Path, error: &csv::Error) -> ReadError {
+fn from_csv(path: &Path, error: csv::Error) -> ReadError {
     let line = error.position().map_or(1, csv::Position::line);
-    of_csv_at(path, line, error)
+    from_csv_at(path, line, error)
 }
 
-fn of_csv_at(path: &Path, line: u64, error: &csv::Error) -> ReadError {
+fn from_csv_at(path: &Path, line: u64, error: csv::Error) -> ReadError {
     let path = path.to_owned();
-    let what = match error.kind() {
-        csv::ErrorKind::Io(error) => {
-            let error = std::io::Error::new(error.kind(), error.to_string());
-            return ReadError::File { path, error };
-        }
+    let text = error.to_string();
+    let what = match error.into_kind() {
+        csv::ErrorKind::Io(error) => return ReadError::File { path, error },
         csv::ErrorKind::UnequalLengths {
             expected_len, len, ..
         } => {
-            let are = if *len == 1 {
+            let are = if len == 1 {
                 "is 1 value"
             } else {
                 &format!("are {len} values")
@@ -216,8 +170,8 @@ fn of_csv_at(path: &Path, line: u64, error: &csv::Error) -> ReadError {
             let column = err.field().and_then(|field| HEADER.get(field as usize));
             format!("{}: {}", column.unwrap_or(&"row"), err.kind())
         }
-        csv::ErrorKind::Utf8 { .. } => "this is no UTF-8 text".to_owned(),
-        _ => error.to_string(),
+        csv::ErrorKind::Utf8 { .. } => "this is not UTF-8 text".to_owned(),
+        _ => text,
     };
     ReadError::Line { path, line, what }
 }

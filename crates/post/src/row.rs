@@ -1,4 +1,4 @@
-//! A row of `toolpath.csv`: units of the file against units inside.
+//! A row of `toolpath.csv`, with the units of the file.
 
 use serde::{Deserialize, Serialize};
 use turnpath_core::DEG;
@@ -6,8 +6,8 @@ use turnpath_core::toolpath::{ControlPoint, Section};
 
 /// The first line of `toolpath.csv`.
 ///
-/// Of a path of straight segments the velocities are the rates of the segment that follows each
-/// point, at the last one those of the segment before.
+/// On a path of straight segments, the velocities of a point are the rates of the segment after it.
+/// Those of the last point are the rates of the segment before it.
 pub const HEADER: [&str; 8] = [
     "time_s",
     "c_deg",
@@ -19,8 +19,8 @@ pub const HEADER: [&str; 8] = [
     "section",
 ];
 
-/// One control point as it stands in the file. Numbers are written with the fewest digits that
-/// give the same double back.
+/// One control point as the file has it. Numbers have the fewest digits from which the same double
+/// is read back.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     time_s: f64,
@@ -61,7 +61,7 @@ impl Row {
         }
     }
 
-    /// The section, if there is one of this number.
+    /// The section, if there is one with this number.
     pub fn section(&self) -> Option<Section> {
         [Section::LeadIn, Section::Cutting, Section::LeadOut]
             .into_iter()

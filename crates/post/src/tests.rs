@@ -1,4 +1,4 @@
-//! What is written reads back, and what is spoiled is refused with its line.
+//! A written file reads back, and a damaged file is refused with the line of the damage.
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
 
@@ -36,7 +36,9 @@ fn written(text: impl Fn(&str) -> String) -> (tempfile::TempDir, std::path::Path
 fn refusal(text: impl Fn(&str) -> String) -> String {
     let (folder, path) = written(text);
     let read = PathReader::open(&path).and_then(|mut reader| reader.next_block(100).map(|_| ()));
-    let message = read.unwrap_err().to_string();
+    let error = read.map(|_| ()).unwrap_err();
+    let source = std::error::Error::source(&error).map(ToString::to_string);
+    let message = format!("{error} {}", source.unwrap_or_default());
     message.replace(&folder.path().display().to_string(), "")
 }
 
@@ -47,16 +49,16 @@ fn with_line(text: &str, index: usize, line: &str) -> String {
 }
 
 #[test]
-fn doubles_come_back_as_they_were() {
+fn doubles_read_back_unchanged() {
     let (_folder, path) = written(str::to_owned);
     let mut reader = PathReader::open(path).unwrap();
     let (section, block) = reader.next_block(100).unwrap().unwrap();
     assert_eq!(section, Section::Cutting);
-    let made = path_of(10);
-    assert_eq!((&block.t, &block.x, &block.z), (&made.t, &made.x, &made.z));
-    assert_eq!((&block.vx, &block.vz), (&made.vx, &made.vz));
-    for (read, made) in block.c.iter().zip(&made.c) {
-        assert!((read - made).abs() <= f64::EPSILON * made);
+    let path = path_of(10);
+    assert_eq!((&block.t, &block.x, &block.z), (&path.t, &path.x, &path.z));
+    assert_eq!((&block.vx, &block.vz), (&path.vx, &path.vz));
+    for (read, written) in block.c.iter().zip(&path.c) {
+        assert!((read - written).abs() <= f64::EPSILON * written);
     }
     assert!(reader.next_block(100).unwrap().is_none());
 }
@@ -71,11 +73,11 @@ fn blocks_share_the_point_between_them() {
     assert_eq!(first.t[4], second.t[0]);
     assert_eq!(next().len(), 2);
     assert!(reader.next_block(4).unwrap().is_none());
-    assert_eq!(reader.counted().count(), 10);
+    assert_eq!(reader.read_count().points(), 10);
 }
 
 #[test]
-fn what_joins_a_lead_to_the_cut_is_the_leads() {
+fn the_segment_between_lead_and_cut_belongs_to_the_lead() {
     use Section::{Cutting, LeadIn, LeadOut};
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("toolpath.csv");
@@ -118,7 +120,7 @@ fn what_joins_a_lead_to_the_cut_is_the_leads() {
 }
 
 #[test]
-fn spoiled_files_are_refused_with_their_line() {
+fn damaged_files_are_refused_with_their_line() {
     assert!(
         refusal(|text| text.replace("time_s", "time")).contains("line 1: this is not the header")
     );
@@ -150,7 +152,7 @@ fn spoiled_files_are_refused_with_their_line() {
     assert!(back.contains("line 6: the time"), "{back}");
     let turned = refusal(|text| with_line(text, 10, "100,2000,3,4,5,6,7,1"));
     assert!(turned.contains("line 11: C turns by"), "{turned}");
-    // Its turns would have no sections that differ.
+    // A double could not distinguish parts of such a turn.
     let turning = refusal(|text| with_line(text, 1, "0.0,1e14,3,4,5,6,7,1"));
     assert!(
         turning.contains("line 2: C = 1e14 deg is more than"),
@@ -158,4 +160,31 @@ fn spoiled_files_are_refused_with_their_line() {
     );
     let far = refusal(|text| with_line(text, 10, "1e12,1e12,3,4,5,6,7,1"));
     assert!(far.contains("line 11: C turns by 99999999"), "{far}");
+}
+
+#[test]
+fn a_path_in_memory_has_the_bytes_of_its_file_and_reads_back() {
+    let (_folder, path) = written(str::to_owned);
+    let mut writer = PathWriter::in_memory();
+    let rows = PathWriter::rows(Section::Cutting, &path_of(10)).unwrap();
+    writer.append(&rows).unwrap();
+    let bytes = writer.into_bytes();
+    assert_eq!(bytes, std::fs::read(&path).unwrap());
+
+    let mut memory = PathReader::from_reader(bytes.as_slice(), "memory").unwrap();
+    let mut file = PathReader::open(path).unwrap();
+    assert_eq!(
+        memory.next_block(100).unwrap(),
+        file.next_block(100).unwrap()
+    );
+}
+
+#[test]
+fn errors_have_their_causes_as_sources() {
+    use std::error::Error;
+    let error = PathReader::open("no/such/toolpath.csv")
+        .map(|_| ())
+        .unwrap_err();
+    assert_eq!(error.to_string(), "cannot read no/such/toolpath.csv");
+    assert!(error.source().is_some());
 }

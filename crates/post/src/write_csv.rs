@@ -1,33 +1,49 @@
 //! Writes `toolpath.csv`.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{PathBlock, Section};
 
+use crate::draft::{Draft, FileError};
 use crate::row::{HEADER, Row};
-use crate::{Draft, FileError};
 
-/// `toolpath.csv` in the making.
+/// Writes `toolpath.csv` to a file or to memory.
+///
+/// ```
+/// use turnpath_core::toolpath::{PathBlock, Section};
+/// use turnpath_post::PathWriter;
+///
+/// let mut writer = PathWriter::in_memory();
+/// writer.append(&PathWriter::rows(Section::Cutting, &PathBlock::default())?)?;
+/// assert!(writer.into_bytes().starts_with(b"time_s,c_deg,"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug)]
-pub struct PathWriter {
-    draft: Draft,
+pub struct PathWriter<W = Draft> {
+    output: W,
 }
 
 impl PathWriter {
     /// Begins the file with its first line.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
-        let mut draft = Draft::begin(path)?;
-        match writeln!(draft, "{}", HEADER.join(",")) {
-            Ok(()) => Ok(Self { draft }),
+        let mut output = Draft::begin(path)?;
+        match output.write_all(first_line().as_bytes()) {
+            Ok(()) => Ok(Self { output }),
             Err(error) => Err(FileError {
-                path: draft.path().to_owned(),
+                path: output.path().to_owned(),
                 error,
             }),
         }
     }
 
-    /// Control points as rows; needs no file, so that blocks can be put into rows in parallel.
+    /// Control points as rows. This needs no file, so several blocks can be formatted in parallel.
+    ///
+    /// # Errors
+    /// When a row cannot be formatted.
     pub fn rows(section: Section, points: &PathBlock) -> io::Result<Vec<u8>> {
         let mut rows = csv::WriterBuilder::new()
             .has_headers(false)
@@ -38,18 +54,46 @@ impl PathWriter {
         rows.into_inner().map_err(csv::IntoInnerError::into_error)
     }
 
-    /// Appends rows.
-    pub fn append(&mut self, rows: &[u8]) -> io::Result<()> {
-        self.draft.write_all(rows)
+    /// Everything written so far, as a file that can be read under a temporary name.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn readable(&mut self) -> Result<&Path, FileError> {
+        self.output.readable()
     }
 
-    /// What has been written so far, as a file that can be read under another name.
-    pub fn readable(&mut self) -> Result<&std::path::Path, FileError> {
-        self.draft.readable()
-    }
-
-    /// The file is whole and takes its name.
+    /// Gives the complete file its name.
+    ///
+    /// # Errors
+    /// When the file cannot be written or renamed.
     pub fn complete(self) -> Result<PathBuf, FileError> {
-        self.draft.complete()
+        self.output.complete()
     }
+}
+
+impl PathWriter<Vec<u8>> {
+    /// Begins in memory, with the first line.
+    pub fn in_memory() -> Self {
+        let output = first_line().into_bytes();
+        Self { output }
+    }
+
+    /// The bytes of the whole file.
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.output
+    }
+}
+
+impl<W: Write> PathWriter<W> {
+    /// Appends rows.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn append(&mut self, rows: &[u8]) -> io::Result<()> {
+        self.output.write_all(rows)
+    }
+}
+
+fn first_line() -> String {
+    format!("{}\n", HEADER.join(","))
 }

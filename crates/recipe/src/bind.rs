@@ -13,8 +13,8 @@ use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
 use crate::value;
 
 impl Recipe {
-    /// The parameters of the strategy chosen for a slot, checked against its declarations:
-    /// defaults filled in, optional ones absent.
+    /// The parameters of the strategy chosen for a slot, checked against its declarations.
+    /// A parameter that the recipe leaves out has its default, or is absent if it is optional.
     pub fn bind(&self, slot: Slot, info: &StrategyInfo) -> Result<Params, Diagnostics> {
         self.choice(slot).bind(info)
     }
@@ -28,7 +28,7 @@ impl Recipe {
 impl Choice {
     /// The parameters, checked against the declarations of the strategy.
     pub fn bind(&self, info: &StrategyInfo) -> Result<Params, Diagnostics> {
-        let mut found: Vec<Diagnostic> = self
+        let mut diagnostics: Vec<Diagnostic> = self
             .params
             .iter()
             .filter_map(|entry| self.unknown_param(entry, info))
@@ -38,10 +38,10 @@ impl Choice {
             match self.value_of(param, info) {
                 Ok(Some(value)) => params.set(param.name, value),
                 Ok(None) => {}
-                Err(diagnostic) => found.push(diagnostic),
+                Err(diagnostic) => diagnostics.push(diagnostic),
             }
         }
-        Diagnostics::unless_any(Some(params), found)
+        Diagnostics::unless_any(Some(params), diagnostics)
     }
 
     /// The message that no strategy of this name is known.
@@ -50,13 +50,13 @@ impl Choice {
         let mut sorted = known.to_vec();
         sorted.sort_unstable();
         let title = format!("no {noun} named {}", quoted(self.name()));
-        let diagnostic = Diagnostic::new(self.name.place.clone(), title)
-            .label(format!("unknown {noun}"))
-            .helps(did_you_mean(self.name(), &sorted));
+        let diagnostic = Diagnostic::new(self.name.span.clone(), title)
+            .with_label(format!("unknown {noun}"))
+            .with_helps(did_you_mean(self.name(), &sorted));
         if sorted.is_empty() {
-            diagnostic.help(format!("no {noun} was found at all; give --plugin-dir DIR"))
+            diagnostic.with_help(format!("no {noun} was found at all; give --plugin-dir DIR"))
         } else {
-            diagnostic.help(format!("known: {}", listed(&sorted)))
+            diagnostic.with_help(format!("known: {}", listed(&sorted)))
         }
     }
 
@@ -76,16 +76,16 @@ impl Choice {
         } else {
             format!("parameters of `{}`: {}", info.name, listed(&names))
         };
-        let diagnostic = Diagnostic::new(entry.place.clone(), title)
-            .label("unknown parameter")
-            .helps(did_you_mean(&entry.key, &names))
-            .help(list);
-        Some(diagnostic.helps(self.left_over(entry)))
+        let diagnostic = Diagnostic::new(entry.span.clone(), title)
+            .with_label("unknown parameter")
+            .with_helps(did_you_mean(&entry.key, &names))
+            .with_help(list);
+        Some(diagnostic.with_helps(self.help_for_left_over(entry)))
     }
 
-    /// A key of the file that a `--set` of `use` left behind.
-    fn left_over(&self, entry: &Entry) -> Option<String> {
-        let chosen_later = self.name.place.source().rank > entry.place.source().rank;
+    /// Help for a key of the file that belongs to the strategy before a `--set` of `use`.
+    fn help_for_left_over(&self, entry: &Entry) -> Option<String> {
+        let chosen_later = self.name.span.source().rank > entry.span.source().rank;
         chosen_later.then(|| {
             format!(
                 "`--set {slot}.use` keeps the table's other keys; to replace the whole table: \
@@ -96,7 +96,8 @@ impl Choice {
         })
     }
 
-    /// Whether an unknown key, which has its own message, is nearly this parameter's.
+    /// Whether an unknown key looks like a misspelling of this parameter. That key has its own
+    /// message.
     fn misspells(&self, param: &Param, info: &StrategyInfo) -> bool {
         let declared = |key: &str| info.params.iter().any(|other| other.name == key);
         let mut unknown = self.params.iter().filter(|entry| !declared(&entry.key));
@@ -128,9 +129,9 @@ impl Choice {
             self.name(),
             param.name
         );
-        Diagnostic::new(self.name.place.clone(), title)
-            .label(format!("`{}` is missing: {}", param.name, param.help))
-            .help(format!(
+        Diagnostic::new(self.name.span.clone(), title)
+            .with_label(format!("`{}` is missing: {}", param.name, param.help))
+            .with_help(format!(
                 "add to [{}] a line such as: {} = {}",
                 self.slot,
                 param.name,
@@ -139,7 +140,7 @@ impl Choice {
     }
 }
 
-/// A parameter's value as written, of the declared kind and in the declared range.
+/// A parameter's value, of the declared kind and in the declared range.
 fn read(param: &Param, node: &Node) -> Result<ParamValue, Diagnostic> {
     let key = param.name;
     match param.kind {
@@ -165,9 +166,9 @@ fn whole_if_count(param: &Param, node: &Node, number: f64) -> Result<(), Diagnos
         return Ok(());
     }
     let title = format!("`{}` must be a whole number", param.name);
-    Err(Diagnostic::new(node.place.clone(), title)
-        .label("a count belongs here")
-        .help(format!("for example: {} = {}", param.name, example(param))))
+    Err(Diagnostic::new(node.span.clone(), title)
+        .with_label("a count belongs here")
+        .with_help(format!("for example: {} = {}", param.name, example(param))))
 }
 
 fn in_range(param: &Param, node: &Node, number: f64) -> Result<(), Diagnostic> {
@@ -175,9 +176,9 @@ fn in_range(param: &Param, node: &Node, number: f64) -> Result<(), Diagnostic> {
         return Ok(());
     }
     let title = format!("`{}` must be {}", param.name, range(param));
-    Err(Diagnostic::new(node.place.clone(), title)
-        .label(format!("this is {}", shown(param.kind, number)))
-        .help(format!("`{}`: {}", param.name, param.help)))
+    Err(Diagnostic::new(node.span.clone(), title)
+        .with_label(format!("this is {}", shown(param.kind, number)))
+        .with_help(format!("`{}`: {}", param.name, param.help)))
 }
 
 fn rows(key: &str, node: &Node, columns: usize) -> Result<Vec<Vec<f64>>, Diagnostic> {
@@ -188,13 +189,12 @@ fn rows(key: &str, node: &Node, columns: usize) -> Result<Vec<Vec<f64>>, Diagnos
 }
 
 fn row(key: &str, node: &Node, columns: usize) -> Result<Vec<f64>, Diagnostic> {
-    let wanted = format!("a list of rows of {columns} numbers");
-    let items = value::items(key, node).map_err(|_| value::wrong_type(key, node, &wanted))?;
+    let expected = format!("a list of rows of {columns} numbers");
+    let items = value::items(key, node).map_err(|_| value::wrong_type(key, node, &expected))?;
     if items.len() != columns {
         let title = format!("a row of `{key}` must have {columns} numbers");
-        return Err(
-            Diagnostic::new(node.place.clone(), title).label(format!("this has {}", items.len()))
-        );
+        return Err(Diagnostic::new(node.span.clone(), title)
+            .with_label(format!("this has {}", items.len())));
     }
     items.iter().map(|item| value::number(key, item)).collect()
 }

@@ -1,23 +1,23 @@
-//! The strategy that a recipe chooses for a slot, with its parameters as written.
+//! The strategy that a recipe chooses for a slot, with the parameters as the recipe gives them.
 
 use turnpath_core::Slot;
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Table};
-use crate::place::{Located, Place};
 use crate::read::Section;
+use crate::span::{Span, Spanned};
 use crate::suggest::quoted;
 
-/// A slot, the strategy chosen for it, and its parameters as they stand in the recipe.
+/// A slot, the strategy chosen for it, and the parameters as the recipe gives them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     /// The slot.
     pub slot: Slot,
-    /// The strategy's name, a plain one.
-    pub name: Located<String>,
-    /// The header of the table, `[sampler]`.
-    pub place: Place,
-    /// The keys besides `use`, unchecked.
+    /// The strategy's name: lower-case letters, digits and hyphens.
+    pub name: Spanned<String>,
+    /// The header of the slot's table, `[sampler]`.
+    pub span: Span,
+    /// The keys besides `use`. They are not checked yet.
     pub params: Vec<Entry>,
 }
 
@@ -27,15 +27,16 @@ impl Choice {
         &self.name.value
     }
 
-    /// A parameter as it stands in the recipe.
+    /// A parameter as the recipe gives it.
     pub fn param(&self, name: &str) -> Option<&Entry> {
         self.params.iter().find(|entry| entry.key == name)
     }
 
-    /// Where a parameter's value stands; if it was left out, where the strategy is named.
-    pub fn param_place(&self, name: &str) -> Place {
+    /// The span of a parameter's value, or of the strategy's name if the recipe leaves the
+    /// parameter out.
+    pub fn param_span(&self, name: &str) -> Span {
         self.param(name)
-            .map_or(&self.name.place, |entry| &entry.node.place)
+            .map_or(&self.name.span, |entry| &entry.node.span)
             .clone()
     }
 
@@ -49,14 +50,14 @@ impl Choice {
             section.missing("use", &format!("\"{}\"", example(slot)));
         }
         let name = section.text("use")?;
-        if !is_plain(&name.value) {
-            section.complain(not_plain(slot, &name));
+        if !is_valid_name(&name.value) {
+            section.report(invalid_name(slot, &name));
             return None;
         }
         Some(Self {
             slot,
             name,
-            place: section.place.clone(),
+            span: section.span.clone(),
             params: params(table),
         })
     }
@@ -71,25 +72,25 @@ fn params(table: &Table) -> Vec<Entry> {
         .collect()
 }
 
-/// Whether a text can be a strategy's name: lower case letters, digits, hyphens.
-fn is_plain(name: &str) -> bool {
-    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    !name.is_empty() && name.chars().all(plain)
+/// Whether a text can be a strategy's name: lower-case letters, digits and hyphens.
+fn is_valid_name(name: &str) -> bool {
+    let valid = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    !name.is_empty() && name.chars().all(valid)
 }
 
-fn not_plain(slot: Slot, name: &Located<String>) -> Diagnostic {
+fn invalid_name(slot: Slot, name: &Spanned<String>) -> Diagnostic {
     let title = format!(
         "{} cannot be the name of a {}",
         quoted(&name.value),
         slot.noun()
     );
-    Diagnostic::new(name.place.clone(), title)
-        .label("lower case letters, digits and hyphens only")
-        .help("a strategy is chosen by its plain name, never by a file")
-        .help(format!("`turnpath list {slot}` shows the names"))
+    Diagnostic::new(name.span.clone(), title)
+        .with_label("only lower-case letters, digits and hyphens")
+        .with_help("a recipe chooses a strategy by its name, never by a file")
+        .with_help(format!("`turnpath list {slot}` shows the names"))
 }
 
-/// A name to show when none is given.
+/// A strategy's name for an example.
 fn example(slot: Slot) -> &'static str {
     match slot {
         Slot::Surface => "conic",

@@ -1,8 +1,8 @@
-//! Declarations of parameters in words: ranges and examples, for messages.
+//! Declarations of parameters as text: ranges and examples, for messages.
 
 use turnpath_core::{Param, ParamDefault, ParamKind, Quantity};
 
-/// A value in inner units as a recipe would say it.
+/// A value as a recipe would write it, from the units used inside (mm, rad, s).
 pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
     match Quantity::of(kind) {
         Some(quantity) => quantity.format(value),
@@ -10,7 +10,7 @@ pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
     }
 }
 
-/// The declared range: "above 0 mm and at most 5 mm", "at least 3", "different from zero".
+/// The declared range in words: "above 0 mm and at most 5 mm", "at least 3", "different from zero".
 pub(crate) fn range(param: &Param) -> String {
     let limit = |value: f64| shown(param.kind, value);
     let mut parts = Vec::new();
@@ -31,7 +31,7 @@ pub(crate) fn range(param: &Param) -> String {
     }
 }
 
-/// A value that the declaration admits, as it would stand in a recipe.
+/// A value that the declaration admits, as a recipe would write it.
 pub(crate) fn example(param: &Param) -> String {
     match (param.kind, param.default) {
         (ParamKind::Flag, ParamDefault::Flag(flag)) => flag.to_string(),
@@ -58,7 +58,7 @@ fn example_rows(columns: usize) -> String {
     format!("[[{}]]", row.join(", "))
 }
 
-/// The usual value of the kind, or one of another size that is in range.
+/// The usual value of the kind if it is in range, else a larger or smaller value that is.
 fn example_number(param: &Param) -> f64 {
     let usual = match (param.kind, Quantity::of(param.kind)) {
         (ParamKind::Count, _) => 36.0,
@@ -66,10 +66,10 @@ fn example_number(param: &Param) -> f64 {
         _ => 0.5,
     };
     let sizes = [1.0, 0.1, 10.0, 0.01, 100.0, 1e-3, 1e3, 1e-6, 1e6];
-    let tried = sizes.iter().flat_map(|size| [usual * size, -usual * size]);
+    let candidates = sizes.iter().flat_map(|size| [usual * size, -usual * size]);
     let limits = [param.min, param.max];
     let whole = |value: &f64| param.kind != ParamKind::Count || value.floor() == *value;
-    tried
+    candidates
         .chain(limits)
         .find(|value| whole(value) && param.admits(*value))
         .unwrap_or(usual)
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ranges_are_said_in_readable_units() {
+    fn ranges_have_readable_units() {
         let step = Param::angle("max_step", "").positive().max(180.0 * DEG);
         assert_eq!(range(&step), "above 0 deg and at most 180 deg");
         assert_eq!(range(&Param::count("at_least", "").min(3.0)), "at least 3");

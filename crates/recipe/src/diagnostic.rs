@@ -1,56 +1,96 @@
-//! Messages: what is wrong, the line with the place underlined, and what to do.
+//! Messages: a title, the line of the recipe with the span underlined, and help.
+
+use std::error::Error;
+use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
-use crate::place::Place;
+use crate::span::Span;
 
 /// One message about a recipe.
+///
+/// `Display` gives the title alone. [`render`](Self::render) gives what the user sees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
-    /// What is wrong, in one line.
-    pub title: String,
-    /// Where; none if it stands nowhere.
-    pub place: Option<Place>,
-    /// What stands below the underlined place; may be empty.
-    pub label: String,
-    /// What to do, one line each.
-    pub help: Vec<String>,
+    title: String,
+    span: Option<Span>,
+    label: String,
+    help: Vec<String>,
 }
 
-/// One or more messages, in the order of their places.
+/// One or more messages, in the order of their spans.
+///
+/// `Display` gives the titles, one a line. [`render`](Self::render) gives what the user sees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostics(Vec<Diagnostic>);
 
 impl Diagnostic {
-    /// A message about a place, with neither label nor help yet.
-    pub fn new(place: Place, title: impl Into<String>) -> Self {
+    /// A message about a span, without label and help.
+    pub fn new(span: Span, title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
-            place: Some(place),
+            span: Some(span),
             label: String::new(),
             help: Vec::new(),
         }
     }
 
-    /// With words below the underlined place.
-    pub fn label(mut self, label: impl Into<String>) -> Self {
+    /// A message about an error that belongs to no span. The title is the error's text, followed
+    /// by the texts of its sources: `cannot read the recipe a.toml: permission denied`.
+    pub fn from_error(error: &dyn Error) -> Self {
+        let mut title = error.to_string();
+        let mut source = error.source();
+        while let Some(error) = source {
+            title = format!("{title}: {error}");
+            source = error.source();
+        }
+        Self {
+            title,
+            span: None,
+            label: String::new(),
+            help: Vec::new(),
+        }
+    }
+
+    /// Sets the label, which is shown below the underlined span.
+    pub fn with_label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
 
-    /// With one more line on what to do.
-    pub fn help(mut self, help: impl Into<String>) -> Self {
+    /// Adds a line of help.
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());
         self
     }
 
-    /// With lines on what to do, if there are any.
-    pub(crate) fn helps(mut self, help: impl IntoIterator<Item = String>) -> Self {
+    /// Adds several lines of help.
+    pub fn with_helps(mut self, help: impl IntoIterator<Item = String>) -> Self {
         self.help.extend(help);
         self
     }
 
-    /// The message as the user sees it, without a line end; `color` for a terminal.
+    /// What is wrong.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Where it is wrong; `None` if the message belongs to no span.
+    pub fn span(&self) -> Option<&Span> {
+        self.span.as_ref()
+    }
+
+    /// The text below the underlined span; may be empty.
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// What the user can do, one item a line.
+    pub fn help(&self) -> &[String] {
+        &self.help
+    }
+
+    /// The message as the user sees it, without a line end; `color` adds the colours of a terminal.
     pub fn render(&self, color: bool) -> String {
         let renderer = if color {
             Renderer::styled()
@@ -62,29 +102,30 @@ impl Diagnostic {
             .help
             .iter()
             .map(|help| Level::HELP.message(printable(help)));
-        renderer.render(&[self.shown(group).elements(helps)])
+        renderer.render(&[self.with_snippet(group).elements(helps)])
     }
 
-    fn shown<'a>(&'a self, group: Group<'a>) -> Group<'a> {
-        match &self.place {
+    fn with_snippet<'a>(&'a self, group: Group<'a>) -> Group<'a> {
+        match &self.span {
             None => group,
-            Some(place) if place.is_whole() => {
-                group.element(Origin::path(place.source().name.as_str()))
+            Some(span) if span.is_whole() => {
+                group.element(Origin::path(span.source().name.as_str()))
             }
-            Some(place) => {
+            Some(span) => {
                 let label = Some(printable(&self.label)).filter(|label| !label.is_empty());
-                let annotation = AnnotationKind::Primary.span(place.span()).label(label);
-                let snippet = Snippet::source(place.source().text.as_str())
-                    .path(place.source().name.as_str())
+                let annotation = AnnotationKind::Primary.span(span.range()).label(label);
+                let snippet = Snippet::source(span.source().text.as_str())
+                    .path(span.source().name.as_str())
                     .annotation(annotation);
                 group.element(snippet)
             }
         }
     }
 
+    /// The recipe comes first, then the `--set` arguments; a message without a span comes last.
     fn order(&self) -> (usize, usize) {
-        match &self.place {
-            Some(place) => (place.source().rank, place.span().start),
+        match &self.span {
+            Some(span) => (span.source().rank, span.range().start),
             None => (usize::MAX, 0),
         }
     }
@@ -96,23 +137,23 @@ impl Diagnostics {
         self.0.iter()
     }
 
-    /// The messages as the user sees them, an empty line between two.
+    /// The messages as the user sees them, with an empty line between two.
     pub fn render(&self, color: bool) -> String {
         let rendered: Vec<String> = self.0.iter().map(|one| one.render(color)).collect();
         rendered.join("\n\n")
     }
 
-    /// The value if nothing was found wrong, else the messages in the order of their places.
-    pub(crate) fn unless_any<T>(value: Option<T>, found: Vec<Diagnostic>) -> Result<T, Self> {
+    /// The value if there is no message, else the messages in the order of their spans.
+    pub(crate) fn unless_any<T>(value: Option<T>, diagnostics: Vec<Diagnostic>) -> Result<T, Self> {
         match value {
-            Some(value) if found.is_empty() => Ok(value),
-            _ => Err(Self::sorted(found)),
+            Some(value) if diagnostics.is_empty() => Ok(value),
+            _ => Err(Self::sorted(diagnostics)),
         }
     }
 
-    fn sorted(mut found: Vec<Diagnostic>) -> Self {
-        found.sort_by_key(Diagnostic::order);
-        Self(found)
+    fn sorted(mut diagnostics: Vec<Diagnostic>) -> Self {
+        diagnostics.sort_by_key(Diagnostic::order);
+        Self(diagnostics)
     }
 }
 
@@ -122,22 +163,22 @@ impl From<Diagnostic> for Diagnostics {
     }
 }
 
-impl std::fmt::Display for Diagnostic {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.title)
     }
 }
 
-impl std::error::Error for Diagnostic {}
+impl Error for Diagnostic {}
 
-impl std::fmt::Display for Diagnostics {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let titles: Vec<&str> = self.0.iter().map(|one| one.title.as_str()).collect();
-        f.write_str(&titles.join("; "))
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let titles: Vec<&str> = self.0.iter().map(Diagnostic::title).collect();
+        f.write_str(&titles.join("\n"))
     }
 }
 
-impl std::error::Error for Diagnostics {}
+impl Error for Diagnostics {}
 
 /// The text without control characters, which a recipe could use to repaint the terminal.
 fn printable(text: &str) -> String {
@@ -150,4 +191,43 @@ fn printable(text: &str) -> String {
             }
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::span::Source;
+
+    fn span(start: usize) -> Span {
+        let source = Source {
+            name: "a.toml".to_owned(),
+            text: "radius = 0".to_owned(),
+            rank: 0,
+        };
+        Span::new(Arc::new(source), start..start + 1)
+    }
+
+    #[test]
+    fn the_text_of_several_messages_is_their_titles_one_a_line() {
+        let messages = vec![
+            Diagnostic::new(span(9), "second").with_label("a label"),
+            Diagnostic::new(span(0), "first").with_help("some help"),
+        ];
+        let error = Diagnostics::unless_any(Some(()), messages).unwrap_err();
+        assert_eq!(error.to_string(), "first\nsecond");
+    }
+
+    #[test]
+    fn an_errors_message_has_the_texts_of_its_sources() {
+        #[derive(Debug, thiserror::Error)]
+        #[error("cannot read a.toml")]
+        struct Outer(#[source] std::io::Error);
+
+        let error = Outer(std::io::Error::other("the disk is gone"));
+        let diagnostic = Diagnostic::from_error(&error);
+        assert_eq!(diagnostic.title(), "cannot read a.toml: the disk is gone");
+        assert_eq!(diagnostic.span(), None);
+    }
 }

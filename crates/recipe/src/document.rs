@@ -1,4 +1,4 @@
-//! The recipe as a tree of located values, whichever text they come from.
+//! The recipe as a tree of values with their spans, whichever text they come from.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::place::{Place, Source};
+use crate::span::{Source, Span};
 use crate::suggest::is_misspelt;
 
 /// A value in the tree.
@@ -18,7 +18,7 @@ pub enum Value {
     Number(f64),
     /// A boolean.
     Flag(bool),
-    /// A date or a time, which no recipe needs.
+    /// A date or a time. No key of a recipe takes one.
     Date,
     /// An array.
     Array(Vec<Node>),
@@ -26,13 +26,13 @@ pub enum Value {
     Table(Table),
 }
 
-/// A value and its place.
+/// A value and its span.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
     /// The value.
     pub value: Value,
-    /// Where it stands; for a table `[name]` its header.
-    pub place: Place,
+    /// The bytes that hold the value; for a table `[name]` its header.
+    pub span: Span,
 }
 
 /// A key and its value.
@@ -40,8 +40,8 @@ pub struct Node {
 pub struct Entry {
     /// The key.
     pub key: String,
-    /// Where the key stands.
-    pub place: Place,
+    /// The bytes that hold the key.
+    pub span: Span,
     /// The value.
     pub node: Node,
 }
@@ -53,7 +53,7 @@ pub struct Table {
 }
 
 impl Value {
-    /// What it is, with its article, for messages.
+    /// The kind of the value with its article, for messages.
     pub fn noun(&self) -> &'static str {
         match self {
             Self::Text(_) => "a string",
@@ -77,9 +77,9 @@ impl Table {
         self.entries.iter().find(|entry| entry.key == key)
     }
 
-    /// Whether the key is there, or one that is not known and nearly the same.
+    /// Whether the table has the key, or a key that looks like a misspelling of it.
     ///
-    /// The unknown key has its own message, so that the right one need not be missed too.
+    /// A misspelt key has its own message, so no second message need report the right key as missing.
     pub(crate) fn has_like(&self, key: &str) -> bool {
         self.entries
             .iter()
@@ -90,7 +90,7 @@ impl Table {
         self.entries.iter_mut().find(|entry| entry.key == key)
     }
 
-    /// Puts an entry in the place of the one with its key, or at the end.
+    /// Replaces the entry with the same key, or adds the entry at the end.
     pub(crate) fn put(&mut self, entry: Entry) {
         match self.get_mut(&entry.key) {
             Some(old) => *old = entry,
@@ -98,7 +98,7 @@ impl Table {
         }
     }
 
-    /// Takes an entry out.
+    /// Removes an entry.
     pub(crate) fn remove(&mut self, key: &str) {
         self.entries.retain(|entry| entry.key != key);
     }
@@ -117,22 +117,22 @@ impl Table {
     }
 }
 
-/// A parsed text, with the place of each value counted from `offset`.
+/// Turns parsed TOML into nodes. The text begins at byte `offset` of the source.
 pub(crate) struct Reader {
     pub(crate) source: Arc<Source>,
     pub(crate) offset: usize,
 }
 
 impl Reader {
-    pub(crate) fn place(&self, span: Range<usize>) -> Place {
-        let shifted = span.start + self.offset..span.end + self.offset;
-        Place::new(self.source.clone(), shifted)
+    pub(crate) fn span(&self, range: Range<usize>) -> Span {
+        let shifted = range.start + self.offset..range.end + self.offset;
+        Span::new(self.source.clone(), shifted)
     }
 
     pub(crate) fn table(&self, table: &DeTable<'_>) -> Table {
         let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| self.entry(key, value);
         let mut entries: Vec<Entry> = table.iter().map(entry).collect();
-        entries.sort_by_key(|entry| entry.place.span().start);
+        entries.sort_by_key(|entry| entry.span.range().start);
         Table { entries }
     }
 
@@ -143,7 +143,7 @@ impl Reader {
     ) -> Entry {
         Entry {
             key: key.get_ref().to_string(),
-            place: self.place(key.span()),
+            span: self.span(key.span()),
             node: self.node(value),
         }
     }
@@ -151,7 +151,7 @@ impl Reader {
     pub(crate) fn node(&self, value: &Spanned<DeValue<'_>>) -> Node {
         Node {
             value: self.value(value.get_ref()),
-            place: self.place(value.span()),
+            span: self.span(value.span()),
         }
     }
 

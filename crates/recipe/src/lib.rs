@@ -1,7 +1,7 @@
-//! Reads recipes: TOML with units, checked, every value with its place for later messages.
+//! Reads and checks recipes: TOML with units. Every value keeps its span for later messages.
 //!
-//! [`Recipe::load`] reads a file and the `--set` arguments, [`Recipe::bind`] checks the parameters
-//! of a strategy against its declarations. Nothing here loads a plugin or knows a strategy.
+//! [`Recipe::load`] reads a file and the `--set` arguments. [`Recipe::bind`] checks the parameters
+//! of a strategy against its declarations. This crate loads no plugin and knows no strategy.
 //!
 //! ```
 //! use turnpath_core::Slot;
@@ -39,8 +39,8 @@
 //! assert_eq!(recipe.tool.nose_radius, 0.5);
 //! assert_eq!(recipe.choice(Slot::Feed).name(), "constant");
 //!
-//! let wrong = Recipe::parse(&text.replace("5 mm", "5 ms"), "mirror.toml", &[]).unwrap_err();
-//! assert!(wrong.render(false).contains("is a time"));
+//! let error = Recipe::parse(&text.replace("5 mm", "5 ms"), "mirror.toml", &[]).unwrap_err();
+//! assert!(error.render(false).contains("is a time"));
 //! # Ok::<(), turnpath_recipe::RecipeError>(())
 //! ```
 
@@ -50,20 +50,20 @@ mod choice;
 mod declared;
 mod diagnostic;
 mod document;
-mod place;
 mod presets;
 mod read;
 mod recipe;
 mod set;
+mod span;
 mod suggest;
 mod tables;
 mod value;
 
-pub use ablation::{Variant, Varied};
+pub use ablation::{Variant, Variation};
 pub use choice::Choice;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::{Entry, Node, Table, Value};
-pub use place::{Located, Place, Source};
 pub use presets::Preset;
 pub use recipe::{FileProblem, Recipe, RecipeError};
+pub use span::{Source, Span, Spanned};
 pub use tables::{DataFormat, Output, PmacPvt, ZReference};

@@ -1,8 +1,9 @@
 //! Typical machines: their limits, each with its source.
 //!
-//! A limit stands here only if a published figure says it or it follows from one; what is not
-//! known is left out, and not checked. A recipe adds its own machine's. Fast tool servos are not
-//! here: their published strokes and bandwidths do not say what they reach together.
+//! A preset has a limit only if a published figure gives it or it follows from one. An unknown
+//! limit is left out and not checked; a recipe can add the limits of its own machine. There are no
+//! presets for fast tool servos: the published strokes and bandwidths do not say which of them a
+//! servo reaches at the same time.
 
 use std::f64::consts::TAU;
 
@@ -11,11 +12,12 @@ use turnpath_core::{AxisLimits, Machine};
 /// A machine that a recipe can name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Preset {
-    /// Its name in a recipe.
+    /// The machine's name in a recipe.
     pub name: &'static str,
-    /// Its limits, as far as they are known.
+    /// The limits that are known.
     pub machine: Machine,
-    /// The bandwidth of its servo as ω, rad/s: what `[servo]` takes where it gives none.
+    /// The bandwidth of the machine's servo as ω, rad/s. `[servo]` takes it if it gives no
+    /// bandwidth of its own.
     pub servo_bandwidth: Option<f64>,
     /// Where the figures come from.
     pub source: &'static str,
@@ -51,8 +53,8 @@ pub const PRESETS: &[Preset] = &[
             c: UNKNOWN,
         },
         servo_bandwidth: None,
-        source: "no machine of its own: round figures below those of precitech-sts, for a first \
-            look; X and C not limited",
+        source: "not a real machine: round figures below those of precitech-sts, for a first look; \
+            X and C have no limits",
     },
     Preset {
         name: "precitech-sts",
@@ -68,9 +70,9 @@ pub const PRESETS: &[Preset] = &[
         servo_bandwidth: Some(STS_BANDWIDTH),
         source: "slow tool servo of the lathes Precitech Nanoform 200, 350 and 700, from \
             Precitech's table of servo tools (AZoM, article 11751): 10 mm travel at 2 Hz, \
-            bandwidth 70 Hz. Derived: velocity and acceleration of a sine of 5 mm at 2 Hz, a \
-            motion that it makes, so it may do more; jerk of that acceleration at 70 Hz. X and C \
-            are not in the table",
+            bandwidth 70 Hz. Derived: velocity and acceleration of a sine of 5 mm at 2 Hz, which \
+            the servo can follow, so it may reach more; jerk of that acceleration at 70 Hz. X and \
+            C are not in the table",
     },
 ];
 
@@ -80,7 +82,7 @@ impl Preset {
         PRESETS.iter().find(|preset| preset.name == name)
     }
 
-    /// The names of all.
+    /// The names of all presets.
     pub(crate) fn names() -> Vec<&'static str> {
         PRESETS.iter().map(|preset| preset.name).collect()
     }
@@ -103,8 +105,8 @@ mod tests {
     #[test]
     fn a_sine_of_5_mm_at_2_hz_has_these_largest_rates() {
         let z = Preset::named("precitech-sts").expect("a preset").machine.z;
-        let near = |found: Option<f64>, expected: f64| {
-            assert!(found.is_some_and(|found| (found / expected - 1.0).abs() < 1e-3));
+        let near = |value: Option<f64>, expected: f64| {
+            assert!(value.is_some_and(|value| (value / expected - 1.0).abs() < 1e-3));
         };
         near(z.velocity, 62.83);
         near(z.acceleration, 789.6);

@@ -1,54 +1,61 @@
-//! Reads the keys of one table, and collects what is wrong with them.
+//! Reads the keys of one table and collects the messages about them.
 
 use turnpath_core::Quantity;
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Node, Table, Value};
-use crate::place::{Located, Place};
+use crate::span::{Span, Spanned};
 use crate::suggest::{did_you_mean, listed, quoted};
-use crate::tables::SCHEMA;
 use crate::value;
 
-/// One table of the recipe, there or not, and the messages so far.
+/// Tables and their fixed keys.
+pub(crate) type Schema = &'static [(&'static str, &'static [&'static str])];
+
+/// One table of the recipe, which may be missing, and the messages so far.
 pub(crate) struct Section<'a> {
     /// `tool`; empty for the keys above the first table.
     pub(crate) name: &'static str,
-    /// Its keys; none if the recipe has no such table.
+    /// The keys of the table; `None` if the recipe has no such table.
     pub(crate) table: Option<&'a Table>,
-    /// Its header; the recipe as a whole if there is none.
-    pub(crate) place: Place,
-    /// Whether there is no such table, but an unknown one of nearly its name.
+    /// The header of the table; the recipe as a whole if there is no header.
+    pub(crate) span: Span,
+    /// Whether the recipe has an unknown table with nearly this name instead.
     pub(crate) misspelt: bool,
-    /// What was found wrong.
-    pub(crate) found: &'a mut Vec<Diagnostic>,
+    /// The tables with fixed keys.
+    pub(crate) schema: Schema,
+    /// The messages so far.
+    pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
 }
 
 /// A recipe whose tables are read one after the other.
 pub(crate) struct Sections<'a> {
     pub(crate) root: &'a Table,
     /// The recipe as a whole.
-    pub(crate) whole: &'a Place,
-    /// What was found wrong.
-    pub(crate) found: &'a mut Vec<Diagnostic>,
+    pub(crate) whole: &'a Span,
+    /// The tables with fixed keys.
+    pub(crate) schema: Schema,
+    /// The messages so far.
+    pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
 }
 
 impl Sections<'_> {
     /// The keys above the first table.
     pub(crate) fn top(&mut self) -> Section<'_> {
-        let place = self.whole.clone();
+        let span = self.whole.clone();
         Section {
             name: "",
             table: Some(self.root),
-            place,
+            span,
             misspelt: false,
-            found: self.found,
+            schema: self.schema,
+            diagnostics: self.diagnostics,
         }
     }
 
-    /// A table by its name, `output` or `output.pmac-pvt`; it may be missing.
+    /// A table by its name, `output` or `output.pmac-pvt`. The recipe need not have it.
     pub(crate) fn open(&mut self, name: &'static str) -> Section<'_> {
         let entry = self.root.find(name.split('.'));
-        let place = entry.map_or(self.whole, |entry| &entry.node.place).clone();
+        let span = entry.map_or(self.whole, |entry| &entry.node.span).clone();
         let table = match entry.map(|entry| &entry.node.value) {
             Some(Value::Table(table)) => Some(table),
             _ => None,
@@ -57,9 +64,10 @@ impl Sections<'_> {
         Section {
             name,
             table,
-            place,
+            span,
             misspelt,
-            found: self.found,
+            schema: self.schema,
+            diagnostics: self.diagnostics,
         }
     }
 }
@@ -69,7 +77,7 @@ impl Sections<'_> {
 pub(crate) struct Bound {
     /// Whether it holds.
     pub(crate) holds: fn(f64) -> bool,
-    /// "above zero".
+    /// The condition in words: "above zero".
     pub(crate) words: &'static str,
 }
 
@@ -85,126 +93,127 @@ pub(crate) const NOT_NEGATIVE: Bound = Bound {
 };
 
 impl<'a> Section<'a> {
-    /// The value under a key, if it is there.
+    /// The value under a key, if the recipe has the key.
     pub(crate) fn node(&self, key: &str) -> Option<&'a Node> {
         self.table?.get(key).map(|entry| &entry.node)
     }
 
-    /// Whether the name stands for a value that is no table, which was complained about.
+    /// Whether the recipe has a value of another kind under the table's name. Another message
+    /// reports that value.
     pub(crate) fn is_something_else(&self) -> bool {
-        self.table.is_none() && !self.place.is_whole()
+        self.table.is_none() && !self.span.is_whole()
     }
 
-    /// Complains if the name of a table within a table stands for something else.
-    pub(crate) fn is_table(&mut self) {
+    /// Reports a value of another kind under the name of a table within a table.
+    pub(crate) fn report_unless_table(&mut self) {
         if self.is_something_else() {
             let title = format!("`{}` must be a table", self.name);
-            let diagnostic = Diagnostic::new(self.place.clone(), title).help(format!(
+            let diagnostic = Diagnostic::new(self.span.clone(), title).with_help(format!(
                 "write the line [{}], and its keys below it",
                 self.name
             ));
-            self.complain(diagnostic);
+            self.report(diagnostic);
         }
     }
 
-    /// Takes a complaint.
-    pub(crate) fn complain(&mut self, diagnostic: Diagnostic) {
-        self.found.push(diagnostic);
+    /// Adds a message.
+    pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
     }
 
-    fn keep<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
-        result.map_err(|diagnostic| self.complain(diagnostic)).ok()
+    fn ok_or_report<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
+        result.map_err(|diagnostic| self.report(diagnostic)).ok()
     }
 
     fn at<T>(
         &mut self,
         key: &str,
         read: impl FnOnce(&'a Node) -> Result<T, Diagnostic>,
-    ) -> Option<Located<T>> {
+    ) -> Option<Spanned<T>> {
         let node = self.node(key)?;
-        let value = self.keep(read(node))?;
-        Some(Located {
+        let value = self.ok_or_report(read(node))?;
+        Some(Spanned {
             value,
-            place: node.place.clone(),
+            span: node.span.clone(),
         })
     }
 
-    /// A quantity within a bound, if the key is there and right.
+    /// A quantity within a bound; `None` if the key is missing or its value is wrong.
     pub(crate) fn quantity(
         &mut self,
         key: &str,
         kind: Quantity,
         bound: Bound,
-    ) -> Option<Located<f64>> {
-        self.quantity_like(key, kind, bound, kind.example())
+    ) -> Option<Spanned<f64>> {
+        self.quantity_with_example(key, kind, bound, kind.example())
     }
 
-    fn quantity_like(
+    fn quantity_with_example(
         &mut self,
         key: &str,
         kind: Quantity,
         bound: Bound,
         example: &str,
-    ) -> Option<Located<f64>> {
+    ) -> Option<Spanned<f64>> {
         let read = self.at(key, |node| value::quantity(key, node, kind, example))?;
         if (bound.holds)(read.value) {
             return Some(read);
         }
         let title = format!("`{key}` must be {}", bound.words);
         let label = format!("not {}", bound.words);
-        self.complain(Diagnostic::new(read.place, title).label(label));
+        self.report(Diagnostic::new(read.span, title).with_label(label));
         None
     }
 
-    /// A quantity that the recipe must give; `example` is a value that would do.
+    /// A quantity that the recipe must give; `example` is a value that would be right.
     pub(crate) fn required_quantity(
         &mut self,
         key: &str,
         kind: Quantity,
         bound: Bound,
         example: &str,
-    ) -> Option<Located<f64>> {
+    ) -> Option<Spanned<f64>> {
         let there = self.table.is_none_or(|table| table.has_like(key));
         if !there {
             self.missing(key, &format!("\"{example}\""));
         }
-        self.quantity_like(key, kind, bound, example)
+        self.quantity_with_example(key, kind, bound, example)
     }
 
-    /// A pure number, if the key is there and right.
-    pub(crate) fn number(&mut self, key: &str) -> Option<Located<f64>> {
+    /// A pure number; `None` if the key is missing or its value is wrong.
+    pub(crate) fn number(&mut self, key: &str) -> Option<Spanned<f64>> {
         self.at(key, |node| value::number(key, node))
     }
 
-    /// A flag, if the key is there and right.
-    pub(crate) fn flag(&mut self, key: &str) -> Option<Located<bool>> {
+    /// A flag; `None` if the key is missing or its value is wrong.
+    pub(crate) fn flag(&mut self, key: &str) -> Option<Spanned<bool>> {
         self.at(key, |node| value::flag(key, node))
     }
 
-    /// A string, if the key is there and right.
-    pub(crate) fn text(&mut self, key: &str) -> Option<Located<String>> {
+    /// A string; `None` if the key is missing or its value is wrong.
+    pub(crate) fn text(&mut self, key: &str) -> Option<Spanned<String>> {
         self.at(key, |node| value::text(key, node).map(str::to_owned))
     }
 
-    /// One of some words, if the key is there and right.
-    pub(crate) fn word<'w>(&mut self, key: &str, words: &[&'w str]) -> Option<Located<&'w str>> {
+    /// One of the allowed words; `None` if the key is missing or its value is wrong.
+    pub(crate) fn word<'w>(&mut self, key: &str, words: &[&'w str]) -> Option<Spanned<&'w str>> {
         self.at(key, |node| value::word(key, node, words))
     }
 
-    /// The items of a list of strings, those that are right.
-    pub(crate) fn texts(&mut self, key: &str) -> Option<Vec<Located<String>>> {
+    /// The items of a list that are strings. Each other item is reported.
+    pub(crate) fn texts(&mut self, key: &str) -> Option<Vec<Spanned<String>>> {
         let nodes = self.at(key, |node| value::items(key, node))?.value;
         let item = |node: &Node| {
-            let value = self.keep(value::text(key, node))?.to_owned();
-            Some(Located {
+            let value = self.ok_or_report(value::text(key, node))?.to_owned();
+            Some(Spanned {
                 value,
-                place: node.place.clone(),
+                span: node.span.clone(),
             })
         };
         Some(nodes.iter().filter_map(item).collect())
     }
 
-    /// Complains that a key is missing; `example` is its value as it would be written.
+    /// Reports a missing key; `example` is a value as the recipe would have it.
     pub(crate) fn missing(&mut self, key: &str, example: &str) {
         let (title, to) = if self.name.is_empty() {
             (format!("the recipe lacks `{key}`"), String::new())
@@ -214,15 +223,15 @@ impl<'a> Section<'a> {
                 format!(" to [{}]", self.name),
             )
         };
-        let mut diagnostic = Diagnostic::new(self.place.clone(), title)
-            .help(format!("add{to} a line such as: {key} = {example}"));
+        let mut diagnostic = Diagnostic::new(self.span.clone(), title)
+            .with_help(format!("add{to} a line such as: {key} = {example}"));
         if !self.name.is_empty() {
-            diagnostic = diagnostic.label(format!("`{key}` must be given"));
+            diagnostic = diagnostic.with_label(format!("`{key}` must be given"));
         }
-        self.complain(diagnostic);
+        self.report(diagnostic);
     }
 
-    /// Complains that the whole table is missing; `example` is a line that it would hold.
+    /// Reports a missing table; `example` is a line that the table could have.
     pub(crate) fn missing_table(&mut self, example: &str) {
         if self.is_something_else() || self.misspelt {
             return;
@@ -232,36 +241,39 @@ impl<'a> Section<'a> {
             "add the line [{}] and below it, for example: {example}",
             self.name
         );
-        let diagnostic = Diagnostic::new(self.place.clone(), title).help(help);
-        self.complain(diagnostic);
+        let diagnostic = Diagnostic::new(self.span.clone(), title).with_help(help);
+        self.report(diagnostic);
     }
 
-    /// Complains about each key that is not among the known ones.
-    pub(crate) fn only(&mut self, known: &[&str]) {
+    /// Reports each key that is not a known one.
+    pub(crate) fn report_unknown_keys(&mut self, known: &[&str]) {
         let entries = self.table.map_or(&[][..], Table::entries);
-        let strange = entries
+        let unknown = entries
             .iter()
             .filter(|entry| !known.contains(&entry.key.as_str()));
-        for entry in strange {
+        for entry in unknown {
             let diagnostic = self.unknown_key(entry, known);
-            self.complain(diagnostic);
+            self.report(diagnostic);
         }
     }
 
     fn unknown_key(&self, entry: &Entry, known: &[&str]) -> Diagnostic {
         let key = entry.key.as_str();
         let title = format!("[{}] has no key {}", self.name, quoted(key));
-        let elsewhere = || tables_with(key).map(|tables| format!("`{key}` belongs to {tables}"));
-        Diagnostic::new(entry.place.clone(), title)
-            .label("unknown key")
-            .helps(did_you_mean(key, known).or_else(elsewhere))
-            .help(format!("keys of [{}]: {}", self.name, listed(known)))
+        let elsewhere = || {
+            self.tables_with(key)
+                .map(|tables| format!("`{key}` belongs to {tables}"))
+        };
+        Diagnostic::new(entry.span.clone(), title)
+            .with_label("unknown key")
+            .with_helps(did_you_mean(key, known).or_else(elsewhere))
+            .with_help(format!("keys of [{}]: {}", self.name, listed(known)))
     }
-}
 
-/// The tables that have such a key, "[part]".
-pub(crate) fn tables_with(key: &str) -> Option<String> {
-    let with_key = SCHEMA.iter().filter(|(_, keys)| keys.contains(&key));
-    let names: Vec<String> = with_key.map(|(table, _)| format!("[{table}]")).collect();
-    (!names.is_empty()).then(|| names.join(" or "))
+    /// The tables that have such a key: "[part]", or "[part] or [path]".
+    pub(crate) fn tables_with(&self, key: &str) -> Option<String> {
+        let with_key = self.schema.iter().filter(|(_, keys)| keys.contains(&key));
+        let names: Vec<String> = with_key.map(|(table, _)| format!("[{table}]")).collect();
+        (!names.is_empty()).then(|| names.join(" or "))
+    }
 }

@@ -1,4 +1,4 @@
-//! A whole recipe: read, checked, and ready for the stages to ask.
+//! A whole recipe: its values, read and checked.
 
 use std::fs::File;
 use std::io::Read;
@@ -11,54 +11,56 @@ use turnpath_core::{Direction, Machine, Overrun, Part, Servo, Slot, Tolerance, T
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Reader, Table};
-use crate::place::{Located, Place, Source};
 use crate::presets::Preset;
 use crate::read::Sections;
 use crate::set;
+use crate::span::{Source, Span, Spanned};
 use crate::tables::{self, Output, PmacPvt};
 
-/// Largest recipe, in bytes; a hundred times any that a person writes.
+/// Largest recipe, in bytes: a hundred times as much as a person writes.
 const LARGEST: u64 = 1 << 20;
 
 /// A recipe. Lengths in mm, angles in rad.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recipe {
-    /// The job's name; the file's stem if it has none.
+    /// The job's name; the stem of the file if the recipe gives no name.
     pub name: String,
-    /// What is cut.
+    /// The part.
     pub part: Part,
-    /// With what.
+    /// The tool.
     pub tool: Tool,
-    /// How exactly.
+    /// The tolerances.
     pub tolerance: Tolerance,
     /// Speed of the spindle, rad/s.
     pub spindle_speed: f64,
-    /// What the machine can do; no limits unless the recipe says so.
+    /// The limits of the machine; there are none unless the recipe gives them.
     pub machine: Machine,
-    /// The machine that the recipe names; its own limits go before those of the preset.
+    /// The machine that the recipe names. Limits that the recipe gives itself replace those of the
+    /// preset.
     pub preset: Option<&'static Preset>,
-    /// How its axes answer, where the recipe asks what that comes to.
+    /// How the machine's axes follow their commands, if the recipe has `[servo]`.
     pub servo: Option<Servo>,
-    /// Which way the tool feeds.
+    /// The direction of the feed.
     pub direction: Direction,
     /// How far the path runs beyond the aperture.
     pub overrun: Overrun,
     /// Whether the path runs from rest to rest.
     pub lead: bool,
-    /// How far it rests above the highest place of the part, mm.
+    /// Height of the rest positions above the highest point of the part, mm.
     pub clearance: f64,
-    /// Whether segments whose error exceeds the tolerance are halved. `place("refine")` tells
-    /// whether the recipe says so itself.
+    /// Whether segments whose error exceeds the tolerance are halved. `span("refine")` is `Some` if
+    /// the recipe gives the key itself.
     pub refine: bool,
     /// The files to write.
     pub output: Output,
-    /// How the post `pmac-pvt` lays out its programs.
+    /// The layout of the programs of the post `pmac-pvt`.
     pub pmac_pvt: PmacPvt,
-    /// Folders and libraries to take plugins from, as written, relative to the recipe.
-    pub plugins: Vec<Located<String>>,
+    /// Folders and libraries to load plugins from, as the recipe gives them, relative to the recipe.
+    pub plugins: Vec<Spanned<String>>,
     choices: [Choice; 5],
     document: Table,
-    whole: Place,
+    sets: Vec<String>,
+    whole: Span,
     path: PathBuf,
 }
 
@@ -66,11 +68,12 @@ pub struct Recipe {
 #[derive(Debug, thiserror::Error)]
 pub enum RecipeError {
     /// The file could not be read.
-    #[error("cannot read the recipe {}: {problem}", path.display())]
+    #[error("cannot read the recipe {}", path.display())]
     File {
         /// The path as the user gave it.
         path: PathBuf,
         /// Why.
+        #[source]
         problem: FileProblem,
     },
     /// The recipe, or a `--set`, is wrong.
@@ -81,41 +84,38 @@ pub enum RecipeError {
 /// Why a file could not be read as a recipe.
 #[derive(Debug, thiserror::Error)]
 pub enum FileProblem {
-    /// The system says why.
-    #[error("{0}")]
+    /// The system could not read it.
+    #[error(transparent)]
     Io(#[from] std::io::Error),
     /// It is a folder.
     #[error("it is a folder; give the file in it")]
     Folder,
-    /// It is no text.
+    /// It is not UTF-8 text.
     #[error("it is not UTF-8 text (line {line})")]
     NotText {
-        /// The first line that is none, counted from 1.
+        /// The first line that is not UTF-8, counted from 1.
         line: usize,
     },
     /// It is far larger than any recipe.
-    #[error("it is larger than 1 MiB, which no recipe is")]
+    #[error("it is larger than 1 MiB, the largest that a recipe may be")]
     TooLarge,
 }
 
 impl RecipeError {
-    /// The messages as the user sees them; `color` for a terminal.
+    /// The messages as the user sees them; `color` adds the colours of a terminal.
     pub fn render(&self, color: bool) -> String {
         match self {
             Self::Wrong(diagnostics) => diagnostics.render(color),
-            Self::File { .. } => Diagnostic {
-                title: self.to_string(),
-                place: None,
-                label: String::new(),
-                help: Vec::new(),
-            }
-            .render(color),
+            Self::File { .. } => Diagnostic::from_error(self).render(color),
         }
     }
 }
 
 impl Recipe {
     /// Reads a recipe's file and applies `--set` arguments.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or the recipe or an argument is wrong.
     pub fn load(path: impl AsRef<Path>, sets: &[String]) -> Result<Self, RecipeError> {
         let path = path.as_ref();
         let text = read_text(path).map_err(|problem| RecipeError::File {
@@ -125,7 +125,11 @@ impl Recipe {
         Self::parse(&text, path, sets)
     }
 
-    /// Reads a recipe's text; messages and relative files refer to `path`.
+    /// Reads a recipe's text and applies `--set` arguments. Messages name `path`, and files that the
+    /// recipe names are relative to it.
+    ///
+    /// # Errors
+    /// When the recipe or an argument is wrong.
     pub fn parse(text: &str, path: impl AsRef<Path>, sets: &[String]) -> Result<Self, RecipeError> {
         let path = path.as_ref();
         let name = path.display().to_string();
@@ -135,11 +139,58 @@ impl Recipe {
             rank: 0,
         });
         let mut document = read_document(&source)?;
-        let mut found = Vec::new();
-        set::apply(&mut document, sets, &mut found);
-        let whole = Place::whole(source);
-        let recipe = build(document, whole, path, &mut found);
-        Ok(Diagnostics::unless_any(recipe, found)?)
+        let mut diagnostics = Vec::new();
+        set::apply_all(&mut document, sets, &mut diagnostics);
+        let whole = Span::whole(source);
+        let recipe = build(document, sets.to_vec(), whole, path, &mut diagnostics);
+        Ok(Diagnostics::unless_any(recipe, diagnostics)?)
+    }
+
+    /// The recipe with one more value, as the argument `--set key=value` gives it: it replaces the
+    /// value under the key, or adds the key.
+    ///
+    /// ```
+    /// # use turnpath_recipe::{Recipe, RecipeError};
+    /// # let text = r#"
+    /// # format = 1
+    /// # part = { aperture = "5 mm" }
+    /// # surface = { use = "astigmatic", k = "0.08 /mm" }
+    /// # tool = { nose_radius = "1 mm" }
+    /// # tolerance = { interpolation = "100 nm", residual = "100 nm" }
+    /// # spindle = { speed = "500 rpm" }
+    /// # feed = { use = "constant", feed = "10 um/rev" }
+    /// # sampler = { use = "equal-angle", step = "6 deg" }
+    /// # compensator = { use = "z-direction" }
+    /// # velocity = { use = "triangle-rotary" }
+    /// # "#;
+    /// let recipe = Recipe::parse(text, "mirror.toml", &[])?;
+    /// let recipe = recipe
+    ///     .set("tolerance.residual", "50 nm")?
+    ///     .set("spindle.speed", "400 rpm")?;
+    /// assert_eq!(recipe.tolerance.residual, 50e-6);
+    /// let sets = ["tolerance.residual=50 nm", "spindle.speed=400 rpm"];
+    /// assert_eq!(recipe.sets(), sets);
+    /// # Ok::<(), RecipeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the key or the value is wrong.
+    pub fn set(mut self, key: &str, value: &str) -> Result<Self, RecipeError> {
+        let rank = self.sets.len() + 1;
+        let argument = set::argument(key, value, rank).map_err(Diagnostics::from)?;
+        let applied = set::apply(&mut self.document, &argument, rank);
+        let mut diagnostics: Vec<Diagnostic> = applied.err().into_iter().collect();
+        self.sets.push(argument);
+        // The document has all values of the text and of the sets before, so it need not be read
+        // again; and a variant of an ablation keeps its own values.
+        let (document, sets) = (self.document, self.sets);
+        let recipe = build(document, sets, self.whole, &self.path, &mut diagnostics);
+        Ok(Diagnostics::unless_any(recipe, diagnostics)?)
+    }
+
+    /// The `--set` arguments that were applied, in their order.
+    pub fn sets(&self) -> &[String] {
+        &self.sets
     }
 
     /// The strategy chosen for a slot.
@@ -153,37 +204,38 @@ impl Recipe {
         }
     }
 
-    /// Where the value under a path of keys stands, `tool.nose_radius`; none if it was left out.
-    pub fn place(&self, path: &str) -> Option<Place> {
+    /// The span of the value under a path of keys, `tool.nose_radius`; `None` if the recipe leaves
+    /// the key out.
+    pub fn span(&self, path: &str) -> Option<Span> {
         self.document
             .find(path.split('.'))
-            .map(|entry| entry.node.place.clone())
+            .map(|entry| entry.node.span.clone())
     }
 
-    /// Where the value under a path of keys stands, else its table, else the recipe as a whole.
-    pub fn nearest_place(&self, path: &str) -> Place {
-        let table = || self.place(path.split('.').next().unwrap_or(path));
-        self.place(path)
+    /// The span of the value under a path of keys, else of its table, else of the recipe as a whole.
+    pub fn nearest_span(&self, path: &str) -> Span {
+        let table = || self.span(path.split('.').next().unwrap_or(path));
+        self.span(path)
             .or_else(table)
             .unwrap_or_else(|| self.whole.clone())
     }
 
-    /// The header of a slot's table.
-    pub fn whole(&self, slot: Slot) -> Place {
-        self.choice(slot).place.clone()
+    /// The span of the header of a slot's table.
+    pub fn table_span(&self, slot: Slot) -> Span {
+        self.choice(slot).span.clone()
     }
 
-    /// All values as they stand in the recipe, `--set` applied.
+    /// All values of the recipe, with the `--set` arguments applied.
     pub fn document(&self) -> &Table {
         &self.document
     }
 
-    /// The recipe as a whole, for messages that have no place in it.
-    pub(crate) fn everywhere(&self) -> &Place {
+    /// The recipe as a whole, for messages about no single value.
+    pub(crate) fn whole(&self) -> &Span {
         &self.whole
     }
 
-    /// The recipe's text as it stands in its file.
+    /// The recipe's text, without the `--set` arguments.
     pub fn text(&self) -> &str {
         &self.whole.source().text
     }
@@ -198,7 +250,7 @@ impl Recipe {
         stem(&self.path)
     }
 
-    /// The name as that of one folder: separators and control characters become hyphens.
+    /// The recipe's name as the name of a folder: separators and control characters become hyphens.
     pub fn folder_name(&self) -> String {
         let name: String = self.name.trim().chars().map(folder_char).collect();
         match name.strip_prefix('.') {
@@ -207,24 +259,26 @@ impl Recipe {
         }
     }
 
-    /// A file that the recipe names, relative to it.
+    /// The path of a file that the recipe names: relative names start at the recipe's folder.
     pub fn resolve(&self, file: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(file)
     }
 
-    /// A message about a place, for the stages after this one.
-    pub fn complaint(
+    /// A message about a span, for callers that find something wrong later.
+    pub fn diagnostic(
         &self,
-        place: Place,
+        span: Span,
         title: impl Into<String>,
         label: impl Into<String>,
         help: impl IntoIterator<Item = String>,
     ) -> Diagnostic {
-        Diagnostic::new(place, title).label(label).helps(help)
+        Diagnostic::new(span, title)
+            .with_label(label)
+            .with_helps(help)
     }
 }
 
-/// A character that a folder's name may have on every system.
+/// The character if every system allows it in a folder's name, else a hyphen.
 fn folder_char(c: char) -> char {
     if c.is_control() || "/\\:*?\"<>|".contains(c) {
         '-'
@@ -268,27 +322,29 @@ fn read_document(source: &Arc<Source>) -> Result<Table, Diagnostics> {
     match DeTable::parse(&source.text) {
         Ok(table) => Ok(reader.table(table.get_ref())),
         Err(error) => {
-            let place = match error.span() {
-                Some(span) => reader.place(span),
-                None => Place::whole(source.clone()),
+            let span = match error.span() {
+                Some(span) => reader.span(span),
+                None => Span::whole(source.clone()),
             };
             let title = format!("the recipe is not TOML: {}", error.message());
-            Err(Diagnostic::new(place, title).into())
+            Err(Diagnostic::new(span, title).into())
         }
     }
 }
 
-/// A recipe from its values, and what is wrong with them.
+/// Reads a recipe's values and adds a message for each that is wrong.
 pub(crate) fn build(
     document: Table,
-    whole: Place,
+    sets: Vec<String>,
+    whole: Span,
     path: &Path,
-    found: &mut Vec<Diagnostic>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Recipe> {
     let mut sections = Sections {
         root: &document,
         whole: &whole,
-        found,
+        schema: tables::SCHEMA,
+        diagnostics,
     };
     if !tables::format_is_one(&mut sections.top()) {
         return None;
@@ -303,7 +359,7 @@ pub(crate) fn build(
         tables::check_spindle(&mut sections.open("spindle"), speed, &machine.machine);
     }
     let servo = tables::servo(&mut sections.open("servo"), machine.preset);
-    let way = tables::path(&mut sections.open("path"));
+    let path_table = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
     let choices = Slot::ALL.map(|slot| Choice::read(slot, &mut sections.open(slot.key())));
@@ -318,16 +374,17 @@ pub(crate) fn build(
         machine: machine.machine,
         preset: machine.preset,
         servo,
-        direction: way.direction,
-        overrun: way.overrun,
-        lead: way.lead,
-        clearance: way.clearance,
+        direction: path_table.direction,
+        overrun: path_table.overrun,
+        lead: path_table.lead,
+        clearance: path_table.clearance,
         refine: top.refine,
         output,
         pmac_pvt,
         plugins: top.plugins,
         choices: [surface?, feed?, sampler?, compensator?, velocity?],
         document,
+        sets,
         whole,
         path: path.to_owned(),
     })

@@ -6,7 +6,7 @@ use toml::de::DeValue;
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Node, Reader, Table, Value};
-use crate::place::{Place, Source};
+use crate::span::{Source, Span};
 use crate::suggest::quoted;
 
 /// Longest path of keys; no recipe nests deeper.
@@ -14,47 +14,69 @@ const DEEPEST: usize = 8;
 
 /// A value for a key, such as one `--set` argument.
 pub(crate) struct Setting {
-    /// The path to the key, each part with its place.
-    pub(crate) keys: Vec<(String, Place)>,
+    /// The path to the key, each part with its span.
+    pub(crate) keys: Vec<(String, Span)>,
     /// The value.
     pub(crate) node: Node,
 }
 
 /// Applies the arguments in their order, so that a later one wins.
-pub(crate) fn apply(table: &mut Table, sets: &[String], found: &mut Vec<Diagnostic>) {
+pub(crate) fn apply_all(table: &mut Table, sets: &[String], diagnostics: &mut Vec<Diagnostic>) {
     for (index, argument) in sets.iter().enumerate() {
-        let source = Source {
-            name: "--set".to_owned(),
-            text: argument.clone(),
-            rank: index + 1,
-        };
-        let done = take_apart(Arc::new(source)).and_then(|setting| put(table, setting));
-        found.extend(done.err());
+        diagnostics.extend(apply(table, argument, index + 1).err());
     }
 }
 
-fn take_apart(source: Arc<Source>) -> Result<Setting, Diagnostic> {
-    let all = Place::new(source.clone(), 0..source.text.len());
-    let wrong = |title: &str| {
-        Diagnostic::new(all.clone(), title)
-            .help("write it as key.path=value, for example: --set tool.nose_radius=0.5mm")
-    };
+/// Applies one argument, the `rank`-th, counted from 1.
+pub(crate) fn apply(table: &mut Table, argument: &str, rank: usize) -> Result<(), Diagnostic> {
+    put(table, parse(source(argument, rank))?)
+}
+
+/// The argument `key=value`.
+///
+/// # Errors
+/// When the key holds a `=`: the argument would be read as a shorter key.
+pub(crate) fn argument(key: &str, value: &str, rank: usize) -> Result<String, Diagnostic> {
+    let argument = format!("{key}={value}");
+    if key.contains('=') {
+        return Err(wrong(&source(&argument, rank), NO_KEY));
+    }
+    Ok(argument)
+}
+
+const NO_KEY: &str = "this `--set` does not begin with a key";
+
+fn source(argument: &str, rank: usize) -> Arc<Source> {
+    Arc::new(Source {
+        name: "--set".to_owned(),
+        text: argument.to_owned(),
+        rank,
+    })
+}
+
+fn wrong(source: &Arc<Source>, title: &str) -> Diagnostic {
+    let all = Span::new(source.clone(), 0..source.text.len());
+    Diagnostic::new(all, title)
+        .with_help("write it as key.path=value, for example: --set tool.nose_radius=0.5mm")
+}
+
+fn parse(source: Arc<Source>) -> Result<Setting, Diagnostic> {
     let text = &source.text;
     let Some((path, _)) = text.split_once('=') else {
-        return Err(wrong("this `--set` has no `=`"));
+        return Err(wrong(&source, "this `--set` has no `=`"));
     };
     let keys = keys(&source, path);
     if keys.iter().any(|(key, _)| !is_key(key)) {
-        return Err(wrong("this `--set` does not begin with a key"));
+        return Err(wrong(&source, NO_KEY));
     }
     if keys.len() > DEEPEST {
-        return Err(wrong("the path of this `--set` is too long"));
+        return Err(wrong(&source, "the path of this `--set` is too long"));
     }
     let node = read_value(&source, path.len() + 1);
     Ok(Setting { keys, node })
 }
 
-fn keys(source: &Arc<Source>, path: &str) -> Vec<(String, Place)> {
+fn keys(source: &Arc<Source>, path: &str) -> Vec<(String, Span)> {
     let mut start = 0;
     let mut keys = Vec::new();
     for part in path.split('.') {
@@ -62,7 +84,7 @@ fn keys(source: &Arc<Source>, path: &str) -> Vec<(String, Place)> {
         let from = start + (part.len() - part.trim_start().len());
         keys.push((
             key.to_owned(),
-            Place::new(source.clone(), from..from + key.len()),
+            Span::new(source.clone(), from..from + key.len()),
         ));
         start += part.len() + 1;
     }
@@ -74,7 +96,7 @@ fn is_key(text: &str) -> bool {
     !text.is_empty() && text.chars().all(bare)
 }
 
-/// The value as TOML, else as a string.
+/// The value as TOML if it is TOML, else as a string.
 fn read_value(source: &Arc<Source>, start: usize) -> Node {
     let after = source.text.get(start..).unwrap_or("");
     let text = after.trim();
@@ -87,25 +109,25 @@ fn read_value(source: &Arc<Source>, start: usize) -> Node {
         Ok(value) => reader.node(&value),
         Err(_) => Node {
             value: Value::Text(text.to_owned()),
-            place: reader.place(0..text.len()),
+            span: reader.span(0..text.len()),
         },
     }
 }
 
-/// Puts the value in the place of the key's own, or adds the key.
+/// Replaces the key's value, or adds the key.
 pub(crate) fn put(table: &mut Table, setting: Setting) -> Result<(), Diagnostic> {
     let mut keys = setting.keys.into_iter();
-    let Some((mut key, mut place)) = keys.next() else {
+    let Some((mut key, mut span)) = keys.next() else {
         return Ok(());
     };
     let mut table = table;
-    for (next_key, next_place) in keys {
-        table = inner_table(table, &key, &place)?;
-        (key, place) = (next_key, next_place);
+    for (next_key, next_span) in keys {
+        table = inner_table(table, &key, &span)?;
+        (key, span) = (next_key, next_span);
     }
     table.put(Entry {
         key,
-        place,
+        span,
         node: setting.node,
     });
     Ok(())
@@ -114,16 +136,16 @@ pub(crate) fn put(table: &mut Table, setting: Setting) -> Result<(), Diagnostic>
 fn inner_table<'t>(
     table: &'t mut Table,
     key: &str,
-    place: &Place,
+    span: &Span,
 ) -> Result<&'t mut Table, Diagnostic> {
     if table.get(key).is_none() {
         let node = Node {
             value: Value::Table(Table::default()),
-            place: place.clone(),
+            span: span.clone(),
         };
         table.put(Entry {
             key: key.to_owned(),
-            place: place.clone(),
+            span: span.clone(),
             node,
         });
     }
@@ -131,7 +153,8 @@ fn inner_table<'t>(
         Some(Value::Table(inner)) => Ok(inner),
         _ => {
             let title = format!("{} is not a table", quoted(key));
-            Err(Diagnostic::new(place.clone(), title).label("has a value, not keys of its own"))
+            let label = "this key has a value, not keys of its own";
+            Err(Diagnostic::new(span.clone(), title).with_label(label))
         }
     }
 }

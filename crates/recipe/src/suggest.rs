@@ -1,6 +1,6 @@
-//! "Did you mean", and lists of what is known.
+//! Suggestions for misspelt words, and lists of known words.
 
-/// The known word closest to a misspelt one, if one is close.
+/// The known word that is closest to a misspelt one, if any is close.
 pub(crate) fn closest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let tidy = |text: &str| text.to_lowercase().replace(['_', ' '], "-");
     let word = tidy(word);
@@ -13,7 +13,7 @@ pub(crate) fn closest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .map(|(_, name)| name)
 }
 
-/// Whether a written key is close to the right one.
+/// Whether a key looks like a misspelling of the right one.
 pub(crate) fn is_misspelt(written: &str, right: &str) -> bool {
     closest(written, &[right]).is_some()
 }
@@ -29,7 +29,7 @@ pub(crate) fn listed(words: &[&str]) -> String {
     quoted.join(", ")
 }
 
-/// A text of the recipe in backticks, cut if it is long.
+/// A text of the recipe in backticks, shortened if it is long.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 60;
     if text.chars().count() <= LONGEST {

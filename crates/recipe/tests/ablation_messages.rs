@@ -8,7 +8,7 @@ use common::FULL;
 use turnpath_recipe::Recipe;
 
 /// The message for other lines below `[ablation]`.
-fn said(lines: &str) -> String {
+fn message(lines: &str) -> String {
     let (before, _) = FULL.split_once("[ablation]").unwrap();
     let recipe = Recipe::parse(&format!("{before}{lines}\n"), "jobs/mirror.toml", &[]).unwrap();
     recipe.variants().unwrap_err().render(false)
@@ -18,7 +18,7 @@ macro_rules! says {
     ($($name:ident: $lines:expr;)*) => {$(
         #[test]
         fn $name() {
-            insta::assert_snapshot!(said(&format!("[ablation]\n{}", $lines)));
+            insta::assert_snapshot!(message(&format!("[ablation]\n{}", $lines)));
         }
     )*};
 }
@@ -46,5 +46,5 @@ says! {
 
 #[test]
 fn no_table() {
-    insta::assert_snapshot!(said(""));
+    insta::assert_snapshot!(message(""));
 }

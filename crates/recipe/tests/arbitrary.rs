@@ -1,4 +1,4 @@
-//! No text, however odd, makes the reader panic, and every refusal says something.
+//! No text makes the reader panic, and every refusal has a message.
 
 #![allow(clippy::unwrap_used, reason = "an unwrap in a helper is a failed test")]
 
@@ -9,19 +9,19 @@ use proptest::prelude::*;
 use turnpath_core::Quantity;
 use turnpath_recipe::{Recipe, RecipeError};
 
-fn survives(text: &str, sets: &[String]) {
+fn reads_without_panic(text: &str, sets: &[String]) {
     match Recipe::parse(text, "odd.toml", sets) {
         Ok(_) => {}
-        Err(RecipeError::Wrong(found)) => {
-            assert!(found.iter().count() > 0);
-            assert!(found.render(false).starts_with("error"));
-            assert!(found.render(true).len() > 5);
+        Err(RecipeError::Wrong(messages)) => {
+            assert!(messages.iter().count() > 0);
+            assert!(messages.render(false).starts_with("error"));
+            assert!(messages.render(true).len() > 5);
         }
         Err(error) => panic!("{error}"),
     }
 }
 
-/// The full recipe with a stretch of it replaced.
+/// The full recipe with some of its bytes replaced.
 fn mutated(start: usize, length: usize, new: &str) -> String {
     let border = |at: usize| {
         (0..=at.min(FULL.len()))
@@ -37,23 +37,23 @@ proptest! {
 
     #[test]
     fn any_text(text in "\\PC{0,200}", set in "\\PC{0,40}") {
-        survives(&text, &[set]);
+        reads_without_panic(&text, &[set]);
     }
 
     #[test]
     fn toml_like_text(text in "([a-z]{1,6}( = |\\.|\\]\n|\n\\[)(\"[0-9]{1,3} ?m?m?\"|[0-9]\n|\\[|\\{)?){0,20}") {
-        survives(&text, &[]);
+        reads_without_panic(&text, &[]);
     }
 
     #[test]
     fn mutated_recipe(start in 0..900usize, length in 0..30usize, new in "[ -~\n\r\u{0}é]{0,12}") {
-        survives(&mutated(start, length, &new), &[]);
+        reads_without_panic(&mutated(start, length, &new), &[]);
     }
 
     #[test]
     fn lines_left_out(kept in prop::collection::vec(prop::bool::weighted(0.9), 64)) {
         let lines = FULL.lines().zip(kept).filter(|(_, kept)| *kept).map(|(line, _)| line);
-        survives(&lines.collect::<Vec<_>>().join("\n"), &[]);
+        reads_without_panic(&lines.collect::<Vec<_>>().join("\n"), &[]);
     }
 
     #[test]
@@ -61,7 +61,7 @@ proptest! {
         key in "(tool|part|sampler|name|path|output|format)(\\.[a-z_]{1,6}){0,3}",
         value in "(-?[0-9]{1,3} ?(mm|nm|deg|s|µm)?|\\[.{0,6}\\]?|\\{.{0,9}\\}?|true|\\PC{0,9})",
     ) {
-        survives(FULL, &[format!("{key}={value}")]);
+        reads_without_panic(FULL, &[format!("{key}={value}")]);
     }
 
     #[test]
@@ -70,7 +70,7 @@ proptest! {
             Some((key, _)) if index == line => format!("{key} = {value}"),
             _ => text.to_owned(),
         };
-        survives(&FULL.lines().enumerate().map(replace).collect::<Vec<_>>().join("\n"), &[]);
+        reads_without_panic(&FULL.lines().enumerate().map(replace).collect::<Vec<_>>().join("\n"), &[]);
     }
 
     #[test]

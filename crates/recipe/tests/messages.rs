@@ -8,7 +8,7 @@ use common::FULL;
 use turnpath_core::{DEG, Param, Slot, StrategyInfo};
 use turnpath_recipe::Recipe;
 
-fn said(text: &str, sets: &[&str]) -> String {
+fn message(text: &str, sets: &[&str]) -> String {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     Recipe::parse(text, "jobs/mirror.toml", &sets)
         .unwrap_err()
@@ -17,7 +17,7 @@ fn said(text: &str, sets: &[&str]) -> String {
 
 fn with(old: &str, new: &str) -> String {
     assert!(FULL.contains(old), "{old}");
-    said(&FULL.replacen(old, new, 1), &[])
+    message(&FULL.replacen(old, new, 1), &[])
 }
 
 macro_rules! says {
@@ -115,48 +115,51 @@ fn several_mistakes_at_once_in_the_order_of_the_text() {
         .replace("\"500 rpm\"", "\"0 rpm\"")
         .replace("[part]\naperture = \"5 mm\"", "[part]\napertur = \"5 mm\"")
         .replace("refine = true", "refne = true");
-    insta::assert_snapshot!(said(&text, &["tool.nose_radius=1 s"]));
+    insta::assert_snapshot!(message(&text, &["tool.nose_radius=1 s"]));
 }
 
 #[test]
 fn table_not_a_table() {
     let text = FULL.replace("[spindle]\nspeed = \"500 rpm\"\n", "");
-    insta::assert_snapshot!(said(&format!("spindle = \"500 rpm\"\n{text}"), &["path=3"]));
+    insta::assert_snapshot!(message(
+        &format!("spindle = \"500 rpm\"\n{text}"),
+        &["path=3"]
+    ));
 }
 
 #[test]
 fn empty_recipe() {
-    insta::assert_snapshot!(said("", &[]));
+    insta::assert_snapshot!(message("", &[]));
 }
 
 #[test]
 fn set_with_a_wrong_unit() {
-    insta::assert_snapshot!(said(FULL, &["tool.nose_radius=0.5 kg"]));
+    insta::assert_snapshot!(message(FULL, &["tool.nose_radius=0.5 kg"]));
 }
 
 #[test]
 fn set_of_an_unknown_key() {
-    insta::assert_snapshot!(said(FULL, &["tool.nose=1mm"]));
+    insta::assert_snapshot!(message(FULL, &["tool.nose=1mm"]));
 }
 
 #[test]
 fn set_without_a_value() {
-    insta::assert_snapshot!(said(FULL, &["tool.nose_radius"]));
+    insta::assert_snapshot!(message(FULL, &["tool.nose_radius"]));
 }
 
 #[test]
 fn set_without_a_key() {
-    insta::assert_snapshot!(said(FULL, &["tool..nose_radius=3", "=3"]));
+    insta::assert_snapshot!(message(FULL, &["tool..nose_radius=3", "=3"]));
 }
 
 #[test]
 fn set_below_a_value() {
-    insta::assert_snapshot!(said(FULL, &["tool.nose_radius.x=3"]));
+    insta::assert_snapshot!(message(FULL, &["tool.nose_radius.x=3"]));
 }
 
 #[test]
-fn set_below_a_value_is_no_reason_for_more() {
-    assert_eq!(said(FULL, &["name.x=3"]).matches("error").count(), 1);
+fn set_below_a_value_gives_one_message() {
+    assert_eq!(message(FULL, &["name.x=3"]).matches("error").count(), 1);
 }
 
 #[test]
@@ -193,7 +196,7 @@ const SAMPLER: StrategyInfo = StrategyInfo {
     params: PARAMS,
 };
 
-fn bind_said(lines: &str) -> String {
+fn bind_message(lines: &str) -> String {
     let table = format!("[sampler]\nuse = \"waves\"\n{lines}\n");
     let text = FULL.replace("[sampler]\nuse = \"atpg\"\nmax_step = \"45 deg\"\n", &table);
     let recipe = Recipe::parse(&text, "jobs/mirror.toml", &[]).unwrap();
@@ -207,7 +210,7 @@ macro_rules! bind_says {
     ($($name:ident: $lines:expr;)*) => {$(
         #[test]
         fn $name() {
-            insta::assert_snapshot!(bind_said($lines));
+            insta::assert_snapshot!(bind_message($lines));
         }
     )*};
 }
@@ -269,14 +272,14 @@ fn unknown_strategy_and_no_plugin() {
 }
 
 #[test]
-fn complaint_of_a_later_stage() {
+fn message_of_a_later_stage() {
     let recipe = Recipe::parse(FULL, "jobs/mirror.toml", &[]).unwrap();
-    let place = recipe.place("tool.nose_radius").unwrap();
+    let span = recipe.span("tool.nose_radius").unwrap();
     let title = "the tool would gouge: nose radius 1.000 mm exceeds 0.420 mm";
     let help = ["choose a smaller tool or a smaller aperture".to_owned()];
     insta::assert_snapshot!(
         recipe
-            .complaint(place, title, "too large", help)
+            .diagnostic(span, title, "too large", help)
             .render(false)
     );
 }
@@ -294,10 +297,10 @@ fn files_that_cannot_be_read() {
         file("latin.toml", b"format = 1\nname = \"\xe9\"\n"),
         file("large.toml", &vec![b'#'; (1 << 20) + 1]),
     ];
-    let said: Vec<String> = paths
+    let messages: Vec<String> = paths
         .iter()
         .map(|path| Recipe::load(path, &[]).unwrap_err().render(false))
         .map(|text| text.replace(&folder.path().display().to_string(), "DIR"))
         .collect();
-    insta::assert_snapshot!(said.join("\n"));
+    insta::assert_snapshot!(messages.join("\n"));
 }

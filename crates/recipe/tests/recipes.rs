@@ -1,4 +1,4 @@
-//! Recipes that are right: every value read, every place kept, `--set` applied.
+//! Recipes that are right: every value is read and keeps its span, and `--set` is applied.
 
 #![allow(clippy::unwrap_used, reason = "an unwrap in a helper is a failed test")]
 
@@ -21,8 +21,8 @@ fn parse(text: &str, sets: &[&str]) -> Recipe {
 }
 
 fn underlined(recipe: &Recipe, path: &str) -> String {
-    let place = recipe.place(path).unwrap();
-    place.source().text[place.span()].to_owned()
+    let span = recipe.span(path).unwrap();
+    span.source().text[span.range()].to_owned()
 }
 
 fn with_machine(lines: &str) -> Recipe {
@@ -131,7 +131,7 @@ fn what_is_optional_may_be_left_out() {
     assert_eq!(recipe.tool.included_angle, None);
     assert_eq!(recipe.output.data, [DataFormat::Csv]);
     assert!(recipe.refine && recipe.plugins.is_empty());
-    assert_eq!(recipe.place("refine"), None);
+    assert_eq!(recipe.span("refine"), None);
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn words_are_read() {
 }
 
 #[test]
-fn programs_are_laid_out_as_asked_or_well() {
+fn programs_have_the_layout_of_the_recipe_or_the_default() {
     let plain = parse(FULL, &[]).pmac_pvt;
     assert_eq!((plain.position_decimals, plain.velocity_decimals), (7, 7));
     assert!(!plain.per_minute && !plain.c_reversed && !plain.c_wrapped && !plain.incremental);
@@ -155,41 +155,41 @@ fn programs_are_laid_out_as_asked_or_well() {
                  c_wrap = \"0-360\"\npositioning = \"incremental\"\nheader = \"; {name}\"\n";
     let text = FULL.replace("posts = []", "posts = [\"pmac-pvt\"]") + table;
     let recipe = parse(&text, &["output.pmac-pvt.footer=\"M30\""]);
-    let asked = &recipe.pmac_pvt;
-    assert_eq!((asked.position_decimals, asked.velocity_decimals), (6, 5));
-    assert!(asked.per_minute && asked.c_reversed && asked.c_wrapped && asked.incremental);
-    assert_eq!(asked.header.as_ref().unwrap().value, "; {name}");
-    assert_eq!(asked.footer.as_ref().unwrap().value, "M30");
+    let layout = &recipe.pmac_pvt;
+    assert_eq!((layout.position_decimals, layout.velocity_decimals), (6, 5));
+    assert!(layout.per_minute && layout.c_reversed && layout.c_wrapped && layout.incremental);
+    assert_eq!(layout.header.as_ref().unwrap().value, "; {name}");
+    assert_eq!(layout.footer.as_ref().unwrap().value, "M30");
     assert_eq!(recipe.output.posts[0].value, "pmac-pvt");
     assert_eq!(recipe.text(), text);
 }
 
 #[test]
-fn places_are_those_of_the_text() {
+fn spans_are_those_of_the_text() {
     let recipe = parse(FULL, &["velocity.use=area"]);
     assert_eq!(underlined(&recipe, "tool.nose_radius"), "\"1 mm\"");
     assert_eq!(underlined(&recipe, "tool"), "[tool]");
     assert_eq!(underlined(&recipe, "velocity.use"), "area");
     assert_eq!(underlined(&recipe, "refine"), "true");
-    assert_eq!(recipe.place("tool.none"), None);
-    assert_eq!(recipe.place("tool.nose_radius.x"), None);
+    assert_eq!(recipe.span("tool.none"), None);
+    assert_eq!(recipe.span("tool.nose_radius.x"), None);
     assert_eq!(
-        recipe.nearest_place("tool.none"),
-        recipe.place("tool").unwrap()
+        recipe.nearest_span("tool.none"),
+        recipe.span("tool").unwrap()
     );
-    assert!(recipe.nearest_place("none").is_whole());
+    assert!(recipe.nearest_span("none").is_whole());
     assert_eq!(
-        recipe.whole(Slot::Sampler),
-        recipe.place("sampler").unwrap()
+        recipe.table_span(Slot::Sampler),
+        recipe.span("sampler").unwrap()
     );
     let sampler = recipe.choice(Slot::Sampler);
     assert_eq!(
-        sampler.param_place("max_step"),
-        recipe.place("sampler.max_step").unwrap()
+        sampler.param_span("max_step"),
+        recipe.span("sampler.max_step").unwrap()
     );
     assert_eq!(
-        sampler.param_place("step"),
-        recipe.place("sampler.use").unwrap()
+        sampler.param_span("step"),
+        recipe.span("sampler.use").unwrap()
     );
 }
 
@@ -216,7 +216,7 @@ fn the_name_is_safe_as_a_folder() {
 }
 
 #[test]
-fn a_byte_order_mark_moves_no_place() {
+fn a_byte_order_mark_moves_no_span() {
     let recipe = parse(&format!("\u{feff}{FULL}"), &[]);
     assert_eq!(underlined(&recipe, "tool.nose_radius"), "\"1 mm\"");
 }
@@ -268,7 +268,7 @@ fn set_overrides_and_adds_and_the_later_one_wins() {
 }
 
 #[test]
-fn a_lead_is_made_unless_the_recipe_says_otherwise() {
+fn the_path_has_leads_unless_the_recipe_leaves_them_out() {
     let without = FULL.replace("lead = false\n", "");
     let recipe = parse(&without, &["path.clearance=2.5mm"]);
     assert!(recipe.lead);
@@ -287,7 +287,7 @@ fn set_makes_a_table_that_is_missing() {
 }
 
 #[test]
-fn an_overrun_is_a_word_or_a_length_and_contact_unless_given() {
+fn an_overrun_is_a_word_or_a_length_and_defaults_to_contact() {
     let overrun = |set: &str| parse(FULL, &[set, "path.lead=false"]).overrun;
     assert_eq!(overrun("path.overrun=contact"), Overrun::Contact);
     assert_eq!(overrun("path.overrun=250 um"), Overrun::Length(0.25));
@@ -366,4 +366,59 @@ fn nesting_without_end_does_not_crash() {
         // As a `--set`, what is no TOML is a string, here an odd name.
         let _ = Recipe::parse(FULL, "deep.toml", &[text]);
     }
+}
+
+#[test]
+fn a_set_on_a_recipe_is_the_same_as_a_set_on_its_text() {
+    let sets = [
+        "tool.nose_radius=0.5 mm",
+        "refine=false",
+        "path.overrun=250 um",
+    ];
+    let at_once = parse(FULL, &sets);
+    assert_eq!(at_once.sets(), sets);
+    let one_by_one = parse(FULL, &sets[..1])
+        .set("refine", "false")
+        .unwrap()
+        .set("path.overrun", "250 um")
+        .unwrap();
+    assert_eq!(one_by_one, at_once);
+    let error = one_by_one.set("tool.nose_radius", "1 s").unwrap_err();
+    let RecipeError::Wrong(messages) = error else {
+        panic!("{error}");
+    };
+    let spans: Vec<_> = messages.iter().filter_map(|one| one.span()).collect();
+    assert_eq!(spans[0].source().text, "tool.nose_radius=1 s");
+    assert_eq!(spans[0].source().rank, 4);
+}
+
+#[test]
+fn a_set_on_a_variant_keeps_the_variants_values() {
+    let variants = parse(FULL, &[]).variants().unwrap();
+    let variant = variants.last().unwrap().recipe.clone();
+    assert_eq!(variant.choice(Slot::Velocity).name(), "analytic");
+    let changed = variant.set("tolerance.residual", "50 nm").unwrap();
+    assert_eq!(changed.choice(Slot::Velocity).name(), "analytic");
+    assert_eq!(changed.tolerance.residual, 50e-6);
+}
+
+#[test]
+fn a_key_with_an_equals_sign_is_refused() {
+    let error = parse(FULL, &[]).set("name=a", "b").unwrap_err();
+    assert!(error.render(false).contains("name=a=b"), "{error}");
+}
+
+#[test]
+fn errors_have_their_causes_as_sources() {
+    use std::error::Error;
+    let error = Recipe::load("no/such/recipe.toml", &[]).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "cannot read the recipe no/such/recipe.toml"
+    );
+    let source = error.source().unwrap();
+    assert_eq!(
+        error.render(false),
+        format!("error: cannot read the recipe no/such/recipe.toml: {source}")
+    );
 }

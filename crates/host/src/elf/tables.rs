@@ -1,27 +1,27 @@
-//! The tables that the loader follows blindly: sections, segments and the dynamic table must agree,
-//! and none may have a hole, as an unfinished copy has.
+//! The tables that the loader trusts. Sections, segments and the dynamic table must agree, and none
+//! may have a hole, as an unfinished copy has.
 
 use object::elf::{self, DynamicTag};
 use object::read::elf::{Dyn, FileHeader, ProgramHeader, SectionHeader};
 
-use super::{ENDIAN, Elf, Header, Section, Segment};
+use super::headers::{ENDIAN, Elf, Header, Section, Segment};
 use crate::Refusal;
 
 const DISAGREE: Refusal = Refusal::Damaged("its sections and segments disagree");
 const NO_DYNAMIC: Refusal = Refusal::Damaged("its dynamic table does not fit its sections");
 const HOLE: Refusal = Refusal::Damaged("a part of it is empty");
 
-/// File systems and downloads leave out whole blocks of this size, or multiples of it.
+/// File systems and downloads leave out blocks of this size or of a multiple of it.
 const BLOCK: usize = 4096;
-/// Fewer zeros may be padding.
+/// Fewer zeros than this may be padding.
 const SMALL: usize = 256;
 
-/// Every section that will be in memory stands where the segments say, with the rights that it
-/// needs, and those that the loader or the processor reads have no block of zeros in them.
+/// Every section that will be in memory lies where the segments say and has the rights that it
+/// needs. No section that the loader or the processor reads has a block of zeros.
 pub fn check_sections(library: &Elf<'_>) -> Result<(), Refusal> {
     for section in library.sections()? {
         let flags = section.sh_flags(ENDIAN);
-        // Zeroed thread-local data take no place of their own in memory.
+        // Zeroed thread-local data take no memory of their own.
         let template = flags.contains(elf::SHF_TLS) && section.sh_type(ENDIAN) == elf::SHT_NOBITS;
         if !flags.contains(elf::SHF_ALLOC) || template || u64::from(section.sh_size(ENDIAN)) == 0 {
             continue;
@@ -39,29 +39,30 @@ pub fn check_sections(library: &Elf<'_>) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Whether a segment puts a section where the section says, with the rights that it needs.
+/// Whether a segment puts a section at the section's address, with the rights that it needs.
 fn holds(segment: &Segment, section: &Section) -> bool {
     let (file_start, in_file) = segment.file_range(ENDIAN);
     let start = u64::from(segment.p_vaddr(ENDIAN));
     let in_memory = u64::from(segment.p_memsz(ENDIAN));
     let address = u64::from(section.sh_addr(ENDIAN));
-    let Some(place) = address.checked_sub(start) else {
+    let Some(offset_in_segment) = address.checked_sub(start) else {
         return false;
     };
-    let end = place.saturating_add(section.sh_size(ENDIAN).into());
-    let placed = match section.file_range(ENDIAN) {
-        Some((offset, _)) => end <= in_file && file_start.checked_add(place) == Some(offset),
-        None => place >= in_file && end <= in_memory,
+    let end = offset_in_segment.saturating_add(section.sh_size(ENDIAN).into());
+    let fits = match section.file_range(ENDIAN) {
+        Some((offset, _)) => {
+            end <= in_file && file_start.checked_add(offset_in_segment) == Some(offset)
+        }
+        None => offset_in_segment >= in_file && end <= in_memory,
     };
     let (rights, flags) = (segment.p_flags(ENDIAN), section.sh_flags(ENDIAN));
     let may = |needed: bool, right| !needed || rights.contains(right);
-    placed
-        && may(true, elf::PF_R)
+    fits && may(true, elf::PF_R)
         && may(flags.contains(elf::SHF_WRITE), elf::PF_W)
         && may(flags.contains(elf::SHF_EXECINSTR), elf::PF_X)
 }
 
-/// Code, relocations, symbols and their names.
+/// Whether a section holds code, relocations, symbols or their names.
 fn is_never_empty(section: &Section) -> bool {
     let kinds = [
         elf::SHT_RELA,
@@ -73,7 +74,7 @@ fn is_never_empty(section: &Section) -> bool {
         || kinds.contains(&section.sh_type(ENDIAN))
 }
 
-/// Whether one of the file's blocks is all zeros where it belongs to the range.
+/// Whether the range covers a part of a block of the file in which all bytes are zero.
 fn has_hole(bytes: &[u8], offset: u64, size: u64) -> bool {
     let (Ok(start), Ok(size)) = (usize::try_from(offset), usize::try_from(size)) else {
         return false;
@@ -91,7 +92,7 @@ type Rel = <Header as FileHeader>::Rel;
 type Symbol = <Header as FileHeader>::Sym;
 type Entry = <Header as FileHeader>::Dyn;
 
-/// Tables in memory, and where their sizes stand.
+/// Tables in memory, and the entries with their sizes.
 const TABLES: [(DynamicTag, Option<DynamicTag>); 12] = [
     (elf::DT_STRTAB, Some(elf::DT_STRSZ)),
     (elf::DT_SYMTAB, None),
@@ -107,7 +108,7 @@ const TABLES: [(DynamicTag, Option<DynamicTag>); 12] = [
     (elf::DT_FINI_ARRAY, Some(elf::DT_FINI_ARRAYSZ)),
 ];
 
-/// Entries of which each needs the other.
+/// Pairs of entries that need each other.
 const PAIRS: [(DynamicTag, DynamicTag); 10] = [
     (elf::DT_STRTAB, elf::DT_STRSZ),
     (elf::DT_SYMTAB, elf::DT_SYMENT),
@@ -121,7 +122,7 @@ const PAIRS: [(DynamicTag, DynamicTag); 10] = [
     (elf::DT_VERNEED, elf::DT_VERNEEDNUM),
 ];
 
-/// Entries that are the place of a text among the strings.
+/// Entries that are the offset of a text in the table of strings.
 const TEXTS: [DynamicTag; 4] = [
     elf::DT_NEEDED,
     elf::DT_SONAME,
@@ -129,14 +130,14 @@ const TEXTS: [DynamicTag; 4] = [
     elf::DT_RUNPATH,
 ];
 
-/// Sizes of entries, for the tables that have them.
+/// The size of one entry, for the tables that have entries.
 const ENTRIES: [(DynamicTag, DynamicTag, usize); 3] = [
     (elf::DT_SYMTAB, elf::DT_SYMENT, size_of::<Symbol>()),
     (elf::DT_RELA, elf::DT_RELAENT, size_of::<Rela>()),
     (elf::DT_REL, elf::DT_RELENT, size_of::<Rel>()),
 ];
 
-/// The dynamic table is there, and every table that it names is a section, whole.
+/// The library has a dynamic table, and every table that it names is a complete section.
 pub fn check_dynamic(library: &Elf<'_>) -> Result<(), Refusal> {
     let entries = library
         .segments
@@ -161,7 +162,7 @@ pub fn check_dynamic(library: &Elf<'_>) -> Result<(), Refusal> {
     let is_text = |entry: &Entry| {
         !TEXTS.contains(&entry.d_tag(ENDIAN)) || u64::from(entry.d_val(ENDIAN)) < strings
     };
-    // The first relocations, so many, are done without looking at their kind.
+    // The loader does not look at the kind of so many relocations at the beginning.
     let plain = value(elf::DT_RELACOUNT)
         .unwrap_or(0)
         .saturating_mul(size_of::<Rela>() as u64);
@@ -187,7 +188,7 @@ fn is_relocation_kind(kind: Option<u64>) -> bool {
     kind.is_none_or(|kind| kinds.contains(&kind))
 }
 
-/// Whether a table begins where a section begins, and ends where one ends.
+/// Whether a table begins where a section begins and ends where a section ends.
 fn is_whole(sections: &[Section], start: u64, size: Option<u64>) -> bool {
     let mut loaded = sections
         .iter()
@@ -208,7 +209,7 @@ fn is_whole(sections: &[Section], start: u64, size: Option<u64>) -> bool {
     }
 }
 
-/// Whether a function that runs on loading lies in code.
+/// Whether a function that the loader calls lies in a section of code.
 fn is_code(sections: &[Section], function: u64) -> bool {
     sections
         .iter()

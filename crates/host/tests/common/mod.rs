@@ -1,4 +1,4 @@
-//! A small task for strategies to work on, and shorthands for the catalogue.
+//! A small task for strategies, and shorthands for the catalogue.
 #![allow(dead_code, reason = "each test uses what it needs")]
 
 #[path = "../../../../tests/support/fixtures.rs"]
@@ -8,15 +8,22 @@ use std::path::Path as FilePath;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Centres, Compensator, Cut, Direction, Machine, Part, Path, Radial, RadialRange, Result,
-    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Task, Tolerance, Tool, ToolLocus,
+    Centres, Compensator, Cut, Direction, Task, Machine, Part, Path, Radial, RadialRange, Result,
+    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Tolerance, Tool, ToolLocus,
 };
 use turnpath_host::{Catalogue, LoadError};
 
 /// A catalogue with this one file.
 pub fn with_file(file: &FilePath) -> std::result::Result<Catalogue, LoadError> {
-    let mut catalogue = Catalogue::new();
-    catalogue.add_file(file).map(|()| catalogue)
+    Catalogue::new().with_file(file)
+}
+
+/// The text of an error and of its sources, as the program prints it.
+pub fn with_sources(error: &dyn std::error::Error) -> String {
+    match error.source() {
+        Some(source) => format!("{error}: {}", with_sources(source)),
+        None => error.to_string(),
+    }
 }
 
 /// A catalogue with one fixture.
@@ -24,7 +31,7 @@ pub fn with_fixture(package: &str) -> Catalogue {
     with_file(&fixtures::library(package)).unwrap()
 }
 
-/// z = x·y/100, of no crate but this one.
+/// z = x·y/100, a surface of this test alone.
 pub struct Saddle;
 
 impl Surface for Saddle {
@@ -89,12 +96,12 @@ pub fn law() -> SpiralLaw {
     law
 }
 
-/// What the sampler gives for a block of that task.
+/// The nodes that the sampler places in a block of that task.
 pub fn nodes(sampler: &dyn Sampler, start: f64, end: f64) -> Result<Vec<f64>> {
     place_more(sampler, start, end, &mut Vec::new())
 }
 
-/// The same with a state from the block before.
+/// The same with the state that the block before left.
 pub fn place_more(
     sampler: &dyn Sampler,
     start: f64,

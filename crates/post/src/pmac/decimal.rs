@@ -1,15 +1,15 @@
-//! Decimal fixed-point numbers into text.
+//! Writes fixed-point numbers as decimal text.
 
 use std::io::Write;
 
 use super::format::QUANTA_PER_MS;
 
-/// Decimals that a time of whole quanta can have.
+/// The most decimals that a time in whole quanta can have.
 const TIME_DECIMALS: u32 = 12;
-/// 10^12 / 4096, which is whole.
+/// 10^12 / 4096, a whole number.
 const TIME_STEP: i64 = 10i64.pow(TIME_DECIMALS) / QUANTA_PER_MS as i64;
 
-/// Appends `units` · 10^−`decimals`, without zeros at the end.
+/// Appends `units` · 10^−`decimals` without trailing zeros.
 pub(super) fn push(text: &mut Vec<u8>, units: i64, decimals: u32) {
     let (size, one) = (units.unsigned_abs(), 10u64.pow(decimals));
     if units < 0 {
@@ -26,7 +26,7 @@ pub(super) fn push(text: &mut Vec<u8>, units: i64, decimals: u32) {
     }
 }
 
-/// Appends a time as milliseconds, exactly.
+/// Appends a time in milliseconds, exactly.
 pub(super) fn push_ms(text: &mut Vec<u8>, quanta: i64) {
     push(text, quanta * TIME_STEP, TIME_DECIMALS);
 }

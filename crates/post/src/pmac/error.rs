@@ -1,30 +1,30 @@
-//! Why a path cannot be carried by a program.
+//! The errors of a path that a program cannot carry.
 
-/// A path that a PVT program cannot carry, and where.
+/// Why a PVT program cannot carry a path, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PmacError {
     /// A segment takes longer than the controller can count.
     #[error(
         "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes {ms:.4} ms; the controller \
-         counts to 4095.9998 ms"
+         allows 4095.9998 ms at the most"
     )]
     Long {
-        /// Its time, ms.
+        /// The time of the segment, ms.
         ms: f64,
-        /// When it ends, s.
+        /// The time of its end, s.
         t: f64,
-        /// C where it ends, deg.
+        /// C at its end, deg.
         c_deg: f64,
     },
-    /// A segment is shorter than a step of the controller's time.
+    /// A segment is shorter than the controller's time step.
     #[error(
         "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes less than 1/4096 ms, the \
-         controller's step of time"
+         controller's time step"
     )]
     Short {
-        /// When it ends, s.
+        /// The time of its end, s.
         t: f64,
-        /// C where it ends, deg.
+        /// C at its end, deg.
         c_deg: f64,
     },
     /// A value has more digits than doubles hold.
@@ -32,34 +32,34 @@ pub enum PmacError {
     Digits {
         /// C, X or Z.
         axis: char,
-        /// Position or velocity.
+        /// The position or velocity.
         value: f64,
-        /// Decimals that are asked for.
+        /// The decimals that the program should have.
         decimals: u32,
-        /// When, s.
+        /// The time of the point, s.
         t: f64,
     },
-    /// C turns so far that a wrapped position does not say which way.
+    /// C turns so far that a wrapped position does not show the direction.
     #[error(
         "C turns by half a revolution or more in the segment that ends at {t:.6} s, C = \
-         {c_deg:.3} deg: wrapped positions do not say which way"
+         {c_deg:.3} deg: wrapped positions do not show the direction"
     )]
     HalfTurn {
-        /// When it ends, s.
+        /// The time of its end, s.
         t: f64,
-        /// C where it ends, deg.
+        /// C at its end, deg.
         c_deg: f64,
     },
     /// The path goes straight from point to point.
     #[error(
-        "the path goes straight from point to point, and PVT plays cubics: such a path cannot be \
-         carried by this program"
+        "the path goes straight from point to point, but PVT plays cubics: this program cannot carry \
+         such a path"
     )]
     Straight,
 }
 
 impl PmacError {
-    /// What to do about it.
+    /// What the user can do.
     pub fn help(&self) -> &'static str {
         match self {
             Self::Long { .. } => "place points closer together, or turn the spindle faster",

@@ -11,20 +11,20 @@
 //! ; -- end of path: 4160 points --
 //! ```
 //!
-//! What stands before the first mark and behind the last is the header's and the footer's, and
-//! not the path's. The first move brings the axes to the first control point at its velocity, from
-//! where they stand, within [`ENTRY_MS`]: to rest above the part where the path has a lead-in.
-//! Every other one is a segment of the path. Sections follow one another without a break; a mark
-//! stands before each.
+//! The lines before the first mark belong to the header, those after the last mark to the footer.
+//! The first move brings the axes from wherever they are to the first control point, within
+//! [`ENTRY_MS`], and reaches the velocity of that point. If the path has a lead-in, that point is a
+//! rest above the part. Every other move is a segment of the path. Sections follow each other without
+//! a break, and each begins with a mark.
 //!
-//! **Times.** The controller counts times in 1/4096 ms. The time of each point since the path's
-//! start is rounded, not the segment's, so nothing adds up; and a point that does not lie on such a
-//! time moves along the played cubic to it (122 ns at the most), with its velocity there. (The
-//! pipeline puts its points on such times beforehand when a program is asked for, so that the
-//! path and the program have the same points.) So the spindle
-//! keeps its speed from segment to segment, and the played curve stays where it was. Leaving the
-//! point in its place and scaling its velocity would bend the curve on one side of it, because the
-//! two segments that meet there are not stretched alike.
+//! **Times.** The controller counts times in 1/4096 ms. The writer rounds the time of each point since
+//! the start of the path, not the time of each segment, so rounding errors do not add up. A point
+//! between two such times moves along the played cubic to the nearer one (by 122 ns at the most) and
+//! takes the velocity there. So the spindle keeps its speed from segment to segment, and the played
+//! curve does not change. If the point kept its position and only its velocity were scaled, the curve
+//! would bend on one side of the point, because rounding changes the lengths of the two segments
+//! differently. (If the recipe asks for a program, the pipeline places the points at such times from
+//! the start, so that the path and the program have the same points.)
 //!
 //! Facts on the language: Turbo PMAC Software Reference and User Manual, "PVT-Mode Moves".
 
@@ -41,6 +41,6 @@ mod tests;
 
 pub use error::PmacError;
 pub use format::{ENTRY_MS, PmacFormat, QUANTA_PER_S};
-pub use program::{FOOTER, HEADER, PmacWriter};
+pub use program::{FOOTER, HEADER, PmacFileBody, PmacWriter};
 pub use read::PmacReader;
 pub use template::{PLACEHOLDERS, Template, TemplateError};

@@ -1,4 +1,4 @@
-//! A program file in the making: its path first, header and footer around it at the end.
+//! Writes a program: first the path, then the header and the footer around it.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
@@ -9,9 +9,9 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Section};
 use super::encode;
 use super::error::PmacError;
 use super::format::{END_MARK, PmacFormat};
-use crate::{Draft, FileError};
+use crate::draft::{Draft, FileError};
 
-/// The header where none is given.
+/// The default header.
 pub const HEADER: &str = "\
 ; {name}
 ; recipe {recipe}, SHA-256 {sha256}
@@ -23,23 +23,43 @@ pub const HEADER: &str = "\
 CLOSE
 OPEN PROG 1 CLEAR
 ";
-/// The footer where none is given.
+/// The default footer.
 pub const FOOTER: &str = "CLOSE\n";
 
-/// Bytes that are gathered before they are written.
+/// Size of the buffer, bytes.
 const BUFFER: usize = 1 << 18;
 
-/// A program in the making. Its header tells what is known only at the end, so the path is kept in
-/// a file without a name until then.
+/// Writes a program to a file or to memory. The header reports what is known only at the end, so the
+/// body waits until then: in a file without a name, or in memory.
+///
+/// ```
+/// use turnpath_post::PmacWriter;
+///
+/// let mut writer = PmacWriter::in_memory();
+/// writer.append(0, b"; -- cutting --\n")?;
+/// let program = writer.assemble_in_memory("OPEN PROG 1 CLEAR\n", "CLOSE\n");
+/// assert!(program.ends_with(b"; -- end of path: 0 points --\nCLOSE\n"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug)]
-pub struct PmacWriter {
-    body: BufWriter<File>,
-    path: PathBuf,
+pub struct PmacWriter<B = PmacFileBody> {
+    body: B,
     points: u64,
 }
 
+/// The body of a program that will become a file.
+#[derive(Debug)]
+pub struct PmacFileBody {
+    file: BufWriter<File>,
+    /// The path that the program will have.
+    path: PathBuf,
+}
+
 impl PmacWriter {
-    /// Begins the program that will stand at `path`, whose folder must be there.
+    /// Begins the program that will be the file `path`. Its folder must exist.
+    ///
+    /// # Errors
+    /// When no file can be created in the folder.
     pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
         let folder = match path.parent() {
@@ -47,21 +67,21 @@ impl PmacWriter {
             _ => Path::new("."),
         };
         match tempfile::tempfile_in(folder) {
-            Ok(file) => Ok(Self {
-                body: BufWriter::with_capacity(BUFFER, file),
-                path,
-                points: 0,
-            }),
+            Ok(file) => {
+                let file = BufWriter::with_capacity(BUFFER, file);
+                let body = PmacFileBody { file, path };
+                Ok(Self { body, points: 0 })
+            }
             Err(error) => Err(FileError { path, error }),
         }
     }
 
-    /// Where the program will stand.
+    /// The path that the program will have.
     pub fn path(&self) -> &Path {
-        &self.path
+        &self.body.path
     }
 
-    /// A stretch as program lines; needs no file, so that stretches can be put into lines in
+    /// A part of the path as program lines. This needs no file, so several parts can be formatted in
     /// parallel.
     ///
     /// # Errors
@@ -70,32 +90,30 @@ impl PmacWriter {
         encode::lines(format, stretch)
     }
 
-    /// Appends the lines of so many points.
-    pub fn append(&mut self, points: usize, lines: &[u8]) -> io::Result<()> {
-        self.points += points as u64;
-        self.body.write_all(lines)
-    }
-
-    /// The whole program, still without its name.
+    /// The complete program as a file that still lacks its name.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn assemble(self, header: &str, footer: &str) -> Result<Draft, FileError> {
-        let Self { body, path, points } = self;
+        let end = self.end(footer);
+        let PmacFileBody { file, path } = self.body;
         let mut draft = Draft::begin(&path)?;
-        let put = || -> io::Result<()> {
-            let mut body = body.into_inner().map_err(io::IntoInnerError::into_error)?;
+        let write = || -> io::Result<()> {
+            let mut body = file.into_inner().map_err(io::IntoInnerError::into_error)?;
             body.rewind()?;
             draft.write_all(header.as_bytes())?;
             io::copy(&mut body, &mut draft)?;
-            writeln!(draft, "; {END_MARK}: {points} points --")?;
-            draft.write_all(footer.as_bytes())
+            draft.write_all(end.as_bytes())
         };
-        match put() {
+        match write() {
             Ok(()) => Ok(draft),
             Err(error) => Err(FileError { path, error }),
         }
     }
 
-    /// Bytes that a program of so many points will take, roughly: from points made up half-way, with
-    /// all digits and one time. A time of its own for every point adds half as much.
+    /// A rough estimate of the bytes of a program with so many points. It is made from invented points
+    /// in the middle of the path, which have all digits and one common time. If every point has a time
+    /// of its own, the program is larger by half.
     pub fn expected_bytes(format: &PmacFormat, radius: f64, time: f64, c: f64, points: f64) -> f64 {
         let half = |end: f64| 0.5 * end * (1.0 + 1e-7 / 3.0);
         let (speed, step) = (c / time, time / points.max(1.0));
@@ -122,5 +140,47 @@ impl PmacWriter {
         };
         let lines = encode::lines(format, &stretch).map_or(0, |lines| lines.len());
         points * lines as f64 / 2.0
+    }
+}
+
+impl PmacWriter<Vec<u8>> {
+    /// Begins a program in memory.
+    pub fn in_memory() -> Self {
+        let body = Vec::new();
+        Self { body, points: 0 }
+    }
+
+    /// The complete program.
+    pub fn assemble_in_memory(self, header: &str, footer: &str) -> Vec<u8> {
+        let end = self.end(footer);
+        [header.as_bytes(), &self.body, end.as_bytes()].concat()
+    }
+}
+
+impl<B: Write> PmacWriter<B> {
+    /// Appends the lines of so many points.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn append(&mut self, points: usize, lines: &[u8]) -> io::Result<()> {
+        self.points += points as u64;
+        self.body.write_all(lines)
+    }
+}
+
+impl<B> PmacWriter<B> {
+    /// The lines after the path.
+    fn end(&self, footer: &str) -> String {
+        format!("; {END_MARK}: {} points --\n{footer}", self.points)
+    }
+}
+
+impl Write for PmacFileBody {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }

@@ -1,11 +1,11 @@
-//! One line of a motion program: its words, as far as a PVT path needs them.
+//! The words of one line of a motion program, as far as a PVT path needs them.
 //!
-//! Written from the manual's description of motion programs; shares nothing with the writer.
-//! Letters may be small or capital and spaces may stand anywhere but within numbers and words.
+//! This follows the manual's description of motion programs and shares nothing with the writer.
+//! Letters may be lower-case or capital. Spaces are allowed everywhere except within numbers and words.
 
-/// Decimals of a number as it is held.
+/// Decimals of the numbers here.
 pub(super) const PLACES: u32 = 12;
-/// Digits before the point that a number may have: all sums stay far within 128 bits.
+/// Most digits before the point: with them all sums fit into 128 bits by far.
 const MOST_DIGITS: usize = 15;
 
 /// The axes of a path.
@@ -19,9 +19,9 @@ pub(super) enum Axis {
 /// A statement of a line. Numbers are in 10⁻¹² of the program's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Word {
-    /// `ABS` or `INC`, for all axes or for those that are listed, by their index.
+    /// `ABS` or `INC`, and the axes that it applies to, by their index.
     Absolute(bool, [bool; 3]),
-    /// `PVT3`: segments take so many ms.
+    /// `PVT3`: the duration of the segments, ms.
     Time(i128),
     /// `X1.5:0.2`; without a velocity the axis ends at rest.
     Move(Axis, i128, Option<i128>),
@@ -57,10 +57,10 @@ struct Scanner<'a> {
 }
 
 impl<'a> Scanner<'a> {
-    /// The next word; none for a line's label, `N10`.
+    /// The next word; `None` for a line's label, `N10`.
     fn word(&mut self) -> Result<Option<Word>, String> {
-        let stands = self.rest;
-        let letters = self.while_true(|c| c.is_ascii_alphabetic()).to_uppercase();
+        let start = self.rest;
+        let letters = self.take_while(|c| c.is_ascii_alphabetic()).to_uppercase();
         match letters.as_str() {
             "ABS" => Ok(Some(Word::Absolute(true, self.axes()?))),
             "INC" => Ok(Some(Word::Absolute(false, self.axes()?))),
@@ -70,12 +70,12 @@ impl<'a> Scanner<'a> {
             "Z" => self.axis(Axis::Z, &letters),
             "N" => self.number(&letters).map(|_| None),
             _ => {
-                let word: String = stands
+                let word: String = start
                     .chars()
                     .take_while(|c| !c.is_whitespace())
                     .take(40)
                     .collect();
-                Err(format!("`{word}` is no word of a PVT path"))
+                Err(format!("`{word}` is not a word of a PVT path"))
             }
         }
     }
@@ -92,7 +92,7 @@ impl<'a> Scanner<'a> {
         Ok(Some(Word::Move(axis, position, velocity)))
     }
 
-    /// The axes in parentheses; all where there are none.
+    /// The axes in parentheses; all axes if there are no parentheses.
     fn axes(&mut self) -> Result<[bool; 3], String> {
         self.rest = self.rest.trim_start();
         let Some(inside) = self.rest.strip_prefix('(') else {
@@ -107,47 +107,47 @@ impl<'a> Scanner<'a> {
                 "C" => axes[0] = true,
                 "X" => axes[1] = true,
                 "Z" => axes[2] = true,
-                other => return Err(format!("`{other}` is no axis of the path")),
+                other => return Err(format!("`{other}` is not an axis of the path")),
             }
         }
         self.rest = rest.trim_start();
         Ok(axes)
     }
 
-    /// A constant, `-12.5`, and the spaces around it.
-    fn number(&mut self, whose: &str) -> Result<i128, String> {
+    /// Reads a constant, `-12.5`, and the spaces around it.
+    fn number(&mut self, name: &str) -> Result<i128, String> {
         self.rest = self.rest.trim_start();
         let negative = self.rest.starts_with('-');
         self.rest = self.rest.strip_prefix(['-', '+']).unwrap_or(self.rest);
-        let whole = self.while_digits();
+        let whole = self.take_digits();
         let fraction = match self.rest.strip_prefix('.') {
             Some(rest) => {
                 self.rest = rest;
-                self.while_digits()
+                self.take_digits()
             }
             None => "",
         };
         if whole.is_empty() && fraction.is_empty() {
-            return Err(format!("{whose} has no number"));
+            return Err(format!("{name} has no number"));
         }
         self.rest = self.rest.trim_start();
-        let size = fixed(whole, fraction).ok_or_else(|| format!("{whose} has too many digits"))?;
+        let size = fixed(whole, fraction).ok_or_else(|| format!("{name} has too many digits"))?;
         Ok(if negative { -size } else { size })
     }
 
-    fn while_digits(&mut self) -> &'a str {
-        self.while_true(|c| c.is_ascii_digit())
+    fn take_digits(&mut self) -> &'a str {
+        self.take_while(|c| c.is_ascii_digit())
     }
 
-    fn while_true(&mut self, wanted: impl Fn(char) -> bool) -> &'a str {
-        let end = self.rest.find(|c| !wanted(c)).unwrap_or(self.rest.len());
-        let (taken, rest) = self.rest.split_at(end);
+    fn take_while(&mut self, matches: impl Fn(char) -> bool) -> &'a str {
+        let end = self.rest.find(|c| !matches(c)).unwrap_or(self.rest.len());
+        let (start, rest) = self.rest.split_at(end);
         self.rest = rest;
-        taken
+        start
     }
 }
 
-/// Digits in 10⁻¹², those beyond rounded.
+/// The number in 10⁻¹², rounded.
 fn fixed(whole: &str, fraction: &str) -> Option<i128> {
     let whole = whole.trim_start_matches('0');
     if whole.len() > MOST_DIGITS {
@@ -168,7 +168,7 @@ mod tests {
     const ONE: i128 = 10i128.pow(PLACES);
 
     #[test]
-    fn spaces_case_and_order_are_free() {
+    fn spaces_case_and_order_do_not_matter() {
         let tight = words("PVT3X1.5:-.5Z-2").unwrap();
         assert_eq!(
             tight,
@@ -201,22 +201,22 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_word_is_named() {
+    fn the_error_names_what_is_not_a_word() {
         for (line, says) in [
-            ("X1:2 Y3:4", "`Y3:4` is no word"),
-            ("XNaN:2", "`XNaN:2` is no word"),
-            ("X1e5:2", "`e5:2` is no word"),
+            ("X1:2 Y3:4", "`Y3:4` is not a word"),
+            ("XNaN:2", "`XNaN:2` is not a word"),
+            ("X1e5:2", "`e5:2` is not a word"),
             ("X:2", "X has no number"),
             ("X1:", "the velocity of X has no number"),
             ("PVT", "PVT has no number"),
-            ("X1:2:3", "`:3` is no word"),
+            ("X1:2:3", "`:3` is not a word"),
             ("X(P1):2", "X has no number"),
-            ("INC(Y)", "`Y` is no axis"),
+            ("INC(Y)", "`Y` is not an axis"),
             ("INC(X", "parenthesis"),
             ("X1234567890123456:1", "X has too many digits"),
         ] {
-            let said = words(line).unwrap_err();
-            assert!(said.contains(says), "{line}: {said}");
+            let message = words(line).unwrap_err();
+            assert!(message.contains(says), "{line}: {message}");
         }
     }
 

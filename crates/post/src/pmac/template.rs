@@ -1,6 +1,6 @@
 //! Headers and footers: text with placeholders.
 
-/// What can stand in braces, and what it becomes.
+/// The names that may appear in braces.
 pub const PLACEHOLDERS: &[&str] = &[
     "name",
     "recipe",
@@ -17,13 +17,13 @@ pub const PLACEHOLDERS: &[&str] = &[
     "ends",
 ];
 
-/// Placeholders whose values are a person's words: they may stand in comments alone, where no
-/// controller reads them as code.
-const WORDS: &[&str] = &["name", "recipe", "changes"];
-/// Longest value that is put in whole, in characters; a controller's line is not endless.
+/// Placeholders whose values are words of a person. They are allowed only in comments, which no
+/// controller reads as code.
+const FREE_TEXT: &[&str] = &["name", "recipe", "changes"];
+/// Longest value that is not shortened, in characters: a controller's lines have a limit.
 const LONGEST_VALUE: usize = 200;
 
-/// A text with placeholders, `{name}`; a brace itself is written twice.
+/// A text with placeholders such as `{name}`. A literal brace is written twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Template(Vec<Part>);
 
@@ -33,21 +33,21 @@ enum Part {
     Placeholder(String),
 }
 
-/// Why a text is no template.
+/// Why a text is not a template.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TemplateError {
-    /// No such placeholder.
+    /// There is no such placeholder.
     #[error("no placeholder named `{{{0}}}`")]
     Unknown(String),
-    /// Words that could be read as code.
-    #[error("`{{{0}}}` stands outside a comment: put a `;` before it on its line")]
+    /// A person's words could be read as code.
+    #[error("`{{{0}}}` is outside a comment: put a `;` before it on its line")]
     OutsideComment(String),
-    /// A line that the reader would take for a mark of the path.
+    /// A reader would take a line for a mark of the path.
     #[error("a comment that begins with `--` would be taken for a mark of the path")]
     Mark,
-    /// A brace that stands alone.
-    #[error("a brace stands alone; a brace itself is written twice, `{{{{` or `}}}}`")]
-    Alone,
+    /// A brace has no partner.
+    #[error("a single brace; write a literal brace twice: `{{{{` or `}}}}`")]
+    SingleBrace,
 }
 
 impl Template {
@@ -65,8 +65,8 @@ impl Template {
     /// ```
     ///
     /// # Errors
-    /// Where a placeholder is unknown, stands where its words would be code, a brace stands alone,
-    /// or a line would be taken for a mark of the path.
+    /// When a placeholder is unknown or its words would be code, a brace is single, or a reader would
+    /// take a line for a mark of the path.
     pub fn parse(text: &str) -> Result<Self, TemplateError> {
         if text.lines().any(is_mark) {
             return Err(TemplateError::Mark);
@@ -76,23 +76,23 @@ impl Template {
         while let Some(at) = rest.find(['{', '}']) {
             let (before, after) = rest.split_at(at);
             parts.push(Part::Text(before.to_owned()));
-            let (part, behind) = part(after)?;
+            let (part, after_part) = part(after)?;
             if let Part::Placeholder(name) = &part {
                 let read = text.len() - rest.len() + before.len();
                 let line = text[..read].rsplit('\n').next().unwrap_or_default();
-                if WORDS.contains(&name.as_str()) && !line.contains(';') {
+                if FREE_TEXT.contains(&name.as_str()) && !line.contains(';') {
                     return Err(TemplateError::OutsideComment(name.clone()));
                 }
             }
             parts.push(part);
-            rest = behind;
+            rest = after_part;
         }
         parts.push(Part::Text(rest.to_owned()));
         Ok(Self(parts))
     }
 
-    /// The text with each placeholder's value in its place, and a line end. What a controller
-    /// could stumble on in a value, line ends and characters beyond ASCII, is replaced.
+    /// The text with the values of its placeholders and a line end. Line ends and characters beyond
+    /// ASCII in a value are replaced, because a controller may fail on them.
     pub fn fill(&self, value: impl Fn(&str) -> String) -> String {
         let mut text = String::new();
         for part in &self.0 {
@@ -111,7 +111,7 @@ impl Template {
     }
 }
 
-/// What begins with a brace, and what stands behind it.
+/// The part that begins with a brace, and the rest of the text.
 fn part(text: &str) -> Result<(Part, &str), TemplateError> {
     for (twice, brace) in [("{{", "{"), ("}}", "}")] {
         if let Some(behind) = text.strip_prefix(twice) {
@@ -119,7 +119,7 @@ fn part(text: &str) -> Result<(Part, &str), TemplateError> {
         }
     }
     let inside = text.strip_prefix('{').and_then(|text| text.split_once('}'));
-    let (name, behind) = inside.ok_or(TemplateError::Alone)?;
+    let (name, behind) = inside.ok_or(TemplateError::SingleBrace)?;
     match PLACEHOLDERS.contains(&name) {
         true => Ok((Part::Placeholder(name.to_owned()), behind)),
         false => Err(TemplateError::Unknown(name.to_owned())),
@@ -134,7 +134,7 @@ fn is_mark(line: &str) -> bool {
     comment.is_some_and(|comment| comment.starts_with("--"))
 }
 
-/// A value that is no mark of the path, no code and no endless line.
+/// A value that is neither a mark of the path nor code nor an endless line.
 fn harmless(value: &str) -> String {
     let short: String = value.chars().take(LONGEST_VALUE).map(plain).collect();
     short.replace("--", "- -")
@@ -172,15 +172,15 @@ mod tests {
     }
 
     #[test]
-    fn unknown_placeholders_and_lone_braces_are_refused() {
+    fn unknown_placeholders_and_single_braces_are_refused() {
         let unknown = Template::parse("{nam}").unwrap_err();
         assert_eq!(unknown.to_string(), "no placeholder named `{nam}`");
-        assert_eq!(Template::parse("{name"), Err(TemplateError::Alone));
-        assert_eq!(Template::parse("name}"), Err(TemplateError::Alone));
+        assert_eq!(Template::parse("{name"), Err(TemplateError::SingleBrace));
+        assert_eq!(Template::parse("name}"), Err(TemplateError::SingleBrace));
     }
 
     #[test]
-    fn words_of_a_person_are_never_code_nor_marks() {
+    fn words_of_a_person_are_neither_code_nor_marks() {
         let outside = TemplateError::OutsideComment("name".to_owned());
         assert_eq!(Template::parse("CLOSE\n{name}"), Err(outside));
         assert_eq!(Template::parse("; -- cutting --"), Err(TemplateError::Mark));

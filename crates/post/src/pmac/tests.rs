@@ -1,4 +1,4 @@
-//! What is written reads back as the path that is played, and damage is refused with its line.
+//! A program reads back as the path that the controller plays, and damage is refused with its line.
 
 use proptest::prelude::*;
 use turnpath_core::DEG;
@@ -8,7 +8,7 @@ use super::format::{QUANTA_PER_S, TURN_DEG};
 use super::{PmacFormat, PmacReader, PmacWriter};
 use crate::ReadPath;
 
-/// A path from random steps: time in s, angle in deg, the rest as it comes.
+/// A path from random steps: time in s, angle in deg, the rest in the units used inside.
 fn path_of(steps: &[[f64; 6]]) -> Vec<ControlPoint> {
     let mut point = ControlPoint {
         vc: 50.0,
@@ -44,12 +44,12 @@ fn step() -> impl Strategy<Value = [f64; 6]> {
         .prop_map(|(dt, dc, x, z, vx, vz)| [dt, dc, x, z, vx, vz])
 }
 
-/// The program's lines, made of stretches that end at `cuts`.
-fn lines(format: &PmacFormat, points: &[ControlPoint], cuts: &[usize]) -> Vec<u8> {
-    lines_in_sections(format, points, cuts, 0..points.len())
+/// The program's lines, made of blocks that end at `ends`.
+fn lines(format: &PmacFormat, points: &[ControlPoint], ends: &[usize]) -> Vec<u8> {
+    lines_in_sections(format, points, ends, 0..points.len())
 }
 
-/// The same of a path whose cutting section is `cut`, with leads around it.
+/// The same for a path whose cutting section is `cut`, with leads around it.
 fn lines_in_sections(
     format: &PmacFormat,
     points: &[ControlPoint],
@@ -108,10 +108,7 @@ fn read_sections(
     format: &PmacFormat,
     text: &[u8],
 ) -> Result<(Vec<ControlPoint>, Vec<Section>), String> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("path.pmc");
-    std::fs::write(&path, text).unwrap();
-    let mut reader = PmacReader::open(&path, *format).unwrap().named("p");
+    let mut reader = PmacReader::from_reader(text, "p", *format);
     let (mut points, mut sections) = (Vec::new(), Vec::new());
     while let Some((point, section)) = reader.next_point().map_err(|error| error.to_string())? {
         points.push(point);
@@ -120,7 +117,7 @@ fn read_sections(
     Ok((points, sections))
 }
 
-/// Where the played path is at a time near the point: on the cubic that ends there.
+/// The point of the played path at a time near a control point: on the cubic that ends there.
 fn played(before: &ControlPoint, point: &ControlPoint, time: f64) -> ControlPoint {
     let segment = Segment::between(before, point);
     let (s, h) = ((time - before.t) / segment.duration, segment.duration);
@@ -135,59 +132,59 @@ fn played(before: &ControlPoint, point: &ControlPoint, time: f64) -> ControlPoin
     }
 }
 
-/// Half a last digit, and what doubles leave of a number of this size.
+/// Half a unit of the last digit, and the rounding error of a double of this size.
 fn half_unit(decimals: u32, size: f64) -> f64 {
     0.5 / 10u64.pow(decimals) as f64 * (1.0 + 1e-6) + 1e-12 * size.abs()
 }
 
 fn assert_same(format: &PmacFormat, points: &[ControlPoint], read: &[ControlPoint]) {
     assert_eq!(points.len(), read.len());
-    // Writer and test work a cubic's slope out in another order, from times and places of many
-    // turns; what doubles leave of the difference of two places, over the time between them, is far
-    // below what a digit is worth.
-    let velocity = |speed: f64, place: f64, duration: f64, instant: f64| {
+    // The writer and this test compute a cubic's slope in different orders, from times and positions
+    // after many turns. The rounding error of the difference of two positions, divided by the time
+    // between them, is far smaller than a digit.
+    let velocity = |speed: f64, position: f64, duration: f64, instant: f64| {
         let per = if format.per_minute { 60.0 } else { 1.0 };
-        let rounding = 1e-12 * (place.abs() + 600.0) / duration;
+        let rounding = 1e-12 * (position.abs() + 600.0) / duration;
         let of_instant = 12.0 * 600.0 / (duration * duration) * f64::EPSILON * instant;
         half_unit(format.velocity_decimals, speed * per) / per + rounding + of_instant
     };
     let position = |size: f64| half_unit(format.position_decimals, size);
-    for (k, (made, read)) in points.iter().zip(read).enumerate() {
+    for (k, (written, read)) in points.iter().zip(read).enumerate() {
         assert!(
-            (read.t - made.t).abs() <= 0.5001 / QUANTA_PER_S,
-            "{made:?} {read:?}"
+            (read.t - written.t).abs() <= 0.5001 / QUANTA_PER_S,
+            "{written:?} {read:?}"
         );
-        let wanted = match k {
-            0 => *made,
-            _ => played(&points[k - 1], made, read.t),
+        let expected = match k {
+            0 => *written,
+            _ => played(&points[k - 1], written, read.t),
         };
         let duration = match k {
             0 => f64::INFINITY,
-            _ => made.t - points[k - 1].t,
+            _ => written.t - points[k - 1].t,
         };
-        for (wanted, read, bound) in [
-            (wanted.c / DEG, read.c / DEG, position(wanted.c / DEG)),
-            (wanted.x, read.x, position(wanted.x)),
-            (wanted.z, read.z, position(wanted.z)),
+        for (expected, read, bound) in [
+            (expected.c / DEG, read.c / DEG, position(expected.c / DEG)),
+            (expected.x, read.x, position(expected.x)),
+            (expected.z, read.z, position(expected.z)),
             (
-                wanted.vc / DEG,
+                expected.vc / DEG,
                 read.vc / DEG,
-                velocity(wanted.vc / DEG, wanted.c / DEG, duration, made.t),
+                velocity(expected.vc / DEG, expected.c / DEG, duration, written.t),
             ),
             (
-                wanted.vx,
+                expected.vx,
                 read.vx,
-                velocity(wanted.vx, wanted.x, duration, made.t),
+                velocity(expected.vx, expected.x, duration, written.t),
             ),
             (
-                wanted.vz,
+                expected.vz,
                 read.vz,
-                velocity(wanted.vz, wanted.z, duration, made.t),
+                velocity(expected.vz, expected.z, duration, written.t),
             ),
         ] {
             assert!(
-                (wanted - read).abs() <= bound,
-                "point {k}: {wanted} {read} {bound}"
+                (expected - read).abs() <= bound,
+                "point {k}: {expected} {read} {bound}"
             );
         }
     }
@@ -221,7 +218,7 @@ proptest! {
     }
 
     #[test]
-    fn lines_do_not_depend_on_where_stretches_end(
+    fn lines_do_not_depend_on_where_blocks_end(
         format in format(),
         steps in prop::collection::vec(step(), 1..40),
         cuts in prop::collection::btree_set(1..40usize, 0..12),
@@ -248,22 +245,22 @@ proptest! {
         let (read, sections) = read_sections(&format, text.as_bytes()).unwrap();
         assert_same(&format, &points, &read);
         for (k, section) in sections.into_iter().enumerate() {
-            let wanted = match k {
+            let expected = match k {
                 _ if k < cut.start => Section::LeadIn,
                 _ if k < cut.end => Section::Cutting,
                 _ => Section::LeadOut,
             };
-            prop_assert_eq!(section, wanted);
+            prop_assert_eq!(section, expected);
         }
     }
 
     #[test]
-    fn distances_give_the_same_points_as_places(steps in prop::collection::vec(step(), 1..60)) {
+    fn distances_give_the_same_points_as_positions(steps in prop::collection::vec(step(), 1..60)) {
         let points = path_of(&steps);
-        let places = PmacFormat::default();
-        let distances = PmacFormat { incremental: true, ..places };
+        let positions = PmacFormat::default();
+        let distances = PmacFormat { incremental: true, ..positions };
         prop_assert_eq!(
-            read(&places, program(&places, &points).as_bytes()),
+            read(&positions, program(&positions, &points).as_bytes()),
             read(&distances, program(&distances, &points).as_bytes())
         );
     }
@@ -295,15 +292,15 @@ fn time_does_not_drift_over_a_hundred_thousand_segments() {
         let (first, last) = (points[0], points[points.len() - 1]);
         assert!((sum / 1e3 - (last.t - first.t)).abs() <= 0.5001 / QUANTA_PER_S);
         let read = read(&format, text.as_bytes()).unwrap();
-        for (made, read) in points.iter().zip(&read) {
-            assert!((made.t - read.t).abs() <= 0.5001 / QUANTA_PER_S);
+        for (written, read) in points.iter().zip(&read) {
+            assert!((written.t - read.t).abs() <= 0.5001 / QUANTA_PER_S);
             let rate = last.c / last.t;
             assert!((read.c - rate * read.t).abs() < 1e-8);
         }
     }
 }
 
-/// The sum of the segment times, the entry's left out: the text alone, without the reader.
+/// The sum of the segment times without the entry's, from the text alone, without the reader.
 fn summed_ms(text: &str) -> f64 {
     let (mut sum, mut time, mut entered) = (0.0, 0.0, false);
     for line in text.lines() {
@@ -361,68 +358,77 @@ fn damaged_lines_are_refused_with_their_number() {
             "C18:3000 X2.498:NaN Z1:5",
             "line 8: the velocity of X has no number",
         ),
-        ("C18:3000 XNaN:-0.2 Z1:5", "line 8: `XNaN:-0.2` is no word"),
-        ("C18:3000 X2.498:-0.2 Q1:5", "line 8: `Q1:5` is no word"),
+        (
+            "C18:3000 XNaN:-0.2 Z1:5",
+            "line 8: `XNaN:-0.2` is not a word",
+        ),
+        ("C18:3000 X2.498:-0.2 Q1:5", "line 8: `Q1:5` is not a word"),
         (
             "C18:3000 X2.4.98:-0.2 Z1:5",
-            "line 8: `.98:-0.2` is no word",
+            "line 8: `.98:-0.2` is not a word",
         ),
         (
             "C18:3000 X2.498: Z1:5",
             "line 8: the velocity of X has no number",
         ),
-        ("C18:3000 X2.498:-0.2 Z1:5 Z1:5", "line 8: Z stands twice"),
+        ("C18:3000 X2.498:-0.2 Z1:5 Z1:5", "line 8: Z appears twice"),
         (
             "C18:3000 X2.498:-0.2 PVT3 Z1:5",
-            "line 8: a mode stands behind a move",
+            "line 8: a mode follows a move",
         ),
         ("C5:3000 X2.498:-0.2 Z1:5", "line 8: C turns by -4"),
         ("C1800:3000 X2.498:-0.2 Z1:5", "line 8: C turns by 1791"),
         ("PVT0", "line 8: a segment cannot take 0 ms"),
         ("PVT5000", "line 8: a segment cannot take 5000 ms"),
-        ("LINEAR", "line 8: `LINEAR` is no word"),
+        ("LINEAR", "line 8: `LINEAR` is not a word"),
         (
             "; -- lead-in --",
-            "line 8: `; -- lead-in --` does not belong",
+            "line 8: `; -- lead-in --` is out of order",
         ),
-        ("", "line 11: the path has 4 points, and its end says 5"),
-        ("\u{fc}", "line 8: `\u{fc}` is no word"),
+        (
+            "",
+            "line 11: the path has 4 points, but its end mark says 5",
+        ),
+        ("\u{fc}", "line 8: `\u{fc}` is not a word"),
     ] {
-        let said = refusal(&replaced(8, new));
-        assert!(said.contains(says), "{new}: {said}");
+        let message = refusal(&replaced(8, new));
+        assert!(message.contains(says), "{new}: {message}");
     }
 }
 
 #[test]
-fn the_first_point_must_be_a_place_of_all_axes_within_a_time() {
+fn the_first_point_must_have_positions_of_all_axes_and_a_time() {
     for (line, new, says) in [
-        (3, "INC", "line 5: the first point must be a place"),
+        (3, "INC", "line 5: the first point must be a position"),
         (4, "", "line 5: a move without a `PVT` time"),
-        (5, "C0:1 X2.5:0", "line 5: the first point does not say Z"),
+        (5, "C0:1 X2.5:0", "line 5: the first point does not give Z"),
     ] {
-        let said = refusal(&replaced(line, new));
-        assert!(said.contains(says), "{new}: {said}");
+        let message = refusal(&replaced(line, new));
+        assert!(message.contains(says), "{new}: {message}");
     }
 }
 
 #[test]
-fn a_program_that_is_not_whole_is_refused() {
+fn an_incomplete_program_is_refused() {
     let text = good();
     let cut = text.split("; -- end").next().unwrap();
-    let said = refusal(cut);
-    assert!(said.contains("line 10: the program ends without"), "{said}");
-    let said = refusal(&cut[..cut.len() - 8]);
-    assert!(said.contains("line 10:"), "{said}");
-    let said = refusal("OPEN PROG 1 CLEAR\nX1:2\nCLOSE\n");
-    assert!(said.contains("line 3: there is no path"), "{said}");
-    let said = refusal("");
-    assert!(said.contains("line 1: there is no path"), "{said}");
-    let said = refusal(&"X".repeat(100_000));
-    assert!(said.contains("line 1: this line is longer"), "{said}");
+    let message = refusal(cut);
+    assert!(
+        message.contains("line 10: the program ends without"),
+        "{message}"
+    );
+    let message = refusal(&cut[..cut.len() - 8]);
+    assert!(message.contains("line 10:"), "{message}");
+    let message = refusal("OPEN PROG 1 CLEAR\nX1:2\nCLOSE\n");
+    assert!(message.contains("line 3: there is no path"), "{message}");
+    let message = refusal("");
+    assert!(message.contains("line 1: there is no path"), "{message}");
+    let message = refusal(&"X".repeat(100_000));
+    assert!(message.contains("line 1: this line is longer"), "{message}");
 }
 
 #[test]
-fn reasonable_edits_by_hand_are_read() {
+fn reasonable_edits_by_hand_are_accepted() {
     let format = PmacFormat::default();
     let edited = "\
 &1 I42=0 whatever the header says
@@ -439,10 +445,10 @@ ABS (C)
 C36:3000 X2.496:-0.2 Z1:5\r
 ; -- END OF PATH: 5 points
 whatever the footer says";
-    let mut wanted = read(&format, good().as_bytes()).unwrap();
-    // Z without a word keeps its place, and ends at rest.
-    wanted[3].vz = 0.0;
-    assert_eq!(read(&format, edited.as_bytes()).unwrap(), wanted);
+    let mut expected = read(&format, good().as_bytes()).unwrap();
+    // Without a word, Z keeps its position and ends at rest.
+    expected[3].vz = 0.0;
+    assert_eq!(read(&format, edited.as_bytes()).unwrap(), expected);
 }
 
 #[test]
@@ -526,4 +532,34 @@ fn the_default_velocity_digits_cost_less_than_a_position_digit() {
         .map(|k| off.value(f64::from(k) / 100.0))
         .fold(0.0, f64::max);
     assert!(largest < 0.51 * half(format.position_decimals), "{largest}");
+}
+
+#[test]
+fn a_program_in_memory_has_the_bytes_of_its_file() {
+    let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
+    let lines = lines(&PmacFormat::default(), &points, &[]);
+    let file = assembled(points.len(), &lines);
+    let mut writer = PmacWriter::in_memory();
+    writer.append(points.len(), &lines).unwrap();
+    let memory = writer.assemble_in_memory("OPEN PROG 1 CLEAR\n", "CLOSE\n");
+    assert_eq!(String::from_utf8(memory).unwrap(), file);
+}
+
+#[test]
+fn a_program_reads_the_same_from_a_file_and_from_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("path.pmc");
+    std::fs::write(&path, good()).unwrap();
+    let format = PmacFormat::default();
+    let mut file = PmacReader::open(&path, format).unwrap();
+    let good = good();
+    let mut memory = PmacReader::from_reader(good.as_bytes(), "memory", format);
+    loop {
+        let (one, other) = (file.next_point().unwrap(), memory.next_point().unwrap());
+        assert_eq!(one, other);
+        if one.is_none() {
+            break;
+        }
+    }
+    assert_eq!(file.read_count().points(), 5);
 }

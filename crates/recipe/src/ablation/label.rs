@@ -1,4 +1,4 @@
-//! Values in words, for the rows of a table.
+//! Values as text, for the rows of the comparison.
 
 use crate::document::{Entry, Node, Table, Value};
 
@@ -12,11 +12,11 @@ pub(super) fn of_choice(list: &List, index: usize) -> String {
     match &node.value {
         Value::Table(table) if list.is_slot() => of_strategy(list, table),
         Value::Text(text) => text.clone(),
-        value => written(value),
+        value => toml_of(value),
     }
 }
 
-/// A strategy's name, with its parameters where it is not the only one of that name.
+/// A strategy's name, with its parameters if the list has several strategies of that name.
 fn of_strategy(list: &List, table: &Table) -> String {
     let name = name(table).unwrap_or_default();
     let of_name = |choice: &&Option<Node>| match choice.as_ref().map(|node| &node.value) {
@@ -45,25 +45,25 @@ fn name(table: &Table) -> Option<&str> {
 fn setting(entry: &Entry) -> String {
     match &entry.node.value {
         Value::Text(text) => format!("{} = {text}", entry.key),
-        value => format!("{} = {}", entry.key, written(value)),
+        value => format!("{} = {}", entry.key, toml_of(value)),
     }
 }
 
-/// As it would stand in a recipe.
-fn written(value: &Value) -> String {
+/// The value as a recipe would write it.
+fn toml_of(value: &Value) -> String {
     match value {
         Value::Text(text) => format!("{text:?}"),
         Value::Number(number) => number.to_string(),
         Value::Flag(flag) => flag.to_string(),
         Value::Date => "a date".to_owned(),
         Value::Array(items) => {
-            let items: Vec<String> = items.iter().map(|item| written(&item.value)).collect();
+            let items: Vec<String> = items.iter().map(|item| toml_of(&item.value)).collect();
             format!("[{}]", items.join(", "))
         }
         Value::Table(table) => {
             let entries = table.entries().iter();
             let entries =
-                entries.map(|entry| format!("{} = {}", entry.key, written(&entry.node.value)));
+                entries.map(|entry| format!("{} = {}", entry.key, toml_of(&entry.node.value)));
             format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
         }
     }

@@ -1,4 +1,4 @@
-//! `[ablation]`: the variants of a recipe, with values of its lists in place of the recipe's own.
+//! `[ablation]`: the variants of a recipe. Each takes values of the lists instead of the recipe's own.
 //!
 //! ```toml
 //! [ablation]
@@ -17,41 +17,43 @@ use crate::set::{self, Setting};
 
 use lists::{List, Lists, Mode};
 
-/// Most variants of a recipe: beyond, a list was meant otherwise.
+/// Most variants of a recipe: whoever asks for more has made a mistake in a list.
 pub const MOST_RUNS: usize = 4096;
 
 /// One of the recipes that `[ablation]` asks for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
-    /// What varies, in the order of the lists, with this variant's values; the same keys for all.
-    pub varied: Vec<Varied>,
+    /// The keys that vary, in the order of the lists, with this variant's values. All variants have
+    /// the same keys.
+    pub variations: Vec<Variation>,
     /// The recipe, without `[ablation]`.
     pub recipe: Recipe,
 }
 
 /// A key that varies, and one of its values.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Varied {
+pub struct Variation {
     /// The path of the key, `feed` or `tolerance.residual`.
     pub key: String,
-    /// The value as a person reads it: of a strategy its name, with its parameters where several
-    /// choices of the list have that name; `(default)` where the recipe leaves the key out.
+    /// The value as text. For a strategy this is its name, with its parameters if several values of
+    /// the list have that name; `(default)` if the recipe leaves the key out.
     pub value: String,
 }
 
-/// Which value each list gives; 0 is the recipe's own.
+/// The index of the chosen value in each list; 0 is the recipe's own value.
 type Pick = Vec<usize>;
 
 impl Recipe {
-    /// The recipes that `[ablation]` asks for: this one first, then in the order of the lists, the
-    /// last list turning fastest. Values that the recipe has already are not repeated. Where the
-    /// recipe says nothing about `refine`, it is off.
+    /// The recipes that `[ablation]` asks for. This recipe comes first; the others follow in the
+    /// order of the lists, and the last list varies fastest. A value that the recipe has already is
+    /// not repeated. If the recipe does not give `refine`, it is off.
     ///
     /// # Errors
-    /// When there is no `[ablation]`, or something in it is wrong: shown where it stands there.
+    /// When there is no `[ablation]`, or something in it is wrong. The messages have their spans in
+    /// that table.
     pub fn variants(&self) -> Result<Vec<Variant>, Diagnostics> {
         let base = self.ablation_base();
-        let Lists { mode, lists } = Lists::read(self.document(), &base, self.everywhere())?;
+        let Lists { mode, lists } = Lists::read(self.document(), &base, self.whole())?;
         let picks = match mode {
             Mode::AllPairs => all_pairs(&lists),
             Mode::OneAtATime => one_at_a_time(&lists),
@@ -59,14 +61,14 @@ impl Recipe {
         let Some(picks) = picks else {
             return Err(too_many(self, &lists).into());
         };
-        let mut found = Vec::new();
-        let made = picks
+        let mut diagnostics = Vec::new();
+        let variants = picks
             .iter()
-            .map(|pick| self.variant(&base, &lists, pick, &mut found));
-        let variants: Option<Vec<Variant>> = made.collect::<Vec<_>>().into_iter().collect();
-        // A wrong value is found with each value of the other lists.
+            .map(|pick| self.variant(&base, &lists, pick, &mut diagnostics));
+        let variants: Option<Vec<Variant>> = variants.collect::<Vec<_>>().into_iter().collect();
+        // A wrong value gives the same message with each value of the other lists.
         let mut once: Vec<Diagnostic> = Vec::new();
-        for diagnostic in found {
+        for diagnostic in diagnostics {
             if !once.contains(&diagnostic) {
                 once.push(diagnostic);
             }
@@ -74,17 +76,18 @@ impl Recipe {
         Diagnostics::unless_any(variants, once)
     }
 
-    /// The recipe's own values, without `[ablation]`, and with `refine` off unless it is spoken of.
+    /// The recipe's own values without `[ablation]`, and with `refine` off unless the recipe gives
+    /// it.
     fn ablation_base(&self) -> Table {
         let mut base = self.document().clone();
         base.remove("ablation");
         if base.get("refine").is_none() {
-            let place = self.everywhere().clone();
+            let span = self.whole().clone();
             let value = Value::Flag(false);
             base.put(Entry {
                 key: "refine".to_owned(),
-                place: place.clone(),
-                node: Node { value, place },
+                span: span.clone(),
+                node: Node { value, span },
             });
         }
         base
@@ -95,7 +98,7 @@ impl Recipe {
         base: &Table,
         lists: &[List],
         pick: &Pick,
-        found: &mut Vec<Diagnostic>,
+        diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Variant> {
         let mut document = base.clone();
         for (list, &index) in lists.iter().zip(pick).filter(|(_, index)| **index > 0) {
@@ -103,21 +106,28 @@ impl Recipe {
                 keys: list.path.clone(),
                 node: list.choices.get(index)?.clone()?,
             };
-            found.extend(set::put(&mut document, setting).err());
+            diagnostics.extend(set::put(&mut document, setting).err());
         }
-        let recipe = build(document, self.everywhere().clone(), self.path(), found)?;
-        let varied = lists.iter().zip(pick).map(|(list, &index)| Varied {
+        let sets = self.sets().to_vec();
+        let recipe = build(
+            document,
+            sets,
+            self.whole().clone(),
+            self.path(),
+            diagnostics,
+        )?;
+        let variations = lists.iter().zip(pick).map(|(list, &index)| Variation {
             key: list.key(),
             value: label::of_choice(list, index),
         });
         Some(Variant {
-            varied: varied.collect(),
+            variations: variations.collect(),
             recipe,
         })
     }
 }
 
-/// Every value with every other; none if there are too many.
+/// Every value with every other; `None` if there are too many.
 fn all_pairs(lists: &[List]) -> Option<Vec<Pick>> {
     let mut picks = vec![Pick::new()];
     for list in lists {
@@ -134,7 +144,7 @@ fn all_pairs(lists: &[List]) -> Option<Vec<Pick>> {
     Some(picks)
 }
 
-/// The recipe's own values, then each other value alone; none if there are too many.
+/// The recipe's own values, then each other value alone; `None` if there are too many.
 fn one_at_a_time(lists: &[List]) -> Option<Vec<Pick>> {
     let own = vec![0; lists.len()];
     let mut picks = vec![own.clone()];
@@ -154,9 +164,9 @@ fn too_many(recipe: &Recipe, lists: &[List]) -> Diagnostic {
         .map(|list| list.choices.len().to_string())
         .collect();
     let title = format!("this ablation asks for more than {MOST_RUNS} runs");
-    Diagnostic::new(recipe.nearest_place("ablation"), title)
-        .label(format!("{} values", counts.join(" × ")))
-        .help("shorten its lists, or write mode = \"one-at-a-time\"")
+    Diagnostic::new(recipe.nearest_span("ablation"), title)
+        .with_label(format!("{} values", counts.join(" × ")))
+        .with_help("shorten its lists, or write mode = \"one-at-a-time\"")
 }
 
 #[cfg(test)]

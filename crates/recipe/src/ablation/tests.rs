@@ -31,7 +31,7 @@ use = "z-direction"
 use = "triangle-rotary"
 "#;
 
-fn variants(ablation: &str) -> Vec<Variant> {
+fn variants_of(ablation: &str) -> Vec<Variant> {
     let text = format!("{BASE}[ablation]\n{ablation}\n");
     let recipe = Recipe::parse(&text, "mirror.toml", &[]).unwrap();
     recipe
@@ -41,15 +41,15 @@ fn variants(ablation: &str) -> Vec<Variant> {
 
 fn labels(variants: &[Variant]) -> Vec<String> {
     let one = |variant: &Variant| {
-        let values = variant.varied.iter().map(|varied| varied.value.as_str());
+        let values = variant.variations.iter().map(|one| one.value.as_str());
         values.collect::<Vec<_>>().join(" | ")
     };
     variants.iter().map(one).collect()
 }
 
 #[test]
-fn the_product_begins_with_the_recipe_and_its_last_list_turns_fastest() {
-    let made = variants(
+fn the_product_begins_with_the_recipe_and_its_last_list_varies_fastest() {
+    let variants = variants_of(
         "feed = [{ use = \"constant\" }]\ntolerance.residual = [\"50 nm\", \"100 nm\", \"20 nm\"]",
     );
     let expected = [
@@ -60,16 +60,20 @@ fn the_product_begins_with_the_recipe_and_its_last_list_turns_fastest() {
         "constant | 50 nm",
         "constant | 20 nm",
     ];
-    assert_eq!(labels(&made), expected);
-    assert_eq!(made[4].recipe.choice(Slot::Feed).name(), "constant");
-    assert!((made[4].recipe.tolerance.residual - 50e-6).abs() < 1e-18);
-    let keys: Vec<&str> = made[0].varied.iter().map(|one| one.key.as_str()).collect();
+    assert_eq!(labels(&variants), expected);
+    assert_eq!(variants[4].recipe.choice(Slot::Feed).name(), "constant");
+    assert!((variants[4].recipe.tolerance.residual - 50e-6).abs() < 1e-18);
+    let keys: Vec<&str> = variants[0]
+        .variations
+        .iter()
+        .map(|one| one.key.as_str())
+        .collect();
     assert_eq!(keys, ["feed", "tolerance.residual"]);
 }
 
 #[test]
 fn one_at_a_time_changes_one_value_of_the_recipe_each() {
-    let made = variants(
+    let variants = variants_of(
         "mode = \"one-at-a-time\"\nfeed = [{ use = \"constant\" }]\nvelocity = [{ use = \"area\" }, \
          { use = \"linear\" }]",
     );
@@ -79,16 +83,20 @@ fn one_at_a_time_changes_one_value_of_the_recipe_each() {
         "atpg | area",
         "atpg | linear",
     ];
-    assert_eq!(labels(&made), expected);
+    assert_eq!(labels(&variants), expected);
 }
 
 #[test]
-fn lists_keep_the_order_of_the_text_whatever_tables_they_lie_in() {
-    let made = variants(
+fn lists_keep_the_order_of_the_text_whatever_their_tables() {
+    let variants = variants_of(
         "tolerance.residual = [\"50 nm\"]\nfeed = [{ use = \"constant\" }]\n\
          tolerance.interpolation = [\"10 nm\"]",
     );
-    let keys: Vec<&str> = made[0].varied.iter().map(|one| one.key.as_str()).collect();
+    let keys: Vec<&str> = variants[0]
+        .variations
+        .iter()
+        .map(|one| one.key.as_str())
+        .collect();
     assert_eq!(
         keys,
         ["tolerance.residual", "feed", "tolerance.interpolation"]
@@ -97,18 +105,18 @@ fn lists_keep_the_order_of_the_text_whatever_tables_they_lie_in() {
 
 #[test]
 fn a_strategy_takes_the_whole_table_and_a_key_keeps_the_rest() {
-    let made = variants("sampler = [{ use = \"equal-angle\", step = \"6 deg\" }]");
-    let sampler = made[1].recipe.choice(Slot::Sampler);
+    let variants = variants_of("sampler = [{ use = \"equal-angle\", step = \"6 deg\" }]");
+    let sampler = variants[1].recipe.choice(Slot::Sampler);
     assert!(sampler.param("step").is_some() && sampler.param("max_step").is_none());
-    let made = variants("sampler.max_step = [\"90 deg\"]\nsurface.k = [\"0.04 /mm\"]");
-    let sampler = made[3].recipe.choice(Slot::Sampler);
+    let variants = variants_of("sampler.max_step = [\"90 deg\"]\nsurface.k = [\"0.04 /mm\"]");
+    let sampler = variants[3].recipe.choice(Slot::Sampler);
     assert_eq!((sampler.name(), sampler.params.len()), ("atpg", 1));
-    assert_eq!(labels(&made)[3], "90 deg | 0.04 /mm");
+    assert_eq!(labels(&variants)[3], "90 deg | 0.04 /mm");
 }
 
 #[test]
-fn parameters_are_shown_where_the_name_alone_does_not_tell() {
-    let made = variants(
+fn parameters_are_shown_where_several_values_have_one_name() {
+    let variants = variants_of(
         "sampler = [{ use = \"atpg\", max_step = \"9 deg\" }, { use = \"equal-angle\", step = \"6 \
          deg\" }]",
     );
@@ -117,32 +125,37 @@ fn parameters_are_shown_where_the_name_alone_does_not_tell() {
         "atpg (max_step = 9 deg)",
         "equal-angle",
     ];
-    assert_eq!(labels(&made), expected);
+    assert_eq!(labels(&variants), expected);
 }
 
 #[test]
-fn what_the_recipe_has_already_is_not_repeated_in_whatever_order_it_is_written() {
-    let made = variants(
+fn a_value_of_the_recipe_is_not_repeated_whatever_the_order_of_its_keys() {
+    let variants = variants_of(
         "sampler = [{ max_step = \"45 deg\", use = \"atpg\" }, { use = \"ats\" }, { use = \"ats\" }]",
     );
-    assert_eq!(labels(&made), ["atpg", "ats"]);
+    assert_eq!(labels(&variants), ["atpg", "ats"]);
 }
 
 #[test]
-fn refine_is_off_unless_the_recipe_speaks_of_it() {
-    let made = variants("velocity = [{ use = \"area\" }]");
-    assert!(made.iter().all(|variant| !variant.recipe.refine));
-    let made = variants("refine = [true, false]");
-    assert_eq!(labels(&made), ["false", "true"]);
+fn refine_is_off_unless_the_recipe_gives_it() {
+    let variants = variants_of("velocity = [{ use = \"area\" }]");
+    assert!(variants.iter().all(|variant| !variant.recipe.refine));
+    let variants = variants_of("refine = [true, false]");
+    assert_eq!(labels(&variants), ["false", "true"]);
     let text = format!("refine = true\n{BASE}[ablation]\nvelocity = [{{ use = \"area\" }}]\n");
-    let made = Recipe::parse(&text, "m.toml", &[]).unwrap().variants();
-    assert!(made.unwrap().iter().all(|variant| variant.recipe.refine));
+    let variants = Recipe::parse(&text, "m.toml", &[]).unwrap().variants();
+    assert!(
+        variants
+            .unwrap()
+            .iter()
+            .all(|variant| variant.recipe.refine)
+    );
 }
 
 #[test]
 fn a_key_that_the_recipe_leaves_out_is_a_default_first() {
-    let made = variants("path.direction = [\"outward\"]");
-    assert_eq!(labels(&made), ["(default)", "outward"]);
+    let variants = variants_of("path.direction = [\"outward\"]");
+    assert_eq!(labels(&variants), ["(default)", "outward"]);
 }
 
 #[test]
@@ -153,7 +166,7 @@ fn a_set_adds_a_list() {
 }
 
 #[test]
-fn a_thousand_thousands_of_runs_are_refused() {
+fn a_million_runs_are_refused() {
     let values: Vec<String> = (1..100).map(|i| format!("\"{i} nm\"")).collect();
     let list = values.join(", ");
     let text = format!(

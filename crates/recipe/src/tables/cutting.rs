@@ -1,4 +1,4 @@
-//! `[tolerance]` and `[spindle]`: how exactly, and how fast.
+//! `[tolerance]` and `[spindle]`: how accurate the part must be, and how fast the spindle turns.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +9,13 @@ use crate::read::{Bound, Section};
 pub(super) const TOLERANCE_KEYS: &[&str] = &["interpolation", "residual"];
 pub(super) const SPINDLE_KEYS: &[&str] = &["speed"];
 
-/// What double precision leaves of a metre is a tenth of the least.
+/// The smallest tolerance is ten times the rounding error of a metre in double precision.
 const MEASURABLE: Bound = Bound {
     holds: |length| length >= 0.000_999 * NM,
     words: "0.001 nm or above",
 };
-/// From a turn in two years to beyond any spindle.
-const TURNS: Bound = Bound {
+/// From one turn in two years to more than any spindle reaches.
+const SPINDLE_SPEED: Bound = Bound {
     holds: |speed| (0.999e-6..=1.001e6).contains(&(60.0 * speed / TAU)),
     words: "between 1e-6 rpm and 1e6 rpm",
 };
@@ -26,7 +26,7 @@ pub(crate) fn tolerance(section: &mut Section<'_>) -> Option<Tolerance> {
         section.missing_table("interpolation = \"100 nm\"");
         return None;
     }
-    section.only(TOLERANCE_KEYS);
+    section.report_unknown_keys(TOLERANCE_KEYS);
     let mut length = |key| section.required_quantity(key, Quantity::Length, MEASURABLE, "100 nm");
     let (interpolation, residual) = (length("interpolation"), length("residual"));
     Some(Tolerance {
@@ -41,7 +41,8 @@ pub(crate) fn spindle(section: &mut Section<'_>) -> Option<f64> {
         section.missing_table("speed = \"500 rpm\"");
         return None;
     }
-    section.only(SPINDLE_KEYS);
-    let speed = section.required_quantity("speed", Quantity::RotationSpeed, TURNS, "500 rpm");
+    section.report_unknown_keys(SPINDLE_KEYS);
+    let speed =
+        section.required_quantity("speed", Quantity::RotationSpeed, SPINDLE_SPEED, "500 rpm");
     speed.map(|speed| speed.value)
 }

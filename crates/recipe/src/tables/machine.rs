@@ -1,4 +1,4 @@
-//! `[machine]`: limits that the path is held against, from a preset, one by one, or both.
+//! `[machine]`: the limits that the path must hold, from a preset, from keys of their own, or both.
 
 use turnpath_core::{Axis, Derivative, Machine};
 
@@ -20,7 +20,7 @@ pub(super) const KEYS: &[&str] = &[
     "c_jerk",
 ];
 
-/// `[machine]`; without the table no limit and no preset.
+/// `[machine]`. Without the table there is neither a limit nor a preset.
 #[derive(Default)]
 pub(crate) struct MachineTable {
     pub(crate) machine: Machine,
@@ -32,14 +32,16 @@ pub(crate) fn machine(section: &mut Section<'_>) -> MachineTable {
     let Some(table) = section.table else {
         return MachineTable::default();
     };
-    section.only(KEYS);
+    section.report_unknown_keys(KEYS);
     if !KEYS.iter().any(|key| table.has_like(key)) {
         let title = "[machine] sets no limit";
-        let diagnostic = Diagnostic::new(section.place.clone(), title)
-            .label("a preset or a limit belongs here")
-            .help("add a line such as: preset = \"generic-sts\" or: x_acceleration = \"1 m/s^2\"")
-            .help(format!("keys of [machine]: {}", listed(KEYS)));
-        section.complain(diagnostic);
+        let diagnostic = Diagnostic::new(section.span.clone(), title)
+            .with_label("a preset or a limit belongs here")
+            .with_help(
+                "add a line such as: preset = \"generic-sts\" or: x_acceleration = \"1 m/s^2\"",
+            )
+            .with_help(format!("keys of [machine]: {}", listed(KEYS)));
+        section.report(diagnostic);
     }
     let preset = preset(section);
     let mut machine = preset.map_or_else(Machine::default, |preset| preset.machine);
@@ -56,33 +58,33 @@ pub(crate) fn machine(section: &mut Section<'_>) -> MachineTable {
 
 fn preset(section: &mut Section<'_>) -> Option<&'static Preset> {
     let name = section.text("preset")?;
-    let found = Preset::named(&name.value);
-    if found.is_none() {
+    let preset = Preset::named(&name.value);
+    if preset.is_none() {
         let names = Preset::names();
         let title = format!("no machine named {}", quoted(&name.value));
-        let diagnostic = Diagnostic::new(name.place, title)
-            .label("unknown preset")
-            .helps(did_you_mean(&name.value, &names))
-            .help(format!("presets: {}", listed(&names)))
-            .help("or give the limits of your machine: x_acceleration = \"1 m/s^2\"");
-        section.complain(diagnostic);
+        let diagnostic = Diagnostic::new(name.span, title)
+            .with_label("unknown preset")
+            .with_helps(did_you_mean(&name.value, &names))
+            .with_help(format!("presets: {}", listed(&names)))
+            .with_help("or give the limits of your machine: x_acceleration = \"1 m/s^2\"");
+        section.report(diagnostic);
     }
-    found
+    preset
 }
 
-/// Complains about a spindle that the recipe turns faster than its machine can.
+/// Reports a spindle speed above the limit of the machine.
 pub(crate) fn check_spindle(section: &mut Section<'_>, speed: f64, machine: &Machine) {
     let Some(limit) = machine.c.velocity.filter(|limit| speed > *limit) else {
         return;
     };
-    let place = section.node("speed").map(|node| node.place.clone());
-    let place = place.unwrap_or_else(|| section.place.clone());
+    let span = section.node("speed").map(|node| node.span.clone());
+    let span = span.unwrap_or_else(|| section.span.clone());
     let most = Derivative::Velocity.quantity(Axis::C).format(limit);
     let title = "the spindle turns faster than the machine's C axis can";
-    let diagnostic = Diagnostic::new(place, title)
-        .label(format!("above {most}, the limit `c_velocity` of [machine]"))
-        .help("choose a lower speed, or set c_velocity to what the machine can do");
-    section.complain(diagnostic);
+    let diagnostic = Diagnostic::new(span, title)
+        .with_label(format!("above {most}, the limit `c_velocity` of [machine]"))
+        .with_help("choose a lower speed, or set c_velocity to what the machine can do");
+    section.report(diagnostic);
 }
 
 #[cfg(test)]

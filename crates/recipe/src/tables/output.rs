@@ -1,13 +1,13 @@
 //! `[output]`: the files to write.
 
 use crate::diagnostic::Diagnostic;
-use crate::place::Located;
 use crate::read::Section;
+use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
 
 pub(super) const KEYS: &[&str] = &["posts", "data", "z_reference", "pmac-pvt"];
 
-/// The posts there are. Each may have a table of its name below `[output]`.
+/// The known posts. Each may have a table of its name below `[output]`.
 const POSTS: &[&str] = &["pmac-pvt"];
 const DATA: &[&str] = &["csv"];
 
@@ -18,29 +18,29 @@ pub enum DataFormat {
     Csv,
 }
 
-/// What Z means in a program.
+/// The point of the tool whose Z a program gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ZReference {
-    /// Z of the tool's tip.
+    /// The tip of the tool.
     Tip,
-    /// Z of the nose's centre.
+    /// The centre of the nose.
     Centre,
 }
 
 /// `[output]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
-    /// The programs to write, by the names of their posts.
-    pub posts: Vec<Located<String>>,
+    /// The posts that write programs, by their names.
+    pub posts: Vec<Spanned<String>>,
     /// The data files to write.
     pub data: Vec<DataFormat>,
-    /// What Z means in the programs.
+    /// The point of the tool whose Z the programs give.
     pub z_reference: ZReference,
 }
 
 /// Reads `[output]`.
 pub(crate) fn output(section: &mut Section<'_>) -> Output {
-    section.only(KEYS);
+    section.report_unknown_keys(KEYS);
     let posts = section.texts("posts").unwrap_or_default();
     check_posts(section, &posts);
     let z_reference = match section.word("z_reference", &["tip", "centre"]) {
@@ -61,10 +61,10 @@ fn data(section: &mut Section<'_>) -> Vec<DataFormat> {
     let unknown = names
         .iter()
         .filter(|name| !DATA.contains(&name.value.as_str()));
-    let complaints: Vec<Diagnostic> = unknown
-        .map(|name| no_such("data format", name, DATA))
+    let messages: Vec<Diagnostic> = unknown
+        .map(|name| unknown_name("data format", name, DATA))
         .collect();
-    section.found.extend(complaints);
+    section.diagnostics.extend(messages);
     if names.is_empty() {
         Vec::new()
     } else {
@@ -72,26 +72,26 @@ fn data(section: &mut Section<'_>) -> Vec<DataFormat> {
     }
 }
 
-fn no_such(what: &str, name: &Located<String>, known: &[&str]) -> Diagnostic {
+fn unknown_name(what: &str, name: &Spanned<String>, known: &[&str]) -> Diagnostic {
     Diagnostic::new(
-        name.place.clone(),
+        name.span.clone(),
         format!("no {what} named {}", quoted(&name.value)),
     )
-    .label(format!("unknown {what}"))
-    .helps(did_you_mean(&name.value, known))
-    .help(format!("known: {}", listed(known)))
+    .with_label(format!("unknown {what}"))
+    .with_helps(did_you_mean(&name.value, known))
+    .with_help(format!("known: {}", listed(known)))
 }
 
-fn check_posts(section: &mut Section<'_>, posts: &[Located<String>]) {
+fn check_posts(section: &mut Section<'_>, posts: &[Spanned<String>]) {
     for (index, post) in posts.iter().enumerate() {
         if !POSTS.contains(&post.value.as_str()) {
-            section.complain(no_such("post", post, POSTS));
+            section.report(unknown_name("post", post, POSTS));
         } else if posts[..index].iter().any(|other| other.value == post.value) {
-            let title = format!("the post {} stands twice", quoted(&post.value));
-            let diagnostic = Diagnostic::new(post.place.clone(), title)
-                .label("again")
-                .help("each post writes one program: name it once");
-            section.complain(diagnostic);
+            let title = format!("the post {} is named twice", quoted(&post.value));
+            let diagnostic = Diagnostic::new(post.span.clone(), title)
+                .with_label("named again here")
+                .with_help("each post writes one program: name it once");
+            section.report(diagnostic);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `[path]`: which way the tool feeds, how far beyond the part, and how it comes and goes.
+//! `[path]`: the direction of the feed, the overrun beyond the part, and the leads.
 
 use turnpath_core::{Direction, Overrun, Quantity};
 
@@ -7,9 +7,9 @@ use crate::read::{Bound, NOT_NEGATIVE, Section};
 
 pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead", "clearance"];
 
-/// How far the path rests above the part where the recipe does not say it, mm.
+/// Height of the path's rest above the part if the recipe does not give it, mm.
 const CLEARANCE: f64 = 1.0;
-/// How far it may: no lathe for optics has a longer way of Z.
+/// The allowed heights: no lathe for optics has a longer travel of Z.
 const REACH: Bound = Bound {
     holds: |clearance| clearance > 0.0 && clearance <= 1e3,
     words: "above zero and at most 1 m",
@@ -25,7 +25,7 @@ pub(crate) struct PathTable {
 
 /// Reads `[path]`.
 pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
-    section.only(KEYS);
+    section.report_unknown_keys(KEYS);
     if section.is_something_else() {
         return PathTable {
             direction: Direction::Inward,
@@ -48,7 +48,7 @@ pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
     }
 }
 
-/// A word, or a length.
+/// `overrun` is a word or a length.
 fn overrun(section: &mut Section<'_>) -> Overrun {
     let Some(node) = section.node("overrun") else {
         return Overrun::Contact;

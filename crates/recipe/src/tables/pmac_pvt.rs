@@ -1,8 +1,8 @@
-//! `[output.pmac-pvt]`: how that post lays out its programs.
+//! `[output.pmac-pvt]`: the layout of the programs of that post.
 
 use crate::diagnostic::Diagnostic;
-use crate::place::Located;
 use crate::read::Section;
+use crate::span::Spanned;
 
 pub(super) const NAME: &str = "output.pmac-pvt";
 pub(super) const KEYS: &[&str] = &[
@@ -16,17 +16,18 @@ pub(super) const KEYS: &[&str] = &[
     "footer",
 ];
 
-/// Decimals of positions where none are given: 0.1 nm.
+/// Decimals of positions if the recipe gives none: the last one is 0.1 nm.
 const POSITION_DECIMALS: u32 = 7;
-/// Most decimals: beyond, a position has no room in 64 bits.
+/// Most decimals: with more, a position does not fit into 64 bits.
 const MOST_DECIMALS: u32 = 12;
 
-/// `[output.pmac-pvt]`, with what it leaves out filled in.
+/// `[output.pmac-pvt]`, with defaults for the keys that it leaves out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PmacPvt {
     /// Decimals of positions, mm and deg.
     pub position_decimals: u32,
-    /// Decimals of velocities; as many as of positions unless given, or one less per minute.
+    /// Decimals of velocities. The default is as many as positions have, or one less if velocities
+    /// are per minute.
     pub velocity_decimals: u32,
     /// Velocities per minute instead of per second.
     pub per_minute: bool,
@@ -34,18 +35,18 @@ pub struct PmacPvt {
     pub c_reversed: bool,
     /// C within 0 to 360 deg instead of unwrapped.
     pub c_wrapped: bool,
-    /// Distances from point to point instead of places.
+    /// Distances from point to point instead of positions.
     pub incremental: bool,
-    /// The program's header, a template; none: the post's own.
-    pub header: Option<Located<String>>,
-    /// Its footer, likewise.
-    pub footer: Option<Located<String>>,
+    /// The template of the program's header; `None` for the post's own.
+    pub header: Option<Spanned<String>>,
+    /// The template of the program's footer; `None` for the post's own.
+    pub footer: Option<Spanned<String>>,
 }
 
 /// Reads `[output.pmac-pvt]`.
 pub(crate) fn pmac_pvt(section: &mut Section<'_>) -> PmacPvt {
-    section.only(KEYS);
-    section.is_table();
+    section.report_unknown_keys(KEYS);
+    section.report_unless_table();
     let is = |section: &mut Section<'_>, key: &str, words: [&'static str; 2]| {
         let word = section.word(key, &words);
         word.is_some_and(|word| word.value == words[1])
@@ -66,24 +67,24 @@ pub(crate) fn pmac_pvt(section: &mut Section<'_>) -> PmacPvt {
 }
 
 fn decimals(section: &mut Section<'_>, key: &str) -> Option<u32> {
-    let written = section.number(key)?;
-    let found = (0..=MOST_DECIMALS).find(|count| f64::from(*count) == written.value);
-    if found.is_none() {
+    let number = section.number(key)?;
+    let count = (0..=MOST_DECIMALS).find(|count| f64::from(*count) == number.value);
+    if count.is_none() {
         let title = format!("`{key}` must be a whole number from 0 to {MOST_DECIMALS}");
-        section.complain(Diagnostic::new(written.place, title).label("not such a number"));
+        section.report(Diagnostic::new(number.span, title).with_label("not such a number"));
     }
-    found
+    count
 }
 
 fn c_reversed(section: &mut Section<'_>) -> bool {
-    let Some(written) = section.number("c_sign") else {
+    let Some(number) = section.number("c_sign") else {
         return false;
     };
-    if written.value.abs() != 1.0 {
-        let diagnostic = Diagnostic::new(written.place, "`c_sign` must be 1 or -1")
-            .label("neither")
-            .help("-1: the program's C runs against that of the path, which grows");
-        section.complain(diagnostic);
+    if number.value.abs() != 1.0 {
+        let diagnostic = Diagnostic::new(number.span, "`c_sign` must be 1 or -1")
+            .with_label("neither 1 nor -1")
+            .with_help("the path's C grows; -1 makes the program's C decrease");
+        section.report(diagnostic);
     }
-    written.value < 0.0
+    number.value < 0.0
 }

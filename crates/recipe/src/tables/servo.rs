@@ -1,4 +1,4 @@
-//! `[servo]`: how the machine's axes answer their commands, for all of them or one by one.
+//! `[servo]`: how the machine's axes follow their commands, for all axes or for each axis.
 
 use std::f64::consts::TAU;
 
@@ -31,34 +31,34 @@ pub(super) const KEYS: &[&str] = &[
     "c_acceleration_feed_forward",
 ];
 
-/// Damping where the recipe does not say it: the amplitude is then 1/sqrt 2 at the bandwidth, to
+/// Damping if the recipe does not give it. With it the amplitude at the bandwidth is 1/sqrt 2, to
 /// 1 %, and a step overshoots by 5 %.
 const DAMPING: f64 = 0.7;
-/// Of each axis, what is left out.
-const PART: Bound = Bound {
-    holds: |part| (0.0..=1.0).contains(&part),
+/// A feed-forward is a fraction of the commanded velocity or acceleration.
+const FEED_FORWARD: Bound = Bound {
+    holds: |fraction| (0.0..=1.0).contains(&fraction),
     words: "between 0 and 1",
 };
-/// A delay that is longer is a mistake of units, and would be memory for nothing.
-const SHORT: Bound = Bound {
+/// A longer delay is a mistake in the unit, and would take memory for nothing.
+const DELAY: Bound = Bound {
     holds: |delay| (NOT_NEGATIVE.holds)(delay) && delay <= 1.0,
     words: "between 0 and 1 s",
 };
 
-/// Far beyond every axis on both sides, and within what the model can do the sums for.
+/// Far beyond every real axis on both sides, and within the range that the model can compute.
 const BANDWIDTH: Bound = Bound {
     holds: |omega| (TAU * 1e-3..=TAU * 1e6).contains(&omega),
     words: "between 0.001 and 1e6 Hz",
 };
-/// An axis that is damped more than this is none; the model would be left without a number.
-const DAMPED: Bound = Bound {
+/// No real axis is damped more than this; with more damping the model gives no finite number.
+const DAMPING_RANGE: Bound = Bound {
     holds: |damping| damping > 0.0 && damping <= 100.0,
-    words: "above zero, and 100 at the most",
+    words: "above zero and at most 100",
 };
 
-/// What one axis, or all of them, are told to be.
+/// The keys of one axis, or those of all axes.
 #[derive(Clone, Copy, Default)]
-struct Asked {
+struct AxisKeys {
     frequency: Option<f64>,
     damping: Option<f64>,
     delay: Option<f64>,
@@ -66,21 +66,22 @@ struct Asked {
     acceleration_forward: Option<f64>,
 }
 
-impl Asked {
+impl AxisKeys {
     fn read(section: &mut Section<'_>, prefix: &str) -> Self {
         let key = |name: &str| format!("{prefix}{name}");
         let frequency = section.quantity(&key("bandwidth"), Quantity::RotationSpeed, BANDWIDTH);
-        let delay = section.quantity(&key("delay"), Quantity::Time, SHORT);
+        let delay = section.quantity(&key("delay"), Quantity::Time, DELAY);
         Self {
             frequency: frequency.map(|frequency| frequency.value),
-            damping: number(section, &key("damping"), DAMPED),
+            damping: number(section, &key("damping"), DAMPING_RANGE),
             delay: delay.map(|delay| delay.value),
-            velocity_forward: number(section, &key("velocity_feed_forward"), PART),
-            acceleration_forward: number(section, &key("acceleration_feed_forward"), PART),
+            velocity_forward: number(section, &key("velocity_feed_forward"), FEED_FORWARD),
+            acceleration_forward: number(section, &key("acceleration_feed_forward"), FEED_FORWARD),
         }
     }
 
-    /// The axis, what it leaves open from all axes' and from defaults; none without a bandwidth.
+    /// The axis. A key that the axis leaves out is taken from the keys of all axes, else from the
+    /// defaults. `None` if there is no bandwidth.
     fn axis(&self, all: &Self) -> Option<AxisServo> {
         let forward = |own: Option<f64>, all: Option<f64>| own.or(all).unwrap_or(0.0);
         Some(AxisServo {
@@ -93,15 +94,15 @@ impl Asked {
     }
 }
 
-/// Reads `[servo]`; none without the table. A preset's bandwidth stands in for one that is not
-/// given.
+/// Reads `[servo]`; `None` without the table. If the recipe gives no bandwidth, the preset's is
+/// used.
 pub(crate) fn servo(section: &mut Section<'_>, preset: Option<&Preset>) -> Option<Servo> {
     section.table?;
-    section.only(KEYS);
-    let mut all = Asked::read(section, "");
+    section.report_unknown_keys(KEYS);
+    let mut all = AxisKeys::read(section, "");
     let [x, z, c] = Axis::ALL.map(|axis| {
         let letter = axis.letter().to_ascii_lowercase();
-        Asked::read(section, &format!("{letter}_"))
+        AxisKeys::read(section, &format!("{letter}_"))
     });
     all.frequency = all
         .frequency
@@ -116,7 +117,7 @@ pub(crate) fn servo(section: &mut Section<'_>, preset: Option<&Preset>) -> Optio
     })
 }
 
-/// Complains where axes are left without a bandwidth, unless another message says why.
+/// Reports axes without a bandwidth, unless another message reports the cause.
 fn check_bandwidths(section: &mut Section<'_>) {
     let given = |key: &str| section.node(key).is_some();
     let each = ["x_bandwidth", "z_bandwidth", "c_bandwidth"];
@@ -127,10 +128,12 @@ fn check_bandwidths(section: &mut Section<'_>) {
         return;
     }
     if each.into_iter().any(given) {
-        let diagnostic = Diagnostic::new(section.place.clone(), "an axis has no bandwidth")
-            .label("`bandwidth`, or that of each axis, must be given")
-            .help("bandwidth = \"70 Hz\" is for all axes that have none of their own");
-        section.complain(diagnostic);
+        let diagnostic = Diagnostic::new(section.span.clone(), "an axis has no bandwidth")
+            .with_label("give `bandwidth`, or a bandwidth for each axis")
+            .with_help(
+                "bandwidth = \"70 Hz\" applies to every axis without a bandwidth of its own",
+            );
+        section.report(diagnostic);
     } else if !misspelt {
         section.missing("bandwidth", "\"70 Hz\"");
     }
@@ -143,6 +146,6 @@ fn number(section: &mut Section<'_>, key: &str, bound: Bound) -> Option<f64> {
     }
     let title = format!("`{key}` must be {}", bound.words);
     let label = format!("not {}", bound.words);
-    section.complain(Diagnostic::new(read.place, title).label(label));
+    section.report(Diagnostic::new(read.span, title).with_label(label));
     None
 }

@@ -1,4 +1,4 @@
-//! docs/recipe.md is the reference of these keys: it has each of them, and no other.
+//! docs/recipe.md is the reference of these keys: it has each of them and no other.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -12,7 +12,7 @@ fn page() -> String {
     std::fs::read_to_string(file).expect("docs/recipe.md")
 }
 
-/// What stands below a heading, up to the next one.
+/// The text below a heading, up to the next heading.
 fn below<'a>(page: &'a str, heading: &str) -> &'a str {
     let heading = format!("\n## {heading}\n");
     let (_, rest) = page.split_once(&heading).expect("the heading of the table");
@@ -20,7 +20,7 @@ fn below<'a>(page: &'a str, heading: &str) -> &'a str {
         .map_or(rest, |(section, _)| section)
 }
 
-/// The words in code of the first column of a section's tables.
+/// The words set as code in the first column of a section's tables.
 fn keys_of(section: &str) -> BTreeSet<&str> {
     let rows = section.lines().filter_map(|line| line.strip_prefix("| "));
     let cells = rows.filter_map(|row| row.split_once(" |"));

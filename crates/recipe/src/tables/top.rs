@@ -4,10 +4,9 @@ use turnpath_core::Slot;
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Table, Value};
-use crate::place::Located;
-use crate::read::{Section, tables_with};
+use crate::read::{Schema, Section};
+use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
-use crate::tables::SCHEMA;
 use crate::value;
 
 /// Keys above the first table.
@@ -16,22 +15,22 @@ pub(crate) const KEYS: &[&str] = &["format", "name", "plugins", "refine"];
 /// The only format so far.
 const FORMAT: f64 = 1.0;
 
-/// What stands above the first table.
+/// The values above the first table.
 pub(crate) struct Top {
     pub(crate) name: Option<String>,
-    pub(crate) plugins: Vec<Located<String>>,
+    pub(crate) plugins: Vec<Spanned<String>>,
     pub(crate) refine: bool,
 }
 
-/// Reads the keys above the first table, and complains about unknown tables.
+/// Reads the keys above the first table and reports unknown tables.
 pub(crate) fn top(section: &mut Section<'_>) -> Top {
-    only_known(section);
+    report_unknown(section);
     let name = section.text("name");
     if let Some(empty) = name.as_ref().filter(|name| name.value.trim().is_empty()) {
         let title = "`name` is empty";
-        section.complain(
-            Diagnostic::new(empty.place.clone(), title)
-                .help("leave it out, or give the job a name"),
+        section.report(
+            Diagnostic::new(empty.span.clone(), title)
+                .with_help("leave it out, or give the job a name"),
         );
     }
     Top {
@@ -41,7 +40,7 @@ pub(crate) fn top(section: &mut Section<'_>) -> Top {
     }
 }
 
-/// Whether the recipe is of the format that this version reads; complains if not.
+/// Whether this version reads the recipe's format. Another format is reported.
 pub(crate) fn format_is_one(section: &mut Section<'_>) -> bool {
     let Some(node) = section.node("format") else {
         section.missing("format", "1");
@@ -50,38 +49,39 @@ pub(crate) fn format_is_one(section: &mut Section<'_>) -> bool {
     match value::number("format", node) {
         Ok(FORMAT) => true,
         Ok(other) => {
-            let title = format!("the recipe is of format {other}, and this version reads format 1");
-            let diagnostic = Diagnostic::new(node.place.clone(), title)
-                .label("must be 1")
-                .help("take a version of turnpath that reads it, or write format = 1");
-            section.complain(diagnostic);
+            let title = format!("the recipe has format {other}, but this version reads format 1");
+            let diagnostic = Diagnostic::new(node.span.clone(), title)
+                .with_label("must be 1")
+                .with_help("use a version of turnpath that reads this format, or write format = 1");
+            section.report(diagnostic);
             false
         }
         Err(diagnostic) => {
-            section.complain(diagnostic);
+            section.report(diagnostic);
             false
         }
     }
 }
 
-fn only_known(section: &mut Section<'_>) {
+fn report_unknown(section: &mut Section<'_>) {
+    let names = table_names(section.schema);
     for entry in section.table.map_or(&[][..], Table::entries) {
         let is_table = matches!(entry.node.value, Value::Table(_));
         let key = entry.key.as_str();
-        let complaint = match (table_names().contains(&key), KEYS.contains(&key)) {
+        let diagnostic = match (names.contains(&key), KEYS.contains(&key)) {
             (true, _) if is_table => continue,
             (true, _) => not_a_table(entry),
             (_, true) => continue,
-            _ if is_table => unknown_table(entry),
-            _ => unknown_key(entry),
+            _ if is_table => unknown_table(entry, &names),
+            _ => unknown_key(section, entry, &names),
         };
-        section.complain(complaint);
+        section.report(diagnostic);
     }
 }
 
-fn table_names() -> Vec<&'static str> {
+fn table_names(schema: Schema) -> Vec<&'static str> {
     let slots = Slot::ALL.iter().map(|slot| slot.key());
-    let fixed = SCHEMA.iter().map(|(name, _)| *name);
+    let fixed = schema.iter().map(|(name, _)| *name);
     fixed
         .filter(|name| !name.contains('.'))
         .chain(slots)
@@ -91,26 +91,29 @@ fn table_names() -> Vec<&'static str> {
 fn not_a_table(entry: &Entry) -> Diagnostic {
     let key = &entry.key;
     value::wrong_type(key, &entry.node, "a table")
-        .help(format!("write the line [{key}], and its keys below it"))
+        .with_help(format!("write the line [{key}], and its keys below it"))
 }
 
-fn unknown_table(entry: &Entry) -> Diagnostic {
-    let names = table_names();
+fn unknown_table(entry: &Entry, names: &[&str]) -> Diagnostic {
     Diagnostic::new(
-        entry.node.place.clone(),
+        entry.node.span.clone(),
         format!("unknown table {}", quoted(&entry.key)),
     )
-    .label("unknown table")
-    .helps(did_you_mean(&entry.key, &names))
-    .help(format!("tables: {}", listed(&names)))
+    .with_label("unknown table")
+    .with_helps(did_you_mean(&entry.key, names))
+    .with_help(format!("tables: {}", listed(names)))
 }
 
-fn unknown_key(entry: &Entry) -> Diagnostic {
+fn unknown_key(section: &Section<'_>, entry: &Entry, tables: &[&str]) -> Diagnostic {
     let key = entry.key.as_str();
-    let elsewhere = || tables_with(key).map(|tables| format!("`{key}` belongs to {tables}"));
-    let known: Vec<&str> = KEYS.iter().copied().chain(table_names()).collect();
-    Diagnostic::new(entry.place.clone(), format!("unknown key {}", quoted(key)))
-        .label("unknown key")
-        .helps(did_you_mean(key, &known).or_else(elsewhere))
-        .help(format!("keys above the first table: {}", listed(KEYS)))
+    let elsewhere = || {
+        section
+            .tables_with(key)
+            .map(|tables| format!("`{key}` belongs to {tables}"))
+    };
+    let known: Vec<&str> = KEYS.iter().copied().chain(tables.iter().copied()).collect();
+    Diagnostic::new(entry.span.clone(), format!("unknown key {}", quoted(key)))
+        .with_label("unknown key")
+        .with_helps(did_you_mean(key, &known).or_else(elsewhere))
+        .with_help(format!("keys above the first table: {}", listed(KEYS)))
 }

@@ -1,4 +1,4 @@
-//! `[part]` and `[tool]`: what is cut, and with what.
+//! `[part]` and `[tool]`: the part and the tool that cuts it.
 
 use std::f64::consts::PI;
 
@@ -15,8 +15,8 @@ pub(super) const TOOL_KEYS: &[&str] = &[
     "interference",
 ];
 
-/// Of what can be held and ground.
-const TANGIBLE: Bound = Bound {
+/// The smallest length of a part or a tool that can be made.
+const LEAST_LENGTH: Bound = Bound {
     holds: |length| length >= 0.999e-4,
     words: "0.1 um or above",
 };
@@ -35,16 +35,16 @@ pub(crate) fn part(section: &mut Section<'_>) -> Option<Part> {
         section.missing_table("aperture = \"5 mm\"");
         return None;
     }
-    section.only(PART_KEYS);
-    let aperture = section.required_quantity("aperture", Quantity::Length, TANGIBLE, "5 mm");
+    section.report_unknown_keys(PART_KEYS);
+    let aperture = section.required_quantity("aperture", Quantity::Length, LEAST_LENGTH, "5 mm");
     let inner = section.quantity("inner", Quantity::Length, NOT_NEGATIVE);
     let (aperture, hole) = (aperture?, inner.as_ref().map_or(0.0, |inner| inner.value));
     if let Some(inner) = inner.filter(|inner| inner.value >= aperture.value) {
         let whole = Quantity::Length.format(aperture.value);
-        let diagnostic = Diagnostic::new(inner.place, "the hole is not smaller than the aperture")
-            .label(format!("must be below {whole}"))
-            .help("`inner` is the diameter of the hole, `aperture` that of the part");
-        section.complain(diagnostic);
+        let diagnostic = Diagnostic::new(inner.span, "the hole is not smaller than the aperture")
+            .with_label(format!("must be below {whole}"))
+            .with_help("`inner` is the diameter of the hole, `aperture` that of the part");
+        section.report(diagnostic);
         return None;
     }
     Some(Part {
@@ -59,8 +59,8 @@ pub(crate) fn tool(section: &mut Section<'_>) -> Option<Tool> {
         section.missing_table("nose_radius = \"1 mm\"");
         return None;
     }
-    section.only(TOOL_KEYS);
-    let radius = section.required_quantity("nose_radius", Quantity::Length, TANGIBLE, "1 mm");
+    section.report_unknown_keys(TOOL_KEYS);
+    let radius = section.required_quantity("nose_radius", Quantity::Length, LEAST_LENGTH, "1 mm");
     let included = section.quantity("included_angle", Quantity::Angle, INCLUDED);
     let clearance = section.quantity("clearance_angle", Quantity::Angle, CLEARANCE);
     let misfit = misfit(section);

@@ -128,7 +128,7 @@ fn write_map(plot: &MapPlot, map: &Map, name: &str) -> Result<Draft, FileError> 
             .filter(|(_, error)| !error.is_nan())
         {
             let (x, y) = plot.grid.point(row, column);
-            writer.place(x, y, error)?;
+            writer.point(x, y, error)?;
         }
     }
     Ok(writer.whole())
