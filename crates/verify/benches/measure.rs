@@ -1,7 +1,7 @@
 //! How fast a path is measured: `cargo bench -p turnpath-verify`. Items are positions, segments,
 //! passes or cells; `docs/benchmarks.md` has what was measured.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use std::f64::consts::TAU;
