@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use crate::support::repository;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -20,12 +21,8 @@ const EQUAL: [&str; 4] = [
     "sampler={use=\"equal-angle\",step=\"9 deg\"}",
 ];
 
-fn repository(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file)
-}
-
 fn astigmatic() -> PathBuf {
-    repository("docs/recipes/astigmatic-5mm.toml")
+    repository().join("docs/recipes/astigmatic-5mm.toml")
 }
 
 /// The program called with a command, a recipe, and `--set` for each of `sets`.
@@ -135,9 +132,10 @@ fn the_programs_error_is_that_of_the_path_and_verify_finds_the_same() {
 
 #[test]
 fn an_independent_reader_finds_the_same_points_and_error() {
-    let reference = fs::read_to_string(repository("tests/reference/pmac/ast-5.json")).unwrap();
+    let reference =
+        fs::read_to_string(repository().join("tests/reference/pmac/ast-5.json")).unwrap();
     let reference: Value = serde_json::from_str(&reference).unwrap();
-    let recipe = repository("tests/reference/pmac/ast-5.toml");
+    let recipe = repository().join("tests/reference/pmac/ast-5.toml");
     let run = Run::of(&recipe, &[]).ends(0);
     let summary = run.summary();
     assert_eq!(summary["control_points"], reference["points"]);
@@ -324,7 +322,7 @@ fn points_of(program: &str) -> Vec<(f64, [(f64, f64); 3])> {
 /// drift of time, and an error within 0.3 nm of the path's.
 #[test]
 fn the_program_of_the_off_axis_paraboloid_is_its_path() {
-    let recipe = repository("docs/recipes/off-axis-paraboloid-213mm.toml");
+    let recipe = repository().join("docs/recipes/off-axis-paraboloid-213mm.toml");
     let run = Run::of(&recipe, &["refine=false"]).ends(0);
     costs_little(&run.summary());
     let points = points_of(&run.read("off-axis-paraboloid-213mm.pmc"));

@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::support::repository;
 use serde_json::Value;
 
 /// The exit status of a run that holds its tolerances, and of one that does not.
@@ -44,10 +45,6 @@ enum Expected {
     Holds,
     /// They hold where they do by the reference's figures.
     AsReference,
-}
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// The files of a folder with this extension, sorted.

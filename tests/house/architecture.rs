@@ -36,6 +36,7 @@ const RULES: &[Rule] = &[
         &[PLUGINS],
     ),
     rule(PLUGINS, &["turnpath-plugin"], &["turnpath-core", PLUGINS]),
+    rule("xtask", &[], &[]),
 ];
 
 const fn rule(
@@ -50,8 +51,8 @@ const fn rule(
     }
 }
 
-/// The one crate that may use all others.
-const PROGRAM: &str = "turnpath";
+/// The one crate that may use all others: the program's, to which this test belongs.
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
 fn workspace() -> Metadata {
     MetadataCommand::new()

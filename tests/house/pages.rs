@@ -3,17 +3,14 @@
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::support::bench::Bench;
+use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
 const COMMANDS: [&str; 7] = ["run", "check", "ablate", "verify", "sag", "list", "explain"];
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 fn page(name: &str) -> String {
     fs::read_to_string(repository().join(name)).expect("a page")

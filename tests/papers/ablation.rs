@@ -7,6 +7,7 @@ use std::path::Path;
 
 use crate::support::bench::{Bench, Said};
 use crate::support::fixtures::plugin_folder;
+use crate::support::repository;
 use serde_json::Value;
 
 const FEEDS: [&str; 4] = ["atpg", "constant", "ats", "fft-adaptive"];
@@ -15,7 +16,7 @@ const VELOCITIES: [&str; 2] = ["analytic", "triangle-rotary"];
 
 /// All feeds of the recipe; of the samplers the lab's own among the papers'.
 fn ablate(bench: &Bench, recipe: &str, aperture: &str, plugins: &Path) -> Said {
-    let recipes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/recipes");
+    let recipes = repository().join("docs/recipes");
     let sets = [
         &format!("part.aperture={aperture}"),
         "ablation.sampler=[{ use = \"constant-arc\", spacing = \"0.2 mm\" }, { use = \"ats\" }, \

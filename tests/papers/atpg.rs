@@ -6,13 +6,14 @@
 //! 99.3 and 325 are expected.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::support::bench::{Bench, Said};
+use crate::support::repository;
 use serde_json::Value;
 
 fn recipe(name: &str) -> PathBuf {
-    let recipes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/recipes");
+    let recipes = repository().join("docs/recipes");
     recipes.join(name)
 }
 

@@ -4,9 +4,8 @@
 //! plugin's tests; here it is the program that measures.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
-use std::path::Path;
-
 use crate::support::bench::Bench;
+use crate::support::repository;
 use serde_json::Value;
 
 const AST_5: &str = "astigmatic-5mm.toml";
@@ -22,7 +21,7 @@ fn run(recipe: &str, strategy: &str, set: &[&str]) -> (i32, Value) {
 
 /// The same with changes to feed and sampler.
 fn run_with(recipe: &str, strategy: &str, set: &[&str], after: &[&str]) -> (i32, Value) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/recipes");
+    let folder = repository().join("docs/recipes");
     let recipe = folder.join(recipe);
     let fixed = ["run", recipe.to_str().unwrap(), "--format", "json"];
     let chain = [
@@ -158,7 +157,7 @@ fn every_feed_goes_with_every_sampler() {
                 format!("feed={{ use = \"{feed}\" }}"),
                 format!("sampler={{ use = \"{sampler}\" }}"),
             ];
-            let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/recipes");
+            let folder = repository().join("docs/recipes");
             let recipe = folder.join(AST_5);
             let mut arguments = vec!["run", recipe.to_str().unwrap(), "--format", "json"];
             let set = EXACTLY

@@ -3,7 +3,7 @@
 //!
 //! MLA-5: z = 5 µm (cos 2π0.4x + cos 2π0.4y), radius 5 mm, e = 20 nm. The paper's errors are of
 //! straight segments on the bare surface. Its conventional path (128,000 points, 58 nm) is in
-//! `published_velocities.rs`.
+//! `velocities.rs`.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;

@@ -4,7 +4,7 @@
 //! against its bound, and the page against the committed one. To write the page:
 //!
 //! ```text
-//! REPRODUCTION=write cargo test --release -p turnpath --test reproduction
+//! cargo xtask reference reproduction
 //! ```
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
@@ -12,15 +12,11 @@ mod data;
 mod markdown;
 mod runs;
 use std::fs;
-use std::path::{Path, PathBuf};
 
+use crate::support::repository;
 use data::Page;
 use markdown::markdown;
 use runs::Runs;
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 fn page() -> Page {
     let text = fs::read_to_string(repository().join("docs/reproduction.toml")).unwrap();
@@ -42,7 +38,8 @@ fn the_page_is_what_the_runs_give_and_every_figure_is_within_its_bound() {
     let differs = text.lines().zip(committed.lines()).find(|(a, b)| a != b);
     assert!(
         text == committed,
-        "docs/reproduction.md is not what the runs give; REPRODUCTION=write makes it anew\n{differs:#?}"
+        "docs/reproduction.md differs from what the runs give; `cargo xtask reference reproduction` \
+         makes it again\n{differs:#?}"
     );
 }
 

@@ -7,6 +7,7 @@ use std::fs;
 use crate::support::bench::{Bench, Said};
 use crate::support::fixtures::{file_name, library, plugin_folder};
 use crate::support::recipe::{SADDLE, changed, saddle_with};
+use crate::support::repository;
 use tempfile::TempDir;
 
 /// A bench with plugins in its folder `plugins`.
@@ -58,15 +59,29 @@ fn without_lines(text: &str) -> String {
     format!("{before}lib.rs{rest}")
 }
 
-/// Version numbers left out, so that a release changes no snapshot.
+/// The text without the versions of the fixtures and of the plugin boundary: a release changes no
+/// snapshot.
 fn shown(bench: &Bench, said: &Said) -> String {
     let text = without_lines(&bench.shown(said));
-    let ours = env!("CARGO_PKG_VERSION");
-    let (major_minor, _) = ours.rsplit_once('.').unwrap();
-    text.replace(ours, "[version]").replace(
-        &format!("turnpath-plugin {major_minor}\n"),
-        "turnpath-plugin [version]\n",
-    )
+    let boundary = version("crates/plugin/Cargo.toml", "/package/version");
+    let (major_minor, _) = boundary.rsplit_once('.').unwrap();
+    let fixtures = version("tests/fixtures/Cargo.toml", "/workspace/package/version");
+    let requirement = format!("turnpath-plugin {major_minor}\n");
+    text.replace(&fixtures, "[version]")
+        .replace(&boundary, "[version]")
+        .replace(&requirement, "turnpath-plugin [version]\n")
+}
+
+/// The version in a manifest of the repository.
+fn version(manifest: &str, pointer: &str) -> String {
+    let text = fs::read_to_string(repository().join(manifest)).unwrap();
+    let manifest: serde_json::Value = toml::from_str(&text).unwrap();
+    manifest
+        .pointer(pointer)
+        .unwrap()
+        .as_str()
+        .unwrap()
+        .to_owned()
 }
 
 #[test]

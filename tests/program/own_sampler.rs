@@ -14,6 +14,7 @@ use crate::support::bench::Bench;
 use crate::support::builds::{cargo, run, target_folder};
 use crate::support::fixtures::{file_name, plugin_folder};
 use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
+use crate::support::repository;
 use tempfile::TempDir;
 
 /// The author's manifest: one dependency, and nothing of this repository's settings. Debug
@@ -37,11 +38,6 @@ debug = 0
 
 /// Points far too sparse for the tolerance.
 const SPARSE: &str = "use = \"constant-arc\"\nspacing = \"20 mm\"\nat_least = 4";
-
-fn repository() -> PathBuf {
-    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
-    manifest.parent().expect("the repository").to_owned()
-}
 
 fn source() -> String {
     let file = repository().join("tests/fixtures/constant-arc/src/lib.rs");

@@ -1,13 +1,9 @@
 //! What README.md quotes is what the program says.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use crate::support::bench::Bench;
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use crate::support::repository;
 
 /// The text between two fences, the first that begins with this line.
 fn quoted<'a>(readme: &'a str, first_line: &str) -> Option<&'a str> {

@@ -1,7 +1,7 @@
 //! PVT velocity solvers: which velocities the controller's cubics take at the control points.
 //!
 //! How the largest error of position falls with the step, measured on uneven steps
-//! (`tests/orders.rs`), and how far a velocity looks:
+//! (`tests/all/orders.rs`), and how far a velocity looks:
 //!
 //! | solver | order | depends on |
 //! |---|---|---|

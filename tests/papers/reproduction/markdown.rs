@@ -4,15 +4,14 @@ use super::data::{Figure, Grid, Page, Row, Section, Shown};
 use super::runs::Runs;
 
 const HEAD: &str = "\
-<!-- Made by `REPRODUCTION=write cargo test --release -p turnpath --test reproduction` from
-     reproduction.toml: edit that, not this. -->
+<!-- Made by `cargo xtask reference reproduction` from reproduction.toml: edit that, not this. -->
 
 # Reproduction
 
-What the papers print, and what turnpath gives for the same part. Every figure of turnpath is \
-that of a run of the program, or of the test that is named; `cargo test -p turnpath --test \
-reproduction` makes the runs again, holds each figure against its bound and this page against \
-them. Recipes, changes and bounds: [reproduction.toml](reproduction.toml).
+What the papers print, and what turnpath gives for the same part. Every figure of turnpath comes \
+from a run of the program, or from the test that is named. `cargo test --workspace --test papers \
+reproduction` makes the runs again, and holds each figure against its bound and this page against \
+the runs. Recipes, changes and bounds: [reproduction.toml](reproduction.toml).
 ";
 
 /// The whole page.

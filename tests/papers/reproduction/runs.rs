@@ -1,7 +1,6 @@
 //! The runs that the figures need: each made once, several at a time.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Mutex;
 use std::thread;
 
@@ -9,6 +8,7 @@ use serde_json::Value;
 
 use super::data::Page;
 use crate::support::bench::Bench;
+use crate::support::repository;
 
 /// A run: a recipe of docs/recipes, and its changes.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,7 +58,7 @@ fn next(left: &Mutex<Vec<Call>>) -> Option<Call> {
 impl Call {
     /// Runs the program on one thread; a tolerance that does not hold is a finding.
     fn summary(&self) -> Value {
-        let recipes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/recipes");
+        let recipes = repository().join("docs/recipes");
         let recipe = recipes.join(format!("{}.toml", self.recipe));
         let fixed = ["run", recipe.to_str().unwrap(), "--format", "json"];
         let fixed = fixed.into_iter().chain(["--threads", "1"]);

@@ -1,4 +1,5 @@
 //! A small job for strategies to work on, and shorthands for the catalogue.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 #![allow(dead_code, reason = "each test uses what it needs")]
 
 #[path = "../../../../../tests/support/fixtures.rs"]

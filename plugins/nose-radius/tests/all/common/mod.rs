@@ -1,4 +1,5 @@
 //! Calls of a tool locus with room for the answers.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 #![allow(dead_code, reason = "every test program uses its own part")]
 
 use turnpath_core::{CentreBuffers, CentreSeries, Locus, Rates, Series, ToolLocus};
