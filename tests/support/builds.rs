@@ -22,13 +22,18 @@ pub const BUILT_INS: [&str; 8] = [
 ];
 
 /// The program without plugins inside, in the profile of this test; built when first asked for.
+///
+/// It has a target folder of its own, since both programs have one name. All other artefacts are
+/// those of the build that made this test; a cargo that does not know `build-dir` makes them again.
 pub fn bare_program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
         let target = target_folder("bare");
         let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
         let mut cargo = cargo("build", &manifest, &target);
-        cargo.args(["--bin", "turnpath", "--no-default-features"]);
+        cargo
+            .args(["--bin", "turnpath", "--no-default-features"])
+            .env("CARGO_BUILD_BUILD_DIR", target_folder("."));
         if !cfg!(debug_assertions) {
             cargo.arg("--release");
         }

@@ -6,3 +6,11 @@ pub mod bench;
 pub mod builds;
 pub mod fixtures;
 pub mod recipe;
+
+use std::path::{Path, PathBuf};
+
+/// The repository's folder.
+pub fn repository() -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().expect("the repository").to_owned()
+}

@@ -1,7 +1,7 @@
 //! The speed of measuring a path: `cargo bench -p turnpath-verify`. Items are positions, segments,
 //! passes or cells. `docs/benchmarks.md` has the results.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use std::f64::consts::TAU;

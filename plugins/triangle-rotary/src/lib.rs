@@ -2,7 +2,7 @@
 //! points.
 //!
 //! The table shows how the largest error of position falls with the step, measured on uneven steps
-//! (`tests/orders.rs`), and which nodes a velocity depends on:
+//! (`tests/all/orders.rs`), and which nodes a velocity depends on:
 //!
 //! | solver | order | depends on |
 //! |---|---|---|

@@ -1,0 +1,8 @@
+//! What `turnpath-host` does from outside, each subject a module.
+
+mod common;
+
+mod loading;
+mod misbehaving;
+mod refused;
+mod same_bits;

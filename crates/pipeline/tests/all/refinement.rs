@@ -1,0 +1,174 @@
+//! Refinement: the tolerance holds for every solver, or the outcome shows that it does not.
+
+use std::sync::Arc;
+
+use crate::common::solvers::{Area, Exact, Halting, Resting, Spline};
+use crate::common::{Counting, Task, K, RESIDUAL, RIM, even, feed_of, inward, straight};
+use turnpath_core::{Centres, Compensator, Cut, FeedPiece, Radial, Result, Scalar, VelocitySolver};
+use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
+
+fn refined(velocity: Arc<dyn VelocitySolver>, interpolation: f64) -> Task {
+    Task {
+        feed: inward(150.0),
+        sampler: even(8.0),
+        velocity,
+        interpolation,
+        refined: true,
+        ..Task::default()
+    }
+}
+
+#[test]
+fn the_tolerance_holds_for_solvers_of_every_dependence() {
+    let tolerance = 2e-6;
+    let solvers: [Arc<dyn VelocitySolver>; 3] = [
+        Arc::new(Exact),
+        Arc::new(Spline { overlap: 64 }),
+        Arc::new(Area),
+    ];
+    for velocity in solvers {
+        let mut task = refined(velocity, tolerance);
+        let (path, outcome) = task.path();
+        assert!(outcome.figures.playback.max() <= tolerance);
+        assert_eq!(outcome.control_points, path.len() as u64);
+        task.refined = false;
+        let (coarse, before) = task.path();
+        assert!(before.figures.playback.max() > 100.0 * tolerance);
+        assert_eq!(before.added_by_refine, 0);
+        let added = (path.len() - coarse.len()) as u64;
+        assert_eq!(outcome.added_by_refine, added);
+    }
+}
+
+#[test]
+fn only_segments_beyond_the_tolerance_are_refined() {
+    let (path, outcome) = refined(Arc::new(Exact), 2e-6).path();
+    // The error grows with ρ²: steps are longer near the axis.
+    let step = |i: usize| path.c[i + 1] - path.c[i];
+    assert!(step(path.len() - 2) > 1.9 * step(0));
+    let (_, finer) = refined(Arc::new(Exact), 1e-6).path();
+    assert!(finer.control_points > outcome.control_points);
+}
+
+#[test]
+fn without_need_nothing_is_added() {
+    let (_, outcome) = refined(Arc::new(Exact), 1.0).path();
+    assert_eq!(outcome.added_by_refine, 0);
+}
+
+#[test]
+fn segments_stop_at_the_smallest_and_the_outcome_shows_the_missed_tolerance() {
+    let tolerance = 1e-7;
+    let task = Task {
+        feed: inward(2.0),
+        rpm: 500.0,
+        ..refined(Arc::new(Resting), tolerance)
+    };
+    let (path, outcome) = task.path();
+    let shortest = path.t.windows(2).map(|t| t[1] - t[0]).fold(1.0, f64::min);
+    assert!((SMALLEST_SEGMENT..2.0 * SMALLEST_SEGMENT).contains(&shortest));
+    assert!(outcome.figures.playback.max() > tolerance);
+}
+
+#[test]
+fn rounds_end_and_the_outcome_shows_the_missed_tolerance() {
+    let tolerance = 1e-9;
+    let task = Task {
+        feed: inward(0.25),
+        rpm: 1.0,
+        ..refined(Arc::new(Resting), tolerance)
+    };
+    let (_, outcome) = task.path();
+    let halved = 1u64 << MOST_ROUNDS;
+    assert_eq!(outcome.control_points, 2 * halved + 1);
+    assert!(outcome.figures.playback.max() > tolerance);
+}
+
+/// X that halts at every point errs between points by 0.0962 of its step. With 8½ steps a turn two
+/// neighbouring passes err in opposite ways. The error of Z does not count here.
+fn halting(feed: f64, refined: bool) -> Task {
+    Task {
+        feed: inward(RIM / feed),
+        sampler: Arc::new(Counting { step: STEP }),
+        velocity: Arc::new(Halting),
+        interpolation: 1.0,
+        refined,
+        ..Task::default()
+    }
+}
+
+const STEP: f64 = 2.0 / 17.0;
+
+#[test]
+fn cusps_stay_below_the_residual_where_x_itself_errs_between_points() {
+    let residual = |task: &Task| task.path().1.figures.residual.max / RESIDUAL;
+    let planned = Task {
+        velocity: Arc::new(Exact),
+        ..halting(0.0275, false)
+    };
+    let (planned, coarse) = (residual(&planned), residual(&halting(0.0275, false)));
+    let growth = 1.0 + 2.0 * 0.096_225 * STEP;
+    // The saddle is steepest near the largest errors of X, not exactly there.
+    assert!((coarse / planned - growth * growth).abs() < 2e-3);
+    assert!(planned < 0.997 && coarse > 1.03, "{planned} {coarse}");
+    let (path, outcome) = halting(0.0275, true).path();
+    assert!(outcome.figures.residual.max <= 1.0006 * RESIDUAL);
+    // Where the section is concave, cusps are lower and allow a larger error.
+    let steps: Vec<f64> = path.c.windows(2).map(|c| c[1] - c[0]).collect();
+    let longest = steps.iter().copied().fold(0.0, f64::max);
+    let shortest = steps.iter().copied().fold(longest, f64::min);
+    assert!(longest > 1.9 * shortest);
+}
+
+#[test]
+fn cusps_that_come_from_the_law_add_no_points() {
+    let (_, outcome) = halting(0.029, true).path();
+    assert!(outcome.figures.residual.max > 1.05 * RESIDUAL);
+    assert_eq!(outcome.added_by_refine, 0);
+}
+
+/// The contact path of a tool whose X goes to and fro within the turn.
+struct Wobbling;
+
+impl Compensator for Wobbling {
+    fn radial(&self) -> Radial {
+        Radial::Contact
+    }
+
+    fn compensates_nose(&self) -> bool {
+        false
+    }
+
+    fn centre(&self, _: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
+        for (i, (theta, rho)) in theta.iter().zip(rho).enumerate() {
+            let sin = Scalar::sin(2.0 * theta);
+            let x = rho - 0.06 + 0.05 * Scalar::cos(2.0 * theta);
+            (out.x[i], out.foot[i]) = (x, x);
+            out.z[i] = K * x * x * sin;
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn coinciding_passes_add_no_points() {
+    const FEED: f64 = 0.01;
+    // A turn along the rim. The next turn leaves it with the third power of the angle.
+    let turn = 0.9999;
+    let parting = [[RIM, 0.0, 0.0], [RIM - FEED, -FEED, 0.0]];
+    let parting = FeedPiece::between(parting[0], parting[1], 2.0);
+    let rest = RIM - FEED;
+    let pieces = vec![
+        straight(turn, RIM, 0.0),
+        parting,
+        straight(rest / FEED, rest, -FEED),
+    ];
+    let task = Task {
+        feed: feed_of(pieces),
+        compensator: Arc::new(Wobbling),
+        interpolation: 1.0,
+        refined: true,
+        ..Task::default()
+    };
+    assert_eq!(task.path().1.added_by_refine, 0);
+}

@@ -1,0 +1,249 @@
+//! Coverage of rim, hole and centre against closed forms.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::f64::consts::TAU;
+
+use crate::common::{AST5, Ball, Plane, bare_spiral, figures, touch_of, touch_on};
+use turnpath_core::toolpath::PathBlock;
+use turnpath_core::{DEG, Misfit, Part, Scalar, Tool, UM};
+use turnpath_verify::{CoverageFigures, FirstTouch, Meter, PathFigures, Subject};
+
+const FLAT: Plane = Plane { slope: 0.0 };
+/// A plane of 45 degrees.
+const TILTED: Plane = Plane { slope: 1.0 };
+
+fn coverage(touch: &FirstTouch, path: &PathBlock) -> CoverageFigures {
+    figures(touch, path).coverage
+}
+
+/// The figures with the cusps around the axis counted as residual.
+fn with_centre(touch: &FirstTouch, path: &PathBlock) -> PathFigures {
+    let mut meter = Meter::new(touch.clone()).counting_centre(true);
+    let block = Meter::measure(touch, path).unwrap();
+    meter.append(&block).unwrap();
+    meter.figures().unwrap()
+}
+
+/// The height that a nose of 1 mm leaves at a point of a flat, `away` from the nearest contact.
+fn left_at(away: f64) -> f64 {
+    (1.0 + away * away).sqrt() - 1.0
+}
+
+/// The cusp between two contacts of a nose of 1 mm on a flat.
+fn cusp(apart: f64) -> f64 {
+    1.0 - (1.0 - 0.25 * apart * apart).sqrt()
+}
+
+#[test]
+fn at_the_rim_of_a_flat_the_last_pass_leaves_the_rise_of_its_circle() {
+    let (feed, turns) = (0.02, 120.0);
+    let outward = bare_spiral(turns, |n| feed * n);
+    let inward = bare_spiral(turns, |n| feed * (turns - n));
+    // The outward spiral ends on the first section. Its last point is no pass, so the last pass on
+    // this section lies a turn further in. On an inward spiral, the last section of the first turn
+    // has its pass 359/360 of a turn after the start.
+    for (path, away) in [(outward, feed), (inward, feed * 359.0 / 360.0)] {
+        for compensates in [true, false] {
+            let touch = touch_on(FLAT, 2.5, 1.0, compensates);
+            let rim = coverage(&touch, &path).rim.unwrap();
+            assert!((rim.height - left_at(2.5 - feed * turns + away)).abs() < 1e-13);
+        }
+    }
+}
+
+#[test]
+fn on_a_slope_the_rim_is_measured_from_the_surface_not_along_z() {
+    let (feed, touch) = (0.02, touch_on(TILTED, 2.5, 1.0, false));
+    let rim = coverage(&touch, &bare_spiral(122.5, |n| feed * n))
+        .rim
+        .unwrap();
+    // The path ends at 180 degrees. There, or a degree on, the last pass lies a turn further in.
+    let known = left_at(2f64.sqrt() * (0.05 + feed));
+    assert!((rim.height / known - 1.0).abs() < 2e-3);
+    assert!((rim.at_theta - 180.0 * DEG).abs() < 1.5 * DEG);
+}
+
+/// A path that ends at X = a touches AST-5 only out to 2.17 mm where the surface falls outward. The
+/// rim itself lies 67 um below the nose.
+#[test]
+fn a_path_to_the_aperture_leaves_67_um_at_the_rim_of_ast_5() {
+    let feed = 1e-4;
+    let touch = touch_on(AST5, 2.5, 1.0, true);
+    let path = bare_spiral(1100.0, |n| 2.5 - feed * n);
+    let rim = coverage(&touch, &path).rim.unwrap();
+    assert!((rim.height / UM - 67.3).abs() < 0.05, "{}", rim.height / UM);
+    let from_valley = (rim.at_theta - 315.0 * DEG).abs();
+    assert!(from_valley < 1.5 * DEG, "{}", rim.at_theta / DEG);
+}
+
+#[test]
+fn passes_of_the_opposite_half_count_where_they_reach() {
+    // The path stands still at X = −0.3 on one half. It cuts the opposite rim of a part of 0.3 mm.
+    let touch = touch_on(FLAT, 0.3, 1.0, true);
+    let rim = coverage(&touch, &bare_spiral(2.0, |_| -0.3)).rim.unwrap();
+    assert!(rim.height < 1e-15);
+}
+
+#[test]
+fn an_edge_that_no_pass_reaches_has_an_infinite_uncut_height() {
+    let narrow = |degrees: f64| Tool {
+        nose_radius: 1.0,
+        included_angle: Some(degrees * DEG),
+        clearance_angle: None,
+        misfit: Misfit::Refuse,
+    };
+    let path = bare_spiral(121.0, |n| 0.02 * n);
+    // From the pass at 2.4 mm to the rim: within sin 6 degrees, beyond sin 5.
+    let reached = coverage(&touch_of(FLAT, 2.5, narrow(12.0), true), &path);
+    assert!((reached.rim.unwrap().height - left_at(0.1)).abs() < 1e-13);
+    let missed = coverage(&touch_of(FLAT, 2.5, narrow(10.0), true), &path);
+    assert_eq!(missed.rim.unwrap().height, f64::INFINITY);
+}
+
+#[test]
+fn a_path_of_less_than_a_turn_covers_nothing_all_around() {
+    let touch = touch_on(FLAT, 2.5, 1.0, true);
+    let found = coverage(&touch, &bare_spiral(0.9, |n| n));
+    assert_eq!(found.rim.unwrap().height, f64::INFINITY);
+    assert_eq!(found.centre.unwrap().height, f64::INFINITY);
+}
+
+#[test]
+fn at_a_hole_the_innermost_pass_leaves_the_rise_of_its_circle() {
+    let touch = FirstTouch::new(Subject {
+        part: Part {
+            aperture_radius: 2.5,
+            inner_radius: 1.0,
+        },
+        ..touch_on(FLAT, 2.5, 1.0, true).subject().clone()
+    })
+    .unwrap();
+    let found = coverage(&touch, &bare_spiral(70.0, |n| 2.5 - 0.02 * n));
+    assert_eq!(found.centre, None);
+    // A turn before the path's end at 1.1 mm, or up to a degree later.
+    let hole = found.hole.unwrap().height;
+    assert!((hole / left_at(0.12) - 1.0).abs() < 2e-3);
+}
+
+/// Sections are a degree apart, so the widest measured gap is that of a degree before it closes.
+#[test]
+fn a_spiral_that_ends_at_the_axis_leaves_a_gap_of_one_and_a_half_feeds() {
+    let feed = 0.02;
+    for compensates in [true, false] {
+        let touch = touch_on(FLAT, 2.5, 1.0, compensates);
+        let path = bare_spiral(100.0, |n| feed * n);
+        let found = figures(&touch, &path);
+        let centre = found.coverage.centre.unwrap();
+        let known = cusp(feed * (1.5 - 1.0 / 180.0));
+        assert!((centre.height - known).abs() < 1e-14);
+        assert!((centre.at_theta - 179.0 * DEG).abs() < 1e-12);
+        assert!((found.residual.max - cusp(feed)).abs() < 1e-14);
+        let counted = with_centre(&touch, &path).residual;
+        assert_eq!(counted.max, centre.height);
+        assert!(counted.cusps > found.residual.cusps);
+        let inward = bare_spiral(100.0, |n| feed * (100.0 - n));
+        let gap = coverage(&touch, &inward).centre.unwrap().height;
+        assert!((gap / cusp(1.5 * feed) - 1.0).abs() < 0.01, "{gap}");
+    }
+}
+
+#[test]
+fn a_turn_on_the_axis_closes_the_gap() {
+    let feed = 0.02;
+    let touch = touch_on(FLAT, 2.5, 1.0, true);
+    let path = bare_spiral(101.0, |n| feed * (n - 1.0).max(0.0));
+    let found = with_centre(&touch, &path);
+    // With sixty points a turn, the kink is played a thousandth of a feed off.
+    let centre = found.coverage.centre.unwrap().height;
+    assert!((centre / cusp(feed) - 1.0).abs() < 3e-3);
+    assert_eq!(found.residual.max, centre);
+}
+
+/// The axis then lies between many turns, whose passes from both sides halve the gaps.
+#[test]
+fn a_path_that_runs_on_beyond_the_axis_is_judged_at_the_axis() {
+    let feed = 0.02;
+    let touch = touch_on(FLAT, 2.5, 1.0, true);
+    for path in [
+        bare_spiral(130.0, |n| 2.4 - feed * n),
+        bare_spiral(130.0, |n| feed * (n - 10.0)),
+        bare_spiral(240.0, |n| 2.4 - feed * n),
+    ] {
+        let found = with_centre(&touch, &path);
+        let centre = found.coverage.centre.unwrap().height;
+        assert!(centre <= 1.0001 * cusp(feed), "{centre}");
+        assert!((found.residual.max / cusp(feed) - 1.0).abs() < 1e-4);
+    }
+}
+
+#[test]
+fn around_the_axis_of_a_tilted_plane_cusps_are_those_between_contacts() {
+    let feed = 0.02;
+    let touch = touch_on(TILTED, 1.0, 1.0, true);
+    // With normal compensation the contact's radius grows evenly, and X lies beside it.
+    let path = bare_spiral(50.0, |n| {
+        let slope = Scalar::cos(std::f64::consts::TAU * n);
+        feed * n - slope / (1.0 + slope * slope).sqrt()
+    });
+    let found = coverage(&touch, &path);
+    let slope = Scalar::cos(179.0 * DEG);
+    let gap = feed * (1.5 - 1.0 / 180.0) * (1.0 + slope * slope).sqrt();
+    let height = found.centre.unwrap().height;
+    // With sixty points a turn, the bent X is played to some micrometres.
+    assert!((height / cusp(gap) - 1.0).abs() < 1e-3, "{height}");
+    let beyond = 0.5f64.sqrt();
+    assert!((found.x_beyond_axis - beyond).abs() < 1e-3 * beyond);
+    assert!(found.contact_beyond_axis < 1e-3 * feed);
+}
+
+/// On this slope the contacts around the axis come from passes 0.7 mm away from it.
+#[test]
+fn around_the_axis_of_a_tilted_plane_the_innermost_turns_count_wherever_they_touch() {
+    let feed = 0.02;
+    let touch = touch_on(TILTED, 2.5, 1.0, true);
+    let centre = |path: PathBlock| coverage(&touch, &path).centre.unwrap().height;
+    let known = cusp(2f64.sqrt() * 1.5 * feed);
+    let ends = centre(bare_spiral(100.0, |n| feed * n));
+    assert!(ends < 1.01 * known, "{ends} of {known}");
+    let crosses = centre(bare_spiral(150.0, |n| 2.0 - feed * n));
+    assert!(crosses < 1.01 * cusp(2f64.sqrt() * feed), "{crosses}");
+}
+
+/// Where X moves within the turn, fast angles reach the axis many turns before slow ones, and are
+/// far beyond it when the path ends. The widest gap is the feed of the fastest angle.
+#[test]
+fn each_line_is_judged_by_the_turns_that_meet_on_it() {
+    let feed = 0.02;
+    for harmonic in [1.0, 2.0] {
+        let rate = |n: f64| feed * (1.0 + 0.3 * Scalar::sin(harmonic * TAU * n));
+        let inward = bare_spiral(180.0, |n| 2.5 - rate(n) * n);
+        let outward = bare_spiral(180.0, |n| rate(n) * n - 0.5);
+        for path in [inward, outward] {
+            let touch = touch_on(FLAT, 2.5, 1.0, true);
+            let height = coverage(&touch, &path).centre.unwrap().height;
+            assert!(height < 1.01 * cusp(1.3 * feed), "{height}, {harmonic}");
+            assert!(height > cusp(0.65 * feed), "{height}, {harmonic}");
+        }
+    }
+}
+
+#[test]
+fn a_path_that_ends_before_the_axis_leaves_it_uncut() {
+    let touch = touch_on(FLAT, 2.5, 0.2, true);
+    let path = bare_spiral(20.0, |n| 0.5 + 0.02 * n);
+    let centre = coverage(&touch, &path).centre.unwrap();
+    assert_eq!(centre.height, f64::INFINITY);
+}
+
+#[test]
+fn a_start_beyond_the_axis_is_reported_with_its_contact() {
+    let beyond = 12.3 * UM;
+    let ball = touch_on(Ball { radius: 4.0 }, 1.0, 1.0, true);
+    let path = bare_spiral(30.0, |n| 0.02 * n - beyond);
+    let found = coverage(&ball, &path);
+    assert!((found.x_beyond_axis - beyond).abs() < 1e-12);
+    // The contact lies four thirds as far out as the centre.
+    assert!((found.contact_beyond_axis - beyond * 4.0 / 3.0).abs() < 1e-9);
+    let flat = coverage(&ball, &bare_spiral(30.0, |n| 0.02 * n));
+    assert_eq!((flat.x_beyond_axis, flat.contact_beyond_axis), (0.0, 0.0));
+}

@@ -1,0 +1,15 @@
+//! What `turnpath-verify` does from outside, each subject a module.
+
+mod common;
+#[path = "../../../../tests/support/drop_cutter.rs"]
+mod reference;
+
+mod coverage;
+mod cusps;
+mod drop_cutter;
+mod first_touch;
+mod interpolation;
+mod leads;
+mod machined;
+mod seams;
+mod blocks;

@@ -1,0 +1,8 @@
+//! What `turnpath-atpg` does from outside, each subject a module.
+
+mod common;
+#[path = "../../../../tests/support/random.rs"]
+mod random;
+
+mod laws;
+mod sampler;

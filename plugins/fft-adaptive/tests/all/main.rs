@@ -1,0 +1,9 @@
+//! What `turnpath-fft-adaptive` does from outside, each subject a module.
+
+#[path = "../../../../tests/support/planned.rs"]
+mod common;
+#[path = "../../../../tests/support/random.rs"]
+mod random;
+
+mod laws;
+mod sampler;

@@ -1,0 +1,5 @@
+//! What `turnpath-integrated` does from outside, each subject a module.
+
+mod arcs;
+mod derived_step;
+mod equal_angle;

@@ -1,0 +1,4 @@
+//! What `turnpath-surfaces` does from outside, each subject a module.
+
+mod against_reference;
+mod geometry_and_parameters;

@@ -1,0 +1,184 @@
+//! Every chain of built-in feeds, samplers, compensators and velocity solvers, on the middle of
+//! AST-5 and MLA-5 with their tolerances: what holds after refinement, and what says that it does
+//! not.
+//!
+//! Refinement holds the error along z at the played X, and X's own error to what the residual
+//! leaves it. One solver is let off: `area` with c = 1/2, whose errors do not die away. With `normal`
+//! compensation, where X follows the slope, it may leave cusps beyond the residual, and says so.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::support::bench::{Bench, Said};
+
+const FEEDS: [&str; 4] = ["constant", "atpg", "ats", "fft-adaptive"];
+const SAMPLERS: [&str; 6] = [
+    "use = \"equal-angle\"",
+    "use = \"equal-arc\"\nspacing = \"50 um\"",
+    "use = \"integrated\"\nspacing = \"50 um\"",
+    "use = \"atpg\"",
+    "use = \"ats\"",
+    "use = \"fft-adaptive\"",
+];
+const COMPENSATORS: [&str; 3] = ["z-direction", "normal", "none"];
+const SOLVERS: [&str; 6] = [
+    "use = \"analytic\"",
+    "use = \"triangle-rotary\"",
+    "use = \"three-point\"",
+    "use = \"area\"\nc = 0.6666666666666666",
+    "use = \"area\"\nc = 0.5",
+    "use = \"linear\"",
+];
+
+/// The middle of a part: as much of it as some hundreds of runs can afford.
+struct Part {
+    recipe: &'static str,
+    aperture: &'static str,
+}
+
+const PARTS: [Part; 2] = [
+    Part {
+        recipe: include_str!("../../docs/recipes/astigmatic-5mm.toml"),
+        aperture: "1.2 mm",
+    },
+    Part {
+        recipe: include_str!("../../docs/recipes/sinusoidal-array-10mm.toml"),
+        aperture: "1.6 mm",
+    },
+];
+
+#[derive(Debug, Clone, Copy)]
+struct Chain {
+    part: usize,
+    feed: &'static str,
+    sampler: &'static str,
+    compensator: &'static str,
+    solver: &'static str,
+}
+
+impl Chain {
+    fn all() -> Vec<Self> {
+        let mut chains = Vec::new();
+        for part in 0..PARTS.len() {
+            for feed in FEEDS {
+                for sampler in SAMPLERS {
+                    for compensator in COMPENSATORS {
+                        chains.extend(SOLVERS.map(|solver| Self {
+                            part,
+                            feed,
+                            sampler,
+                            compensator,
+                            solver,
+                        }));
+                    }
+                }
+            }
+        }
+        chains
+    }
+
+    /// Whether the chain is in the quarter that every run of the tests tries. The sum of the
+    /// positions fixes one feed for every choice of the rest.
+    fn is_in_the_quarter(&self) -> bool {
+        let place = |names: &[&str], name| names.iter().position(|one| *one == name).unwrap();
+        let sum = self.part
+            + place(&FEEDS, self.feed)
+            + place(&SAMPLERS, self.sampler)
+            + place(&COMPENSATORS, self.compensator)
+            + place(&SOLVERS, self.solver);
+        sum.is_multiple_of(FEEDS.len())
+    }
+
+    /// Whether the errors of X ring on, however many points there are.
+    fn rings(&self) -> bool {
+        self.compensator == "normal" && self.solver == SOLVERS[4]
+    }
+
+    /// The part's recipe with this chain, over the aperture alone.
+    fn recipe(&self) -> String {
+        let recipe = PARTS[self.part].recipe;
+        let (head, _) = recipe.split_once("[path]").unwrap();
+        let Self {
+            feed,
+            sampler,
+            compensator,
+            solver,
+            ..
+        } = self;
+        format!(
+            "{head}[path]\noverrun = \"none\"\nlead = false\n\n[feed]\nuse = \"{feed}\"\n\n\
+             [sampler]\n{sampler}\n\n[compensator]\nuse = \"{compensator}\"\n\n\
+             [velocity]\n{solver}\n\n[output]\ndata = []\n"
+        )
+    }
+
+    fn run(&self, bench: &Bench) -> Said {
+        let aperture = PARTS[self.part].aperture.replace(' ', "");
+        bench.write("recipe.toml", self.recipe());
+        bench.line(&format!(
+            "run recipe.toml -o out --threads 1 --format json --set part.aperture={aperture}"
+        ))
+    }
+}
+
+/// What a chain does that it should not; empty if all is well.
+fn complaint(chain: &Chain, said: &Said) -> Option<String> {
+    if !matches!(said.status, Some(0 | 1)) {
+        return Some(said.to_string());
+    }
+    let summary = said.json();
+    let holds = |what: &str| summary["within"][what] == true;
+    let told = (said.status == Some(0)) == (holds("interpolation") && holds("residual"));
+    let kept = holds("interpolation") && (holds("residual") || chain.rings());
+    (!told || !kept).then(|| {
+        let figures = [
+            &summary["interpolation_error_nm"]["max"],
+            &summary["residual_nm"]["max"],
+        ];
+        format!(
+            "status {:?}, interpolation and residual {figures:?}",
+            said.status
+        )
+    })
+}
+
+/// Runs the chains and complains about all that do what they should not.
+fn hold_or_report(chains: &[Chain]) {
+    let (next, wrong) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        let bench = Bench::empty();
+        while let Some(chain) = chains.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if let Some(complaint) = complaint(chain, &chain.run(&bench)) {
+                wrong
+                    .lock()
+                    .unwrap()
+                    .push(format!("{chain:?}: {complaint}"));
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        let workers = std::thread::available_parallelism().map_or(2, usize::from);
+        (0..workers).for_each(|_| drop(scope.spawn(work)));
+    });
+    let wrong = wrong.into_inner().unwrap();
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// A quarter of all chains: every sampler, compensator and velocity solver together on both parts,
+/// each time with another feed.
+#[test]
+fn chains_with_every_two_strategies_hold_both_tolerances_or_report_that_they_do_not() {
+    let mut chains = Chain::all();
+    chains.retain(Chain::is_in_the_quarter);
+    assert_eq!(chains.len(), 2 * 6 * 3 * 6);
+    hold_or_report(&chains);
+}
+
+#[test]
+#[ignore = "takes more than a minute; `cargo xtask long` runs it"]
+fn long_every_chain_holds_both_tolerances_or_reports_that_it_does_not() {
+    let chains = Chain::all();
+    assert_eq!(chains.len(), 2 * 4 * 6 * 3 * 6);
+    hold_or_report(&chains);
+}

@@ -1,0 +1,16 @@
+//! The program's figures, held against independent measurements, brute force and closed forms.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod cut_what_fits;
+mod every_chain;
+mod gouges;
+mod leads;
+mod machine;
+mod machined_surface;
+mod pmac;
+mod recipes;
+mod servo;
+mod spoiled_paths;
+mod whole_part;

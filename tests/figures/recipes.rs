@@ -1,0 +1,182 @@
+//! Every ready recipe, run by the program and held against an independent measurement of its path.
+//!
+//! `tests/reference/playback/measure_all.py` makes the references: playback.py, which shares
+//! neither code nor method with turnpath, measures the `toolpath.csv` of each recipe.
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::support::repository;
+use serde_json::Value;
+
+/// The exit status of a run that holds its tolerances, and of one that does not.
+const HOLDS: i32 = 0;
+const EXCEEDED: i32 = 1;
+/// A tolerance holds when measured ≤ this × tolerance.
+const ALLOWED: f64 = 1.001;
+/// Largest difference of a figure from the independent one, as a part of it.
+const TOLERANCE: f64 = 0.02;
+/// The same for what the nose cannot reach.
+const UNREACHED_TOLERANCE: f64 = 0.01;
+/// A difference that is rounding of either, nm.
+const ROUNDING: f64 = 1e-5;
+
+#[test]
+fn ready_recipes_hold_and_measure_as_the_reference_says() {
+    let root = repository();
+    let references = root.join("tests/reference/playback");
+    check_all(&root.join("docs/recipes"), &references, Expected::Holds);
+}
+
+/// Steep slopes, noses that hardly fit, coarse steps, blocks that end with the path: chains whose
+/// figures are harder to measure than to make.
+#[test]
+fn hard_chains_measure_as_the_reference_says() {
+    let folder = repository().join("tests/reference/playback/hard");
+    check_all(&folder, &folder, Expected::AsReference);
+}
+
+/// How a run must end.
+#[derive(Clone, Copy)]
+enum Expected {
+    /// All tolerances hold.
+    Holds,
+    /// They hold where they do by the reference's figures.
+    AsReference,
+}
+
+/// The files of a folder with this extension, sorted.
+fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("the folder")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|end| end == extension))
+        .collect();
+    found.sort();
+    found
+}
+
+/// Checks all recipes of a folder and complains about all that differ.
+fn check_all(recipes: &Path, references: &Path, expected: Expected) {
+    let found = files(recipes, "toml");
+    assert!(!found.is_empty(), "no recipe in {}", recipes.display());
+    let stems: Vec<_> = found.iter().map(|recipe| recipe.file_stem()).collect();
+    let measured = files(references, "json").into_iter();
+    let left = measured.filter(|reference| !stems.contains(&reference.file_stem()));
+    let left = left.map(|reference| format!("{}: of no recipe", reference.display()));
+    let checked = found
+        .iter()
+        .flat_map(|recipe| check(recipe, references, expected));
+    let complaints: Vec<String> = left.chain(checked).collect();
+    assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
+}
+
+fn check(recipe: &Path, references: &Path, expected: Expected) -> Vec<String> {
+    let stem = recipe.file_stem().expect("a name").to_string_lossy();
+    let Ok(reference) = fs::read_to_string(references.join(format!("{stem}.json"))) else {
+        return vec![format!("{stem}: no reference; measure_all.py makes one")];
+    };
+    let reference: Value = serde_json::from_str(&reference).expect("JSON");
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = Command::new(env!("CARGO_BIN_EXE_turnpath"))
+        .arg("run")
+        .arg(recipe)
+        .arg("-o")
+        .arg(folder.path())
+        .output()
+        .expect("turnpath runs");
+    let failed = || {
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        vec![format!("{stem}: {}\n{said}", run.status)]
+    };
+    let summary = match (run.status.code(), expected) {
+        (Some(HOLDS), _) | (Some(EXCEEDED), Expected::AsReference) => {
+            fs::read_to_string(folder.path().join("summary.json")).expect("a summary")
+        }
+        _ => return failed(),
+    };
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    let path = fs::read_to_string(folder.path().join("toolpath.csv")).expect("a path");
+    let mut complaints = compare(&summary, &reference, path.lines().count() as u64 - 1);
+    complaints.extend(compare_verdicts(&summary, &reference, run.status.code()));
+    complaints
+        .into_iter()
+        .map(|complaint| format!("{stem}: {complaint}"))
+        .collect()
+}
+
+/// Where the run's verdicts differ from those of the reference's figures.
+fn compare_verdicts(summary: &Value, reference: &Value, status: Option<i32>) -> Vec<String> {
+    let mut complaints = Vec::new();
+    let mut all = true;
+    for (tolerance, pointer) in [
+        ("interpolation", "/interpolation_error_nm/max"),
+        ("residual", "/residual_nm/max"),
+    ] {
+        let limit = summary["tolerance_nm"][tolerance].as_f64();
+        let figure = reference.pointer(pointer).and_then(Value::as_f64);
+        // What was not measured does not hold.
+        let holds = figure
+            .zip(limit)
+            .is_some_and(|(figure, limit)| figure <= ALLOWED * limit);
+        all &= holds;
+        if summary["within"][tolerance] != holds {
+            complaints.push(format!("within.{tolerance} is not {holds}: {figure:?}"));
+        }
+    }
+    // Coverage is promised by a path with an overrun only.
+    all &= summary["within"]["coverage"] != false;
+    let expected = if all { HOLDS } else { EXCEEDED };
+    if status != Some(expected) {
+        complaints.push(format!("it ends with {status:?}, not {expected}"));
+    }
+    complaints
+}
+
+/// What differs between a run's summary and the reference.
+fn compare(summary: &Value, reference: &Value, rows: u64) -> Vec<String> {
+    let mut complaints = Vec::new();
+    let points = summary["control_points"].as_u64();
+    let all = summary["rows"].as_u64();
+    if points != reference["control_points"].as_u64() || all != Some(rows) {
+        let expected = &reference["control_points"];
+        let said = format!("{points:?} points and {all:?} rows");
+        complaints.push(format!("{said}, not {expected} and {rows}"));
+    }
+    for pointer in [
+        "/interpolation_error_nm/max",
+        "/interpolation_error_nm/rms",
+        "/residual_nm/max",
+        "/surface_error_nm/pv",
+        "/surface_error_nm/rms",
+        "/coverage_nm/rim",
+        "/coverage_nm/hole",
+        "/coverage_nm/centre",
+    ] {
+        let figure = |of: &Value| of.pointer(pointer).and_then(Value::as_f64);
+        let (here, there) = (figure(summary), figure(reference));
+        // A path without neighbouring passes has no residual, a part without a hole no edge there:
+        // null in both.
+        let agree = match (here, there) {
+            (Some(here), Some(there)) => (here - there).abs() <= (TOLERANCE * there).max(ROUNDING),
+            _ => here == there,
+        };
+        if !agree {
+            complaints.push(format!("{pointer} {here:?}, not {there:?}"));
+        }
+    }
+    for pointer in ["/unreached/height_um", "/unreached/volume_mm3"] {
+        let figure = |of: &Value| of.pointer(pointer).and_then(Value::as_f64);
+        let (here, there) = (figure(summary), figure(reference));
+        let agree = match (here, there) {
+            (Some(here), Some(there)) => (here - there).abs() <= UNREACHED_TOLERANCE * there,
+            _ => here == there,
+        };
+        if !agree {
+            complaints.push(format!("{pointer} {here:?}, not {there:?}"));
+        }
+    }
+    complaints
+}

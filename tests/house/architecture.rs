@@ -1,0 +1,155 @@
+//! Which crate may depend on which: dependencies run one way.
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
+
+use cargo_metadata::{Dependency, DependencyKind, Metadata, MetadataCommand, Package};
+
+/// What a crate of the workspace may use of the others. A crate that is not here fails the test:
+/// say first where it belongs.
+struct Rule {
+    package: &'static str,
+    /// In what is built.
+    uses: &'static [&'static str],
+    /// In its tests besides; `PLUGINS` stands for every crate in `plugins/`.
+    tests_use: &'static [&'static str],
+}
+
+const PLUGINS: &str = "plugins/*";
+
+const RULES: &[Rule] = &[
+    rule("turnpath-core", &[], &[]),
+    rule("turnpath-plugin", &["turnpath-core"], &[]),
+    rule("turnpath-recipe", &["turnpath-core"], &[]),
+    rule(
+        "turnpath-verify",
+        &["turnpath-core"],
+        &["turnpath-surfaces"],
+    ),
+    rule("turnpath-post", &["turnpath-core"], &[]),
+    rule(
+        "turnpath-pipeline",
+        &["turnpath-core", "turnpath-verify"],
+        &[],
+    ),
+    rule(
+        "turnpath-host",
+        &["turnpath-core", "turnpath-plugin"],
+        &[PLUGINS],
+    ),
+    rule(PLUGINS, &["turnpath-plugin"], &["turnpath-core", PLUGINS]),
+    rule("xtask", &[], &[]),
+];
+
+const fn rule(
+    package: &'static str,
+    uses: &'static [&'static str],
+    tests_use: &'static [&'static str],
+) -> Rule {
+    Rule {
+        package,
+        uses,
+        tests_use,
+    }
+}
+
+/// The one crate that may use all others: the program's, to which this test belongs.
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
+
+fn workspace() -> Metadata {
+    MetadataCommand::new()
+        .cargo_path(env!("CARGO"))
+        .manifest_path(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))
+        .no_deps()
+        .exec()
+        .expect("cargo metadata")
+}
+
+fn is_plugin(metadata: &Metadata, name: &str) -> bool {
+    let plugins = metadata.workspace_root.join("plugins");
+    let of_name = |package: &&Package| package.name == name;
+    let found = metadata.packages.iter().find(of_name);
+    found.is_some_and(|package| package.manifest_path.starts_with(&plugins))
+}
+
+fn rule_for(metadata: &Metadata, name: &str) -> &'static Rule {
+    let key = if is_plugin(metadata, name) {
+        PLUGINS
+    } else {
+        name
+    };
+    RULES
+        .iter()
+        .find(|rule| rule.package == key)
+        .unwrap_or_else(|| panic!("no rule says what `{name}` may depend on"))
+}
+
+fn allowed(metadata: &Metadata, list: &[&str], name: &str) -> bool {
+    list.contains(&name) || (list.contains(&PLUGINS) && is_plugin(metadata, name))
+}
+
+/// Dependencies on other crates of the workspace.
+fn inner<'a>(metadata: &'a Metadata, package: &'a Package) -> impl Iterator<Item = &'a Dependency> {
+    package.dependencies.iter().filter(|dependency| {
+        let of_name = |other: &Package| other.name == dependency.name;
+        metadata.packages.iter().any(of_name)
+    })
+}
+
+fn is_for_tests(dependency: &Dependency) -> bool {
+    dependency.kind == DependencyKind::Development
+}
+
+/// The packages that name a dependency, of whatever kind.
+fn users_of(metadata: &Metadata, name: &str) -> Vec<String> {
+    let uses = |package: &&Package| package.dependencies.iter().any(|one| one.name == name);
+    let users = metadata.packages.iter().filter(uses);
+    users.map(|package| package.name.to_string()).collect()
+}
+
+#[test]
+fn every_crate_depends_only_on_those_before_it() {
+    let metadata = workspace();
+    let mut seen = 0;
+    for package in metadata.packages.iter().filter(|one| one.name != PROGRAM) {
+        let rule = rule_for(&metadata, &package.name);
+        for dependency in inner(&metadata, package) {
+            let (from, to) = (&package.name, dependency.name.as_str());
+            let fits = allowed(&metadata, rule.uses, to)
+                || (is_for_tests(dependency) && allowed(&metadata, rule.tests_use, to));
+            assert!(
+                fits,
+                "`{from}` may not depend on `{to}` ({})",
+                dependency.kind
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen >= RULES.len(), "only {seen} dependencies found");
+}
+
+#[test]
+fn nothing_depends_on_the_program() {
+    let metadata = workspace();
+    assert_eq!(users_of(&metadata, PROGRAM), Vec::<String>::new());
+}
+
+#[test]
+fn a_plugin_never_sees_host_pipeline_or_recipe_even_in_its_tests() {
+    let metadata = workspace();
+    let plugins = metadata.packages.iter();
+    for package in plugins.filter(|package| is_plugin(&metadata, &package.name)) {
+        for dependency in inner(&metadata, package) {
+            let within = dependency.name == "turnpath-plugin"
+                || (is_for_tests(dependency)
+                    && (dependency.name == "turnpath-core"
+                        || is_plugin(&metadata, &dependency.name)));
+            assert!(within, "{} sees {}", package.name, dependency.name);
+        }
+    }
+}
+
+#[test]
+fn the_boundarys_library_stays_in_the_boundary() {
+    let metadata = workspace();
+    assert_eq!(users_of(&metadata, "abi_stable"), ["turnpath-plugin"]);
+    assert_eq!(users_of(&metadata, "libloading"), ["turnpath-host"]);
+}

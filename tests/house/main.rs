@@ -1,0 +1,9 @@
+//! The rules of this repository: which crate and which file may use which, and pages that say what
+//! is so.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod architecture;
+mod circles;
+mod pages;

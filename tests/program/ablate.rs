@@ -1,0 +1,577 @@
+//! `turnpath ablate`: which runs are made, what is told of them, and what is not made twice.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::Stdio;
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use crate::support::bench::{Bench, Said, said};
+use crate::support::fixtures::plugin_folder;
+use crate::support::recipe::{SADDLE, changed, with_table};
+use serde_json::{Value, json};
+
+/// Widest table.
+const WIDEST: usize = 100;
+
+/// The saddle with an ablation.
+fn saddle(lists: &str) -> String {
+    format!("{SADDLE}\n[ablation]\n{lists}\n")
+}
+
+/// Two feeds, two samplers and two velocity solvers.
+fn eight() -> String {
+    saddle(
+        "feed = [{ use = \"atpg\" }]\nsampler = [{ use = \"equal-angle\", step = \"6 deg\" }]\n\
+         velocity = [{ use = \"analytic\" }]",
+    )
+}
+
+fn ablate(bench: &Bench, rest: &str) -> Said {
+    bench.line(&format!("ablate recipe.toml -o out {rest}"))
+}
+
+fn runs(bench: &Bench) -> Vec<Value> {
+    let text = bench.read("out/ablation.json");
+    let all: Value = serde_json::from_str(&text).unwrap();
+    all["runs"].as_array().unwrap().clone()
+}
+
+fn varied(bench: &Bench) -> Vec<String> {
+    let one = |run: &Value| {
+        let varied = run["varied"].as_object().unwrap();
+        let values = varied.values().map(|value| value.as_str().unwrap());
+        values.collect::<Vec<_>>().join(" | ")
+    };
+    runs(bench).iter().map(one).collect()
+}
+
+/// The first line without the job's name.
+fn headline(said: &Said) -> &str {
+    let line = said.stdout.lines().next().unwrap();
+    line.split_once(": ").unwrap().1
+}
+
+/// The records, with when each was written.
+fn records(bench: &Bench) -> BTreeMap<String, SystemTime> {
+    let Ok(entries) = fs::read_dir(bench.path("out/runs")) else {
+        return BTreeMap::new();
+    };
+    let entries = entries.map(|entry| entry.unwrap());
+    let named = entries.map(|entry| (entry.file_name().into_string().unwrap(), entry));
+    let records = named.filter(|(name, _)| name.ends_with(".json"));
+    records
+        .map(|(name, entry)| (name, entry.metadata().unwrap().modified().unwrap()))
+        .collect()
+}
+
+/// A run without what differs from call to call.
+fn without_times(run: &Value) -> Value {
+    let mut run = run.clone();
+    if let Some(time) = run.get_mut("planning_time_s") {
+        assert!(time.as_f64().unwrap() > 0.0);
+        *time = json!(0);
+    }
+    run
+}
+
+#[test]
+fn the_full_product_is_made_with_the_recipe_first() {
+    let bench = Bench::with(&eight());
+    let said = ablate(&bench, "").ends(0);
+    assert_eq!(said.stderr, "");
+    assert_eq!(headline(&said), "8 runs");
+    let expected = [
+        "constant | equal-angle (step = 9 deg) | triangle-rotary",
+        "constant | equal-angle (step = 9 deg) | analytic",
+        "constant | equal-angle (step = 6 deg) | triangle-rotary",
+        "constant | equal-angle (step = 6 deg) | analytic",
+        "atpg | equal-angle (step = 9 deg) | triangle-rotary",
+        "atpg | equal-angle (step = 9 deg) | analytic",
+        "atpg | equal-angle (step = 6 deg) | triangle-rotary",
+        "atpg | equal-angle (step = 6 deg) | analytic",
+    ];
+    assert_eq!(varied(&bench), expected);
+    let keys: Vec<String> = runs(&bench)[0]["varied"]
+        .as_object()
+        .unwrap()
+        .keys()
+        .cloned()
+        .collect();
+    assert_eq!(keys, ["feed", "sampler", "velocity"]);
+    assert_eq!(records(&bench).len(), 8);
+    let files = bench.files();
+    let rest = files.iter().filter(|file| !file.starts_with("out/runs/"));
+    let rest: Vec<&String> = rest.collect();
+    assert_eq!(
+        rest,
+        ["out/ablation.csv", "out/ablation.json", "recipe.toml"]
+    );
+}
+
+#[test]
+fn one_at_a_time_makes_each_change_alone() {
+    let recipe = changed(
+        &eight(),
+        "[ablation]",
+        "[ablation]\nmode = \"one-at-a-time\"",
+    );
+    let bench = Bench::with(&changed(&recipe, "step = \"6 deg\"", "step = \"9 deg\""));
+    assert_eq!(headline(&ablate(&bench, "").ends(0)), "3 runs");
+    let expected = [
+        "constant | equal-angle | triangle-rotary",
+        "atpg | equal-angle | triangle-rotary",
+        "constant | equal-angle | analytic",
+    ];
+    assert_eq!(varied(&bench), expected);
+}
+
+#[test]
+fn a_run_is_what_run_gives_with_the_same_values_set() {
+    let bench = Bench::with(&saddle(
+        "tolerance.residual = [\"50 nm\"]\nvelocity = [{ use = \"linear\" }]",
+    ));
+    ablate(&bench, "").ends(0);
+    let runs = runs(&bench);
+    for (run, residual, velocity) in [
+        (&runs[0], "100 nm", "triangle-rotary"),
+        (&runs[1], "100 nm", "linear"),
+        (&runs[3], "50 nm", "linear"),
+    ] {
+        let sets = [
+            "refine=false".to_owned(),
+            format!("tolerance.residual={residual}"),
+            format!("velocity={{ use = \"{velocity}\" }}"),
+        ];
+        let mut args = vec!["run", "recipe.toml", "-o", "single", "--format", "json"];
+        args.extend(sets.iter().flat_map(|set| ["--set", set]));
+        let single: Value = bench.call(args).json();
+        for (key, value) in single.as_object().unwrap() {
+            assert_eq!(&run[key], value, "{velocity}: {key}");
+        }
+    }
+}
+
+#[test]
+fn points_are_those_of_the_program_and_its_size_is_measured() {
+    let recipe = changed(
+        SADDLE,
+        "[feed]",
+        "[output]\nposts = [\"pmac-pvt\"]\n\n[feed]",
+    );
+    let recipe =
+        format!("refine = true\n{recipe}\n[ablation]\nvelocity = [{{ use = \"linear\" }}]\n");
+    let bench = Bench::with(&recipe);
+    let said = ablate(&bench, "").ends(0);
+    assert_eq!(headline(&said), "2 runs, 1 failed");
+    let single = bench
+        .line("run recipe.toml -o single --format json")
+        .ends(0);
+    let (single, runs) = (single.json(), runs(&bench));
+    for key in ["control_points", "interpolation_error_nm", "axes"] {
+        assert_eq!(runs[0][key], single[key], "{key}");
+    }
+    assert!(single["points_added_by_refine"].as_u64().is_some());
+    assert_eq!(runs[0]["refine"], true);
+    let program = fs::metadata(bench.path("single/recipe.pmc")).unwrap().len();
+    let lines = runs[0]["program_bytes"].as_u64().unwrap();
+    // Header and footer of the program.
+    assert!(
+        lines < program && program < lines + 1000,
+        "{lines}, {program}"
+    );
+    let error = runs[1]["error"].as_str().unwrap();
+    assert!(error.contains("cannot carry this path"), "{error}");
+    assert_eq!(runs[1]["chain"]["velocity"], "linear");
+}
+
+#[test]
+fn the_csv_has_the_figures_of_the_json() {
+    let bench = Bench::with(&saddle("tool.nose_radius = [\"0.5 mm\", \"50 mm\"]"));
+    ablate(&bench, "").ends(0);
+    let runs = runs(&bench);
+    let csv = bench.read("out/ablation.csv");
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let header = &rows[0];
+    assert_eq!(
+        header[..4],
+        [
+            "run",
+            "tool.nose_radius",
+            "points",
+            "points_added_by_refine"
+        ]
+    );
+    assert_eq!(rows.len(), 4);
+    let column = |name: &str| header.iter().position(|one| *one == name).unwrap();
+    for (row, run) in rows[1..3].iter().zip(&runs) {
+        for (name, pointer) in [
+            ("points", "/control_points"),
+            ("cutting_time_s", "/cutting_time_s"),
+            ("error_max_nm", "/interpolation_error_nm/max"),
+            ("residual_nm", "/residual_nm/max"),
+            ("z_acceleration_rms_mm_per_s2", "/axes/z/rms_acceleration"),
+            ("program_bytes", "/program_bytes"),
+            ("planning_time_s", "/planning_time_s"),
+        ] {
+            let figure: f64 = row[column(name)].parse().unwrap();
+            assert_eq!(
+                Some(figure),
+                run.pointer(pointer).unwrap().as_f64(),
+                "{name}"
+            );
+        }
+        assert_eq!(row[column("reason")], "");
+    }
+    let failed = csv.lines().nth(3).unwrap();
+    assert!(failed.starts_with("3,50 mm,,,,"), "{failed}");
+    assert!(failed.contains("the tool would gouge"), "{failed}");
+}
+
+#[test]
+fn an_interrupted_ablation_goes_on_with_what_is_missing() {
+    let residuals: Vec<String> = (50..90).map(|nm| format!("\"{nm} nm\"")).collect();
+    let lists = format!("tolerance.residual = [{}]", residuals.join(", "));
+    let bench = Bench::with(&saddle(&lists));
+    let mut command = bench.command(["ablate", "recipe.toml", "-o", "out", "--threads", "2"]);
+    let mut child = command.stdout(Stdio::null()).spawn().unwrap();
+    while records(&bench).len() < 3 {
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "it ended without records"
+        );
+        thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let left = records(&bench);
+    let count = left.len();
+    assert!((3..41).contains(&count), "{count}");
+    assert!(!bench.path("out/ablation.json").exists());
+    for name in left.keys() {
+        let record: Value = serde_json::from_str(&bench.read(format!("out/runs/{name}"))).unwrap();
+        assert_eq!(format!("{}.json", record["key"].as_str().unwrap()), *name);
+    }
+    let said = ablate(&bench, "").ends(0);
+    assert_eq!(said.stderr, "");
+    assert_eq!(
+        headline(&said),
+        format!("41 runs, {count} taken over from before")
+    );
+    let all = records(&bench);
+    assert_eq!(all.len(), 41);
+    for (name, written) in &left {
+        assert_eq!(all.get(name), Some(written), "{name} was made again");
+    }
+}
+
+#[test]
+fn what_was_taken_over_is_what_would_be_made() {
+    let bench = Bench::with(&eight());
+    ablate(&bench, "").ends(0);
+    let (made, table) = (
+        bench.read("out/ablation.json"),
+        bench.read("out/ablation.csv"),
+    );
+    let said = ablate(&bench, "").ends(0);
+    assert_eq!(headline(&said), "8 runs, 8 taken over from before");
+    assert!(made == bench.read("out/ablation.json"));
+    assert!(table == bench.read("out/ablation.csv"));
+    let before: Vec<Value> = runs(&bench).iter().map(without_times).collect();
+    let said = ablate(&bench, "--fresh").ends(0);
+    assert_eq!(headline(&said), "8 runs");
+    let after: Vec<Value> = runs(&bench).iter().map(without_times).collect();
+    assert_eq!(before, after);
+}
+
+#[test]
+fn only_what_a_change_touches_is_made_again() {
+    let recipe = eight();
+    let bench = Bench::with(&recipe);
+    ablate(&bench, "").ends(0);
+    for (from, to, taken_over) in [
+        ("step = \"6 deg\"", "step = \"5 deg\"", 4),
+        (
+            "{ use = \"analytic\" }",
+            "{ use = \"area\" }, { use = \"analytic\" }",
+            8,
+        ),
+        ("name = \"Saddle\"", "# a saddle\nname = \"Another\"", 8),
+        ("[feed]", "[output]\ndata = []\n\n[feed]", 8),
+        ("residual = \"100 nm\"", "residual = \"90 nm\"", 0),
+    ] {
+        bench.write("recipe.toml", changed(&recipe, from, to));
+        let said = ablate(&bench, "").ends(0);
+        let told = format!("{taken_over} taken over from before");
+        let tells = match taken_over {
+            0 => headline(&said) == "8 runs",
+            _ => headline(&said).contains(&told),
+        };
+        assert!(tells, "{to}: {}", headline(&said));
+    }
+    let said = ablate(&bench, "--set name=Another");
+    assert!(said.stdout.starts_with("Another: "), "{said}");
+    assert_eq!(runs(&bench)[0]["name"], "Another");
+}
+
+#[test]
+fn a_damaged_record_is_told_and_made_again() {
+    let bench = Bench::with(&saddle(
+        "velocity = [{ use = \"analytic\" }, { use = \"area\" }]",
+    ));
+    ablate(&bench, "").ends(0);
+    let names: Vec<String> = records(&bench).into_keys().collect();
+    let [first, second, third] = names.as_slice() else {
+        panic!("{names:?}");
+    };
+    let path = |name: &str| format!("out/runs/{name}");
+    let text = bench.read(path(first));
+    bench.write(&path(first), &text[..text.len() / 2]);
+    let text = bench.read(path(second));
+    bench.write(&path(second), changed(&text, "\"rows\": ", "\"rows\": 1"));
+    let whole = bench.read(path(third));
+    let said = ablate(&bench, "").ends(0);
+    assert_eq!(headline(&said), "3 runs, 1 taken over from before");
+    assert_eq!(said.stderr.matches("is damaged").count(), 2, "{said}");
+    assert_eq!(said.stderr.matches("its figures have changed").count(), 1);
+    assert!(bench.read(path(third)) == whole);
+    let said = ablate(&bench, "").ends(0);
+    assert_eq!(headline(&said), "3 runs, 3 taken over from before");
+}
+
+#[test]
+fn a_failing_chain_is_a_row_with_its_reason() {
+    let plugins = plugin_folder(&["panics", "constant-arc"]);
+    let bench = Bench::with(&saddle(
+        "sampler = [{ use = \"panics-in-call\" }, { use = \"constant-arc\", spacing = \"0.2 mm\" }]",
+    ));
+    let folder = plugins.path().to_str().unwrap();
+    let call = ["ablate", "recipe.toml", "-o", "out", "--plugin-dir", folder];
+    let said = bench.call(call).ends(0);
+    assert_eq!(headline(&said), "3 runs, 1 failed");
+    let row = |name: &str| {
+        let mut lines = said.stdout.lines();
+        lines
+            .find(|line| line.starts_with(name))
+            .unwrap()
+            .to_owned()
+    };
+    assert!(
+        row("panics-in-call").contains("failed: the sampler `panics-in-call`"),
+        "{said}"
+    );
+    assert!(!row("constant-arc").contains("failed"), "{said}");
+    let runs = runs(&bench);
+    assert_eq!(runs[1]["chain"]["sampler"], "panics-in-call");
+    assert!(runs[1]["error"].as_str().unwrap().contains("panicked"));
+    assert_eq!(runs[1].as_object().unwrap().len(), 3);
+    let hash = &runs[2]["plugins"].as_array().unwrap();
+    assert!(hash.iter().any(|plugin| plugin["sha256"].is_string()));
+    // A failure is no result: it is tried again.
+    let said = bench.call(call).ends(0);
+    assert_eq!(
+        headline(&said),
+        "3 runs, 2 taken over from before, 1 failed"
+    );
+}
+
+#[test]
+fn where_all_runs_fail_so_does_the_command() {
+    let recipe = changed(SADDLE, "nose_radius = \"1 mm\"", "nose_radius = \"40 mm\"");
+    let bench = Bench::with(&format!(
+        "{recipe}[ablation]\ntool.nose_radius = [\"50 mm\"]\n"
+    ));
+    let said = ablate(&bench, "").ends(2);
+    assert_eq!(headline(&said), "2 runs, 2 failed");
+    assert!(said.stderr.contains("the tool would gouge"), "{said}");
+    assert_eq!(runs(&bench).len(), 2);
+}
+
+#[test]
+fn a_tolerance_that_does_not_hold_is_a_finding_not_a_failure() {
+    let bench = Bench::with(&saddle("velocity = [{ use = \"three-point\" }]"));
+    let said = ablate(&bench, "").ends(0);
+    assert_eq!(runs(&bench)[1]["within"]["interpolation"], false);
+    assert!(said.stdout.contains("! exceeds its tolerance"), "{said}");
+}
+
+/// The usual columns but for planning times.
+const COLUMNS: &str = "--columns points,added,revolutions,time,error-max,error-rms,residual,\
+                       x-acceleration-law,z-acceleration,program-size";
+
+/// Over the last 1.25 turns at either end the host lets the feed run out by f n (s³ − s⁴/2) with
+/// s = m/n: X accelerates by 1.5 f/n at the most, and a constant feed by nothing between.
+#[test]
+fn the_x_acceleration_that_is_compared_is_that_of_the_law() {
+    let covered = changed(SADDLE, "overrun = \"none\"", "overrun = \"contact\"");
+    let feed = "use = \"constant\"\nfeed = \"20 um\"";
+    let recipe = with_table(&covered, "feed", feed);
+    let bench = Bench::with(&format!(
+        "{recipe}\n[ablation]\nvelocity = [{{ use = \"analytic\" }}]\n"
+    ));
+    ablate(&bench, "").ends(0);
+    let run = &runs(&bench)[1];
+    let of = |pointer: &str| run.pointer(pointer).unwrap().as_f64().unwrap();
+    let turns_per_second = of("/revolutions") / of("/cutting_time_s");
+    let running_out = 1.5 * 0.02 / 1.25 * turns_per_second * turns_per_second;
+    let whole = of("/axes/x/max_acceleration");
+    assert!(
+        (whole / running_out - 1.0).abs() < 0.01,
+        "{whole} {running_out}"
+    );
+    let own = of("/axes_of_law/x/max_acceleration");
+    assert!(own < 1e-6 * whole, "{own}");
+    let velocity = of("/axes_of_law/x/max_velocity");
+    assert!((velocity / (0.02 * turns_per_second) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn the_table_has_all_columns_within_100() {
+    let bench = Bench::with(&saddle(
+        "tolerance.residual = [\"50 nm\"]\nvelocity = [{ use = \"three-point\" }]\n\
+         tool.nose_radius = [\"50 mm\"]",
+    ));
+    let said = ablate(&bench, "").ends(0);
+    for line in said.stdout.lines() {
+        assert!(line.chars().count() <= WIDEST, "{line}");
+    }
+    // All in one table, the last with its unit.
+    assert_eq!(said.stdout.matches("───\n").count(), 1, "{said}");
+    assert!(
+        said.stdout.lines().nth(6).unwrap().ends_with(" s"),
+        "{said}"
+    );
+    insta::assert_snapshot!(ablate(&bench, COLUMNS).ends(0).stdout);
+}
+
+#[test]
+fn columns_can_be_chosen() {
+    let bench = Bench::with(&saddle("velocity = [{ use = \"three-point\" }]"));
+    let said = ablate(&bench, "--columns z-jerk-max,error-max,points").ends(0);
+    insta::assert_snapshot!(said.stdout);
+    let said = ablate(&bench, "--columns points,eror-max").ends(2);
+    assert!(said.stderr.contains("'error-max'"), "{said}");
+}
+
+/// Told before the work, which fails here in every run and would say so.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_records_is_told_first() {
+    let recipe = saddle("tool.nose_radius = [\"50 mm\"]");
+    let recipe = changed(&recipe, "nose_radius = \"1 mm\"", "nose_radius = \"60 mm\"");
+    let bench = Bench::with(&recipe);
+    fs::create_dir(bench.path("out")).unwrap();
+    std::os::unix::fs::symlink("/proc/self", bench.path("out/runs")).unwrap();
+    let said = ablate(&bench, "").ends(4);
+    assert!(said.stderr.contains("cannot write out/runs: "), "{said}");
+    assert!(!said.stderr.contains("gouge"), "{said}");
+}
+
+/// What the narrower terminal leaves out of a line follows in a further table.
+#[test]
+fn a_narrow_terminal_gets_narrow_tables() {
+    let bench = Bench::with(&saddle("tool.nose_radius = [\"50 mm\"]"));
+    let widths = [
+        ("60", 60, 2),
+        ("1", 40, 4),
+        ("0", WIDEST, 1),
+        ("wide", WIDEST, 1),
+    ];
+    for (columns, widest, tables) in widths {
+        let mut command = bench.command(["ablate", "recipe.toml", "-o", "out"]);
+        let said = said(command.env("COLUMNS", columns)).ends(0);
+        let table = said.stdout.lines().skip(1);
+        let table = table.filter(|line| !line.contains("file"));
+        let longest = table.map(|line| line.chars().count()).max();
+        assert!(longest.is_some_and(|longest| longest <= widest), "{said}");
+        assert_eq!(said.stdout.matches("───\n").count(), tables, "{said}");
+        assert!(said.stdout.contains("failed:"), "{said}");
+    }
+}
+
+/// Every column but those of what this recipe does not ask for: a hole, limits, a servo, a nose
+/// that does not fit.
+#[test]
+fn every_figure_of_a_run_has_its_column() {
+    let recipe = changed(SADDLE, "lead = false", "lead = true");
+    let bench = Bench::with(&format!(
+        "{recipe}\n[servo]\nbandwidth = \"100 Hz\"\n\n[ablation]\nvelocity = [{{ use = \"three-point\" }}]\n"
+    ));
+    ablate(&bench, "").ends(0);
+    let csv = bench.read("out/ablation.csv");
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (head, row) = (lines.next().unwrap(), lines.next().unwrap());
+    let empty: Vec<&str> = head
+        .iter()
+        .zip(&row)
+        .filter(|(_, figure)| figure.is_empty())
+        .map(|(name, _)| *name)
+        .collect();
+    let expected = [
+        "unreached_height_um",
+        "uncut_at_hole_nm",
+        "highest_spindle_rpm",
+        "within_coverage",
+        "within_machine",
+        "reason",
+    ];
+    assert_eq!(empty, expected);
+}
+
+#[test]
+fn json_on_standard_output_is_the_file() {
+    let bench = Bench::with(&saddle("velocity = [{ use = \"three-point\" }]"));
+    let said = ablate(&bench, "--format json").ends(0);
+    assert_eq!(said.stdout, bench.read("out/ablation.json"));
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_files_but_for_times() {
+    let with = |threads: &str| {
+        let bench = Bench::with(&eight());
+        ablate(&bench, &format!("--threads {threads}")).ends(0);
+        let runs: Vec<Value> = runs(&bench).iter().map(without_times).collect();
+        let records: Vec<String> = records(&bench).into_keys().collect();
+        (runs, records)
+    };
+    assert_eq!(with("1"), with("3"));
+}
+
+#[test]
+fn the_folder_is_named_after_the_job() {
+    let bench = Bench::with(&saddle("velocity = [{ use = \"area\" }]"));
+    bench.line("ablate recipe.toml").ends(0);
+    assert!(bench.path("out/Saddle-ablation/ablation.json").is_file());
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_told_before_the_work() {
+    let bench = Bench::with(&eight());
+    bench.line("ablate recipe.toml -o recipe.toml").ends(4);
+    fs::create_dir_all(bench.path("out")).unwrap();
+    bench.write("out/runs", "a file");
+    let said = ablate(&bench, "").ends(4);
+    assert!(said.stderr.contains("out/runs"), "{said}");
+    fs::create_dir_all(bench.path("other/ablation.csv")).unwrap();
+    let said = bench.line("ablate recipe.toml -o other").ends(4);
+    assert!(said.stderr.contains("it is a folder"), "{said}");
+    assert_eq!(said.stdout, "");
+}
+
+#[test]
+fn what_is_wrong_in_a_list_is_shown_there_before_the_work() {
+    let bench = Bench::with(&saddle(
+        "sampler = [{ use = \"equal-angel\" }, { use = \"equal-angle\", step = \"6 mm\" }]\n\
+         feed.fed = [\"1 um\"]",
+    ));
+    let said = ablate(&bench, "").ends(2);
+    insta::assert_snapshot!("wrong_strategies", bench.shown(&said));
+    let bench = Bench::with(&saddle("tolerance.residual = [\"50 nm\", \"5 s\"]"));
+    let said = ablate(&bench, "").ends(2);
+    insta::assert_snapshot!("wrong_value", bench.shown(&said));
+    let bench = Bench::with(SADDLE);
+    let said = ablate(&bench, "").ends(2);
+    insta::assert_snapshot!("no_ablation", bench.shown(&said));
+    assert_eq!(bench.files(), ["recipe.toml"]);
+}

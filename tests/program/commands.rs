@@ -1,0 +1,334 @@
+//! `turnpath run` and `turnpath check`: what they print, write and answer.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::fs;
+use std::io::Read;
+use std::process::Stdio;
+
+use crate::support::bench::Bench;
+use crate::support::recipe::{SADDLE, changed, with_table};
+use serde_json::Value;
+
+fn close(found: &Value, expected: f64, relative: f64) {
+    let found = found.as_f64().unwrap();
+    let within = (found - expected).abs() <= relative * expected.abs();
+    assert!(within, "{found}, not {expected}");
+}
+
+#[test]
+fn run_writes_the_path_and_its_summary() {
+    let bench = Bench::with(SADDLE);
+    let said = bench.line("run recipe.toml -o out").ends(0);
+    assert_eq!(said.stderr, "");
+    let files = ["out/summary.json", "out/toolpath.csv", "recipe.toml"];
+    assert_eq!(bench.files(), files);
+    for file in files.iter().take(2) {
+        assert!(said.stdout.contains(file), "{said}");
+    }
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    let rows = bench.read("out/toolpath.csv").lines().count() as u64 - 1;
+    assert_eq!(summary["rows"], rows);
+    assert_eq!(summary["control_points"], rows);
+    assert_eq!(summary["name"], "Saddle");
+    assert_eq!(summary["chain"]["velocity"], "triangle-rotary");
+}
+
+#[test]
+fn the_summary_speaks_of_the_path_that_was_written() {
+    let bench = Bench::with(SADDLE);
+    let summary = bench
+        .line("run recipe.toml -o out --format json")
+        .ends(0)
+        .json();
+    let path = bench.read("out/toolpath.csv");
+    let row = |line: &str| -> Vec<f64> { line.split(',').map(|v| v.parse().unwrap()).collect() };
+    let (first, last) = (
+        row(path.lines().nth(1).unwrap()),
+        row(path.lines().last().unwrap()),
+    );
+    assert_eq!(first[..3], [0.0, 0.0, 2.5]);
+    assert!(
+        last[2].abs() < 1e-12,
+        "the path ends on the axis: {}",
+        last[2]
+    );
+    close(&summary["revolutions"], last[1] / 360.0, 1e-12);
+    close(&summary["cutting_time_s"], last[0], 1e-12);
+}
+
+#[test]
+fn json_on_standard_output_is_the_summary_s_file() {
+    let bench = Bench::with(SADDLE);
+    let said = bench.line("run recipe.toml -o out --format json").ends(0);
+    assert_eq!(said.stdout, bench.read("out/summary.json"));
+    assert_eq!(said.stderr, "");
+}
+
+#[test]
+fn options_may_follow_or_precede_the_recipe() {
+    let bench = Bench::with(SADDLE);
+    bench
+        .line("run recipe.toml -o one --threads 2 --set refine=false")
+        .ends(0);
+    bench
+        .line("run --set refine=false --threads 2 -o two recipe.toml")
+        .ends(0);
+    assert_eq!(
+        bench.read("one/summary.json"),
+        bench.read("two/summary.json")
+    );
+}
+
+#[test]
+fn files_go_to_a_folder_of_the_recipe_s_name() {
+    let named = |name: &str| changed(SADDLE, "\"Saddle\"", &format!("{name:?}"));
+    for (name, folder) in [
+        ("Astigmatic mirror, 5 mm", "Astigmatic mirror, 5 mm"),
+        ("labs/mirror 5/7", "labs-mirror 5-7"),
+        ("../../escape", "-.-..-escape"),
+        ("C:\\mirror", "C--mirror"),
+    ] {
+        let bench = Bench::with(&named(name));
+        let said = bench.line("run recipe.toml").ends(0);
+        let file = format!("out/{folder}/toolpath.csv");
+        assert!(bench.files().contains(&file), "{:?}\n{said}", bench.files());
+    }
+}
+
+#[test]
+fn a_recipe_without_a_name_has_that_of_its_file() {
+    let bench = Bench::with(&changed(SADDLE, "name = \"Saddle\"\n", ""));
+    bench.line("run recipe.toml").ends(0);
+    assert!(bench.path("out/recipe/toolpath.csv").is_file());
+}
+
+#[test]
+fn a_second_run_replaces_the_files_of_the_first() {
+    let bench = Bench::with(SADDLE);
+    bench
+        .line("run recipe.toml -o out --set spindle.speed=100rpm")
+        .ends(0);
+    let slow = bench.read("out/toolpath.csv");
+    bench.line("run recipe.toml -o out").ends(0);
+    assert_ne!(bench.read("out/toolpath.csv"), slow);
+    let fresh = Bench::with(SADDLE);
+    fresh.line("run recipe.toml -o out").ends(0);
+    assert_eq!(
+        bench.read("out/toolpath.csv"),
+        fresh.read("out/toolpath.csv")
+    );
+    assert_eq!(bench.files(), fresh.files());
+}
+
+#[test]
+fn folders_are_made_as_deep_as_asked() {
+    let bench = Bench::with(SADDLE);
+    bench.line("run recipe.toml -o a/b/c").ends(0);
+    assert!(bench.path("a/b/c/summary.json").is_file());
+}
+
+#[test]
+fn without_data_only_the_summary_is_written() {
+    let bench = Bench::with(&format!("{SADDLE}\n[output]\ndata = []\n"));
+    bench.line("run recipe.toml -o out").ends(0);
+    assert_eq!(bench.files(), ["out/summary.json", "recipe.toml"]);
+}
+
+#[test]
+fn a_path_too_coarse_to_hold_its_interpolation_ends_with_1_and_is_written() {
+    let bench = Bench::with(&changed(SADDLE, "9 deg", "40 deg"));
+    let said = bench
+        .line("run recipe.toml -o out --set refine=false")
+        .ends(1);
+    let line = said
+        .stdout
+        .lines()
+        .find(|line| line.contains("interpolation"));
+    assert!(
+        line.is_some_and(|line| line.ends_with("EXCEEDED")),
+        "{said}"
+    );
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    assert_eq!(summary["within"]["interpolation"], false);
+    assert_eq!(summary["within"]["residual"], true);
+    assert!(bench.path("out/toolpath.csv").is_file());
+}
+
+#[test]
+fn a_feed_too_large_for_its_residual_ends_with_1() {
+    let bench = Bench::with(SADDLE);
+    let said = bench
+        .line("run recipe.toml -o out --set feed.feed=40um/rev")
+        .ends(1);
+    let line = said.stdout.lines().find(|line| line.contains("residual"));
+    assert!(
+        line.is_some_and(|line| line.ends_with("EXCEEDED")),
+        "{said}"
+    );
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    assert_eq!(summary["within"]["interpolation"], true);
+    assert_eq!(summary["within"]["residual"], false);
+}
+
+#[test]
+fn a_path_of_one_turn_holds_no_residual_since_none_is_measured() {
+    let bench = Bench::with(SADDLE);
+    let words = "run recipe.toml -o out --set feed.feed=2.5mm/rev";
+    let said = bench.line(words).ends(1);
+    assert!(said.stdout.contains("not measured"), "{said}");
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    assert_eq!(summary["residual_nm"]["max"], Value::Null);
+    assert_eq!(summary["within"]["residual"], false);
+}
+
+#[test]
+fn check_tells_a_person_what_the_part_asks_of_the_tool() {
+    let bench = Bench::with(SADDLE);
+    let said = bench.line("check recipe.toml").ends(0);
+    assert_eq!(said.stderr, "");
+    assert_eq!(bench.files(), ["recipe.toml"]);
+    insta::assert_snapshot!(said.stdout);
+}
+
+#[test]
+fn check_says_of_a_tool_without_angles_that_those_checks_are_not_made() {
+    let angles = "included_angle = \"120 deg\"\nclearance_angle = \"30 deg\"\n";
+    let bench = Bench::with(&changed(SADDLE, angles, ""));
+    let said = bench.line("check recipe.toml").ends(0);
+    assert_eq!(said.stdout.matches("check not made").count(), 2, "{said}");
+}
+
+#[test]
+fn check_in_json_agrees_with_closed_forms_and_with_the_run() {
+    let bench = Bench::with(SADDLE);
+    let checked = bench.line("check recipe.toml --format json").ends(0).json();
+    // z = 0.16 x y: curvature 0.16 /mm at the centre, along 45 degrees.
+    close(&checked["largest_nose_radius_mm"], 1.0 / 0.16, 1e-6);
+    let summary = bench
+        .line("run recipe.toml -o out --format json")
+        .ends(0)
+        .json();
+    let expected = &checked["expected"];
+    assert_eq!(expected["revolutions"], summary["revolutions"]);
+    assert_eq!(expected["cutting_time_s"], summary["cutting_time_s"]);
+    let points = summary["control_points"].as_f64().unwrap();
+    close(&expected["control_points"], points, 0.02);
+    let size = fs::metadata(bench.path("out/toolpath.csv")).unwrap().len();
+    close(&expected["toolpath_bytes"], size as f64, 0.2);
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_failure() {
+    let bench = Bench::with(SADDLE);
+    for words in [
+        "list",
+        "check recipe.toml",
+        "run recipe.toml -o out --format json",
+    ] {
+        let mut command = bench.command(words.split_whitespace());
+        let mut child = command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let mut messages = String::new();
+        let mut stderr = child.stderr.take().unwrap();
+        stderr.read_to_string(&mut messages).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{words}: {messages}");
+        assert_eq!(messages, "", "{words}");
+    }
+}
+
+#[test]
+fn the_version_is_told() {
+    let said = Bench::empty().line("--version").ends(0);
+    assert_eq!(
+        said.stdout,
+        format!("turnpath {}\n", env!("CARGO_PKG_VERSION"))
+    );
+}
+
+#[test]
+fn help_tells_every_command_and_the_exit_statuses() {
+    let said = Bench::empty().line("--help").ends(0);
+    for word in [
+        "run",
+        "check",
+        "verify",
+        "sag",
+        "list",
+        "explain",
+        "Exit status",
+    ] {
+        assert!(said.stdout.contains(word), "`{word}` is missing\n{said}");
+    }
+}
+
+#[test]
+fn every_example_in_the_docs_passes_its_check() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/recipes");
+    let mut seen = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let file = entry.unwrap().path();
+        if file
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            let bench = Bench::empty();
+            let said = bench.call(["check".as_ref(), file.as_os_str()]);
+            said.ends(0);
+            seen += 1;
+        }
+    }
+    assert!(seen > 0, "there are no recipes in docs/recipes");
+}
+
+/// z = 0.16 x y cut to X = 2.5 mm: contact ends at 2.17 mm where the profile falls outward.
+#[test]
+fn what_stays_uncut_is_told_and_judged_only_where_the_path_covers_the_part() {
+    let bench = Bench::with(SADDLE);
+    let said = bench.line("run recipe.toml -o out").ends(0);
+    assert!(said.stdout.contains("coverage        rim "), "{said}");
+    assert!(said.stdout.contains("(overrun = \"none\")"), "{said}");
+    assert!(!said.stdout.contains("warning"), "{said}");
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    let coverage = &summary["coverage_nm"];
+    let rim = coverage["rim"].as_f64().unwrap();
+    assert!((67e3..77e3).contains(&rim), "{rim} nm");
+    assert_eq!(coverage["hole"], Value::Null);
+    assert!(coverage["centre"].as_f64().unwrap() > 100.0);
+    assert_eq!(coverage["never_cut"], serde_json::json!([]));
+    assert_eq!(summary["within"]["coverage"], Value::Null);
+    assert_eq!(summary["axis_crossing_um"]["x"], 0.0);
+}
+
+#[test]
+fn x_beyond_the_axis_is_a_warning() {
+    let tilted = "use = \"xy-polynomial\"\nterms = [[1, 0, 0.1]]";
+    let recipe = with_table(SADDLE, "surface", tilted);
+    let bench = Bench::with(&with_table(&recipe, "compensator", "use = \"normal\""));
+    let said = bench.line("run recipe.toml -o out").ends(0);
+    let warning = "  warning         X crosses the axis by ";
+    assert!(said.stdout.contains(warning), "{said}");
+    assert!(said.stdout.contains("as the normal of a tilted"), "{said}");
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    // At ρ = 0 X is 0.1/sqrt(1.01) mm beyond the axis; the last pass on that side lies up to a
+    // feed of 28 um further out.
+    let crossing = summary["axis_crossing_um"]["x"].as_f64().unwrap();
+    assert!((71.0..99.6).contains(&crossing), "{crossing} um");
+    assert!(summary["axis_crossing_um"]["contact"].as_f64().unwrap() < 1e-6);
+}
+
+/// Inward the law of `ats` goes on beyond the axis, contact and all.
+#[test]
+fn a_feed_beyond_the_axis_is_a_warning_of_its_own() {
+    let recipe = with_table(SADDLE, "feed", "use = \"ats\"");
+    let bench = Bench::with(&recipe);
+    let set = "run recipe.toml -o out --set path.direction=inward";
+    let said = bench.line(set);
+    let why = "since the feed goes on there; beyond it";
+    assert!(said.stdout.contains(why), "{said}");
+    let said = bench.line(&format!("{set} --set feed.inward=backwards"));
+    assert!(!said.stdout.contains("crosses the axis"), "{said}");
+}

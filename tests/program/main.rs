@@ -1,0 +1,15 @@
+//! The program as a person calls it: commands, messages, exit statuses and files.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod ablate;
+mod bad_plugins;
+mod bad_recipes;
+mod built_ins;
+mod commands;
+mod own_sampler;
+mod readme;
+mod sag;
+mod same_bytes;
+mod verify;

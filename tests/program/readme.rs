@@ -1,0 +1,38 @@
+//! What README.md quotes is what the program says.
+
+use std::fs;
+
+use crate::support::bench::Bench;
+use crate::support::repository;
+
+/// The text between two fences, the first that begins with this line.
+fn quoted<'a>(readme: &'a str, first_line: &str) -> Option<&'a str> {
+    let begin = readme.find(&format!("```\n{first_line}\n"))?;
+    let (block, _) = readme.get(begin + 4..)?.split_once("```")?;
+    Some(block)
+}
+
+/// The first recipe that the text names.
+fn first_recipe(readme: &str) -> Option<&str> {
+    let begin = readme.find("docs/recipes/")?;
+    let rest = readme.get(begin..)?;
+    let end = rest.find(".toml")?;
+    rest.get(..end + ".toml".len())
+}
+
+/// What is said, the paths of files aside.
+fn without_files(said: &str) -> Vec<&str> {
+    let lines = said.lines();
+    lines.filter(|line| !line.starts_with("  file ")).collect()
+}
+
+#[test]
+fn the_quoted_run_of_the_first_recipe_is_what_it_says() {
+    let readme = fs::read_to_string(repository().join("README.md")).expect("README.md");
+    let recipe = repository().join(first_recipe(&readme).expect("a recipe is named"));
+    let said = Bench::empty().call(["run".as_ref(), recipe.as_os_str()]);
+    let said = said.ends(0).stdout;
+    let name = said.lines().next().expect("the recipe's name");
+    let quoted = quoted(&readme, name).expect("a block that begins with the recipe's name");
+    assert_eq!(without_files(quoted), without_files(&said));
+}

@@ -1,0 +1,118 @@
+//! `cargo xtask long`: every check that `.ci/run` leaves out.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::commands::{cargo, repository, run, target};
+use crate::python::{script, with_packages};
+use crate::step::{Outcome, Step};
+use crate::{deny, msrv};
+
+const OTHER_CHECKS: &str = "\
+playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
+maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
+msrv: `cargo xtask msrv`
+deny: `cargo xtask deny`";
+
+/// What `run` would do, a line each.
+pub fn list() -> String {
+    let tests = ignored_tests().into_iter();
+    let tests: Vec<String> = tests.map(|name| format!("test: {name}\n")).collect();
+    format!("{}{OTHER_CHECKS}", tests.concat())
+}
+
+/// Runs all of them.
+pub fn run_checks() -> Vec<Step> {
+    let mut steps = vec![
+        Step::run("tests that `.ci/run` ignores", ignored),
+        Step::run("playback", || {
+            with_packages(&["numpy"], || {
+                run(script("tests/reference/playback/selftest.py", &[]))
+            })
+        }),
+        Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
+    ];
+    steps.extend(msrv::run_checks());
+    steps.extend(deny::run_checks());
+    steps
+}
+
+fn ignored() -> Outcome {
+    if ignored_tests().is_empty() {
+        return Outcome::Passed;
+    }
+    let words = ["test", "--locked", "--workspace", "--release", "--tests"];
+    let mut tests = cargo(&words);
+    tests.args(["--", "--ignored"]);
+    run(tests)
+}
+
+fn maps() -> Outcome {
+    match program() {
+        Ok(program) => run(script("tests/reference/maps/check_maps.py", &[&program])),
+        Err(outcome) => outcome,
+    }
+}
+
+/// The program, built with optimisation.
+pub fn program() -> Result<PathBuf, Outcome> {
+    match run(cargo(&[
+        "build",
+        "--locked",
+        "--release",
+        "--bin",
+        "turnpath",
+    ])) {
+        Outcome::Passed => {
+            let name = format!("turnpath{}", std::env::consts::EXE_SUFFIX);
+            Ok(target().join("release").join(name))
+        }
+        failed => Err(failed),
+    }
+}
+
+/// The names of tests that have the attribute `ignore`, sorted.
+fn ignored_tests() -> Vec<String> {
+    let mut found = Vec::new();
+    for folder in ["cli", "crates", "plugins", "tests"] {
+        gather(&repository().join(folder), &mut found);
+    }
+    found.sort();
+    found
+}
+
+fn gather(folder: &Path, found: &mut Vec<String>) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        if path.is_dir() && !path.ends_with("target") {
+            gather(&path, found);
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            let text = fs::read_to_string(&path).unwrap_or_default();
+            found.extend(ignored_in(&text));
+        }
+    }
+}
+
+/// The functions that follow a line with `#[ignore`.
+fn ignored_in(text: &str) -> Vec<String> {
+    let after = text.split("\n#[ignore").skip(1);
+    let name = |rest: &str| {
+        let (_, function) = rest.split_once("\nfn ")?;
+        let (name, _) = function.split_once('(')?;
+        Some(name.to_owned())
+    };
+    after.filter_map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ignored_tests_are_found_by_their_attribute() {
+        let text = "#[test]\nfn quick() {}\n\n#[test]\n#[ignore = \"40 s\"]\nfn long_one() {}\n";
+        assert_eq!(ignored_in(text), ["long_one"]);
+    }
+}

@@ -1,0 +1,49 @@
+//! `cargo xtask`: what takes too long, or needs too much, for `.ci/run`.
+
+mod commands;
+mod deny;
+mod long;
+mod msrv;
+mod python;
+mod reference;
+mod step;
+
+use std::process::ExitCode;
+
+use step::{Step, report};
+
+const HELP: &str = "\
+cargo xtask COMMAND
+
+  long [--list]       every check that `.ci/run` leaves out, or their names
+  reference [NAME…]   makes the reference figures again, or those of these names
+  msrv                checks the workspace with the oldest Rust version that it promises
+  deny                checks licences, bans and sources of all dependencies with cargo-deny
+
+A step whose tool or package is not installed is skipped, and the report says so.";
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let steps: Vec<Step> = match words.as_slice() {
+        ["long", "--list"] => {
+            println!("{}", long::list());
+            return ExitCode::SUCCESS;
+        }
+        ["long"] => long::run_checks(),
+        ["reference", names @ ..] => match reference::run_named(names) {
+            Ok(steps) => steps,
+            Err(unknown) => {
+                eprintln!("{unknown}");
+                return ExitCode::from(2);
+            }
+        },
+        ["msrv"] => msrv::run_checks(),
+        ["deny"] => deny::run_checks(),
+        _ => {
+            eprintln!("{HELP}");
+            return ExitCode::from(2);
+        }
+    };
+    report(&steps)
+}

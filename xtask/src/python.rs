@@ -1,0 +1,33 @@
+//! The reference scripts' Python, and the packages that it has.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::commands::{command, succeeds};
+use crate::step::Outcome;
+
+/// The interpreter: the environment variable `PYTHON`, or `python3`.
+fn interpreter() -> String {
+    std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned())
+}
+
+/// A call of a script in the repository.
+pub fn script(file: &str, rest: &[&Path]) -> Command {
+    let mut call = command(interpreter(), &[file]);
+    call.args(rest);
+    call
+}
+
+/// Runs the body if Python and these packages are installed.
+pub fn with_packages(packages: &[&str], body: impl FnOnce() -> Outcome) -> Outcome {
+    let python = interpreter();
+    if !succeeds(command(&python, &["--version"])) {
+        return Outcome::Skipped(format!("`{python}` is not installed"));
+    }
+    let has = |package: &str| succeeds(command(&python, &["-c", &format!("import {package}")]));
+    let missing: Vec<&str> = packages.iter().copied().filter(|one| !has(one)).collect();
+    if missing.is_empty() {
+        return body();
+    }
+    Outcome::Skipped(format!("`{python}` has no {}", missing.join(", ")))
+}

@@ -1,0 +1,148 @@
+//! `cargo xtask reference`: the figures under `tests/reference` and docs/reproduction.md, made again.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::Command;
+
+use crate::commands::{cargo, command, repository, run, target};
+use crate::long::program;
+use crate::python::{script, with_packages};
+use crate::step::{Outcome, Step};
+
+/// A script that prints one file of figures.
+struct Figures {
+    name: &'static str,
+    packages: &'static [&'static str],
+}
+
+const FIGURES: [Figures; 5] = [
+    figures("compensators", &["mpmath"]),
+    figures("dropcutter", &["numpy", "opencamlib"]),
+    figures("series", &["mpmath"]),
+    figures("splines", &["numpy", "scipy"]),
+    figures("surfaces", &["mpmath"]),
+];
+
+const fn figures(name: &'static str, packages: &'static [&'static str]) -> Figures {
+    Figures { name, packages }
+}
+
+/// What makes figures.
+type Make = fn() -> Outcome;
+
+/// Figures that need the program.
+const PLAYBACK: &str = "playback";
+const PMAC: &str = "pmac";
+const REPRODUCTION: &str = "reproduction";
+
+/// Makes the figures of these names, or all; an unknown name is an error.
+pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
+    let own = FIGURES.iter().map(|figures| figures.name);
+    let known: Vec<&str> = own.chain([PLAYBACK, PMAC, REPRODUCTION]).collect();
+    if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
+        return Err(format!(
+            "there are no reference figures `{unknown}`; there are {}",
+            known.join(", ")
+        ));
+    }
+    let chosen = |name: &str| names.is_empty() || names.contains(&name);
+    let mut steps = Vec::new();
+    for figures in FIGURES.iter().filter(|figures| chosen(figures.name)) {
+        steps.push(Step::run(figures.name, || {
+            with_packages(figures.packages, || figures.make())
+        }));
+    }
+    let steps_of_the_program: [(&str, Make); 3] = [
+        (PLAYBACK, || with_packages(&["numpy"], playback)),
+        (PMAC, || with_packages(&["numpy"], pmac)),
+        (REPRODUCTION, reproduction),
+    ];
+    for (name, make) in steps_of_the_program {
+        if chosen(name) {
+            steps.push(Step::run(name, make));
+        }
+    }
+    Ok(steps)
+}
+
+impl Figures {
+    fn make(&self) -> Outcome {
+        let folder = Path::new("tests/reference");
+        let file = folder.join(format!("{}.json", self.name));
+        write(
+            script(&format!("tests/reference/{}.py", self.name), &[]),
+            &file,
+        )
+    }
+}
+
+/// Keeps what a command prints in a file of the repository. The file changes only if the command
+/// succeeds.
+fn write(mut command: Command, file: &Path) -> Outcome {
+    let draft = target().join("reference-draft");
+    let written = fs::create_dir_all(target()).and_then(|()| File::create(&draft));
+    let outcome = match written {
+        Ok(output) => {
+            command.stdout(output);
+            run(command)
+        }
+        Err(error) => Outcome::Failed(format!("{}: {error}", draft.display())),
+    };
+    if outcome != Outcome::Passed {
+        return outcome;
+    }
+    match fs::copy(&draft, repository().join(file)) {
+        Ok(_) => Outcome::Passed,
+        Err(error) => Outcome::Failed(format!("{}: {error}", file.display())),
+    }
+}
+
+/// What playback.py measures on the path of every recipe.
+fn playback() -> Outcome {
+    match program() {
+        Ok(program) => run(script(
+            "tests/reference/playback/measure_all.py",
+            &[&program],
+        )),
+        Err(outcome) => outcome,
+    }
+}
+
+/// What read_pmac.py reads of a program.
+fn pmac() -> Outcome {
+    let program = match program() {
+        Ok(program) => program,
+        Err(outcome) => return outcome,
+    };
+    let folder = target().join("reference-pmac");
+    let recipe = Path::new("tests/reference/pmac/ast-5.toml");
+    let mut call = command(&program, &["run"]);
+    call.arg(recipe).arg("-o").arg(&folder);
+    let outcome = run(call);
+    if outcome != Outcome::Passed {
+        return outcome;
+    }
+    let files = [folder.join("ast-5.pmc"), folder.join("toolpath.csv")];
+    let read = script(
+        "tests/reference/pmac/read_pmac.py",
+        &[recipe, &files[0], &files[1]],
+    );
+    write(read, Path::new("tests/reference/pmac/ast-5.json"))
+}
+
+/// docs/reproduction.md from docs/reproduction.toml. The step fails where a figure leaves its bound.
+fn reproduction() -> Outcome {
+    let words = [
+        "test",
+        "--locked",
+        "--workspace",
+        "--release",
+        "--test",
+        "papers",
+    ];
+    let mut tests = cargo(&words);
+    tests
+        .args(["--", "reproduction::"])
+        .env("REPRODUCTION", "write");
+    run(tests)
+}
