@@ -1,7 +1,7 @@
 //! What a recipe asks for, before the range of ρ is known.
 
 use turnpath_core::{
-    Direction, Task, Machine, Overrun, Part, RadialRange, SpindleLaw, Tolerance, Tool,
+    Direction, Machine, Overrun, Part, RadialRange, SpindleLaw, Task, Tolerance, Tool,
 };
 
 /// A task as a recipe describes it, before the range of ρ is known.

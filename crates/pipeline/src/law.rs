@@ -4,7 +4,9 @@
 //! A piece takes 56 bytes. A law with one feed for each radius has some hundred pieces, whatever
 //! the part. A law that changes with the angle has some pieces for every revolution.
 
-use turnpath_core::{Direction, Task, Locus, Continuation, RadialRange, Setup, SpiralLaw, FeedPiece};
+use turnpath_core::{
+    Continuation, Direction, FeedPiece, Locus, RadialRange, Setup, SpiralLaw, Task,
+};
 
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::{Chain, Result};

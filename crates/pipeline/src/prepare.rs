@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::interference::{Conflict, Interference};
-use turnpath_core::{Compensator, Task, Misfit, Overrun, Part, Scalar, Tool, ToolLocus};
+use turnpath_core::{Compensator, Misfit, Overrun, Part, Scalar, Task, Tool, ToolLocus};
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::contact::contact_range;

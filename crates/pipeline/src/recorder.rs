@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use turnpath_core::toolpath::{PathBlock, Section};
 use turnpath_verify::machined::MachinedFigures;
 use turnpath_verify::{
-    AxesMotion, FirstTouch, BlockFigures, Meter, PathFigures, ServoFigures, ServoMeter, ServoStart,
-    ServoBlockFigures,
+    AxesMotion, BlockFigures, FirstTouch, Meter, PathFigures, ServoBlockFigures, ServoFigures,
+    ServoMeter, ServoStart,
 };
 
 use crate::error::{RunError, RunResult};

@@ -9,7 +9,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Direction, Task, SpiralLaw};
+use turnpath_core::{Direction, SpiralLaw, Task};
 use turnpath_verify::{Ride, rides};
 
 use crate::observer::Observer;

@@ -1,6 +1,6 @@
 //! The end of the path so far: what the next block of the path follows.
 
-use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Section};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
 /// What comes before a block of the path.
 pub struct BlockContext {

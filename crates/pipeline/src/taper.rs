@@ -5,7 +5,7 @@
 //! over n turns, ρ(m) = f n (s³ − s⁴/2) with s = m/n, has its passes within ρ(1) of its end at
 //! every angle.
 
-use turnpath_core::{Direction, Task, Piece, SpiralLaw, quintic};
+use turnpath_core::{Direction, Piece, SpiralLaw, Task, quintic};
 
 /// Turns n over which the feed runs out. ρ(1) is then 0.38 feeds, so that 0.6 of a cusp stays at a
 /// rim, and 0.45 feeds lie between the passes of both sides of the axis. The taper costs n/2 turns;

@@ -114,6 +114,9 @@ mod variations {
             serde_json::Value::String(text) => text,
             other => other.to_string(),
         };
-        Ok(map.into_iter().map(|(key, value)| (key, text(value))).collect())
+        Ok(map
+            .into_iter()
+            .map(|(key, value)| (key, text(value)))
+            .collect())
     }
 }

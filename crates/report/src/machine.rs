@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
-use turnpath_core::{Axis, Derivative, Limit, Machine, Quantity};
+use turnpath_core::{Axis, Derivative, Limit, Quantity};
 
 use crate::place::PathPlace;
 use crate::unit;
@@ -183,11 +183,6 @@ mod limit_key {
     }
 }
 
-/// The limits of a machine, none measured.
-pub fn unmeasured(machine: &Machine) -> Vec<LimitFigure> {
-    machine.limits().map(LimitFigure::unmeasured).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use turnpath_core::DEG;
@@ -234,6 +229,9 @@ mod tests {
     fn a_limit_that_does_not_exist_is_refused() {
         let text = r#"{"limit":"y_jerk","at":null,"holds":null}"#;
         let error = serde_json::from_str::<LimitFigure>(text).unwrap_err();
-        assert!(error.to_string().contains("`y_jerk` is no limit"), "{error}");
+        assert!(
+            error.to_string().contains("`y_jerk` is no limit"),
+            "{error}"
+        );
     }
 }

@@ -58,10 +58,7 @@ impl PathReport {
         Verdict {
             interpolation: within(self.interpolation_error.max, interpolation),
             residual: self.residual.max.is_some_and(|max| within(max, residual)),
-            coverage: self
-                .overrun
-                .covers_part()
-                .then(|| within(uncut, residual)),
+            coverage: self.overrun.covers_part().then(|| within(uncut, residual)),
             machine: limits
                 .filter_map(all_hold)
                 .reduce(|one, other| one && other),

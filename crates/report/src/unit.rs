@@ -131,7 +131,8 @@ mod tests {
 
     #[test]
     fn a_number_that_is_null_is_no_number() {
-        let sample: Sample = serde_json::from_str(r#"{"height_nm":null,"angle_deg":null}"#).unwrap();
+        let sample: Sample =
+            serde_json::from_str(r#"{"height_nm":null,"angle_deg":null}"#).unwrap();
         assert!(sample.height.is_nan() && sample.angle.is_none());
     }
 
@@ -140,7 +141,9 @@ mod tests {
     fn numbers_that_were_read_are_written_as_the_same_text() {
         let mut state: u64 = 7;
         for _ in 0..20_000 {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
             let mantissa = 1.0 + (state >> 12) as f64 / (1u64 << 52) as f64;
             let exponent = (state % 41) as i32 - 20;
             let height = mantissa * 10f64.powi(exponent);

@@ -98,7 +98,10 @@ mod tests {
             ..ALL_HOLD
         };
         assert!(!verdict.holds());
-        assert_eq!(verdict.failures().collect::<Vec<_>>(), ["residual", "programs"]);
+        assert_eq!(
+            verdict.failures().collect::<Vec<_>>(),
+            ["residual", "programs"]
+        );
     }
 
     #[test]

@@ -61,10 +61,7 @@ pub fn wrong_parameter(recipe: &Recipe, slot: Slot, parameter: &str, message: &s
 /// A path that the post cannot carry: the recipe asks for both.
 pub fn not_carried(recipe: &Recipe, error: PmacError) -> Error {
     let post = recipe.output.posts.first();
-    let span = post.map_or_else(
-        || recipe.nearest_span("output"),
-        |post| post.span.clone(),
-    );
+    let span = post.map_or_else(|| recipe.nearest_span("output"), |post| post.span.clone());
     let title = format!("the post `{PMAC_PVT}` cannot carry this path: {error}");
     let help = [error.help().to_owned()];
     Error::refused_by(recipe.diagnostic(span, title, "chosen here", help), error)

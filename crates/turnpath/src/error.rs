@@ -141,7 +141,7 @@ impl Error {
     pub fn title(&self) -> String {
         let text = match self.diagnostics().first() {
             Some(first) => first.title().to_owned(),
-            None => self.to_string(),
+            None => Diagnostic::from_error(self).title().to_owned(),
         };
         text.lines().next().unwrap_or_default().to_owned()
     }
@@ -228,6 +228,9 @@ mod tests {
             first,
         });
         let title = error.title();
-        assert!(title.starts_with("two ") && !title.contains('\n'), "{title}");
+        assert!(
+            title.starts_with("two ") && !title.contains('\n'),
+            "{title}"
+        );
     }
 }

@@ -78,10 +78,8 @@ impl<'a> FolderSink<'a> {
             error,
         })?;
         // From here on the folders are removed again if anything fails.
-        let mut files = Files {
-            new_folders,
-            ..Files::default()
-        };
+        let mut files = Files::default();
+        files.new_folders = new_folders;
         if self.writes_toolpath {
             files.toolpath = Some(PathWriter::begin(self.folder.join(TOOLPATH))?);
         }
@@ -153,11 +151,11 @@ impl<'a> FolderSink<'a> {
             .write_all(summary.as_bytes())
             .map_err(|error| FileError { path, error })?;
         let mut written = Vec::new();
-        if let Some(files) = self.files.take() {
-            for draft in files.drafts {
+        if let Some(files) = &mut self.files {
+            for draft in files.drafts.drain(..) {
                 written.push(draft.complete()?);
             }
-            if let Some(toolpath) = files.toolpath {
+            if let Some(toolpath) = files.toolpath.take() {
                 written.push(toolpath.complete()?);
             }
         }

@@ -11,7 +11,7 @@ use crate::toolpath::ToolPath;
 pub struct MemorySink<'a> {
     programs: &'a [Program],
     /// A writer for each program.
-    pub writers: Vec<PmacWriter>,
+    pub writers: Vec<PmacWriter<Vec<u8>>>,
     /// The path so far.
     pub toolpath: ToolPath,
 }

@@ -2,7 +2,7 @@
 
 use turnpath_core::Slot;
 use turnpath_host::{Catalogue, LoadError, Plugin};
-use turnpath_recipe::{Recipe, Spanned};
+use turnpath_recipe::{Diagnostic, Recipe, Spanned};
 
 use crate::error::Error;
 
@@ -44,7 +44,7 @@ fn not_loaded(recipe: &Recipe, listed: &Spanned<String>, error: LoadError) -> Er
     // Nothing says whether a file or a folder was meant.
     let title = match error.is_missing() && !path.exists() {
         true => format!("there is no file or folder {}", path.display()),
-        false => error.to_string(),
+        false => Diagnostic::from_error(&error).title().to_owned(),
     };
     let diagnostic = recipe.diagnostic(listed.span.clone(), title, "listed here", []);
     Error::ListedPlugin {

@@ -151,7 +151,7 @@ impl Program {
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = PathMeters::new(recipe, touch);
         let measured = measure(recipe, meters, SegmentShape::Cubic, reader, observer)?;
-        let found = reader.counted().count();
+        let found = reader.read_count().points();
         if found != points {
             return Err(Error::PointsLost {
                 file: name.to_owned(),

@@ -65,7 +65,11 @@ impl Job {
     }
 
     /// The path into a sink.
-    pub(crate) fn run_into<S>(&self, sink: &mut S, observer: &dyn Observer) -> Result<Outcome, Error>
+    pub(crate) fn run_into<S>(
+        &self,
+        sink: &mut S,
+        observer: &dyn Observer,
+    ) -> Result<Outcome, Error>
     where
         S: Sink,
         S::Error: Into<SinkError>,
@@ -95,7 +99,8 @@ impl Job {
         for (program, writer) in self.programs.iter().zip(sink.writers) {
             let frame = program.frame(&self.recipe, &outcome);
             let text = writer.assemble_in_memory(&frame.header, &frame.footer);
-            let mut reader = PmacReader::new(Cursor::new(&text), program.format)?;
+            let mut reader =
+                PmacReader::from_reader(Cursor::new(&text), &program.file, program.format);
             let touch = self.preparation.touch.clone();
             let name = Path::new(&program.file);
             let recipe = &self.recipe;
@@ -139,7 +144,13 @@ impl Job {
         let leads = outcome.lead.as_ref();
         let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), recipe));
         let machined = outcome.machined.as_ref();
-        let path = figures::path(recipe, &outcome.figures, machined, lead, outcome.servo.as_ref());
+        let path = figures::path(
+            recipe,
+            &outcome.figures,
+            machined,
+            lead,
+            outcome.servo.as_ref(),
+        );
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),

@@ -64,7 +64,11 @@ impl Grid {
     }
 
     /// x, y, z and both slopes along one row.
-    fn row(&self, j: usize, surface: &Link<dyn SurfaceModel>) -> Result<Vec<[f64; 5]>, StrategyError> {
+    fn row(
+        &self,
+        j: usize,
+        surface: &Link<dyn SurfaceModel>,
+    ) -> Result<Vec<[f64; 5]>, StrategyError> {
         let x: Vec<f64> = (0..self.count).map(|i| self.at(i)).collect();
         let y = vec![self.at(j); self.count];
         let mut z = vec![f64::NAN; self.count];

@@ -56,13 +56,7 @@ fn link<T: ?Sized>(
 
 /// A constructor that refuses its parameters means that the recipe is wrong; one that panics, that
 /// the plugin is.
-fn not_made(
-    recipe: &Recipe,
-    slot: Slot,
-    name: &str,
-    plugin: &str,
-    error: StrategyError,
-) -> Error {
+fn not_made(recipe: &Recipe, slot: Slot, name: &str, plugin: &str, error: StrategyError) -> Error {
     let (noun, span) = (slot.noun(), recipe.choice(slot).name.span.clone());
     match &error {
         StrategyError::Parameter {
@@ -76,7 +70,10 @@ fn not_made(
         }
         StrategyError::Panicked(_) | StrategyError::Delegate { .. } => {
             let title = format!("the {noun} `{name}` of {plugin} {error}");
-            Error::strategy(recipe.diagnostic(span, title, "while it was made", []), error)
+            Error::strategy(
+                recipe.diagnostic(span, title, "while it was made", []),
+                error,
+            )
         }
     }
 }

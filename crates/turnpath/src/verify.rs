@@ -97,9 +97,9 @@ impl<'a> Target<'a> {
         let touch = FirstTouch::new(self.subject.clone()).map_err(failed)?;
         let meters = PathMeters::new(recipe, touch).with_servo(recipe);
         let meters = measure(recipe, meters, self.shape, reader.as_mut(), observer)?;
-        let (meter, read) = (&meters.cut, reader.counted());
+        let (meter, read) = (&meters.cut, reader.read_count());
         let range = meter.reach(self.radial).map_err(failed)?;
-        let Some(range) = range.filter(|_| read.cutting() >= 2) else {
+        let Some(range) = range.filter(|_| read.cutting_points() >= 2) else {
             let file = file.to_owned();
             return Err(Error::NothingCut { file });
         };
@@ -114,7 +114,7 @@ impl<'a> Target<'a> {
             touch: meter.touch(),
             shape: self.shape,
             largest_error: figures.playback.max(),
-            points: read.count(),
+            points: read.points(),
         };
         let (reach, unreached) = (self.reach(range), self.unreached(meter.touch())?);
         let report = FileReport {
@@ -122,8 +122,8 @@ impl<'a> Target<'a> {
             name: recipe.name.clone(),
             file: file.display().to_string(),
             surface: recipe.choice(Slot::Surface).name().to_owned(),
-            control_points: read.cutting(),
-            rows: read.count(),
+            control_points: read.cutting_points(),
+            rows: read.points(),
             within: path.verdict(Some(&reach)),
             reach,
             path,

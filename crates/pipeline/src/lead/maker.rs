@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
-use turnpath_verify::{AxesMotion, LeadMeter, LeadBlockFigures};
+use turnpath_verify::{AxesMotion, LeadBlockFigures, LeadMeter};
 
 use super::clock::Clock;
 use super::course::Course;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::common::solvers::{Broken, Greedy};
-use crate::common::{BrokenBeyond90, Feed, Task, Nodes, RIM, feed_of, straight};
+use crate::common::{BrokenBeyond90, Feed, Nodes, RIM, Task, feed_of, straight};
 use turnpath_core::{
     Continuation, FeedPiece, FeedPlan, FeedStrategy, Path, Result, Revolutions, Setup, Slot,
     StrategyError,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::solvers::{Area, Disjoint, Exact, Spline};
-use crate::common::{Counting, Task, K, Nodes, RIM, Saddle, even, feed_of, inward, straight};
+use crate::common::{Counting, K, Nodes, RIM, Saddle, Task, even, feed_of, inward, straight};
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Direction, Part, Path, Revolutions, Scalar, Tool, Velocities, VelocitySolver};
 use turnpath_verify::{FirstTouch, Meter, Subject};

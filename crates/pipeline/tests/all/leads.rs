@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::solvers::{Area, Disjoint, Exact, Resting, Spline};
-use crate::common::{Bare, Task, K, MemorySink, RIM, Saddle, even, feed_of, inward, straight};
+use crate::common::{Bare, K, MemorySink, RIM, Saddle, Task, even, feed_of, inward, straight};
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, Segment, SegmentShape};
 use turnpath_core::{
     Axis, Centres, Compensator, Cut, Dependence, Derivative, Direction, Machine, Misfit, Nodes,

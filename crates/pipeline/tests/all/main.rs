@@ -6,3 +6,4 @@ mod answers;
 mod blocks;
 mod leads;
 mod refinement;
+mod runs;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::common::solvers::{Area, Exact, Halting, Resting, Spline};
-use crate::common::{Counting, Task, K, RESIDUAL, RIM, even, feed_of, inward, straight};
+use crate::common::{Counting, K, RESIDUAL, RIM, Task, even, feed_of, inward, straight};
 use turnpath_core::{Centres, Compensator, Cut, FeedPiece, Radial, Result, Scalar, VelocitySolver};
 use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
 

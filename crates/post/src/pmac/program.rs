@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Section};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
 use super::encode;
 use super::error::PmacError;

@@ -44,7 +44,10 @@ impl FigureColumn {
         let best = best(&numbers, column);
         let first = numbers.first().copied().flatten();
         let cell = |(row, (run, number)): (usize, (&AblationRun, &Option<f64>))| {
-            let exceeds = column.holds.zip(run.verdict()).map(|(holds, verdict)| !holds(verdict));
+            let exceeds = column
+                .holds
+                .zip(run.verdict())
+                .map(|(holds, verdict)| !holds(verdict));
             let ratio = number.zip(first).filter(|_| row > 0);
             let text = number.map(|number| written(number, column.form));
             Cell {

@@ -62,7 +62,9 @@ fn limits(runs: &[AblationRun]) -> Vec<&'static str> {
     let judged = runs.iter().find_map(AblationRun::verdict);
     let names = judged.into_iter().flat_map(|one| one.entries());
     let names = names.map(|(name, _)| name);
-    names.filter(|name| !["reach", "programs"].contains(name)).collect()
+    names
+        .filter(|name| !["reach", "programs"].contains(name))
+        .collect()
 }
 
 /// A figure with all its digits; nothing where a run has none.

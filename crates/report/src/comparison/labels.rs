@@ -162,7 +162,9 @@ fn folded(text: &str, width: usize) -> Vec<String> {
 /// What does not hold of a run and has no column where that shows.
 fn other_failures(run: &AblationRun) -> Vec<&'static str> {
     let failures = run.verdict().into_iter().flat_map(|one| one.failures());
-    failures.filter(|name| !WITH_COLUMN.contains(name)).collect()
+    failures
+        .filter(|name| !WITH_COLUMN.contains(name))
+        .collect()
 }
 
 /// A label with what stands beside it, line by line.

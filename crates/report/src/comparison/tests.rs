@@ -37,10 +37,7 @@ fn failed(label: &str, reason: &str) -> AblationRun {
 
 fn varied(label: &str) -> Vec<(String, String)> {
     let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
-    vec![
-        pair("sampler", label),
-        pair("tolerance.residual", "100 nm"),
-    ]
+    vec![pair("sampler", label), pair("tolerance.residual", "100 nm")]
 }
 
 #[track_caller]
@@ -60,11 +57,7 @@ fn no_label_reason_or_choice_of_columns_makes_it_wider_than_the_terminal() {
         failed(long, &reason),
         entry("x", 5, 1e12),
     ];
-    for columns in [
-        by_names(&[]),
-        all(),
-        all().into_iter().rev().collect(),
-    ] {
+    for columns in [by_names(&[]), all(), all().into_iter().rev().collect()] {
         for widest in [40, 57, 80, 100] {
             let text = table(&entries, &columns, widest);
             assert_narrow(&text, widest);

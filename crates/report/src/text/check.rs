@@ -24,7 +24,10 @@ pub fn check(report: &CheckReport) -> String {
     text += &line("toolpath.csv", format!("about {size}, before refinement"));
     for program in &expected.programs {
         let (size, file) = (bytes(program.bytes as f64), &program.file);
-        text += &line("program", format!("about {size}, before refinement: {file}"));
+        text += &line(
+            "program",
+            format!("about {size}, before refinement: {file}"),
+        );
     }
     text
 }

@@ -12,12 +12,16 @@ pub fn exceeded(limits: &[LimitFigure], of: &str) -> String {
 }
 
 fn exceeded_line(figure: &LimitFigure, of: &str) -> Option<String> {
-    let (amount, at) = figure
-        .measured
-        .filter(|_| figure.holds() == Some(false))?;
+    let (amount, at) = figure.measured.filter(|_| figure.holds() == Some(false))?;
     let limit = &figure.limit;
-    let (amount, most) = (limit_amount(limit, amount), limit_amount(limit, limit.value));
-    let text = format!("{amount:>12} of {most:<11} EXCEEDED, at {}", path_place(&at));
+    let (amount, most) = (
+        limit_amount(limit, amount),
+        limit_amount(limit, limit.value),
+    );
+    let text = format!(
+        "{amount:>12} of {most:<11} EXCEEDED, at {}",
+        path_place(&at)
+    );
     // A label may be as long as its column, and an amount too.
     Some(line(&format!("{of}{} ", name(figure)), text))
 }
@@ -39,7 +43,10 @@ pub fn machine(report: &MachineReport) -> String {
     };
     if !unmeasured.is_empty() {
         let unmeasured = unmeasured.join(", ");
-        text += &line("", format!("not measured on straight segments: {unmeasured}"));
+        text += &line(
+            "",
+            format!("not measured on straight segments: {unmeasured}"),
+        );
     }
     text
 }

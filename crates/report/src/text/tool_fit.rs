@@ -32,7 +32,12 @@ fn nose(nose: &NoseMargin) -> String {
         }
         _ => "any fits: no hollow limits it".to_owned(),
     };
-    row("nose radius", &millimetres(nose.given, 4), &limit, nose.at.as_ref())
+    row(
+        "nose radius",
+        &millimetres(nose.given, 4),
+        &limit,
+        nose.at.as_ref(),
+    )
 }
 
 fn angle(label: &str, angle: &AngleMargin) -> String {

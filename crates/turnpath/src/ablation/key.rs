@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Map, Value as Json, json};
 use turnpath_host::{Catalogue, sha256_hex, sha256_hex_of_file};
@@ -143,6 +143,8 @@ fn canonical(value: &Value) -> Json {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     const RECIPE: &str = r#"format = 1

@@ -143,7 +143,7 @@ fn rows(variants: &[Variant], outcomes: Vec<Outcome>) -> (Vec<AblationRun>, Vec<
                 RunOutcome::Failed(row)
             }
         };
-        let varied = variant.varied.iter();
+        let varied = variant.variations.iter();
         let varied = varied.map(|one| (one.key.clone(), one.value.clone()));
         runs.push(AblationRun {
             outcome,
@@ -152,4 +152,3 @@ fn rows(variants: &[Variant], outcomes: Vec<Outcome>) -> (Vec<AblationRun>, Vec<
     }
     (runs, failures)
 }
-

@@ -4,6 +4,7 @@ mod common;
 #[path = "../../../../tests/support/drop_cutter.rs"]
 mod reference;
 
+mod blocks;
 mod coverage;
 mod cusps;
 mod drop_cutter;
@@ -12,4 +13,3 @@ mod interpolation;
 mod leads;
 mod machined;
 mod seams;
-mod blocks;

@@ -9,8 +9,8 @@ use std::path::Path as FilePath;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Centres, Compensator, Cut, Direction, Task, Machine, Part, Path, Radial, RadialRange, Result,
-    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Tolerance, Tool, ToolLocus,
+    Centres, Compensator, Cut, Direction, Machine, Part, Path, Radial, RadialRange, Result,
+    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_host::{Catalogue, LoadError};
 

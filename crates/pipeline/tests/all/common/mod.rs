@@ -8,11 +8,12 @@ use std::convert::Infallible;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use turnpath_core::toolpath::{PathBlock, SectionBlock, Section};
+use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_core::{
-    Centres, Compensator, Cut, Dependence, Direction, FeedPlan, FeedStrategy, Machine, Continuation,
-    Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler, Scalar, Setup, Slot,
-    SpindleLaw, StrategyError, FeedPiece, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    Centres, Compensator, Continuation, Cut, Dependence, Direction, FeedPiece, FeedPlan,
+    FeedStrategy, Machine, Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler,
+    Scalar, Setup, Slot, SpindleLaw, StrategyError, Surface, SurfaceModel, Tolerance, Tool,
+    VelocitySolver,
 };
 use turnpath_pipeline::{
     Chain, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions, PipelineError, RunError,

@@ -1,12 +1,10 @@
 //! A run ends early where its observer cancels it or its sink fails, and nothing is taken after
 //! that.
 
-mod common;
-
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Task, MemorySink, inward};
+use crate::common::{MemorySink, Task, inward};
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_pipeline::{Observer, Outcome, PipelineError, RunError, Sink, Stage};
 
