@@ -1,4 +1,4 @@
-//! What a recipe asks for, before the range of ρ is known.
+//! The job of a recipe, as [`prepare()`](crate::prepare()) gets it.
 
 use turnpath_core::{
     Direction, Job, Machine, Overrun, Part, RadialRange, SpindleLaw, Tolerance, Tool,
