@@ -36,7 +36,7 @@ const SAME_POSITION: f64 = 1e-6;
 
 /// X's error at an instant.
 struct Drift {
-    /// Which segment.
+    /// The index of its segment.
     segment: usize,
     /// The instant, in revolutions.
     n: f64,

@@ -1,4 +1,4 @@
-//! What a recipe asks for, before the range of ρ is known.
+//! The job of a recipe, as [`prepare()`](crate::prepare()) gets it.
 
 use turnpath_core::{
     Direction, Machine, Overrun, Part, RadialRange, SpindleLaw, Task, Tolerance, Tool,

@@ -2,8 +2,8 @@
 //! delivers it block by block.
 //!
 //! A path is made in blocks of [`BLOCK`] revolutions or fewer. The bytes of a block depend on the
-//! task alone, not on the number of threads. [`prepare`] checks the tool against the part and
-//! settles the range of ρ. [`run`] makes the path and gives it to a [`Sink`] in order.
+//! task alone, not on the number of threads. [`prepare()`] checks the tool against the part and
+//! settles the range of ρ. [`run()`] makes the path and gives it to a [`Sink`] in order.
 
 mod aim;
 mod attributed;

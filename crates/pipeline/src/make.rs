@@ -70,8 +70,8 @@ pub fn close_joints(blocks: &mut [BlockPoints]) {
     }
 }
 
-/// The nodes of `range`, and of neighbours on both sides that hold `overlap` nodes and, behind the
-/// range, one more: the first node of the next block.
+/// The nodes of `range`, and of neighbours on both sides that hold `overlap` nodes. After the
+/// range there is one node more: the first node of the next block.
 fn locate_with_neighbours(
     plan: &Plan<'_>,
     range: Range<usize>,

@@ -24,7 +24,7 @@ pub trait Observer: Sync {
     fn begin(&self, stage: Stage, blocks: u64);
     /// So many more blocks of the stage are done.
     fn advance(&self, blocks: u64);
-    /// Whether the run shall stop. The run asks between the steps of the law, before each batch of
+    /// Whether the run should stop. The run asks between the steps of the law, before each batch of
     /// blocks, and before each block that it gives to the sink. Where the answer is yes it ends
     /// with [`PipelineError::Cancelled`].
     fn is_cancelled(&self) -> bool {

@@ -42,7 +42,7 @@ pub struct Plan<'a> {
     pub preparation: &'a Preparation,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
-    /// Between which revolutions the law is the feed strategy's own; `None` if it is so nowhere.
+    /// Between which revolutions the law is the feed strategy's own; `None` if no part is.
     pub own: Option<[f64; 2]>,
     /// Steps of time a second on which control points must lie, if the controller has such steps.
     pub time_steps: Option<f64>,

@@ -89,7 +89,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         }
     }
 
-    /// Lets the servo follow points that no figure counts, such as those of the lead-in.
+    /// Lets the servo follow the points of the lead-in, which no figure counts.
     pub fn follow(&mut self, points: &PathBlock) {
         if let Some(servo) = &mut self.servo {
             servo.advance(points);

@@ -64,17 +64,17 @@ fn write<S: Sink + ?Sized>(
         recorder.follow(&leads.lead_in_and_join());
         recorder.deliver(Section::LeadIn, &leads.lead_in())?;
     }
-    let blocks: Vec<usize> = (0..plan.blocks()).collect();
-    observer.begin(Stage::Write, blocks.len() as u64);
+    let indices: Vec<usize> = (0..plan.blocks()).collect();
+    observer.begin(Stage::Write, indices.len() as u64);
     let (mut waiting, mut state) = (Vec::new(), first_state(plan));
-    for range in runs(&blocks, batch) {
+    for range in runs(&indices, batch) {
         stop_if_cancelled(observer)?;
-        let mut made = waiting;
-        made.extend(make(plan, range.clone(), depths, state.as_mut())?);
-        close_joints(&mut made);
+        let mut blocks = waiting;
+        blocks.extend(make(plan, range.clone(), depths, state.as_mut())?);
+        close_joints(&mut blocks);
         // The last block waits for the first point of the next one.
-        waiting = made.split_off(made.len() - usize::from(range.end < plan.blocks()));
-        recorder.record(plan, made)?;
+        waiting = blocks.split_off(blocks.len() - usize::from(range.end < plan.blocks()));
+        recorder.record(plan, blocks)?;
         observer.advance(range.len() as u64);
     }
     let lead = match leads.zip(recorder.tail().last_two()) {

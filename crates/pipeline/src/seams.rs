@@ -117,10 +117,10 @@ mod tests {
         let feed = |x, theta| feed_at(&law, Direction::Outward, &ride(x, theta));
         assert!((feed(1.5, 1.0) - 0.1).abs() < 1e-12);
         assert!((feed(3.0, 1.0) - 0.2).abs() < 1e-12);
-        // Half a turn beyond the knot, from either side of the axis.
+        // Half a turn beyond the knot, on either side of the axis.
         assert!((feed(2.0, 0.5 * TAU) - 0.15).abs() < 1e-12);
         assert!((feed(-2.0, 0.0) - 0.15).abs() < 1e-12);
-        // Beyond its ends, that of the first and the last turn.
+        // Beyond the ends of the law: the feed of the first and of the last turn.
         assert!((feed(0.0, 0.0) - 0.1).abs() < 1e-12);
         assert!((feed(9.0, 0.0) - 0.2).abs() < 1e-12);
     }

@@ -248,7 +248,7 @@ mod tests {
         law
     }
 
-    /// The same backwards.
+    /// The same law backwards.
     fn inward() -> SpiralLaw {
         let law = law();
         let mut back = SpiralLaw::new();
@@ -333,7 +333,7 @@ mod tests {
                     assert!(away(m) < 0.42 * feed, "{m}: {}", away(m) / feed);
                     let across = away(0.5 * m) + away(0.5 * m + 0.5);
                     assert!(across < 0.55 * feed, "{m}: {}", across / feed);
-                    // Every turn beyond the last, and by no more than the feed.
+                    // Every turn lies beyond the one before, by no more than the feed.
                     let step = away(m + 1.0) - away(m);
                     assert!(step > 0.0 && step < 1.05 * feed, "{m}: {}", step / feed);
                 }

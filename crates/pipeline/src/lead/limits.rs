@@ -78,7 +78,7 @@ impl LeadLimits {
 /// How a lead is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeadSettings {
-    /// By how much the path rests above the highest place of the part, mm.
+    /// By how much the path rests above the highest point of the part, mm.
     pub clearance: f64,
     /// How fast it may move the axes.
     pub limits: LeadLimits,

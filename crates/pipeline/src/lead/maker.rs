@@ -31,7 +31,7 @@ const LONGEST_DESCENT: f64 = 2000.0;
 const LONGEST_SPIN: f64 = 20_000.0;
 /// Part of X's limits that X may use to come to rest.
 const OVERSHOOT_SHARE: f64 = 0.125;
-/// A slower lead replaces the best so far where its excess is below this part of that one's.
+/// A slower lead replaces the best so far where its excess is below this part of the best's.
 const IMPROVEMENT: f64 = 0.999;
 /// Instants from node to node at which the course itself is examined.
 const COURSE_INSTANTS: usize = 4;
