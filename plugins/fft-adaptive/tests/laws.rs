@@ -127,8 +127,12 @@ fn on_a_flat_the_nose_alone_decides_or_a_tenth_of_the_range() {
     }
     let case = Case::new(Arc::new(Flat), Arc::new(ZDirection), 10.0, 1.0, 100.0);
     let law = case.law(&feed("half", true, 72.0, 20.0)).unwrap();
-    let feed = (8.0 * 100.0 * NM).sqrt();
-    assert!((law.end() * feed / 5.0 - 1.0).abs() < 1e-3, "{}", law.end());
+    let residual_feed = (8.0 * 100.0 * NM).sqrt();
+    assert!(
+        (law.end() * residual_feed / 5.0 - 1.0).abs() < 1e-3,
+        "{}",
+        law.end()
+    );
     let law = case.law(&feed("half", false, 72.0, 20.0)).unwrap();
     assert!((law.end() - 10.0).abs() < 1e-9, "{}", law.end());
 }
