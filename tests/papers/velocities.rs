@@ -154,7 +154,7 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
     assert!(error_nm(&place.run(&conventional).1) < 0.2);
 }
 
-/// Wang et al.: the smallest held feed makes 101.11 revolutions; the 101 whole ones at 6 deg are
+/// Wang et al.: the smallest residual feed makes 101.11 revolutions; the 101 whole ones at 6 deg are
 /// their 6061 points, 98 at 9 deg are 3921 with both ends (3920 published).
 #[test]
 fn conventional_spirals_of_the_first_paper() {

@@ -12,7 +12,7 @@ use turnpath_core::{
 };
 use turnpath_surfaces::{Astigmatic, SinusoidalArray};
 
-/// A task and the locus that it is cut on.
+/// A task and its locus.
 pub struct Case {
     pub task: Task,
     pub locus: ToolLocus,
@@ -61,7 +61,7 @@ impl Case {
         self
     }
 
-    /// With a hole of the given radius.
+    /// The case with a hole of the given radius.
     pub fn with_hole(mut self, inner: f64) -> Self {
         self.task.part.inner_radius = inner;
         self.task.range.inner = inner;
@@ -91,8 +91,8 @@ impl Case {
         panic!("a law without end");
     }
 
-    /// The held feed at one place.
-    pub fn held(&self, theta: f64, rho: f64) -> f64 {
+    /// The residual feed at one point.
+    pub fn residual_feed(&self, theta: f64, rho: f64) -> f64 {
         let mut feed = [f64::NAN];
         let residual = self.task.tolerance.residual;
         let radial = self.locus.radial();
@@ -102,7 +102,7 @@ impl Case {
         feed[0]
     }
 
-    /// The nose centre (X, Z) at one place.
+    /// The nose centre (X, Z) at one point.
     pub fn centre(&self, theta: f64, rho: f64) -> [f64; 2] {
         let mut room = CentreBuffers::default();
         room.resize(1);

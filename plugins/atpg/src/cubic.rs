@@ -21,7 +21,7 @@ pub fn explicit_pairs(table: &FeedTable, range: RadialRange) -> Result<Vec<f64>>
         let next = last + table.value(last.abs());
         if next.is_nan() || next <= last || rho.len() == MOST_PAIRS {
             return Err(StrategyError::failed(format!(
-                "the feed does not lead on at ρ = {last} mm, after {} revolutions",
+                "the feed does not lead beyond ρ = {last} mm, after {} revolutions",
                 rho.len() - 1
             )));
         }

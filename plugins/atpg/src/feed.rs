@@ -49,15 +49,16 @@ impl Strategy for AtpgFeed {
         Param::choice(
             "residual",
             &["held", "paper"],
-            "held: cusps as the compensator leaves them; paper: a contact's feed whatever the \
-             compensator, smallest curvature and largest slope taken apart",
+            "held: the feed for the cusps that the compensator leaves; paper: the feed of a contact \
+             with any compensator, from the smallest curvature and the largest slope, each at \
+             its own angle",
         )
         .default_choice("held"),
         Param::choice(
             "fit",
             &["smooth", "cubic"],
-            "smooth: nowhere above the feed that holds; cubic: the paper's, one cubic through \
-             all revolutions, which may exceed it",
+            "smooth: never above the feed that holds the residual; cubic: the paper's single cubic \
+             through all revolutions, which may exceed that feed",
         )
         .default_choice("smooth"),
     ];

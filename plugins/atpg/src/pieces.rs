@@ -106,7 +106,7 @@ fn divide(
     }
     if halvings == 0 {
         return Err(StrategyError::failed(format!(
-            "the feed cannot be followed at ρ = {from} mm, where it is {} mm per revolution",
+            "no law can follow the feed at ρ = {from} mm, where the feed is {} mm per revolution",
             interval.from.rate
         )));
     }

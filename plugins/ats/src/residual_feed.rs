@@ -1,7 +1,7 @@
-//! The residual feed with its pairs. It is smooth where it is capped.
+//! The residual feed with its derivatives. It is smooth where it is capped.
 //!
 //! It is the host's residual feed f with two differences. It keeps a margin, and it takes (f⁻⁸ +
-//! cap⁻⁸)^(−1/8) in place of min(f, cap), so that it has pairs wherever the surface has them.
+//! cap⁻⁸)^(−1/8) in place of min(f, cap), so that it has derivatives wherever the surface has them.
 
 use turnpath_plugin::locus::{LARGEST_FEED, LEAST_GAP};
 use turnpath_plugin::prelude::*;
@@ -109,7 +109,7 @@ impl<'a> ResidualFeed<'a> {
         check(theta, rho, out.iter().map(|jet| jet.value))
     }
 
-    /// The values of the feed at each (θ, ρ), without pairs.
+    /// The values of the feed at each (θ, ρ), without derivatives.
     pub fn values(&mut self, theta: &[f64], rho: &[f64], out: &mut Vec<f64>) -> Result<()> {
         self.touch(theta, rho)?;
         let surface = self.setup.locus.surface();

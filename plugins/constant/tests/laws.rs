@@ -1,4 +1,4 @@
-//! The constant law: its ends, and the feed it derives on the saddle AST-5.
+//! The constant law: its ends, and the feed that it derives on the saddle AST-5.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Arc;
@@ -12,12 +12,12 @@ use turnpath_core::{
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic};
 
-/// z = kρ² sin 2θ, its rim and the nose.
+/// k of z = kρ² sin 2θ, the rim and the nose.
 const K: f64 = 0.08;
 const RIM: f64 = 2.5;
 const NOSE: f64 = 1.0;
 const RESIDUAL: f64 = 100.0 * NM;
-/// By how much a derived feed stays below the smallest.
+/// The margin of a derived feed below the smallest feed.
 const MARGIN: f64 = 1e-4;
 
 fn task(inner: f64, direction: Direction) -> Task {
@@ -89,8 +89,8 @@ fn a_given_feed_runs_from_one_end_of_the_range_to_the_other() {
     }
 }
 
-/// Smallest where the section arches most at the rim: sqrt(8Rε/(1 − Rκ))/w = 24.726 µm, which is
-/// 101.11 revolutions.
+/// The feed is smallest where the section arches most at the rim: sqrt(8Rε/(1 − Rκ))/w = 24.726 µm,
+/// which makes 101.11 revolutions.
 #[test]
 fn the_derived_feed_on_the_saddle_is_the_contact_laws_minimum() {
     let w = (1.0 + 4.0 * K * K * RIM * RIM).sqrt();
@@ -110,8 +110,8 @@ fn the_derived_feed_on_the_saddle_is_the_contact_laws_minimum() {
     }
 }
 
-/// Smallest in the hollow, where the centre at the rim touches further out, at a with
-/// a − R g_ρ(a)/w = 2.5 mm: sqrt(8Rε(1 − Rκ))/w there.
+/// The feed is smallest in the hollow. The centre at the rim touches further out there, at a with a
+/// − R g_ρ(a)/w = 2.5 mm, and the feed is sqrt(8Rε(1 − Rκ))/w.
 #[test]
 fn the_derived_feed_on_the_saddle_is_the_centre_laws_minimum() {
     let slope = |a: f64| 2.0 * K * a;
@@ -143,7 +143,7 @@ fn a_given_feed_of_too_many_revolutions_is_an_error_on_feed() {
 }
 
 #[test]
-fn a_derived_feed_of_too_many_revolutions_names_what_it_comes_from() {
+fn a_derived_feed_of_too_many_revolutions_names_its_causes() {
     let mut task = task(0.0, Direction::Inward);
     task.tolerance.residual = 1e-18;
     let error = law(&Params::new(), &task, &saddle(Arc::new(ZDirection))).unwrap_err();
@@ -155,7 +155,7 @@ fn a_derived_feed_of_too_many_revolutions_names_what_it_comes_from() {
 }
 
 #[test]
-fn where_the_surface_ends_within_the_range_the_error_says_where() {
+fn if_the_surface_ends_within_the_range_the_error_names_the_position() {
     let params = Params::new().with("radius", 2.0).with("conic", 0.0);
     let surface = Arc::new(Conic::new(&params).unwrap());
     let task = task(0.0, Direction::Inward);

@@ -54,8 +54,8 @@ impl Strategy for FftAdaptiveFeed {
         .optional(),
         Param::flag(
             "limit_residual",
-            "never above the feed that holds tolerance.residual at every angle: the chord knows no \
-             nose and promises no residual",
+            "keep the feed at or below the one that holds tolerance.residual at every angle; the \
+             chord takes no account of the nose",
         )
         .default_flag(true),
         Param::count("angles", "radial profiles of a revolution")
@@ -216,8 +216,8 @@ fn too_many(rho: f64) -> StrategyError {
     StrategyError::parameter(
         "tolerance",
         format!(
-            "more than {MOST_REVOLUTIONS:.0e} revolutions and still at ρ = {rho:.4} mm; allow a \
-             larger one"
+            "the path takes more than {MOST_REVOLUTIONS:.0e} revolutions and has only reached \
+             ρ = {rho:.4} mm; give a larger tolerance"
         ),
     )
 }

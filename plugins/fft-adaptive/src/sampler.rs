@@ -48,8 +48,9 @@ impl Strategy for FftAdaptiveSampler {
         Param::choice(
             "curvature",
             &["step", "start"],
-            "step: the largest curvature on the step, along the spiral; start: that at its start, \
-             along the circle of that radius, as printed, which steps over crests from inflections",
+            "step: the largest curvature on the step, along the spiral; start: the curvature at \
+             the step's start, along the circle of that radius, as printed; from inflections such a \
+             step passes over crests",
         )
         .default_choice("step"),
         MAX_STEP,

@@ -31,7 +31,7 @@ impl Strategy for Conic {
         if !bend.is_finite() {
             return Err(StrategyError::parameter(
                 "radius",
-                "so small a radius with this conic number is beyond all numbers",
+                "the radius is too small for this conic number: the formula has no finite values",
             ));
         }
         Ok(Self { curvature, bend })

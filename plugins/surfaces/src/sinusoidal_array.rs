@@ -31,7 +31,7 @@ impl Strategy for SinusoidalArray {
     const PARAMS: &'static [Param] = &[
         Param::length(
             "amplitude_x",
-            "amplitude of the wave along x; of the product, its own",
+            "amplitude of the wave along x, or of the product",
         ),
         Param::length(
             "amplitude_y",

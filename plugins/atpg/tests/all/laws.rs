@@ -1,5 +1,5 @@
 //! Feed `atpg` against Wang et al. 2019, against the fastest law by brute force, and against the
-//! held feed of surfaces at random.
+//! residual feed of random surfaces.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
@@ -41,8 +41,8 @@ fn the_cubic_on_the_saddle_is_the_papers_equation_19() {
 fn the_cubic_law_runs_from_end_to_end_in_one_piece() {
     let (out, back) = (ast_5(ZDirection), ast_5(ZDirection).inward());
     let (out, back) = (
-        out.planned("paper", "cubic").unwrap(),
-        back.planned("paper", "cubic").unwrap(),
+        out.plan_law("paper", "cubic").unwrap(),
+        back.plan_law("paper", "cubic").unwrap(),
     );
     assert_eq!((out.pieces().len(), out.value(0.0)), (1, 0.0));
     assert!((out.end() - 97.155).abs() < 5e-4);
@@ -70,10 +70,10 @@ fn the_feed_at_2_mm_against_the_angle_is_that_of_figure_7() {
     assert!((most / UM - 29.16).abs() < 5e-3, "{most}");
 }
 
-/// Both of the paper's real parts: what their cutting times say.
+/// Both of the paper's real parts: the revolutions that their cutting times give.
 #[test]
 fn revolutions_of_the_papers_parts() {
-    let turns = |case: Case, residual: &str| case.planned(residual, "cubic").unwrap().end();
+    let turns = |case: Case, residual: &str| case.plan_law(residual, "cubic").unwrap().end();
     for residual in ["held", "paper"] {
         let found = turns(ast_50(ZDirection), residual);
         assert!((found - 2740.8).abs() < 0.1, "AST-50, {residual}: {found}");
@@ -84,25 +84,25 @@ fn revolutions_of_the_papers_parts() {
     assert!((apart - 11686.9).abs() < 0.1, "OAP-213, paper: {apart}");
 }
 
-/// The hollow at 45° decides: with the contact at a, X = a − R g_ρ/w, and dN = dX/F is
-/// sqrt(1 − Rκ)·w/sqrt(8Rε) da, which makes 98.985 revolutions up to X = 2.5 mm. (The explicit
-/// pairs have 98.95: each takes the feed of its start, where it is larger.)
+/// The hollow at 45° decides. With the contact at a, X = a − R g_ρ/w, and dN = dX/F is sqrt(1 −
+/// Rκ)·w/sqrt(8Rε) da, which makes 98.985 revolutions up to X = 2.5 mm. (The explicit pairs have
+/// 98.95: each takes the feed of its start, where the feed is larger.)
 ///
-/// Erosion by h + f_max is what a smooth law costs where F falls steadily: (h + f_max) times the
-/// difference of 1/F, besides the margin.
+/// Where F falls steadily, a smooth law costs what erosion by h + f_max costs: (h + f_max) times
+/// the difference of 1/F, besides the margin.
 #[test]
 fn on_the_saddle_the_smooth_law_costs_what_erosion_does() {
     let case = ast_5(ZDirection);
     let fastest = case.fewest_revolutions(2000, 360);
     assert!((fastest - 98.98498).abs() < 1e-4, "{fastest}");
     let least = |rho: f64| {
-        case.held_over(rho, 360)
+        case.residual_feeds(rho, 360)
             .into_iter()
             .fold(f64::INFINITY, f64::min)
     };
     let (centre, rim) = (least(0.0), least(2.5));
     let erosion = (0.05 + centre) * (1.0 / rim - 1.0 / centre);
-    let found = case.planned("held", "smooth").unwrap().end();
+    let found = case.plan_law("held", "smooth").unwrap().end();
     assert!(
         found > fastest && found < fastest + 1.05 * erosion + 3e-4 * fastest,
         "{found}: {fastest} and {erosion}"
@@ -110,7 +110,8 @@ fn on_the_saddle_the_smooth_law_costs_what_erosion_does() {
     assert!(found < 1.003 * fastest, "{found}");
 }
 
-/// The sharp array has a lens in every 30 feeds: there erosion by f_max itself costs most of it.
+/// The sharp array has a lens in every 30 feeds. There erosion by f_max itself causes most of the
+/// cost.
 #[test]
 fn on_arrays_the_smooth_law_costs_little_against_the_fastest() {
     let mild = array(5.0 * UM, 0.4, "sum");
@@ -123,7 +124,7 @@ fn on_arrays_the_smooth_law_costs_little_against_the_fastest() {
     ] {
         let case = Case::new(surface, Arc::new(ZDirection), 10.0, nose, 100.0);
         let fastest = case.fewest_revolutions(1000, 720);
-        let found = case.planned("held", "smooth").unwrap().end();
+        let found = case.plan_law("held", "smooth").unwrap().end();
         let cost = found / fastest - 1.0;
         assert!((0.0..allowed).contains(&cost), "{name}: {found}, {cost:.4}");
     }
@@ -143,9 +144,9 @@ fn acceleration(case: &Case, law: &SpiralLaw) -> f64 {
     largest * turning * turning
 }
 
-/// MLA-5 and lenses ten times as high: F goes up and down with every lens.
+/// MLA-5, and lenses that are ten times as high: F goes up and down with every lens.
 #[test]
-fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_held_feed() {
+fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_residual_feed() {
     for (amplitude, inward) in [(5.0 * UM, false), (50.0 * UM, false), (50.0 * UM, true)] {
         let case = || {
             let form = if amplitude < 10.0 * UM {
@@ -162,11 +163,11 @@ fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_held_feed() {
             );
             if inward { case.inward() } else { case }
         };
-        let free = case().planned("held", "smooth").unwrap();
+        let free = case().plan_law("held", "smooth").unwrap();
         let unlimited = acceleration(&case(), &free);
         for part in [0.7, 0.3, 0.1] {
             let limited = with_limit(case(), part * unlimited);
-            let law = limited.planned("held", "smooth").unwrap();
+            let law = limited.plan_law("held", "smooth").unwrap();
             let found = acceleration(&limited, &law);
             assert!(found <= part * unlimited, "{found} of {part} · {unlimited}");
             assert!(law.end() > free.end());
@@ -178,21 +179,21 @@ fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_held_feed() {
 }
 
 #[test]
-fn a_limit_that_is_kept_anyway_changes_no_bit_and_one_that_no_law_keeps_ends_the_search() {
+fn a_limit_that_the_law_already_keeps_changes_no_bit_and_one_that_no_law_keeps_ends_the_search() {
     for case in [ast_5, |compensator| ast_5(compensator).inward()] {
-        let free = case(ZDirection).planned("held", "smooth").unwrap();
+        let free = case(ZDirection).plan_law("held", "smooth").unwrap();
         let wide = with_limit(case(ZDirection), 1e6);
-        assert_eq!(wide.planned("held", "smooth").unwrap(), free);
+        assert_eq!(wide.plan_law("held", "smooth").unwrap(), free);
     }
     let impossible = with_limit(ast_5(ZDirection), 1e-12);
     check(&impossible, 0.5);
-    let cubic = ast_5(ZDirection).planned("held", "cubic").unwrap();
-    assert_eq!(impossible.planned("held", "cubic").unwrap(), cubic);
+    let cubic = ast_5(ZDirection).plan_law("held", "cubic").unwrap();
+    assert_eq!(impossible.plan_law("held", "cubic").unwrap(), cubic);
 }
 
-/// Everything that a smooth law promises, on a dense grid.
+/// Checks everything that a smooth law promises, on a dense grid.
 fn check(case: &Case, offset: f64) {
-    let law = case.planned("held", "smooth").unwrap();
+    let law = case.plan_law("held", "smooth").unwrap();
     let RadialRange { inner, outer } = case.task.range;
     assert_eq!(law.value(0.0), inner);
     assert!((law.value(law.end()) - outer).abs() < 1e-13 * (1.0 + outer));
@@ -208,13 +209,13 @@ fn check(case: &Case, offset: f64) {
     }
     for i in 0..400 {
         let (rho, rate) = rate_at(&law, law.end() * (f64::from(i) + offset) / 400.0);
-        let held = case
-            .held_over(rho, 211)
+        let limit = case
+            .residual_feeds(rho, 211)
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         assert!(
-            rate > 0.0 && rate <= held,
-            "{rate} over {held} at ρ = {rho}"
+            rate > 0.0 && rate <= limit,
+            "{rate} over {limit} at ρ = {rho}"
         );
     }
 }
@@ -227,7 +228,7 @@ proptest! {
     })]
 
     #[test]
-    fn on_polynomials_the_law_never_exceeds_the_held_feed(
+    fn on_polynomials_the_law_never_exceeds_the_residual_feed(
         terms in terms(TERMS),
         which in any::<u8>(),
         hole in prop::option::of(0.1..3.0f64),
@@ -238,7 +239,7 @@ proptest! {
     }
 
     #[test]
-    fn on_arrays_the_law_never_exceeds_the_held_feed(
+    fn on_arrays_the_law_never_exceeds_the_residual_feed(
         amplitude in 0.001..0.02f64,
         frequency in 0.1..1.0f64,
         which in any::<u8>(),
@@ -251,8 +252,8 @@ proptest! {
     #[test]
     fn inward_is_the_outward_law_reversed(terms in terms(TERMS), which in any::<u8>()) {
         let case = Case::new(polynomial(terms), compensator(which), 8.0, 1.0, 50.0);
-        let out = case.planned("held", "smooth").unwrap();
-        let back = case.inward().planned("held", "smooth").unwrap();
+        let out = case.plan_law("held", "smooth").unwrap();
+        let back = case.inward().plan_law("held", "smooth").unwrap();
         prop_assert!((out.end() - back.end()).abs() < 1e-9);
         for i in 0..=500 {
             let n = out.end() * f64::from(i) / 500.0;
@@ -262,10 +263,10 @@ proptest! {
     }
 }
 
-/// Where the nose does not fit the feed is capped, and the interference check's matter; where
-/// there is no surface, or nothing to cut, it is an error.
+/// Where the nose does not fit, the feed is capped and the interference check reports it. Where
+/// there is no surface, or nothing to cut, the feed is an error.
 #[test]
-fn what_has_no_feed_is_an_error_and_never_endless() {
+fn a_part_without_a_feed_is_an_error_and_never_endless() {
     let sphere = |radius: f64| -> Arc<dyn SurfaceModel> {
         let params = Params::new().with("radius", radius).with("conic", 0.0);
         Arc::new(Conic::new(&params).unwrap())
@@ -273,13 +274,13 @@ fn what_has_no_feed_is_an_error_and_never_endless() {
     for fit in ["smooth", "cubic"] {
         for residual in ["held", "paper"] {
             let beyond = Case::new(sphere(2.0), Arc::new(Normal), 5.0, 1.0, 100.0);
-            let error = beyond.planned(residual, fit).unwrap_err();
+            let error = beyond.plan_law(residual, fit).unwrap_err();
             assert!(
                 error.to_string().contains("no feed can be found"),
                 "{error}"
             );
             let nothing = Case::new(sphere(9.0), Arc::new(Normal), 5.0, 1.0, 100.0);
-            let error = nothing.with_hole(2.5).planned(residual, fit).unwrap_err();
+            let error = nothing.with_hole(2.5).plan_law(residual, fit).unwrap_err();
             assert!(error.to_string().contains("nothing to cut"), "{error}");
         }
     }
@@ -292,11 +293,11 @@ fn tiny_parts_have_laws_of_less_than_a_revolution() {
             let surface = array(1e-4, 1.0, "sum");
             let case = Case::new(surface, Arc::new(ZDirection), aperture, 1.0, 100.0);
             let case = case.with_hole(hole);
-            let law = case.planned("held", "smooth").unwrap();
+            let law = case.plan_law("held", "smooth").unwrap();
             assert!(law.end() > 0.0 && law.end() < 2.0);
             assert_eq!(law.value(0.0), hole);
             assert!((law.value(law.end()) - 0.5 * aperture).abs() < 1e-13);
-            let error = case.planned("held", "cubic").unwrap_err();
+            let error = case.plan_law("held", "cubic").unwrap_err();
             assert!(error.to_string().contains("too few for a cubic"), "{error}");
         }
     }
@@ -305,8 +306,8 @@ fn tiny_parts_have_laws_of_less_than_a_revolution() {
 #[test]
 fn thin_rings_far_out_have_a_law() {
     let case = ast_50(ZDirection).with_hole(24.99);
-    let law = case.planned("held", "smooth").unwrap();
-    assert!(off(law.end(), 0.01 / case.held_over(25.0, 1)[0]) < 0.01);
+    let law = case.plan_law("held", "smooth").unwrap();
+    assert!(off(law.end(), 0.01 / case.residual_feeds(25.0, 1)[0]) < 0.01);
 }
 
 #[test]
@@ -314,10 +315,10 @@ fn a_law_may_start_beyond_the_axis() {
     let mut case = ast_5(ZDirection);
     case.task.range.inner = -0.1;
     check(&case, 0.5);
-    let beyond = case.planned("held", "smooth").unwrap().end();
-    let turns = ast_5(ZDirection).planned("held", "smooth").unwrap().end();
+    let beyond = case.plan_law("held", "smooth").unwrap().end();
+    let turns = ast_5(ZDirection).plan_law("held", "smooth").unwrap().end();
     let least = case
-        .held_over(0.0, 360)
+        .residual_feeds(0.0, 360)
         .into_iter()
         .fold(f64::INFINITY, f64::min);
     assert!(off(beyond - turns, 0.1 / least) < 0.005);

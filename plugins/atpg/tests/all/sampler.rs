@@ -1,5 +1,5 @@
-//! Sampler `atpg`: its counts on the papers' parts, and the error of Hermite's cubic between its
-//! nodes, played densely with exact rates and measured against the true tool centre.
+//! Sampler `atpg`: its point counts on the papers' parts, and the error of the Hermite cubic
+//! between its nodes, played densely with exact rates and measured against the true tool centre.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
@@ -16,9 +16,9 @@ use turnpath_core::{
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_triangle_rotary::{Analytic, ThreePoint, TriangleRotary};
 
-/// Revolutions of the host's blocks.
+/// Number of revolutions in the host's blocks.
 const BLOCK: f64 = 64.0;
-/// Instants of a segment.
+/// Number of instants of a segment.
 const INSTANTS: usize = 32;
 
 fn sampler(max_step: f64) -> AtpgSampler {
@@ -38,7 +38,7 @@ fn nodes_of_block(case: &Case, law: &SpiralLaw, max_step: f64, start: f64) -> Re
     Ok(nodes)
 }
 
-/// All nodes, the path's last point included; blocks in parallel.
+/// All nodes, with the path's last point. The blocks are sampled in parallel.
 fn nodes(case: &Case, law: &SpiralLaw, max_step: f64) -> Vec<f64> {
     let blocks = (law.end() / BLOCK).ceil() as usize;
     let strands = 4;
@@ -66,14 +66,14 @@ fn nodes(case: &Case, law: &SpiralLaw, max_step: f64) -> Vec<f64> {
     all
 }
 
-/// Hermite's cubic on a step of length h at s in (0, 1), from series at both ends.
+/// The Hermite cubic on a step of length h at s in (0, 1), from the series at both ends.
 fn cubic(from: &Series, to: &Series, h: f64, s: f64) -> f64 {
     let d = to[0] - from[0];
     let (a, b) = (h * from[1], h * to[1]);
     from[0] + s * (a + s * (3.0 * d - 2.0 * a - b + s * (a + b - 2.0 * d)))
 }
 
-/// Puts a solver's velocities, per rad, in the place of the exact rates.
+/// Replaces the exact rates by a solver's velocities, per rad.
 fn solve(solver: &dyn VelocitySolver, n: &[f64], x: &mut [Series], z: &mut [Series]) {
     let column = |of: &[Series], k: usize| -> Vec<f64> { of.iter().map(|s| s[k]).collect() };
     let theta: Vec<f64> = n.iter().map(|n| TAU * n).collect();
@@ -103,13 +103,13 @@ fn solve(solver: &dyn VelocitySolver, n: &[f64], x: &mut [Series], z: &mut [Seri
     }
 }
 
-/// The largest |played − true| along z on every segment, mm: axes played by exact rates on
-/// `played`, the truth from `truth`, whose ρ is the nose centre's X.
+/// The largest |played − true| along z on every segment, mm. The axes are played by exact rates on
+/// `played`. The truth comes from `truth`, whose ρ is the nose centre's X.
 fn errors(played: &Case, truth: &Case, law: &SpiralLaw, nodes: &[f64]) -> Vec<f64> {
     errors_by(&Analytic, played, truth, law, nodes)
 }
 
-/// The same with the velocities of a solver.
+/// The same errors with the velocities of a solver.
 fn errors_by(
     solver: &dyn VelocitySolver,
     played: &Case,
@@ -160,8 +160,13 @@ fn largest(errors: &[f64]) -> f64 {
     errors.iter().copied().fold(0.0, f64::max)
 }
 
-/// Nodes and errors of a path; the errors keep the tolerance.
-fn held(played: &Case, truth: &Case, law: &SpiralLaw, max_step: f64) -> (Vec<f64>, Vec<f64>) {
+/// Nodes and errors of a path, after a check that the errors keep the tolerance.
+fn check_tolerance(
+    played: &Case,
+    truth: &Case,
+    law: &SpiralLaw,
+    max_step: f64,
+) -> (Vec<f64>, Vec<f64>) {
     let nodes = nodes(played, law, max_step);
     let tolerance = played.task.tolerance.interpolation;
     let errors = errors(played, truth, law, &nodes);
@@ -172,9 +177,10 @@ fn held(played: &Case, truth: &Case, law: &SpiralLaw, max_step: f64) -> (Vec<f64
     (nodes, errors)
 }
 
-/// The same, and where the largest step does not bind most steps use half of it or more.
-fn held_and_used(played: &Case, truth: &Case, law: &SpiralLaw, max_step: f64) {
-    let (nodes, errors) = held(played, truth, law, max_step);
+/// Checks in addition that most steps that are shorter than the largest use half of the tolerance
+/// or more.
+fn check_tolerance_and_use(played: &Case, truth: &Case, law: &SpiralLaw, max_step: f64) {
+    let (nodes, errors) = check_tolerance(played, truth, law, max_step);
     let tolerance = played.task.tolerance.interpolation;
     let free: Vec<f64> = nodes
         .windows(2)
@@ -201,12 +207,12 @@ fn on_the_saddle_the_error_is_within_the_tolerance_and_most_of_it_is_used() {
     for fit in ["smooth", "cubic"] {
         let truth = ast_5(ZDirection);
         let case = ast_5(ZDirection);
-        held_and_used(&case, &truth, &case.planned("held", fit).unwrap(), 45.0);
-        // With `normal` X moves: it is X's own error, and so the residual, that binds.
+        check_tolerance_and_use(&case, &truth, &case.plan_law("held", fit).unwrap(), 45.0);
+        // With `normal` X moves. X's own error, and so the residual, then decides the steps.
         let case = ast_5(Normal);
-        held(&case, &truth, &case.planned("held", fit).unwrap(), 45.0);
+        check_tolerance(&case, &truth, &case.plan_law("held", fit).unwrap(), 45.0);
         let case = ast_5(Uncompensated);
-        held_and_used(&case, &case, &case.planned("held", fit).unwrap(), 45.0);
+        check_tolerance_and_use(&case, &case, &case.plan_law("held", fit).unwrap(), 45.0);
     }
 }
 
@@ -215,7 +221,7 @@ fn on_the_saddle_the_error_is_within_the_tolerance_and_most_of_it_is_used() {
 fn points_on_ast_50() {
     let case = ast_50(ZDirection);
     for fit in ["smooth", "cubic"] {
-        let count = nodes(&case, &case.planned("paper", fit).unwrap(), 45.0).len();
+        let count = nodes(&case, &case.plan_law("paper", fit).unwrap(), 45.0).len();
         assert!((count as f64 / 23.9e3 - 1.0).abs() < 0.01, "{count}");
     }
 }
@@ -224,7 +230,7 @@ fn points_on_ast_50() {
 #[test]
 fn points_on_oap_213() {
     let case = oap_213(ZDirection);
-    let law = case.planned("paper", "smooth").unwrap();
+    let law = case.plan_law("paper", "smooth").unwrap();
     let count = nodes(&case, &law, 45.0).len();
     assert!((count as f64 / 371e3 - 1.0).abs() < 0.01, "{count}");
 }
@@ -235,13 +241,13 @@ fn triangle_rotary(ends: &str) -> TriangleRotary {
     TriangleRotary::new(&params).unwrap()
 }
 
-/// Natural ends err by the square of the last step and by the curvature where it lies: 6,453 nm
-/// belong to a path that ends with a whole step of the sampler's, as this one does without its
-/// short last step (which alone would leave 1,116 nm).
+/// Natural ends err by the square of the last step and by the curvature at its position. 6,453 nm
+/// belong to a path that ends with a whole step of the sampler, as this one does without its short
+/// last step (which alone would leave 1,116 nm).
 #[test]
-fn natural_ends_leave_micrometres_behind_a_whole_last_step() {
+fn natural_ends_leave_micrometres_of_error_after_a_whole_last_step() {
     let contact = ast_5(Uncompensated);
-    let law = contact.planned("paper", "cubic").unwrap();
+    let law = contact.plan_law("paper", "cubic").unwrap();
     let mut sampled = nodes(&contact, &law, 45.0);
     sampled.pop();
     let errors = errors_by(
@@ -255,12 +261,12 @@ fn natural_ends_leave_micrometres_behind_a_whole_last_step() {
     assert!((found / 6453.0 - 1.0).abs() < 0.1, "{found}");
 }
 
-/// The contact curve is not enough: its own nodes hold the tolerance on it, and leave 366 nm on
-/// the compensated path, which the sampler's own nodes for that path hold again.
+/// The contact curve is not enough. Its own nodes keep the tolerance on it, and leave 366 nm on the
+/// compensated path. The sampler's own nodes for that path keep the tolerance again.
 #[test]
 fn nodes_of_the_contact_path_are_not_enough_for_the_compensated_one() {
     let (contact, centre) = (ast_5(Uncompensated), ast_5(ZDirection));
-    let law = contact.planned("paper", "cubic").unwrap();
+    let law = contact.plan_law("paper", "cubic").unwrap();
     let sampled = nodes(&contact, &law, 45.0);
     assert!((sampled.len() as f64 / 1510.0 - 1.0).abs() < 0.01);
     let on_contact = largest(&errors(&contact, &contact, &law, &sampled));
@@ -282,8 +288,8 @@ fn nodes_of_the_contact_path_are_not_enough_for_the_compensated_one() {
     assert!((on_centre / (99.3 * NM) - 1.0).abs() < 0.03, "{on_centre}");
 }
 
-/// A flat with a bump over 6° of the ring around 22.5°, which a step of 45° from 0° has in its
-/// middle: the ends and the middle of its 4th derivative say nothing of it.
+/// A flat with a bump over 6° of the ring around 22.5°. A step of 45° from 0° has the bump in its
+/// middle, and the ends and the middle of its 4th derivative do not show it.
 struct Bump;
 
 impl Surface for Bump {
@@ -297,18 +303,18 @@ impl Surface for Bump {
 }
 
 #[test]
-fn a_symmetric_ripple_narrower_than_the_largest_step_is_seen() {
+fn the_sampler_sees_a_symmetric_ripple_narrower_than_the_largest_step() {
     let case = Case::new(Arc::new(Bump), Arc::new(Uncompensated), 12.0, 1.0, 10.0);
     let case = case.with_hole(4.0);
     let mut law = SpiralLaw::new();
     law.push(16.0, [4.0, 0.125, 0.0, 0.0, 0.0, 0.0]);
-    let (nodes, _) = held(&case, &case, &law, 45.0);
+    let (nodes, _) = check_tolerance(&case, &case, &law, 45.0);
     let around = nodes.iter().filter(|n| (8.03..8.1).contains(*n)).count();
     assert!(around > 4, "{around} nodes on the bump");
 }
 
 #[test]
-fn on_a_flat_the_largest_step_binds() {
+fn on_a_flat_the_largest_step_is_the_limit() {
     struct Flat;
     impl Surface for Flat {
         fn sag<S: Scalar>(&self, _: S, _: S) -> S {
@@ -316,13 +322,13 @@ fn on_a_flat_the_largest_step_binds() {
         }
     }
     let case = Case::new(Arc::new(Flat), Arc::new(ZDirection), 10.0, 1.0, 100.0);
-    let law = case.planned("held", "smooth").unwrap();
+    let law = case.plan_law("held", "smooth").unwrap();
     let nodes = nodes(&case, &law, 30.0);
     let expected = (law.end() * 12.0).ceil() + 1.0;
     assert_eq!(nodes.len() as f64, expected);
 }
 
-/// A feed that jumps, and one whose rate jumps by much: at 10 nm no step may pass the first.
+/// A feed that jumps, and one whose rate jumps by much. At 10 nm no step may pass the first.
 #[test]
 fn steps_end_where_the_law_is_not_smooth() {
     let mut case = ast_5(ZDirection);
@@ -332,7 +338,7 @@ fn steps_end_where_the_law_is_not_smooth() {
     law.push(5.37, [1.206, 0.06, 0.0, 0.0, 0.0, 0.0]);
     law.push(10.2, [1.5282, 0.02, 0.0, 0.0, 0.0, 0.0]);
     law.push(2.0, [1.7322, 0.02, 0.02, 0.0, 0.0, 0.0]);
-    let (nodes, _) = held(&case, &case, &law, 45.0);
+    let (nodes, _) = check_tolerance(&case, &case, &law, 45.0);
     for n in crate::common::joints(&law).take(2) {
         assert!(nodes.contains(&n), "no node at {n}");
     }
@@ -341,14 +347,14 @@ fn steps_end_where_the_law_is_not_smooth() {
 #[test]
 fn knots_of_the_smooth_law_cost_no_nodes() {
     let case = ast_50(ZDirection);
-    let law = case.planned("held", "smooth").unwrap();
+    let law = case.plan_law("held", "smooth").unwrap();
     let nodes = nodes(&case, &law, 45.0);
     let on_knots = crate::common::joints(&law).filter(|n| nodes.contains(n) && n % BLOCK != 0.0);
     assert_eq!(on_knots.count(), 0);
 }
 
 #[test]
-fn a_path_without_a_number_is_an_error_that_says_where() {
+fn a_path_without_a_number_is_an_error_that_names_the_position() {
     struct Hole;
     impl Surface for Hole {
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
@@ -362,9 +368,9 @@ fn a_path_without_a_number_is_an_error_that_says_where() {
     assert!(error.to_string().contains("ρ = "), "{error}");
 }
 
-/// A valley with an edge of a nanometre: its 4th derivative is beyond all bounds.
+/// A valley with an edge of a nanometre. Its 4th derivative has no useful bound.
 #[test]
-fn what_asks_for_endless_nodes_is_an_error() {
+fn a_surface_that_needs_endless_nodes_is_an_error() {
     struct Cusp;
     impl Surface for Cusp {
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
@@ -406,7 +412,7 @@ proptest! {
         };
         let truth = case(if which == 2 { 2 } else { 0 });
         let played = case(which);
-        let law = played.planned("held", "smooth").unwrap();
+        let law = played.plan_law("held", "smooth").unwrap();
         let nodes = nodes(&played, &law, max_step);
         let worst = largest(&errors(&played, &truth, &law, &nodes));
         proptest::prop_assert!(worst <= played.task.tolerance.interpolation, "{}", worst / NM);

@@ -1,4 +1,5 @@
-//! Feed `ats` against its own recursion, against cusps by brute force, and against ATPG's price.
+//! Feed `ats` against its own recursion, against cusps by brute force, and against the cost of
+//! ATPG.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use turnpath_core::{Direction, ParamValue, Params, Scalar, SpiralLaw, Strategy, 
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic};
 
-/// What the feed keeps below the one that holds, and what its pieces may stray.
+/// The margin of the feed below the residual feed, and the largest deviation of its pieces.
 const MARGIN: f64 = 1.5e-3;
 const STRAY: f64 = 5e-5;
 /// A nose of 1 mm fits into polynomials of these terms on parts of 6 mm.
@@ -29,8 +30,9 @@ fn outward(case: &Case) -> f64 {
     }
 }
 
-/// ρ and its first two derivatives go on across every knot, and the path begins and ends where the
-/// range says: every angle has passed, and one of them only just.
+/// Checks that ρ and its first two derivatives are continuous across every knot, and that the path
+/// begins and ends where the range requires: every angle has passed the end, and one of them only
+/// just.
 fn check_shape(case: &Case, law: &SpiralLaw) {
     let (sign, range) = (outward(case), case.task.range);
     let (from, to) = match case.task.direction {
@@ -63,11 +65,11 @@ fn check_shape(case: &Case, law: &SpiralLaw) {
         );
     }
     let slowest = ahead(law.end() - 1.0);
-    let feed = case.held(0.0, to);
+    let feed = case.residual_feed(0.0, to);
     assert!(slowest <= 0.2 * feed, "{slowest} mm too far");
 }
 
-/// How far the crossing of two noses stands above the surface, by a search of the nearest place on
+/// The height of the crossing of two noses above the surface, by a search of the nearest point on
 /// finer and finer grids.
 fn cusp(case: &Case, theta: f64, one: [f64; 2], two: [f64; 2]) -> f64 {
     let radius = case.task.tool.nose_radius;
@@ -101,13 +103,13 @@ fn cusp(case: &Case, theta: f64, one: [f64; 2], two: [f64; 2]) -> f64 {
     nearest
 }
 
-/// At random places the cusp to the next pass is within the tolerance, and near it unless the feed
-/// is near its cap.
+/// Checks that at random points the cusp to the next pass is within the tolerance, and near it
+/// unless the feed is near its cap.
 fn check_cusps(case: &Case, law: &SpiralLaw, offset: f64) {
     check_cusps_between(case, law, offset, [2.0, law.end() - 1.0]);
 }
 
-/// The same of passes from one turn to another.
+/// The same check for passes from one turn to another.
 fn check_cusps_between(case: &Case, law: &SpiralLaw, offset: f64, [from, to]: [f64; 2]) {
     let tolerance = case.task.tolerance.residual;
     let cap = 0.1 * case.task.tool.nose_radius;
@@ -127,25 +129,26 @@ fn check_cusps_between(case: &Case, law: &SpiralLaw, offset: f64, [from, to]: [f
     }
 }
 
-/// ℓ(N + 1) = ℓ(N) ± F, F from the host's own held feed; the smooth cap takes less than a part in
-/// 10⁵ here.
+/// ℓ(N + 1) = ℓ(N) ± F, with F from the host's own residual feed. The smooth cap takes less than a
+/// part in 10⁵ here.
 #[test]
-fn the_law_is_the_recursion_of_the_hosts_held_feed() {
+fn the_law_is_the_recursion_of_the_hosts_residual_feed() {
     for case in [ast_5(ZDirection), ast_5(Normal).inward(), mla_5(ZDirection)] {
         let law = ats(&case);
         let sign = outward(&case);
         for i in 0..2000 {
             let n = 2.0 + (law.end() - 3.0) * f64::from(i) / 2000.0;
             let (theta, rho) = (angle(n), law.value(n));
-            let half = 0.5 * sign * (1.0 - MARGIN) * case.held(theta, rho);
-            let feed = (1.0 - MARGIN) * case.held(theta, rho + half);
+            let half = 0.5 * sign * (1.0 - MARGIN) * case.residual_feed(theta, rho);
+            let feed = (1.0 - MARGIN) * case.residual_feed(theta, rho + half);
             let gap = sign * (law.value(n + 1.0) - rho);
             assert!((gap / feed - 1.0).abs() < STRAY, "{gap} for {feed} at {n}");
         }
     }
 }
 
-/// q over two turns: from rest, by 0.4 of the feed in the first, and by all of it from the third on.
+/// q over two turns: from rest, by 0.4 of the feed in the first turn, and by all of it from the
+/// third on.
 #[test]
 fn the_first_two_turns_bring_the_feed_in() {
     let case = ast_5(ZDirection);
@@ -157,8 +160,8 @@ fn the_first_two_turns_bring_the_feed_in() {
         let u = n - n.floor();
         let rest = u * u * u * u * (1.0 - 0.6 * u);
         let q = if n < 1.0 { rest } else { 0.4 + u - rest };
-        let half = 0.5 * (1.0 - MARGIN) * case.held(angle(n), before);
-        let feed = (1.0 - MARGIN) * case.held(angle(n), before + half);
+        let half = 0.5 * (1.0 - MARGIN) * case.residual_feed(angle(n), before);
+        let feed = (1.0 - MARGIN) * case.residual_feed(angle(n), before + half);
         assert!((law.value(n) - before - q * feed).abs() <= STRAY * feed);
     }
 }
@@ -186,8 +189,8 @@ fn spread(law: &SpiralLaw, start: f64) -> (f64, f64) {
     })
 }
 
-/// Angles drift apart on their way, so the two directions differ, and inward the fast angles cross
-/// the axis before the slow ones reach it.
+/// Angles drift apart on their way, so the two directions differ. Inward, the fast angles cross the
+/// axis before the slow ones reach it.
 #[test]
 fn inward_is_a_law_of_its_own() {
     let (out, back) = (ats(&ast_5(ZDirection)), ats(&ast_5(ZDirection).inward()));
@@ -199,8 +202,8 @@ fn inward_is_a_law_of_its_own() {
     assert!((-0.6..-0.4).contains(&least), "{least} mm at the centre");
 }
 
-/// The outward law of the mirror image, run backwards over whole turns: C² at all joins, at rest
-/// on the axis at its end and never beyond it, and its cusps hold.
+/// The law is the outward law of the mirror image, run backwards over whole turns. It is C² at all
+/// joins, ends at rest on the axis and never goes beyond it, and its cusps keep the tolerance.
 #[test]
 fn backwards_it_closes_at_the_axis() {
     let mut words = Params::new();
@@ -249,8 +252,8 @@ fn bend(law: &SpiralLaw) -> f64 {
     (squared.sum::<f64>() / f64::from(places)).sqrt()
 }
 
-/// X = ρ here: its acceleration is ρ''(ω/2π)². Measured: 7.8e5 and 9.2e5 times ATPG's on AST-5
-/// (outward, inward), 3.3e5 and 6.7e5 times on MLA-5.
+/// X = ρ here, so its acceleration is ρ''(ω/2π)². The measured values are 7.8e5 and 9.2e5 times
+/// those of ATPG on AST-5 (outward, inward), and 3.3e5 and 6.7e5 times on MLA-5.
 #[test]
 fn x_accelerates_hundreds_of_thousands_of_times_as_much_as_with_atpg() {
     let mut words = Params::new();
@@ -281,7 +284,8 @@ fn near_the_rim_of_the_saddle_the_rate_swings_by_3_mm_a_turn() {
     );
 }
 
-/// A roof whose ridge is some 10 nm wide: its curvature there is thousands of times the nose's.
+/// A roof whose ridge is some 10 nm wide. Its curvature there is thousands of times that of the
+/// nose.
 #[test]
 fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
     struct Roof;
@@ -331,8 +335,8 @@ fn check(mut case: Case, inward: bool, offset: f64) {
     check_cusps(&case, &law, offset);
 }
 
-/// On a part of rotational symmetry no angle is slower than another: the rate follows the radius
-/// alone, and never pauses.
+/// On a part of rotational symmetry no angle is slower than another. The rate follows the radius
+/// alone and never pauses.
 #[test]
 fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
     let params = Params::new().with("radius", 60.0).with("conic", 0.0);
@@ -344,8 +348,8 @@ fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
         check_shape(&case, &law);
         for i in 0..500 {
             let n = 2.0 + (law.end() - 2.0) * f64::from(i) / 500.0;
-            let held = case.held(0.0, law.value(n));
-            let share = law.rate(n).abs() / held;
+            let feed = case.residual_feed(0.0, law.value(n));
+            let share = law.rate(n).abs() / feed;
             assert!((share - 1.0 + MARGIN).abs() < 1e-4, "{share} at {n}");
         }
     }

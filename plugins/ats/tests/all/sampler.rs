@@ -1,4 +1,4 @@
-//! Sampler `ats` on ATS's own paths: what cubics with exact rates leave of X and of Z.
+//! Sampler `ats` on ATS's own paths: the errors of X and of Z that cubics with exact rates leave.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
@@ -10,10 +10,10 @@ use turnpath_ats::{AtsFeed, AtsSampler};
 use turnpath_core::{DEG, Params, Path, Revolutions, Sampler, Series, SpiralLaw, Strategy};
 use turnpath_nose_radius::{Normal, ZDirection};
 
-/// The part of the distance of passes that the sampler gives to X, and 1 % more: along a step the
-/// distance changes.
+/// The part of the distance between passes that the sampler gives to X, and 1 % more, since the
+/// distance changes along a step.
 const FEED_PART: f64 = 1.01 * 5e-4;
-/// Instants of a segment.
+/// Number of instants of a segment.
 const INSTANTS: i32 = 16;
 
 fn law(case: &Case) -> SpiralLaw {
@@ -48,15 +48,16 @@ fn series(path: &Path<'_>, n: &[f64]) -> [Vec<Series>; 2] {
     [x, z]
 }
 
-/// Hermite's cubic on a step of length h at s in (0, 1), from series at both ends.
+/// The Hermite cubic on a step of length h at s in (0, 1), from the series at both ends.
 fn cubic(ends: &[Series], h: f64, s: f64) -> f64 {
     let d = ends[1][0] - ends[0][0];
     let (a, b) = (h * ends[0][1], h * ends[1][1]);
     ends[0][0] + s * (a + s * (3.0 * d - 2.0 * a - b + s * (a + b - 2.0 * d)))
 }
 
-/// Nodes increase by no more than `max_step`; played, X stays within its part of the distance of
-/// passes, and Z, less what X's own error makes of it, within the tolerance.
+/// Checks that nodes increase by at most `max_step`, that the played X stays within its part of the
+/// distance between passes, and that the played Z, less the effect of X's own error, stays within
+/// the tolerance.
 fn check(case: &Case, max_step: f64) {
     let law = law(case);
     let path = path(case, &law);
@@ -107,7 +108,7 @@ fn slope(case: &Case, n: f64, rho: f64) -> f64 {
 }
 
 #[test]
-fn on_the_papers_parts_both_axes_are_held() {
+fn on_the_papers_parts_both_axes_keep_their_tolerances() {
     for case in [
         ast_5(ZDirection),
         ast_5(ZDirection).inward(),
@@ -118,8 +119,8 @@ fn on_the_papers_parts_both_axes_are_held() {
     }
 }
 
-/// Pieces' lengths add up to a hair beyond a block's start, and what jumps there is no reason for a
-/// step of that length.
+/// The sum of the pieces' lengths lies a hair beyond a block's start. The jump there must not cause
+/// a step of that length.
 #[test]
 fn a_knot_a_hair_beyond_a_blocks_start_is_where_it_starts() {
     let case = ast_5(ZDirection);
@@ -142,7 +143,7 @@ proptest! {
     })]
 
     #[test]
-    fn on_arrays_both_axes_are_held(
+    fn on_arrays_both_axes_keep_their_tolerances(
         amplitude in 0.001..0.006f64,
         frequency in 0.1..0.5f64,
         which in any::<bool>(),

@@ -1,5 +1,5 @@
-//! Feed `fft-adaptive` against the paper's revolutions, against eq. 3 by hand, and against the held
-//! feed of surfaces at random.
+//! Feed `fft-adaptive` against the paper's revolutions, against eq. 3 by hand, and against the
+//! residual feed of random surfaces.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
@@ -22,7 +22,8 @@ fn feed(chord: &str, limit_residual: bool, angles: f64, tolerance_nm: f64) -> Ff
     FftAdaptiveFeed::new(&params).unwrap()
 }
 
-/// Published: 122 revolutions, which half the chord gives; as printed it gives half of them.
+/// Published are 122 revolutions. Half the chord gives them; the chord as printed gives half as
+/// many.
 #[test]
 fn revolutions_of_the_papers_part_by_half_and_by_full_chords() {
     for angles in [72.0, 144.0, 360.0] {
@@ -35,9 +36,9 @@ fn revolutions_of_the_papers_part_by_half_and_by_full_chords() {
     }
 }
 
-/// z = 5 µm (cos kx + cos ky), k = 2π·0.4/mm: the section at θ has
-/// g_ρρ = −5 µm k² (cos kx cos²θ + cos ky sin²θ). The least of 2π/θ_i times the chord, at the
-/// radius where the revolution starts.
+/// z = 5 µm (cos kx + cos ky), k = 2π·0.4/mm. The section at θ has g_ρρ = −5 µm k² (cos kx cos²θ +
+/// cos ky sin²θ). The feed is the least of 2π/θ_i times the chord, at the radius where the
+/// revolution starts.
 #[test]
 fn each_revolution_takes_the_feed_of_equation_3() {
     let law = mla_5(Uncompensated)
@@ -66,9 +67,10 @@ fn each_revolution_takes_the_feed_of_equation_3() {
     }
 }
 
-/// Zhong et al. compensate no nose; where the chord alone decides, cusps are what they are.
+/// Zhong et al. compensate no nose. Where the chord alone decides the feed, nothing limits the
+/// cusps.
 #[test]
-fn without_the_limit_the_cusps_are_not_held_and_with_it_they_are() {
+fn the_cusps_keep_the_tolerance_with_the_limit_and_not_without_it() {
     let case = mla_5(Uncompensated);
     let over = |limit| {
         let law = case.law(&feed("half", limit, 72.0, 20.0)).unwrap();
@@ -78,18 +80,19 @@ fn without_the_limit_the_cusps_are_not_held_and_with_it_they_are() {
     assert!((0.95..=1.0).contains(&over(true)));
 }
 
-/// The largest distance of neighbouring passes, in held feeds half way between them.
+/// The largest distance of neighbouring passes, in residual feeds half way between them.
 fn worst(case: &Case, law: &SpiralLaw, offset: f64) -> f64 {
     let places = 3000;
     let ratio = |i: i32| {
         let n = (law.end() - 1.0) * (f64::from(i) + offset) / f64::from(places);
         let (rho, next) = (law.value(n), law.value(n + 1.0));
-        (next - rho).abs() / case.held(angle(n), 0.5 * (rho + next))
+        (next - rho).abs() / case.residual_feed(angle(n), 0.5 * (rho + next))
     };
     (0..places).map(ratio).fold(0.0, f64::max)
 }
 
-/// From end to end of the range, one piece a revolution, each turn beyond the last.
+/// Checks that the law runs from end to end of the range, with one piece for each revolution and
+/// each turn beyond the last.
 fn check_shape(case: &Case, law: &SpiralLaw) {
     let range = case.task.range;
     let (from, to, sign) = match case.task.direction {
@@ -119,8 +122,12 @@ fn on_a_flat_the_nose_alone_decides_or_a_tenth_of_the_range() {
     }
     let case = Case::new(Arc::new(Flat), Arc::new(ZDirection), 10.0, 1.0, 100.0);
     let law = case.law(&feed("half", true, 72.0, 20.0)).unwrap();
-    let held = (8.0 * 100.0 * NM).sqrt();
-    assert!((law.end() * held / 5.0 - 1.0).abs() < 1e-3, "{}", law.end());
+    let residual_feed = (8.0 * 100.0 * NM).sqrt();
+    assert!(
+        (law.end() * residual_feed / 5.0 - 1.0).abs() < 1e-3,
+        "{}",
+        law.end()
+    );
     let law = case.law(&feed("half", false, 72.0, 20.0)).unwrap();
     assert!((law.end() - 10.0).abs() < 1e-9, "{}", law.end());
 }
@@ -148,7 +155,7 @@ proptest! {
     })]
 
     #[test]
-    fn on_arrays_the_law_goes_from_end_to_end_and_holds(
+    fn on_arrays_the_law_goes_from_end_to_end_and_keeps_the_residual(
         amplitude in 0.001..0.01f64,
         frequency in 0.1..0.6f64,
         which in any::<bool>(),

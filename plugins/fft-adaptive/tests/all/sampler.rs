@@ -1,4 +1,4 @@
-//! Sampler `fft-adaptive` against closed forms, and on paths at random.
+//! Sampler `fft-adaptive` against closed forms, and on random paths.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
@@ -40,7 +40,7 @@ fn place(
     Ok(nodes)
 }
 
-/// Circles of one radius: a law that does not move.
+/// The law of circles of one radius: it does not move.
 fn circles(rho: f64, turns: f64) -> SpiralLaw {
     let mut law = SpiralLaw::new();
     law.push(turns, [rho, 0.0, 0.0, 0.0, 0.0, 0.0]);
@@ -59,8 +59,8 @@ fn waves(amplitude: f64, count: i32) -> Case {
     Case::new(surface, Arc::new(Uncompensated), 10.0, 1.0, 20.0)
 }
 
-/// A wave of 30 nm has its 12th harmonic above 20 nm: no step is longer than 15°. One of 15 nm has
-/// none, and the curvature would allow more than 45°.
+/// A wave of 30 nm has its 12th harmonic above 20 nm, so no step is longer than 15°. A wave of 15
+/// nm has no such harmonic, and the curvature would allow more than 45°.
 #[test]
 fn waves_as_high_as_the_tolerance_set_the_longest_step() {
     let law = circles(4.0, 3.0);
@@ -87,7 +87,7 @@ fn waves_as_high_as_the_tolerance_set_the_longest_step() {
     assert!((longest(&low.unwrap()) - 45.0).abs() < 1e-9);
 }
 
-/// At the crest of 5 µm waves |d²z/dθ²| = m²A: Δθ = sqrt(8e/(m²A)), and half of it.
+/// At the crest of waves of 5 µm, |d²z/dθ²| = m²A. Δθ is sqrt(8e/(m²A)), or half of it.
 #[test]
 fn at_a_crest_the_step_is_the_chord_of_its_curvature() {
     let case = waves(5e-3, 6);
@@ -105,8 +105,8 @@ fn at_a_crest_the_step_is_the_chord_of_its_curvature() {
     }
 }
 
-/// A paraboloid is flat along every circle, so the printed rule takes its largest steps; along the
-/// spiral, d²z/dθ² is 2cρ'², and the step's own curvature knows it.
+/// A paraboloid is flat along every circle, so the printed rule takes its largest steps. Along the
+/// spiral d²z/dθ² is 2cρ'², and the curvature of the step itself includes it.
 #[test]
 fn as_printed_the_curve_is_the_circle_through_the_start() {
     struct Bowl;
@@ -127,8 +127,8 @@ fn as_printed_the_curve_is_the_circle_through_the_start() {
     assert_eq!(count("step"), 36);
 }
 
-/// The sagitta of every segment, straight in θ, stays within the tolerance where the step's own
-/// curvature counts; where only its start's does, it is many times that.
+/// With the largest curvature on the step, the sagitta of every segment, straight in θ, stays
+/// within the tolerance. With the curvature at the start alone it is many times that.
 #[test]
 fn the_steps_own_curvature_keeps_the_chord_within_the_tolerance() {
     let case = mla_5(Uncompensated);
@@ -160,10 +160,10 @@ fn the_steps_own_curvature_keeps_the_chord_within_the_tolerance() {
     assert!(worst("start") > 100.0, "{}", worst("start"));
 }
 
-/// A turn of z = kρ² sin 2θ has ∮ dθ/Δθ = sqrt(kρ²/2e)·∮ sqrt|sin 2θ| dθ points, 4.7926 times the
-/// root, and the look ahead takes two or three more at each of the four inflections. The harmonics play
-/// no part: the second allows 90°. So the tenfold tolerance takes a third of the points, where eq. 10
-/// would take 0.56 of them.
+/// A turn of z = kρ² sin 2θ has ∮ dθ/Δθ = sqrt(kρ²/2e)·∮ sqrt|sin 2θ| dθ points, which is 4.7926
+/// times the root. The look ahead takes two or three more at each of the four inflections. The
+/// harmonics have no effect, since the second allows 90°. So ten times the tolerance takes a third
+/// of the points, where eq. 10 would take 0.56 of them.
 #[test]
 fn points_of_a_turn_are_those_of_straight_chords() {
     let k = 3.84e-4;
@@ -190,7 +190,7 @@ fn points_of_a_turn_are_those_of_straight_chords() {
 }
 
 #[test]
-fn an_edge_is_an_error_that_says_where() {
+fn an_edge_is_an_error_that_names_the_position() {
     struct Roof;
     impl Surface for Roof {
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
@@ -209,9 +209,9 @@ fn an_edge_is_an_error_that_says_where() {
     assert!(error.contains("ρ = 4.0000 mm"), "{error}");
 }
 
-/// Through the axis, where arcs have no length.
+/// The path goes through the axis, where arcs have no length.
 #[test]
-fn the_axis_itself_is_no_hindrance() {
+fn the_axis_itself_is_not_an_obstacle() {
     let params = Params::new().with("k", 0.08);
     let surface = Arc::new(Astigmatic::new(&params).unwrap());
     for compensator in [
@@ -245,7 +245,7 @@ proptest! {
     })]
 
     #[test]
-    fn nodes_increase_begin_every_turn_and_know_no_blocks(
+    fn nodes_increase_begin_every_turn_and_do_not_depend_on_blocks(
         amplitude in 0.001..0.01f64,
         frequency in 0.1..0.6f64,
         tolerance in 5.0..500.0f64,

@@ -1,4 +1,4 @@
-//! Arcs against closed forms, over blocks, and against the third paper's Fig. 10.
+//! Arcs against closed forms, across blocks, and against the third paper's Fig. 10.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};
@@ -72,7 +72,7 @@ fn locus(task: &Task) -> ToolLocus {
     ToolLocus::new(surface, Arc::new(Uncompensated), task.tool)
 }
 
-/// The nodes of a path, made in blocks of so many revolutions.
+/// The nodes of a path, sampled in blocks of `block` revolutions.
 fn nodes(sampler: &dyn Sampler, law: &SpiralLaw, block: f64) -> Vec<f64> {
     let task = task();
     let locus = locus(&task);
@@ -137,7 +137,7 @@ fn on_an_archimedean_spiral_the_arc_is_the_closed_form() {
 }
 
 #[test]
-fn where_the_tool_stands_still_on_the_axis_the_largest_step_binds() {
+fn where_the_tool_stands_still_on_the_axis_the_largest_step_is_the_limit() {
     let law = spiral(0.0, 0.0, 3.0);
     assert_eq!(nodes(equal_arc(0.1).as_ref(), &law, 64.0).len(), 12);
     assert_eq!(nodes(integrated(0.1, 30.0).as_ref(), &law, 64.0).len(), 36);
@@ -145,7 +145,7 @@ fn where_the_tool_stands_still_on_the_axis_the_largest_step_binds() {
 
 /// 20 mm and 0.001° are 0.349 µm.
 #[test]
-fn a_spacing_of_too_many_points_is_an_error_on_it() {
+fn a_spacing_of_too_many_points_is_an_error_on_spacing() {
     let (task, law) = (task(), spiral(RIM, -0.05, 400.0));
     let locus = locus(&task);
     let path = Path {
@@ -168,8 +168,8 @@ fn a_spacing_of_too_many_points_is_an_error_on_it() {
     }
 }
 
-/// Inside of spacing/max_step, 11.46 mm, the integrated steps are the largest angle, outside the
-/// arc.
+/// Inside of spacing/max_step, 11.46 mm, the integrated steps are the largest angle. Outside of it
+/// they are the arc.
 #[test]
 fn integrated_steps_are_the_smaller_of_both() {
     let law = spiral(RIM, -0.05, 400.0);
@@ -184,13 +184,13 @@ fn integrated_steps_are_the_smaller_of_both() {
     }
 }
 
-/// Hermite's cubic on a step of length h at its middle, from series at both ends.
+/// The Hermite cubic on a step of length h at its middle, from the series at both ends.
 fn middle(from: &Series, to: &Series, h: f64) -> f64 {
     0.5 * (from[0] + to[0]) + 0.125 * h * (from[1] - to[1])
 }
 
-/// The largest error, mm, of cubics with exact rates in each of `rings` rings of one width, inner
-/// ring first.
+/// The largest error, mm, of cubics with exact rates in each of `rings` rings of equal width, the
+/// inner ring first.
 fn error_against_radius(sampler: &dyn Sampler, rings: usize) -> Vec<f64> {
     let (task, law) = (task(), spiral(RIM, -0.05, 400.0));
     let locus = locus(&task);
@@ -225,14 +225,15 @@ fn error_against_radius(sampler: &dyn Sampler, rings: usize) -> Vec<f64> {
     worst
 }
 
-/// What eq. 10 makes of the stand-in: |z⁗| = 16Kρ² at most, so a step of L errs by Kρ²L⁴/24.
+/// The prediction of eq. 10 for the stand-in: |z⁗| = 16Kρ² at most, so a step of L errs by
+/// Kρ²L⁴/24.
 fn predicted(rho: f64, step: f64) -> f64 {
     K * rho * rho * step * step * step * step / 24.0
 }
 
-/// The third paper's Fig. 10, whose scales are not legible: with equal angles the error grows with
-/// ρ², and is worst in the outermost ring; with equal arcs it grows as 1/ρ² inwards; integrated, it
-/// is the smaller of both everywhere, and worst where they meet.
+/// The third paper's Fig. 10, whose scales are not legible. With equal angles the error grows with
+/// ρ² and is worst in the outermost ring. With equal arcs it grows as 1/ρ² inwards. With the
+/// integrated method it is the smaller of both everywhere, and worst where they meet.
 #[test]
 fn figure_10_equal_angles_are_worst_outside_equal_arcs_inside_integrated_neither() {
     let rings = 20;
@@ -268,7 +269,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
 
     #[test]
-    fn blocks_do_not_show_and_nodes_increase(
+    fn blocks_have_no_effect_and_nodes_increase(
         spacing in 0.05..5.0f64,
         max_step in 1.0..90.0f64,
         turns in 0.1..150.0f64,

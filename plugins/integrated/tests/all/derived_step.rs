@@ -13,10 +13,10 @@ use turnpath_integrated::EqualAngle;
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic, OffAxisParaboloid, SinusoidalArray};
 
-/// Part of the tolerance that a derived step aims at.
+/// The part of the tolerance that a derived step aims at.
 const AIM: f64 = 0.98;
 
-/// A part with a constant feed inward, and what samples it.
+/// A part with a constant feed inward.
 struct Case {
     surface: Arc<dyn SurfaceModel>,
     compensator: Arc<dyn Compensator>,
@@ -83,7 +83,7 @@ impl Case {
             .map(|found| found[0])
     }
 
-    /// The step at which L⁴/384·`sharpness` is what is aimed at.
+    /// The step at which L⁴/384·`sharpness` is the aim.
     fn step_for(&self, sharpness: f64) -> f64 {
         Scalar::powf(384.0 * AIM * self.tolerance / sharpness, 0.25)
     }
@@ -114,7 +114,7 @@ fn on_the_saddles_contact_path_the_step_is_that_of_the_closed_form() {
     assert!((found / closed - 1.0).abs() < 1e-6, "{found} for {closed}");
 }
 
-/// The nose adds a wave of 4θ, so a compensated path takes smaller steps than its contact.
+/// The nose adds a wave of 4θ, so a compensated path takes smaller steps than its contact path.
 #[test]
 fn compensation_makes_the_step_smaller() {
     let contact = Case::saddle(Arc::new(Uncompensated)).derived().unwrap();
@@ -127,10 +127,10 @@ fn compensation_makes_the_step_smaller() {
     }
 }
 
-/// A lattice of a tenth of a millimetre on a rim of 20 mm: 1257 waves a revolution, three and a
-/// half in each degree. Along the circle at x = y the product's waves of both axes add up.
+/// A lattice of a tenth of a millimetre on a rim of 20 mm has 1257 waves on a revolution, three and
+/// a half in each degree. Along the circle at x = y the product's waves of both axes add up.
 #[test]
-fn ripples_narrower_than_a_degree_are_met() {
+fn the_search_meets_ripples_narrower_than_a_degree() {
     let (amplitude, frequency) = (1e-5, 10.0);
     let mut params = Params::new()
         .with("amplitude_x", amplitude)
@@ -145,8 +145,8 @@ fn ripples_narrower_than_a_degree_are_met() {
         tolerance: 10.0 * NM,
         ..Case::saddle(Arc::new(Uncompensated))
     };
-    // sin a sin b with a' = −b' = kρ/√2 is a cosine of 2kρ/√2 and a constant; at the axes
-    // one wave of kρ alone is left, of twice the amplitude and a quarter of the fourth power.
+    // sin a sin b with a' = −b' = kρ/√2 is a cosine of 2kρ/√2 and a constant. At the axes only one
+    // wave of kρ is left, with twice the amplitude and a quarter of the fourth power.
     let along = TAU * frequency * case.rim * std::f64::consts::SQRT_2;
     let sharpness = 0.5 * amplitude * along * along * along * along;
     let (found, closed) = (case.derived().unwrap(), case.step_for(sharpness));
@@ -154,7 +154,7 @@ fn ripples_narrower_than_a_degree_are_met() {
 }
 
 /// The off-axis paraboloid OAP-213 at 10 nm: 619 thousand points over the 11,684.8 revolutions of
-/// an adaptive feed, and what aiming lower adds to them.
+/// an adaptive feed, and the points that the lower aim adds.
 #[test]
 fn the_off_axis_paraboloid_takes_the_published_count() {
     let params = Params::new()
@@ -173,7 +173,7 @@ fn the_off_axis_paraboloid_takes_the_published_count() {
 }
 
 #[test]
-fn where_nothing_bends_the_largest_step_is_taken() {
+fn where_nothing_bends_the_step_is_the_largest_one() {
     let params = Params::new().with("radius", 1e12).with("conic", 0.0);
     let case = Case {
         surface: Arc::new(Conic::new(&params).unwrap()),
@@ -183,7 +183,7 @@ fn where_nothing_bends_the_largest_step_is_taken() {
 }
 
 #[test]
-fn where_the_surface_ends_the_error_says_where() {
+fn if_the_surface_ends_the_error_names_the_position() {
     let params = Params::new().with("radius", 2.0).with("conic", 0.0);
     let case = Case {
         surface: Arc::new(Conic::new(&params).unwrap()),
@@ -194,7 +194,7 @@ fn where_the_surface_ends_the_error_says_where() {
 }
 
 #[test]
-fn what_was_derived_is_what_is_placed() {
+fn the_sampler_places_the_step_that_it_derived() {
     let case = Case::saddle(Arc::new(ZDirection));
     let step = case.derived().unwrap();
     let sampler = EqualAngle::new(&Params::new().with("max_step", 45.0 * DEG)).unwrap();

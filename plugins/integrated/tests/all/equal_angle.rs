@@ -1,4 +1,4 @@
-//! Equal angles over blocks: one sequence, however the path is cut up.
+//! Equal angles across blocks: one sequence, however the path is divided.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
@@ -37,7 +37,7 @@ fn task() -> Task {
     }
 }
 
-/// The nodes of a path of so many revolutions, made in blocks.
+/// The nodes of a path of so many revolutions, sampled in blocks.
 fn nodes(step: f64, revolutions: f64, block: f64) -> Vec<f64> {
     let task = task();
     let surface = Arc::new(Astigmatic::new(&Params::new().with("k", 0.08)).unwrap());
@@ -84,7 +84,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
 
     #[test]
-    fn blocks_do_not_show(step in 0.5..90.0f64, revolutions in 0.1..200.0f64, block in 1u32..80) {
+    fn blocks_have_no_effect(step in 0.5..90.0f64, revolutions in 0.1..200.0f64, block in 1u32..80) {
         let whole = nodes(step * DEG, revolutions, 1e9);
         prop_assert_eq!(&whole, &nodes(step * DEG, revolutions, f64::from(block)));
         prop_assert_eq!(whole[0], 0.0);

@@ -54,7 +54,7 @@ impl Surface for Plane {
     }
 }
 
-/// A sphere through the origin; radius positive where concave.
+/// A sphere through the origin. The radius is positive if the sphere is concave.
 struct Sphere {
     radius: f64,
 }
@@ -66,7 +66,7 @@ impl Surface for Sphere {
     }
 }
 
-/// A cylinder along y through the origin; radius positive where concave.
+/// A cylinder along y through the origin. The radius is positive if the cylinder is concave.
 struct Cylinder {
     radius: f64,
 }
@@ -137,8 +137,8 @@ fn on_a_sphere_the_centre_lies_on_a_sphere_of_the_radius_less_the_nose() {
     }
 }
 
-/// The oblique section of a cylinder is an ellipse. From a contact at ρ on it the centre follows
-/// in closed form; at that X the descent along z must end at that Z and that contact.
+/// The oblique section of a cylinder is an ellipse. From a contact at ρ on the ellipse the centre
+/// follows in closed form. At that X the descent along z must end at that Z and that contact.
 #[test]
 fn on_a_cylinder_the_centre_lies_one_radius_along_the_ellipses_normal() {
     for radius in [3.0, -3.0, 40.0, -40.0] {
@@ -167,7 +167,7 @@ fn on_a_cylinder_the_centre_lies_one_radius_along_the_ellipses_normal() {
 }
 
 #[test]
-fn where_the_edge_ends_it_touches_with_its_end() {
+fn where_the_edge_ends_the_nose_touches_with_the_end_of_the_edge() {
     let slope = 1.0;
     let blunt = Tool {
         included_angle: Some(TAU / 6.0),
@@ -198,7 +198,8 @@ fn where_the_surface_has_no_value_the_centre_has_none() {
     }
 }
 
-/// On a sphere Z = h(X) at every angle; rates of X follow by differentiating the closed form.
+/// On a sphere Z = h(X) at every angle. The rates of X follow from the derivative of the closed
+/// form.
 #[test]
 fn rates_on_a_sphere_are_those_of_the_closed_form() {
     let (theta, rho) = places();

@@ -1,4 +1,4 @@
-//! Centres along z against opencamlib's drop-cutter: a ball dropped on a mesh of the section.
+//! Centres along z against opencamlib's drop-cutter, which drops a ball on a mesh of the section.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use turnpath_core::ToolLocus;
 use turnpath_nose_radius::ZDirection;
 
 #[test]
-fn centres_along_z_agree_with_a_drop_cutter_within_its_meshs_error() {
+fn centres_along_z_agree_with_a_drop_cutter_within_the_error_of_its_mesh() {
     let mut seen = 0;
     for case in crate::reference::cases() {
         let locus = ToolLocus::new(case.surface.clone(), Arc::new(ZDirection), case.tool);

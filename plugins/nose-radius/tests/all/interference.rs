@@ -46,7 +46,7 @@ fn extremes_of_the_saddle_are_those_of_the_closed_form() {
     }
 }
 
-/// The profile of a conic has the radius of curvature (r² − kρ²)^{3/2}/r²: with k > 0 it is most
+/// The profile of a conic has the radius of curvature (r² − kρ²)^{3/2}/r². With k > 0 it is most
 /// curved at the rim.
 #[test]
 fn a_nose_larger_than_the_hollow_is_in_conflict() {
@@ -71,7 +71,7 @@ fn a_nose_larger_than_the_hollow_is_in_conflict() {
 }
 
 #[test]
-fn every_way_not_to_fit_is_listed_with_what_would_do() {
+fn the_check_lists_every_misfit_with_a_value_that_would_do() {
     let tool = Tool {
         nose_radius: 7.0,
         included_angle: Some(40.0 * DEG),

@@ -1,4 +1,4 @@
-//! Series and rates: against 50-digit references, against each other, against the numeric fit.
+//! Series and rates against 50-digit references, against each other, and against the numerical fit.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Arc;
@@ -49,7 +49,7 @@ fn coefficients(value: &Value) -> Series {
     std::array::from_fn(|k| value[k].as_f64().unwrap())
 }
 
-/// |found − exact| over |exact|, coefficient by coefficient; the largest.
+/// The largest |found − exact| over |exact| of all coefficients.
 fn worst(found: &Series, exact: &Series) -> f64 {
     let relative = found.iter().zip(exact).map(|(found, exact)| {
         if found == exact {
@@ -61,7 +61,7 @@ fn worst(found: &Series, exact: &Series) -> f64 {
     relative.fold(0.0, f64::max)
 }
 
-/// Every coefficient to 1e-12 of itself; none of the reference's vanishes but X's own zeros.
+/// Every coefficient agrees to 1e-12 of itself. In the reference only X's own zeros vanish.
 #[test]
 fn series_agree_with_the_50_digit_reference() {
     let cases: Value = serde_json::from_str(REFERENCE).unwrap();
@@ -82,7 +82,7 @@ fn series_agree_with_the_50_digit_reference() {
     }
 }
 
-/// Only the centre of another compensator, so that the host must fit the rest.
+/// Another compensator's centre alone, so that the host must fit the rest.
 struct CentreOnly(Arc<dyn Compensator>);
 
 impl Compensator for CentreOnly {
@@ -161,8 +161,8 @@ fn the_constant_coefficient_is_the_centre() {
     }
 }
 
-/// What the numeric fit reaches from centres alone, in mm and mm/rad^k: a tolerance of 1 nm at
-/// steps of 45 degrees asks for c_4 to about 1e-5.
+/// The accuracy of the numerical fit from centres alone, in mm and mm/rad^k. A tolerance of 1 nm at
+/// steps of 45 degrees needs c_4 to about 1e-5.
 #[test]
 fn fitted_series_and_rates_come_close_to_the_exact_ones() {
     let (theta, rho) = places();
@@ -189,7 +189,7 @@ fn fitted_series_and_rates_come_close_to_the_exact_ones() {
     }
 }
 
-/// At 1.5 to 2 mm the section rises by more than 8 degrees; the edge ends at 5.
+/// At 1.5 to 2 mm the section rises by more than 8 degrees, and the edge ends at 5 degrees.
 #[test]
 fn where_the_edge_ends_series_and_rates_are_those_of_its_end() {
     let blunt = Tool {

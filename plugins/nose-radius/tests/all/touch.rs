@@ -1,4 +1,4 @@
-//! What a tool centre along z is for: the nose touches the section, and cuts into it nowhere.
+//! A tool centre along z: the nose touches the section and cuts into it nowhere.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use turnpath_surfaces::{SinusoidalArray, Toric};
 
 const NOSE: f64 = 1.0;
 
-/// A toric with a lens array on it; the radial curvature stays below 0.8 /mm.
+/// A toric with a lens array on it. The radial curvature stays below 0.8 /mm.
 #[derive(Clone)]
 struct Rippled(Toric, SinusoidalArray);
 
@@ -72,7 +72,7 @@ proptest! {
     }
 
     #[test]
-    fn along_the_normal_and_then_along_z_the_nose_stays(
+    fn along_the_normal_and_then_along_z_the_nose_stays_in_place(
         theta in 0.0..6.3f64,
         rho in 0.0..4.0f64,
     ) {
@@ -98,7 +98,7 @@ proptest! {
     }
 }
 
-/// Waves that are too narrow for the nose, along x; their hollows have radii down to 0.25 mm.
+/// Waves along x that are too narrow for the nose. Their hollows have radii down to 0.25 mm.
 #[derive(Clone, Copy)]
 struct Waves;
 
@@ -108,7 +108,7 @@ impl Surface for Waves {
     }
 }
 
-/// The highest of the nose's places on the waves, by brute force.
+/// The highest position of the nose on the waves, by brute force.
 fn first_touch_on_waves(theta: f64, x: f64, reach: f64) -> f64 {
     let (_, cos) = Scalar::sin_cos(theta);
     let place = |i: i32| f64::from(i) * 1e-5 * reach;
@@ -140,8 +140,8 @@ fn over_waves_too_narrow_for_the_nose_it_stops_at_the_first_touch() {
     }
 }
 
-/// A lattice of hollows; where a seam begins between a nose of 3 mm and one of them, two hills lie
-/// within a fraction of a degree of the edge.
+/// A lattice of hollows. Where a seam begins between a nose of 3 mm and one of the hollows, two
+/// maxima lie within a fraction of a degree of the edge.
 #[derive(Clone, Copy)]
 struct Lattice;
 

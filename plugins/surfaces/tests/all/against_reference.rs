@@ -134,7 +134,7 @@ fn heights_and_slopes_are_the_constant_terms() {
     }
 }
 
-/// The last point of an odd batch goes through the formula alone, the others in lanes.
+/// The last point of an odd batch goes through the formula alone, and the others go in lanes.
 #[test]
 fn a_point_alone_is_bit_for_bit_the_same_as_in_a_batch() {
     for case in cases() {

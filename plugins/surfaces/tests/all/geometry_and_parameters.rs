@@ -1,4 +1,4 @@
-//! Surfaces against plain geometry, outside their domain, and with bad parameters.
+//! Surfaces against plain geometry, outside of their domain, and with wrong parameters.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
@@ -7,8 +7,8 @@ use turnpath_core::{
 };
 use turnpath_surfaces::{Conic, OffAxisParaboloid, SinusoidalArray, Toric, XyPolynomial};
 
-/// Two units in the last place of the parent's coordinates, which reach 1 m: what turning points
-/// of the parent in double precision can leave.
+/// Two units in the last place of the parent's coordinates, which reach 1 m. Turning the points of
+/// the parent in double precision can leave this much.
 const TURNED_MM: f64 = 2.3e-13;
 
 #[test]
@@ -66,7 +66,7 @@ fn outside_the_domain_height_and_slopes_are_not_numbers() {
     };
     assert_no_value(&toric(5.0, 3.0), 0.0, 3.5);
     assert_no_value(&toric(5.0, 3.0), 5.5, 0.0);
-    // The base arc has passed the axis of rotation.
+    // Here the base arc has passed the axis of rotation.
     assert_no_value(&toric(10.0, 100.0), 0.0, 60.0);
     let params = Params::new()
         .with("vertex_radius", 10.0)
@@ -104,7 +104,7 @@ fn polynomial_is_the_sum_of_its_terms() {
 }
 
 #[test]
-fn bad_terms_are_named() {
+fn errors_name_the_wrong_terms() {
     let says = |terms: &[[f64; 3]]| polynomial(terms).unwrap_err().to_string();
     assert_eq!(
         says(&[[1.5, 0.0, 1.0]]),

@@ -1,5 +1,5 @@
-//! What every solver does to the played position: orders of convergence, closed forms, ends, and
-//! blocks that join.
+//! The effect of every solver on the played position: orders of convergence, closed forms, ends,
+//! and blocks that join.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
@@ -9,7 +9,7 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{DEG, Dependence, Nodes, Params, Scalar, Strategy, Velocities, VelocitySolver};
 use turnpath_triangle_rotary::{Analytic, Area, Linear, ThreePoint, TriangleRotary};
 
-/// Instants of a segment at which the played position is compared.
+/// Number of instants of a segment at which the played position is compared.
 const INSTANTS: i32 = 16;
 
 fn area(c: f64) -> Area {
@@ -30,7 +30,7 @@ type Motion = fn(f64) -> (f64, f64);
 struct Axes([Motion; 3]);
 
 impl Axes {
-    /// C, X, Z of nothing in particular: no derivative of theirs is zero throughout.
+    /// C, X and Z without a special meaning: none of their derivatives is zero throughout.
     fn wavy() -> Self {
         Self([
             |t| {
@@ -54,8 +54,8 @@ impl Axes {
         self.0.map(|axis| t.iter().map(|t| axis(*t)).unzip())
     }
 
-    /// The path that a solver makes, handed over in blocks that end at the nodes in `joints`; a
-    /// block begins with the node that the one before ended with, and has `overlap` more.
+    /// The path that a solver makes from blocks that end at the nodes in `joints`. A block begins
+    /// with the last node of the block before, and has `overlap` more nodes.
     fn path(&self, solver: &dyn VelocitySolver, t: &[f64], joints: &[usize]) -> PathBlock {
         let [(c, c_rate), (x, x_rate), (z, z_rate)] = self.at(t);
         let z_theta: Vec<f64> = z_rate.iter().zip(&c_rate).map(|(z, c)| z / c).collect();
@@ -136,7 +136,7 @@ fn largest(errors: &[f64]) -> f64 {
     errors.iter().fold(0.0, |most, error| error.max(most))
 }
 
-/// Steps from 1 to 3 in no order, each cut into `parts`, 4 s in all.
+/// Steps from 1 to 3 in no order, each divided into `parts`, 4 s in all.
 fn halved(parts: u32) -> Vec<f64> {
     let steps: Vec<f64> = (0..24)
         .map(|k| 1.0 + 2.0 * (f64::from(k) * 0.618_034).fract())
@@ -159,7 +159,7 @@ fn graded(count: u32) -> Vec<f64> {
         .collect()
 }
 
-/// By which power of two the error falls when every step is halved.
+/// The power of two by which the error falls when every step is halved.
 fn order(solver: &dyn VelocitySolver, nodes: impl Fn(u32) -> Vec<f64>, parts: u32) -> f64 {
     let axes = Axes::wavy();
     let error = |parts| largest(&axes.errors(&axes.path(solver, &nodes(parts), &[])));
@@ -190,7 +190,7 @@ fn orders_of_convergence_on_uneven_steps_are_those_of_theory() {
     }
 }
 
-/// ¹/₁₀ more at the start: gone after 50 nodes with c = ⅔, there for ever with c = ½.
+/// An error of ¹/₁₀ at the start is gone after 50 nodes with c = ⅔, and stays for ever with c = ½.
 #[test]
 fn an_error_of_velocity_halves_with_two_thirds_and_rings_with_a_half() {
     let t: Vec<f64> = (0..=50).map(f64::from).collect();
@@ -226,10 +226,10 @@ fn an_error_of_velocity_halves_with_two_thirds_and_rings_with_a_half() {
 }
 
 /// The toric stand-in: z = 0.6 mm (ρ/20)² sin 2θ, 5° steps, 0.05 mm a revolution, 1000 points
-/// inward from the rim. The figure of the third paper, 0.06 µm, lies between that of the interior
-/// and that with exact rates at both ends.
+/// inward from the rim. The third paper's value of 0.06 µm lies between the error of the interior
+/// and the error with exact rates at both ends.
 #[test]
-fn three_point_on_the_toric_stand_in_is_as_published_inside_and_at_the_ends() {
+fn three_point_on_the_toric_stand_in_agrees_with_the_publication_inside_and_at_the_ends() {
     fn radius(theta: f64) -> (f64, f64) {
         (20.0 - 0.05 * theta / TAU, -0.05 / TAU)
     }
@@ -256,7 +256,7 @@ fn three_point_on_the_toric_stand_in_is_as_published_inside_and_at_the_ends() {
 }
 
 #[test]
-fn a_parabola_is_played_exactly_by_three_points_and_by_halves() {
+fn three_points_and_halves_play_a_parabola_exactly() {
     let axes = Axes([
         |t| (t, 1.0),
         |t| (2.0 - t + 0.5 * t * t, -1.0 + t),
@@ -269,7 +269,7 @@ fn a_parabola_is_played_exactly_by_three_points_and_by_halves() {
 }
 
 #[test]
-fn straight_segments_carry_the_rate_that_follows() {
+fn straight_segments_carry_the_rate_of_the_segment_that_follows() {
     let (axes, t) = (Axes::wavy(), halved(1));
     let path = axes.path(&Linear, &t, &[]);
     let rate = |k: usize| (path.z[k + 1] - path.z[k]) / (path.t[k + 1] - path.t[k]);
@@ -283,10 +283,10 @@ fn straight_segments_carry_the_rate_that_follows() {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
 
-    /// However a path is cut into blocks, the solvers that look no further than a node give the
-    /// same bits; across the plugin boundary too.
+    /// However a path is divided into blocks, the solvers that depend on no more than one node give
+    /// the same bits, also across the plugin boundary.
     #[test]
-    fn joints_of_blocks_do_not_show(
+    fn joints_of_blocks_have_no_effect(
         cuts in prop::collection::btree_set(1usize..96, 0..8),
         c in 0.5..1.0f64,
     ) {

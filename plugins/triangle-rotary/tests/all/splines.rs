@@ -1,4 +1,4 @@
-//! The spline against scipy's, and a path in windows against the path as a whole.
+//! The spline against scipy's spline, and a path in windows against the whole path.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use proptest::prelude::*;
@@ -20,7 +20,7 @@ fn triangle_rotary(ends: &str) -> TriangleRotary {
     TriangleRotary::new(&params(ends)).unwrap()
 }
 
-/// Nodes as the host holds them; Z's rate is given as ∂Z/∂θ at vC = 1.
+/// Nodes as columns. Z's rate is given as ∂Z/∂θ at vC = 1.
 #[derive(Default, Clone)]
 struct Columns {
     t: Vec<f64>,
@@ -63,7 +63,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// Smooth axes of about a spindle's size at the given times.
+/// Smooth axes of about the size of a spindle's, at the given times.
 fn smooth(t: Vec<f64>) -> Columns {
     let at = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { t.iter().map(|t| f(*t)).collect() };
     let values = [
@@ -98,7 +98,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 #[test]
-fn slopes_are_those_of_scipy() {
+fn slopes_agree_with_scipy() {
     let cases: Value = serde_json::from_str(REFERENCE).unwrap();
     for (i, case) in cases.as_array().unwrap().iter().enumerate() {
         let ends = case["ends"].as_str().unwrap();
@@ -196,8 +196,8 @@ fn analytic_velocities_are_the_rates() {
     }
 }
 
-/// What rounding of values up to 4 does to the slopes: to chords, by the shortest step of a whole
-/// of 1; and at a knot that is none once more by how far it extrapolates, (h₀ + h₁)/h₁.
+/// The effect on the slopes of rounding values up to 4. Chords take it divided by the shortest step
+/// of a whole of 1. An end that is not a knot multiplies it by its extrapolation, (h₀ + h₁)/h₁.
 fn noise(steps: &[f64], total: f64, ends: &str) -> f64 {
     let shortest = steps
         .iter()
@@ -217,10 +217,10 @@ fn noise(steps: &[f64], total: f64, ends: &str) -> f64 {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
 
-    /// Every end condition reproduces what it admits: clamped and not-a-knot a cubic, natural a
-    /// straight line, from few nodes and on steps up to 1 : 1000.
+    /// Every end condition reproduces what it admits, from few nodes and on steps up to 1 : 1000:
+    /// clamped and not-a-knot ends a cubic, natural ends a straight line.
     #[test]
-    fn cubics_and_lines_are_reproduced(
+    fn splines_reproduce_cubics_and_lines(
         exponents in prop::collection::vec(-1.5..1.5f64, 1..40),
         c in prop::array::uniform4(-1.0..1.0f64),
     ) {

@@ -16,35 +16,35 @@ use turnpath_core::{
 };
 use turnpath_surfaces::{Astigmatic, OffAxisParaboloid};
 
-/// What is asked of a case besides.
+/// What the tests need of a case in addition.
 pub trait AtpgCase {
     /// The law of feed `atpg`.
-    fn planned(&self, residual: &str, fit: &str) -> Result<SpiralLaw>;
-    /// The held feed at each of `angles` even angles, at one radius.
-    fn held_over(&self, rho: f64, angles: usize) -> Vec<f64>;
-    /// Revolutions of the fastest law that holds the residual at every angle: ∫ dρ/min F, by
-    /// brute force.
+    fn plan_law(&self, residual: &str, fit: &str) -> Result<SpiralLaw>;
+    /// The residual feed at each of `angles` even angles, at one radius.
+    fn residual_feeds(&self, rho: f64, angles: usize) -> Vec<f64>;
+    /// Revolutions of the fastest law that keeps the residual at every angle: ∫ dρ/min F, by brute
+    /// force.
     fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64;
-    /// The nose centre's Z at the given places.
+    /// The nose centre's Z at the given points.
     fn heights(&self, theta: &[f64], x: &[f64]) -> Vec<f64>;
 }
 
 impl AtpgCase for Case {
-    fn planned(&self, residual: &str, fit: &str) -> Result<SpiralLaw> {
+    fn plan_law(&self, residual: &str, fit: &str) -> Result<SpiralLaw> {
         let params = words(&[("residual", residual), ("fit", fit)]);
         self.law(&AtpgFeed::new(&params)?)
     }
 
-    fn held_over(&self, rho: f64, angles: usize) -> Vec<f64> {
+    fn residual_feeds(&self, rho: f64, angles: usize) -> Vec<f64> {
         let theta = (0..angles).map(|i| TAU * i as f64 / angles as f64);
-        theta.map(|theta| self.held(theta, rho)).collect()
+        theta.map(|theta| self.residual_feed(theta, rho)).collect()
     }
 
     fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64 {
         let RadialRange { inner, outer } = self.task.range;
         let step = (outer - inner) / radii as f64;
         let turns = (0..radii).map(|i| {
-            let feed = self.held_over(inner + (i as f64 + 0.5) * step, angles);
+            let feed = self.residual_feeds(inner + (i as f64 + 0.5) * step, angles);
             step / feed.into_iter().fold(f64::INFINITY, f64::min)
         });
         turns.sum()
@@ -58,7 +58,7 @@ impl AtpgCase for Case {
     }
 }
 
-/// Parameters that are words.
+/// Parameters from pairs of words.
 pub fn words(pairs: &[(&str, &str)]) -> Params {
     let mut params = Params::new();
     for (name, word) in pairs {
@@ -88,7 +88,7 @@ pub fn rate_at(law: &SpiralLaw, n: f64) -> (f64, f64) {
     (series[0], series[1])
 }
 
-/// Where the law's pieces join.
+/// The positions where the law's pieces join.
 pub fn joints(law: &SpiralLaw) -> impl Iterator<Item = f64> {
     law.pieces().iter().skip(1).map(|piece: &Piece| piece.start)
 }

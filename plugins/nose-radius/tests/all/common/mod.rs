@@ -1,4 +1,4 @@
-//! Calls of a tool locus with room for the answers.
+//! Calls of a tool locus, with buffers for the answers.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 #![allow(dead_code, reason = "every test program uses its own part")]
 
