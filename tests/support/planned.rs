@@ -75,7 +75,7 @@ impl Case {
         }
     }
 
-    /// The law of a feed strategy, if it ends within a thousand calls.
+    /// The law of a feed strategy, which must end within a thousand calls.
     pub fn law(&self, feed: &dyn FeedStrategy) -> Result<SpiralLaw> {
         let mut plan = feed.plan(self.setup())?;
         let (mut law, mut pieces) = (SpiralLaw::new(), Vec::new());
@@ -91,7 +91,7 @@ impl Case {
         panic!("a law without end");
     }
 
-    /// The held feed at one place.
+    /// The feed that holds the residual at one place.
     pub fn held(&self, theta: f64, rho: f64) -> f64 {
         let mut feed = [f64::NAN];
         let residual = self.job.tolerance.residual;

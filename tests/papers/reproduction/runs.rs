@@ -1,4 +1,4 @@
-//! The runs that the figures need: each made once, several at a time.
+//! The runs that the figures need: each is made once, and several run at a time.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
