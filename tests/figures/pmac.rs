@@ -37,7 +37,7 @@ fn call(command: &str, recipe: &Path, rest: &[&str], sets: &[&str]) -> Output {
     call.output().unwrap()
 }
 
-fn said(output: &Output) -> String {
+fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
@@ -66,7 +66,7 @@ impl Run {
             self.output.status.code(),
             Some(status),
             "{}",
-            answer(&self.output)
+            stderr(&self.output)
         );
         self
     }
@@ -107,7 +107,7 @@ fn costs_little(summary: &Value) {
 fn verified(recipe: &Path, program: &Path, sets: &[&str]) -> Value {
     let rest = [program.to_str().unwrap(), "--format", "json"];
     let output = call("verify", recipe, &rest, sets);
-    assert!(output.status.success(), "{}", answer(&output));
+    assert!(output.status.success(), "{}", stderr(&output));
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
@@ -247,9 +247,9 @@ fn what_the_post_cannot_write_is_the_recipes_fault_and_leaves_no_file() {
     ] {
         let run = Run::of(&astigmatic(), &[set]).ends(2);
         assert!(
-            answer(&run.output).contains(says),
+            stderr(&run.output).contains(says),
             "{}",
-            answer(&run.output)
+            stderr(&run.output)
         );
         assert!(!run.path("").exists(), "{set}");
     }
@@ -276,7 +276,7 @@ fn a_damaged_program_is_refused_with_its_line() {
         fs::write(&program, spoiled).unwrap();
         let output = call("verify", &astigmatic(), &[program.to_str().unwrap()], &[]);
         assert_eq!(output.status.code(), Some(4));
-        let said = answer(&output);
+        let said = stderr(&output);
         assert!(said.contains(says), "{said}");
     }
 }

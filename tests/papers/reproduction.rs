@@ -26,7 +26,7 @@ fn page() -> Page {
 #[test]
 fn the_page_is_what_the_runs_give_and_every_figure_is_within_its_bound() {
     let page = page();
-    let runs = Runs::of(&page);
+    let runs = Runs::of(page.calls());
     let text = markdown(&page, &runs);
     let file = repository().join("docs/reproduction.md");
     if std::env::var_os("REPRODUCTION").is_some_and(|word| word == "write") {

@@ -47,10 +47,10 @@ const NATURAL: &str = "velocity={ use = \"triangle-rotary\", ends = \"natural\" 
 const ANALYTIC: &str = "velocity.use=analytic";
 const LINEAR: &str = "velocity.use=linear";
 
-/// A folder with the recipe, and what runs in it.
-struct Place(Bench);
+/// A folder with the recipe.
+struct RecipeFolder(Bench);
 
-impl Place {
+impl RecipeFolder {
     fn new() -> Self {
         Self(Bench::with(&recipe()))
     }
@@ -85,7 +85,7 @@ fn points(summary: &Value) -> u64 {
 
 /// Each solver's largest error, nm, to `within`.
 fn assert_errors(base: &[&str], count: u64, within: f64, expected: &[(&str, f64)]) {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for (velocity, expected) in expected {
         let (_, summary) = folder.run(&[base, &[*velocity]].concat());
         assert_eq!(points(&summary), count, "{velocity}");
@@ -147,7 +147,7 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
     assert!((across(256.0) - 59.45).abs() < 0.005);
     let step = "sampler.step=1.4173228346456694 deg";
     assert_errors(&array(step), 127_001, 3e-3, &[(LINEAR, across(254.0))]);
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     let (_, straight) = folder.run(&[&conventional[..], &[LINEAR]].concat());
     let at = &straight["interpolation_error_nm"]["at"]["x_mm"];
     assert!(at.as_f64().unwrap() > 4.95, "{at}");
@@ -158,7 +158,7 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
 /// their 6061 points, 98 at 9 deg are 3921 with both ends (3920 published).
 #[test]
 fn conventional_spirals_of_the_first_paper() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     let contact = "compensator.use=none";
     let (_, derived) = folder.run(&[contact, "sampler.step=6 deg"]);
     let revolutions = derived["revolutions"].as_f64().unwrap();
@@ -174,7 +174,7 @@ fn conventional_spirals_of_the_first_paper() {
 /// A derived step with exact velocities leaves refinement nothing to do, and wastes little.
 #[test]
 fn the_derived_step_holds_the_tolerance_as_played() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for compensator in ["z-direction", "normal", "none"] {
         let compensator = format!("compensator.use={compensator}");
         let (status, summary) = folder.run(&[&compensator, "refine=true", ANALYTIC]);
@@ -186,10 +186,10 @@ fn the_derived_step_holds_the_tolerance_as_played() {
 }
 
 /// Every solver holds 100 nm once refined, both from a derived step and from the largest; if
-/// the area method with ½ does not, the run reports it with the folder.
+/// the area method with ½ does not, the run reports it with the place.
 #[test]
 fn every_solver_holds_the_tolerance_or_says_where_not() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for velocity in [
         ANALYTIC,
         TRIANGLE_ROTARY,
@@ -219,7 +219,7 @@ fn every_solver_holds_the_tolerance_or_says_where_not() {
 /// segments, which it knows from the recipe alone.
 #[test]
 fn the_files_are_played_as_the_solver_meant_them() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for velocity in [LINEAR, HALF, THREE_POINT] {
         let set = ["feed.feed=10 um", "refine=true", velocity];
         let (_, run) = folder.run(&set);
@@ -245,7 +245,7 @@ fn the_files_are_played_as_the_solver_meant_them() {
 /// Blocks of 64 revolutions: the area method's state goes on from one to the next.
 #[test]
 fn the_count_of_threads_does_not_show() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for velocity in [HALF, TWO_THIRDS, THREE_POINT, LINEAR] {
         let file = |threads: &str| {
             let command = ["run", "recipe.toml", "-o", threads, "--threads", threads];
@@ -259,7 +259,7 @@ fn the_count_of_threads_does_not_show() {
 
 #[test]
 fn an_unstable_area_share_is_refused_with_the_reason() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     let said = folder.call(
         &["run", "recipe.toml"],
         &["velocity={ use = \"area\", c = 0.4 }"],
