@@ -1,10 +1,10 @@
-//! `interference = "cut-what-fits"` end to end: refused without, cut by first touch with it, and what
-//! stays against a brute-force closing of the sections by the nose.
+//! `interference = "cut-what-fits"` end to end: refused without it, and cut by first touch
+//! with it. The unreached height is held against a brute-force closing of the sections by the nose.
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::{PI, TAU};
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::recipe::{changed, with_table};
 use serde_json::Value;
 use turnpath_core::{DEG, Scalar};
@@ -65,7 +65,7 @@ fn section(theta: f64) -> impl Fn(f64) -> f64 {
     move |rho| height(rho * cos, rho * sin)
 }
 
-fn summary(said: &Said) -> Value {
+fn summary(said: &Answer) -> Value {
     serde_json::from_str(&said.stdout).expect("JSON")
 }
 
@@ -121,7 +121,7 @@ fn closing(theta: f64, radius: f64, reach: f64, rim: f64, step: f64) -> Vec<(f64
         .collect()
 }
 
-/// Height and volume that stay on the lattice of radius 1 mm, by brute force. Steps of X miss the
+/// Height and volume that the nose cannot reach on the lattice of radius 1 mm, by brute force. Steps of X miss the
 /// lowest place over a seam by a part of the step: the volume is extrapolated from two steps.
 fn brute_force() -> (f64, f64) {
     const SECTIONS: usize = 90;
@@ -152,7 +152,7 @@ fn a_nose_too_large_for_the_hollows_is_refused_unless_the_recipe_asks_for_what_f
 }
 
 #[test]
-fn the_lattice_is_cut_by_first_touch_and_what_stays_is_that_of_brute_force() {
+fn the_lattice_is_cut_by_first_touch_and_its_unreached_volume_is_that_of_brute_force() {
     let bench = Bench::with(LATTICE);
     let said = bench.line("run recipe.toml -o out --format json");
     // Over seams cusps grow with the feed itself, and 25 um are too many for 500 nm.
@@ -246,7 +246,7 @@ fn a_feed_that_is_found_holds_the_residual_beside_seams_too() {
     let said = bench.line("run recipe.toml -o out --format json").ends(0);
     let residual = number(&summary(&said), "/residual_nm/max");
     assert!(residual > 80.0 && residual < 100.1, "{residual} nm");
-    // A feed of the recipe's own is left as it is, and what it leaves is told.
+    // The recipe's own feed is not changed, and the run reports the residual that it leaves.
     let bench = Bench::with(&recipe);
     let found = summary(&bench.line("run recipe.toml -o out --format json").ends(1));
     assert!((number(&found, "/revolutions") - 40.0).abs() < 0.1);
@@ -261,7 +261,7 @@ fn compensation_along_the_normal_cannot_cut_what_fits() {
 }
 
 #[test]
-fn check_tells_a_person_what_stays() {
+fn check_reports_what_the_nose_cannot_reach() {
     let bench = Bench::with(&with_table(LATTICE, "part", "aperture = \"1.6 mm\""));
     insta::assert_snapshot!(bench.line("check recipe.toml").ends(0).stdout);
 }

@@ -1,16 +1,15 @@
 //! Every chain of built-in feeds, samplers, compensators and velocity solvers, on the middle of
-//! AST-5 and MLA-5 with their tolerances: what holds after refinement, and what says that it does
-//! not.
+//! AST-5 and MLA-5 with their tolerances: each holds after refinement, or reports that it does not.
 //!
 //! Refinement holds the error along z at the played X, and X's own error to what the residual
-//! leaves it. One solver is let off: `area` with c = 1/2, whose errors do not die away. With `normal`
-//! compensation, where X follows the slope, it may leave cusps beyond the residual, and says so.
+//! leaves it. One solver is exempt: `area` with c = 1/2, whose errors do not die away. With `normal`
+//! compensation, where X follows the slope, it may leave cusps beyond the residual, and reports them.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 
 const FEEDS: [&str; 4] = ["constant", "atpg", "ats", "fft-adaptive"];
 const SAMPLERS: [&str; 6] = [
@@ -113,7 +112,7 @@ impl Chain {
         )
     }
 
-    fn run(&self, bench: &Bench) -> Said {
+    fn run(&self, bench: &Bench) -> Answer {
         let aperture = PARTS[self.part].aperture.replace(' ', "");
         bench.write("recipe.toml", self.recipe());
         bench.line(&format!(
@@ -122,16 +121,16 @@ impl Chain {
     }
 }
 
-/// What a chain does that it should not; empty if all is well.
-fn complaint(chain: &Chain, said: &Said) -> Option<String> {
+/// What is wrong with a chain; none if it does what it should.
+fn complaint(chain: &Chain, said: &Answer) -> Option<String> {
     if !matches!(said.status, Some(0 | 1)) {
         return Some(said.to_string());
     }
     let summary = said.json();
     let holds = |what: &str| summary["within"][what] == true;
-    let told = (said.status == Some(0)) == (holds("interpolation") && holds("residual"));
+    let reported = (said.status == Some(0)) == (holds("interpolation") && holds("residual"));
     let kept = holds("interpolation") && (holds("residual") || chain.rings());
-    (!told || !kept).then(|| {
+    (!reported || !kept).then(|| {
         let figures = [
             &summary["interpolation_error_nm"]["max"],
             &summary["residual_nm"]["max"],
@@ -168,7 +167,7 @@ fn hold_or_report(chains: &[Chain]) {
 /// A quarter of all chains: every sampler, compensator and velocity solver together on both parts,
 /// each time with another feed.
 #[test]
-fn chains_with_every_two_strategies_hold_both_tolerances_or_report_that_they_do_not() {
+fn a_quarter_of_all_chains_holds_both_tolerances_or_reports_that_it_does_not() {
     let mut chains = Chain::all();
     chains.retain(Chain::is_in_the_quarter);
     assert_eq!(chains.len(), 2 * 6 * 3 * 6);

@@ -20,15 +20,15 @@ use turnpath_surfaces::{
     Astigmatic, Conic, OffAxisParaboloid, SinusoidalArray, Toric, XyPolynomial,
 };
 
-/// Parts that are tried, each with a nose, an included angle and a clearance angle that fail.
+/// How many parts are tried, each with a nose, an included angle and a clearance angle that fail.
 const PARTS: u64 = 36;
 /// By how much the largest nose may differ from that of the brute force, as a part of it.
 const AGREEMENT: f64 = 1e-3;
 
 /// Numbers that look random and are the same on every run (splitmix64).
-struct Seeded(u64);
+struct RandomNumbers(u64);
 
-impl Seeded {
+impl RandomNumbers {
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.0;
@@ -47,7 +47,7 @@ impl Seeded {
 }
 
 /// A job whose tool fits, or why there is none.
-type Prepares = std::result::Result<Preparation, Box<PipelineError>>;
+type PreparationResult = std::result::Result<Preparation, Box<PipelineError>>;
 
 /// A part to be cut, and by what rule.
 struct Case {
@@ -59,7 +59,7 @@ struct Case {
 
 impl Case {
     fn new(seed: u64) -> Self {
-        let mut seeded = Seeded(seed);
+        let mut seeded = RandomNumbers(seed);
         let aperture_radius = seeded.between(1.0, 5.0);
         let hole = seeded.unit() < 0.3;
         let inner_radius = if hole { 0.3 * aperture_radius } else { 0.0 };
@@ -98,7 +98,7 @@ impl Case {
         }
     }
 
-    fn prepare(&self, chain: &Chain, tool: Tool) -> Prepares {
+    fn prepare(&self, chain: &Chain, tool: Tool) -> PreparationResult {
         let tolerance = Tolerance {
             interpolation: 1e-4,
             residual: 1e-4,
@@ -129,7 +129,7 @@ fn link<T: ?Sized>(slot: Slot, strategy: Arc<T>) -> Link<T> {
 fn surface(
     model: u64,
     a: f64,
-    seeded: &mut Seeded,
+    seeded: &mut RandomNumbers,
 ) -> Result<(&'static str, Arc<dyn SurfaceModel>)> {
     let none = Params::new();
     Ok(match model {
@@ -312,7 +312,7 @@ impl Brute<'_> {
         reached
     }
 
-    /// From where to where contact reaches.
+    /// The smallest and the largest radius of the contact.
     fn region(&self, nose: f64) -> (f64, f64) {
         let Part {
             aperture_radius: a,
@@ -330,7 +330,7 @@ impl Brute<'_> {
         (inner, outer.max(self.touched(b, nose).1))
     }
 
-    /// What of the profile counts: to both sides of the axis, or from the hole on.
+    /// The part of the profile that counts: both sides of the axis, or from the hole on.
     fn span(&self, (inner, outer): (f64, f64)) -> (f64, f64) {
         if self.case.part.inner_radius > 0.0 {
             (inner, outer)
@@ -377,7 +377,7 @@ fn nose_of(nose_radius: f64) -> Tool {
     }
 }
 
-fn conflicts(answer: Prepares) -> Vec<Conflict> {
+fn conflicts(answer: PreparationResult) -> Vec<Conflict> {
     match answer.map_err(|error| *error) {
         Err(PipelineError::Gouge { conflicts, .. }) => conflicts,
         Err(other) => panic!("{other:?}"),
@@ -389,15 +389,15 @@ fn is_nose(conflicts: &[Conflict], near: impl Fn(f64) -> bool) -> bool {
     matches!(conflicts, [Conflict::NoseRadius { largest, .. }] if near(*largest))
 }
 
-/// What is wrong with one part; empty where all is as the brute force says.
+/// What is wrong with one part; empty where all agrees with the brute force.
 fn complaints(seed: u64) -> Vec<String> {
     let case = Case::new(seed);
     let (chain, mut found) = (case.chain(), Vec::new());
     let known = Brute { case: &case }.largest_nose();
     assert!(known.is_finite(), "{} has no hollow", case.name);
     let mut say = |what: String| found.push(format!("{}: {what}", case.name));
-    let near = |told: f64| (told / known - 1.0).abs() <= AGREEMENT;
-    // A nose too large, by little or by much, is told the one that fits.
+    let near = |reported: f64| (reported / known - 1.0).abs() <= AGREEMENT;
+    // The refusal of a nose that is too large, by little or by much, names the one that fits.
     for factor in [1.0 + 3.0 * AGREEMENT, 1.3, 3.0] {
         let answer = case.prepare(&chain, nose_of(factor * known));
         match answer.map_err(|error| *error) {
@@ -408,7 +408,7 @@ fn complaints(seed: u64) -> Vec<String> {
             Ok(_) => say(format!("{factor} of {known} mm fits")),
         }
     }
-    // One that fits is told the same.
+    // The check of a nose that fits names the same one.
     let fitting = case.prepare(&chain, nose_of(known * (1.0 - 3.0 * AGREEMENT)));
     match fitting.and_then(|preparation| largest_nose(&chain, &preparation).map_err(Box::new)) {
         Ok(nose) if near(nose.radius) => {}
@@ -419,7 +419,7 @@ fn complaints(seed: u64) -> Vec<String> {
 }
 
 #[test]
-fn noses_that_are_too_large_are_told_the_largest_that_fits() {
+fn a_nose_that_is_too_large_is_refused_with_the_largest_that_fits() {
     let found: Vec<String> = (0..PARTS)
         .into_par_iter()
         .flat_map_iter(complaints)

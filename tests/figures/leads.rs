@@ -1,5 +1,5 @@
-//! `[path] lead = true` as the program makes it: held against the file's own numbers, and a first
-//! touch that is worked out here.
+//! `[path] lead = true`: leads are held against the file's own numbers, and against a first touch that
+//! this file calculates.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use crate::support::bench::Bench;
@@ -75,13 +75,13 @@ fn first_touch(c_deg: f64, x: f64, nose: f64) -> f64 {
 }
 
 /// One axis between two rows: its cubic in the part of the segment.
-struct Played {
+struct AxisCubic {
     p: [f64; 2],
     m: [f64; 2],
     time: f64,
 }
 
-impl Played {
+impl AxisCubic {
     fn new(from: &Row, to: &Row, axis: usize) -> Self {
         let time = to[0] - from[0];
         Self {
@@ -118,7 +118,7 @@ fn check_smooth(rows: &[Row]) {
     for axis in 1..=3 {
         let bends: Vec<_> = rows
             .windows(2)
-            .map(|pair| Played::new(&pair[0], &pair[1], axis).bends())
+            .map(|pair| AxisCubic::new(&pair[0], &pair[1], axis).bends())
             .collect();
         let largest = bends
             .iter()
@@ -154,7 +154,7 @@ fn smallest_clearance(rows: &[Row], nose: f64) -> f64 {
         if pair[0][SECTION] == 1.0 && pair[1][SECTION] == 1.0 {
             continue;
         }
-        let [c, x, z] = [1, 2, 3].map(|axis| Played::new(&pair[0], &pair[1], axis));
+        let [c, x, z] = [1, 2, 3].map(|axis| AxisCubic::new(&pair[0], &pair[1], axis));
         for i in 0..INSTANTS {
             let s = f64::from(i) / f64::from(INSTANTS - 1);
             let touch = first_touch(c.at(s), x.at(s), nose);
@@ -164,7 +164,7 @@ fn smallest_clearance(rows: &[Row], nose: f64) -> f64 {
     smallest
 }
 
-/// All that a saddle's path with leads keeps, by its files alone.
+/// Everything that a saddle's path with leads must keep, by its files alone.
 #[track_caller]
 fn check(bench: &Bench, nose: f64, clearance: f64) {
     let (rows, summary) = (rows(bench), summary(bench));
@@ -193,10 +193,10 @@ fn check(bench: &Bench, nose: f64, clearance: f64) {
     check_smooth(&rows);
     let smallest = smallest_clearance(&rows, nose);
     assert!(smallest >= -0.6 * TOLERANCE, "{smallest}");
-    let told = 1e-6 * number(&summary, "/lead/smallest_clearance_nm");
+    let reported = 1e-6 * number(&summary, "/lead/smallest_clearance_nm");
     assert!(
-        (told - smallest).abs() < 0.02 * TOLERANCE,
-        "{told} {smallest}"
+        (reported - smallest).abs() < 0.02 * TOLERANCE,
+        "{reported} {smallest}"
     );
     assert_eq!(summary["within"]["lead"], true);
 
@@ -437,7 +437,7 @@ fn a_lead_that_plunges_or_jumps_is_found_in_a_file() {
 }
 
 #[test]
-fn a_person_is_told_of_the_leads() {
+fn the_text_reports_the_leads() {
     let bench = Bench::with(&lead(SADDLE));
     let said = bench.line("run recipe.toml -o out").ends(0);
     let line = said
@@ -459,13 +459,13 @@ fn a_person_is_told_of_the_leads() {
 }
 
 #[test]
-fn without_a_lead_the_summary_says_null() {
+fn without_a_lead_the_summary_has_null() {
     let summary = summary(&made(SADDLE, &[]));
     assert_eq!(summary["lead"], Value::Null);
     assert_eq!(summary["within"]["lead"], Value::Null);
 }
 
-/// A person who takes the speed that the summary tells, less a hundredth, gets a path.
+/// The speed that the summary reports, less a hundredth, gives a path.
 #[test]
 fn just_below_the_highest_spindle_speed_the_lead_keeps_the_limits_too() {
     let recipe = std::fs::read_to_string(ARRAY).unwrap();
@@ -479,7 +479,7 @@ fn just_below_the_highest_spindle_speed_the_lead_keeps_the_limits_too() {
         // By the file's own numbers: accelerations of Z at both ends of each segment.
         let played = rows
             .windows(2)
-            .map(|pair| Played::new(&pair[0], &pair[1], 3).bends());
+            .map(|pair| AxisCubic::new(&pair[0], &pair[1], 3).bends());
         let largest = played.fold(0.0f64, |most, b| most.max(b.0.abs()).max(b.1.abs()));
         assert!(largest <= 500.5, "{largest} mm/s² at {part}");
     }
@@ -491,7 +491,7 @@ const ARRAY: &str = concat!(
 );
 
 #[test]
-fn a_lead_that_no_time_makes_gentle_enough_is_written_and_told() {
+fn a_lead_that_no_time_makes_gentle_enough_is_written_and_reported() {
     // A part so flat that the cut itself asks for nothing.
     let recipe = changed(&lead(SADDLE), "k = \"0.08 /mm\"", "k = \"1e-9 /mm\"");
     let recipe = format!("{recipe}\n[machine]\nz_velocity = \"0.1 um/s\"\n");
@@ -501,18 +501,18 @@ fn a_lead_that_no_time_makes_gentle_enough_is_written_and_told() {
     assert_eq!(found["within"]["machine"], false);
     assert_eq!(found["within"]["interpolation"], true);
     assert_eq!(number(&found, "/rows"), rows.len() as f64);
-    let told = said.stdout.lines().find(|line| line.contains("EXCEEDED"));
-    let told = told.unwrap_or_else(|| panic!("{said}"));
+    let reported = said.stdout.lines().find(|line| line.contains("EXCEEDED"));
+    let reported = reported.unwrap_or_else(|| panic!("{said}"));
     assert!(
-        told.contains("lead Z velocity") && told.contains("X = "),
-        "{told}"
+        reported.contains("lead Z velocity") && reported.contains("X = "),
+        "{reported}"
     );
     check_smooth(&rows);
 }
 
-/// A law that is in full motion at the axis drifts beyond it before or behind the cut.
+/// A law that is in full motion at the axis goes on beyond it before or after the cut.
 #[test]
-fn a_lead_that_crosses_the_axis_is_told() {
+fn a_lead_that_crosses_the_axis_is_reported() {
     let bench = Bench::with(&lead(SADDLE));
     for (direction, overrun, crosses) in [
         ("inward", "none", true),
@@ -529,16 +529,19 @@ fn a_lead_that_crosses_the_axis_is_told() {
             .filter(|row| row[SECTION] != 1.0)
             .map(|row| row[2])
             .fold(0.0, f64::min);
-        let told = number(&summary(&bench), "/lead/axis_crossing_um");
-        assert!((told + 1e3 * lowest).abs() < 0.01, "{told} {lowest}");
+        let reported = number(&summary(&bench), "/lead/axis_crossing_um");
+        assert!(
+            (reported + 1e3 * lowest).abs() < 0.01,
+            "{reported} {lowest}"
+        );
         let lines = said.stdout.lines();
         let warned = lines.filter(|line| line.contains("lead warning")).count();
-        assert_eq!((warned == 1, told > 1.0), (crosses, crosses), "{said}");
+        assert_eq!((warned == 1, reported > 1.0), (crosses, crosses), "{said}");
     }
 }
 
 #[test]
-fn where_an_axis_rests_no_residue_is_left_of_its_velocity() {
+fn the_velocity_of_an_axis_at_rest_is_exactly_zero() {
     let bench = made(&lead(SADDLE), &[]);
     let rows = rows(&bench);
     let resting = |axis: usize| {

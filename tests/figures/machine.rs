@@ -1,13 +1,13 @@
 //! Limits of a machine: the verdict on a run and on a file, and the highest spindle speed.
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::recipe::{SADDLE, saddle_with};
 use serde_json::Value;
 
 /// Revolutions a minute of the saddle's spindle.
 const RPM: f64 = 500.0;
 
-fn run(bench: &Bench, sets: &str) -> Said {
+fn run(bench: &Bench, sets: &str) -> Answer {
     bench.line(&format!("run recipe.toml -o out --format json {sets}"))
 }
 
@@ -39,7 +39,7 @@ fn without_limits_there_is_no_verdict() {
 
 /// z = k ρ² sin 2θ at the rim: 2ω·k·a² and 4ω²·k·a² on the surface, where the path begins.
 #[test]
-fn the_largest_rates_stand_with_their_places() {
+fn the_largest_rates_are_reported_with_their_places() {
     let bench = Bench::with(&saddle_with("compensator", "use = \"none\""));
     let summary = run(&bench, "").ends(0).json();
     let omega = RPM / 60.0 * std::f64::consts::TAU;
@@ -72,10 +72,13 @@ fn each_limit_decides_for_itself() {
             let below = run(&bench, &limit(&free, axis, what, 0.99)).ends(1).json();
             assert_eq!(below["within"]["machine"], false);
             assert_eq!(below["within"]["interpolation"], true);
-            let told = &below["machine"]["limits"][0];
-            assert_eq!(told["limit"], format!("{axis}_{what}"));
-            assert_eq!(told["holds"], false);
-            assert_eq!(told["at"], below["axes"][axis]["at"][format!("max_{what}")]);
+            let reported = &below["machine"]["limits"][0];
+            assert_eq!(reported["limit"], format!("{axis}_{what}"));
+            assert_eq!(reported["holds"], false);
+            assert_eq!(
+                reported["at"],
+                below["axes"][axis]["at"][format!("max_{what}")]
+            );
         }
     }
 }
@@ -173,8 +176,8 @@ fn straight_segments_have_no_jerk_to_hold() {
     );
 }
 
-/// The lines of a call that speak of the machine.
-fn lines(said: &Said) -> String {
+/// The lines of a call about the machine.
+fn lines(said: &Answer) -> String {
     let of_machine = |line: &&str| {
         let words = [
             "machine",
@@ -194,7 +197,7 @@ fn lines(said: &Said) -> String {
 }
 
 #[test]
-fn a_person_is_told_which_limits_do_not_hold_and_where() {
+fn the_text_reports_which_limits_do_not_hold_and_where() {
     let bench = Bench::with(SADDLE);
     let limits = "--set machine.preset=generic-sts --set machine.x_acceleration=1g";
     let said = bench
@@ -206,7 +209,7 @@ fn a_person_is_told_which_limits_do_not_hold_and_where() {
 }
 
 #[test]
-fn check_tells_the_machine_and_its_source() {
+fn check_reports_the_machine_and_its_source() {
     let bench = Bench::with(SADDLE);
     let limits = "--set machine.preset=precitech-sts --set machine.c_velocity=1000rpm";
     let said = bench.line(&format!("check recipe.toml {limits}")).ends(0);

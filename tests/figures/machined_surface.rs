@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
 use serde_json::Value;
 
@@ -120,7 +120,7 @@ fn a_map_has_x_to_the_right_and_y_up() {
     );
     let (bench, _) = mapped(&tilted, "--map map.gsf --map-size 64 --map-grid cartesian");
     let cells = Field::read(&bench.path("out/map.gsf")).cells();
-    // A plane that rises along (2, 1) stays highest where the contact falls behind X: opposite.
+    // A plane that rises along (2, 1) is left highest where the contact falls behind X: opposite.
     let higher = |a: &&[f64; 3], b: &&[f64; 3]| a[2].total_cmp(&b[2]);
     let [x, y, _] = *cells.iter().max_by(higher).unwrap();
     assert!(x < -1.5 && y < -0.5 && (y / x - 0.5).abs() < 0.2, "{x} {y}");
@@ -158,8 +158,8 @@ fn a_polar_map_has_rings_of_angles() {
     }
 }
 
-/// Where a circle and a profile cross, they say the same; and the spectrum's integral is the
-/// profile's mean square about its mean.
+/// Where a circle and a profile cross, they agree. The spectrum's integral is the profile's mean
+/// square about its mean.
 #[test]
 fn profiles_circles_and_spectra_agree() {
     let sets = "--profile 90deg --profile -30deg --circle 1mm";
@@ -208,7 +208,7 @@ fn a_program_is_mapped_from_its_own_text() {
 }
 
 /// The conventional path of Zhong et al. on straight segments, whose own error is 58.6 nm: chords
-/// cut that much too deep on crests. In troughs they stay that much above, and the nose of 1 mm
+/// cut that much too deep on crests. In troughs they lie that much above, and the nose of 1 mm
 /// leaves up to f²/2R = 50 nm more on the last feed before the rim.
 #[test]
 fn conventional_path_of_the_lens_array_on_straight_segments() {
@@ -238,11 +238,11 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
     assert!(at("x") * at("x") + at("y") * at("y") > 4.99 * 4.99);
 }
 
-/// A call that is wrong: its message, with nothing made.
+/// The message of a wrong call, which must leave no file.
 #[track_caller]
 fn refused(status: i32, options: &str) -> String {
     let bench = Bench::with(SADDLE);
-    let said: Said = bench.line(&format!("run recipe.toml -o out {options}"));
+    let said: Answer = bench.line(&format!("run recipe.toml -o out {options}"));
     assert_eq!(said.status, Some(status), "{said}");
     assert_eq!(bench.files(), ["recipe.toml"], "{said}");
     assert_eq!(said.stdout, "");
@@ -250,7 +250,7 @@ fn refused(status: i32, options: &str) -> String {
 }
 
 #[test]
-fn wrong_calls_are_told_before_the_work() {
+fn wrong_calls_are_refused_before_the_work() {
     let said = [
         refused(2, "--map map.png"),
         refused(2, "--map map"),

@@ -1,4 +1,4 @@
-//! The post `pmac-pvt` as the program uses it: programs written, read back, measured, refused.
+//! The post `pmac-pvt`: programs are written, read back, measured, and refused.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
@@ -9,11 +9,12 @@ use crate::support::repository;
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// How far a program's error may be from that of toolpath.csv, nm: what 7 decimals cost.
+/// The largest difference between the errors of a program and of toolpath.csv, nm: the cost of 7
+/// decimals.
 const COST_NM: f64 = 0.3;
 const POSTS: &str = "output.posts=[\"pmac-pvt\"]";
-/// Equal steps on equal turns over the aperture alone: what these tests expect of AST-5 was reckoned
-/// for them.
+/// Equal steps on equal turns over the aperture alone: the expected figures of AST-5 were calculated
+/// for these.
 const EQUAL: [&str; 4] = [
     "path.overrun=none",
     "path.lead=false",
@@ -36,7 +37,7 @@ fn call(command: &str, recipe: &Path, rest: &[&str], sets: &[&str]) -> Output {
     call.output().unwrap()
 }
 
-fn said(output: &Output) -> String {
+fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
@@ -65,7 +66,7 @@ impl Run {
             self.output.status.code(),
             Some(status),
             "{}",
-            said(&self.output)
+            stderr(&self.output)
         );
         self
     }
@@ -102,11 +103,11 @@ fn costs_little(summary: &Value) {
     assert!((path - program).abs() <= COST_NM, "{path} {program}");
 }
 
-/// What `verify` says of a program.
+/// The report of `verify` on a program.
 fn verified(recipe: &Path, program: &Path, sets: &[&str]) -> Value {
     let rest = [program.to_str().unwrap(), "--format", "json"];
     let output = call("verify", recipe, &rest, sets);
-    assert!(output.status.success(), "{}", said(&output));
+    assert!(output.status.success(), "{}", stderr(&output));
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
@@ -227,7 +228,7 @@ fn header_and_footer_are_the_recipes() {
 }
 
 #[test]
-fn what_the_post_cannot_do_is_the_recipes_fault_and_leaves_nothing() {
+fn what_the_post_cannot_write_is_the_recipes_fault_and_leaves_no_file() {
     for (set, says) in [
         (
             "spindle.speed=\"0.1 rpm\"",
@@ -245,7 +246,11 @@ fn what_the_post_cannot_do_is_the_recipes_fault_and_leaves_nothing() {
         ("output.posts=[\"pmac\"]", "no post named `pmac`"),
     ] {
         let run = Run::of(&astigmatic(), &[set]).ends(2);
-        assert!(said(&run.output).contains(says), "{}", said(&run.output));
+        assert!(
+            stderr(&run.output).contains(says),
+            "{}",
+            stderr(&run.output)
+        );
         assert!(!run.path("").exists(), "{set}");
     }
 }
@@ -271,7 +276,7 @@ fn a_damaged_program_is_refused_with_its_line() {
         fs::write(&program, spoiled).unwrap();
         let output = call("verify", &astigmatic(), &[program.to_str().unwrap()], &[]);
         assert_eq!(output.status.code(), Some(4));
-        let said = said(&output);
+        let said = stderr(&output);
         assert!(said.contains(says), "{said}");
     }
 }

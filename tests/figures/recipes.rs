@@ -24,26 +24,26 @@ const UNREACHED_TOLERANCE: f64 = 0.01;
 const ROUNDING: f64 = 1e-5;
 
 #[test]
-fn ready_recipes_hold_and_measure_as_the_reference_says() {
+fn ready_recipes_hold_and_measure_like_the_reference() {
     let root = repository();
     let references = root.join("tests/reference/playback");
-    check_all(&root.join("docs/recipes"), &references, Expected::Holds);
+    check_all(&root.join("docs/recipes"), &references, Requirement::Holds);
 }
 
-/// Steep slopes, noses that hardly fit, coarse steps, blocks that end with the path: chains whose
+/// Large slopes, noses that hardly fit, coarse steps, blocks that end with the path: chains whose
 /// figures are harder to measure than to make.
 #[test]
-fn hard_chains_measure_as_the_reference_says() {
+fn hard_chains_measure_like_the_reference() {
     let folder = repository().join("tests/reference/playback/hard");
-    check_all(&folder, &folder, Expected::AsReference);
+    check_all(&folder, &folder, Requirement::AsReference);
 }
 
 /// How a run must end.
 #[derive(Clone, Copy)]
-enum Expected {
+enum Requirement {
     /// All tolerances hold.
     Holds,
-    /// They hold where they do by the reference's figures.
+    /// Each tolerance holds exactly where the reference's figures hold it.
     AsReference,
 }
 
@@ -59,7 +59,7 @@ fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
 }
 
 /// Checks all recipes of a folder and complains about all that differ.
-fn check_all(recipes: &Path, references: &Path, expected: Expected) {
+fn check_all(recipes: &Path, references: &Path, expected: Requirement) {
     let found = files(recipes, "toml");
     assert!(!found.is_empty(), "no recipe in {}", recipes.display());
     let stems: Vec<_> = found.iter().map(|recipe| recipe.file_stem()).collect();
@@ -73,7 +73,7 @@ fn check_all(recipes: &Path, references: &Path, expected: Expected) {
     assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
 }
 
-fn check(recipe: &Path, references: &Path, expected: Expected) -> Vec<String> {
+fn check(recipe: &Path, references: &Path, expected: Requirement) -> Vec<String> {
     let stem = recipe.file_stem().expect("a name").to_string_lossy();
     let Ok(reference) = fs::read_to_string(references.join(format!("{stem}.json"))) else {
         return vec![format!("{stem}: no reference; measure_all.py makes one")];
@@ -92,7 +92,7 @@ fn check(recipe: &Path, references: &Path, expected: Expected) -> Vec<String> {
         vec![format!("{stem}: {}\n{said}", run.status)]
     };
     let summary = match (run.status.code(), expected) {
-        (Some(HOLDS), _) | (Some(EXCEEDED), Expected::AsReference) => {
+        (Some(HOLDS), _) | (Some(EXCEEDED), Requirement::AsReference) => {
             fs::read_to_string(folder.path().join("summary.json")).expect("a summary")
         }
         _ => return failed(),
@@ -117,7 +117,7 @@ fn compare_verdicts(summary: &Value, reference: &Value, status: Option<i32>) -> 
     ] {
         let limit = summary["tolerance_nm"][tolerance].as_f64();
         let figure = reference.pointer(pointer).and_then(Value::as_f64);
-        // What was not measured does not hold.
+        // A figure that was not measured does not hold.
         let holds = figure
             .zip(limit)
             .is_some_and(|(figure, limit)| figure <= ALLOWED * limit);

@@ -8,7 +8,7 @@ use serde_json::Value;
 fn run(sets: &str) -> (Bench, Value) {
     let bench = Bench::with(SADDLE);
     let said = bench.line(&format!("run recipe.toml -o out --format json {sets}"));
-    // The preset's limits are its own affair.
+    // The limits of the preset do not matter here.
     assert!(matches!(said.status, Some(0 | 1)), "{said}");
     let summary = said.json();
     (bench, summary)
@@ -23,9 +23,9 @@ fn without_the_table_there_is_no_figure() {
     assert_eq!(run("").1["servo"], Value::Null);
 }
 
-/// C turns evenly and is late by 2ζω/ω₀, whatever else moves.
+/// C turns evenly and lags by 2ζω/ω₀, whatever else moves.
 #[test]
-fn run_and_verify_tell_the_same_and_hold_nothing_against_it() {
+fn run_and_verify_report_the_same_and_hold_it_against_no_tolerance() {
     for lead in ["--set path.lead=false", "--set path.lead=true"] {
         let sets = format!("--set servo.bandwidth=70Hz {lead}");
         let (bench, summary) = run(&sets);
@@ -81,7 +81,7 @@ fn a_preset_brings_the_bandwidth_of_its_servo() {
 }
 
 #[test]
-fn a_person_is_told_in_two_lines() {
+fn the_text_reports_the_servo_in_two_lines() {
     let bench = Bench::with(SADDLE);
     let said = bench
         .line("run recipe.toml -o out --set servo.bandwidth=70Hz")
@@ -95,7 +95,7 @@ fn wrong_values_are_shown_at_their_place() {
     let bench = Bench::with(&format!("{SADDLE}\n[servo]\ndamping = 0.7\n"));
     let said = bench.line("check recipe.toml").ends(2);
     assert!(said.stderr.contains("[servo] lacks `bandwidth`"), "{said}");
-    for (set, told) in [
+    for (set, reported) in [
         ("servo.damping=0", "`damping` must be above zero"),
         (
             "servo.damping=1e300",
@@ -116,11 +116,11 @@ fn wrong_values_are_shown_at_their_place() {
     ] {
         let words = format!("check recipe.toml --set servo.bandwidth=70Hz --set {set}");
         let said = bench.line(&words).ends(2);
-        assert!(said.stderr.contains(told), "{said}");
+        assert!(said.stderr.contains(reported), "{said}");
     }
 }
 
-/// Whatever a recipe may ask for, every figure is a number.
+/// Every figure is a number for all values that a recipe may have.
 #[test]
 fn at_the_ends_of_what_is_allowed_every_figure_is_a_number() {
     for bandwidth in ["0.001Hz", "1e6Hz"] {

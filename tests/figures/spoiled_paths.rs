@@ -1,10 +1,10 @@
-//! Paths that were spoiled by hand, in the cut, near its ends and on leads: `turnpath verify` tells
+//! Paths that were spoiled by hand, in the cut, near its ends and on leads: `turnpath verify` reports
 //! each with its place, whether or not a tolerance is exceeded.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::OnceLock;
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use serde_json::Value;
 
 const AST_5: &str = include_str!("../../docs/recipes/astigmatic-5mm.toml");
@@ -41,8 +41,8 @@ fn value(line: &str, column: usize) -> f64 {
     line.split(',').nth(column).unwrap().parse().unwrap()
 }
 
-/// What `verify` says of these lines; each test has a file of its own.
-fn verify(name: &str, lines: &[String]) -> Said {
+/// What `verify` reports of these lines; each test has a file of its own.
+fn verify(name: &str, lines: &[String]) -> Answer {
     made().write(name, lines.join("\n") + "\n");
     made().line(&format!("verify recipe.toml {name} --format json"))
 }
@@ -74,9 +74,9 @@ fn rows() -> Vec<usize> {
     [&joins[..], &along, &leads].concat()
 }
 
-/// The one suspicious place lies at this row, or the one beside.
+/// The only anomaly lies at this row, or at the one beside it.
 #[track_caller]
-fn told_at(said: &Said, row: usize, what: &[&str]) {
+fn told_at(said: &Answer, row: usize, what: &[&str]) {
     assert!(matches!(said.status, Some(0 | 1)), "{said}");
     let verified = said.json();
     let suspicious = &verified["suspicious"];
@@ -93,7 +93,7 @@ fn number(value: &Value, pointer: &str) -> f64 {
 }
 
 #[test]
-fn a_path_as_it_was_made_is_not_suspicious_in_either_file() {
+fn a_path_as_it_was_written_has_no_anomaly_in_either_file() {
     for file in ["out/toolpath.csv", "out/recipe.pmc"] {
         let said = made().line(&format!("verify recipe.toml {file} --format json"));
         let verified = said.ends(0).json();
@@ -120,10 +120,10 @@ fn a_point_that_is_moved_by_50_nm_is_told() {
     }
 }
 
-/// A hundredth of a velocity that displaces the path by less than a thousandth of the tolerance is
-/// let pass: 0.01 v · h · 4/27 with steps of 2 to 26 ms.
+/// An error of a hundredth of a velocity is not reported if it displaces the path by less than a
+/// thousandth of the tolerance: 0.01 v · h · 4/27 with steps of 2 to 26 ms.
 #[test]
-fn a_velocity_that_is_wrong_by_a_hundredth_is_told_with_its_axis() {
+fn a_velocity_that_is_wrong_by_a_hundredth_is_reported_with_its_axis() {
     let step = |row: usize| {
         let lines = table();
         let t = |row: usize| value(&lines[row], 0);
@@ -134,7 +134,7 @@ fn a_velocity_that_is_wrong_by_a_hundredth_is_told_with_its_axis() {
         (0.01 * v * step(row) * 4.0 / 27.0).abs() > 2.0 * 1e-7
     };
     let rim = 2.5 * std::f64::consts::PI / 180.0;
-    let mut told = [0; 3];
+    let mut reported = [0; 3];
     for row in rows() {
         for (k, (column, per_unit, what)) in [
             (VC, rim, "c_motion"),
@@ -147,11 +147,14 @@ fn a_velocity_that_is_wrong_by_a_hundredth_is_told_with_its_axis() {
             if matters(row, column, per_unit) {
                 let said = verify("v.csv", &edited(row, column, |v| 1.01 * v));
                 told_at(&said, row, &[what]);
-                told[k] += 1;
+                reported[k] += 1;
             }
         }
     }
-    assert!(told[0] >= 15 && told[1] >= 6 && told[2] >= 9, "{told:?}");
+    assert!(
+        reported[0] >= 15 && reported[1] >= 6 && reported[2] >= 9,
+        "{reported:?}"
+    );
 }
 
 #[test]
@@ -168,7 +171,7 @@ fn a_velocity_that_is_wrong_where_it_matters_exceeds_the_tolerance_there() {
 }
 
 #[test]
-fn a_row_that_is_lost_is_told() {
+fn a_row_that_is_lost_is_reported() {
     let (first, last) = cut();
     for row in [
         30,
@@ -193,7 +196,7 @@ fn a_row_that_is_lost_is_told() {
 }
 
 #[test]
-fn a_person_is_told_of_a_suspicious_point_and_the_tolerance_decides() {
+fn the_text_reports_an_anomaly_and_the_tolerance_decides() {
     made().write("told.csv", edited(2000, Z, |z| z + 50e-6).join("\n") + "\n");
     let said = made().line("verify recipe.toml told.csv").ends(0);
     let line = "  suspicious      point 2,000, C = ";
@@ -218,7 +221,7 @@ fn rows_that_are_swapped_are_refused_with_their_line() {
 }
 
 #[test]
-fn what_is_no_number_is_refused_with_its_line() {
+fn a_value_that_is_no_number_is_refused_with_its_line() {
     let (first, last) = cut();
     for row in [1, 120, first, 2000, last, last + 50] {
         for column in [0, C, X, Z, VC, VX, VZ, SECTION] {
@@ -259,7 +262,7 @@ fn a_program_has_a_move_for_every_row() {
 }
 
 #[test]
-fn what_is_spoiled_in_a_program_is_told() {
+fn a_spoiled_word_of_a_program_is_reported() {
     let (first, last) = cut();
     for point in [120, first, 800, 2000, 3000, last, last + 50] {
         let lines = word_changed(point, 'Z', |z, v| (z + 50e-6, v));
@@ -277,7 +280,7 @@ fn what_is_spoiled_in_a_program_is_told() {
     }
 }
 
-/// A move gives its own duration, so the moves behind it come earlier.
+/// A move gives its own duration, so the moves after it come earlier.
 #[test]
 fn moves_of_a_program_that_are_lost_or_swapped_exceed_the_tolerance_there() {
     let clean = lines_of("out/recipe.pmc");

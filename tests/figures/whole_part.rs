@@ -1,8 +1,7 @@
-//! Random parts and tools, cut whole: every path is held against brute force, with formulas of this
-//! file's own.
+//! Random parts and tools, cut whole: brute force checks every path, with formulas of this file's own.
 //!
 //! With `overrun = "contact"` no circle of the nose may go below the surface by more than 0.1 nm
-//! anywhere, and nothing within the aperture may stay higher than the residual tolerance.
+//! anywhere, and nothing within the aperture may be left higher than the residual tolerance.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 #![allow(
@@ -20,9 +19,9 @@ use proptest::test_runner::{Config, RngAlgorithm, TestCaseResult, TestRng, TestR
 const CASES: u32 = 350;
 /// Sections of a turn, one control point on each.
 const SECTIONS: usize = 24;
-/// Places along a section's radius at which what stays is looked at.
+/// Places along a section's radius where the uncut height is measured.
 const PLACES: usize = 400;
-/// Places over the reach of a nose at which its deepest one is looked for, before closing in.
+/// Places over the reach of a nose where the search for its deepest one begins.
 const LOOKS: usize = 48;
 /// Deepest penetration, mm.
 const DEEPEST: f64 = 1e-7;
@@ -279,7 +278,7 @@ impl Job {
         }
     }
 
-    /// The highest that stays within the aperture on a line, along the normal, mm.
+    /// The largest uncut height within the aperture on a line, along the normal, mm.
     fn uncut(&self, line: &Line<'_>, noses: &[Nose]) -> f64 {
         let place = |i: usize| {
             let s = self.hole + (self.rim - self.hole) * i as f64 / PLACES as f64;
@@ -316,7 +315,7 @@ fn check(job: &Job, compensator: &str, direction: &str) -> TestCaseResult {
         let (uncut, allowed) = (job.uncut(&line, noses), ALLOWED * job.residual);
         prop_assert!(
             uncut <= allowed,
-            "{uncut} mm of {allowed} mm stay on line {index}"
+            "{uncut} mm of {allowed} mm are uncut on line {index}"
         );
     }
     Ok(())

@@ -3,8 +3,8 @@
 
 use cargo_metadata::{Dependency, DependencyKind, Metadata, MetadataCommand, Package};
 
-/// What a crate of the workspace may use of the others. A crate that is not here fails the test:
-/// say first where it belongs.
+/// Which crates of the workspace a crate may use. A crate without a rule fails the test: decide first
+/// where it belongs.
 struct Rule {
     package: &'static str,
     /// In what is built.

@@ -69,13 +69,14 @@ fn no_files_of_a_crate_import_each_other() {
         .no_deps()
         .exec()
         .expect("cargo metadata");
-    let base = metadata.workspace_root.as_std_path();
+    let base = fs::canonicalize(&metadata.workspace_root).expect("the workspace");
     let read = |path: &Path| fs::read_to_string(path).ok();
     let (mut crates, mut found) = (0, Vec::new());
     for package in &metadata.packages {
         let targets = package.targets.iter();
         for target in targets.filter(|target| !target.kind.contains(&TargetKind::CustomBuild)) {
-            let circles = circles_of(target.src_path.as_std_path(), base, &read);
+            let root = fs::canonicalize(&target.src_path).expect("the crate's root");
+            let circles = circles_of(&root, &base, &read);
             let named = |circle| format!("{}, {}: {circle}", package.name, target.name);
             found.extend(circles.into_iter().map(named));
             crates += 1;

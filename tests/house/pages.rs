@@ -1,5 +1,5 @@
-//! What the pages say of strategies, options and links is so. The recipe crate itself holds the
-//! keys of docs/recipe.md that are not a strategy's.
+//! The pages agree with the program on strategies, options and links. The tests of the recipe crate
+//! check the keys of docs/recipe.md that belong to no strategy.
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
@@ -38,7 +38,7 @@ fn first_block<'a>(page: &'a str, language: &str) -> &'a str {
     rest.split_once("```").expect("its end").0
 }
 
-/// What stands below a heading, up to the next of any rank.
+/// The text below a heading, up to the next heading of any rank.
 fn below<'a>(page: &'a str, heading: &str) -> &'a str {
     let (_, rest) = page
         .split_once(&format!("\n{heading}\n"))
@@ -56,7 +56,7 @@ fn strategies(slot: &str) -> Vec<String> {
     lines.map(name).collect()
 }
 
-/// Names of parameters with what is said of their defaults and limits.
+/// Names of parameters, each with its defaults and limits in words.
 fn parameters(slot: &str, name: &str) -> Vec<(String, String)> {
     let said = Bench::empty().call(["explain", &format!("{slot}/{name}")]);
     let said = said.ends(0).stdout;

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::fixtures::plugin_folder;
 use crate::support::repository;
 use serde_json::Value;
@@ -15,7 +15,7 @@ const SAMPLERS: [&str; 4] = ["atpg", "constant-arc", "ats", "fft-adaptive"];
 const VELOCITIES: [&str; 2] = ["analytic", "triangle-rotary"];
 
 /// All feeds of the recipe; of the samplers the lab's own among the papers'.
-fn ablate(bench: &Bench, recipe: &str, aperture: &str, plugins: &Path) -> Said {
+fn ablate(bench: &Bench, recipe: &str, aperture: &str, plugins: &Path) -> Answer {
     let recipes = repository().join("docs/recipes");
     let sets = [
         &format!("part.aperture={aperture}"),
@@ -41,7 +41,7 @@ fn chain(run: &Value) -> [String; 3] {
     ["feed", "sampler", "velocity"].map(|slot| run["chain"][slot].as_str().unwrap().to_owned())
 }
 
-/// Whether the run has a plugin from a folder, which is told with its hash.
+/// Whether the run has a plugin from a folder, which it reports with its hash.
 fn has_loaded_plugin(run: &Value) -> bool {
     let plugins = run["plugins"].as_array().unwrap();
     plugins.iter().any(|plugin| plugin["sha256"].is_string())
@@ -104,7 +104,7 @@ fn the_papers_strategies_stand_beside_a_labs_own_sampler() {
     }
 }
 
-/// The acceleration of X is what tells ATS from the other feeds on a lattice of lenslets.
+/// On a lattice of lenslets ATS differs from the other feeds in the acceleration of X.
 #[test]
 fn ats_pays_with_the_acceleration_of_x() {
     let plugins = plugin_folder(&["constant-arc"]);

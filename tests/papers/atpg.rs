@@ -8,7 +8,7 @@
 
 use std::path::PathBuf;
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::repository;
 use serde_json::Value;
 
@@ -21,7 +21,7 @@ fn recipe(name: &str) -> PathBuf {
 const AS_PUBLISHED: [&str; 2] = ["path.overrun=none", "path.lead=false"];
 
 /// Calls a command on a recipe of docs/ with changes.
-fn call(command: &str, name: &str, set: &[&str]) -> Said {
+fn call(command: &str, name: &str, set: &[&str]) -> Answer {
     let recipe = recipe(name);
     let fixed = [command, recipe.to_str().unwrap(), "--format", "json"];
     let set = AS_PUBLISHED
@@ -181,7 +181,7 @@ fn the_off_axis_paraboloid_by_the_papers_law() {
 
 /// Published: 5 min 30 s and 23,581 points, at tolerances that are not stated.
 #[test]
-fn the_mirror_that_was_cut_takes_as_long_and_as_many_points() {
+fn the_mirror_of_the_paper_takes_as_long_and_as_many_points() {
     let (_, summary) = run("astigmatic-50mm.toml", &[NO_REFINE]);
     let number = |key: &str| summary[key].as_f64().unwrap();
     close(number("revolutions"), 2740.8, 2e-4, "revolutions");

@@ -1,7 +1,7 @@
-//! Whole runs of the ATS chain beside ATPG's, on AST-5 and MLA-5: tolerances, and what X pays.
+//! Whole runs of the ATS chain beside ATPG's, on AST-5 and MLA-5: tolerances, and the motion of X.
 //!
-//! Nothing of the paper's own figures is at hand. The law is held against brute force in the
-//! plugin's tests; here it is the program that measures.
+//! The paper's own figures are not available. The plugin's tests hold the law against brute force;
+//! these tests use the program's own measurement.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use crate::support::bench::Bench;
@@ -62,7 +62,7 @@ fn both_tolerances_hold_in_both_directions_with_every_compensator() {
 /// RMS of X's acceleration against ATPG's, measured: 7.8e5 and 9.2e5 on AST-5 (outward and
 /// inward), 3.3e5 and 6.7e5 on MLA-5. Z's own is of the same order with both.
 #[test]
-fn x_pays_hundreds_of_thousands_of_times_atpgs_acceleration() {
+fn the_acceleration_of_x_is_hundreds_of_thousands_of_times_atpgs() {
     for recipe in [AST_5, MLA_5] {
         for direction in DIRECTIONS {
             let (_, ats) = run(recipe, "ats", &[direction]);
@@ -74,7 +74,7 @@ fn x_pays_hundreds_of_thousands_of_times_atpgs_acceleration() {
     }
 }
 
-/// The slowest angle says how many turns there are: on the saddle it is the same at all radii, so
+/// The slowest angle decides how many turns there are: on the saddle it is the same at all radii, so
 /// ATS has ATPG's turns, 0.6 in which the feed comes in and one in which it passes the rim. On the
 /// lattice it saves some.
 #[test]
@@ -114,7 +114,7 @@ fn over_the_whole_part_it_covers_and_holds_by_itself() {
 }
 
 /// Run backwards, the outward law ends on the axis at every angle: it covers the part like the
-/// inward one, and X stays on its side, where the recursion's goes half a millimetre beyond.
+/// inward one, and X does not cross the axis, where the recursion's goes half a millimetre beyond.
 #[test]
 fn backwards_it_covers_the_part_and_x_stays_on_its_side() {
     let crossing = |summary: &Value| summary["axis_crossing_um"]["x"].as_f64().unwrap();
@@ -139,7 +139,7 @@ fn backwards_it_covers_the_part_and_x_stays_on_its_side() {
 }
 
 /// Each feed with each sampler: points are added until the interpolation tolerance holds, and the
-/// residual holds or the run says that it does not.
+/// residual holds or the run reports that it does not.
 #[test]
 fn every_feed_goes_with_every_sampler() {
     let feeds = ["constant", "atpg", "ats", "fft-adaptive"];
@@ -172,7 +172,7 @@ fn every_feed_goes_with_every_sampler() {
             let holds = within["residual"] == true;
             assert_eq!(said.status, Some(i32::from(!holds)), "{feed}, {sampler}");
             // Points are added for Z's sake. Where X moves within the turn only the samplers that
-            // look at X hold the distance of passes too; with others the run says so.
+            // look at X hold the distance of passes too; with others the run reports it.
             assert!(
                 holds || (feed == "ats" && !looks_at_x(sampler)),
                 "{feed}, {sampler}"

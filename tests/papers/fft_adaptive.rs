@@ -147,8 +147,8 @@ fn refined_it_holds_whatever_is_played() {
     assert!(error_nm(&summary) <= 20.02);
 }
 
-/// The chord knows no nose: of 1 mm it leaves cusps of 600 nm. The limit holds the 100 that are
-/// asked for, in both directions.
+/// The chord does not depend on the nose: a nose of 1 mm leaves cusps of 600 nm. The limit holds the
+/// tolerance of 100 nm in both directions.
 #[test]
 fn the_residual_is_held_only_where_the_feed_is_limited() {
     let (_, free) = run(&[HALF, STEP]);

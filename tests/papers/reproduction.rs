@@ -1,4 +1,4 @@
-//! docs/reproduction.md: the papers' figures beside turnpath's, made from real runs.
+//! docs/reproduction.md: the papers' figures beside those of turnpath's runs.
 //!
 //! docs/reproduction.toml lists the figures. The program makes each run; every figure is held
 //! against its bound, and the page against the committed one. To write the page:
@@ -26,7 +26,7 @@ fn page() -> Page {
 #[test]
 fn the_page_is_what_the_runs_give_and_every_figure_is_within_its_bound() {
     let page = page();
-    let runs = Runs::of(&page);
+    let runs = Runs::of(page.calls());
     let text = markdown(&page, &runs);
     let file = repository().join("docs/reproduction.md");
     if std::env::var_os("REPRODUCTION").is_some_and(|word| word == "write") {
@@ -55,7 +55,7 @@ fn figures_that_are_held_elsewhere_have_their_tests() {
 }
 
 #[test]
-fn a_figure_that_differs_says_why() {
+fn a_figure_that_differs_has_a_reason() {
     let page = page();
     for figure in page.figures() {
         assert!(

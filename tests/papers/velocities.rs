@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::recipe::{SADDLE, changed, with_table};
 use serde_json::Value;
 
@@ -47,15 +47,15 @@ const NATURAL: &str = "velocity={ use = \"triangle-rotary\", ends = \"natural\" 
 const ANALYTIC: &str = "velocity.use=analytic";
 const LINEAR: &str = "velocity.use=linear";
 
-/// A folder with the recipe, and what runs in it.
-struct Place(Bench);
+/// A folder with the recipe.
+struct RecipeFolder(Bench);
 
-impl Place {
+impl RecipeFolder {
     fn new() -> Self {
         Self(Bench::with(&recipe()))
     }
 
-    fn call(&self, command: &[&str], set: &[&str]) -> Said {
+    fn call(&self, command: &[&str], set: &[&str]) -> Answer {
         let set = set.iter().flat_map(|set| ["--set", *set]);
         self.0.call(command.iter().copied().chain(set))
     }
@@ -67,7 +67,7 @@ impl Place {
         (said.status.unwrap(), said.json())
     }
 
-    /// What `turnpath verify` says of the path that the last run wrote.
+    /// The report of `turnpath verify` on the path that the last run wrote.
     fn verify(&self, set: &[&str]) -> Value {
         let file = "out/toolpath.csv";
         let command = ["verify", "recipe.toml", file, "--format", "json"];
@@ -85,9 +85,9 @@ fn points(summary: &Value) -> u64 {
 
 /// Each solver's largest error, nm, to `within`.
 fn assert_errors(base: &[&str], count: u64, within: f64, expected: &[(&str, f64)]) {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for (velocity, expected) in expected {
-        let (_, summary) = place.run(&[base, &[*velocity]].concat());
+        let (_, summary) = folder.run(&[base, &[*velocity]].concat());
         assert_eq!(points(&summary), count, "{velocity}");
         let found = error_nm(&summary);
         let off = (found / expected - 1.0).abs();
@@ -147,26 +147,26 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
     assert!((across(256.0) - 59.45).abs() < 0.005);
     let step = "sampler.step=1.4173228346456694 deg";
     assert_errors(&array(step), 127_001, 3e-3, &[(LINEAR, across(254.0))]);
-    let place = Place::new();
-    let (_, straight) = place.run(&[&conventional[..], &[LINEAR]].concat());
+    let folder = RecipeFolder::new();
+    let (_, straight) = folder.run(&[&conventional[..], &[LINEAR]].concat());
     let at = &straight["interpolation_error_nm"]["at"]["x_mm"];
     assert!(at.as_f64().unwrap() > 4.95, "{at}");
-    assert!(error_nm(&place.run(&conventional).1) < 0.2);
+    assert!(error_nm(&folder.run(&conventional).1) < 0.2);
 }
 
 /// Wang et al.: the smallest residual feed makes 101.11 revolutions; the 101 whole ones at 6 deg are
 /// their 6061 points, 98 at 9 deg are 3921 with both ends (3920 published).
 #[test]
 fn conventional_spirals_of_the_first_paper() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     let contact = "compensator.use=none";
-    let (_, derived) = place.run(&[contact, "sampler.step=6 deg"]);
+    let (_, derived) = folder.run(&[contact, "sampler.step=6 deg"]);
     let revolutions = derived["revolutions"].as_f64().unwrap();
     assert!((revolutions - 101.11).abs() < 0.02, "{revolutions}");
     for (turns, step, count) in [(101.0, "6 deg", 6061), (98.0, "9 deg", 3921)] {
         let feed = format!("feed.feed={} mm", 2.5 / turns);
         let step = format!("sampler.step={step}");
-        let (_, summary) = place.run(&[contact, &feed, &step]);
+        let (_, summary) = folder.run(&[contact, &feed, &step]);
         assert_eq!(points(&summary), count);
     }
 }
@@ -174,10 +174,10 @@ fn conventional_spirals_of_the_first_paper() {
 /// A derived step with exact velocities leaves refinement nothing to do, and wastes little.
 #[test]
 fn the_derived_step_holds_the_tolerance_as_played() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for compensator in ["z-direction", "normal", "none"] {
         let compensator = format!("compensator.use={compensator}");
-        let (status, summary) = place.run(&[&compensator, "refine=true", ANALYTIC]);
+        let (status, summary) = folder.run(&[&compensator, "refine=true", ANALYTIC]);
         assert_eq!(status, 0);
         assert_eq!(summary["points_added_by_refine"], 0, "{compensator}");
         let error = error_nm(&summary);
@@ -185,11 +185,11 @@ fn the_derived_step_holds_the_tolerance_as_played() {
     }
 }
 
-/// Every solver holds 100 nm once refined, from a derived step and from the largest alike; should
-/// the area method with ½ not, the run says so, and where.
+/// Every solver holds 100 nm once refined, both from a derived step and from the largest; if
+/// the area method with ½ does not, the run reports it with the place.
 #[test]
 fn every_solver_holds_the_tolerance_or_says_where_not() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for velocity in [
         ANALYTIC,
         TRIANGLE_ROTARY,
@@ -201,7 +201,7 @@ fn every_solver_holds_the_tolerance_or_says_where_not() {
     ] {
         for step in [None, Some("sampler.step=45 deg")] {
             let set: Vec<&str> = ["refine=true", velocity].into_iter().chain(step).collect();
-            let (status, summary) = place.run(&set);
+            let (status, summary) = folder.run(&set);
             let holds = error_nm(&summary) <= 100.1;
             assert_eq!(summary["within"]["interpolation"], holds);
             assert_eq!(status, i32::from(!holds), "{velocity}");
@@ -215,15 +215,15 @@ fn every_solver_holds_the_tolerance_or_says_where_not() {
     }
 }
 
-/// What the run measured as it made the path, `verify` finds in the file: straight segments
-/// included, which it knows from the recipe alone.
+/// `verify` measures in the file what the run measured while it made the path. That includes straight
+/// segments, which it knows from the recipe alone.
 #[test]
 fn the_files_are_played_as_the_solver_meant_them() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for velocity in [LINEAR, HALF, THREE_POINT] {
         let set = ["feed.feed=10 um", "refine=true", velocity];
-        let (_, run) = place.run(&set);
-        let verified = place.verify(&set);
+        let (_, run) = folder.run(&set);
+        let verified = folder.verify(&set);
         let close = |of: &dyn Fn(&Value) -> &Value| {
             let (run, verified) = (of(&run).as_f64().unwrap(), of(&verified).as_f64().unwrap());
             let off = (run - verified).abs() / run.abs().max(1e-9);
@@ -236,8 +236,8 @@ fn the_files_are_played_as_the_solver_meant_them() {
         close(&|of| &of["axes"]["z"]["max_acceleration"]);
         close(&|of| &of["axes"]["z"]["rms_acceleration"]);
     }
-    let (_, straight) = place.run(&["refine=true", LINEAR]);
-    let as_cubics = place.verify(&[ANALYTIC]);
+    let (_, straight) = folder.run(&["refine=true", LINEAR]);
+    let as_cubics = folder.verify(&[ANALYTIC]);
     let ratio = error_nm(&as_cubics) / error_nm(&straight);
     assert!((ratio - 1.0).abs() > 0.1, "{ratio}");
 }
@@ -245,13 +245,13 @@ fn the_files_are_played_as_the_solver_meant_them() {
 /// Blocks of 64 revolutions: the area method's state goes on from one to the next.
 #[test]
 fn the_count_of_threads_does_not_show() {
-    let place = Place::new();
+    let folder = RecipeFolder::new();
     for velocity in [HALF, TWO_THIRDS, THREE_POINT, LINEAR] {
         let file = |threads: &str| {
             let command = ["run", "recipe.toml", "-o", threads, "--threads", threads];
             let set = ["feed.feed=8 um", "refine=true", velocity];
-            place.call(&command, &set);
-            place.0.read(format!("{threads}/toolpath.csv"))
+            folder.call(&command, &set);
+            folder.0.read(format!("{threads}/toolpath.csv"))
         };
         assert!(file("1") == file("3"), "{velocity}");
     }
@@ -259,8 +259,8 @@ fn the_count_of_threads_does_not_show() {
 
 #[test]
 fn an_unstable_area_share_is_refused_with_the_reason() {
-    let place = Place::new();
-    let said = place.call(
+    let folder = RecipeFolder::new();
+    let said = folder.call(
         &["run", "recipe.toml"],
         &["velocity={ use = \"area\", c = 0.4 }"],
     );

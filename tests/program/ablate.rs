@@ -1,4 +1,4 @@
-//! `turnpath ablate`: which runs are made, what is told of them, and what is not made twice.
+//! `turnpath ablate`: which runs it makes, what it reports of them, and which it does not repeat.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use std::process::Stdio;
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use crate::support::bench::{Bench, Said, said};
+use crate::support::bench::{Answer, Bench, answer};
 use crate::support::fixtures::plugin_folder;
 use crate::support::recipe::{SADDLE, changed, with_table};
 use serde_json::{Value, json};
@@ -28,7 +28,7 @@ fn eight() -> String {
     )
 }
 
-fn ablate(bench: &Bench, rest: &str) -> Said {
+fn ablate(bench: &Bench, rest: &str) -> Answer {
     bench.line(&format!("ablate recipe.toml -o out {rest}"))
 }
 
@@ -48,12 +48,12 @@ fn varied(bench: &Bench) -> Vec<String> {
 }
 
 /// The first line without the job's name.
-fn headline(said: &Said) -> &str {
+fn headline(said: &Answer) -> &str {
     let line = said.stdout.lines().next().unwrap();
     line.split_once(": ").unwrap().1
 }
 
-/// The records, with when each was written.
+/// The records, each with the time when it was written.
 fn records(bench: &Bench) -> BTreeMap<String, SystemTime> {
     let Ok(entries) = fs::read_dir(bench.path("out/runs")) else {
         return BTreeMap::new();
@@ -267,7 +267,7 @@ fn an_interrupted_ablation_goes_on_with_what_is_missing() {
 }
 
 #[test]
-fn what_was_taken_over_is_what_would_be_made() {
+fn a_run_that_was_taken_over_is_what_would_be_made() {
     let bench = Bench::with(&eight());
     ablate(&bench, "").ends(0);
     let (made, table) = (
@@ -286,7 +286,7 @@ fn what_was_taken_over_is_what_would_be_made() {
 }
 
 #[test]
-fn only_what_a_change_touches_is_made_again() {
+fn only_the_runs_that_a_change_touches_are_made_again() {
     let recipe = eight();
     let bench = Bench::with(&recipe);
     ablate(&bench, "").ends(0);
@@ -303,12 +303,12 @@ fn only_what_a_change_touches_is_made_again() {
     ] {
         bench.write("recipe.toml", changed(&recipe, from, to));
         let said = ablate(&bench, "").ends(0);
-        let told = format!("{taken_over} taken over from before");
-        let tells = match taken_over {
+        let reported = format!("{taken_over} taken over from before");
+        let fits = match taken_over {
             0 => headline(&said) == "8 runs",
-            _ => headline(&said).contains(&told),
+            _ => headline(&said).contains(&reported),
         };
-        assert!(tells, "{to}: {}", headline(&said));
+        assert!(fits, "{to}: {}", headline(&said));
     }
     let said = ablate(&bench, "--set name=Another");
     assert!(said.stdout.starts_with("Another: "), "{said}");
@@ -316,7 +316,7 @@ fn only_what_a_change_touches_is_made_again() {
 }
 
 #[test]
-fn a_damaged_record_is_told_and_made_again() {
+fn a_damaged_record_is_reported_and_made_again() {
     let bench = Bench::with(&saddle(
         "velocity = [{ use = \"analytic\" }, { use = \"area\" }]",
     ));
@@ -368,7 +368,7 @@ fn a_failing_chain_is_a_row_with_its_reason() {
     assert_eq!(runs[1].as_object().unwrap().len(), 3);
     let hash = &runs[2]["plugins"].as_array().unwrap();
     assert!(hash.iter().any(|plugin| plugin["sha256"].is_string()));
-    // A failure is no result: it is tried again.
+    // A failure is not recorded, so the run is tried again.
     let said = bench.call(call).ends(0);
     assert_eq!(
         headline(&said),
@@ -396,7 +396,7 @@ fn a_tolerance_that_does_not_hold_is_a_finding_not_a_failure() {
     assert!(said.stdout.contains("! exceeds its tolerance"), "{said}");
 }
 
-/// The usual columns but for planning times.
+/// The usual columns without planning times.
 const COLUMNS: &str = "--columns points,added,revolutions,time,error-max,error-rms,residual,\
                        x-acceleration-law,z-acceleration,program-size";
 
@@ -454,10 +454,10 @@ fn columns_can_be_chosen() {
     assert!(said.stderr.contains("'error-max'"), "{said}");
 }
 
-/// Told before the work, which fails here in every run and would say so.
+/// The refusal comes before the work: every run would fail here and report it.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_folder_that_takes_no_records_is_told_first() {
+fn a_folder_that_takes_no_records_is_refused_first() {
     let recipe = saddle("tool.nose_radius = [\"50 mm\"]");
     let recipe = changed(&recipe, "nose_radius = \"1 mm\"", "nose_radius = \"60 mm\"");
     let bench = Bench::with(&recipe);
@@ -480,7 +480,7 @@ fn a_narrow_terminal_gets_narrow_tables() {
     ];
     for (columns, widest, tables) in widths {
         let mut command = bench.command(["ablate", "recipe.toml", "-o", "out"]);
-        let said = said(command.env("COLUMNS", columns)).ends(0);
+        let said = answer(command.env("COLUMNS", columns)).ends(0);
         let table = said.stdout.lines().skip(1);
         let table = table.filter(|line| !line.contains("file"));
         let longest = table.map(|line| line.chars().count()).max();
@@ -546,7 +546,7 @@ fn the_folder_is_named_after_the_job() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_is_told_before_the_work() {
+fn a_folder_that_cannot_be_written_is_refused_before_the_work() {
     let bench = Bench::with(&eight());
     bench.line("ablate recipe.toml -o recipe.toml").ends(4);
     fs::create_dir_all(bench.path("out")).unwrap();
@@ -560,7 +560,7 @@ fn a_folder_that_cannot_be_written_is_told_before_the_work() {
 }
 
 #[test]
-fn what_is_wrong_in_a_list_is_shown_there_before_the_work() {
+fn a_mistake_in_a_list_is_shown_there_before_the_work() {
     let bench = Bench::with(&saddle(
         "sampler = [{ use = \"equal-angel\" }, { use = \"equal-angle\", step = \"6 mm\" }]\n\
          feed.fed = [\"1 um\"]",

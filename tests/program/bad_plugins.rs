@@ -1,10 +1,9 @@
-//! Plugins that misbehave: exit status 3, a message that names the culprit, and nothing left
-//! behind.
+//! Plugins that misbehave: exit status 3, a message that names the plugin, and no file left behind.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::fixtures::{file_name, library, plugin_folder};
 use crate::support::recipe::{SADDLE, changed, saddle_with};
 use crate::support::repository;
@@ -21,9 +20,9 @@ fn bench(recipe: &str, fixtures: &[&str]) -> Bench {
     bench
 }
 
-/// Runs a recipe that must fail by its plugin, and looks that nothing is left of it.
+/// Runs a recipe that must fail by its plugin, and checks that it leaves no file.
 #[track_caller]
-fn refused(bench: &Bench) -> Said {
+fn refused(bench: &Bench) -> Answer {
     let before = bench.files();
     let said = bench.line("run recipe.toml -o out --plugin-dir plugins");
     let said = said.ends(3);
@@ -61,7 +60,7 @@ fn without_lines(text: &str) -> String {
 
 /// The text without the versions of the fixtures and of the plugin boundary: a release changes no
 /// snapshot.
-fn shown(bench: &Bench, said: &Said) -> String {
+fn shown(bench: &Bench, said: &Answer) -> String {
     let text = without_lines(&bench.shown(said));
     let boundary = version("crates/plugin/Cargo.toml", "/package/version");
     let (major_minor, _) = boundary.rsplit_once('.').unwrap();
@@ -219,7 +218,7 @@ fn a_plugin_folder_that_does_not_exist() {
     insta::assert_snapshot!(shown(&bench, &said.ends(2)));
 }
 
-/// The details belong to layouts alone; `cli/src/failure.rs` holds what they look like.
+/// Only messages about layouts have details; the tests of `cli/src/failure.rs` show them.
 #[test]
 fn other_refusals_are_as_short_with_the_flag_for_layouts() {
     let bench = bench(SADDLE, &["other-version"]);
@@ -261,7 +260,7 @@ fn a_plugin_that_is_listed_twice_is_loaded_once() {
 
 #[test]
 fn a_panic_when_a_strategy_is_dropped_changes_no_result() {
-    // It has no node to give, so it fails for that, not for its drop.
+    // It gives no node, so it fails for that reason and not for its drop.
     let text = refused_sampler("panics", "panics-in-drop");
     assert!(text.contains("no node"), "{text}");
 }

@@ -1,11 +1,11 @@
-//! What a person sees whose recipe or call is wrong: the message and the exit status.
+//! Wrong recipes and wrong calls: the message and the exit status.
 
 use std::fs;
 
 use crate::support::bench::Bench;
 use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
 
-/// A recipe that is wrong: the program's answer, with nothing made.
+/// The program's answer to a wrong recipe; it must leave no file.
 #[track_caller]
 fn answer(recipe: impl AsRef<[u8]>, words: &str) -> String {
     let bench = Bench::empty();
@@ -101,7 +101,7 @@ fn a_tool_whose_flank_would_rub() {
 }
 
 #[test]
-fn a_tool_that_does_not_fit_in_three_ways_is_told_all_of_them_by_check() {
+fn check_reports_all_three_reasons_why_a_tool_does_not_fit() {
     let recipe = changed(SADDLE, "\"120 deg\"", "\"30 deg\"");
     let recipe = changed(
         &recipe,
@@ -140,14 +140,14 @@ fn a_step_of_too_many_points() {
 }
 
 #[test]
-fn several_mistakes_are_told_at_once() {
+fn several_mistakes_are_reported_at_once() {
     let recipe = changed(SADDLE, "\"5 mm\"", "\"5\"");
     let recipe = changed(&recipe, "speed = \"500 rpm\"\n", "");
     insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
 }
 
 #[test]
-fn what_is_no_toml() {
+fn a_file_that_is_no_toml() {
     insta::assert_snapshot!(with_change("[spindle]", "[spindle"));
 }
 
@@ -157,7 +157,7 @@ fn an_empty_recipe() {
 }
 
 #[test]
-fn what_is_no_text() {
+fn a_file_that_is_no_text() {
     insta::assert_snapshot!(answer(b"format = 1\nname = \"\xff\"\n", "run recipe.toml"));
 }
 
@@ -189,7 +189,7 @@ fn an_overrun_for_which_the_surface_ends_too_early() {
     insta::assert_snapshot!(answer(sphere, "run recipe.toml"));
 }
 
-/// Within 2.5 mm the nose fits, and with a feed of the radius alone the path stays there. ATS's fast
+/// Within 2.5 mm the nose fits, and with a feed of the radius alone the path does not leave it. ATS's fast
 /// angles go on to 3.05 mm, where the section at 105 deg has κ = 1.165/mm by hand.
 #[test]
 fn a_nose_too_large_where_the_law_follows_the_angle_beyond_the_range() {
@@ -257,7 +257,7 @@ fn a_set_with_a_wrong_unit() {
 }
 
 #[test]
-fn a_set_that_makes_the_tool_gouge_is_shown_as_the_place() {
+fn a_set_that_makes_the_tool_gouge_is_underlined() {
     insta::assert_snapshot!(answer(SADDLE, "run recipe.toml --set tool.nose_radius=7mm"));
 }
 
@@ -318,15 +318,15 @@ fn a_file_above_the_output_folder() {
 
 #[cfg(unix)]
 #[test]
-fn a_pipe_where_the_summary_should_be_is_told_before_the_work() {
+fn a_pipe_where_the_summary_should_be_is_refused_before_the_work() {
     let bench = Bench::with(SADDLE);
     fs::create_dir(bench.path("out")).expect("a folder");
     let pipe = bench.path("out/summary.json");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.is_ok_and(|status| status.success()));
     let said = bench.line("run recipe.toml -o out").ends(4);
-    let told = "error: cannot write out/summary.json: it is not a regular file\n";
-    assert_eq!(said.stderr, told);
+    let reported = "error: cannot write out/summary.json: it is not a regular file\n";
+    assert_eq!(said.stderr, reported);
     assert_eq!(bench.files(), ["out/summary.json", "recipe.toml"]);
 }
 

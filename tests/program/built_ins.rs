@@ -1,9 +1,9 @@
-//! What is in the program as it is built by default.
+//! The strategies that the program contains by default.
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use crate::support::bench::Bench;
 
-/// Slot and name of all that the program brings.
+/// Slot and name of every built-in strategy.
 const BUILT_INS: [(&str, &[&str]); 5] = [
     (
         "surface",
@@ -100,7 +100,7 @@ fn every_built_in_is_explained_with_and_without_its_slot() {
     }
 }
 
-/// Version numbers left out, so that a release changes no snapshot.
+/// The text without version numbers: a release changes no snapshot.
 fn explained(name: &str) -> String {
     let said = Bench::empty().call(["explain", name]).ends(0);
     said.stdout.replace(env!("CARGO_PKG_VERSION"), "[version]")

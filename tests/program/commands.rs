@@ -1,4 +1,4 @@
-//! `turnpath run` and `turnpath check`: what they print, write and answer.
+//! `turnpath run` and `turnpath check`: what they print and write, and their exit statuses.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
@@ -34,7 +34,7 @@ fn run_writes_the_path_and_its_summary() {
 }
 
 #[test]
-fn the_summary_speaks_of_the_path_that_was_written() {
+fn the_summary_describes_the_path_that_was_written() {
     let bench = Bench::with(SADDLE);
     let summary = bench
         .line("run recipe.toml -o out --format json")
@@ -182,7 +182,7 @@ fn a_path_of_one_turn_holds_no_residual_since_none_is_measured() {
 }
 
 #[test]
-fn check_tells_a_person_what_the_part_asks_of_the_tool() {
+fn check_reports_what_the_part_needs_of_the_tool() {
     let bench = Bench::with(SADDLE);
     let said = bench.line("check recipe.toml").ends(0);
     assert_eq!(said.stderr, "");
@@ -191,7 +191,7 @@ fn check_tells_a_person_what_the_part_asks_of_the_tool() {
 }
 
 #[test]
-fn check_says_of_a_tool_without_angles_that_those_checks_are_not_made() {
+fn check_reports_that_a_tool_without_angles_is_not_checked_for_them() {
     let angles = "included_angle = \"120 deg\"\nclearance_angle = \"30 deg\"\n";
     let bench = Bench::with(&changed(SADDLE, angles, ""));
     let said = bench.line("check recipe.toml").ends(0);
@@ -241,7 +241,7 @@ fn a_reader_that_leaves_early_is_no_failure() {
 }
 
 #[test]
-fn the_version_is_told() {
+fn the_version_is_printed() {
     let said = Bench::empty().line("--version").ends(0);
     assert_eq!(
         said.stdout,
@@ -250,7 +250,7 @@ fn the_version_is_told() {
 }
 
 #[test]
-fn help_tells_every_command_and_the_exit_statuses() {
+fn help_lists_every_command_and_the_exit_statuses() {
     let said = Bench::empty().line("--help").ends(0);
     for word in [
         "run",
@@ -286,7 +286,7 @@ fn every_example_in_the_docs_passes_its_check() {
 
 /// z = 0.16 x y cut to X = 2.5 mm: contact ends at 2.17 mm where the profile falls outward.
 #[test]
-fn what_stays_uncut_is_told_and_judged_only_where_the_path_covers_the_part() {
+fn uncut_material_is_reported_and_judged_only_where_the_path_covers_the_part() {
     let bench = Bench::with(SADDLE);
     let said = bench.line("run recipe.toml -o out").ends(0);
     assert!(said.stdout.contains("coverage        rim "), "{said}");

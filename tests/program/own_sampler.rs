@@ -17,8 +17,8 @@ use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
 use crate::support::repository;
 use tempfile::TempDir;
 
-/// The author's manifest: one dependency, and nothing of this repository's settings. Debug
-/// information is left out, as in the fixtures, whose dependencies serve here too.
+/// The author's manifest: one dependency, and none of this repository's settings. It has no debug
+/// information, like the fixtures, so that their dependencies serve here too.
 const MANIFEST: &str = r#"[package]
 name = "lab-sampler"
 version = "0.1.0"
@@ -55,7 +55,7 @@ fn own_library() -> &'static Path {
         let manifest = home.path().join("Cargo.toml");
         fs::write(&manifest, MANIFEST.replace("PLUGIN", &plugin)).expect("a manifest");
         fs::write(home.path().join("src/lib.rs"), source()).expect("a source file");
-        // The same versions as the fixtures': nothing is fetched, little is built.
+        // The fixtures' versions: nothing is fetched, and little is built.
         let lock = repository().join("tests/fixtures/Cargo.lock");
         fs::copy(lock, home.path().join("Cargo.lock")).expect("a lock file");
         let target = target_folder("fixtures");
@@ -171,7 +171,7 @@ fn plugins_that_a_recipe_lists_are_loaded_when_it_is_trusted() {
 }
 
 #[test]
-fn plugins_that_a_recipe_lists_are_not_loaded_unasked() {
+fn plugins_that_a_recipe_lists_are_not_loaded_without_trust() {
     let recipe = changed(SADDLE, "format = 1\n", "format = 1\nplugins = [\"labs\"]\n");
     let bench = Bench::with(&recipe);
     for command in ["run recipe.toml", "check recipe.toml"] {
@@ -206,7 +206,7 @@ fn a_sampler_with_a_state_gives_the_same_bytes_for_any_threads() {
     assert_steps(&one, 10.3);
 }
 
-/// All steps of C but the last are this many degrees: nothing starts anew at a block's border.
+/// All steps of C but the last are this many degrees: nothing starts again at a block's border.
 fn assert_steps(path: &str, degrees: f64) {
     let c: Vec<f64> = path
         .lines()

@@ -1,4 +1,4 @@
-//! What README.md quotes is what the program says.
+//! README.md quotes what the program prints.
 
 use std::fs;
 
@@ -20,14 +20,14 @@ fn first_recipe(readme: &str) -> Option<&str> {
     rest.get(..end + ".toml".len())
 }
 
-/// What is said, the paths of files aside.
+/// The program's text without the paths of files.
 fn without_files(said: &str) -> Vec<&str> {
     let lines = said.lines();
     lines.filter(|line| !line.starts_with("  file ")).collect()
 }
 
 #[test]
-fn the_quoted_run_of_the_first_recipe_is_what_it_says() {
+fn the_quoted_run_of_the_first_recipe_is_what_the_program_prints() {
     let readme = fs::read_to_string(repository().join("README.md")).expect("README.md");
     let recipe = repository().join(first_recipe(&readme).expect("a recipe is named"));
     let said = Bench::empty().call(["run".as_ref(), recipe.as_os_str()]);

@@ -90,7 +90,7 @@ fn a_folder_that_is_not_there_is_named() {
 
 #[cfg(unix)]
 #[test]
-fn what_is_no_file_is_not_replaced_by_one() {
+fn a_folder_or_pipe_is_not_replaced_by_a_file() {
     let bench = Bench::with(SADDLE);
     let pipe = bench.path("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
@@ -106,7 +106,7 @@ fn what_is_no_file_is_not_replaced_by_one() {
 
 #[cfg(unix)]
 #[test]
-fn a_grid_is_whose_the_umask_says() {
+fn a_grid_has_the_permissions_that_the_umask_allows() {
     use std::os::unix::fs::PermissionsExt;
     let bench = Bench::with(SADDLE);
     for (umask, mode) in [("027", 0o640), ("002", 0o664), ("077", 0o600)] {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::bench::{Bench, said};
+use crate::support::bench::{Bench, answer};
 use crate::support::builds::{BUILT_INS, bare_program, built_in_libraries};
 use crate::support::fixtures::file_name;
 use crate::support::recipe::{SADDLE, saddle_with, with_table};
@@ -66,7 +66,7 @@ fn made(
     let mut command = bench.command_of(program, ["run", "recipe.toml", "-o", "out"]);
     command.args(sets.iter().flat_map(|set| ["--set", set]));
     arrange(&mut command);
-    let said = said(&mut command);
+    let said = answer(&mut command);
     assert_eq!(said.status, Some(0), "{name}: {said}");
     let bytes = fs::read(bench.path("out/toolpath.csv")).unwrap();
     (bench, bytes)
@@ -166,11 +166,11 @@ fn the_summary_names_file_and_hash_of_every_plugin_that_was_loaded() {
 }
 
 #[test]
-fn a_program_without_plugins_says_where_to_give_them() {
+fn a_program_without_plugins_reports_how_to_give_them() {
     let bench = Bench::with(SADDLE);
-    let list = said(&mut bench.command_of(bare_program(), ["list", "sampler"])).ends(0);
+    let list = answer(&mut bench.command_of(bare_program(), ["list", "sampler"])).ends(0);
     insta::assert_snapshot!("bare_list", list.stdout);
-    let run = said(&mut bench.command_of(bare_program(), ["run", "recipe.toml"])).ends(2);
+    let run = answer(&mut bench.command_of(bare_program(), ["run", "recipe.toml"])).ends(2);
     insta::assert_snapshot!("bare_run", bench.shown(&run));
 }
 
@@ -179,7 +179,7 @@ fn a_built_in_that_is_given_once_more_is_two_of_one_name() {
     let libraries = built_in_libraries();
     let bench = Bench::empty();
     let mut command = bench.command(["list"]);
-    let said = said(command.arg("--plugin-dir").arg(libraries.path())).ends(3);
+    let said = answer(command.arg("--plugin-dir").arg(libraries.path())).ends(3);
     assert!(said.stderr.contains("(built in)"), "{said}");
     assert!(
         said.stderr.contains("leave one of the two plugins out"),

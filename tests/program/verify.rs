@@ -1,7 +1,7 @@
 //! `turnpath verify`: the program's own files measured again, and files that were spoiled.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
-use crate::support::bench::{Bench, Said};
+use crate::support::bench::{Answer, Bench};
 use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
 use serde_json::Value;
 
@@ -17,7 +17,7 @@ fn made_of(recipe: &str) -> Bench {
 }
 
 /// The bench's own path, rewritten line by line; the header is line 0.
-fn spoiled(change: impl FnOnce(&mut Vec<String>)) -> (Bench, Said) {
+fn spoiled(change: impl FnOnce(&mut Vec<String>)) -> (Bench, Answer) {
     let bench = made();
     let mut lines: Vec<String> = bench
         .read("out/toolpath.csv")
@@ -30,7 +30,7 @@ fn spoiled(change: impl FnOnce(&mut Vec<String>)) -> (Bench, Said) {
     (bench, said)
 }
 
-/// A line with another value in one column.
+/// A line with one column changed.
 fn edit(line: &mut String, column: usize, change: impl FnOnce(f64) -> String) {
     let mut values: Vec<String> = line.split(',').map(String::from).collect();
     values[column] = change(values[column].parse().unwrap());
@@ -53,7 +53,7 @@ fn same(one: &Value, other: &Value, pointer: &str) {
 }
 
 #[track_caller]
-fn refused_at(said: &Said, line: usize, word: &str) {
+fn refused_at(said: &Answer, line: usize, word: &str) {
     assert_eq!(said.status, Some(4), "{said}");
     assert_eq!(said.stdout, "");
     assert!(
@@ -149,7 +149,7 @@ fn a_path_that_begins_inside_the_rim_does_not_hold() {
 }
 
 #[test]
-fn the_path_of_a_smaller_part_does_not_hold_and_says_where_it_ends() {
+fn the_path_of_a_smaller_part_does_not_hold_and_reports_where_it_ends() {
     let bench = made();
     let words = "verify recipe.toml out/toolpath.csv --set part.aperture=10mm \
                  --set tool.included_angle=150deg --set tool.clearance_angle=60deg";
@@ -169,7 +169,7 @@ fn a_path_of_contacts_is_held_to_the_part_by_its_contacts() {
 }
 
 #[test]
-fn an_x_of_three_hundred_digits_is_told_in_short() {
+fn an_x_of_three_hundred_digits_is_shortened() {
     let (bench, _) = spoiled(|lines| {
         edit(&mut lines[2000], 2, |_| "1e300".to_owned());
     });
@@ -333,7 +333,7 @@ fn a_path_beyond_the_surface_gives_no_number_and_does_not_hold() {
 
 /// Such a Z overflows the squares of the surface error.
 #[test]
-fn figures_that_overflow_are_null_and_not_nought() {
+fn figures_that_overflow_are_null_and_not_zero() {
     let (_, said) = spoiled(|lines| {
         let middle = lines.len() / 2;
         edit(&mut lines[middle], Z, |_| "1e308".to_owned());

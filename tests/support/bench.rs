@@ -1,4 +1,4 @@
-//! A folder in which a test calls the program, and what the program says there.
+//! A folder in which a test calls the program, and the program's answer.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -11,14 +11,14 @@ use tempfile::TempDir;
 /// The program under test.
 pub const TURNPATH: &str = env!("CARGO_BIN_EXE_turnpath");
 
-/// A folder of its own, and another for what the program must not leave behind.
+/// A folder for a test's files, and another for temporary files, which the program must remove.
 pub struct Bench {
     folder: TempDir,
     scratch: TempDir,
 }
 
-/// What a call gave.
-pub struct Said {
+/// The end of a call: its status and what it printed.
+pub struct Answer {
     /// The exit status; none when a signal ended the program.
     pub status: Option<i32>,
     pub stdout: String,
@@ -60,7 +60,7 @@ impl Bench {
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     }
 
-    /// What the folder and its folders hold, sorted; only files count.
+    /// All files below the folder, sorted.
     pub fn files(&self) -> Vec<String> {
         let mut found = Vec::new();
         gather(self.folder.path(), self.folder.path(), &mut found);
@@ -68,18 +68,18 @@ impl Bench {
         found
     }
 
-    /// Whether the program has left nothing where temporary files go.
+    /// Whether the program has left no temporary file.
     pub fn scratch_is_empty(&self) -> bool {
         let mut entries = fs::read_dir(self.scratch.path()).expect("the scratch folder");
         entries.next().is_none()
     }
 
-    /// The program, about to be called in the folder.
+    /// A call of the program in the folder, not yet made.
     pub fn command<S: AsRef<OsStr>>(&self, args: impl IntoIterator<Item = S>) -> Command {
         self.command_of(TURNPATH.as_ref(), args)
     }
 
-    /// Another build of the program, about to be called in the folder.
+    /// A call of another build of the program in the folder, not yet made.
     pub fn command_of<S: AsRef<OsStr>>(
         &self,
         program: &Path,
@@ -97,17 +97,17 @@ impl Bench {
     }
 
     /// Calls the program in the folder.
-    pub fn call<S: AsRef<OsStr>>(&self, args: impl IntoIterator<Item = S>) -> Said {
-        said(&mut self.command(args))
+    pub fn call<S: AsRef<OsStr>>(&self, args: impl IntoIterator<Item = S>) -> Answer {
+        answer(&mut self.command(args))
     }
 
-    /// Calls the program with words that stand in one line.
-    pub fn line(&self, words: &str) -> Said {
+    /// Calls the program with the words of a line.
+    pub fn line(&self, words: &str) -> Answer {
         self.call(words.split_whitespace())
     }
 
-    /// A call's end for a snapshot: status and messages, this folder's name left out.
-    pub fn shown(&self, said: &Said) -> String {
+    /// An answer for a snapshot: status and messages, without this folder's name.
+    pub fn shown(&self, said: &Answer) -> String {
         let folder = fs::canonicalize(self.folder.path()).expect("the folder");
         let status = said.status.map_or("none".to_owned(), |s| s.to_string());
         format!("exit {status}\n{}", said.stderr)
@@ -117,14 +117,14 @@ impl Bench {
 }
 
 /// Runs a command to its end.
-pub fn said(command: &mut Command) -> Said {
+pub fn answer(command: &mut Command) -> Answer {
     let output = command.output().expect("the program starts");
     output.into()
 }
 
-impl From<Output> for Said {
+impl From<Output> for Answer {
     fn from(output: Output) -> Self {
-        let text = |bytes| String::from_utf8(bytes).expect("the program speaks UTF-8");
+        let text = |bytes| String::from_utf8(bytes).expect("the program prints UTF-8");
         Self {
             status: output.status.code(),
             stdout: text(output.stdout),
@@ -133,8 +133,8 @@ impl From<Output> for Said {
     }
 }
 
-impl Said {
-    /// The same, if the call ended with this status; what it said if not.
+impl Answer {
+    /// The answer itself, if the call ended with this status; otherwise the test fails with it.
     #[track_caller]
     pub fn ends(self, status: i32) -> Self {
         assert_eq!(self.status, Some(status), "{self}");
@@ -151,7 +151,7 @@ impl Said {
     }
 }
 
-impl fmt::Display for Said {
+impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             status,

@@ -1,4 +1,4 @@
-//! Builds that tests make for themselves, and where the libraries of this build lie.
+//! Builds that the tests start themselves, and the libraries of the build that made the tests.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use super::fixtures::file_name;
 
-/// The packages whose plugins the program has inside.
+/// The packages of the built-in plugins.
 pub const BUILT_INS: [&str; 8] = [
     "turnpath-atpg",
     "turnpath-ats",

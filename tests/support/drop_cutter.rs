@@ -26,7 +26,7 @@ pub struct Case {
     pub x: Vec<f64>,
     /// Z of the centre as the drop-cutter found it, mm.
     pub z_centre: Vec<f64>,
-    /// How far `z_centre` can be from the truth, mm: the mesh's own error and rounding.
+    /// The largest error of `z_centre`, mm: the mesh's own error and rounding.
     pub stated_error: f64,
 }
 

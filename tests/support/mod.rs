@@ -1,4 +1,4 @@
-//! What the whole-program tests share.
+//! Helpers of the whole-program tests.
 #![allow(dead_code, reason = "each test uses what it needs")]
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 

@@ -75,7 +75,7 @@ impl Case {
         }
     }
 
-    /// The law of a feed strategy, if it ends within a thousand calls.
+    /// The law of a feed strategy, which must end within a thousand calls.
     pub fn law(&self, feed: &dyn FeedStrategy) -> Result<SpiralLaw> {
         let mut plan = feed.plan(self.setup())?;
         let (mut law, mut pieces) = (SpiralLaw::new(), Vec::new());

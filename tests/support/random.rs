@@ -38,7 +38,7 @@ pub fn polynomial(terms: Vec<Vec<f64>>) -> Arc<dyn SurfaceModel> {
     Arc::new(XyPolynomial::new(&params).unwrap())
 }
 
-/// One of both compensators.
+/// One of the two compensators.
 pub fn compensating(which: bool) -> Arc<dyn Compensator> {
     if which {
         Arc::new(ZDirection)
@@ -47,7 +47,7 @@ pub fn compensating(which: bool) -> Arc<dyn Compensator> {
     }
 }
 
-/// One of them, or none.
+/// One of the two compensators, or none.
 pub fn compensator(which: u8) -> Arc<dyn Compensator> {
     match which % 3 {
         0 => Arc::new(Uncompensated),

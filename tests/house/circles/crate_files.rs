@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::module::{Declared, Module, read};
+use super::module::{Declaration, Module, read};
 use super::tokens::{Token, tokens};
 
 /// A crate's files and its modules; the first module is the root.
@@ -76,7 +76,7 @@ impl CrateFiles {
     fn add_file(
         &mut self,
         parent: usize,
-        child: &Declared,
+        child: &Declaration,
         folder: &Folder,
         read_file: &dyn Fn(&Path) -> Option<String>,
     ) -> Option<usize> {

@@ -34,7 +34,7 @@ pub struct Use {
 
 /// A module that another declares.
 #[derive(Debug)]
-pub struct Declared {
+pub struct Declaration {
     pub name: String,
     /// The value of its `#[path]`.
     pub path: Option<String>,
@@ -49,7 +49,7 @@ const KEYWORDS: [&str; 5] = ["fn", "unsafe", "extern", "mut", "async"];
 
 /// Reads the tokens of a module's body into `module`; gives the modules that it declares, and the
 /// macros that it exports to the crate's root.
-pub fn read(tokens: &[Token], module: &mut Module) -> (Vec<Declared>, Vec<String>) {
+pub fn read(tokens: &[Token], module: &mut Module) -> (Vec<Declaration>, Vec<String>) {
     let (mut declared, mut macros) = (Vec::new(), Vec::new());
     let (mut depth, mut at) = (0, 0);
     let mut attributes: Vec<&[Token]> = Vec::new();
@@ -75,7 +75,7 @@ pub fn read(tokens: &[Token], module: &mut Module) -> (Vec<Declared>, Vec<String
             Some("mod") if depth == 0 && next.is_some() => {
                 let body = rest.get(2).filter(|token| token.is_mark('{'));
                 let length = body.map_or(1, |_| group(&rest[2..]));
-                declared.push(Declared {
+                declared.push(Declaration {
                     name: next.unwrap_or_default().to_owned(),
                     path: attributes.iter().find_map(|content| path_of(content)),
                     body: body.map(|_| rest[3..1 + length].to_vec()),

@@ -4,14 +4,14 @@ use serde::Deserialize;
 
 use super::runs::{Call, Runs};
 
-/// What is rounding where nought is expected.
+/// Where zero is expected, a smaller value is rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The whole list.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Page {
-    /// Changes that every run has.
+    /// `--set` values of every run.
     pub common: Vec<String>,
     pub section: Vec<Section>,
 }
@@ -54,8 +54,8 @@ pub struct Figure {
     pub run: Option<Run>,
     /// A run by whose figure this one is divided.
     pub over: Option<Run>,
-    /// Of a figure that no run gives: its value, and the test that holds it.
-    pub held: Option<Held>,
+    /// The value of a figure that no run gives, and the test that holds it.
+    pub held: Option<TestFigure>,
     /// What `run` must give, to `within` of it.
     pub expected: f64,
     /// Largest difference from `expected`, as a part of it.
@@ -67,7 +67,7 @@ pub struct Figure {
 }
 
 /// How a figure is written.
-pub struct Shown<'a> {
+pub struct NumberStyle<'a> {
     pub decimals: Option<usize>,
     pub digits: Option<usize>,
     pub unit: &'a str,
@@ -88,7 +88,7 @@ pub struct Run {
 /// A test elsewhere.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Held {
+pub struct TestFigure {
     pub file: String,
     pub test: String,
 }
@@ -197,7 +197,7 @@ impl Page {
         value * column.scale.unwrap_or(1.0)
     }
 
-    /// All that is not within its bound.
+    /// A complaint about each figure outside its bound.
     pub fn complaints(&self, runs: &Runs) -> Vec<String> {
         let lists = self.figures().filter_map(|figure| {
             let value = self.value(figure, runs);
@@ -221,8 +221,8 @@ impl Page {
 
 impl Figure {
     /// How it is written.
-    pub fn shown(&self) -> Shown<'_> {
-        Shown {
+    pub fn shown(&self) -> NumberStyle<'_> {
+        NumberStyle {
             decimals: self.decimals,
             digits: self.digits,
             unit: &self.unit,
@@ -238,8 +238,8 @@ impl Figure {
 
 impl Column {
     /// How its figures are written.
-    pub fn shown(&self) -> Shown<'_> {
-        Shown {
+    pub fn shown(&self) -> NumberStyle<'_> {
+        NumberStyle {
             decimals: self.decimals,
             digits: self.digits,
             unit: "",
@@ -247,7 +247,7 @@ impl Column {
     }
 }
 
-/// What is wrong with a value.
+/// Why a value is outside its bound; none if it is within.
 fn off(what: &str, value: f64, expected: f64, within: f64) -> Option<String> {
     let holds = (value - expected).abs() <= (within * expected.abs()).max(ROUNDING);
     (!holds).then(|| format!("{what}: {value}, not {expected} within {within}"))

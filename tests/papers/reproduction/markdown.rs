@@ -1,6 +1,6 @@
 //! The page as Markdown.
 
-use super::data::{Figure, Grid, Page, Row, Section, Shown};
+use super::data::{Figure, Grid, NumberStyle, Page, Row, Section};
 use super::runs::Runs;
 
 const HEAD: &str = "\
@@ -134,7 +134,7 @@ fn percent(part: f64) -> String {
     }
 }
 
-impl Shown<'_> {
+impl NumberStyle<'_> {
     /// A figure with its unit.
     fn written(&self, value: f64) -> String {
         let number = match (self.digits, self.decimals) {

@@ -1,4 +1,4 @@
-//! The runs that the figures need: each made once, several at a time.
+//! The runs that the figures need: each is made once, and several run at a time.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -6,7 +6,6 @@ use std::thread;
 
 use serde_json::Value;
 
-use super::data::Page;
 use crate::support::bench::Bench;
 use crate::support::repository;
 
@@ -21,9 +20,8 @@ pub struct Call {
 pub struct Runs(BTreeMap<Call, Value>);
 
 impl Runs {
-    /// Makes all runs of a page.
-    pub fn of(page: &Page) -> Self {
-        let mut calls = page.calls();
+    /// Makes all runs, each once.
+    pub fn of(mut calls: Vec<Call>) -> Self {
         calls.sort();
         calls.dedup();
         // The list is taken from its end: large parts first.
