@@ -16,9 +16,9 @@ fn page(name: &str) -> String {
     fs::read_to_string(repository().join(name)).expect("a page")
 }
 
-/// README.md and its neighbours, and all of docs/.
+/// README.md and its neighbours, all of docs/, and the decisions.
 fn pages() -> Vec<PathBuf> {
-    let folders = [repository(), repository().join("docs")];
+    let folders = ["", "docs", "docs/decisions"].map(|folder| repository().join(folder));
     let files = folders.iter().flat_map(|folder| {
         let entries = fs::read_dir(folder).expect("a folder of pages");
         entries.map(|entry| entry.expect("a file").path())
