@@ -181,7 +181,7 @@ fn the_lattice_is_cut_by_first_touch_and_its_unreached_volume_is_that_of_brute_f
     );
     assert_eq!(checked["unreached"], found["unreached"]);
     assert_eq!(verified["unreached"], found["unreached"]);
-    let error = "/interpolation_error_nm/max";
+    let error = "/interpolation_error/max_nm";
     assert_eq!(number(&verified, error), number(&found, error));
 }
 
@@ -190,7 +190,7 @@ fn with_a_feed_that_suits_the_seams_all_tolerances_hold() {
     let bench = Bench::with(&changed(LATTICE, "\"25 um/rev\"", "\"12 um/rev\""));
     let found = summary(&bench.line("run recipe.toml -o out --format json").ends(0));
     // Two passes a feed apart over a seam with flanks of slope m: m·feed/2, and the flat cusp.
-    let residual = number(&found, "/residual_nm/max");
+    let residual = number(&found, "/residual/max_nm");
     assert!(residual > 100.0 && residual < 500.0, "{residual} nm");
 }
 
@@ -214,7 +214,7 @@ fn where_the_edge_is_too_short_for_the_slope_its_ends_touch() {
     // within a feed of its end.
     let feed = 25e3;
     let step = feed * (TAU * 0.02 * 0.5f64.sqrt() - Scalar::tan(4.0 * DEG)) + feed * feed / 2e6;
-    let residual = number(&found, "/residual_nm/max");
+    let residual = number(&found, "/residual/max_nm");
     assert!(
         residual > 0.98 * step && residual < 1.01 * step,
         "{residual} nm, {step} nm"
@@ -244,7 +244,7 @@ fn a_feed_that_is_found_holds_the_residual_beside_seams_too() {
     let recipe = with_table(&recipe, "part", "aperture = \"2 mm\"");
     let bench = Bench::with(&with_table(&recipe, "feed", "use = \"constant\""));
     let said = bench.line("run recipe.toml -o out --format json").ends(0);
-    let residual = number(&summary(&said), "/residual_nm/max");
+    let residual = number(&summary(&said), "/residual/max_nm");
     assert!(residual > 80.0 && residual < 100.1, "{residual} nm");
     // The recipe's own feed is not changed, and the run reports the residual that it leaves.
     let bench = Bench::with(&recipe);

@@ -132,8 +132,8 @@ fn complaint(chain: &Chain, said: &Answer) -> Option<String> {
     let kept = holds("interpolation") && (holds("residual") || chain.rings());
     (!reported || !kept).then(|| {
         let figures = [
-            &summary["interpolation_error_nm"]["max"],
-            &summary["residual_nm"]["max"],
+            &summary["interpolation_error"]["max_nm"],
+            &summary["residual"]["max_nm"],
         ];
         format!(
             "status {:?}, interpolation and residual {figures:?}",

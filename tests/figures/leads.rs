@@ -222,8 +222,8 @@ fn check(bench: &Bench, nose: f64, clearance: f64) {
     assert_eq!(verified["within"]["lead"], true);
     for pointer in [
         "/lead/smallest_clearance_nm",
-        "/interpolation_error_nm/max",
-        "/residual_nm/max",
+        "/interpolation_error/max_nm",
+        "/residual/max_nm",
     ] {
         let (one, other) = (number(&summary, pointer), number(&verified, pointer));
         assert!((one - other).abs() <= 1e-6 * one.abs() + 1e-4, "{pointer}");
@@ -397,7 +397,7 @@ fn spoiled(change: impl Fn(&mut Row)) -> Value {
 #[test]
 fn a_lead_that_plunges_or_jumps_is_found_in_a_file() {
     let good = spoiled(|_| ());
-    let jump = "/lead/acceleration_jump/z_mm_per_s2";
+    let jump = "/lead/acceleration_step/z_mm_per_s2";
     assert!(number(&good, jump) < 1e-4, "{good}");
     for section in [0.0, 2.0] {
         let low = spoiled(|row| {
@@ -470,7 +470,7 @@ fn without_a_lead_the_summary_has_null() {
 fn just_below_the_highest_spindle_speed_the_lead_keeps_the_limits_too() {
     let recipe = std::fs::read_to_string(ARRAY).unwrap();
     let limited = format!("{recipe}\n[machine]\npreset = \"generic-sts\"\n");
-    let highest = number(&summary(&made(&limited, &[])), "/highest_spindle_rpm");
+    let highest = number(&summary(&made(&limited, &[])), "/highest_spindle/speed_rpm");
     for part in [0.9, 0.99, 1.0] {
         let speed = format!("spindle.speed=\"{} rpm\"", part * highest);
         let bench = made(&limited, &[&speed]);

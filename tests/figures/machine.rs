@@ -16,9 +16,21 @@ fn number(value: &Value, pointer: &str) -> f64 {
     found.unwrap_or_else(|| panic!("no number at {pointer} of {value}"))
 }
 
+/// The unit of a figure in its key.
+fn unit(axis: &str, what: &str) -> String {
+    let angle_or_length = if axis == "c" { "deg" } else { "mm" };
+    let time = match what {
+        "velocity" => "s",
+        "acceleration" => "s2",
+        _ => "s3",
+    };
+    format!("{angle_or_length}_per_{time}")
+}
+
 /// The saddle with a limit a part of what its path takes.
 fn limit(summary: &Value, axis: &str, what: &str, part: f64) -> String {
-    let taken = number(summary, &format!("/axes/{axis}/max_{what}"));
+    let unit = unit(axis, what);
+    let taken = number(summary, &format!("/axes/{axis}/max_{what}_{unit}"));
     let unit = match (axis, what) {
         ("c", "velocity") => return format!("--set machine.c_velocity={}rpm", part * taken / 6.0),
         (_, "velocity") => "mm/s",
@@ -33,8 +45,8 @@ fn without_limits_there_is_no_verdict() {
     let summary = run(&Bench::with(SADDLE), "").ends(0).json();
     assert_eq!(summary["within"]["machine"], Value::Null);
     assert_eq!(summary["machine"], Value::Null);
-    assert_eq!(summary["highest_spindle_rpm"], Value::Null);
-    assert_eq!(summary["highest_spindle_bound_by"], Value::Null);
+    assert_eq!(summary["highest_spindle"]["speed_rpm"], Value::Null);
+    assert_eq!(summary["highest_spindle"]["bound_by"], Value::Null);
 }
 
 /// z = k ρ² sin 2θ at the rim: 2ω·k·a² and 4ω²·k·a² on the surface, where the path begins.
@@ -47,15 +59,18 @@ fn the_largest_rates_are_reported_with_their_places() {
         assert!((found / expected - 1.0).abs() < 0.02, "{found}, {expected}");
     };
     let z = &summary["axes"]["z"];
-    close(number(z, "/max_velocity"), 2.0 * omega * 0.5);
-    close(number(z, "/max_acceleration"), 4.0 * omega * omega * 0.5);
+    close(number(z, "/max_velocity_mm_per_s"), 2.0 * omega * 0.5);
+    close(
+        number(z, "/max_acceleration_mm_per_s2"),
+        4.0 * omega * omega * 0.5,
+    );
     for what in ["velocity", "acceleration", "jerk"] {
         let at = &z["at"][format!("max_{what}")];
         assert!(number(at, "/x_mm") > 2.47, "{z}");
         assert!(number(at, "/c_deg") < 360.0, "{z}");
     }
     close(
-        number(z, "/rms_velocity"),
+        number(z, "/rms_velocity_mm_per_s"),
         omega * 0.5 * (2.0f64 / 5.0).sqrt(),
     );
 }
@@ -99,12 +114,15 @@ fn at_the_highest_spindle_speed_the_limits_hold_and_a_hundredth_above_they_do_no
         let limits = limit(&free, axis, what, part);
         let status = i32::from(part < 1.0);
         let found = run(&bench, &limits).ends(status).json();
-        assert_eq!(found["highest_spindle_bound_by"], format!("{axis}_{what}"));
-        let highest = number(&found, "/highest_spindle_rpm");
+        assert_eq!(
+            found["highest_spindle"]["bound_by"],
+            format!("{axis}_{what}")
+        );
+        let highest = number(&found, "/highest_spindle/speed_rpm");
         let at = |rpm: f64| run(&bench, &format!("{limits} --set spindle.speed={rpm}rpm"));
         let just_below = at(0.99 * highest).ends(0).json();
         assert_eq!(just_below["within"]["machine"], true);
-        let again = number(&just_below, "/highest_spindle_rpm");
+        let again = number(&just_below, "/highest_spindle/speed_rpm");
         assert!((again / highest - 1.0).abs() < 1e-6, "{again}, {highest}");
         if axis == "c" {
             let said = at(1.01 * highest).ends(2);
@@ -124,8 +142,8 @@ fn of_several_limits_the_tightest_binds() {
     let limits = [("velocity", 0.8), ("acceleration", 0.7), ("jerk", 0.6)]
         .map(|(what, part)| limit(&free, "z", what, part));
     let found = run(&bench, &limits.join(" ")).ends(1).json();
-    assert_eq!(found["highest_spindle_bound_by"], "z_velocity");
-    let highest = number(&found, "/highest_spindle_rpm");
+    assert_eq!(found["highest_spindle"]["bound_by"], "z_velocity");
+    let highest = number(&found, "/highest_spindle/speed_rpm");
     assert!((highest / (0.8 * RPM) - 1.0).abs() < 1e-9, "{highest}");
 }
 
@@ -144,10 +162,13 @@ fn a_file_is_held_against_the_machine_as_its_run_was() {
             "{pointer}: {one}, {other}"
         );
     };
-    same("/highest_spindle_rpm");
+    same("/highest_spindle/speed_rpm");
     for i in 0..4 {
-        same(&format!("/machine/limits/{i}/value"));
-        same(&format!("/machine/limits/{i}/measured"));
+        let key = made["machine"]["limits"][i]["limit"].as_str().unwrap();
+        let (axis, what) = key.split_once('_').unwrap();
+        let unit = unit(axis, what);
+        same(&format!("/machine/limits/{i}/limit_{unit}"));
+        same(&format!("/machine/limits/{i}/measured_{unit}"));
         same(&format!("/machine/limits/{i}/at/x_mm"));
         let holds = format!("/machine/limits/{i}/holds");
         assert_eq!(made.pointer(&holds), verified.pointer(&holds));

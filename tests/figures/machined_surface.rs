@@ -81,16 +81,16 @@ fn a_map_has_the_figures_of_the_summary() {
     assert!(cells.iter().all(|[x, y, _]| x * x + y * y <= 2.5 * 2.5));
     let square: f64 = cells.iter().map(|cell| cell[2] * cell[2]).sum();
     let rms = (square / cells.len() as f64).sqrt();
-    let expected = number(&summary, "/surface_error_nm/rms");
+    let expected = number(&summary, "/surface_error/rms_nm");
     assert!((rms / expected - 1.0).abs() < 0.01, "{rms}, {expected}");
     let higher = |a: &&[f64; 3], b: &&[f64; 3]| a[2].total_cmp(&b[2]);
     let (high, low) = (cells.iter().max_by(higher), cells.iter().min_by(higher));
     let (high, low) = (high.unwrap(), low.unwrap());
-    let most = number(&summary, "/surface_error_nm/highest/error_nm");
-    let least = number(&summary, "/surface_error_nm/lowest/error_nm");
+    let most = number(&summary, "/surface_error/highest/error_nm");
+    let least = number(&summary, "/surface_error/lowest/error_nm");
     assert!(high[2] <= most && high[2] > 0.97 * most, "{high:?}, {most}");
     assert!(low[2] < 0.97 * least, "{low:?}, {least}");
-    let pv = number(&summary, "/surface_error_nm/pv");
+    let pv = number(&summary, "/surface_error/pv_nm");
     assert!((pv - (most - least)).abs() < 1e-6 * pv);
 }
 
@@ -228,13 +228,13 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
     let array = with_table(&array, "compensator", "use = \"none\"");
     let array = changed(&array, "name =", "refine = false\nname =");
     let (_, summary) = mapped(&array, "");
-    let error = number(&summary, "/interpolation_error_nm/max");
+    let error = number(&summary, "/interpolation_error/max_nm");
     assert!((error / 58.626 - 1.0).abs() < 5e-4, "{error}");
-    let lowest = number(&summary, "/surface_error_nm/lowest/error_nm");
+    let lowest = number(&summary, "/surface_error/lowest/error_nm");
     assert!((lowest / -58.626 - 1.0).abs() < 0.01, "{lowest}");
-    let highest = number(&summary, "/surface_error_nm/highest/error_nm");
+    let highest = number(&summary, "/surface_error/highest/error_nm");
     assert!((58.6..58.6 + 50.0).contains(&highest), "{highest}");
-    let at = |axis: &str| number(&summary, &format!("/surface_error_nm/highest/{axis}_mm"));
+    let at = |axis: &str| number(&summary, &format!("/surface_error/highest/{axis}_mm"));
     assert!(at("x") * at("x") + at("y") * at("y") > 4.99 * 4.99);
 }
 

@@ -92,7 +92,7 @@ fn number(value: &Value, pointer: &str) -> f64 {
 /// The errors of toolpath.csv and of the program, nm.
 fn errors(summary: &Value) -> (f64, f64) {
     (
-        number(summary, "/interpolation_error_nm/max"),
+        number(summary, "/interpolation_error/max_nm"),
         number(summary, "/programs/0/interpolation_error_nm"),
     )
 }
@@ -121,7 +121,7 @@ fn the_programs_error_is_that_of_the_path_and_verify_finds_the_same() {
     let again = verified(&astigmatic(), &run.path("astigmatic-5mm.pmc"), &[]);
     assert_eq!(
         errors(&summary).1,
-        number(&again, "/interpolation_error_nm/max")
+        number(&again, "/interpolation_error/max_nm")
     );
     assert_eq!(summary["control_points"], again["control_points"]);
     let human = String::from_utf8_lossy(&run.output.stdout).into_owned();
@@ -149,7 +149,7 @@ fn an_independent_reader_finds_the_same_points_and_error() {
     }
     let (program, wanted) = (
         errors(&summary).1,
-        number(&reference, "/interpolation_error_nm/max"),
+        number(&reference, "/interpolation_error/max_nm"),
     );
     // 16 instants a segment see the largest error to half a percent, and 48 nearly all of it.
     assert!((program / wanted - 1.0).abs() < 5e-3, "{program} {wanted}");
@@ -188,7 +188,7 @@ fn the_same_bytes_for_any_threads_and_settings_that_mean_the_same_path() {
             assert_eq!(errors(&one.summary()), errors(&summary));
         }
         let again = verified(&astigmatic(), &one.path(file), &sets);
-        let error = number(&again, "/interpolation_error_nm/max");
+        let error = number(&again, "/interpolation_error/max_nm");
         assert_eq!(error, errors(&one.summary()).1, "{settings}");
     }
 }

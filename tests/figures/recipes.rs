@@ -112,10 +112,10 @@ fn compare_verdicts(summary: &Value, reference: &Value, status: Option<i32>) -> 
     let mut complaints = Vec::new();
     let mut all = true;
     for (tolerance, pointer) in [
-        ("interpolation", "/interpolation_error_nm/max"),
-        ("residual", "/residual_nm/max"),
+        ("interpolation", "/interpolation_error/max_nm"),
+        ("residual", "/residual/max_nm"),
     ] {
-        let limit = summary["tolerance_nm"][tolerance].as_f64();
+        let limit = summary["tolerance"][format!("{tolerance}_nm")].as_f64();
         let figure = reference.pointer(pointer).and_then(Value::as_f64);
         // A figure that was not measured does not hold.
         let holds = figure
@@ -145,18 +145,18 @@ fn compare(summary: &Value, reference: &Value, rows: u64) -> Vec<String> {
         let said = format!("{points:?} points and {all:?} rows");
         complaints.push(format!("{said}, not {expected} and {rows}"));
     }
-    for pointer in [
-        "/interpolation_error_nm/max",
-        "/interpolation_error_nm/rms",
-        "/residual_nm/max",
-        "/surface_error_nm/pv",
-        "/surface_error_nm/rms",
-        "/coverage_nm/rim",
-        "/coverage_nm/hole",
-        "/coverage_nm/centre",
+    for (pointer, of_reference) in [
+        ("/interpolation_error/max_nm", "/interpolation_error_nm/max"),
+        ("/interpolation_error/rms_nm", "/interpolation_error_nm/rms"),
+        ("/residual/max_nm", "/residual_nm/max"),
+        ("/surface_error/pv_nm", "/surface_error_nm/pv"),
+        ("/surface_error/rms_nm", "/surface_error_nm/rms"),
+        ("/coverage/rim/height_nm", "/coverage_nm/rim"),
+        ("/coverage/hole/height_nm", "/coverage_nm/hole"),
+        ("/coverage/centre/height_nm", "/coverage_nm/centre"),
     ] {
-        let figure = |of: &Value| of.pointer(pointer).and_then(Value::as_f64);
-        let (here, there) = (figure(summary), figure(reference));
+        let here = summary.pointer(pointer).and_then(Value::as_f64);
+        let there = reference.pointer(of_reference).and_then(Value::as_f64);
         // A path without neighbouring passes has no residual, a part without a hole no edge there:
         // null in both.
         let agree = match (here, there) {

@@ -34,15 +34,15 @@ fn run_and_verify_report_the_same_and_hold_it_against_no_tolerance() {
         ));
         let verified = said.ends(0).json();
         let late = 2.0 * 0.7 * (500.0 / 60.0) / 70.0 * 360.0 * 3600.0 / std::f64::consts::TAU;
-        let c = number(&summary, "/servo/following_error/c_arcsec/max");
+        let c = number(&summary, "/servo/following_error/c/max_arcsec");
         assert!((c / late - 1.0).abs() < 1e-2, "{c}, {late}");
         for pointer in [
-            "/servo/following_error/x_um/max",
-            "/servo/following_error/z_um/rms",
-            "/servo/following_error/c_arcsec/max",
-            "/servo/predicted_error_nm/max",
-            "/servo/predicted_error_nm/rms",
-            "/servo/predicted_error_nm/at/x_mm",
+            "/servo/following_error/x/max_um",
+            "/servo/following_error/z/rms_um",
+            "/servo/following_error/c/max_arcsec",
+            "/servo/predicted_error/max_nm",
+            "/servo/predicted_error/rms_nm",
+            "/servo/predicted_error/at/x_mm",
         ] {
             let (one, other) = (number(&summary, pointer), number(&verified, pointer));
             assert!(
@@ -50,7 +50,7 @@ fn run_and_verify_report_the_same_and_hold_it_against_no_tolerance() {
                 "{pointer}: {one}, {other}"
             );
         }
-        let predicted = number(&summary, "/servo/predicted_error_nm/max");
+        let predicted = number(&summary, "/servo/predicted_error/max_nm");
         assert!(predicted > 1000.0, "{predicted} nm");
         assert_eq!(summary["within"]["interpolation"], true);
     }
@@ -61,8 +61,8 @@ fn axes_that_follow_wholly_leave_the_played_path() {
     let whole = "--set servo.bandwidth=70Hz --set servo.velocity_feed_forward=1 \
                  --set servo.acceleration_feed_forward=1";
     let (_, summary) = run(whole);
-    let played = number(&summary, "/interpolation_error_nm/rms");
-    let predicted = number(&summary, "/servo/predicted_error_nm/rms");
+    let played = number(&summary, "/interpolation_error/rms_nm");
+    let predicted = number(&summary, "/servo/predicted_error/rms_nm");
     assert!(
         (predicted / played - 1.0).abs() < 1e-6,
         "{predicted}, {played}"
@@ -76,7 +76,7 @@ fn a_preset_brings_the_bandwidth_of_its_servo() {
     let (_, given) = run(&format!("{forward} --set servo.bandwidth=70Hz"));
     assert_eq!(preset["servo"], given["servo"]);
     let (_, wide) = run(&format!("{forward} --set servo.bandwidth=700Hz"));
-    let error = |summary: &Value| number(summary, "/servo/predicted_error_nm/max");
+    let error = |summary: &Value| number(summary, "/servo/predicted_error/max_nm");
     assert!(error(&wide) < 0.05 * error(&given));
 }
 

@@ -79,12 +79,12 @@ fn rows() -> Vec<usize> {
 fn told_at(said: &Answer, row: usize, what: &[&str]) {
     assert!(matches!(said.status, Some(0 | 1)), "{said}");
     let verified = said.json();
-    let suspicious = &verified["suspicious"];
-    assert_eq!(suspicious["count"], 1, "row {row}: {suspicious}");
-    let place = &suspicious["places"][0];
+    let anomalies = &verified["anomalies"];
+    assert_eq!(anomalies["count"], 1, "row {row}: {anomalies}");
+    let place = &anomalies["places"][0];
     let point = place["point"].as_u64().unwrap();
     assert!(point.abs_diff(row as u64) <= 1, "row {row}: {place}");
-    let found = place["what"].as_str().unwrap();
+    let found = place["kind"].as_str().unwrap();
     assert!(what.contains(&found), "row {row}: {place}");
 }
 
@@ -97,10 +97,10 @@ fn a_path_as_it_was_written_has_no_anomaly_in_either_file() {
     for file in ["out/toolpath.csv", "out/recipe.pmc"] {
         let said = made().line(&format!("verify recipe.toml {file} --format json"));
         let verified = said.ends(0).json();
-        assert_eq!(verified["suspicious"]["count"], 0, "{file}");
+        assert_eq!(verified["anomalies"]["count"], 0, "{file}");
         // A table gives the doubles back, a program seven decimals of Z, X and C in deg.
         let digits = if file.ends_with("csv") { 1e-6 } else { 0.1 };
-        let error = number(&verified, "/control_point_error_nm/max");
+        let error = number(&verified, "/control_point_error/max_nm");
         assert!(error < digits, "{file}: {error} nm");
     }
 }
@@ -112,7 +112,7 @@ fn a_point_that_is_moved_by_50_nm_is_told() {
         told_at(&said, row, &["z_position", "z_motion"]);
         let (first, last) = cut();
         if (first..=last).contains(&row) {
-            let error = number(&said.json(), "/control_point_error_nm/max");
+            let error = number(&said.json(), "/control_point_error/max_nm");
             assert!((error - 50.0).abs() < 0.01, "{error} nm");
         }
         let said = verify("x50.csv", &edited(row, X, |x| x + 50e-6));
@@ -163,7 +163,7 @@ fn a_velocity_that_is_wrong_where_it_matters_exceeds_the_tolerance_there() {
     let said = verify("vz.csv", &edited(2000, VZ, |v| 1.01 * v)).ends(1);
     let verified = said.json();
     assert_eq!(verified["within"]["interpolation"], false);
-    let at = number(&verified, "/interpolation_error_nm/at/c_deg");
+    let at = number(&verified, "/interpolation_error/at/c_deg");
     assert!(
         (at - c).abs() <= 30.0,
         "found at {at} deg, wrong at {c} deg"
@@ -199,7 +199,7 @@ fn a_row_that_is_lost_is_reported() {
 fn the_text_reports_an_anomaly_and_the_tolerance_decides() {
     made().write("told.csv", edited(2000, Z, |z| z + 50e-6).join("\n") + "\n");
     let said = made().line("verify recipe.toml told.csv").ends(0);
-    let line = "  suspicious      point 2,000, C = ";
+    let line = "  anomalies       point 2,000, C = ";
     assert!(said.stdout.contains(line), "{said}");
     assert!(
         said.stdout.contains("Z is off the first touch by 50.00 nm"),
@@ -298,7 +298,7 @@ fn moves_of_a_program_that_are_lost_or_swapped_exceed_the_tolerance_there() {
             }
             let verified = said.ends(1).json();
             assert_eq!(verified["within"]["interpolation"], false);
-            let at = number(&verified, "/interpolation_error_nm/at/c_deg");
+            let at = number(&verified, "/interpolation_error/at/c_deg");
             let c = value(&rows[point], C);
             assert!(
                 (at - c).abs() <= 90.0,

@@ -120,7 +120,7 @@ fn ats_pays_with_the_acceleration_of_x() {
     let of = |feed: &str| {
         let wanted = [feed, feed, "analytic"].map(str::to_owned);
         let run = runs.iter().find(|run| chain(run) == wanted).unwrap();
-        number(run, "/axes/x/rms_acceleration")
+        number(run, "/axes/x/rms_acceleration_mm_per_s2")
     };
     assert!(of("ats") > 100.0 * of("atpg"), "{}", of("ats"));
     assert!(of("ats") > 100.0 * of("fft-adaptive"), "{}", of("ats"));

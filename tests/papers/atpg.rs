@@ -61,7 +61,7 @@ fn points(summary: &Value) -> f64 {
 }
 
 fn error_nm(summary: &Value) -> f64 {
-    summary["interpolation_error_nm"]["max"].as_f64().unwrap()
+    summary["interpolation_error"]["max_nm"].as_f64().unwrap()
 }
 
 fn close(found: f64, expected: f64, part: f64, what: &str) {

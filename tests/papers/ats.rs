@@ -37,7 +37,9 @@ fn run_with(recipe: &str, strategy: &str, set: &[&str], after: &[&str]) -> (i32,
 }
 
 fn acceleration(summary: &Value, axis: &str) -> f64 {
-    summary["axes"][axis]["rms_acceleration"].as_f64().unwrap()
+    summary["axes"][axis]["rms_acceleration_mm_per_s2"]
+        .as_f64()
+        .unwrap()
 }
 
 /// With exact rates the sampler leaves refinement nothing to do; X's own error included, cusps
@@ -52,7 +54,7 @@ fn both_tolerances_hold_in_both_directions_with_every_compensator() {
                 let (status, summary) = run(recipe, "ats", &set);
                 assert_eq!(status, 0, "{recipe}, {set:?}: {summary}");
                 assert_eq!(summary["points_added_by_refine"], 0, "{recipe}, {set:?}");
-                let residual = summary["residual_nm"]["max"].as_f64().unwrap();
+                let residual = summary["residual"]["max_nm"].as_f64().unwrap();
                 assert!((97.0..=100.0).contains(&residual), "{residual}");
             }
         }
@@ -117,7 +119,7 @@ fn over_the_whole_part_it_covers_and_holds_by_itself() {
 /// inward one, and X does not cross the axis, where the recursion's goes half a millimetre beyond.
 #[test]
 fn backwards_it_covers_the_part_and_x_stays_on_its_side() {
-    let crossing = |summary: &Value| summary["axis_crossing_um"]["x"].as_f64().unwrap();
+    let crossing = |summary: &Value| summary["axis_crossing"]["x_um"].as_f64().unwrap();
     for recipe in [AST_5, MLA_5] {
         let set = [
             "path.overrun=contact",

@@ -65,7 +65,7 @@ fn number(summary: &Value, key: &str) -> f64 {
 }
 
 fn error_nm(summary: &Value) -> f64 {
-    number(&summary["interpolation_error_nm"], "max")
+    number(&summary["interpolation_error"], "max_nm")
 }
 
 fn close(found: f64, expected: f64, part: f64) {
@@ -152,7 +152,7 @@ fn refined_it_holds_whatever_is_played() {
 #[test]
 fn the_residual_is_held_only_where_the_feed_is_limited() {
     let (_, free) = run(&[HALF, STEP]);
-    assert!(number(&free["residual_nm"], "max") > 500.0);
+    assert!(number(&free["residual"], "max_nm") > 500.0);
     for direction in ["path.direction=inward", "path.direction=outward"] {
         let limited = [
             "feed={ use = \"fft-adaptive\" }",
@@ -164,7 +164,7 @@ fn the_residual_is_held_only_where_the_feed_is_limited() {
         ];
         let (status, summary) = run(&limited);
         assert_eq!(status, 0, "{summary}");
-        let residual = number(&summary["residual_nm"], "max");
+        let residual = number(&summary["residual"], "max_nm");
         assert!((95.0..=100.0).contains(&residual), "{residual}");
     }
 }

@@ -30,10 +30,10 @@ fn run(set: &[&str]) -> (u64, f64, f64) {
     let set = set.iter().flat_map(|set| ["--set", *set]);
     let fixed = ["run", "recipe.toml", "--format", "json"];
     let summary: Value = bench.call(fixed.into_iter().chain(set)).json();
-    let error = &summary["interpolation_error_nm"];
+    let error = &summary["interpolation_error"];
     (
         summary["control_points"].as_u64().unwrap(),
-        error["max"].as_f64().unwrap(),
+        error["max_nm"].as_f64().unwrap(),
         error["at"]["x_mm"].as_f64().unwrap(),
     )
 }

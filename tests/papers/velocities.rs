@@ -76,7 +76,7 @@ impl RecipeFolder {
 }
 
 fn error_nm(summary: &Value) -> f64 {
-    summary["interpolation_error_nm"]["max"].as_f64().unwrap()
+    summary["interpolation_error"]["max_nm"].as_f64().unwrap()
 }
 
 fn points(summary: &Value) -> u64 {
@@ -149,7 +149,7 @@ fn conventional_path_of_the_lens_array_on_straight_segments() {
     assert_errors(&array(step), 127_001, 3e-3, &[(LINEAR, across(254.0))]);
     let folder = RecipeFolder::new();
     let (_, straight) = folder.run(&[&conventional[..], &[LINEAR]].concat());
-    let at = &straight["interpolation_error_nm"]["at"]["x_mm"];
+    let at = &straight["interpolation_error"]["at"]["x_mm"];
     assert!(at.as_f64().unwrap() > 4.95, "{at}");
     assert!(error_nm(&folder.run(&conventional).1) < 0.2);
 }
@@ -210,7 +210,7 @@ fn every_solver_holds_the_tolerance_or_says_where_not() {
                 "{velocity}: {}",
                 error_nm(&summary)
             );
-            assert!(summary["interpolation_error_nm"]["at"]["x_mm"].is_f64());
+            assert!(summary["interpolation_error"]["at"]["x_mm"].is_f64());
         }
     }
 }
@@ -232,9 +232,9 @@ fn the_files_are_played_as_the_solver_meant_them() {
                 "{velocity}: {run} in the run, {verified} in the file"
             );
         };
-        close(&|of| &of["interpolation_error_nm"]["max"]);
-        close(&|of| &of["axes"]["z"]["max_acceleration"]);
-        close(&|of| &of["axes"]["z"]["rms_acceleration"]);
+        close(&|of| &of["interpolation_error"]["max_nm"]);
+        close(&|of| &of["axes"]["z"]["max_acceleration_mm_per_s2"]);
+        close(&|of| &of["axes"]["z"]["rms_acceleration_mm_per_s2"]);
     }
     let (_, straight) = folder.run(&["refine=true", LINEAR]);
     let as_cubics = folder.verify(&[ANALYTIC]);

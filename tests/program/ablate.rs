@@ -169,7 +169,7 @@ fn points_are_those_of_the_program_and_its_size_is_measured() {
         .line("run recipe.toml -o single --format json")
         .ends(0);
     let (single, runs) = (single.json(), runs(&bench));
-    for key in ["control_points", "interpolation_error_nm", "axes"] {
+    for key in ["control_points", "interpolation_error", "axes"] {
         assert_eq!(runs[0][key], single[key], "{key}");
     }
     assert!(single["points_added_by_refine"].as_u64().is_some());
@@ -209,9 +209,12 @@ fn the_csv_has_the_figures_of_the_json() {
         for (name, pointer) in [
             ("points", "/control_points"),
             ("cutting_time_s", "/cutting_time_s"),
-            ("error_max_nm", "/interpolation_error_nm/max"),
-            ("residual_nm", "/residual_nm/max"),
-            ("z_acceleration_rms_mm_per_s2", "/axes/z/rms_acceleration"),
+            ("error_max_nm", "/interpolation_error/max_nm"),
+            ("residual_nm", "/residual/max_nm"),
+            (
+                "z_acceleration_rms_mm_per_s2",
+                "/axes/z/rms_acceleration_mm_per_s2",
+            ),
             ("program_bytes", "/program_bytes"),
             ("planning_time_s", "/planning_time_s"),
         ] {
@@ -415,14 +418,14 @@ fn the_x_acceleration_that_is_compared_is_that_of_the_law() {
     let of = |pointer: &str| run.pointer(pointer).unwrap().as_f64().unwrap();
     let turns_per_second = of("/revolutions") / of("/cutting_time_s");
     let running_out = 1.5 * 0.02 / 1.25 * turns_per_second * turns_per_second;
-    let whole = of("/axes/x/max_acceleration");
+    let whole = of("/axes/x/max_acceleration_mm_per_s2");
     assert!(
         (whole / running_out - 1.0).abs() < 0.01,
         "{whole} {running_out}"
     );
-    let own = of("/axes_of_law/x/max_acceleration");
+    let own = of("/axes_of_law/x/max_acceleration_mm_per_s2");
     assert!(own < 1e-6 * whole, "{own}");
-    let velocity = of("/axes_of_law/x/max_velocity");
+    let velocity = of("/axes_of_law/x/max_velocity_mm_per_s");
     assert!((velocity / (0.02 * turns_per_second) - 1.0).abs() < 1e-9);
 }
 

@@ -82,7 +82,7 @@ fn run_with(bench: &Bench, folder: &TempDir, rest: &[&str]) -> serde_json::Value
 fn holds(summary: &serde_json::Value, tolerance_nm: f64) {
     assert_eq!(summary["within"]["interpolation"], true);
     assert_eq!(summary["within"]["residual"], true);
-    let max = summary["interpolation_error_nm"]["max"].as_f64().unwrap();
+    let max = summary["interpolation_error"]["max_nm"].as_f64().unwrap();
     assert!(max <= 1.001 * tolerance_nm, "{max} nm");
 }
 

@@ -10,7 +10,6 @@ use crate::support::bench::{Bench, answer};
 use crate::support::builds::{BUILT_INS, bare_program, built_in_libraries};
 use crate::support::fixtures::file_name;
 use crate::support::recipe::{SADDLE, saddle_with, with_table};
-use sha2::{Digest, Sha256};
 
 /// Revolutions of a block: a path with more is made in several.
 const BLOCK: f64 = 64.0;
@@ -154,8 +153,7 @@ fn the_summary_names_file_and_hash_of_every_plugin_that_was_loaded() {
         let file = libraries.path().join(file_name(name));
         let file = fs::canonicalize(file).unwrap();
         assert_eq!(plugin["file"].as_str(), file.to_str());
-        let hash = Sha256::digest(fs::read(&file).unwrap());
-        let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+        let hash = turnpath_host::sha256_hex_of_file(&file).unwrap();
         assert_eq!(plugin["sha256"].as_str(), Some(hash.as_str()));
         names.push(name);
     }

@@ -78,18 +78,18 @@ fn a_file_of_the_program_gives_the_figures_of_its_summary() {
         for pointer in [
             "/control_points",
             "/rows",
-            "/interpolation_error_nm/max",
-            "/interpolation_error_nm/rms",
-            "/interpolation_error_nm/at/c_deg",
-            "/interpolation_error_nm/at/x_mm",
-            "/residual_nm/max",
-            "/coverage_nm/rim",
-            "/coverage_nm/centre",
-            "/axes/x/max_velocity",
-            "/axes/z/max_velocity",
-            "/axes/z/max_acceleration",
-            "/axes/z/rms_acceleration",
-            "/axes/c/max_velocity",
+            "/interpolation_error/max_nm",
+            "/interpolation_error/rms_nm",
+            "/interpolation_error/at/c_deg",
+            "/interpolation_error/at/x_mm",
+            "/residual/max_nm",
+            "/coverage/rim/height_nm",
+            "/coverage/centre/height_nm",
+            "/axes/x/max_velocity_mm_per_s",
+            "/axes/z/max_velocity_mm_per_s",
+            "/axes/z/max_acceleration_mm_per_s2",
+            "/axes/z/rms_acceleration_mm_per_s2",
+            "/axes/c/max_velocity_deg_per_s",
         ] {
             same(&summary, &verified, pointer);
         }
@@ -193,8 +193,8 @@ fn a_point_that_is_moved_by_50_nm_shows_in_the_error_and_still_holds() {
         edit(&mut lines[2000], Z, |z| (z + 50e-6).to_string());
     });
     let after = said.ends(0).json();
-    let max = number(&after, "/interpolation_error_nm/max");
-    assert!(number(&before, "/interpolation_error_nm/max") < 40.0);
+    let max = number(&after, "/interpolation_error/max_nm");
+    assert!(number(&before, "/interpolation_error/max_nm") < 40.0);
     assert!((45.0..=60.0).contains(&max), "{max} nm");
 }
 
@@ -206,9 +206,9 @@ fn a_point_that_is_moved_by_500_nm_exceeds_the_tolerance_there() {
         c = lines[2000].split(',').nth(1).unwrap().parse().unwrap();
     });
     let verified = said.ends(1).json();
-    let max = number(&verified, "/interpolation_error_nm/max");
+    let max = number(&verified, "/interpolation_error/max_nm");
     assert!((490.0..=520.0).contains(&max), "{max} nm");
-    let at = number(&verified, "/interpolation_error_nm/at/c_deg");
+    let at = number(&verified, "/interpolation_error/at/c_deg");
     assert!((at - c).abs() <= 9.0, "found at {at} deg, moved at {c} deg");
     assert_eq!(verified["within"]["interpolation"], false);
     assert_eq!(verified["within"]["residual"], true);
@@ -252,9 +252,9 @@ fn a_row_that_is_missing_shows_in_the_error() {
             .unwrap();
     });
     let (before, after) = (before.ends(0).json(), said.ends(0).json());
-    let max = "/interpolation_error_nm/max";
+    let max = "/interpolation_error/max_nm";
     assert!(number(&after, max) > 1.3 * number(&before, max), "{after}");
-    let at = number(&after, "/interpolation_error_nm/at/c_deg");
+    let at = number(&after, "/interpolation_error/at/c_deg");
     assert!(
         (at - c).abs() <= 9.0,
         "found at {at} deg, removed at {c} deg"
@@ -338,7 +338,7 @@ fn figures_that_overflow_are_null_and_not_zero() {
         let middle = lines.len() / 2;
         edit(&mut lines[middle], Z, |_| "1e308".to_owned());
     });
-    let error = &said.ends(1).json()["surface_error_nm"];
-    assert_eq!(error["rms"], Value::Null, "{error}");
-    assert_eq!(error["sq"], Value::Null, "{error}");
+    let error = &said.ends(1).json()["surface_error"];
+    assert_eq!(error["rms_nm"], Value::Null, "{error}");
+    assert_eq!(error["sq_nm"], Value::Null, "{error}");
 }

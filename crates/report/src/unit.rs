@@ -145,8 +145,8 @@ mod tests {
                 .wrapping_mul(6_364_136_223_846_793_005)
                 .wrapping_add(1);
             let mantissa = 1.0 + (state >> 12) as f64 / (1u64 << 52) as f64;
-            let exponent = (state % 41) as i32 - 20;
-            let height = mantissa * 10f64.powi(exponent);
+            let scale: f64 = format!("1e{}", (state % 41) as i32 - 20).parse().unwrap();
+            let height = mantissa * scale;
             let first = text(height, Some(height));
             let sample: Sample = serde_json::from_str(&first).unwrap();
             let second = serde_json::to_string(&sample).unwrap();
