@@ -1,0 +1,55 @@
+//! A run that its observer cancels ends at once and leaves nothing behind.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use turnpath::{Error, Fault, Observer, Outputs, Stage};
+
+use crate::support::job;
+
+/// Cancels when a stage has begun for the n-th time.
+struct CancelAt {
+    stage: fn(Stage) -> bool,
+    seen: AtomicU64,
+}
+
+impl CancelAt {
+    fn new(stage: fn(Stage) -> bool) -> Self {
+        Self {
+            stage,
+            seen: AtomicU64::new(0),
+        }
+    }
+}
+
+impl Observer for CancelAt {
+    fn begin(&self, stage: Stage, _: u64) {
+        self.seen
+            .fetch_add(u64::from((self.stage)(stage)), Ordering::Relaxed);
+    }
+
+    fn advance(&self, _: u64) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.seen.load(Ordering::Relaxed) > 0
+    }
+}
+
+#[test]
+fn a_run_can_be_cancelled_in_every_stage_and_leaves_no_file_and_no_folder() {
+    let stages: [fn(Stage) -> bool; 4] = [
+        |stage| matches!(stage, Stage::Law),
+        |stage| matches!(stage, Stage::Refine(_)),
+        |stage| matches!(stage, Stage::Write),
+        |stage| matches!(stage, Stage::ReadBack),
+    ];
+    for (index, stage) in stages.into_iter().enumerate() {
+        let folder = tempfile::tempdir().unwrap();
+        let observer = CancelAt::new(stage);
+        let outputs = Outputs::in_folder(folder.path().join("a/b"));
+        let error = job(&[]).run(outputs, &observer).unwrap_err();
+        assert!(matches!(error, Error::Cancelled), "stage {index}: {error}");
+        assert_eq!(error.fault(), Fault::Cancelled);
+        let left = std::fs::read_dir(folder.path()).unwrap().count();
+        assert_eq!(left, 0, "stage {index}");
+    }
+}

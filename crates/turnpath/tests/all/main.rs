@@ -1,0 +1,8 @@
+//! The library from outside, without the program: outputs, cancellation, and reports as files.
+
+mod support;
+
+mod cancellation;
+mod errors;
+mod outputs;
+mod reports;

@@ -1,0 +1,85 @@
+//! A folder, memory and nowhere get the same path and the same figures.
+
+use turnpath::report::RunReport;
+use turnpath::{Outputs, PlotRequest, RunResult, SilentObserver};
+
+use crate::support::job;
+
+fn run(outputs: Outputs) -> RunResult {
+    job(&[]).run(outputs, &SilentObserver).unwrap()
+}
+
+/// A report without its programs, which nowhere does not make.
+fn without_programs(report: &RunReport) -> RunReport {
+    let mut report = report.clone();
+    report.programs.clear();
+    report.within.programs = None;
+    report
+}
+
+#[test]
+fn memory_has_the_rows_of_the_table_and_the_bytes_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let in_folder = run(Outputs::in_folder(folder.path()));
+    let in_memory = run(Outputs::in_memory());
+    assert_eq!(in_folder.report, in_memory.report);
+    let path = in_memory.toolpath.unwrap();
+    assert_eq!(path.len() as u64, in_memory.report.rows);
+    let table = std::fs::read_to_string(folder.path().join("toolpath.csv")).unwrap();
+    let mut count = 0;
+    for (i, row) in table.lines().skip(1).enumerate() {
+        let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let [t, c, x, z, vc, vx, vz, section] = cells[..] else {
+            panic!("eight columns in {row}");
+        };
+        let of_path = [path.t[i], path.x[i], path.z[i], path.vx[i], path.vz[i]];
+        assert_eq!([t, x, z, vx, vz], of_path, "row {i}");
+        let close = |deg: f64, rad: f64| (deg - rad.to_degrees()).abs() <= 1e-12 * deg.abs();
+        assert!(close(c, path.c[i]) && close(vc, path.vc[i]), "row {i}");
+        assert_eq!(section as u8, path.section[i] as u8, "row {i}");
+        count += 1;
+    }
+    assert_eq!(count, path.len());
+    let [(name, program)] = &in_memory.programs[..] else {
+        panic!("one program");
+    };
+    assert_eq!(*program, std::fs::read(folder.path().join(name)).unwrap());
+    assert!(in_memory.files.is_empty());
+}
+
+#[test]
+fn nowhere_measures_the_same_path() {
+    let nowhere = run(Outputs::nowhere());
+    let in_memory = run(Outputs::in_memory());
+    assert_eq!(nowhere.report, without_programs(&in_memory.report));
+    assert!(nowhere.toolpath.is_none() && nowhere.programs.is_empty());
+}
+
+#[test]
+fn a_folder_lists_its_files_with_the_summary_last() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("new/out");
+    let plots = PlotRequest {
+        profiles: vec![0.0],
+        ..PlotRequest::default()
+    };
+    let result = run(Outputs::in_folder(&target).with_plots(plots));
+    let names: Vec<_> = result
+        .files
+        .iter()
+        .map(|file| file.file_name().unwrap().to_str().unwrap())
+        .collect();
+    let expected = [
+        "saddle.pmc",
+        "profile-0deg.csv",
+        "profile-0deg-spectrum.csv",
+        "toolpath.csv",
+        "summary.json",
+    ];
+    assert_eq!(names, expected);
+    assert!(result.files.iter().all(|file| file.is_file()));
+    let summary = std::fs::read_to_string(target.join("summary.json")).unwrap();
+    let read: RunReport = turnpath::report::from_json(&summary).unwrap();
+    assert_eq!(read, result.report);
+    assert!(read.verdict().holds());
+}
