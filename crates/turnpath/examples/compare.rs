@@ -1,4 +1,4 @@
-//! Three samplers side by side on one part: `cargo run --release --example compare`.
+//! Three samplers side by side on one part: `cargo run --release -p turnpath --example compare`.
 
 use turnpath::report::comparison::{by_names, table};
 use turnpath::report::{AblationRun, MeasuredRun, RunOutcome};

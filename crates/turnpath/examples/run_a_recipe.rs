@@ -1,4 +1,4 @@
-//! A recipe, its report, its verdict and its points: `cargo run --example run_a_recipe`.
+//! A recipe, its report, its verdict and its points: `cargo run --release -p turnpath --example run_a_recipe`.
 
 use turnpath::{Catalogue, Job, Outputs, Recipe, SilentObserver};
 
