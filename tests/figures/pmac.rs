@@ -149,7 +149,7 @@ fn an_independent_reader_finds_the_same_points_and_error() {
     }
     let (program, wanted) = (
         errors(&summary).1,
-        number(&reference, "/interpolation_error/max_nm"),
+        number(&reference, "/interpolation_error_nm/max"),
     );
     // 16 instants a segment see the largest error to half a percent, and 48 nearly all of it.
     assert!((program / wanted - 1.0).abs() < 5e-3, "{program} {wanted}");

@@ -112,8 +112,8 @@ fn compare_verdicts(summary: &Value, reference: &Value, status: Option<i32>) -> 
     let mut complaints = Vec::new();
     let mut all = true;
     for (tolerance, pointer) in [
-        ("interpolation", "/interpolation_error/max_nm"),
-        ("residual", "/residual/max_nm"),
+        ("interpolation", "/interpolation_error_nm/max"),
+        ("residual", "/residual_nm/max"),
     ] {
         let limit = summary["tolerance"][format!("{tolerance}_nm")].as_f64();
         let figure = reference.pointer(pointer).and_then(Value::as_f64);

@@ -99,7 +99,7 @@ fn wrong_values_are_shown_at_their_place() {
         ("servo.damping=0", "`damping` must be above zero"),
         (
             "servo.damping=1e300",
-            "`damping` must be above zero, and 100 at",
+            "`damping` must be above zero and at most 100",
         ),
         (
             "servo.bandwidth=1e300Hz",

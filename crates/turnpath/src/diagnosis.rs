@@ -8,7 +8,7 @@ use turnpath_recipe::{Diagnostic, Diagnostics, Recipe};
 use turnpath_report::text::{millimetres, nose_radius};
 
 use crate::error::{Error, cancelled};
-use crate::program::PMAC_PVT;
+use crate::posts::PMAC_PVT;
 
 /// An error of the pipeline at its place in the recipe.
 pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {

@@ -29,6 +29,7 @@ mod meters;
 mod outputs;
 mod plots;
 mod plugins;
+mod posts;
 mod program;
 mod run;
 mod sag;

@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::figures;
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
-use crate::program::{PMAC_EXTENSION, pmac_format};
+use crate::posts::{PMAC_EXTENSION, pmac_format};
 use crate::strategies;
 
 /// Measures the tool path in a file: a `toolpath.csv`, or a program of the post `pmac-pvt`. Plots go

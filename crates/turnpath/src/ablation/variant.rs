@@ -9,7 +9,7 @@ use turnpath_report::MeasuredRun;
 
 use crate::error::Error;
 use crate::job::Job;
-use crate::program::pmac_format;
+use crate::posts::pmac_format;
 
 use super::clock;
 

@@ -57,14 +57,14 @@ pub enum PlotError {
     #[error("a .gsf map has a Cartesian grid; for a polar one choose .xyz")]
     PolarGsf,
     /// The angle of a profile is none.
-    #[error("the profile at {} deg: an angle lies between -360 deg and 360 deg", angle.to_degrees())]
+    #[error("the profile at {}: an angle lies between -360 deg and 360 deg", degrees(*angle))]
     ProfileAngle {
         /// The angle, rad.
         angle: f64,
     },
     /// A circle does not lie on the part.
     #[error(
-        "the circle of {radius} mm: that is not on the part, which reaches {}",
+        "the circle of {radius} mm does not lie on the part, which reaches {}",
         part_reaches(*inner, *outer)
     )]
     CircleOffPart {
@@ -88,6 +88,17 @@ pub enum PlotError {
     )]
     NoToolPath,
 }
+
+/// An angle in rad as it was most likely given.
+fn degrees(angle: f64) -> String {
+    match angle.to_degrees() {
+        deg if deg.abs() < LONG => format!("{} deg", (deg * LONG).round() / LONG),
+        deg => format!("{deg:e} deg"),
+    }
+}
+
+/// From here on a power of ten reads better than all digits; also the digits that are kept.
+const LONG: f64 = 1e6;
 
 fn part_reaches(inner: f64, outer: f64) -> String {
     let outer = millimetres(outer, 3);

@@ -32,7 +32,10 @@ fn a_path_of_straight_lines_is_refused_before_the_work_where_a_program_is_asked_
     let error = refused(&["velocity.use=linear"]);
     assert_eq!(error.fault(), Fault::Request);
     let title = error.title();
-    assert!(title.contains("`pmac-pvt` cannot carry this path"), "{title}");
+    assert!(
+        title.contains("`pmac-pvt` cannot carry this path"),
+        "{title}"
+    );
 }
 
 #[test]

@@ -4,9 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use turnpath::report::{AblationReport, from_json, to_json};
-use turnpath::{
-    AblationOptions, Catalogue, Outputs, PlotRequest, SilentObserver, ablate, verify,
-};
+use turnpath::{AblationOptions, Catalogue, Outputs, PlotRequest, SilentObserver, ablate, verify};
 
 use crate::support::{SADDLE, job, recipe};
 
