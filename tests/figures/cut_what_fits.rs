@@ -121,8 +121,9 @@ fn closing(theta: f64, radius: f64, reach: f64, rim: f64, step: f64) -> Vec<(f64
         .collect()
 }
 
-/// Height and volume that the nose cannot reach on the lattice of radius 1 mm, by brute force. Steps of X miss the
-/// lowest place over a seam by a part of the step: the volume is extrapolated from two steps.
+/// Height and volume that the nose cannot reach on the lattice of radius 1 mm, by brute force. Steps
+/// of X miss the lowest place over a seam by a part of the step: the volume is extrapolated from two
+/// steps.
 fn brute_force() -> (f64, f64) {
     const SECTIONS: usize = 90;
     let reach = 0.4;

@@ -16,7 +16,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseResult, TestRng, TestRunner};
 
 /// Random parts for each compensator and direction.
-const CASES: u32 = 350;
+const CASES: u32 = 100;
+/// The same in the long tests, which begin with those parts.
+const LONG_CASES: u32 = 350;
 /// Sections of a turn, one control point on each.
 const SECTIONS: usize = 24;
 /// Places along a section's radius where the uncut height is measured.
@@ -322,9 +324,9 @@ fn check(job: &Job, compensator: &str, direction: &str) -> TestCaseResult {
 }
 
 #[track_caller]
-fn check_all(compensator: &str, direction: &str) {
+fn check_all(cases: u32, compensator: &str, direction: &str) {
     let config = Config {
-        cases: CASES,
+        cases,
         failure_persistence: None,
         ..Config::default()
     };
@@ -336,19 +338,25 @@ fn check_all(compensator: &str, direction: &str) {
 }
 
 macro_rules! whole_parts {
-    ($($name:ident: $compensator:literal, $direction:literal;)*) => {
+    ($($name:ident, $long:ident: $compensator:literal, $direction:literal;)*) => {
         $(#[test]
         fn $name() {
-            check_all($compensator, $direction);
+            check_all(CASES, $compensator, $direction);
+        }
+
+        #[test]
+        #[ignore = "takes half a minute; `cargo xtask long` runs it"]
+        fn $long() {
+            check_all(LONG_CASES, $compensator, $direction);
         })*
     };
 }
 
 whole_parts! {
-    along_z_inward: "z-direction", "inward";
-    along_z_outward: "z-direction", "outward";
-    along_the_normal_inward: "normal", "inward";
-    along_the_normal_outward: "normal", "outward";
-    uncompensated_inward: "none", "inward";
-    uncompensated_outward: "none", "outward";
+    along_z_inward, long_along_z_inward: "z-direction", "inward";
+    along_z_outward, long_along_z_outward: "z-direction", "outward";
+    along_the_normal_inward, long_along_the_normal_inward: "normal", "inward";
+    along_the_normal_outward, long_along_the_normal_outward: "normal", "outward";
+    uncompensated_inward, long_uncompensated_inward: "none", "inward";
+    uncompensated_outward, long_uncompensated_outward: "none", "outward";
 }
