@@ -138,14 +138,14 @@ fn part_of_it(lines: std::ops::Range<usize>) -> Value {
 #[test]
 fn a_path_that_ends_before_the_axis_does_not_hold() {
     let verified = part_of_it(1..2001);
-    assert_eq!(number(&verified, "/reach_mm/outer"), 2.5);
-    assert!(number(&verified, "/reach_mm/inner") > 1.0, "{verified}");
+    assert_eq!(number(&verified, "/reach/outer_mm"), 2.5);
+    assert!(number(&verified, "/reach/inner_mm") > 1.0, "{verified}");
 }
 
 #[test]
 fn a_path_that_begins_inside_the_rim_does_not_hold() {
     let verified = part_of_it(2001..4001);
-    assert!(number(&verified, "/reach_mm/outer") < 1.5, "{verified}");
+    assert!(number(&verified, "/reach/outer_mm") < 1.5, "{verified}");
 }
 
 #[test]

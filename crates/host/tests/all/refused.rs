@@ -89,8 +89,8 @@ fn another_version_of_the_boundary() {
     assert_eq!(
         message(&error_of(&file), &file),
         format!(
-            "cannot load the plugin {}: it is built against turnpath-plugin 0.999.3, but this program has 0.1.0; \
-             rebuild the plugin against turnpath-plugin 0.1",
+            "cannot load the plugin {}: it is built against turnpath-plugin 0.999.3, but this program has 0.2.0; \
+             rebuild the plugin against turnpath-plugin 0.2",
             fixtures::file_name("other-version")
         )
     );

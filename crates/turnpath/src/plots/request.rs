@@ -93,7 +93,7 @@ pub enum PlotError {
 fn degrees(angle: f64) -> String {
     match angle.to_degrees() {
         deg if deg.abs() < LONG => format!("{} deg", (deg * LONG).round() / LONG),
-        deg => format!("{deg:e} deg"),
+        deg => format!("{deg:.3e} deg"),
     }
 }
 
