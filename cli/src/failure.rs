@@ -47,7 +47,7 @@ impl Failure {
             Self::Call(_) | Self::Output(_) => Vec::new(),
         };
         if texts.is_empty() {
-            texts.push(self.plain());
+            texts.push(self.without_place().render(color));
         }
         if details {
             texts.extend(self.layout_details().map(str::to_owned));
@@ -55,9 +55,13 @@ impl Failure {
         texts.join("\n\n")
     }
 
-    /// The text of an error without a place in the recipe, its causes included.
-    fn plain(&self) -> String {
-        format!("error: {}", Diagnostic::from_error(self).title())
+    /// The message of an error without a place in the recipe, its causes included.
+    fn without_place(&self) -> Diagnostic {
+        let help = match self {
+            Self::Work(error) => error.help(),
+            Self::Call(_) | Self::Output(_) => None,
+        };
+        Diagnostic::from_error(self).with_helps(help.map(str::to_owned))
     }
 
     fn layout_details(&self) -> Option<&str> {

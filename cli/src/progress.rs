@@ -10,6 +10,8 @@ use turnpath::{AblationObserver, Observer, Stage};
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";
+/// The same where nobody knows how long it takes.
+const OPEN_STYLE: &str = "{msg:<24} {spinner} {elapsed}";
 /// How often the bar is drawn while nothing advances.
 const TICK: Duration = Duration::from_millis(250);
 
@@ -39,10 +41,12 @@ impl Observer for Bar {
         if !std::io::stderr().is_terminal() {
             return;
         }
+        let length = Some(blocks).filter(|blocks| *blocks > 0);
         self.with(|bar| {
             bar.finish_and_clear();
-            *bar = ProgressBar::with_draw_target(Some(blocks), ProgressDrawTarget::stderr());
-            if let Ok(style) = ProgressStyle::with_template(STYLE) {
+            *bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
+            let style = if blocks == 0 { OPEN_STYLE } else { STYLE };
+            if let Ok(style) = ProgressStyle::with_template(style) {
                 bar.set_style(style);
             }
             bar.set_message(match stage {
@@ -50,6 +54,7 @@ impl Observer for Bar {
                 Stage::Refine(round) => format!("playing back, round {round}"),
                 Stage::Write => "measuring and writing".to_owned(),
                 Stage::ReadBack => "reading programs back".to_owned(),
+                Stage::Measure => "measuring the file".to_owned(),
                 Stage::Map => "mapping what is cut".to_owned(),
             });
             bar.enable_steady_tick(TICK);

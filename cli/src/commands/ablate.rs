@@ -1,5 +1,6 @@
 //! `turnpath ablate`: the variants of a recipe side by side.
 
+use std::num::NonZero;
 use std::path::Path;
 
 use turnpath::report::{AblationReport, comparison};
@@ -23,7 +24,10 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
     let options = AblationOptions {
         folder,
         fresh: args.fresh,
-        threads: args.work.threads.map(usize::from),
+        threads: args
+            .work
+            .threads
+            .and_then(|count| NonZero::new(usize::from(count))),
     };
     let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new())?;
     print_report(args.work.format, &result.report, |report| {
@@ -48,7 +52,13 @@ fn human(
         }
     }
     text += "\n\n";
-    let columns = comparison::by_names(columns);
+    let columns = match columns {
+        [] => comparison::usual(),
+        names => names
+            .iter()
+            .filter_map(|name| comparison::by_name(name))
+            .collect(),
+    };
     text += &comparison::table(&report.runs, &columns, width::of_terminal());
     text.push('\n');
     for file in &result.files {

@@ -1,6 +1,6 @@
 //! What several commands begin with: threads, the recipe, and the strategies.
 
-use turnpath::{Catalogue, Job, LoadError, Recipe, refuse_listed_plugins, with_listed_plugins};
+use turnpath::{Catalogue, Error, Job, LoadError, Recipe, with_listed_plugins};
 
 use crate::args::{PluginArgs, RecipeArgs, WorkArgs};
 use crate::failure::Failure;
@@ -38,6 +38,22 @@ pub fn recipe(args: &RecipeArgs, catalogue: Catalogue) -> Result<(Recipe, Catalo
     let catalogue = with_plugins(catalogue, &args.plugins)?;
     let catalogue = with_listed_plugins(catalogue, &recipe)?;
     Ok((recipe, catalogue))
+}
+
+/// Refuses a recipe that lists plugins of its own: they are native code with the user's rights.
+fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
+    let Some(first) = recipe.plugins.first() else {
+        return Ok(());
+    };
+    let title = "the recipe asks to load plugins of its own, which takes --trust-recipe";
+    let label = "native code that runs with your rights";
+    let help = "look at what it lists; then call again with `--trust-recipe`, or leave \
+                `plugins` out and give folders that you trust with `--plugin-dir`";
+    let diagnostic = recipe.diagnostic(first.span.clone(), title, label, [help.to_owned()]);
+    Err(Error::Refused {
+        diagnostics: diagnostic.into(),
+        source: None,
+    })
 }
 
 /// The job of a recipe.

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use turnpath::Catalogue;
 use turnpath::report::text;
-use turnpath::{Catalogue, SilentObserver};
 
 use super::{plots, setup};
 use crate::args::VerifyArgs;
 use crate::print::print_report;
+use crate::progress::Bar;
 use crate::{Outcome, Status};
 
 /// Measures a file.
@@ -16,14 +17,10 @@ pub fn verify(args: &VerifyArgs, catalogue: Catalogue) -> Outcome {
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
     let request = plots::request(&args.plots)?;
     let folder = args.output.as_deref().unwrap_or(Path::new("."));
-    let report = turnpath::verify(
-        &recipe,
-        &catalogue,
-        &args.file,
-        &request,
-        folder,
-        &SilentObserver,
-    )?;
+    let bar = Bar::new();
+    let report = turnpath::verify(&recipe, &catalogue, &args.file, &request, folder, &bar);
+    bar.clear();
+    let report = report?;
     print_report(args.work.format, &report, text::file)?;
     Ok(Status::of(report.verdict()))
 }

@@ -54,11 +54,7 @@ pub enum LoadError {
         refusal: Refusal,
     },
     /// Two strategies have one name in one slot.
-    #[error(
-        "two {}s are named `{name}`: one of {first}, one of {second}\n\
-         leave one of the two plugins out, or rename its strategy",
-        slot.noun()
-    )]
+    #[error("two {}s are named `{name}`: one of {first}, one of {second}", slot.noun())]
     TwoOfOneName {
         /// The slot of both strategies.
         slot: Slot,
@@ -139,7 +135,7 @@ pub enum Refusal {
         details: String,
     },
     /// The system's loader refused it.
-    #[error("the system's loader refuses it: {reason}{}", hint.map(|hint| format!("\n{hint}")).unwrap_or_default())]
+    #[error("the system's loader refuses it: {reason}")]
     Loader {
         /// The loader's message.
         reason: String,
@@ -180,6 +176,20 @@ impl LoadError {
             | Self::NoFile { path }
             | Self::Refused { path, .. } => Some(path),
             Self::TwoOfOneName { second, .. } => second.file.as_deref(),
+        }
+    }
+
+    /// What the user may do about it, where the message itself does not say.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::TwoOfOneName { .. } => {
+                Some("leave one of the two plugins out, or rename its strategy")
+            }
+            Self::Refused {
+                refusal: Refusal::Loader { hint, .. },
+                ..
+            } => *hint,
+            _ => None,
         }
     }
 
@@ -225,13 +235,15 @@ mod tests {
     }
 
     #[test]
-    fn a_hint_has_a_line_of_its_own() {
-        let loader = |hint| {
+    fn a_hint_is_help_and_no_part_of_the_message() {
+        let error = |hint| {
             let reason = "no".to_owned();
-            Refusal::Loader { reason, hint }.to_string()
+            LoadError::Refused {
+                path: "libx.so".into(),
+                refusal: Refusal::Loader { reason, hint },
+            }
         };
-        assert_eq!(loader(None), "the system's loader refuses it: no");
-        let both = "the system's loader refuses it: no\nset TMPDIR";
-        assert_eq!(loader(Some("set TMPDIR")), both);
+        assert_eq!(error(None).help(), None);
+        assert_eq!(error(Some("set TMPDIR")).help(), Some("set TMPDIR"));
     }
 }

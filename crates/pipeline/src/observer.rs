@@ -14,6 +14,8 @@ pub enum Stage {
     Write,
     /// Reading back and measuring what was written.
     ReadBack,
+    /// Measuring a path in a file; how many blocks it has is not known.
+    Measure,
     /// Making maps and profiles of the surface that is cut.
     Map,
 }

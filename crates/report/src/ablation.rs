@@ -47,9 +47,10 @@ pub struct MeasuredRun {
     /// Bytes of the lines that the post `pmac-pvt` makes of the points, header and footer aside;
     /// `None` where such a program cannot carry the path.
     pub program_bytes: Option<u64>,
-    /// Processor time that one thread took to make and measure the path, s.
+    /// Processor time that one thread took to make and measure the path, s; `None` where that was
+    /// not measured.
     #[serde(rename = "planning_time_s", with = "unit::s")]
-    pub planning_time: f64,
+    pub planning_time: Option<f64>,
 }
 
 /// A variant without a path.
@@ -62,16 +63,35 @@ pub struct FailedRun {
 }
 
 impl AblationReport {
-    /// The runs of an ablation.
+    /// The runs of an ablation, with all numbers rounded to the digits of files.
     pub fn new(runs: Vec<AblationRun>) -> Self {
-        Self {
+        crate::format::as_filed(Self {
             format: FORMAT,
             runs,
+        })
+    }
+}
+
+impl From<RunReport> for MeasuredRun {
+    /// A run whose costs were not measured.
+    fn from(report: RunReport) -> Self {
+        Self {
+            report,
+            program_bytes: None,
+            planning_time: None,
         }
     }
 }
 
 impl AblationRun {
+    /// A run with the keys that vary and their values in words.
+    pub fn new(varied: Vec<(String, String)>, run: impl Into<MeasuredRun>) -> Self {
+        Self {
+            outcome: RunOutcome::Measured(Box::new(run.into())),
+            varied,
+        }
+    }
+
     /// The run, where there is a path.
     pub fn measured(&self) -> Option<&MeasuredRun> {
         match &self.outcome {

@@ -34,7 +34,7 @@ pub struct FileReport {
     pub files: Vec<String>,
     /// Control points that stand out among their neighbours.
     pub anomalies: Anomalies,
-    /// What the nose leaves standing where it does not fit; `None` where the recipe refuses that.
+    /// What the nose leaves standing where it does not fit; `None` where it leaves nothing.
     pub unreached: Option<Unreached>,
     /// Which tolerances and limits hold.
     pub within: Verdict,

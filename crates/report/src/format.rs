@@ -1,7 +1,7 @@
 //! Reports as JSON text.
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 /// The form of reports as JSON. It grows when a key changes its name or its meaning.
 pub const FORMAT: u32 = 2;
@@ -13,16 +13,73 @@ pub fn to_json(report: &impl Serialize) -> String {
     text
 }
 
+/// Why a JSON text is no report.
+#[derive(Debug, thiserror::Error)]
+pub enum FormatError {
+    /// It is no JSON, or not that of such a report.
+    #[error("it is not the JSON of such a report")]
+    Json(#[from] serde_json::Error),
+    /// It has another form.
+    #[error(
+        "its form is {}, but this version of turnpath reads form {FORMAT}; make it again",
+        found.map_or("1 or older".to_owned(), |form| form.to_string())
+    )]
+    OtherForm {
+        /// Its form; form 1 has no number.
+        found: Option<u32>,
+    },
+}
+
+/// The one key that all forms have.
+#[derive(Deserialize)]
+struct Form {
+    format: Option<u32>,
+}
+
 /// A report from JSON text.
 ///
 /// # Errors
-/// When the text is no JSON, or not that of such a report.
-pub fn from_json<T: DeserializeOwned>(text: &str) -> serde_json::Result<T> {
-    serde_json::from_str(text)
+/// When the text is no JSON, is not that of such a report, or has another [`FORMAT`].
+pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, FormatError> {
+    let Form { format } = serde_json::from_str(text)?;
+    match format {
+        Some(FORMAT) => Ok(serde_json::from_str(text)?),
+        found => Err(FormatError::OtherForm { found }),
+    }
 }
 
 /// The report with every number rounded as files hold it.
 pub(crate) fn as_filed<T: Serialize + DeserializeOwned>(report: T) -> T {
     let filed = serde_json::to_value(&report).and_then(serde_json::from_value);
     filed.unwrap_or(report)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::RunReport;
+    use crate::sample::SUMMARY;
+
+    fn refusal(text: &str) -> String {
+        from_json::<RunReport>(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_real_summary_is_read_and_written_as_the_same_text() {
+        let report: RunReport = from_json(SUMMARY).unwrap();
+        assert_eq!(to_json(&report), SUMMARY);
+        assert!(report.verdict().holds());
+    }
+
+    #[test]
+    fn another_form_is_refused_by_its_number_before_its_keys() {
+        let newer = refusal(&SUMMARY.replacen("\"format\": 2", "\"format\": 3", 1));
+        assert!(
+            newer.contains("form is 3") && newer.contains("make it again"),
+            "{newer}"
+        );
+        let older = refusal(&SUMMARY.replacen("\"format\": 2,", "", 1));
+        assert!(older.contains("form is 1 or older"), "{older}");
+        assert_eq!(refusal("[1, 2"), "it is not the JSON of such a report");
+    }
 }

@@ -11,7 +11,7 @@
 //! assert!(report.verdict().holds());
 //! assert!(report.path.interpolation_error.max < 100e-6);
 //! assert_eq!(to_json(&report), text);
-//! # Ok::<(), serde_json::Error>(())
+//! # Ok::<(), turnpath_report::FormatError>(())
 //! ```
 
 mod ablation;
@@ -47,7 +47,7 @@ pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
 pub use errors::{ControlPointError, InterpolationError, LeftOut, Residual, Tolerances};
 pub use file::FileReport;
-pub use format::{FORMAT, from_json, to_json};
+pub use format::{FORMAT, FormatError, from_json, to_json};
 pub use lead::{AccelerationStep, LeadLayout, LeadReport};
 pub use machine::{HighestSpindle, LimitFigure, MachineLimits, MachineReport, MachineSource};
 pub use path::PathReport;

@@ -18,6 +18,9 @@ pub struct ProgramReport {
     pub interpolation_error: f64,
     /// Whether that holds the interpolation tolerance.
     pub within_interpolation: bool,
+    /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
+    #[serde(rename = "lead_clearance_nm", with = "unit::nm")]
+    pub lead_clearance: Option<f64>,
     /// Whether the leads stay above the first touch, to the interpolation tolerance; `None` without
     /// leads.
     pub within_lead: Option<bool>,
@@ -39,6 +42,7 @@ impl ProgramReport {
             post: post.to_owned(),
             interpolation_error,
             within_interpolation: within(interpolation_error, allowed),
+            lead_clearance,
             within_lead: lead_clearance.map(|clearance| within(-clearance, allowed)),
         }
     }

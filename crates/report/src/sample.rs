@@ -17,16 +17,9 @@ pub fn measured_run(
     varied: Vec<(String, String)>,
     change: impl FnOnce(&mut MeasuredRun),
 ) -> AblationRun {
-    let mut run = MeasuredRun {
-        report: run_report(),
-        program_bytes: None,
-        planning_time: 1.0,
-    };
+    let mut run = MeasuredRun::from(run_report());
     change(&mut run);
-    AblationRun {
-        outcome: RunOutcome::Measured(Box::new(run)),
-        varied,
-    }
+    AblationRun::new(varied, run)
 }
 
 /// A failed run of an ablation.

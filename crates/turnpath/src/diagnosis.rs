@@ -7,14 +7,11 @@ use turnpath_post::PmacError;
 use turnpath_recipe::{Diagnostic, Diagnostics, Recipe};
 use turnpath_report::text::{millimetres, nose_radius};
 
-use crate::error::{Error, cancelled};
+use crate::error::Error;
 use crate::posts::PMAC_PVT;
 
 /// An error of the pipeline at its place in the recipe.
 pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
-    if cancelled(&error) {
-        return Error::Cancelled;
-    }
     let title = error.to_string();
     match &error {
         // A parameter may turn out wrong only when the path is made.

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use turnpath_host::LoadError;
-use turnpath_pipeline::PipelineError;
 use turnpath_post::{FileError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
@@ -74,7 +73,7 @@ pub enum Error {
         expected: u64,
     },
     /// A report could not be put into a file.
-    #[error("the report cannot be put into {form}: {source}")]
+    #[error("the report cannot be put into {form}")]
     Report {
         /// The form of the file.
         form: &'static str,
@@ -82,8 +81,8 @@ pub enum Error {
         source: Source,
     },
     /// The system gives no thread to work on.
-    #[error("no thread to work on: {0}")]
-    Threads(#[source] rayon::ThreadPoolBuildError),
+    #[error("there is no thread to work on")]
+    Threads(#[source] Source),
     /// A run of an ablation ended without a result.
     #[error("a run ended unexpectedly")]
     RunLost,
@@ -137,13 +136,20 @@ impl Error {
         }
     }
 
+    /// What the user may do about it, where there is no diagnostic that says so.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::Load(error) => error.help(),
+            _ => None,
+        }
+    }
+
     /// What is wrong, in one line.
     pub fn title(&self) -> String {
-        let text = match self.diagnostics().first() {
+        match self.diagnostics().first() {
             Some(first) => first.title().to_owned(),
             None => Diagnostic::from_error(self).title().to_owned(),
-        };
-        text.lines().next().unwrap_or_default().to_owned()
+        }
     }
 
     /// What the recipe asks for cannot be done.
@@ -186,11 +192,6 @@ impl From<Diagnostics> for Error {
     fn from(diagnostics: Diagnostics) -> Self {
         Self::refused(diagnostics)
     }
-}
-
-/// A stage's error that needs no place in the recipe.
-pub(crate) fn cancelled(error: &PipelineError) -> bool {
-    matches!(error, PipelineError::Cancelled)
 }
 
 #[cfg(test)]

@@ -6,23 +6,6 @@ use turnpath_recipe::{Diagnostic, Recipe, Spanned};
 
 use crate::error::Error;
 
-/// Refuses a recipe that lists plugins of its own: they are native code with the rights of whoever
-/// runs them.
-///
-/// # Errors
-/// When the recipe lists one.
-pub fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
-    let Some(first) = recipe.plugins.first() else {
-        return Ok(());
-    };
-    let title = "the recipe asks to load plugins of its own, which takes --trust-recipe";
-    let label = "native code that runs with your rights";
-    let help = "look at what it lists; then call again with `--trust-recipe`, or leave \
-                `plugins` out and give folders that you trust with `--plugin-dir`";
-    let diagnostic = recipe.diagnostic(first.span.clone(), title, label, [help.to_owned()]);
-    Err(Error::refused(diagnostic))
-}
-
 /// The catalogue with the plugins that a recipe lists, which the caller trusts.
 ///
 /// # Errors
@@ -46,7 +29,8 @@ fn not_loaded(recipe: &Recipe, listed: &Spanned<String>, error: LoadError) -> Er
         true => format!("there is no file or folder {}", path.display()),
         false => Diagnostic::from_error(&error).title().to_owned(),
     };
-    let diagnostic = recipe.diagnostic(listed.span.clone(), title, "listed here", []);
+    let help = error.help().map(str::to_owned);
+    let diagnostic = recipe.diagnostic(listed.span.clone(), title, "listed here", help);
     Error::ListedPlugin {
         diagnostic: Box::new(diagnostic),
         source: Box::new(error),

@@ -13,11 +13,11 @@ use turnpath_verify::unreached;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures;
-use crate::files::FolderSink;
+use crate::folder::FolderSink;
 use crate::job::Job;
 use crate::memory::MemorySink;
 use crate::outputs::{Destination, Outputs};
-use crate::plots::Plots;
+use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
@@ -51,9 +51,14 @@ impl Job {
     /// measured on its own text.
     ///
     /// # Errors
-    /// When a strategy fails, when a file cannot be written, or when the observer cancels. Nothing
-    /// is left behind then.
+    /// When a plot cannot be drawn so, when a strategy fails, when a file cannot be written, or when
+    /// the observer cancels. No file and no new folder is left behind then, unless the failure
+    /// comes while the files take their names.
     pub fn run(&self, outputs: Outputs, observer: &dyn Observer) -> Result<RunResult, Error> {
+        let has_folder = matches!(outputs.destination, Destination::Folder(_));
+        if !has_folder && outputs.plots != PlotRequest::default() {
+            return Err(PlotError::NoFolder.into());
+        }
         match &outputs.destination {
             Destination::Nowhere => self.run_nowhere(observer),
             Destination::Memory => self.run_in_memory(observer),

@@ -11,19 +11,21 @@ use turnpath_recipe::Recipe;
 
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
+use crate::plots::check_grid;
 use crate::strategies;
 
 /// Writes the recipe's surface and its slopes at `count` × `count` points of the square around the
 /// aperture, its edges included. A point where the surface has no height is NaN.
 ///
 /// # Errors
-/// When the surface is not there or fails, or when the file cannot be written.
+/// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there or fails, or when the file cannot be written.
 pub fn write_sag(
     recipe: &Recipe,
     catalogue: &Catalogue,
     count: usize,
     file: &Path,
 ) -> Result<(), Error> {
+    check_grid(count)?;
     let surface = strategies::surface(recipe, catalogue)?;
     let grid = Grid {
         half: recipe.part.aperture_radius,

@@ -8,7 +8,7 @@ use std::path::Path;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{RadialRange, Slot};
 use turnpath_host::Catalogue;
-use turnpath_pipeline::Observer;
+use turnpath_pipeline::{Observer, Stage};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
 use turnpath_report as report;
@@ -39,10 +39,7 @@ pub fn verify(
 ) -> Result<FileReport, Error> {
     let target = Target::new(recipe, catalogue)?;
     let plots = Plots::new(request, &recipe.part, folder)?;
-    if !plots.is_empty() {
-        make_folder(folder)?;
-    }
-    target.verify(file, &plots, observer)
+    target.verify(file, (&plots, folder), observer)
 }
 
 /// What a file is measured against, and how it is played.
@@ -88,7 +85,7 @@ impl<'a> Target<'a> {
     fn verify(
         &self,
         file: &Path,
-        plots: &Plots,
+        plots: (&Plots, &Path),
         observer: &dyn Observer,
     ) -> Result<FileReport, Error> {
         let recipe = self.recipe;
@@ -96,6 +93,7 @@ impl<'a> Target<'a> {
         let mut reader = self.open(file)?;
         let touch = FirstTouch::new(self.subject.clone()).map_err(failed)?;
         let meters = PathMeters::new(recipe, touch).with_servo(recipe);
+        observer.begin(Stage::Measure, 0);
         let meters = measure(recipe, meters, self.shape, reader.as_mut(), observer)?;
         let (meter, read) = (&meters.cut, reader.read_count());
         let range = meter.reach(self.radial).map_err(failed)?;
@@ -159,11 +157,11 @@ impl<'a> Target<'a> {
         Ok(Some(figures::unreached(&figures)))
     }
 
-    /// Draws the plots from a second reading; gives the names of their files.
+    /// Draws the plots into their folder from a second reading; gives the names of their files.
     fn draw(
         &self,
         file: &Path,
-        plots: &Plots,
+        (plots, folder): (&Plots, &Path),
         played: &PlayedPath<'_>,
         observer: &dyn Observer,
     ) -> Result<Vec<String>, Error> {
@@ -171,6 +169,7 @@ impl<'a> Target<'a> {
             return Ok(Vec::new());
         }
         let mut reader = self.open(file)?;
+        make_folder(folder)?;
         let mut files = Vec::new();
         for draft in draw(plots, played, reader.as_mut(), observer)? {
             files.push(draft.complete()?.display().to_string());

@@ -87,7 +87,7 @@ const ALL: &[Column] = &[
         &["plan-", "ning", "s"],
         "planning_time_s",
         Form::Clock,
-        |run| Some(run.planning_time),
+        |run| run.planning_time,
     )
     .best(Best::None),
     column(
@@ -334,13 +334,14 @@ pub fn names() -> Vec<&'static str> {
     ALL.iter().map(|column| column.name).collect()
 }
 
-/// The columns of these names in their order; the usual ones for none.
-pub fn by_names(names: &[String]) -> Vec<&'static Column> {
-    if names.is_empty() {
-        return ALL.iter().take(DEFAULT).collect();
-    }
-    let of_name = |name: &String| ALL.iter().find(|column| column.name == name);
-    names.iter().filter_map(of_name).collect()
+/// The columns that stand in the table unless others are asked for.
+pub fn usual() -> Vec<&'static Column> {
+    ALL.iter().take(DEFAULT).collect()
+}
+
+/// The column of this name, if there is one.
+pub fn by_name(name: &str) -> Option<&'static Column> {
+    ALL.iter().find(|column| column.name == name)
 }
 
 const fn column(

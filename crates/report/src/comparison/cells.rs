@@ -131,11 +131,11 @@ fn best(numbers: &[Option<f64>], column: &Column) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comparison::by_names;
+    use crate::comparison::by_name;
     use crate::sample::{failed_run, measured_run};
 
     fn best_of(name: &str, numbers: &[Option<f64>]) -> Option<String> {
-        let column = by_names(&[name.to_owned()])[0];
+        let column = by_name(name).unwrap();
         best(numbers, column)
     }
 
@@ -177,7 +177,7 @@ mod tests {
             entry(0, 250.0),
         ];
         let cells = |name: &str| {
-            let column = by_names(&[name.to_owned()])[0];
+            let column = by_name(name).unwrap();
             let cells = FigureColumn::of(&entries, column).cells.into_iter();
             cells
                 .map(|cell| (cell.text, cell.is_best, cell.ratio))

@@ -6,9 +6,9 @@ use crate::verdict::Verdict;
 /// A column of the comparison.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Its name for `--columns`.
+    /// Its name, by which it is chosen.
     pub name: &'static str,
-    /// Its heading in the table, the unit last.
+    /// Its heading in the table, line by line; the last line is the unit.
     pub heading: &'static [&'static str],
     /// Its heading in `ablation.csv`.
     pub csv: &'static str,

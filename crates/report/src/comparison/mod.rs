@@ -10,7 +10,7 @@ mod table;
 mod tests;
 mod wording;
 
-pub use all_columns::{all, by_names, names};
+pub use all_columns::{all, by_name, names, usual};
 pub use column::{Best, Column, Form};
 pub use csv_table::csv_table;
 pub use table::table;

@@ -6,7 +6,7 @@ use crate::AblationRun;
 use crate::sample::{failed_run, measured_run};
 use crate::unit;
 
-use super::{all, by_names, table};
+use super::{all, table, usual};
 
 /// A run that varies its sampler.
 fn entry(label: &str, points: u64, error_nm: f64) -> AblationRun {
@@ -27,7 +27,7 @@ fn entry(label: &str, points: u64, error_nm: f64) -> AblationRun {
         report.within.interpolation = error_nm < 100.0;
         report.within.machine = Some(error_nm < 100.0);
         run.program_bytes = Some(1_234_567);
-        run.planning_time = 0.0042;
+        run.planning_time = Some(0.0042);
     })
 }
 
@@ -57,7 +57,7 @@ fn no_label_reason_or_choice_of_columns_makes_it_wider_than_the_terminal() {
         failed(long, &reason),
         entry("x", 5, 1e12),
     ];
-    for columns in [by_names(&[]), all(), all().into_iter().rev().collect()] {
+    for columns in [usual(), all(), all().into_iter().rev().collect()] {
         for widest in [40, 57, 80, 100] {
             let text = table(&entries, &columns, widest);
             assert_narrow(&text, widest);
@@ -76,7 +76,7 @@ fn the_smallest_of_a_column_is_marked_and_what_exceeds_its_tolerance() {
         failed("panics", "the sampler panicked"),
         entry("equal-arc", 1_300, 198.0),
     ];
-    insta::assert_snapshot!(table(&entries, &by_names(&[]), 100));
+    insta::assert_snapshot!(table(&entries, &usual(), 100));
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn a_first_run_that_failed_leaves_no_ratios() {
         failed("panics", "it panicked"),
         entry("equal-arc", 1_300, 98.0),
     ];
-    let text = table(&entries, &by_names(&[]), 100);
+    let text = table(&entries, &usual(), 100);
     assert!(!text.contains('×'), "{text}");
 }
 
@@ -102,7 +102,7 @@ fn labels_that_are_too_long_go_on_below_themselves() {
         rows("constant (feed = 20 um/rev, of a laboratory)", group),
         rows("atpg", &group.replace("then 1", "then 2")),
     ];
-    for columns in [by_names(&[]), all()] {
+    for columns in [usual(), all()] {
         for widest in [40, 100] {
             let text = table(&entries, &columns, widest);
             assert_narrow(&text, widest);

@@ -56,7 +56,7 @@ pub fn ratio_of(number: f64, first: f64) -> String {
     }
 }
 
-/// Parts one after the other, on as many lines as so many columns ask for.
+/// The parts joined by `between`, in lines of at most `width` columns.
 pub fn wrapped(parts: &[&str], between: &str, width: usize) -> String {
     let mut text = String::new();
     let mut taken = 0;
@@ -74,14 +74,14 @@ pub fn wrapped(parts: &[&str], between: &str, width: usize) -> String {
     text
 }
 
-/// A text in exactly so many columns.
+/// The text in exactly `width` columns.
 pub fn padded(text: &str, width: usize) -> String {
     let text = cut(text, width);
     let missing = width.saturating_sub(text.width());
     text + &" ".repeat(missing)
 }
 
-/// A text in so many columns at most, its end left out if it is longer.
+/// The text in at most `width` columns; the end of a longer one is left out.
 pub fn cut(text: &str, width: usize) -> String {
     if text.width() <= width {
         return text.to_owned();

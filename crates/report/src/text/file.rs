@@ -63,7 +63,7 @@ fn anomalies(anomalies: &Anomalies) -> String {
         text += &line(label, place_of(place));
         text += &line("", difference(place));
     }
-    let more = anomalies.count - shown.len() as u64;
+    let more = anomalies.count.saturating_sub(shown.len() as u64);
     if more > 0 {
         text += &line("", format!("and {} places more", grouped(more)));
     }

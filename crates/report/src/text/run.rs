@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::run::RunReport;
 
 use super::lead::lead;
-use super::numbers::{against, duration, grouped, line};
+use super::numbers::{against, duration, grouped, line, small_length};
 use super::path::path;
 use super::servo::servo;
 use super::unreached::unreached;
@@ -38,6 +38,13 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     for program in &report.programs {
         let (error, holds) = (program.interpolation_error, program.within_interpolation);
         text += &line(&program.post, against(error, tolerance, holds));
+        if let (Some(clearance), Some(false)) = (program.lead_clearance, program.within_lead) {
+            let depth = small_length(-clearance);
+            text += &line(
+                "",
+                format!("EXCEEDED: a lead plunges {depth} below first touch"),
+            );
+        }
     }
     for file in files {
         text += &line("file", file.display());

@@ -1,8 +1,8 @@
 //! The key of a run: the hash of all that its figures depend on.
 //!
-//! These are the variant's own values, the contents of the files that they name, the plugins that
-//! they choose, and this program itself. Comments, the order of keys, the job's name and
-//! what else the ablation varies play no part.
+//! These are the variant's own values, the contents of the files that it names, the plugins that it
+//! chooses, and the program that runs. The key does not depend on comments, on the order of keys, on
+//! the job's name, or on what else the ablation varies.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -11,6 +11,7 @@ mod record;
 mod runs;
 mod variant;
 
+use std::num::NonZero;
 use std::path::PathBuf;
 
 use turnpath_host::Catalogue;
@@ -25,6 +26,7 @@ use files::AblationFiles;
 use key::{Key, Keys};
 pub use observer::AblationObserver;
 use record::Records;
+use runs::Outcome;
 
 /// How an ablation is made.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +36,7 @@ pub struct AblationOptions {
     /// Whether all runs are made anew, also those that have a record.
     pub fresh: bool,
     /// How many runs are made at a time; as many as there are cores unless given.
-    pub threads: Option<usize>,
+    pub threads: Option<NonZero<usize>>,
 }
 
 /// What an ablation gave.
@@ -49,9 +51,6 @@ pub struct AblationResult {
     /// Why runs failed, with their places in the report.
     pub failures: Vec<(usize, Error)>,
 }
-
-/// What a variant gave, or why it gave nothing.
-type Outcome = Result<MeasuredRun, Error>;
 
 /// Makes the variants that a recipe's `[ablation]` lists and writes their figures. Tolerances that
 /// do not hold are what an ablation shows: they are no failure.

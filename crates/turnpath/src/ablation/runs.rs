@@ -11,7 +11,6 @@ use std::thread;
 use rayon::ThreadPoolBuilder;
 use turnpath_host::Catalogue;
 use turnpath_recipe::Variant;
-
 use turnpath_report::MeasuredRun;
 
 use crate::error::{Error, Fault};
@@ -20,7 +19,7 @@ use super::observer::AblationObserver;
 use super::variant;
 
 /// What a variant gave, or why it gave nothing.
-type Outcome = Result<MeasuredRun, Error>;
+pub type Outcome = Result<MeasuredRun, Error>;
 
 /// Makes the runs that have no record, and gives all in order. `keep` gets each when it is made; a
 /// file that cannot be written ends the work.
@@ -28,7 +27,7 @@ pub fn complete(
     variants: &[Variant],
     catalogue: &Catalogue,
     recorded: Vec<Option<MeasuredRun>>,
-    threads: Option<usize>,
+    threads: Option<NonZero<usize>>,
     observer: &dyn AblationObserver,
     keep: impl Fn(usize, &MeasuredRun) -> Result<(), Error> + Sync,
 ) -> Result<Vec<Outcome>, Error> {
@@ -37,8 +36,8 @@ pub fn complete(
         .enumerate()
         .filter(|(index, _)| !matches!(recorded.get(*index), Some(Some(_))))
         .collect();
-    let threads =
-        threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get));
+    let threads = threads.or_else(|| thread::available_parallelism().ok());
+    let threads = threads.map_or(1, NonZero::get);
     observer.begin(missing.len());
     let work = Work {
         missing: &missing,
@@ -88,12 +87,13 @@ impl Work<'_> {
         keep: &(impl Fn(usize, &MeasuredRun) -> Result<(), Error> + Sync),
     ) -> Result<(), Error> {
         let pool = ThreadPoolBuilder::new().num_threads(1).build();
-        let pool = pool.map_err(Error::Threads)?;
+        let pool = pool.map_err(|error| Error::Threads(error.into()))?;
         while let Some((index, variant)) = self.take_next() {
             if self.observer.is_cancelled() {
                 return Err(Error::Cancelled);
             }
-            let outcome = pool.install(|| variant::run(&variant.recipe, self.catalogue));
+            let outcome =
+                pool.install(|| variant::run(&variant.recipe, self.catalogue, self.observer));
             let kept = match &outcome {
                 Ok(run) => keep(index, run),
                 Err(_) => Ok(()),
@@ -114,7 +114,7 @@ impl Work<'_> {
 
     fn put(&self, index: usize, outcome: Outcome) -> Result<(), Error> {
         let outcome = match outcome {
-            Err(error) if error.fault() == Fault::Files => return Err(error),
+            Err(error) if ends_the_work(&error) => return Err(error),
             outcome => outcome,
         };
         let mut done = self.done.lock().unwrap_or_else(|lock| lock.into_inner());
@@ -122,4 +122,9 @@ impl Work<'_> {
         self.observer.advance();
         Ok(())
     }
+}
+
+/// Whether the other runs would fail in the same way, or are not wanted any more.
+fn ends_the_work(error: &Error) -> bool {
+    matches!(error.fault(), Fault::Files | Fault::Cancelled)
 }

@@ -2,7 +2,7 @@
 
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{SilentObserver, Sink};
+use turnpath_pipeline::{Observer, Sink, Stage};
 use turnpath_post::{PmacError, PmacFormat, PmacWriter};
 use turnpath_recipe::Recipe;
 use turnpath_report::MeasuredRun;
@@ -12,19 +12,37 @@ use crate::job::Job;
 use crate::posts::pmac_format;
 
 use super::clock;
+use super::observer::AblationObserver;
 
 /// Makes and measures the path of a variant; on a pool of one thread, so that its processor time
 /// counts.
-pub fn run(recipe: &Recipe, catalogue: &Catalogue) -> Result<MeasuredRun, Error> {
+pub fn run(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    observer: &dyn AblationObserver,
+) -> Result<MeasuredRun, Error> {
     let begun = clock::now();
     let job = Job::new(recipe.clone(), catalogue)?;
     let mut sizes = SizeSink::new(&job);
-    let outcome = job.run_into(&mut sizes, &SilentObserver)?;
+    let outcome = job.run_into(&mut sizes, &Cancellation(observer))?;
     Ok(MeasuredRun {
         report: job.report(sizes.rows, &outcome, Vec::new())?,
         program_bytes: sizes.program_bytes,
-        planning_time: clock::now() - begun,
+        planning_time: Some(clock::now() - begun),
     })
+}
+
+/// An observer of one run that hears of nothing, and is cancelled with the ablation.
+struct Cancellation<'a>(&'a dyn AblationObserver);
+
+impl Observer for Cancellation<'_> {
+    fn begin(&self, _: Stage, _: u64) {}
+
+    fn advance(&self, _: u64) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
 }
 
 /// Counts what files of the path would hold.

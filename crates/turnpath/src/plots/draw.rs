@@ -49,6 +49,9 @@ pub fn draw(
     let mut meters = Meters::new(plots, played);
     observer.begin(Stage::Map, played.points.div_ceil(BLOCK_ROWS as u64));
     while let Some((section, block)) = reader.next_block(BLOCK_ROWS)? {
+        if observer.is_cancelled() {
+            return Err(Error::Cancelled);
+        }
         if section != Section::Cutting {
             continue;
         }

@@ -8,7 +8,7 @@ use turnpath_post::{Draft, FileError};
 use turnpath_recipe::Recipe;
 use turnpath_verify::machined::Grid;
 
-use super::request::{MapGrid, MapRequest, PlotError, PlotRequest};
+use super::request::{MapGrid, MapRequest, PlotError, PlotRequest, check_grid};
 use crate::error::Error;
 
 /// Places of a circle: every hundredth of a degree.
@@ -136,6 +136,7 @@ fn map_plot(request: &MapRequest, part: &Part, folder: &Path) -> Result<MapPlot,
     if form == MapForm::Gsf && request.grid == MapGrid::Polar {
         return Err(PlotError::PolarGsf);
     }
+    check_grid(request.cells)?;
     let grid = match request.grid {
         MapGrid::Cartesian => Grid::cartesian(part, request.cells),
         MapGrid::Polar => Grid::polar(part, request.cells, request.cells),

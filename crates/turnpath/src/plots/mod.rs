@@ -7,4 +7,4 @@ mod request;
 
 pub use draw::{PlayedPath, draw};
 pub use files::{Plots, make_folder};
-pub use request::{CircleRequest, MapGrid, MapRequest, PlotError, PlotRequest};
+pub use request::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest, check_grid};

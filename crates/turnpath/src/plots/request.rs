@@ -1,8 +1,20 @@
 //! What is drawn of the machined surface, as it is asked for, and why it may be refused.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use turnpath_report::text::millimetres;
+
+/// Points along each side of a grid: fewer make no grid, and more fill the memory.
+pub const GRID_POINTS: RangeInclusive<usize> = 2..=20_000;
+
+/// Refuses a grid of too few or too many points along each side.
+pub fn check_grid(count: usize) -> Result<(), PlotError> {
+    match GRID_POINTS.contains(&count) {
+        true => Ok(()),
+        false => Err(PlotError::GridPoints { count }),
+    }
+}
 
 /// What is drawn: machined − wanted along z. Files without a folder of their own go beside the
 /// others.
@@ -13,7 +25,7 @@ pub struct PlotRequest {
     /// Angles of profiles through the axis, rad, each with its power spectrum.
     pub profiles: Vec<f64>,
     /// Radii of circles, mm.
-    pub circles: Vec<CircleRequest>,
+    pub circles: Vec<f64>,
     /// Whether the power spectra of the played X and Z are written.
     pub spectrum: bool,
 }
@@ -28,9 +40,6 @@ pub struct MapRequest {
     /// How the cells lie.
     pub grid: MapGrid,
 }
-
-/// A circle around the axis: its radius, mm.
-pub type CircleRequest = f64;
 
 /// How the cells of a map lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,7 +65,17 @@ pub enum PlotError {
     /// The form of a map has no polar grid.
     #[error("a .gsf map has a Cartesian grid; for a polar one choose .xyz")]
     PolarGsf,
-    /// The angle of a profile is none.
+    /// A grid has too few or too many points.
+    #[error(
+        "a grid has {} to {} points along each side, not {count}",
+        GRID_POINTS.start(),
+        GRID_POINTS.end()
+    )]
+    GridPoints {
+        /// Points along each side.
+        count: usize,
+    },
+    /// The angle of a profile lies beyond a whole turn.
     #[error("the profile at {}: an angle lies between -360 deg and 360 deg", degrees(*angle))]
     ProfileAngle {
         /// The angle, rad.
@@ -81,6 +100,9 @@ pub enum PlotError {
         /// The file.
         file: PathBuf,
     },
+    /// Plots are files, and the outputs have no folder.
+    #[error("maps, profiles, circles and spectra need an output folder")]
+    NoFolder,
     /// Plots are measured on `toolpath.csv`, which the recipe does not write.
     #[error(
         "maps, profiles, circles and spectra are measured on toolpath.csv, which this recipe does \
@@ -92,13 +114,15 @@ pub enum PlotError {
 /// An angle in rad as it was most likely given.
 fn degrees(angle: f64) -> String {
     match angle.to_degrees() {
-        deg if deg.abs() < LONG => format!("{} deg", (deg * LONG).round() / LONG),
+        deg if deg.abs() < LONG_ANGLE => format!("{} deg", (deg * DIGITS).round() / DIGITS),
         deg => format!("{deg:.3e} deg"),
     }
 }
 
-/// From here on a power of ten reads better than all digits; also the digits that are kept.
-const LONG: f64 = 1e6;
+/// Angles from which a power of ten reads better than all digits, deg.
+const LONG_ANGLE: f64 = 1e6;
+/// Digits after the point that are kept: the rest is rounding of the conversion.
+const DIGITS: f64 = 1e6;
 
 fn part_reaches(inner: f64, outer: f64) -> String {
     let outer = millimetres(outer, 3);

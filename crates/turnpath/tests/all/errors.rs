@@ -1,4 +1,5 @@
 //! Errors are data: whose fault they are, their places in the recipe, and their sources.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::error::Error as _;
 

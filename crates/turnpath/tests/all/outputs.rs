@@ -1,4 +1,5 @@
 //! A folder, memory and nowhere get the same path and the same figures.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use turnpath::report::RunReport;
 use turnpath::{Outputs, PlotRequest, RunResult, SilentObserver};

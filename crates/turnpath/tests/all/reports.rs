@@ -1,4 +1,7 @@
 //! Reports as JSON: read back they are the same, and every number has its unit in its key.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::num::NonZero;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -117,7 +120,7 @@ fn the_report_of_an_ablation_is_the_same_when_it_is_read_back() {
     let options = AblationOptions {
         folder: folder.path().to_owned(),
         fresh: false,
-        threads: Some(2),
+        threads: NonZero::new(2),
     };
     let catalogue = Catalogue::linked().unwrap();
     let result = ablate(&recipe, &catalogue, &options, &SilentObserver).unwrap();
