@@ -224,6 +224,14 @@ fn a_program_that_cannot_carry_straight_lines() {
 }
 
 #[test]
+fn what_a_program_cannot_carry_is_refused_by_check_too() {
+    let recipe = format!("{SADDLE}\n[output]\nposts = [\"pmac-pvt\"]\n");
+    let straight = "--set velocity={use=\"linear\"}";
+    let of = |command: &str| answer(recipe.clone(), &format!("{command} recipe.toml {straight}"));
+    assert_eq!(of("check"), of("run"));
+}
+
+#[test]
 fn data_that_this_version_does_not_write() {
     let recipe = format!("{SADDLE}\n[output]\ndata = [\"xml\"]\n");
     insta::assert_snapshot!(answer(recipe, "run recipe.toml"));

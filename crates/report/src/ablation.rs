@@ -65,7 +65,7 @@ pub struct FailedRun {
 impl AblationReport {
     /// The runs of an ablation, with all numbers rounded to the digits of files.
     pub fn new(runs: Vec<AblationRun>) -> Self {
-        crate::format::as_filed(Self {
+        crate::format::rounded_for_files(Self {
             format: FORMAT,
             runs,
         })

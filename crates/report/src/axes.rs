@@ -72,17 +72,17 @@ struct LargestAt {
     max_jerk: PathPlace,
 }
 
-macro_rules! filed_axis {
+macro_rules! file_axis {
     ($(#[$doc:meta])* $module:ident, $unit:literal, $($suffix:literal),*) => {
         $(#[$doc])*
         mod $module {
             use super::*;
 
-            filed_axis!(@struct $unit, $($suffix),*);
+            file_axis!(@struct $unit, $($suffix),*);
 
             pub fn serialize<S: Serializer>(axis: &AxisMotion, to: S) -> Result<S::Ok, S::Error> {
                 let AxisMotion { velocity, acceleration, jerk } = *axis;
-                let filed = Filed {
+                let file = FileAxis {
                     max_velocity: velocity.max,
                     rms_velocity: velocity.rms,
                     max_acceleration: acceleration.max,
@@ -95,28 +95,28 @@ macro_rules! filed_axis {
                         max_jerk: jerk.at,
                     },
                 };
-                filed.serialize(to)
+                file.serialize(to)
             }
 
             pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<AxisMotion, D::Error> {
-                let filed = Filed::deserialize(from)?;
+                let file = FileAxis::deserialize(from)?;
                 let motion = |max, rms, at| Motion { max, rms, at };
-                let LargestAt { max_velocity, max_acceleration, max_jerk } = filed.at;
+                let LargestAt { max_velocity, max_acceleration, max_jerk } = file.at;
                 Ok(AxisMotion {
-                    velocity: motion(filed.max_velocity, filed.rms_velocity, max_velocity),
+                    velocity: motion(file.max_velocity, file.rms_velocity, max_velocity),
                     acceleration: motion(
-                        filed.max_acceleration,
-                        filed.rms_acceleration,
+                        file.max_acceleration,
+                        file.rms_acceleration,
                         max_acceleration,
                     ),
-                    jerk: motion(filed.max_jerk, filed.rms_jerk, max_jerk),
+                    jerk: motion(file.max_jerk, file.rms_jerk, max_jerk),
                 })
             }
         }
     };
     (@struct $unit:literal, $mv:literal, $rv:literal, $ma:literal, $ra:literal, $mj:literal, $rj:literal) => {
         #[derive(Serialize, Deserialize)]
-        struct Filed {
+        struct FileAxis {
             #[serde(rename = $mv, with = $unit)]
             max_velocity: f64,
             #[serde(rename = $rv, with = $unit)]
@@ -134,7 +134,7 @@ macro_rules! filed_axis {
     };
 }
 
-filed_axis!(
+file_axis!(
     /// A slide in mm and s.
     linear,
     "unit::mm",
@@ -145,7 +145,7 @@ filed_axis!(
     "max_jerk_mm_per_s3",
     "rms_jerk_mm_per_s3"
 );
-filed_axis!(
+file_axis!(
     /// The spindle in deg and s.
     rotary,
     "unit::deg",

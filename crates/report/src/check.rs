@@ -55,8 +55,8 @@ pub struct ProgramEstimate {
 impl CheckReport {
     /// The report with all numbers rounded to the digits of files.
     #[must_use]
-    pub fn filed(mut self) -> Self {
+    pub fn rounded(mut self) -> Self {
         self.format = FORMAT;
-        crate::format::as_filed(self)
+        crate::format::rounded_for_files(self)
     }
 }

@@ -43,10 +43,10 @@ pub struct FileReport {
 impl FileReport {
     /// Judges the path, and rounds all numbers to the digits of files.
     #[must_use]
-    pub fn judged(mut self) -> Self {
+    pub fn with_verdict(mut self) -> Self {
         self.format = FORMAT;
         self.within = self.path.verdict(Some(&self.reach));
-        crate::format::as_filed(self)
+        crate::format::rounded_for_files(self)
     }
 
     /// Which tolerances and limits hold.

@@ -49,9 +49,9 @@ pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, FormatError> {
 }
 
 /// The report with every number rounded as files hold it.
-pub(crate) fn as_filed<T: Serialize + DeserializeOwned>(report: T) -> T {
-    let filed = serde_json::to_value(&report).and_then(serde_json::from_value);
-    filed.unwrap_or(report)
+pub(crate) fn rounded_for_files<T: Serialize + DeserializeOwned>(report: T) -> T {
+    let rounded = serde_json::to_value(&report).and_then(serde_json::from_value);
+    rounded.unwrap_or(report)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What turnpath gave, as data: the figures of a run, of a file, of a check and of an ablation.
 //!
 //! The model holds mm, rad and s. In JSON each number has its unit in its key, or is a pure number
-//! ([`unit`]). [`text`] is the same for a person, [`comparison`] sets the runs of an ablation side
+//! ([`mod@unit`]). [`text`] is the same for a person, [`comparison`] sets the runs of an ablation side
 //! by side. Nothing here makes or measures a path.
 //!
 //! ```

@@ -100,7 +100,7 @@ pub fn all_hold(limits: &[LimitFigure]) -> Option<bool> {
 
 /// A limit in a file. Its amounts have their unit in their keys, which depends on the limit.
 #[derive(Serialize, Deserialize)]
-struct FiledLimit {
+struct FileLimit {
     limit: String,
     #[serde(flatten)]
     amounts: BTreeMap<String, Option<f64>>,
@@ -113,14 +113,14 @@ impl Serialize for LimitFigure {
         let (suffix, per) = unit_of(&self.limit);
         let amount = self.measured.map(|(amount, _)| amount);
         let amounts = [("limit", Some(self.limit.value)), ("measured", amount)];
-        let filed = |(name, amount): (&str, Option<f64>)| {
+        let entry = |(name, amount): (&str, Option<f64>)| {
             let amount = amount.map(|amount| unit::rounded(amount * per));
             let amount = amount.filter(|amount| amount.is_finite());
             (format!("{name}_{suffix}"), amount)
         };
-        FiledLimit {
+        FileLimit {
             limit: self.limit.key(),
-            amounts: amounts.into_iter().map(filed).collect(),
+            amounts: amounts.into_iter().map(entry).collect(),
             at: self.measured.map(|(_, at)| at),
             holds: self.holds(),
         }
@@ -130,8 +130,8 @@ impl Serialize for LimitFigure {
 
 impl<'de> Deserialize<'de> for LimitFigure {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let filed = FiledLimit::deserialize(from)?;
-        let (axis, derivative) = limit_key::parse(&filed.limit).map_err(D::Error::custom)?;
+        let limit = FileLimit::deserialize(from)?;
+        let (axis, derivative) = limit_key::parse(&limit.limit).map_err(D::Error::custom)?;
         let unvalued = Limit {
             axis,
             derivative,
@@ -139,14 +139,14 @@ impl<'de> Deserialize<'de> for LimitFigure {
         };
         let (suffix, per) = unit_of(&unvalued);
         let amount = |name: &str| {
-            let amount = filed.amounts.get(&format!("{name}_{suffix}"));
+            let amount = limit.amounts.get(&format!("{name}_{suffix}"));
             amount.copied().flatten().map(|amount| amount / per)
         };
         let value = amount("limit").unwrap_or(f64::NAN);
         let measured = amount("measured").unwrap_or(f64::NAN);
         Ok(Self {
             limit: Limit { value, ..unvalued },
-            measured: filed.at.map(|at| (measured, at)),
+            measured: limit.at.map(|at| (measured, at)),
         })
     }
 }

@@ -94,14 +94,14 @@ impl RunReport {
     /// Judges the path and its programs, and rounds all numbers to the digits of files, so that
     /// the report equals the one that is read back.
     #[must_use]
-    pub fn judged(mut self) -> Self {
+    pub fn with_verdict(mut self) -> Self {
         self.format = FORMAT;
         self.within = self.path.verdict(None);
         if !self.programs.is_empty() {
             let holds = self.programs.iter().all(ProgramReport::holds);
             self.within.programs = Some(holds);
         }
-        crate::format::as_filed(self)
+        crate::format::rounded_for_files(self)
     }
 
     /// Which tolerances and limits hold.

@@ -23,35 +23,35 @@ pub fn rounded(value: f64) -> f64 {
 /// What can be written in another unit: a number, or a number that may be missing.
 pub trait InUnit: Sized {
     /// The form of the file.
-    type Filed: Serialize + for<'de> Deserialize<'de>;
+    type FileValue: Serialize + for<'de> Deserialize<'de>;
     /// The value in units of which `per` make one of the model's.
-    fn filed(&self, per: f64) -> Self::Filed;
+    fn to_file(&self, per: f64) -> Self::FileValue;
     /// The value in the model's unit.
-    fn modelled(filed: Self::Filed, per: f64) -> Self;
+    fn from_file(value: Self::FileValue, per: f64) -> Self;
 }
 
 impl InUnit for f64 {
-    type Filed = Option<f64>;
+    type FileValue = Option<f64>;
 
-    fn filed(&self, per: f64) -> Option<f64> {
+    fn to_file(&self, per: f64) -> Option<f64> {
         let value = rounded(self * per);
         value.is_finite().then_some(value)
     }
 
-    fn modelled(filed: Option<f64>, per: f64) -> Self {
-        filed.map_or(f64::NAN, |value| value / per)
+    fn from_file(value: Option<f64>, per: f64) -> Self {
+        value.map_or(f64::NAN, |number| number / per)
     }
 }
 
 impl InUnit for Option<f64> {
-    type Filed = Option<f64>;
+    type FileValue = Option<f64>;
 
-    fn filed(&self, per: f64) -> Option<f64> {
-        self.and_then(|value| value.filed(per))
+    fn to_file(&self, per: f64) -> Option<f64> {
+        self.and_then(|value| value.to_file(per))
     }
 
-    fn modelled(filed: Option<f64>, per: f64) -> Self {
-        filed.map(|value| value / per)
+    fn from_file(value: Option<f64>, per: f64) -> Self {
+        value.map(|number| number / per)
     }
 }
 
@@ -69,7 +69,7 @@ macro_rules! units {
             /// # Errors
             /// When the format refuses.
             pub fn serialize<T: InUnit, S: Serializer>(value: &T, to: S) -> Result<S::Ok, S::Error> {
-                value.filed(PER).serialize(to)
+                value.to_file(PER).serialize(to)
             }
 
             /// Reads a number in this unit.
@@ -77,7 +77,7 @@ macro_rules! units {
             /// # Errors
             /// When there is none.
             pub fn deserialize<'de, T: InUnit, D: Deserializer<'de>>(from: D) -> Result<T, D::Error> {
-                Ok(T::modelled(T::Filed::deserialize(from)?, PER))
+                Ok(T::from_file(T::FileValue::deserialize(from)?, PER))
             }
         }
     )*};

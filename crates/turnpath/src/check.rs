@@ -46,7 +46,7 @@ impl Job {
                 programs: programs.collect(),
             },
         };
-        Ok(report.filed())
+        Ok(report.rounded())
     }
 
     fn machine_limits(&self) -> Option<report::MachineLimits> {

@@ -178,7 +178,7 @@ impl Job {
             programs,
             plugins: self.plugin_sources(),
         };
-        Ok(report.judged())
+        Ok(report.with_verdict())
     }
 
     /// What the nose leaves standing; `None` unless the recipe asks for what fits of a nose.

@@ -129,7 +129,7 @@ impl<'a> Target<'a> {
             anomalies: anomalies(meters.anomalies.finish()),
             unreached,
         };
-        Ok(report.judged())
+        Ok(report.with_verdict())
     }
 
     fn reach(&self, range: RadialRange) -> report::Reach {
