@@ -28,7 +28,15 @@ const VARIANTS: &[&[&str]] = &[
         "machine.z_jerk=1 m/s^3",
     ],
     &["part.inner=1 mm", "compensator.use=normal"],
-    &["tool.interference=cut-what-fits", "tool.nose_radius=8 mm"],
+    &[
+        "tool.interference=cut-what-fits",
+        "tool.nose_radius=8 mm",
+        "part.aperture=1 mm",
+        "path.overrun=none",
+        "feed={ use = \"constant\", feed = \"50 um/rev\" }",
+        "sampler={ use = \"equal-angle\", step = \"10 deg\" }",
+        "refine=false",
+    ],
 ];
 
 /// Keys of numbers without a unit: counts, and parts of a whole.
