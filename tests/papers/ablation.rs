@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use crate::support::bench::{Answer, Bench};
 use crate::support::fixtures::plugin_folder;
@@ -78,45 +79,53 @@ fn assert_all_chains(runs: &[Value]) {
     }
 }
 
+/// The part on which every run of the tests compares all strategies, and its size.
+const LENS_ARRAY: (&str, &str) = ("ablation-papers-mla-5.toml", "2.5 mm");
+
+/// The ablation of the lens array and its answer, made once for all tests.
+fn lens_array() -> &'static (Bench, Answer) {
+    static LENS_ARRAY_RUNS: OnceLock<(Bench, Answer)> = OnceLock::new();
+    LENS_ARRAY_RUNS.get_or_init(|| {
+        let (bench, plugins) = (Bench::empty(), plugin_folder(&["constant-arc"]));
+        let answer = ablate(&bench, LENS_ARRAY.0, LENS_ARRAY.1, plugins.path());
+        (bench, answer.ends(0))
+    })
+}
+
+/// The table has all chains within its width, and a second call makes no run again.
+fn assert_whole(bench: &Bench, answer: &Answer, (recipe, aperture): (&str, &str)) {
+    let headline = answer.stdout.lines().next().unwrap();
+    assert!(headline.ends_with(": 32 runs"), "{answer}");
+    let width = answer.stdout.lines().map(|line| line.chars().count()).max();
+    assert!(width <= Some(100), "{answer}");
+    let row = |line: &str| line.trim_start().starts_with("atpg, constant-arc");
+    assert!(answer.stdout.lines().any(row), "{answer}");
+    assert_all_chains(&runs(bench));
+    let plugins = plugin_folder(&["constant-arc"]);
+    let again = ablate(bench, recipe, aperture, plugins.path()).ends(0);
+    let reused = "32 taken over from before";
+    assert!(again.stdout.contains(reused), "{again}");
+}
+
 #[test]
 fn the_papers_strategies_stand_beside_a_labs_own_sampler() {
-    let plugins = plugin_folder(&["constant-arc"]);
-    for (recipe, aperture) in [
-        ("ablation-papers.toml", "4 mm"),
-        ("ablation-papers-mla-5.toml", "2.5 mm"),
-    ] {
-        let bench = Bench::empty();
-        let said = ablate(&bench, recipe, aperture, plugins.path()).ends(0);
-        assert!(
-            said.stdout.lines().next().unwrap().ends_with(": 32 runs"),
-            "{said}"
-        );
-        let width = said.stdout.lines().map(|line| line.chars().count()).max();
-        assert!(width <= Some(100), "{said}");
-        let row = |line: &str| line.trim_start().starts_with("atpg, constant-arc");
-        assert!(said.stdout.lines().any(row), "{said}");
-        assert_all_chains(&runs(&bench));
-        let again = ablate(&bench, recipe, aperture, plugins.path()).ends(0);
-        assert!(
-            again.stdout.contains("32 taken over from before"),
-            "{again}"
-        );
-    }
+    let (bench, answer) = lens_array();
+    assert_whole(bench, answer, LENS_ARRAY);
+}
+
+#[test]
+#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+fn long_the_papers_strategies_stand_beside_a_labs_own_sampler_on_the_saddle() {
+    let (bench, plugins) = (Bench::empty(), plugin_folder(&["constant-arc"]));
+    let saddle = ("ablation-papers.toml", "4 mm");
+    let answer = ablate(&bench, saddle.0, saddle.1, plugins.path()).ends(0);
+    assert_whole(&bench, &answer, saddle);
 }
 
 /// On a lattice of lenslets ATS differs from the other feeds in the acceleration of X.
 #[test]
 fn ats_pays_with_the_acceleration_of_x() {
-    let plugins = plugin_folder(&["constant-arc"]);
-    let bench = Bench::empty();
-    ablate(
-        &bench,
-        "ablation-papers-mla-5.toml",
-        "2.5 mm",
-        plugins.path(),
-    )
-    .ends(0);
-    let runs = runs(&bench);
+    let runs = runs(&lens_array().0);
     let of = |feed: &str| {
         let wanted = [feed, feed, "analytic"].map(str::to_owned);
         let run = runs.iter().find(|run| chain(run) == wanted).unwrap();
