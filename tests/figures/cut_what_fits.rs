@@ -224,7 +224,7 @@ fn where_the_edge_is_too_short_for_the_slope_its_ends_touch() {
 }
 
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_every_feed_and_sampler_comes_to_an_end() {
     let recipe = with_table(LATTICE, "part", "aperture = \"1.6 mm\"");
     let recipe = changed(&recipe, "residual = \"500 nm\"", "residual = \"2 um\"");

@@ -158,7 +158,7 @@ fn an_independent_reader_finds_the_same_points_and_error() {
 }
 
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_the_same_bytes_for_any_threads_and_settings_that_mean_the_same_path() {
     // Some blocks of revolutions, and segments of changing times.
     let small = [
@@ -327,7 +327,7 @@ fn points_of(program: &str) -> Vec<(f64, [(f64, f64); 3])> {
 /// A program of some 374,000 points, leads included: places and velocities to half a digit, no
 /// drift of time, and an error within 0.3 nm of the path's.
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_the_program_of_the_off_axis_paraboloid_is_its_path() {
     let recipe = repository().join("docs/recipes/off-axis-paraboloid-213mm.toml");
     let run = Run::of(&recipe, &["refine=false"]).ends(0);

@@ -114,7 +114,7 @@ fn the_papers_strategies_stand_beside_a_labs_own_sampler() {
 }
 
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_the_papers_strategies_stand_beside_a_labs_own_sampler_on_the_saddle() {
     let (bench, plugins) = (Bench::empty(), plugin_folder(&["constant-arc"]));
     let saddle = ("ablation-papers.toml", "4 mm");

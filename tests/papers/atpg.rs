@@ -170,7 +170,7 @@ fn the_mirror_of_50_mm_by_the_papers_law() {
 
 /// Published: 281,141 and 592,541 points, 0.47, at tolerances that are not stated.
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_the_off_axis_paraboloid_by_the_papers_law() {
     let name = "off-axis-paraboloid-213mm.toml";
     let (revolutions, atpg) = by_the_papers_law(name, ATPG);

@@ -64,7 +64,7 @@ fn both_tolerances_hold_in_both_directions_with_every_compensator() {
 /// RMS of X's acceleration against ATPG's, measured: 7.8e5 and 9.2e5 on AST-5 (outward and
 /// inward), 3.3e5 and 6.7e5 on MLA-5. Z's own is of the same order with both.
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_the_acceleration_of_x_is_hundreds_of_thousands_of_times_atpgs() {
     for recipe in [AST_5, MLA_5] {
         for direction in DIRECTIONS {
@@ -144,7 +144,7 @@ fn backwards_it_covers_the_part_and_x_stays_on_its_side() {
 /// Each feed with each sampler: points are added until the interpolation tolerance holds, and the
 /// residual holds or the run reports that it does not.
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_every_feed_goes_with_every_sampler() {
     let feeds = ["constant", "atpg", "ats", "fft-adaptive"];
     let samplers = [

@@ -244,7 +244,7 @@ fn the_files_are_played_as_the_solver_meant_them() {
 
 /// Blocks of 64 revolutions: the area method's state goes on from one to the next.
 #[test]
-#[ignore = "dear for what it adds to every run; `cargo xtask long` runs it"]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_the_count_of_threads_does_not_show() {
     let folder = RecipeFolder::new();
     for velocity in [HALF, TWO_THIRDS, THREE_POINT, LINEAR] {
