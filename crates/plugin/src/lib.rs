@@ -63,8 +63,8 @@ pub mod prelude {
     pub use turnpath_core::{
         AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Continuation, Cut, DEG,
         Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries, Gradients,
-        LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset, Nodes, Param,
-        Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result,
+        LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset, Nodes,
+        Param, Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result,
         Revolutions, Sampler, SamplerPlan, Scalar, Series, Setup, SpindleAsk, SpindleLaw,
         SpindleStrategy, SpiralLaw, Strategy, StrategyError, Surface, SurfaceModel, Task, Taylor,
         Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
@@ -74,7 +74,8 @@ pub mod prelude {
 /// For the host: functions that open a library's plugin.
 #[doc(hidden)]
 pub mod loading {
-    pub use crate::abi::root::{
+    pub use crate::abi::catalogue::UnknownKind;
+    pub use crate::abi::entry::{
         BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX, inspect,
     };
     pub use crate::offer::open;
@@ -83,7 +84,7 @@ pub mod loading {
 /// For the macros: the items that their expansion names.
 #[doc(hidden)]
 pub mod macros {
-    pub use crate::abi::root::{PluginEntry, plugin_entry};
+    pub use crate::abi::entry::{PluginEntry, plugin_entry};
     pub use inventory;
 }
 

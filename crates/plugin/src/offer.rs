@@ -3,19 +3,13 @@
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, FeedStrategy, Params, Result, Sampler, SpindleStrategy, StrategyInfo, SurfaceModel,
-    VelocitySolver,
+    Compensator, FeedStrategy, Params, Result, Sampler, SpindleStrategy, StrategyInfo,
+    SurfaceModel, VelocitySolver,
 };
 
 use crate::abi::catalogue::CatalogueEntry;
-use crate::abi::compensator::IncomingCompensator;
-use crate::abi::data::{arguments, result};
-use crate::abi::feed::IncomingFeed;
-use crate::abi::root::{self, AbiRequest, OpenError, RootRef};
-use crate::abi::sampler::IncomingSampler;
-use crate::abi::spindle::IncomingSpindle;
-use crate::abi::surface::IncomingSurface;
-use crate::abi::velocity::IncomingVelocity;
+use crate::abi::entry::{self, OpenError};
+use crate::abi::root::{self, AbiRequest, Constructed, RootRef};
 
 /// A strategy that the host can build. Linked strategies cross the same boundary as loaded ones, so
 /// that one mechanism contains panics and checks slices, and both give the same answers.
@@ -49,54 +43,43 @@ impl Offer {
 
     /// Builds the surface model.
     pub fn surface(&self, params: &Params) -> Result<Arc<dyn SurfaceModel>> {
-        Ok(Arc::new(IncomingSurface(result(self.root.surface()(
-            self.request(params),
-        ))?)))
+        self.build(params)
     }
 
     /// Builds the feed strategy.
     pub fn feed(&self, params: &Params) -> Result<Arc<dyn FeedStrategy>> {
-        Ok(Arc::new(IncomingFeed(result(self.root.feed()(
-            self.request(params),
-        ))?)))
+        self.build(params)
     }
 
     /// Builds the sampler.
     pub fn sampler(&self, params: &Params) -> Result<Arc<dyn Sampler>> {
-        Ok(Arc::new(IncomingSampler::new(result(self
-            .root
-            .sampler()(
-            self.request(params),
-        ))?)?))
+        self.build(params)
     }
 
     /// Builds the compensator.
     pub fn compensator(&self, params: &Params) -> Result<Arc<dyn Compensator>> {
-        let made = result(self.root.compensator()(self.request(params)))?;
-        Ok(Arc::new(IncomingCompensator::new(made)?))
+        self.build(params)
     }
 
     /// Builds the velocity solver.
     pub fn velocity(&self, params: &Params) -> Result<Arc<dyn VelocitySolver>> {
-        Ok(Arc::new(IncomingVelocity::new(result(self
-            .root
-            .velocity()(
-            self.request(params),
-        ))?)?))
+        self.build(params)
     }
 
     /// Builds the spindle strategy.
     pub fn spindle(&self, params: &Params) -> Result<Arc<dyn SpindleStrategy>> {
-        let made = result(self.root.spindle()(self.request(params)))?;
-        Ok(Arc::new(IncomingSpindle::new(made)?))
+        self.build(params)
     }
 
-    fn request(&self, params: &Params) -> AbiRequest {
-        AbiRequest {
-            crate_name: self.entry.crate_name.into(),
-            name: self.entry.info.name.into(),
-            arguments: arguments(params),
-        }
+    fn build<T: ?Sized>(&self, params: &Params) -> Result<Arc<T>>
+    where
+        Box<T>: Constructed,
+    {
+        let CatalogueEntry {
+            crate_name, info, ..
+        } = self.entry;
+        let request = AbiRequest::new(crate_name, info.name, params);
+        root::construct::<Box<T>>(self.root, request).map(Arc::from)
     }
 }
 
@@ -111,8 +94,8 @@ fn offers(root: RootRef, entries: Vec<CatalogueEntry>) -> Vec<Offer> {
 ///
 /// The linker drops a plugin crate that no code names. `use turnpath_surfaces as _;` keeps it.
 pub fn linked() -> Vec<Offer> {
-    let root = root::own_root();
-    offers(root, root::catalogue_entries(root))
+    let (root, entries) = entry::own();
+    offers(root, entries)
 }
 
 /// The strategies of the library that exports `entry`.
@@ -121,11 +104,11 @@ pub fn linked() -> Vec<Offer> {
 /// If the entry does not belong to this version of the boundary.
 ///
 /// # Safety
-/// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`](root::SYMBOL_PREFIX),
+/// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`](entry::SYMBOL_PREFIX),
 /// in a library that stays loaded for the rest of the program.
 #[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
 pub unsafe fn open(entry: *const u8) -> std::result::Result<Vec<Offer>, OpenError> {
     // SAFETY: the caller makes the same promise.
-    let (root, entries) = unsafe { root::open(entry) }?;
+    let (root, entries) = unsafe { entry::open(entry) }?;
     Ok(offers(root, entries))
 }

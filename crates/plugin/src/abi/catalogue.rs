@@ -1,4 +1,7 @@
 //! The list of a library's strategies, in the form that crosses the boundary.
+//!
+//! Slots, kinds of parameters and kinds of defaults cross as words, with plain fields beside them.
+//! A new one changes no layout.
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{RStr, RVec};
@@ -12,43 +15,22 @@ use crate::Registration;
 pub struct AbiStrategy {
     crate_name: RStr<'static>,
     crate_version: RStr<'static>,
-    slot: u8,
+    slot: RStr<'static>,
     name: RStr<'static>,
     summary: RStr<'static>,
     source: RStr<'static>,
     params: RVec<AbiParam>,
 }
 
-#[repr(u8)]
-#[derive(StableAbi)]
-pub enum AbiKind {
-    Length,
-    Angle,
-    PerLength,
-    Feed,
-    Number,
-    Count,
-    Flag,
-    Choice(RVec<RStr<'static>>),
-    Rows(u64),
-}
-
-#[repr(u8)]
-#[derive(StableAbi)]
-pub enum AbiDefault {
-    Required,
-    Absent,
-    Number(f64),
-    Flag(bool),
-    Text(RStr<'static>),
-}
-
+/// One parameter. Its kind says which of `words` and `numbers` have a meaning.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiParam {
     name: RStr<'static>,
     help: RStr<'static>,
-    kind: AbiKind,
+    kind: RStr<'static>,
+    words: RVec<RStr<'static>>,
+    numbers: RVec<f64>,
     default: AbiDefault,
     min: f64,
     max: f64,
@@ -56,18 +38,34 @@ pub struct AbiParam {
     nonzero: bool,
 }
 
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiDefault {
+    kind: RStr<'static>,
+    number: f64,
+    text: RStr<'static>,
+}
+
+/// The kinds without words or numbers.
+const PLAIN_KINDS: [(&str, ParamKind); 7] = [
+    ("length", ParamKind::Length),
+    ("angle", ParamKind::Angle),
+    ("per length", ParamKind::PerLength),
+    ("feed", ParamKind::Feed),
+    ("number", ParamKind::Number),
+    ("count", ParamKind::Count),
+    ("flag", ParamKind::Flag),
+];
+const CHOICE: &str = "choice";
+const ROWS: &str = "rows";
+
 impl From<&Registration> for AbiStrategy {
     fn from(registration: &Registration) -> Self {
-        let Registration {
-            crate_name,
-            crate_version,
-            info,
-            ..
-        } = *registration;
+        let info = registration.info;
         Self {
-            crate_name: crate_name.into(),
-            crate_version: crate_version.into(),
-            slot: info.slot as u8,
+            crate_name: registration.crate_name.into(),
+            crate_version: registration.crate_version.into(),
+            slot: info.slot.key().into(),
             name: info.name.into(),
             summary: info.summary.into(),
             source: info.source.into(),
@@ -78,10 +76,25 @@ impl From<&Registration> for AbiStrategy {
 
 impl From<&Param> for AbiParam {
     fn from(param: &Param) -> Self {
+        let plain = PLAIN_KINDS.iter().find(|(_, kind)| *kind == param.kind);
+        let (mut words, mut numbers) = (RVec::new(), RVec::new());
+        let kind = match param.kind {
+            ParamKind::Choice(choices) => {
+                words.extend(choices.iter().map(|word| RStr::from(*word)));
+                CHOICE
+            }
+            ParamKind::Rows(columns) => {
+                numbers.push(columns as f64);
+                ROWS
+            }
+            _ => plain.map_or("", |(word, _)| word),
+        };
         Self {
             name: param.name.into(),
             help: param.help.into(),
-            kind: param.kind.into(),
+            kind: kind.into(),
+            words,
+            numbers,
             default: param.default.into(),
             min: param.min,
             max: param.max,
@@ -91,32 +104,19 @@ impl From<&Param> for AbiParam {
     }
 }
 
-impl From<ParamKind> for AbiKind {
-    fn from(kind: ParamKind) -> Self {
-        match kind {
-            ParamKind::Length => Self::Length,
-            ParamKind::Angle => Self::Angle,
-            ParamKind::PerLength => Self::PerLength,
-            ParamKind::Feed => Self::Feed,
-            ParamKind::Number => Self::Number,
-            ParamKind::Count => Self::Count,
-            ParamKind::Flag => Self::Flag,
-            ParamKind::Choice(words) => {
-                Self::Choice(words.iter().map(|word| RStr::from(*word)).collect())
-            }
-            ParamKind::Rows(columns) => Self::Rows(columns as u64),
-        }
-    }
-}
-
 impl From<ParamDefault> for AbiDefault {
     fn from(default: ParamDefault) -> Self {
-        match default {
-            ParamDefault::Required => Self::Required,
-            ParamDefault::Absent => Self::Absent,
-            ParamDefault::Number(value) => Self::Number(value),
-            ParamDefault::Flag(value) => Self::Flag(value),
-            ParamDefault::Text(word) => Self::Text(word.into()),
+        let (kind, number, text) = match default {
+            ParamDefault::Required => ("required", f64::NAN, ""),
+            ParamDefault::Absent => ("absent", f64::NAN, ""),
+            ParamDefault::Number(number) => ("number", number, ""),
+            ParamDefault::Flag(flag) => ("flag", f64::from(u8::from(flag)), ""),
+            ParamDefault::Text(word) => ("text", f64::NAN, word),
+        };
+        Self {
+            kind: kind.into(),
+            number,
+            text: text.into(),
         }
     }
 }
@@ -132,74 +132,138 @@ pub struct CatalogueEntry {
     pub info: StrategyInfo,
 }
 
+/// A parameter that a newer plugin declares and this host cannot read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownKind {
+    /// The strategy's name.
+    pub strategy: String,
+    /// The parameter's key.
+    pub parameter: String,
+    /// The word for its kind, or for the kind of its default.
+    pub kind: String,
+}
+
 impl AbiStrategy {
+    /// The name of the crate that registered the strategy.
+    pub fn crate_name(&self) -> &'static str {
+        self.crate_name.as_str()
+    }
+
     /// The strategy on the host's side; `None` for a slot that this host does not know.
     ///
     /// The host never frees the list of parameters, just as it never unloads the library with their
     /// texts.
-    pub fn receive(self) -> Option<CatalogueEntry> {
-        let slot = Slot::ALL
-            .into_iter()
-            .find(|slot| *slot as u8 == self.slot)?;
-        let params: Vec<Param> = self.params.into_iter().map(AbiParam::receive).collect();
+    ///
+    /// # Errors
+    /// If a parameter is of a kind that this host does not know.
+    pub fn receive(self) -> Result<Option<CatalogueEntry>, UnknownKind> {
+        let mut slots = Slot::ALL.into_iter();
+        let Some(slot) = slots.find(|slot| slot.key() == self.slot.as_str()) else {
+            return Ok(None);
+        };
+        let name = self.name.as_str();
+        let param = |param: AbiParam| param.receive(name);
+        let params: Result<Vec<Param>, _> = self.params.into_iter().map(param).collect();
         let info = StrategyInfo {
             slot,
-            name: self.name.as_str(),
+            name,
             summary: self.summary.as_str(),
             source: self.source.as_str(),
-            params: params.leak(),
+            params: params?.leak(),
         };
-        let (crate_name, crate_version) = (self.crate_name.as_str(), self.crate_version.as_str());
-        Some(CatalogueEntry {
-            crate_name,
-            crate_version,
+        Ok(Some(CatalogueEntry {
+            crate_name: self.crate_name.as_str(),
+            crate_version: self.crate_version.as_str(),
             info,
-        })
+        }))
     }
 }
 
 impl AbiParam {
-    fn receive(self) -> Param {
-        Param {
+    fn receive(self, strategy: &str) -> Result<Param, UnknownKind> {
+        let unknown = |kind: &str| UnknownKind {
+            strategy: strategy.to_owned(),
+            parameter: self.name.into(),
+            kind: kind.to_owned(),
+        };
+        let default = self.default.kind.as_str();
+        Ok(Param {
             name: self.name.as_str(),
             help: self.help.as_str(),
-            kind: self.kind.receive(),
-            default: self.default.receive(),
+            kind: self.kind().ok_or_else(|| unknown(&self.kind))?,
+            default: self.default.receive().ok_or_else(|| unknown(default))?,
             min: self.min,
             max: self.max,
             above_min: self.above_min,
             nonzero: self.nonzero,
-        }
+        })
     }
-}
 
-impl AbiKind {
-    fn receive(self) -> ParamKind {
-        match self {
-            Self::Length => ParamKind::Length,
-            Self::Angle => ParamKind::Angle,
-            Self::PerLength => ParamKind::PerLength,
-            Self::Feed => ParamKind::Feed,
-            Self::Number => ParamKind::Number,
-            Self::Count => ParamKind::Count,
-            Self::Flag => ParamKind::Flag,
-            Self::Choice(words) => {
-                let words: Vec<&'static str> = words.iter().map(|word| word.as_str()).collect();
-                ParamKind::Choice(words.leak())
+    fn kind(&self) -> Option<ParamKind> {
+        match self.kind.as_str() {
+            CHOICE => {
+                let words: Vec<&'static str> = self.words.iter().map(RStr::as_str).collect();
+                Some(ParamKind::Choice(words.leak()))
             }
-            Self::Rows(columns) => ParamKind::Rows(usize::try_from(columns).unwrap_or(usize::MAX)),
+            ROWS => self.numbers.first().map(|n| ParamKind::Rows(*n as usize)),
+            plain => {
+                let mut kinds = PLAIN_KINDS.into_iter();
+                kinds.find(|(word, _)| *word == plain).map(|(_, kind)| kind)
+            }
         }
     }
 }
 
 impl AbiDefault {
-    fn receive(self) -> ParamDefault {
-        match self {
-            Self::Required => ParamDefault::Required,
-            Self::Absent => ParamDefault::Absent,
-            Self::Number(value) => ParamDefault::Number(value),
-            Self::Flag(value) => ParamDefault::Flag(value),
-            Self::Text(word) => ParamDefault::Text(word.as_str()),
+    fn receive(&self) -> Option<ParamDefault> {
+        Some(match self.kind.as_str() {
+            "required" => ParamDefault::Required,
+            "absent" => ParamDefault::Absent,
+            "number" => ParamDefault::Number(self.number),
+            "flag" => ParamDefault::Flag(self.number != 0.0),
+            "text" => ParamDefault::Text(self.text.as_str()),
+            _ => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PARAMS: &[Param] = &[
+        Param::length("radius", "of curvature").nonzero(),
+        Param::angle("tilt", "about x").optional(),
+        Param::per_length("frequency", "of the waves"),
+        Param::feed("feed", "per revolution"),
+        Param::number("conic", "constant").default(-1.0).max(2.0),
+        Param::count("nodes", "per turn").min(3.0),
+        Param::flag("inside", "the hole").default_flag(true),
+        Param::choice("form", &["sum", "product"], "of the waves").default_choice("sum"),
+        Param::rows("terms", 3, "of the polynomial"),
+    ];
+
+    #[test]
+    fn a_declaration_is_the_same_after_both_conversions() {
+        for param in PARAMS {
+            assert_eq!(AbiParam::from(param).receive("wavy"), Ok(*param));
         }
+    }
+
+    #[test]
+    fn an_unknown_kind_names_its_parameter() {
+        let unknown = |kind: &str| {
+            Err(UnknownKind {
+                strategy: "heavy".into(),
+                parameter: "radius".into(),
+                kind: kind.into(),
+            })
+        };
+        let mut param = AbiParam::from(&PARAMS[0]);
+        param.kind = "mass".into();
+        assert_eq!(param.receive("heavy"), unknown("mass"));
+        let mut param = AbiParam::from(&PARAMS[0]);
+        param.default.kind = "computed".into();
+        assert_eq!(param.receive("heavy"), unknown("computed"));
     }
 }

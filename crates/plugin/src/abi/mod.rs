@@ -1,25 +1,36 @@
 //! Everything that crosses the plugin boundary. This is the only module with abi_stable in it.
 //!
-//! - [`data`] has the plain values and their conversions in both directions.
-//! - [`surface`], [`feed`], [`sampler`], [`compensator`], [`velocity`], [`spindle`] and [`locus`] each have
-//!   three parts for a trait of the core: a mirror of the trait that can cross, an adapter that wraps
-//!   the core's trait into the mirror, and an adapter that unwraps it again.
-//! - [`root`] has what a library exports, and opens it.
+//! - [`declaration`] has the macro that makes both sides of a trait from one declaration.
+//! - [`loan`] and [`reply`] carry arguments and answers across; [`numbers`] and [`path`] do so for
+//!   what the host lends, [`arguments`] for parameters.
+//! - [`surface`], [`locus`], [`feed`], [`sampler`], [`compensator`], [`velocity`] and [`spindle`]
+//!   have the declarations.
+//! - [`catalogue`], [`root`] and [`entry`] have what a library exports, and open it; [`layout`]
+//!   decides whether it fits.
 //!
-//! A batch crosses as slices. Only laws and nodes are copied. The macros of abi_stable write
-//! all the `unsafe` code except for the one cast in [`root`].
+//! A batch crosses as slices. Only laws and nodes are copied. The macros of abi_stable write all the
+//! `unsafe` code except for that in [`entry`] and [`panic_safe_box`].
+//!
+//! What crosses can grow without a new number of the boundary: traits by methods with a default,
+//! properties and lists of numbers at their ends, kinds of parameters by words, and the root by
+//! constructors.
 #![allow(unsafe_code)] // #[sabi_trait] and #[derive(StableAbi)] expand to unsafe code
 #![allow(non_local_definitions)] // the expansion of #[sabi_trait] raises it
 #![allow(missing_docs)] // private, and #[sabi_trait] generates public items without docs
-#![allow(clippy::too_many_arguments)] // a batch crosses as slices, one argument each
 
+pub(crate) mod arguments;
 pub(crate) mod catalogue;
 pub(crate) mod compensator;
-pub(crate) mod data;
+pub(crate) mod declaration;
+pub(crate) mod entry;
 pub(crate) mod feed;
+pub(crate) mod layout;
+pub(crate) mod loan;
 pub(crate) mod locus;
+pub(crate) mod numbers;
 pub(crate) mod panic_safe_box;
 pub(crate) mod path;
+pub(crate) mod reply;
 pub(crate) mod root;
 pub(crate) mod sampler;
 pub(crate) mod spindle;

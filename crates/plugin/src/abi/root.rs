@@ -1,38 +1,50 @@
-//! What a plugin library exports, and how the host opens it.
+//! What a plugin library exports: its catalogue, and a constructor for each slot.
 
 use std::sync::OnceLock;
 
 use abi_stable::StableAbi;
-use abi_stable::library::{
-    AbiHeaderRef, CheckTypeLayout, LibHeader, LibraryError, RootModule, RootModuleResult,
-};
+use abi_stable::library::RootModule;
 use abi_stable::prefix_type::PrefixTypeTrait;
-use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::VersionStrings;
-use abi_stable::std_types::{RStr, RString, RVec};
-use turnpath_core::{Params, Result, Slot, StrategyError};
+use abi_stable::std_types::{RString, RVec};
+use turnpath_core::{
+    Compensator, FeedStrategy, Params, Result, Sampler, Slot, SpindleStrategy, StrategyError,
+    SurfaceModel, VelocitySolver,
+};
 
-use super::catalogue::{AbiStrategy, CatalogueEntry};
-use super::compensator::{AbiCompensator_TO, OutgoingCompensator, OwnedCompensator};
-use super::data::{AbiArgument, Answer, answer, params};
-use super::feed::{AbiFeed_TO, OutgoingFeed, OwnedFeed};
-use super::panic_safe_box::PanicSafeBox;
-use super::sampler::{AbiSampler_TO, OutgoingSampler, OwnedSampler};
-use super::spindle::{AbiSpindle_TO, OutgoingSpindle, OwnedSpindle};
-use super::surface::{AbiSurface_TO, OutgoingSurface, OwnedSurface};
-use super::velocity::{AbiVelocity_TO, OutgoingVelocity, OwnedVelocity};
+use super::arguments::{AbiArgument, arguments, params};
+use super::catalogue::AbiStrategy;
+use super::compensator::OwnedCompensator;
+use super::feed::OwnedFeed;
+use super::reply::{Answer, Value, answer, result};
+use super::sampler::OwnedSampler;
+use super::spindle::OwnedSpindle;
+use super::surface::OwnedSurface;
+use super::velocity::OwnedVelocity;
 use crate::{Build, Registration};
 
 /// Which strategy to build, and from which parameters.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiRequest {
-    pub crate_name: RString,
-    pub name: RString,
-    pub arguments: RVec<AbiArgument>,
+    crate_name: RString,
+    name: RString,
+    arguments: RVec<AbiArgument>,
 }
 
-/// A library's functions: the catalogue, and one constructor for each slot.
+impl AbiRequest {
+    /// The request for a strategy of a crate.
+    pub fn new(crate_name: &str, name: &str, params: &Params) -> Self {
+        Self {
+            crate_name: crate_name.into(),
+            name: name.into(),
+            arguments: arguments(params),
+        }
+    }
+}
+
+/// A library's functions: the catalogue, and one constructor for each slot. The constructor of a
+/// new slot stands after the last one that every library has, and an older library has none.
 #[repr(C)]
 #[derive(StableAbi)]
 #[sabi(kind(Prefix(prefix_ref = RootRef)))]
@@ -42,8 +54,8 @@ pub struct Root {
     pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
     pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
     pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
-    pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
     #[sabi(last_prefix_field)]
+    pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
     pub spindle: extern "C" fn(AbiRequest) -> Answer<OwnedSpindle>,
 }
 
@@ -83,244 +95,74 @@ fn registrations() -> Vec<Registration> {
 }
 
 /// Finds the requested strategy and builds it.
-fn build<T>(
+fn build<T: Value>(
     slot: Slot,
     request: AbiRequest,
     with: impl FnOnce(Build, &Params) -> Option<Result<T>>,
-) -> Answer<T> {
+) -> Answer<T::Wire> {
     answer(|| {
-        let AbiRequest {
-            crate_name,
-            name,
-            arguments,
-        } = request;
-        let matches = |one: &Registration| {
+        let (crate_name, name) = (request.crate_name, request.name);
+        let params = params(request.arguments)?;
+        let matches = |one: &&Registration| {
             one.info.slot == slot && one.info.name == name && one.crate_name == crate_name
         };
-        registrations()
-            .iter()
-            .find(|one| matches(one))
-            .and_then(|one| with(one.build, &params(arguments)))
-            .unwrap_or_else(|| {
-                Err(StrategyError::failed(format!(
-                    "there is no {} `{name}` here",
-                    slot.noun()
-                )))
-            })
+        let all = registrations();
+        let found = all.iter().find(matches);
+        let none = || StrategyError::failed(format!("there is no {} `{name}` here", slot.noun()));
+        let built = found.and_then(|one| with(one.build, &params));
+        built.unwrap_or_else(|| Err(none())).map(T::send)
     })
 }
 
-macro_rules! constructor {
-    ($function:ident, $slot:ident, $owned:ident, $object:ident, $outgoing:ident) => {
-        extern "C" fn $function(request: AbiRequest) -> Answer<$owned> {
+/// What a library may build for the host: a boxed object of one slot.
+pub trait Constructed: Value {
+    /// The slot.
+    const SLOT: Slot;
+
+    /// The constructor of a library; `None` in one that is older than the slot.
+    fn constructor(root: RootRef) -> Option<extern "C" fn(AbiRequest) -> Answer<Self::Wire>>;
+}
+
+/// Builds a strategy of a library.
+pub fn construct<T: Constructed>(root: RootRef, request: AbiRequest) -> Result<T> {
+    match T::constructor(root) {
+        Some(constructor) => result(constructor(request)).and_then(T::receive),
+        None => {
+            let what = T::SLOT.noun();
+            Err(StrategyError::failed(format!(
+                "this library builds no {what}"
+            )))
+        }
+    }
+}
+
+/// The exported constructor of each slot, and the host's way to it.
+macro_rules! constructors {
+    ($($name:ident: $slot:ident, $object:ident;)*) => {$(
+        extern "C" fn $name(request: AbiRequest) -> Answer<<Box<dyn $object> as Value>::Wire> {
             build(Slot::$slot, request, |build, params| match build {
-                Build::$slot(build) => Some(build(params).map(|strategy| {
-                    $object::from_value($outgoing(PanicSafeBox::new(strategy)), TD_Opaque)
-                })),
+                Build::$slot(build) => Some(build(params)),
                 _ => None,
             })
         }
-    };
-}
 
-constructor!(
-    surface,
-    Surface,
-    OwnedSurface,
-    AbiSurface_TO,
-    OutgoingSurface
-);
-constructor!(feed, Feed, OwnedFeed, AbiFeed_TO, OutgoingFeed);
-constructor!(
-    sampler,
-    Sampler,
-    OwnedSampler,
-    AbiSampler_TO,
-    OutgoingSampler
-);
-constructor!(
-    compensator,
-    Compensator,
-    OwnedCompensator,
-    AbiCompensator_TO,
-    OutgoingCompensator
-);
-constructor!(
-    velocity,
-    Velocity,
-    OwnedVelocity,
-    AbiVelocity_TO,
-    OutgoingVelocity
-);
-constructor!(
-    spindle,
-    Spindle,
-    OwnedSpindle,
-    AbiSpindle_TO,
-    OutgoingSpindle
-);
+        impl Constructed for Box<dyn $object> {
+            const SLOT: Slot = Slot::$slot;
 
-/// The strategies behind a root, as entries for the host.
-pub fn catalogue_entries(root: RootRef) -> Vec<CatalogueEntry> {
-    root.catalogue()()
-        .into_iter()
-        .filter_map(AbiStrategy::receive)
-        .collect()
-}
-
-/// The version of the boundary, which is the version of this crate.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct BoundaryVersion {
-    /// The number of changes that break plugins.
-    pub major: u32,
-    /// Below 1.0, the number of changes that break plugins too.
-    pub minor: u32,
-    /// The number of changes that do not break plugins.
-    pub patch: u32,
-}
-
-impl std::fmt::Display for BoundaryVersion {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}.{}.{}", self.major, self.minor, self.patch)
-    }
-}
-
-/// The version of this build's boundary.
-pub const BOUNDARY_VERSION: BoundaryVersion = BoundaryVersion {
-    major: digits(env!("CARGO_PKG_VERSION_MAJOR")),
-    minor: digits(env!("CARGO_PKG_VERSION_MINOR")),
-    patch: digits(env!("CARGO_PKG_VERSION_PATCH")),
-};
-
-const fn digits(text: &str) -> u32 {
-    let (bytes, mut value, mut i) = (text.as_bytes(), 0, 0);
-    while i < bytes.len() {
-        value = value * 10 + (bytes[i] - b'0') as u32;
-        i += 1;
-    }
-    value
-}
-
-/// The prefix of the exported symbol's name. The crate's name follows.
-pub const SYMBOL_PREFIX: &str = "turnpath_plugin_root__";
-/// The first bytes of the exported static.
-const MAGIC: [u8; 16] = *b"turnpath plugin\0";
-
-/// The beginning of [`PluginEntry`]. It never changes in any version, so that a host recognises
-/// another version before it reads anything whose layout may differ.
-#[repr(C)]
-#[derive(Clone, Copy)]
-struct EntryHead {
-    magic: [u8; 16],
-    version: BoundaryVersion,
-}
-
-impl EntryHead {
-    /// Reads the head from the bytes of an entry in a file; `None` if there are too few bytes.
-    fn read(entry: &[u8]) -> Option<Self> {
-        let (magic, rest) = entry.split_first_chunk::<16>()?;
-        let (words, _) = rest.as_chunks::<4>();
-        let [major, minor, patch, ..] = words else {
-            return None;
-        };
-        Some(Self {
-            magic: *magic,
-            version: BoundaryVersion {
-                major: u32::from_ne_bytes(*major),
-                minor: u32::from_ne_bytes(*minor),
-                patch: u32::from_ne_bytes(*patch),
-            },
-        })
-    }
-
-    fn check(&self) -> std::result::Result<(), OpenError> {
-        let BoundaryVersion { major, minor, .. } = self.version;
-        if self.magic != MAGIC {
-            return Err(OpenError::NotAPlugin);
+            fn constructor(
+                root: RootRef,
+            ) -> Option<extern "C" fn(AbiRequest) -> Answer<Self::Wire>> {
+                root.$name().into()
+            }
         }
-        if (major, minor) != (BOUNDARY_VERSION.major, BOUNDARY_VERSION.minor) {
-            return Err(OpenError::Version(self.version));
-        }
-        Ok(())
-    }
+    )*};
 }
 
-/// The one static that a plugin library exports.
-#[repr(C)]
-pub struct PluginEntry {
-    head: EntryHead,
-    crate_name: RStr<'static>,
-    header: LibHeader,
-}
-
-/// The entry of the crate with this name. [`export!`](crate::export) uses it.
-pub const fn plugin_entry(crate_name: &'static str) -> PluginEntry {
-    // SAFETY: `constructor` returns a `PrefixRef` that was a `RootRef`.
-    let header =
-        unsafe { LibHeader::from_constructor::<RootRef>(constructor, CheckTypeLayout::Yes) };
-    PluginEntry {
-        head: EntryHead {
-            magic: MAGIC,
-            version: BOUNDARY_VERSION,
-        },
-        crate_name: RStr::from_str(crate_name),
-        header,
-    }
-}
-
-extern "C" fn constructor() -> RootModuleResult {
-    abi_stable::library::__call_root_module_loader(own_root)
-}
-
-/// Why the host could not open a library's entry.
-#[derive(Debug)]
-pub enum OpenError {
-    /// The symbol does not point to a plugin entry.
-    NotAPlugin,
-    /// The plugin was built against another version of the boundary.
-    Version(BoundaryVersion),
-    /// The version is the same, but the layout is not: the compiler target differs, or the boundary
-    /// crate was changed. The text is from abi_stable and hundreds of lines long.
-    Layout(String),
-}
-
-/// Checks an entry in the library's file, before any code of the library runs.
-///
-/// # Errors
-/// The errors of `open`, except for the layout, which can be compared only after loading.
-pub fn inspect(entry: &[u8]) -> std::result::Result<(), OpenError> {
-    EntryHead::read(entry)
-        .ok_or(OpenError::NotAPlugin)?
-        .check()?;
-    if entry.len() < size_of::<PluginEntry>() {
-        return Err(OpenError::NotAPlugin);
-    }
-    Ok(())
-}
-
-/// Opens the entry that a library exports, and lists the strategies of its own crate.
-///
-/// # Safety
-/// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`], in a library that
-/// stays loaded for the rest of the program.
-pub unsafe fn open(
-    entry: *const u8,
-) -> std::result::Result<(RootRef, Vec<CatalogueEntry>), OpenError> {
-    // SAFETY: every version of a plugin entry begins with a head, and the symbol's name marks an
-    // entry.
-    let head = unsafe { entry.cast::<EntryHead>().read_unaligned() };
-    head.check()?;
-    // SAFETY: magic and version show that this is a `PluginEntry`, and its library stays loaded.
-    let entry = unsafe { &*entry.cast::<PluginEntry>() };
-    // SAFETY: an `AbiHeaderRef` is the address of the header with which a `LibHeader` begins.
-    let header: AbiHeaderRef = unsafe { std::mem::transmute(&raw const entry.header) };
-    let layout = |error: LibraryError| OpenError::Layout(error.to_string());
-    let library = header.upgrade().map_err(layout)?;
-    let root = library.init_root_module::<RootRef>().map_err(layout)?;
-    let own = |one: &CatalogueEntry| one.crate_name == entry.crate_name.as_str();
-    Ok((
-        root,
-        catalogue_entries(root).into_iter().filter(own).collect(),
-    ))
+constructors! {
+    surface: Surface, SurfaceModel;
+    feed: Feed, FeedStrategy;
+    sampler: Sampler, Sampler;
+    compensator: Compensator, Compensator;
+    velocity: Velocity, VelocitySolver;
+    spindle: Spindle, SpindleStrategy;
 }
