@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use turnpath_core::Slot;
-use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion, OpenError};
+use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion, OpenError, UnknownKind};
 
 use crate::Plugin;
 
@@ -134,6 +134,16 @@ pub enum Refusal {
         /// The comparison of both layouts, hundreds of lines long.
         details: String,
     },
+    /// It declares a parameter of a kind that is newer than this program.
+    #[error(
+        "its strategy `{}` declares the parameter `{}` as `{}`, a kind that this program does not \
+         know; use a newer turnpath",
+        .0.strategy, .0.parameter, .0.kind
+    )]
+    UnknownKind(
+        /// The parameter.
+        UnknownKind,
+    ),
     /// The system's loader refused it.
     #[error("the system's loader refuses it: {reason}")]
     Loader {
@@ -151,6 +161,7 @@ impl From<OpenError> for Refusal {
             OpenError::NotAPlugin => Self::NotAPlugin,
             OpenError::Version(found) => Self::OtherVersion { found, ours },
             OpenError::Layout(details) => Self::Layout { ours, details },
+            OpenError::UnknownKind(unknown) => Self::UnknownKind(unknown),
         }
     }
 }

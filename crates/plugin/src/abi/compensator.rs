@@ -1,93 +1,38 @@
 //! Compensators.
 
-use abi_stable::StableAbi;
-use abi_stable::std_types::RSlice;
 use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, Radial, RadialRange, Rates, Result, Series,
     SurfaceModel, Tool,
 };
 
-use super::declaration::{Outgoing, declare, owned};
-use super::loan::{Crossing, columns, crossing};
-use super::numbers::{TOOL, read_tool, tool_numbers};
+use super::declaration::declare;
+use super::loan::{composite, crossing};
 use super::reply::{Value, codes};
-use super::surface::{IncomingSurface, LentSurface};
 
 codes! {
     Radial { 0 => Radial::Contact, 1 => Radial::Centre }
 }
 
-columns! {
-    Centres => AbiCentres { x, z, foot } of f64;
-    CentreSeries => AbiCentreSeries { x, z } of Series;
-    Rates => AbiRates { x_theta, x_rho, z_theta, z_x } of f64;
-}
-
-/// Surface and tool, lent for the duration of a call.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiCut<'a> {
-    surface: LentSurface<'a>,
-    tool: RSlice<'a, f64>,
-}
-
-pub struct CutLender<'a> {
-    surface: Outgoing<&'a dyn SurfaceModel>,
-    tool: [f64; TOOL],
-}
-
-impl<'a> Crossing for Cut<'a> {
-    type Wire<'w> = AbiCut<'w>;
-    type Lender = CutLender<'a>;
-
-    fn lender(self) -> Result<CutLender<'a>> {
-        Ok(CutLender {
-            surface: Outgoing(self.surface),
-            tool: tool_numbers(self.tool),
-        })
+composite! {
+    Centres => AbiCentres { x: &'a mut [f64], z: &'a mut [f64], foot: &'a mut [f64] }
+    CentreSeries => AbiCentreSeries { x: &'a mut [Series], z: &'a mut [Series] }
+    Rates => AbiRates {
+        x_theta: &'a mut [f64], x_rho: &'a mut [f64], z_theta: &'a mut [f64], z_x: &'a mut [f64],
     }
-
-    fn lend<'l>(lender: &'l mut CutLender<'a>) -> AbiCut<'l> {
-        AbiCut {
-            surface: lender.surface.lend(),
-            tool: lender.tool.as_slice().into(),
-        }
-    }
-}
-
-pub struct CutReader<'a> {
-    surface: IncomingSurface<'a, abi_stable::sabi_types::RRef<'a, ()>>,
-    tool: Tool,
-}
-
-impl<'a> Crossing for AbiCut<'a> {
-    type Wire<'w> = Cut<'w>;
-    type Lender = CutReader<'a>;
-
-    fn lender(self) -> Result<CutReader<'a>> {
-        Ok(CutReader {
-            surface: IncomingSurface::new(self.surface)?,
-            tool: read_tool(&self.tool),
-        })
-    }
-
-    fn lend<'l>(lender: &'l mut CutReader<'a>) -> Cut<'l> {
-        Cut {
-            surface: &lender.surface,
-            tool: &lender.tool,
-        }
-    }
+    Cut => AbiCut { surface: &'a dyn SurfaceModel, tool: &'a Tool }
 }
 
 /// The inner and the outer end of a range of ρ, mm.
 #[repr(C)]
-#[derive(StableAbi)]
+#[derive(abi_stable::StableAbi)]
 pub struct AbiRange(f64, f64);
 
 crossing! {
-    [] RadialRange => AbiRange, |range| AbiRange(range.inner, range.outer);
-    [] AbiRange => RadialRange, |range| RadialRange { inner: range.0, outer: range.1 };
+    [] RadialRange => AbiRange, RadialRange: |range| range,
+        |range| AbiRange(range.inner, range.outer);
+    [] AbiRange => RadialRange, AbiRange: |range| range,
+        |range| RadialRange { inner: range.0, outer: range.1 };
 }
 
 /// The value, θ and ρ of each extreme, in the order of [`Interference::extremes`].
@@ -95,8 +40,8 @@ impl Value for Interference {
     type Wire = [[f64; 3]; 5];
 
     fn send(self) -> Self::Wire {
-        self.extremes()
-            .map(|extreme| [extreme.value, extreme.theta, extreme.rho])
+        let numbers = |one: Extreme| [one.value, one.theta, one.rho];
+        self.extremes().map(numbers)
     }
 
     fn receive(extremes: Self::Wire) -> Result<Self> {
@@ -106,7 +51,7 @@ impl Value for Interference {
 }
 
 declare! {
-    Compensator => AbiCompensator, AbiCompensator_TO, IncomingCompensator<'b>;
+    Compensator: Deref AsPtr, Send Sync => AbiCompensator, AbiCompensator_TO, IncomingCompensator<'b>;
     properties {
         radial: Radial,
         compensates_nose: bool = true,
@@ -125,5 +70,5 @@ declare! {
         fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference>;
     }
     later {}
+    owned by OwnedCompensator
 }
-owned!(Compensator => AbiCompensator_TO, IncomingCompensator, OwnedCompensator);

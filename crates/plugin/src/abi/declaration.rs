@@ -62,24 +62,25 @@ pub struct Outgoing<P>(pub P);
 /// See the module.
 macro_rules! declare {
     (
-        $core:ident => $abi:ident, $object:ident, $incoming:ident<$b:lifetime>;
+        $core:ident: $deref:ident $as_ptr:ident, $($bound:ident)+ => $abi:ident, $object:ident, $incoming:ident<$b:lifetime>;
         properties { $($property:ident : $kind:ty $(= $default:expr)?),* $(,)? }
         methods { $(
             $(#[$doc:meta])*
-            fn $method:ident(&self $(, $arg:ident $([$by:tt])? : $type:ty)* $(,)?) -> $reply:ty;
+            fn $method:ident $([$mut:tt])? (&self $(, $arg:ident $([$by:tt])? : $type:ty)* $(,)?) -> $reply:ty;
         )* }
         later { $(
             $(#[$later_doc:meta])*
             fn $later:ident(&self $(, $later_arg:ident $([$later_by:tt])? : $later_type:ty)* $(,)?)
                 -> $later_reply:ty = $without:expr;
         )* }
+        $(owned by $owned:ident)?
         $(kept { $field:ident : $field_type:ty } own { $($own:tt)* })?
     ) => {
         #[abi_stable::sabi_trait]
-        pub trait $abi: Send + Sync {
+        pub trait $abi: $($bound +)+ {
             $(
                 $(#[$doc])*
-                fn $method(&self $(, $arg: $crate::abi::loan::Wire<'_, $type>)*)
+                fn $method(& $($mut)? self $(, $arg: $crate::abi::loan::Wire<'_, $type>)*)
                     -> $crate::abi::reply::Answer<<$reply as $crate::abi::reply::Reply>::Wire>;
             )*
             #[sabi(last_prefix_field)]
@@ -103,10 +104,10 @@ macro_rules! declare {
 
         impl<'c, P> $abi for $crate::abi::declaration::Outgoing<P>
         where
-            P: std::ops::Deref<Target = dyn $core + 'c> + Send + Sync,
+            P: std::ops::$deref<Target = dyn $core + 'c> + $($bound +)+,
         {
             $crate::abi::declaration::outgoing! {
-                $(fn $method($($arg $([$by])? : $type),*) -> $reply;)*
+                $(fn $method $([$mut])? ($($arg $([$by])? : $type),*) -> $reply;)*
                 $(fn $later($($later_arg $([$later_by])? : $later_type),*) -> $later_reply;)*
             }
 
@@ -156,27 +157,48 @@ macro_rules! declare {
 
         impl<$b, P> $core for $incoming<$b, P>
         where
-            P: abi_stable::pointer_trait::AsPtr<PtrTarget = ()> + Send + Sync,
-            $object<$b, P>: Send + Sync,
+            P: abi_stable::pointer_trait::$as_ptr<PtrTarget = ()> + Send + Sync,
+            $object<$b, P>: $($bound +)+,
         {
             $(fn $property(&self) -> $kind {
                 self.$property
             })*
 
             $crate::abi::declaration::incoming! {
-                $(fn $method($($arg $([$by])? : $type),*) -> $reply;)*
+                $(fn $method $([$mut])? ($($arg $([$by])? : $type),*) -> $reply;)*
                 $(fn $later($($later_arg $([$later_by])? : $later_type),*) -> $later_reply;)*
             }
 
             $($($own)*)?
         }
+
+        $(
+            /// An object that belongs to its plugin.
+            pub type $owned = $object<'static, abi_stable::std_types::RBox<()>>;
+
+            impl $crate::abi::reply::Value for Box<dyn $core> {
+                type Wire = $owned;
+
+                fn send(self) -> $owned {
+                    let object = $crate::abi::panic_safe_box::PanicSafeBox::new(self);
+                    $object::from_value(
+                        $crate::abi::declaration::Outgoing(object),
+                        abi_stable::sabi_trait::TD_Opaque,
+                    )
+                }
+
+                fn receive(object: $owned) -> turnpath_core::Result<Self> {
+                    Ok(Box::new($incoming::new(object)?))
+                }
+            }
+        )?
     };
 }
 
 /// The author's side of each method.
 macro_rules! outgoing {
-    ($(fn $method:ident($($arg:ident $([$by:tt])? : $type:ty),*) -> $reply:ty;)*) => {$(
-        fn $method(&self $(, $arg: $crate::abi::loan::Wire<'_, $type>)*)
+    ($(fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])? : $type:ty),*) -> $reply:ty;)*) => {$(
+        fn $method(& $($mut)? self $(, $arg: $crate::abi::loan::Wire<'_, $type>)*)
             -> $crate::abi::reply::Answer<<$reply as $crate::abi::reply::Reply>::Wire>
         {
             $crate::abi::reply::answer(|| {
@@ -196,9 +218,9 @@ macro_rules! outgoing {
 
 /// The caller's side of each method.
 macro_rules! incoming {
-    ($(fn $method:ident($($arg:ident $([$by:tt])? : $type:ty),*) -> $reply:ty;)*) => {$(
-        fn $method(&self $(, $arg: $($by)? $type)*) -> $reply {
-            let call = || {
+    ($(fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])? : $type:ty),*) -> $reply:ty;)*) => {$(
+        fn $method(& $($mut)? self $(, $arg: $($by)? $type)*) -> $reply {
+            $crate::abi::reply::receive(|| {
                 let mut _lengths = $crate::abi::loan::Lengths::default();
                 $(
                     let $arg = $crate::abi::declaration::by_value!($arg $($by)?);
@@ -211,8 +233,7 @@ macro_rules! incoming {
                 ),*);
                 $(<$type as $crate::abi::loan::Crossing>::settle($arg)?;)*
                 $crate::abi::reply::result(answer)
-            };
-            $crate::abi::reply::Reply::receive(call())
+            })
         }
     )*};
 }
@@ -227,46 +248,4 @@ macro_rules! by_value {
     };
 }
 
-/// Lets a boxed object of the core cross for good, as the value of an answer.
-macro_rules! owned {
-    ($core:ident => $object:ident, $incoming:ident, $owned:ident) => {
-        /// An object that belongs to its plugin.
-        pub type $owned = $object<'static, abi_stable::std_types::RBox<()>>;
-
-        impl $crate::abi::reply::Value for Box<dyn $core> {
-            type Wire = $owned;
-
-            fn send(self) -> $owned {
-                let object = $crate::abi::panic_safe_box::PanicSafeBox::new(self);
-                $object::from_value(
-                    $crate::abi::declaration::Outgoing(object),
-                    abi_stable::sabi_trait::TD_Opaque,
-                )
-            }
-
-            fn receive(object: $owned) -> turnpath_core::Result<Self> {
-                Ok(Box::new($incoming::new(object)?))
-            }
-        }
-    };
-}
-
-/// Lets an object of the core be lent for a call.
-macro_rules! lent {
-    ($core:ident => $object:ident, $lent:ident) => {
-        /// An object, lent for the duration of a call.
-        pub type $lent<'a> = $object<'a, abi_stable::sabi_types::RRef<'a, ()>>;
-
-        impl $crate::abi::declaration::Outgoing<&dyn $core> {
-            /// Lends the object.
-            pub fn lend(&self) -> $lent<'_> {
-                $object::from_ptr(
-                    abi_stable::sabi_types::RRef::new(self),
-                    abi_stable::sabi_trait::TD_Opaque,
-                )
-            }
-        }
-    };
-}
-
-pub(crate) use {by_value, declare, incoming, lent, outgoing, owned};
+pub(crate) use {by_value, declare, incoming, outgoing};

@@ -48,115 +48,122 @@ impl Lengths {
     /// Checks that all lengths are the same.
     pub fn check(&self) -> Result<()> {
         if self.differ {
-            return Err(StrategyError::failed(
-                "the slices of a call differ in length",
-            ));
+            let message = "the slices of a call differ in length";
+            return Err(StrategyError::failed(message));
         }
         Ok(())
     }
 }
 
-/// Implements [`Crossing`] for arguments that are their own lenders.
+/// Implements [`Crossing`] from one form to the other: what the lender is and what it lends.
 macro_rules! crossing {
-    ($([$($generics:tt)*] $from:ty => $to:ty, |$lender:ident| $lend:expr
-        $(, |$counted:ident, $lengths:ident| $count:expr)?;)*) => {$(
-        impl<$($generics)*> $crate::abi::loan::Crossing for $from {
+    ($(
+        [$($life:tt)*] $from:ty => $to:ty,
+        $lender:ty: |$given:ident| $new:expr, |$it:ident| $lend:expr
+        $(, |$counted:ident, $lengths:ident| $count:expr)?;
+    )*) => {$(
+        impl<$($life)*> $crate::abi::loan::Crossing for $from {
             type Wire<'w> = $to;
-            type Lender = Self;
+            type Lender = $lender;
 
-            fn lender(self) -> turnpath_core::Result<Self> {
-                Ok(self)
+            fn lender(self) -> turnpath_core::Result<$lender> {
+                let $given = self;
+                Ok($new)
             }
 
-            fn lend($lender: &mut Self) -> Self::Wire<'_> {
+            fn lend<'w>($it: &'w mut $lender) -> Self::Wire<'w> {
                 $lend
             }
 
-            $(fn count($counted: &Self, $lengths: &mut $crate::abi::loan::Lengths) {
+            $(fn count($counted: &$lender, $lengths: &mut $crate::abi::loan::Lengths) {
                 $count
             })?
         }
     )*};
 }
-pub(crate) use crossing;
 
 crossing! {
-    ['a, T: 'static] &'a [T] => RSlice<'w, T>, |slice| RSlice::from_slice(slice),
-        |slice, lengths| lengths.add(slice.len());
-    ['a, T: 'static] &'a mut [T] => RSliceMut<'w, T>, |slice| RSliceMut::from_mut_slice(slice),
-        |slice, lengths| lengths.add(slice.len());
-    ['a, T: 'static] RSlice<'a, T> => &'w [T], |slice| slice.as_slice();
-    ['a, T: 'static] RSliceMut<'a, T> => &'w mut [T], |slice| slice.as_mut_slice();
-    [] f64 => f64, |number| *number;
+    ['a, T: 'static] &'a [T] => RSlice<'w, T>, &'a [T]: |slice| slice,
+        |slice| RSlice::from_slice(slice), |slice, lengths| lengths.add(slice.len());
+    ['a, T: 'static] &'a mut [T] => RSliceMut<'w, T>, &'a mut [T]: |slice| slice,
+        |slice| RSliceMut::from_mut_slice(slice), |slice, lengths| lengths.add(slice.len());
+    ['a, T: 'static] RSlice<'a, T> => &'w [T], RSlice<'a, T>: |slice| slice,
+        |slice| slice.as_slice();
+    ['a, T: 'static] RSliceMut<'a, T> => &'w mut [T], RSliceMut<'a, T>: |slice| slice,
+        |slice| slice.as_mut_slice();
+    [] f64 => f64, f64: |number| number, |number| *number;
 }
 
-/// A list that the other side changes in place, such as the state of a sequential strategy.
-pub struct ListLender<'a> {
-    home: &'a mut Vec<f64>,
-    away: RVec<f64>,
-}
-
-impl<'a> Crossing for &'a mut Vec<f64> {
-    type Wire<'w> = &'w mut RVec<f64>;
-    type Lender = ListLender<'a>;
-
-    fn lender(self) -> Result<ListLender<'a>> {
-        let away = RVec::from(std::mem::take(self));
-        Ok(ListLender { home: self, away })
-    }
-
-    fn lend<'l>(lender: &'l mut ListLender<'a>) -> &'l mut RVec<f64> {
-        &mut lender.away
-    }
-
-    fn settle(lender: ListLender<'a>) -> Result<()> {
-        *lender.home = lender.away.into_vec();
-        Ok(())
-    }
-}
-
-/// The same list on the other side.
-pub struct ListReader<'a> {
-    home: &'a mut RVec<f64>,
-    away: Vec<f64>,
-}
-
-impl<'a> Crossing for &'a mut RVec<f64> {
-    type Wire<'w> = &'w mut Vec<f64>;
-    type Lender = ListReader<'a>;
-
-    fn lender(self) -> Result<ListReader<'a>> {
-        let away = self.to_vec();
-        Ok(ListReader { home: self, away })
-    }
-
-    fn lend<'l>(lender: &'l mut ListReader<'a>) -> &'l mut Vec<f64> {
-        &mut lender.away
-    }
-
-    fn settle(lender: ListReader<'a>) -> Result<()> {
-        *lender.home = lender.away.into();
-        Ok(())
-    }
-}
-
-/// Declares the form in which a struct of output slices crosses, and carries it across in both
-/// directions.
-macro_rules! columns {
-    ($($core:ident => $abi:ident { $($column:ident),+ } of $number:ty;)*) => {$(
+/// Declares the form of a struct of the core, field by field, and lets both forms cross.
+macro_rules! composite {
+    ($($core:ident => $abi:ident { $($field:ident: $type:ty),+ $(,)? })*) => {$(
         #[repr(C)]
         #[derive(abi_stable::StableAbi)]
         pub struct $abi<'a> {
-            $($column: abi_stable::std_types::RSliceMut<'a, $number>,)+
+            $($field: $crate::abi::loan::Wire<'a, $type>,)+
         }
 
+        $crate::abi::loan::composite!(@from $core to $abi with $($field: $type),+);
+        $crate::abi::loan::composite!(
+            @from $abi to $core with $($field: $crate::abi::loan::Wire<'a, $type>),+
+        );
+    )*};
+    (@from $from:ident to $to:ident with $($field:ident: $type:ty),+) => {
         $crate::abi::loan::crossing! {
-            ['a] turnpath_core::$core<'a> => $abi<'w>,
-                |out| $abi { $($column: (&mut *out.$column).into(),)+ },
-                |out, lengths| { $(lengths.add(out.$column.len());)+ };
-            ['a] $abi<'a> => turnpath_core::$core<'w>,
-                |out| turnpath_core::$core { $($column: out.$column.as_mut_slice(),)+ };
+            ['a] $from<'a> => $to<'w>,
+            ($(<$type as $crate::abi::loan::Crossing>::Lender,)+):
+                |from| ($($crate::abi::loan::Crossing::lender(from.$field)?,)+),
+                |lender| {
+                    let ($($field,)+) = lender;
+                    $to { $($field: <$type as $crate::abi::loan::Crossing>::lend($field),)+ }
+                },
+                |lender, lengths| {
+                    let ($($field,)+) = lender;
+                    $(<$type as $crate::abi::loan::Crossing>::count($field, lengths);)+
+                };
+        }
+    };
+}
+
+/// A list that the other side writes to.
+pub struct ListLender<'a, Home, Away> {
+    pub home: &'a mut Home,
+    pub away: Away,
+}
+
+/// Lets lists cross that the other side writes to: what it gets, and what it gives back.
+macro_rules! lists {
+    ($(
+        $home:ty => $away:ty: |$list:ident| $get:expr, |$place:ident, $back:ident| $settle:expr;
+    )*) => {$(
+        impl<'a> $crate::abi::loan::Crossing for &'a mut $home {
+            type Wire<'w> = &'w mut $away;
+            type Lender = $crate::abi::loan::ListLender<'a, $home, $away>;
+
+            fn lender(self) -> turnpath_core::Result<Self::Lender> {
+                let $list = &mut *self;
+                let away = $get;
+                Ok($crate::abi::loan::ListLender { home: self, away })
+            }
+
+            fn lend<'w>(lender: &'w mut Self::Lender) -> &'w mut $away {
+                &mut lender.away
+            }
+
+            fn settle(lender: Self::Lender) -> turnpath_core::Result<()> {
+                let ($place, $back) = (lender.home, lender.away);
+                $settle;
+                Ok(())
+            }
         }
     )*};
 }
-pub(crate) use columns;
+
+lists! {
+    Vec<f64> => RVec<f64>: |list| RVec::from(std::mem::take(list)),
+        |list, changed| *list = changed.into_vec();
+    RVec<f64> => Vec<f64>: |list| list.to_vec(),
+        |list, changed| *list = changed.into();
+}
+
+pub(crate) use {composite, crossing, lists};

@@ -1,26 +1,28 @@
 //! The host's locus, lent to feed strategies, samplers and spindle strategies.
 
+use abi_stable::StableAbi;
+use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
-use super::declaration::{declare, lent};
-use super::loan::crossing;
+use super::declaration::{Outgoing, declare};
+use super::loan::{Crossing, crossing};
 use super::reply::Code;
-use super::surface::IncomingSurface;
+use super::surface::LentSurface;
 
-/// The caller may override the meaning of ρ, so it is an argument too. A meaning that this side
-/// does not know counts as the contact's.
-#[repr(transparent)]
-#[derive(abi_stable::StableAbi)]
+/// The code of what ρ means. One that this side does not know counts as the contact's radius.
+#[repr(C)]
+#[derive(StableAbi)]
 pub struct AbiRadial(u64);
 
 crossing! {
-    [] Radial => AbiRadial, |radial| AbiRadial(radial.code());
-    [] AbiRadial => Radial, |radial| Radial::from_code(radial.0).unwrap_or(Radial::Contact);
+    [] Radial => AbiRadial, Radial: |radial| radial, |radial| AbiRadial(radial.code());
+    [] AbiRadial => Radial, Radial:
+        |code| Radial::from_code(code.0).unwrap_or(Radial::Contact), |radial| *radial;
 }
 
 declare! {
-    Locus => AbiLocus, AbiLocus_TO, IncomingLocus<'b>;
+    Locus: Deref AsPtr, Send Sync => AbiLocus, AbiLocus_TO, IncomingLocus<'b>;
     properties { radial: Radial }
     methods {
         fn centre(&self, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()>;
@@ -31,11 +33,29 @@ declare! {
         ) -> Result<()>;
     }
     later {}
-    kept { surface: IncomingSurface<'b, RRef<'b, ()>> }
-    own {
+    kept { surface: <LentSurface<'b> as Crossing>::Lender } own {
         fn surface(&self) -> &dyn SurfaceModel {
             &self.surface
         }
     }
 }
-lent!(Locus => AbiLocus_TO, LentLocus);
+
+/// A locus with its surface, lent for the duration of a call.
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct LentLocus<'a> {
+    locus: AbiLocus_TO<'a, RRef<'a, ()>>,
+    surface: LentSurface<'a>,
+}
+
+crossing! {
+    ['a] &'a dyn Locus => LentLocus<'w>,
+    (Outgoing<&'a dyn Locus>, Outgoing<&'a dyn SurfaceModel>):
+        |locus| (Outgoing(locus), locus.surface().lender()?),
+        |lender| LentLocus {
+            locus: AbiLocus_TO::from_ptr(RRef::new(&lender.0), TD_Opaque),
+            surface: <&dyn SurfaceModel>::lend(&mut lender.1),
+        };
+    ['a] LentLocus<'a> => &'w dyn Locus, IncomingLocus<'a, RRef<'a, ()>>:
+        |lent| IncomingLocus::new(lent.locus, lent.surface.lender()?)?, |locus| locus;
+}

@@ -1,7 +1,7 @@
 //! Everything that crosses the plugin boundary. This is the only module with abi_stable in it.
 //!
 //! - [`declaration`] has the macro that makes both sides of a trait from one declaration.
-//! - [`loan`] and [`reply`] carry arguments and answers across; [`numbers`] and [`path`] do so for
+//! - [`loan`] and [`reply`] carry arguments and answers across; [`numbers`] and [`laws`] do so for
 //!   what the host lends, [`arguments`] for parameters.
 //! - [`surface`], [`locus`], [`feed`], [`sampler`], [`compensator`], [`velocity`] and [`spindle`]
 //!   have the declarations.
@@ -24,12 +24,12 @@ pub(crate) mod compensator;
 pub(crate) mod declaration;
 pub(crate) mod entry;
 pub(crate) mod feed;
+pub(crate) mod laws;
 pub(crate) mod layout;
 pub(crate) mod loan;
 pub(crate) mod locus;
 pub(crate) mod numbers;
 pub(crate) mod panic_safe_box;
-pub(crate) mod path;
 pub(crate) mod reply;
 pub(crate) mod root;
 pub(crate) mod sampler;

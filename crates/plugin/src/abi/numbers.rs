@@ -1,14 +1,18 @@
 //! Tool and task as lists of numbers that may grow.
 //!
 //! One list of fields serves both directions. A new field is appended: an older side does not read
-//! it, and a newer side reads nothing where an older one gives none.
+//! it, and a newer side keeps NaN or no value where an older one gives none.
 
+use abi_stable::StableAbi;
+use abi_stable::std_types::RSlice;
 use turnpath_core::{Direction, Machine, Misfit, Part, RadialRange, Task, Tolerance, Tool};
 
+use super::loan::crossing;
+
 /// A field that crosses as one number.
-trait Field {
+trait Field: Sized {
     fn write(&self) -> f64;
-    fn read(&mut self, number: f64);
+    fn read(number: f64) -> Self;
 }
 
 impl Field for f64 {
@@ -16,8 +20,8 @@ impl Field for f64 {
         *self
     }
 
-    fn read(&mut self, number: f64) {
-        *self = number;
+    fn read(number: f64) -> Self {
+        number
     }
 }
 
@@ -27,8 +31,8 @@ impl Field for Option<f64> {
         self.unwrap_or(f64::NAN)
     }
 
-    fn read(&mut self, number: f64) {
-        *self = Some(number).filter(|number| !number.is_nan());
+    fn read(number: f64) -> Self {
+        Some(number).filter(|number| !number.is_nan())
     }
 }
 
@@ -40,8 +44,8 @@ macro_rules! either {
                 f64::from(u8::from(*self == Self::$one))
             }
 
-            fn read(&mut self, number: f64) {
-                *self = if number == 1.0 { Self::$one } else { Self::$other };
+            fn read(number: f64) -> Self {
+                if number == 1.0 { Self::$one } else { Self::$other }
             }
         }
     )*};
@@ -52,118 +56,65 @@ either! {
     Direction: Inward or Outward;
 }
 
-/// How many numbers a tool has.
-pub const TOOL: usize = 4;
-/// How many numbers a task has.
-pub const TASK: usize = TOOL + 17;
+/// Lets a struct cross as the list of these fields.
+macro_rules! numbers {
+    ($type:ident => $abi:ident, $count:literal, $blank:expr, $($($field:ident).+),+ $(,)?) => {
+        #[repr(C)]
+        #[derive(StableAbi)]
+        pub struct $abi<'a>(RSlice<'a, f64>);
 
-fn tool_fields(tool: &mut Tool) -> [&mut dyn Field; TOOL] {
-    [
-        &mut tool.nose_radius,
-        &mut tool.included_angle,
-        &mut tool.clearance_angle,
-        &mut tool.misfit,
-    ]
+        crossing! {
+            ['a] &'a $type => $abi<'w>, [f64; $count]:
+                |it| [$(it.$($field).+.write()),+],
+                |numbers| $abi(numbers.as_slice().into());
+            ['a] $abi<'a> => &'w $type, $type:
+                |numbers| {
+                    let (mut it, mut numbers) = ($blank, numbers.0.iter());
+                    $(if let Some(number) = numbers.next() {
+                        it.$($field).+ = Field::read(*number);
+                    })+
+                    it
+                },
+                |it| it;
+        }
+    };
 }
 
-fn task_fields(task: &mut Task) -> [&mut dyn Field; TASK] {
-    let Task {
-        part,
-        tool,
-        tolerance,
-        range,
-        direction,
-        spindle_speed,
-        machine,
-    } = task;
-    let [nose_radius, included_angle, clearance_angle, misfit] = tool_fields(tool);
-    let Machine { x, z, c } = machine;
-    [
-        nose_radius,
-        included_angle,
-        clearance_angle,
-        misfit,
-        &mut part.aperture_radius,
-        &mut part.inner_radius,
-        &mut tolerance.interpolation,
-        &mut tolerance.residual,
-        &mut range.inner,
-        &mut range.outer,
-        direction,
-        spindle_speed,
-        &mut x.velocity,
-        &mut x.acceleration,
-        &mut x.jerk,
-        &mut z.velocity,
-        &mut z.acceleration,
-        &mut z.jerk,
-        &mut c.velocity,
-        &mut c.acceleration,
-        &mut c.jerk,
-    ]
-}
-
+const NAN: f64 = f64::NAN;
 const BLANK_TOOL: Tool = Tool {
-    nose_radius: f64::NAN,
+    nose_radius: NAN,
     included_angle: None,
     clearance_angle: None,
     misfit: Misfit::Refuse,
 };
 
-fn blank_task() -> Task {
-    let nan = f64::NAN;
+numbers! {
+    Tool => AbiTool, 4, BLANK_TOOL, nose_radius, included_angle, clearance_angle, misfit
+}
+
+numbers! {
+    Task => AbiTask, 21,
     Task {
-        part: Part {
-            aperture_radius: nan,
-            inner_radius: nan,
-        },
+        part: Part { aperture_radius: NAN, inner_radius: NAN },
         tool: BLANK_TOOL,
-        tolerance: Tolerance {
-            interpolation: nan,
-            residual: nan,
-        },
-        range: RadialRange {
-            inner: nan,
-            outer: nan,
-        },
+        tolerance: Tolerance { interpolation: NAN, residual: NAN },
+        range: RadialRange { inner: NAN, outer: NAN },
         direction: Direction::Inward,
-        spindle_speed: nan,
+        spindle_speed: NAN,
         machine: Machine::default(),
-    }
-}
-
-fn read<const N: usize>(fields: [&mut dyn Field; N], numbers: &[f64]) {
-    for (field, number) in fields.into_iter().zip(numbers) {
-        field.read(*number);
-    }
-}
-
-/// The numbers of a tool.
-pub fn tool_numbers(tool: &Tool) -> [f64; TOOL] {
-    tool_fields(&mut tool.clone()).map(|field| field.write())
-}
-
-/// The tool of these numbers.
-pub fn read_tool(numbers: &[f64]) -> Tool {
-    let mut tool = BLANK_TOOL;
-    read(tool_fields(&mut tool), numbers);
-    tool
-}
-
-/// The numbers of a task.
-pub fn task_numbers(task: &Task) -> [f64; TASK] {
-    task_fields(&mut task.clone()).map(|field| field.write())
-}
-
-/// The task of these numbers.
-pub fn read_task(numbers: &[f64]) -> Task {
-    let mut task = blank_task();
-    read(task_fields(&mut task), numbers);
-    task
+    },
+    part.aperture_radius, part.inner_radius,
+    tool.nose_radius, tool.included_angle, tool.clearance_angle, tool.misfit,
+    tolerance.interpolation, tolerance.residual,
+    range.inner, range.outer, direction, spindle_speed,
+    machine.x.velocity, machine.x.acceleration, machine.x.jerk,
+    machine.z.velocity, machine.z.acceleration, machine.z.jerk,
+    machine.c.velocity, machine.c.acceleration, machine.c.jerk,
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::loan::Crossing;
     use super::*;
     use turnpath_core::AxisLimits;
 
@@ -202,19 +153,23 @@ mod tests {
         }
     }
 
+    fn read(numbers: &[f64]) -> Task {
+        AbiTask(numbers.into()).lender().unwrap()
+    }
+
     #[test]
     fn a_task_is_the_same_after_both_conversions() {
-        assert_eq!(read_task(&task_numbers(&task())), task());
+        assert_eq!(read(&(&task()).lender().unwrap()), task());
     }
 
     #[test]
     fn a_side_with_more_numbers_and_one_with_fewer_understand_each_other() {
-        let mut longer = task_numbers(&task()).to_vec();
+        let numbers = (&task()).lender().unwrap();
+        let mut longer = numbers.to_vec();
         longer.push(7.0);
-        assert_eq!(read_task(&longer), task());
-        let shorter = &longer[..TASK - 1];
+        assert_eq!(read(&longer), task());
         let mut expected = task();
         expected.machine.c.jerk = None;
-        assert_eq!(read_task(shorter), expected);
+        assert_eq!(read(&numbers[..20]), expected);
     }
 }

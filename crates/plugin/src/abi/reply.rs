@@ -53,6 +53,11 @@ pub trait Reply: Sized {
     fn receive(result: Result<Self::Wire>) -> Self;
 }
 
+/// Calls the other side and converts its answer.
+pub fn receive<R: Reply>(call: impl FnOnce() -> Result<R::Wire>) -> R {
+    R::receive(call())
+}
+
 impl<T: Value> Reply for Result<T> {
     type Wire = T::Wire;
 

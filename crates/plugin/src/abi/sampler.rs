@@ -6,8 +6,8 @@ use turnpath_core::{
     Dependence, NodeList, Path, Result, Revolutions, Sampler, SamplerPlan, StrategyError,
 };
 
-use super::declaration::{declare, owned};
-use super::loan::{Crossing, crossing};
+use super::declaration::declare;
+use super::loan::{crossing, lists};
 use super::reply::Code;
 
 /// 0 is local, 1 is sequential, and 2 + n is an overlap of n nodes.
@@ -35,81 +35,40 @@ impl Code for Dependence {
 pub struct AbiBlock(f64, f64);
 
 crossing! {
-    [] Revolutions => AbiBlock, |block| AbiBlock(block.start, block.end);
-    [] AbiBlock => Revolutions, |block| Revolutions { start: block.0, end: block.1 };
+    [] Revolutions => AbiBlock, Revolutions: |block| block, |block| AbiBlock(block.start, block.end);
+    [] AbiBlock => Revolutions, AbiBlock: |block| block,
+        |block| Revolutions { start: block.0, end: block.1 };
 }
 
-/// The columns of a [`NodeList`], of which there may be more one day. They are empty at first; the
-/// host appends what the other side placed.
+/// The columns of a [`NodeList`], of which there may be more one day. The host appends what the
+/// other side places.
 type AbiNodeList = RVec<RVec<f64>>;
 
-pub struct NodeListLender<'a> {
-    home: &'a mut NodeList,
-    placed: AbiNodeList,
-}
-
-impl<'a> Crossing for &'a mut NodeList {
-    type Wire<'w> = &'w mut AbiNodeList;
-    type Lender = NodeListLender<'a>;
-
-    fn lender(self) -> Result<NodeListLender<'a>> {
-        let placed = RVec::new();
-        Ok(NodeListLender { home: self, placed })
-    }
-
-    fn lend<'l>(lender: &'l mut NodeListLender<'a>) -> &'l mut AbiNodeList {
-        &mut lender.placed
-    }
-
-    fn settle(lender: NodeListLender<'a>) -> Result<()> {
-        let mut columns = lender.placed.into_iter().map(RVec::into_vec);
+lists! {
+    NodeList => AbiNodeList: |_list| AbiNodeList::new(), |list, placed| {
+        let mut columns = placed.into_iter().map(RVec::into_vec);
         let mut column = || columns.next().unwrap_or_default();
         let placed = NodeList::from_columns(column(), column(), column());
-        let placed = placed.ok_or_else(|| {
-            StrategyError::failed("the columns of the nodes differ in length: n, dz and dz_dc")
-        })?;
-        lender.home.append(placed);
-        Ok(())
-    }
-}
-
-pub struct NodeListReader<'a> {
-    home: &'a mut AbiNodeList,
-    placed: NodeList,
-}
-
-impl<'a> Crossing for &'a mut AbiNodeList {
-    type Wire<'w> = &'w mut NodeList;
-    type Lender = NodeListReader<'a>;
-
-    fn lender(self) -> Result<NodeListReader<'a>> {
-        let placed = NodeList::default();
-        Ok(NodeListReader { home: self, placed })
-    }
-
-    fn lend<'l>(lender: &'l mut NodeListReader<'a>) -> &'l mut NodeList {
-        &mut lender.placed
-    }
-
-    fn settle(lender: NodeListReader<'a>) -> Result<()> {
-        let columns = lender.placed.into_columns();
-        lender.home.extend(columns.map(RVec::from));
-        Ok(())
-    }
+        list.append(placed.ok_or_else(|| StrategyError::failed(
+            "the columns of the nodes differ in length: n, dz and dz_dc",
+        ))?);
+    };
+    AbiNodeList => NodeList: |_list| NodeList::default(),
+        |list, placed| list.extend(placed.into_columns().map(RVec::from));
 }
 
 declare! {
-    Sampler => AbiSampler, AbiSampler_TO, IncomingSampler<'b>;
+    Sampler: Deref AsPtr, Send Sync => AbiSampler, AbiSampler_TO, IncomingSampler<'b>;
     properties { needs_exact_rates: bool = false }
     methods {
         fn plan(&self, path[&]: Path<'_>) -> Result<Box<dyn SamplerPlan>>;
     }
     later {}
+    owned by OwnedSampler
 }
-owned!(Sampler => AbiSampler_TO, IncomingSampler, OwnedSampler);
 
 declare! {
-    SamplerPlan => AbiSamplerPlan, AbiSamplerPlan_TO, IncomingSamplerPlan<'b>;
+    SamplerPlan: Deref AsPtr, Send Sync => AbiSamplerPlan, AbiSamplerPlan_TO, IncomingSamplerPlan<'b>;
     properties { dependence: Dependence = Dependence::Local }
     methods {
         fn place(&self, path[&]: Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()>;
@@ -122,5 +81,5 @@ declare! {
         ) -> Result<()>;
     }
     later {}
+    owned by OwnedSamplerPlan
 }
-owned!(SamplerPlan => AbiSamplerPlan_TO, IncomingSamplerPlan, OwnedSamplerPlan);

@@ -1,17 +1,21 @@
 //! Surface models: from a plugin to the host, and lent by the host to other strategies.
 
+use abi_stable::sabi_trait::TD_Opaque;
+use abi_stable::sabi_types::RRef;
 use turnpath_core::{GradientSeries, Gradients, Result, Series, SurfaceModel};
 
-use super::declaration::{declare, lent, owned};
-use super::loan::columns;
+use super::declaration::{Outgoing, declare};
+use super::loan::{composite, crossing};
 
-columns! {
-    Gradients => AbiGradients { z, zx, zy } of f64;
-    GradientSeries => AbiGradientSeries { z, zx, zy } of Series;
+composite! {
+    Gradients => AbiGradients { z: &'a mut [f64], zx: &'a mut [f64], zy: &'a mut [f64] }
+    GradientSeries => AbiGradientSeries {
+        z: &'a mut [Series], zx: &'a mut [Series], zy: &'a mut [Series],
+    }
 }
 
 declare! {
-    SurfaceModel => AbiSurface, AbiSurface_TO, IncomingSurface<'b>;
+    SurfaceModel: Deref AsPtr, Send Sync => AbiSurface, AbiSurface_TO, IncomingSurface<'b>;
     properties {}
     methods {
         fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()>;
@@ -20,6 +24,15 @@ declare! {
         fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()>;
     }
     later {}
+    owned by OwnedSurface
 }
-owned!(SurfaceModel => AbiSurface_TO, IncomingSurface, OwnedSurface);
-lent!(SurfaceModel => AbiSurface_TO, LentSurface);
+
+/// A surface, lent for the duration of a call.
+pub type LentSurface<'a> = AbiSurface_TO<'a, RRef<'a, ()>>;
+
+crossing! {
+    ['a] &'a dyn SurfaceModel => LentSurface<'w>, Outgoing<&'a dyn SurfaceModel>:
+        |surface| Outgoing(surface), |surface| AbiSurface_TO::from_ptr(RRef::new(surface), TD_Opaque);
+    ['a] LentSurface<'a> => &'w dyn SurfaceModel, IncomingSurface<'a, RRef<'a, ()>>:
+        |surface| IncomingSurface::new(surface)?, |surface| surface;
+}

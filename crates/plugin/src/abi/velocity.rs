@@ -5,20 +5,20 @@ use abi_stable::std_types::RSlice;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
-use super::declaration::{declare, owned};
-use super::loan::{Crossing, Lengths, columns, crossing};
+use super::declaration::declare;
+use super::loan::{composite, crossing};
 use super::reply::codes;
 
 codes! {
     SegmentShape { 0 => SegmentShape::Cubic, 1 => SegmentShape::Linear }
 }
 
-columns! {
-    Velocities => AbiVelocities { c, x, z } of f64;
+composite! {
+    Velocities => AbiVelocities { c: &'a mut [f64], x: &'a mut [f64], z: &'a mut [f64] }
 }
 
-/// The columns of the nodes in this order: t, c, x, z, c_rate, x_rate, z_theta, z_x. More may
-/// follow. Bit 0 of `ends` marks the path's first node, and bit 1 its last.
+/// The columns of the nodes: t, c, x, z, c_rate, x_rate, z_theta, z_x. More may follow. Bit 0 of
+/// `ends` marks the path's first node, and bit 1 its last.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiNodes<'a> {
@@ -26,70 +26,26 @@ pub struct AbiNodes<'a> {
     ends: u32,
 }
 
-pub struct NodesLender<'a> {
-    columns: [RSlice<'a, f64>; 8],
-    ends: u32,
-}
-
-impl<'a> Crossing for Nodes<'a> {
-    type Wire<'w> = AbiNodes<'w>;
-    type Lender = NodesLender<'a>;
-
-    fn lender(self) -> Result<NodesLender<'a>> {
-        let Nodes {
-            t,
-            c,
-            x,
-            z,
-            c_rate,
-            x_rate,
-            z_theta,
-            z_x,
-            at_start,
-            at_end,
-        } = self;
-        Ok(NodesLender {
-            columns: [t, c, x, z, c_rate, x_rate, z_theta, z_x].map(RSlice::from_slice),
-            ends: u32::from(at_start) | u32::from(at_end) << 1,
-        })
-    }
-
-    fn lend<'l>(lender: &'l mut NodesLender<'a>) -> AbiNodes<'l> {
-        AbiNodes {
-            columns: lender.columns.as_slice().into(),
-            ends: lender.ends,
-        }
-    }
-
-    fn count(lender: &NodesLender<'a>, lengths: &mut Lengths) {
-        lender
-            .columns
-            .iter()
-            .for_each(|column| lengths.add(column.len()));
-    }
-}
-
 crossing! {
-    ['a] AbiNodes<'a> => Nodes<'w>, |nodes| {
+    ['a] Nodes<'a> => AbiNodes<'w>, ([RSlice<'a, f64>; 8], u32):
+        |nodes| {
+            let Nodes { t, c, x, z, c_rate, x_rate, z_theta, z_x, at_start, at_end } = nodes;
+            let columns = [t, c, x, z, c_rate, x_rate, z_theta, z_x];
+            (columns.map(RSlice::from_slice), u32::from(at_start) | u32::from(at_end) << 1)
+        },
+        |lender| AbiNodes { columns: lender.0.as_slice().into(), ends: lender.1 },
+        |lender, lengths| lender.0.iter().for_each(|column| lengths.add(column.len()));
+    ['a] AbiNodes<'a> => Nodes<'w>, AbiNodes<'a>: |nodes| nodes, |nodes| {
         let mut columns = nodes.columns.iter().map(RSlice::as_slice);
         let mut column = || columns.next().unwrap_or_default();
-        Nodes {
-            t: column(),
-            c: column(),
-            x: column(),
-            z: column(),
-            c_rate: column(),
-            x_rate: column(),
-            z_theta: column(),
-            z_x: column(),
-            at_start: nodes.ends & 1 != 0,
-            at_end: nodes.ends & 2 != 0,
-        }
+        let [t, c, x, z, c_rate, x_rate, z_theta, z_x] = std::array::from_fn(|_| column());
+        let (at_start, at_end) = (nodes.ends & 1 != 0, nodes.ends & 2 != 0);
+        Nodes { t, c, x, z, c_rate, x_rate, z_theta, z_x, at_start, at_end }
     };
 }
 
 declare! {
-    VelocitySolver => AbiVelocity, AbiVelocity_TO, IncomingVelocity<'b>;
+    VelocitySolver: Deref AsPtr, Send Sync => AbiVelocity, AbiVelocity_TO, IncomingVelocity<'b>;
     properties {
         dependence: Dependence,
         segments: SegmentShape = SegmentShape::Cubic,
@@ -102,5 +58,5 @@ declare! {
         ) -> Result<()>;
     }
     later {}
+    owned by OwnedVelocity
 }
-owned!(VelocitySolver => AbiVelocity_TO, IncomingVelocity, OwnedVelocity);
