@@ -159,7 +159,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
             control_points: self.points,
             added_by_refine: self.points - self.sampled,
             revolutions,
-            cutting_time: plan.preparation.task.spindle.time_at(revolutions),
+            cutting_time: plan.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,

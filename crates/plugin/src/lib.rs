@@ -63,8 +63,8 @@ pub mod prelude {
     pub use turnpath_core::{
         AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Continuation, Cut, DEG,
         Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries, Gradients,
-        LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset, Nodes, Param,
-        Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result,
+        LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset, Nodes,
+        Param, Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result,
         Revolutions, Sampler, SamplerPlan, Scalar, Series, Setup, SpindleAsk, SpindleLaw,
         SpindleStrategy, SpiralLaw, Strategy, StrategyError, Surface, SurfaceModel, Task, Taylor,
         Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,

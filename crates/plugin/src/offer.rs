@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, FeedStrategy, Params, Result, Sampler, SpindleStrategy, StrategyInfo, SurfaceModel,
-    VelocitySolver,
+    Compensator, FeedStrategy, Params, Result, Sampler, SpindleStrategy, StrategyInfo,
+    SurfaceModel, VelocitySolver,
 };
 
 use crate::abi::catalogue::CatalogueEntry;
