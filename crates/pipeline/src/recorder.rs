@@ -178,7 +178,8 @@ fn measure_and_encode<S: Sink + ?Sized>(
     start: Option<ServoStart>,
     sink: &S,
 ) -> RunResult<BlockRecord<S::Block>, S::Error> {
-    let measured = Meter::measure(touch, &block.points).map_err(PipelineError::Measure)?;
+    let measured = Meter::measure_off(touch, &block.points, &block.offsets);
+    let measured = measured.map_err(PipelineError::Measure)?;
     let servo = start.map(|start| ServoMeter::measure(touch, &start, &block.points));
     let servo = servo.transpose().map_err(PipelineError::Measure)?;
     let own_axes = own.map_or_else(AxesMotion::default, |angles| {
