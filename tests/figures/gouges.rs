@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use turnpath_core::interference::Conflict;
 use turnpath_core::{
     Compensator, DEG, Direction, Machine, Misfit, Overrun, ParamValue, Params, Part, Radial,
-    Result, Scalar, Slot, SpindleLaw, Strategy, SurfaceModel, Tolerance, Tool,
+    Result, Scalar, Slot, Strategy, SurfaceModel, Tolerance, Tool,
 };
 use turnpath_pipeline::{Chain, JobSpec, Link, PipelineError, Preparation, largest_nose, prepare};
 use turnpath_surfaces::{
@@ -95,6 +95,7 @@ impl Case {
             sampler: link(Slot::Sampler, Arc::new(sampler)),
             compensator: link(Slot::Compensator, self.compensator.clone()),
             velocity: link(Slot::Velocity, Arc::new(velocity)),
+            spindle: link(Slot::Spindle, Arc::new(turnpath_constant::ConstantSpeed)),
         }
     }
 
@@ -109,7 +110,7 @@ impl Case {
             tolerance,
             overrun: Overrun::None,
             direction: Direction::Inward,
-            spindle: SpindleLaw::constant(50.0),
+            spindle_speed: 50.0,
             machine: Machine::default(),
         };
         prepare(chain, spec).map_err(Box::new)

@@ -12,9 +12,13 @@ use turnpath_core::{
 };
 use turnpath_surfaces::{Astigmatic, SinusoidalArray};
 
-/// A task and its locus.
+/// Speed of the spindle, rad/s.
+const SPEED: f64 = 500.0 * TAU / 60.0;
+
+/// A task, its spindle at a constant speed, and its locus.
 pub struct Case {
     pub task: Task,
+    pub spindle: SpindleLaw,
     pub locus: ToolLocus,
     pub surface: Arc<dyn SurfaceModel>,
 }
@@ -47,10 +51,11 @@ impl Case {
             range: RadialRange { inner: 0.0, outer },
             direction: Direction::Outward,
             machine: Machine::default(),
-            spindle: SpindleLaw::constant(500.0 * TAU / 60.0),
+            spindle_speed: SPEED,
         };
         Self {
             task,
+            spindle: SpindleLaw::constant(SPEED),
             locus: ToolLocus::new(surface.clone(), compensator, tool),
             surface,
         }

@@ -27,7 +27,7 @@ pub fn estimate(chain: &Chain, preparation: &Preparation) -> Result<Estimate> {
     let revolutions = plan.law.end();
     Ok(Estimate {
         revolutions,
-        cutting_time: plan.preparation.task.spindle.time_at(revolutions),
+        cutting_time: plan.spindle.time_at(revolutions),
         control_points: nodes_per_revolution(&plan)? * revolutions + 1.0,
     })
 }

@@ -4,7 +4,7 @@ use turnpath_core::{
     Param, ParamDefault, ParamKind, ParamValue, Params, Quantity, Slot, StrategyInfo,
 };
 
-use crate::choice::Choice;
+use crate::choice::{Choice, host_keys};
 use crate::declared::{example, range, shown};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Entry, Node};
@@ -78,7 +78,10 @@ impl Choice {
         };
         let diagnostic = Diagnostic::new(entry.span.clone(), title)
             .with_label("unknown parameter")
-            .with_helps(did_you_mean(&entry.key, &names))
+            .with_helps(did_you_mean(
+                &entry.key,
+                &[&names, host_keys(self.slot)].concat(),
+            ))
             .with_help(list);
         Some(diagnostic.with_helps(self.help_for_left_over(entry)))
     }

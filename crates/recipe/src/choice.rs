@@ -8,6 +8,9 @@ use crate::read::Section;
 use crate::span::{Span, Spanned};
 use crate::suggest::quoted;
 
+/// The spindle strategy of a recipe that names none.
+pub(crate) const DEFAULT_SPINDLE: &str = "constant";
+
 /// A slot, the strategy chosen for it, and the parameters as the recipe gives them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
@@ -17,7 +20,7 @@ pub struct Choice {
     pub name: Spanned<String>,
     /// The header of the slot's table, `[sampler]`.
     pub span: Span,
-    /// The keys besides `use`. They are not checked yet.
+    /// The keys besides those of the host. They are not checked yet.
     pub params: Vec<Entry>,
 }
 
@@ -40,16 +43,31 @@ impl Choice {
             .clone()
     }
 
+    fn read_name(slot: Slot, section: &mut Section<'_>) -> Option<Spanned<String>> {
+        if section.node("use").is_some() {
+            return section.text("use");
+        }
+        if slot == Slot::Spindle {
+            return Some(Spanned {
+                value: DEFAULT_SPINDLE.to_owned(),
+                span: section.span.clone(),
+            });
+        }
+        section.missing("use", &format!("\"{}\"", example(slot)));
+        None
+    }
+
     /// Reads the slot's table.
     pub(crate) fn read(slot: Slot, section: &mut Section<'_>) -> Option<Self> {
         let Some(table) = section.table else {
+            if slot == Slot::Spindle {
+                // The table's own reader reports that it is missing.
+                return None;
+            }
             section.missing_table(&format!("use = \"{}\"", example(slot)));
             return None;
         };
-        if section.node("use").is_none() {
-            section.missing("use", &format!("\"{}\"", example(slot)));
-        }
-        let name = section.text("use")?;
+        let name = Self::read_name(slot, section)?;
         if !is_valid_name(&name.value) {
             section.report(invalid_name(slot, &name));
             return None;
@@ -58,16 +76,23 @@ impl Choice {
             slot,
             name,
             span: section.span.clone(),
-            params: params(table),
+            params: params(slot, table),
         })
     }
 }
 
-fn params(table: &Table) -> Vec<Entry> {
-    table
-        .entries()
-        .iter()
-        .filter(|entry| entry.key != "use")
+/// The keys of a slot's table that belong to the host and not to a strategy.
+pub(crate) fn host_keys(slot: Slot) -> &'static [&'static str] {
+    match slot {
+        Slot::Spindle => &["use", "speed"],
+        _ => &["use"],
+    }
+}
+
+fn params(slot: Slot, table: &Table) -> Vec<Entry> {
+    let entries = table.entries().iter();
+    entries
+        .filter(|entry| !host_keys(slot).contains(&entry.key.as_str()))
         .cloned()
         .collect()
 }
@@ -98,5 +123,6 @@ fn example(slot: Slot) -> &'static str {
         Slot::Sampler => "equal-angle",
         Slot::Compensator => "z-direction",
         Slot::Velocity => "triangle-rotary",
+        Slot::Spindle => DEFAULT_SPINDLE,
     }
 }

@@ -5,7 +5,7 @@ use turnpath_core::Quantity;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Node, Table, Value};
 use crate::span::{Span, Spanned};
-use crate::suggest::{did_you_mean, listed, quoted};
+use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
 use crate::value;
 
 /// Tables and their fixed keys.
@@ -252,6 +252,18 @@ impl<'a> Section<'a> {
             .iter()
             .filter(|entry| !known.contains(&entry.key.as_str()));
         for entry in unknown {
+            let diagnostic = self.unknown_key(entry, known);
+            self.report(diagnostic);
+        }
+    }
+
+    /// Reports each key that looks like a misspelling of `key`, if the table lacks `key` itself.
+    pub(crate) fn report_misspelling(&mut self, key: &str, known: &[&str]) {
+        let entries = match self.table {
+            Some(table) if table.get(key).is_none() => table.entries(),
+            _ => &[],
+        };
+        for entry in entries.iter().filter(|entry| is_misspelt(&entry.key, key)) {
             let diagnostic = self.unknown_key(entry, known);
             self.report(diagnostic);
         }

@@ -99,7 +99,7 @@ pub fn velocity(recipe: &Recipe, catalogue: &Catalogue) -> Result<Link<dyn Veloc
     })
 }
 
-/// The recipe's five strategies.
+/// The recipe's strategies.
 pub fn chain(recipe: &Recipe, catalogue: &Catalogue) -> Result<Chain, Error> {
     Ok(Chain {
         surface: surface(recipe, catalogue)?,
@@ -111,5 +111,8 @@ pub fn chain(recipe: &Recipe, catalogue: &Catalogue) -> Result<Chain, Error> {
         })?,
         compensator: compensator(recipe, catalogue)?,
         velocity: velocity(recipe, catalogue)?,
+        spindle: link(recipe, catalogue, Slot::Spindle, |strategy, params| {
+            strategy.offer().spindle(params)
+        })?,
     })
 }

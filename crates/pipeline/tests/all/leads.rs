@@ -260,11 +260,7 @@ fn leads_are_smooth_clear_the_part_and_begin_and_end_at_rest() {
         for time_steps in [None, Some(STEPS)] {
             check(&Task {
                 time_steps,
-                feed: task.feed.clone(),
-                compensator: task.compensator.clone(),
-                velocity: task.velocity.clone(),
-                sampler: task.sampler.clone(),
-                ..task
+                ..task.clone()
             });
         }
     }

@@ -7,7 +7,7 @@ use turnpath_core::{NM, Quantity, Tolerance};
 use crate::read::{Bound, Section};
 
 pub(super) const TOLERANCE_KEYS: &[&str] = &["interpolation", "residual"];
-pub(super) const SPINDLE_KEYS: &[&str] = &["speed"];
+pub(super) const SPINDLE_KEYS: &[&str] = &["use", "speed"];
 
 /// The smallest tolerance is ten times the rounding error of a metre in double precision.
 const MEASURABLE: Bound = Bound {
@@ -35,13 +35,17 @@ pub(crate) fn tolerance(section: &mut Section<'_>) -> Option<Tolerance> {
     })
 }
 
-/// Reads `[spindle]`; the speed in rad/s.
+/// Reads what belongs to the host in `[spindle]`: the speed in rad/s.
 pub(crate) fn spindle(section: &mut Section<'_>) -> Option<f64> {
     if section.table.is_none() {
         section.missing_table("speed = \"500 rpm\"");
         return None;
     }
-    section.report_unknown_keys(SPINDLE_KEYS);
+    // The other keys belong to the strategy, if the recipe names one.
+    match section.node("use") {
+        None => section.report_unknown_keys(SPINDLE_KEYS),
+        Some(_) => section.report_misspelling("speed", SPINDLE_KEYS),
+    }
     let speed =
         section.required_quantity("speed", Quantity::RotationSpeed, SPINDLE_SPEED, "500 rpm");
     speed.map(|speed| speed.value)

@@ -15,7 +15,7 @@ use turnpath_recipe::{Recipe, Table, Value, Variant};
 use crate::plugins;
 
 /// Counts the changes of what a record holds.
-const RECORD_FORMAT: u32 = 2;
+const RECORD_FORMAT: u32 = 3;
 /// Keys that no figure depends on.
 const NO_PART: [&str; 3] = ["format", "name", "plugins"];
 /// Keys of `[output]` that a program's size depends on.

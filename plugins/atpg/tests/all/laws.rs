@@ -138,7 +138,7 @@ fn with_limit(case: Case, acceleration: f64) -> Case {
 
 /// The largest |d²ρ/dt²| on a dense grid, mm/s².
 fn acceleration(case: &Case, law: &SpiralLaw) -> f64 {
-    let turning = case.task.spindle.speed_at(0.0) / TAU;
+    let turning = case.task.spindle_speed / TAU;
     let second = |i: u32| -> f64 { 2.0 * law.series(law.end() * f64::from(i) / 20_000.0)[2] };
     let largest = (0..=20_000).fold(0.0, |most: f64, i| most.max(second(i).abs()));
     largest * turning * turning

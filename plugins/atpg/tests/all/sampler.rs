@@ -9,8 +9,8 @@ use crate::common::{AtpgCase, Case, ast_5, ast_50, oap_213};
 use proptest::prelude::{ProptestConfig, proptest};
 use turnpath_atpg::AtpgSampler;
 use turnpath_core::{
-    CentreSeries, DEG, Locus, NM, Nodes, ParamValue, Params, Path, Result, Revolutions, Sampler,
-    Scalar, Series, SpiralLaw, Strategy, Surface, UM, Velocities, VelocitySolver, angle,
+    CentreSeries, DEG, Locus, NM, NodeList, Nodes, ParamValue, Params, Path, Result, Revolutions,
+    Sampler, Scalar, Series, SpiralLaw, Strategy, Surface, UM, Velocities, VelocitySolver, angle,
     per_radian,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
@@ -30,12 +30,13 @@ fn nodes_of_block(case: &Case, law: &SpiralLaw, max_step: f64, start: f64) -> Re
         task: &case.task,
         locus: &case.locus,
         law,
-        prepared: &[],
+        spindle: &case.spindle,
     };
     let end = (start + BLOCK).min(law.end());
-    let mut nodes = Vec::new();
-    sampler(max_step).place(&path, Revolutions { start, end }, &mut nodes)?;
-    Ok(nodes)
+    let mut nodes = NodeList::default();
+    let plan = sampler(max_step).plan(&path)?;
+    plan.place(&path, Revolutions { start, end }, &mut nodes)?;
+    Ok(nodes.revolutions().to_vec())
 }
 
 /// All nodes, with the path's last point. The blocks are sampled in parallel.
