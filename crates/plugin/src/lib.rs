@@ -42,6 +42,7 @@
 
 mod abi;
 mod guard;
+mod head;
 mod offer;
 mod registration;
 
@@ -75,9 +76,8 @@ pub mod prelude {
 #[doc(hidden)]
 pub mod loading {
     pub use crate::abi::catalogue::UnknownKind;
-    pub use crate::abi::entry::{
-        BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX, inspect,
-    };
+    pub use crate::abi::entry::inspect;
+    pub use crate::head::{BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX};
     pub use crate::offer::open;
 }
 

@@ -8,8 +8,9 @@ use turnpath_core::{
 };
 
 use crate::abi::catalogue::CatalogueEntry;
-use crate::abi::entry::{self, OpenError};
+use crate::abi::entry;
 use crate::abi::root::{self, AbiRequest, Constructed, RootRef};
+use crate::head::OpenError;
 
 /// A strategy that the host can build. Linked strategies cross the same boundary as loaded ones, so
 /// that one mechanism contains panics and checks slices, and both give the same answers.
@@ -104,7 +105,7 @@ pub fn linked() -> Vec<Offer> {
 /// If the entry does not belong to this version of the boundary.
 ///
 /// # Safety
-/// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`](entry::SYMBOL_PREFIX),
+/// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX),
 /// in a library that stays loaded for the rest of the program.
 #[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
 pub unsafe fn open(entry: *const u8) -> std::result::Result<Vec<Offer>, OpenError> {

@@ -69,6 +69,13 @@ macro_rules! registrar {
 }
 
 impl Registration {
+    /// The registrations that are linked in here, in an order that does not depend on the linker.
+    pub(crate) fn all() -> Vec<Self> {
+        let mut all: Vec<Self> = inventory::iter::<Self>().copied().collect();
+        all.sort_by_key(|one| (one.info.slot, one.info.name, one.crate_name));
+        all
+    }
+
     registrar!(surfaces, Surface, Surface, SurfaceModel, "surface model");
     registrar!(feeds, Feed, FeedStrategy, FeedStrategy, "feed strategy");
     registrar!(samplers, Sampler, Sampler, Sampler, "sampler");

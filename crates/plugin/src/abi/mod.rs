@@ -28,6 +28,8 @@ pub(crate) mod laws;
 pub(crate) mod layout;
 pub(crate) mod loan;
 pub(crate) mod locus;
+#[cfg(test)]
+mod newer_host;
 pub(crate) mod numbers;
 pub(crate) mod panic_safe_box;
 pub(crate) mod reply;

@@ -84,14 +84,7 @@ pub fn own_root() -> RootRef {
 }
 
 extern "C" fn catalogue() -> RVec<AbiStrategy> {
-    registrations().iter().map(AbiStrategy::from).collect()
-}
-
-/// The registrations that are linked in here, in an order that does not depend on the linker.
-fn registrations() -> Vec<Registration> {
-    let mut all: Vec<Registration> = inventory::iter::<Registration>().copied().collect();
-    all.sort_by_key(|one| (one.info.slot, one.info.name, one.crate_name));
-    all
+    Registration::all().iter().map(AbiStrategy::from).collect()
 }
 
 /// Finds the requested strategy and builds it.
@@ -106,7 +99,7 @@ fn build<T: Value>(
         let matches = |one: &&Registration| {
             one.info.slot == slot && one.info.name == name && one.crate_name == crate_name
         };
-        let all = registrations();
+        let all = Registration::all();
         let found = all.iter().find(matches);
         let none = || StrategyError::failed(format!("there is no {} `{name}` here", slot.noun()));
         let built = found.and_then(|one| with(one.build, &params));

@@ -1,0 +1,131 @@
+//! A library of today's boundary under a host whose boundary has grown.
+
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+
+use abi_stable::StableAbi;
+use abi_stable::abi_stability::abi_checking::check_layout_compatibility;
+use turnpath_core::{Continuation, Params, Revolutions};
+
+use super::entry::open_root;
+use super::layout;
+use super::reply::{Value, result};
+use super::root::{AbiRequest, RootRef};
+use newer::Sampler;
+
+/// The boundary of one day: one more slot, and one more property and method of samplers.
+#[allow(dead_code, reason = "a test needs a part of it")]
+mod newer {
+    use abi_stable::StableAbi;
+    use abi_stable::std_types::RVec;
+    use turnpath_core::{Continuation, Path, Result, Revolutions, SamplerPlan};
+
+    use super::super::catalogue::AbiStrategy;
+    use super::super::compensator::OwnedCompensator;
+    use super::super::declaration::declare;
+    use super::super::feed::OwnedFeed;
+    use super::super::reply::Answer;
+    use super::super::root::AbiRequest;
+    use super::super::spindle::OwnedSpindle;
+    use super::super::surface::OwnedSurface;
+    use super::super::velocity::OwnedVelocity;
+
+    pub trait Sampler: Send + Sync {
+        fn needs_exact_rates(&self) -> bool;
+        fn is_quiet(&self) -> bool;
+        fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>>;
+        fn continues(&self, block: Revolutions) -> Result<Continuation>;
+    }
+
+    declare! {
+        Sampler: Deref AsPtr, Send Sync => AbiSampler, AbiSampler_TO, IncomingSampler<'b>;
+        properties { needs_exact_rates: bool = false, is_quiet: bool = true }
+        methods {
+            fn plan(&self, path[&]: Path<'_>) -> Result<Box<dyn SamplerPlan>>;
+        }
+        later {
+            fn continues(&self, block: Revolutions) -> Result<Continuation> = Ok(Continuation::End);
+        }
+        owned by OwnedSampler
+    }
+
+    #[repr(C)]
+    #[derive(StableAbi)]
+    #[sabi(kind(Prefix(prefix_ref = RootRef)))]
+    pub struct Root {
+        pub catalogue: extern "C" fn() -> RVec<AbiStrategy>,
+        pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
+        pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
+        pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
+        pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
+        #[sabi(last_prefix_field)]
+        pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
+        pub spindle: extern "C" fn(AbiRequest) -> Answer<OwnedSpindle>,
+        pub seventh: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
+    }
+}
+
+/// A boundary that has changed what it had.
+#[allow(dead_code, reason = "only its layout counts")]
+mod other {
+    use abi_stable::StableAbi;
+    use abi_stable::std_types::RVec;
+
+    #[repr(C)]
+    #[derive(StableAbi)]
+    #[sabi(kind(Prefix(prefix_ref = RootRef)))]
+    pub struct Root {
+        #[sabi(last_prefix_field)]
+        pub catalogue: extern "C" fn() -> RVec<f64>,
+    }
+}
+
+/// The root of the plugin in docs/plugins.md, which cargo builds for these tests as an example.
+fn root_of_a_library() -> newer::RootRef {
+    let program = std::env::current_exe().unwrap();
+    let examples = program.ancestors().nth(2).unwrap().join("examples");
+    let library = examples.join(format!("{DLL_PREFIX}constant_arc{DLL_SUFFIX}"));
+    // SAFETY: its initialisers only register a strategy.
+    let library = unsafe { libloading::Library::new(&library) }
+        .unwrap_or_else(|error| panic!("{}: {error:?}", library.display()));
+    let symbol = "turnpath_plugin_root__constant_arc";
+    // SAFETY: the symbol is a static, so its address may be taken as a pointer of any type.
+    let entry = unsafe { library.get::<*const u8>(symbol) }.map(|symbol| *symbol);
+    let entry = entry.unwrap();
+    std::mem::forget(library);
+    // SAFETY: the symbol has the prefix, and the library stays loaded.
+    unsafe { open_root(entry) }.unwrap().1
+}
+
+#[test]
+fn an_older_library_loads_and_what_it_lacks_has_its_default() {
+    let root = root_of_a_library();
+    assert!(root.spindle().is_some() && root.seventh().is_none());
+    let params = Params::new().with("spacing", 0.1).with("at_least", 36.0);
+    let request = AbiRequest::new("constant_arc", "constant-arc", &params);
+    let sampler = result(root.sampler()(request)).and_then(Box::<dyn Sampler>::receive);
+    let sampler = sampler.unwrap();
+    assert!(sampler.is_quiet() && !sampler.needs_exact_rates());
+    let block = Revolutions {
+        start: 0.0,
+        end: 1.0,
+    };
+    assert_eq!(sampler.continues(block), Ok(Continuation::End));
+}
+
+#[test]
+fn a_newer_library_loads_under_this_host() {
+    assert_eq!(layout::check::<RootRef>(newer::RootRef::LAYOUT), Ok(()));
+}
+
+#[test]
+fn abi_stable_alone_would_refuse_an_older_library() {
+    let (newer, ours) = (newer::RootRef::LAYOUT, RootRef::LAYOUT);
+    assert!(check_layout_compatibility(newer, ours).is_err());
+    assert!(check_layout_compatibility(ours, newer).is_ok());
+}
+
+#[test]
+fn a_library_whose_functions_have_changed_is_refused() {
+    let text = layout::check::<RootRef>(other::RootRef::LAYOUT).unwrap_err();
+    assert!(text.contains("AbiStrategy"), "{text}");
+}
