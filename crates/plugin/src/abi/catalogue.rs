@@ -22,7 +22,8 @@ pub struct AbiStrategy {
     params: RVec<AbiParam>,
 }
 
-/// One parameter. Its kind says which of `words` and `numbers` have a meaning.
+/// One parameter. The words for its kind and for that of its default say which of the fields after
+/// them have a meaning.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiParam {
@@ -30,23 +31,17 @@ pub struct AbiParam {
     help: RStr<'static>,
     kind: RStr<'static>,
     words: RVec<RStr<'static>>,
-    numbers: RVec<f64>,
-    default: AbiDefault,
+    columns: u64,
+    default: RStr<'static>,
+    default_number: f64,
+    default_text: RStr<'static>,
     min: f64,
     max: f64,
     above_min: bool,
     nonzero: bool,
 }
 
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiDefault {
-    kind: RStr<'static>,
-    number: f64,
-    text: RStr<'static>,
-}
-
-/// The kinds without words or numbers.
+/// The kinds without words or columns.
 const PLAIN_KINDS: [(&str, ParamKind); 7] = [
     ("length", ParamKind::Length),
     ("angle", ParamKind::Angle),
@@ -77,36 +72,12 @@ impl From<&Registration> for AbiStrategy {
 impl From<&Param> for AbiParam {
     fn from(param: &Param) -> Self {
         let plain = PLAIN_KINDS.iter().find(|(_, kind)| *kind == param.kind);
-        let (mut words, mut numbers) = (RVec::new(), RVec::new());
-        let kind = match param.kind {
-            ParamKind::Choice(choices) => {
-                words.extend(choices.iter().map(|word| RStr::from(*word)));
-                CHOICE
-            }
-            ParamKind::Rows(columns) => {
-                numbers.push(columns as f64);
-                ROWS
-            }
-            _ => plain.map_or("", |(word, _)| word),
+        let (kind, words, columns): (_, &[&str], _) = match param.kind {
+            ParamKind::Choice(words) => (CHOICE, words, 0),
+            ParamKind::Rows(columns) => (ROWS, &[], columns as u64),
+            _ => (plain.map_or("", |(word, _)| word), &[], 0),
         };
-        Self {
-            name: param.name.into(),
-            help: param.help.into(),
-            kind: kind.into(),
-            words,
-            numbers,
-            default: param.default.into(),
-            min: param.min,
-            max: param.max,
-            above_min: param.above_min,
-            nonzero: param.nonzero,
-        }
-    }
-}
-
-impl From<ParamDefault> for AbiDefault {
-    fn from(default: ParamDefault) -> Self {
-        let (kind, number, text) = match default {
+        let (default, number, text) = match param.default {
             ParamDefault::Required => ("required", f64::NAN, ""),
             ParamDefault::Absent => ("absent", f64::NAN, ""),
             ParamDefault::Number(number) => ("number", number, ""),
@@ -114,9 +85,18 @@ impl From<ParamDefault> for AbiDefault {
             ParamDefault::Text(word) => ("text", f64::NAN, word),
         };
         Self {
+            name: param.name.into(),
+            help: param.help.into(),
             kind: kind.into(),
-            number,
-            text: text.into(),
+            words: words.iter().map(|word| RStr::from(*word)).collect(),
+            columns,
+            default: default.into(),
+            default_number: number,
+            default_text: text.into(),
+            min: param.min,
+            max: param.max,
+            above_min: param.above_min,
+            nonzero: param.nonzero,
         }
     }
 }
@@ -181,17 +161,16 @@ impl AbiStrategy {
 
 impl AbiParam {
     fn receive(self, strategy: &str) -> Result<Param, UnknownKind> {
-        let unknown = |kind: &str| UnknownKind {
+        let unknown = |kind: RStr<'static>| UnknownKind {
             strategy: strategy.to_owned(),
             parameter: self.name.into(),
-            kind: kind.to_owned(),
+            kind: kind.into(),
         };
-        let default = self.default.kind.as_str();
         Ok(Param {
             name: self.name.as_str(),
             help: self.help.as_str(),
-            kind: self.kind().ok_or_else(|| unknown(&self.kind))?,
-            default: self.default.receive().ok_or_else(|| unknown(default))?,
+            kind: self.kind().ok_or_else(|| unknown(self.kind))?,
+            default: self.default().ok_or_else(|| unknown(self.default))?,
             min: self.min,
             max: self.max,
             above_min: self.above_min,
@@ -200,28 +179,24 @@ impl AbiParam {
     }
 
     fn kind(&self) -> Option<ParamKind> {
+        let words = || self.words.iter().map(RStr::as_str).collect::<Vec<_>>();
         match self.kind.as_str() {
-            CHOICE => {
-                let words: Vec<&'static str> = self.words.iter().map(RStr::as_str).collect();
-                Some(ParamKind::Choice(words.leak()))
-            }
-            ROWS => self.numbers.first().map(|n| ParamKind::Rows(*n as usize)),
+            CHOICE => Some(ParamKind::Choice(words().leak())),
+            ROWS => usize::try_from(self.columns).ok().map(ParamKind::Rows),
             plain => {
                 let mut kinds = PLAIN_KINDS.into_iter();
                 kinds.find(|(word, _)| *word == plain).map(|(_, kind)| kind)
             }
         }
     }
-}
 
-impl AbiDefault {
-    fn receive(&self) -> Option<ParamDefault> {
-        Some(match self.kind.as_str() {
+    fn default(&self) -> Option<ParamDefault> {
+        Some(match self.default.as_str() {
             "required" => ParamDefault::Required,
             "absent" => ParamDefault::Absent,
-            "number" => ParamDefault::Number(self.number),
-            "flag" => ParamDefault::Flag(self.number != 0.0),
-            "text" => ParamDefault::Text(self.text.as_str()),
+            "number" => ParamDefault::Number(self.default_number),
+            "flag" => ParamDefault::Flag(self.default_number != 0.0),
+            "text" => ParamDefault::Text(self.default_text.as_str()),
             _ => return None,
         })
     }
@@ -263,7 +238,7 @@ mod tests {
         param.kind = "mass".into();
         assert_eq!(param.receive("heavy"), unknown("mass"));
         let mut param = AbiParam::from(&PARAMS[0]);
-        param.default.kind = "computed".into();
+        param.default = "computed".into();
         assert_eq!(param.receive("heavy"), unknown("computed"));
     }
 }

@@ -6,7 +6,7 @@ use turnpath_core::{
     SurfaceModel, Tool,
 };
 
-use super::declaration::declare;
+use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
 use super::reply::{Value, codes};
 

@@ -4,14 +4,15 @@
 //!
 //! ```text
 //! declare! {
-//!     VelocitySolver => AbiVelocity, AbiVelocity_TO, IncomingVelocity<'b>;
+//!     VelocitySolver: Deref AsPtr, Send Sync => AbiVelocity, AbiVelocity_TO, IncomingVelocity<'b>;
 //!     properties { dependence: Dependence, gives_exact_rates: bool = false }
 //!     methods { fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()>; }
 //!     later { fn warm_up(&self) -> Result<()> = Ok(()); }
+//!     owned by OwnedVelocity
 //! }
 //! ```
 //!
-//! expands to three items. The first is the trait that crosses, for abi_stable:
+//! expands to the trait that crosses, which abi_stable makes into a table of functions,
 //!
 //! ```text
 //! #[sabi_trait]
@@ -19,42 +20,56 @@
 //!     fn solve(&self, nodes: AbiNodes<'_>, out: AbiVelocities<'_>) -> Answer<()>;
 //!     #[sabi(last_prefix_field)]
 //!     fn properties(&self) -> Answer<RVec<u64>>;
-//!     fn warm_up(&self) -> Answer<()> { … Ok(()) … }
+//!     fn warm_up(&self) -> Answer<()> { answer(|| Ok(())) }
 //! }
 //! ```
 //!
-//! The second is the author's side. It catches panics:
+//! to the author's side, which catches panics,
 //!
 //! ```text
 //! impl<P: Deref<Target = dyn VelocitySolver>> AbiVelocity for Outgoing<P> {
 //!     fn solve(&self, nodes: AbiNodes<'_>, out: AbiVelocities<'_>) -> Answer<()> {
-//!         answer(|| { … self.0.solve(nodes.lend(), out.lend()) … })
+//!         answer(|| self.0.solve(/* nodes and out of the core */))
 //!     }
-//!     …
 //! }
 //! ```
 //!
-//! The third is the caller's side, which reads the properties once and checks lengths:
+//! and to the caller's side, which reads the properties once and checks lengths:
 //!
 //! ```text
 //! pub struct IncomingVelocity<'b, P> { object: AbiVelocity_TO<'b, P>, dependence: Dependence, … }
 //!
 //! impl<P> VelocitySolver for IncomingVelocity<'_, P> {
 //!     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
-//!         … lengths.check()?; result(self.object.solve(nodes.lend(), out.lend())) …
+//!         result(self.object.solve(/* nodes and out as they cross */))
 //!     }
-//!     …
 //! }
 //! ```
 //!
 //! - `properties` have no arguments and never change. They cross as one list of codes. A property
 //!   that is added later stands last and has a default, for plugins that do not give it.
-//! - `methods` are in every plugin of this version of the boundary.
+//! - `methods` are in every plugin of this number of the boundary.
 //! - `later` has the methods that were added since, in the order in which they were added. A plugin
 //!   without one gives the value after `=`.
-//! - `path[&]: Path<'_>` declares an argument that the core's trait takes by reference.
-//! - `kept { … } own { … }` adds fields to the caller's side, and methods of the core's trait that
-//!   read them.
+//! - `fn extend[mut](&self)` takes `&mut self`, and `path[&]: Path<'_>` is `&Path<'_>` in the core.
+//! - `owned by` lets boxed objects be the values of answers.
+//! - `kept { … } own { … }` adds a field to the caller's side, and methods that read it.
+
+/// The names that the expansion of [`declare`] uses.
+pub mod prelude {
+    pub use std::ops::{Deref, DerefMut};
+
+    pub use abi_stable::pointer_trait::{AsMutPtr, AsPtr};
+    pub use abi_stable::sabi_trait;
+    pub use abi_stable::sabi_trait::TD_Opaque;
+    pub use abi_stable::std_types::{RBox, RVec};
+
+    pub use super::super::loan::{Crossing, Lengths, Wire};
+    pub use super::super::panic_safe_box::PanicSafeBox;
+    pub use super::super::reply::{Answer, Code, Reply, Value, answer, property, receive, result};
+    pub use super::Outgoing;
+    pub(crate) use super::{by_value, declare, incoming, outgoing};
+}
 
 /// An object of the core, wrapped for the boundary.
 pub struct Outgoing<P>(pub P);
@@ -62,89 +77,67 @@ pub struct Outgoing<P>(pub P);
 /// See the module.
 macro_rules! declare {
     (
-        $core:ident: $deref:ident $as_ptr:ident, $($bound:ident)+ => $abi:ident, $object:ident, $incoming:ident<$b:lifetime>;
-        properties { $($property:ident : $kind:ty $(= $default:expr)?),* $(,)? }
+        $core:ident: $deref:ident $as_ptr:ident, $($bound:ident)+
+            => $abi:ident, $object:ident, $incoming:ident<$b:lifetime>;
+        properties { $($property:ident: $kind:ty $(= $default:expr)?),* $(,)? }
         methods { $(
-            $(#[$doc:meta])*
-            fn $method:ident $([$mut:tt])? (&self $(, $arg:ident $([$by:tt])? : $type:ty)* $(,)?) -> $reply:ty;
+            fn $method:ident $([$mut:tt])? (&self $(, $arg:ident $([$by:tt])?: $type:ty)* $(,)?)
+                -> $reply:ty;
         )* }
         later { $(
-            $(#[$later_doc:meta])*
-            fn $later:ident(&self $(, $later_arg:ident $([$later_by:tt])? : $later_type:ty)* $(,)?)
+            fn $later:ident(&self $(, $later_arg:ident $([$later_by:tt])?: $later_type:ty)* $(,)?)
                 -> $later_reply:ty = $without:expr;
         )* }
         $(owned by $owned:ident)?
-        $(kept { $field:ident : $field_type:ty } own { $($own:tt)* })?
+        $(kept { $field:ident: $field_type:ty } own { $($own:tt)* })?
     ) => {
-        #[abi_stable::sabi_trait]
+        #[sabi_trait]
         pub trait $abi: $($bound +)+ {
-            $(
-                $(#[$doc])*
-                fn $method(& $($mut)? self $(, $arg: $crate::abi::loan::Wire<'_, $type>)*)
-                    -> $crate::abi::reply::Answer<<$reply as $crate::abi::reply::Reply>::Wire>;
-            )*
+            $(fn $method(& $($mut)? self $(, $arg: Wire<'_, $type>)*)
+                -> Answer<<$reply as Reply>::Wire>;)*
+
             #[sabi(last_prefix_field)]
-            fn properties(&self)
-                -> $crate::abi::reply::Answer<abi_stable::std_types::RVec<u64>>;
-            $(
-                $(#[$later_doc])*
-                fn $later(
-                    &self
-                    $(, $later_arg: $crate::abi::loan::Wire<'_, $later_type>)*
-                ) -> $crate::abi::reply::Answer<<$later_reply as $crate::abi::reply::Reply>::Wire>
-                {
-                    $(let _ = $later_arg;)*
-                    $crate::abi::reply::answer(|| {
-                        let without: $later_reply = $without;
-                        $crate::abi::reply::Reply::send(without)
-                    })
-                }
-            )*
+            fn properties(&self) -> Answer<RVec<u64>>;
+
+            $(fn $later(&self $(, $later_arg: Wire<'_, $later_type>)*)
+                -> Answer<<$later_reply as Reply>::Wire>
+            {
+                $(let _ = $later_arg;)*
+                answer(|| <$later_reply as Reply>::send($without))
+            })*
         }
 
-        impl<'c, P> $abi for $crate::abi::declaration::Outgoing<P>
-        where
-            P: std::ops::$deref<Target = dyn $core + 'c> + $($bound +)+,
-        {
-            $crate::abi::declaration::outgoing! {
-                $(fn $method $([$mut])? ($($arg $([$by])? : $type),*) -> $reply;)*
-                $(fn $later($($later_arg $([$later_by])? : $later_type),*) -> $later_reply;)*
+        impl<'c, P: $deref<Target = dyn $core + 'c> + $($bound +)+> $abi for Outgoing<P> {
+            outgoing! {
+                $(fn $method $([$mut])? ($($arg $([$by])?: $type),*) -> $reply;)*
+                $(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*
             }
 
-            fn properties(&self)
-                -> $crate::abi::reply::Answer<abi_stable::std_types::RVec<u64>>
-            {
-                $crate::abi::reply::answer(|| {
-                    let codes: Vec<u64> =
-                        vec![$($crate::abi::reply::Code::code(self.0.$property())),*];
-                    Ok(codes.into())
-                })
+            fn properties(&self) -> Answer<RVec<u64>> {
+                answer(|| Ok(RVec::from(vec![$(Code::code(self.0.$property())),*])))
             }
         }
 
         /// The object of the other side, wrapped as one of the core.
-        pub struct $incoming<$b, P: abi_stable::pointer_trait::AsPtr<PtrTarget = ()>> {
+        pub struct $incoming<$b, P: AsPtr<PtrTarget = ()>> {
             object: $object<$b, P>,
             $($property: $kind,)*
             $($field: $field_type,)?
         }
 
-        impl<$b, P: abi_stable::pointer_trait::AsPtr<PtrTarget = ()>> $incoming<$b, P> {
+        impl<$b, P: AsPtr<PtrTarget = ()>> $incoming<$b, P> {
             /// Reads the object's properties and wraps it.
-            pub fn new(
-                object: $object<$b, P>,
-                $($field: $field_type,)?
-            ) -> turnpath_core::Result<Self> {
+            pub fn new(object: $object<$b, P> $(, $field: $field_type)?) -> Result<Self> {
                 let properties: &[&str] = &[$(stringify!($property)),*];
-                // Most surfaces are lent for a short call, and they have no properties.
+                // Surfaces are lent for short calls and have none.
                 let codes = if properties.is_empty() {
-                    abi_stable::std_types::RVec::new()
+                    RVec::new()
                 } else {
-                    $crate::abi::reply::result(object.properties())?
+                    result(object.properties())?
                 };
                 let mut _codes = codes.iter().copied();
                 Ok(Self {
-                    $($property: $crate::abi::reply::property(
+                    $($property: property(
                         _codes.next(),
                         stringify!($property),
                         None$(.or(Some($default)))?,
@@ -155,18 +148,17 @@ macro_rules! declare {
             }
         }
 
-        impl<$b, P> $core for $incoming<$b, P>
+        impl<$b, P: $as_ptr<PtrTarget = ()> + Send + Sync> $core for $incoming<$b, P>
         where
-            P: abi_stable::pointer_trait::$as_ptr<PtrTarget = ()> + Send + Sync,
             $object<$b, P>: $($bound +)+,
         {
             $(fn $property(&self) -> $kind {
                 self.$property
             })*
 
-            $crate::abi::declaration::incoming! {
-                $(fn $method $([$mut])? ($($arg $([$by])? : $type),*) -> $reply;)*
-                $(fn $later($($later_arg $([$later_by])? : $later_type),*) -> $later_reply;)*
+            incoming! {
+                $(fn $method $([$mut])? ($($arg $([$by])?: $type),*) -> $reply;)*
+                $(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*
             }
 
             $($($own)*)?
@@ -174,20 +166,16 @@ macro_rules! declare {
 
         $(
             /// An object that belongs to its plugin.
-            pub type $owned = $object<'static, abi_stable::std_types::RBox<()>>;
+            pub type $owned = $object<'static, RBox<()>>;
 
-            impl $crate::abi::reply::Value for Box<dyn $core> {
+            impl Value for Box<dyn $core> {
                 type Wire = $owned;
 
                 fn send(self) -> $owned {
-                    let object = $crate::abi::panic_safe_box::PanicSafeBox::new(self);
-                    $object::from_value(
-                        $crate::abi::declaration::Outgoing(object),
-                        abi_stable::sabi_trait::TD_Opaque,
-                    )
+                    $object::from_value(Outgoing(PanicSafeBox::new(self)), TD_Opaque)
                 }
 
-                fn receive(object: $owned) -> turnpath_core::Result<Self> {
+                fn receive(object: $owned) -> Result<Self> {
                     Ok(Box::new($incoming::new(object)?))
                 }
             }
@@ -197,19 +185,19 @@ macro_rules! declare {
 
 /// The author's side of each method.
 macro_rules! outgoing {
-    ($(fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])? : $type:ty),*) -> $reply:ty;)*) => {$(
-        fn $method(& $($mut)? self $(, $arg: $crate::abi::loan::Wire<'_, $type>)*)
-            -> $crate::abi::reply::Answer<<$reply as $crate::abi::reply::Reply>::Wire>
+    ($(
+        fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])?: $type:ty),*) -> $reply:ty;
+    )*) => {$(
+        fn $method(& $($mut)? self $(, $arg: Wire<'_, $type>)*)
+            -> Answer<<$reply as Reply>::Wire>
         {
-            $crate::abi::reply::answer(|| {
-                $(let mut $arg = $crate::abi::loan::Crossing::lender($arg)?;)*
-                let reply: $reply = self.0.$method($(
-                    $($by)? <$crate::abi::loan::Wire<'_, $type>
-                        as $crate::abi::loan::Crossing>::lend(&mut $arg)
-                ),*);
-                let reply = $crate::abi::reply::Reply::send(reply)?;
-                $(<$crate::abi::loan::Wire<'_, $type>
-                    as $crate::abi::loan::Crossing>::settle($arg)?;)*
+            answer(|| {
+                $(let mut $arg = Crossing::lender($arg)?;)*
+                let reply = self.0.$method(
+                    $($($by)? <Wire<'_, $type> as Crossing>::lend(&mut $arg)),*
+                );
+                let reply = <$reply as Reply>::send(reply)?;
+                $(<Wire<'_, $type> as Crossing>::settle($arg)?;)*
                 Ok(reply)
             })
         }
@@ -218,21 +206,20 @@ macro_rules! outgoing {
 
 /// The caller's side of each method.
 macro_rules! incoming {
-    ($(fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])? : $type:ty),*) -> $reply:ty;)*) => {$(
+    ($(
+        fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])?: $type:ty),*) -> $reply:ty;
+    )*) => {$(
         fn $method(& $($mut)? self $(, $arg: $($by)? $type)*) -> $reply {
-            $crate::abi::reply::receive(|| {
-                let mut _lengths = $crate::abi::loan::Lengths::default();
+            receive(|| {
+                let mut _lengths = Lengths::default();
                 $(
-                    let $arg = $crate::abi::declaration::by_value!($arg $($by)?);
-                    let mut $arg = $crate::abi::loan::Crossing::lender($arg)?;
-                    <$type as $crate::abi::loan::Crossing>::count(&$arg, &mut _lengths);
+                    let mut $arg = Crossing::lender(by_value!($arg $($by)?))?;
+                    <$type as Crossing>::count(&$arg, &mut _lengths);
                 )*
                 _lengths.check()?;
-                let answer = self.object.$method($(
-                    <$type as $crate::abi::loan::Crossing>::lend(&mut $arg)
-                ),*);
-                $(<$type as $crate::abi::loan::Crossing>::settle($arg)?;)*
-                $crate::abi::reply::result(answer)
+                let answer = self.object.$method($(<$type as Crossing>::lend(&mut $arg)),*);
+                $(<$type as Crossing>::settle($arg)?;)*
+                result(answer)
             })
         }
     )*};

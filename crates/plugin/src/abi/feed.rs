@@ -3,7 +3,7 @@
 use abi_stable::std_types::RVec;
 use turnpath_core::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Result, Setup};
 
-use super::declaration::declare;
+use super::declaration::prelude::*;
 use super::laws::{row, unrow};
 use super::loan::lists;
 use super::reply::Value;

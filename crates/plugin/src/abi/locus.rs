@@ -5,7 +5,7 @@ use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
-use super::declaration::{Outgoing, declare};
+use super::declaration::prelude::*;
 use super::loan::{Crossing, crossing};
 use super::reply::Code;
 use super::surface::LentSurface;

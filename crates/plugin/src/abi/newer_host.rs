@@ -21,7 +21,7 @@ mod newer {
 
     use super::super::catalogue::AbiStrategy;
     use super::super::compensator::OwnedCompensator;
-    use super::super::declaration::declare;
+    use super::super::declaration::prelude::*;
     use super::super::feed::OwnedFeed;
     use super::super::reply::Answer;
     use super::super::root::AbiRequest;

@@ -6,7 +6,7 @@ use turnpath_core::{
     Dependence, NodeList, Path, Result, Revolutions, Sampler, SamplerPlan, StrategyError,
 };
 
-use super::declaration::declare;
+use super::declaration::prelude::*;
 use super::loan::{crossing, lists};
 use super::reply::Code;
 

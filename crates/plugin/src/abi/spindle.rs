@@ -2,7 +2,7 @@
 
 use turnpath_core::{Path, Result, SpindleAsk, SpindleLaw, SpindleStrategy};
 
-use super::declaration::declare;
+use super::declaration::prelude::*;
 use super::loan::composite;
 
 composite! {

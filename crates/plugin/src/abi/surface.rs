@@ -4,7 +4,7 @@ use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
 use turnpath_core::{GradientSeries, Gradients, Result, Series, SurfaceModel};
 
-use super::declaration::{Outgoing, declare};
+use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
 
 composite! {

@@ -5,7 +5,7 @@ use abi_stable::std_types::RSlice;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
-use super::declaration::declare;
+use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
 use super::reply::codes;
 
