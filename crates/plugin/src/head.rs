@@ -41,7 +41,7 @@ pub const SYMBOL_PREFIX: &str = "turnpath_plugin_root__";
 /// The first bytes of the exported static.
 const MAGIC: [u8; 16] = *b"turnpath plugin\0";
 
-/// The beginning of [`PluginEntry`]. It never changes in any version, so that a host recognises
+/// The beginning of the static that a plugin exports. It never changes in any version, so that a host recognises
 /// another version before it reads anything whose layout may differ.
 #[repr(C)]
 #[derive(Clone, Copy)]

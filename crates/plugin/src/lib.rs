@@ -37,13 +37,14 @@
 //! ```
 //!
 //! With `crate-type = ["cdylib"]` this crate is a plugin. With `"rlib"` in addition, the same crate
-//! links into a program. The version of `turnpath-plugin` is the version of the boundary: a program
-//! loads plugins that were built against the same version.
+//! links into a program. The version of `turnpath-plugin` is the number of the boundary: a program
+//! loads plugins whose number has the same first two parts, older ones and newer ones.
 
 mod abi;
 mod guard;
 mod head;
 mod offer;
+mod panic_safe_box;
 mod registration;
 
 // For the host, and for the expansion of `export!`.

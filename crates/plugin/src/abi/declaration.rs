@@ -65,10 +65,10 @@ pub mod prelude {
     pub use abi_stable::std_types::{RBox, RVec};
 
     pub use super::super::loan::{Crossing, Lengths, Wire};
-    pub use super::super::panic_safe_box::PanicSafeBox;
     pub use super::super::reply::{Answer, Code, Reply, Value, answer, property, receive, result};
     pub use super::Outgoing;
     pub(crate) use super::{by_value, declare, incoming, outgoing};
+    pub use crate::panic_safe_box::PanicSafeBox;
 }
 
 /// An object of the core, wrapped for the boundary.

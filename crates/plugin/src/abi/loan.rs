@@ -146,7 +146,7 @@ macro_rules! lists {
                 Ok($crate::abi::loan::ListLender { home: self, away })
             }
 
-            fn lend<'w>(lender: &'w mut Self::Lender) -> &'w mut $away {
+            fn lend(lender: &mut Self::Lender) -> &mut $away {
                 &mut lender.away
             }
 

@@ -9,7 +9,7 @@
 //!   decides whether it fits.
 //!
 //! A batch crosses as slices. Only laws and nodes are copied. The macros of abi_stable write all the
-//! `unsafe` code except for that in [`entry`] and [`panic_safe_box`].
+//! `unsafe` code except for that in [`entry`].
 //!
 //! What crosses can grow without a new number of the boundary: traits by methods with a default,
 //! properties and lists of numbers at their ends, kinds of parameters by words, and the root by
@@ -31,7 +31,6 @@ pub(crate) mod locus;
 #[cfg(test)]
 mod newer_host;
 pub(crate) mod numbers;
-pub(crate) mod panic_safe_box;
 pub(crate) mod reply;
 pub(crate) mod root;
 pub(crate) mod sampler;

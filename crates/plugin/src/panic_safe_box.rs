@@ -1,4 +1,5 @@
 //! The box that holds an author's object on the author's side of the boundary.
+#![allow(unsafe_code)] // the box takes its content out in its own drop
 
 use std::mem::ManuallyDrop;
 use std::ops::{Deref, DerefMut};
