@@ -4,6 +4,7 @@ use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 
 use abi_stable::StableAbi;
 use abi_stable::abi_stability::abi_checking::check_layout_compatibility;
+use abi_stable::library::RawLibrary;
 use turnpath_core::{Continuation, Params, Revolutions};
 
 use super::entry::open_root;
@@ -79,15 +80,14 @@ mod other {
     }
 }
 
-/// The root of the plugin in docs/plugins.md, which cargo builds for these tests as an example.
+/// The root of the plugin in docs/plugins.md. `cargo test` builds it as an example; with `--lib` it does
+/// not.
 fn root_of_a_library() -> newer::RootRef {
     let program = std::env::current_exe().unwrap();
     let examples = program.ancestors().nth(2).unwrap().join("examples");
     let library = examples.join(format!("{DLL_PREFIX}constant_arc{DLL_SUFFIX}"));
-    // SAFETY: its initialisers only register a strategy.
-    let library = unsafe { libloading::Library::new(&library) }
-        .unwrap_or_else(|error| panic!("{}: {error:?}", library.display()));
-    let symbol = "turnpath_plugin_root__constant_arc";
+    let library = RawLibrary::load_at(&library).unwrap();
+    let symbol = b"turnpath_plugin_root__constant_arc\0";
     // SAFETY: the symbol is a static, so its address may be taken as a pointer of any type.
     let entry = unsafe { library.get::<*const u8>(symbol) }.map(|symbol| *symbol);
     let entry = entry.unwrap();
