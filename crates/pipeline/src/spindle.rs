@@ -61,8 +61,8 @@ impl SpindleCheck<'_> {
     fn check(&self) -> CheckResult {
         self.check_range()?;
         for piece in self.pieces() {
-            self.check_knot(piece.start)?;
             self.check_speed(piece)?;
+            self.check_knot(piece.start)?;
         }
         self.check_steady(0.0..=STEADY.min(self.end))?;
         self.check_steady((self.end - STEADY).max(0.0)..=self.end)
