@@ -17,7 +17,7 @@ pub struct AbiArgument {
     name: RString,
     kind: u32,
     number: f64,
-    text: RString,
+    texts: RVec<RString>,
     rows: RVec<RVec<f64>>,
     bytes: RVec<u8>,
 }
@@ -33,7 +33,9 @@ impl AbiArgument {
             ParamValue::Flag(flag) => {
                 (argument.kind, argument.number) = (FLAG, f64::from(u8::from(*flag)));
             }
-            ParamValue::Text(text) => (argument.kind, argument.text) = (TEXT, text.as_str().into()),
+            ParamValue::Text(text) => {
+                (argument.kind, argument.texts) = (TEXT, vec![text.as_str().into()].into())
+            }
             ParamValue::Rows(rows) => {
                 let rows = rows.iter().map(|row| RVec::from(row.clone())).collect();
                 (argument.kind, argument.rows) = (ROWS, rows);
@@ -46,7 +48,10 @@ impl AbiArgument {
         Ok(match self.kind {
             NUMBER => ParamValue::Number(self.number),
             FLAG => ParamValue::Flag(self.number != 0.0),
-            TEXT => ParamValue::Text(self.text.into_string()),
+            TEXT => {
+                let text = self.texts.into_iter().next().unwrap_or_default();
+                ParamValue::Text(text.into_string())
+            }
             ROWS => ParamValue::Rows(self.rows.into_iter().map(RVec::into_vec).collect()),
             _ => {
                 let message = "the plugin does not know values of this kind; build it anew";

@@ -1,7 +1,7 @@
 //! The list of a library's strategies, in the form that crosses the boundary.
 //!
-//! Slots, kinds of parameters and kinds of defaults cross as words, with plain fields beside them.
-//! A new one changes no layout.
+//! Slots cross as words, and what a parameter declares crosses as fields under keys. A new slot, a
+//! new kind of parameter and a new thing to declare change no layout.
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{RStr, RVec};
@@ -22,26 +22,32 @@ pub struct AbiStrategy {
     params: RVec<AbiParam>,
 }
 
-/// One parameter. The words for its kind and for that of its default say which of the fields after
-/// them have a meaning.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiParam {
     name: RStr<'static>,
     help: RStr<'static>,
-    kind: RStr<'static>,
-    words: RVec<RStr<'static>>,
-    columns: u64,
-    default: RStr<'static>,
-    default_number: f64,
-    default_text: RStr<'static>,
-    min: f64,
-    max: f64,
-    above_min: bool,
-    nonzero: bool,
+    fields: RVec<AbiField>,
 }
 
-/// The kinds without words or columns.
+/// What a parameter declares under one key, for example its kind or its least value. The key says
+/// which of the other fields have a meaning. A reader leaves out a key that it does not know.
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiField {
+    key: RStr<'static>,
+    number: f64,
+    text: RStr<'static>,
+    words: RVec<RStr<'static>>,
+}
+
+/// The key of a parameter's kind. `text` is a word for it, and a kind that the reader does not know
+/// is refused.
+const KIND: &str = "kind";
+/// The key of a parameter's default. `text` is a word for its kind, or there is no default.
+const DEFAULT: &str = "default";
+
+/// The kinds that a word says all of.
 const PLAIN_KINDS: [(&str, ParamKind); 7] = [
     ("length", ParamKind::Length),
     ("angle", ParamKind::Angle),
@@ -51,8 +57,6 @@ const PLAIN_KINDS: [(&str, ParamKind); 7] = [
     ("count", ParamKind::Count),
     ("flag", ParamKind::Flag),
 ];
-const CHOICE: &str = "choice";
-const ROWS: &str = "rows";
 
 impl From<&Registration> for AbiStrategy {
     fn from(registration: &Registration) -> Self {
@@ -71,32 +75,79 @@ impl From<&Registration> for AbiStrategy {
 
 impl From<&Param> for AbiParam {
     fn from(param: &Param) -> Self {
-        let plain = PLAIN_KINDS.iter().find(|(_, kind)| *kind == param.kind);
-        let (kind, words, columns): (_, &[&str], _) = match param.kind {
-            ParamKind::Choice(words) => (CHOICE, words, 0),
-            ParamKind::Rows(columns) => (ROWS, &[], columns as u64),
-            _ => (plain.map_or("", |(word, _)| word), &[], 0),
-        };
-        let (default, number, text) = match param.default {
-            ParamDefault::Required => ("required", f64::NAN, ""),
-            ParamDefault::Absent => ("absent", f64::NAN, ""),
-            ParamDefault::Number(number) => ("number", number, ""),
-            ParamDefault::Flag(flag) => ("flag", f64::from(u8::from(flag)), ""),
-            ParamDefault::Text(word) => ("text", f64::NAN, word),
-        };
+        let flag = |flag: bool| f64::from(u8::from(flag));
+        let mut fields = vec![
+            AbiField::kind(param.kind),
+            AbiField::number("min", param.min),
+            AbiField::number("max", param.max),
+            AbiField::number("above_min", flag(param.above_min)),
+            AbiField::number("nonzero", flag(param.nonzero)),
+        ];
+        fields.extend(AbiField::default(param.default));
         Self {
             name: param.name.into(),
             help: param.help.into(),
-            kind: kind.into(),
+            fields: fields.into(),
+        }
+    }
+}
+
+impl AbiField {
+    fn new(key: &'static str, text: &'static str, number: f64, words: &[&'static str]) -> Self {
+        Self {
+            key: key.into(),
+            number,
+            text: text.into(),
             words: words.iter().map(|word| RStr::from(*word)).collect(),
-            columns,
-            default: default.into(),
-            default_number: number,
-            default_text: text.into(),
-            min: param.min,
-            max: param.max,
-            above_min: param.above_min,
-            nonzero: param.nonzero,
+        }
+    }
+
+    fn number(key: &'static str, number: f64) -> Self {
+        Self::new(key, "", number, &[])
+    }
+
+    fn kind(kind: ParamKind) -> Self {
+        match kind {
+            ParamKind::Choice(words) => Self::new(KIND, "choice", 0.0, words),
+            ParamKind::Rows(columns) => Self::new(KIND, "rows", columns as f64, &[]),
+            _ => {
+                let plain = PLAIN_KINDS.iter().find(|(_, plain)| *plain == kind);
+                Self::new(KIND, plain.map_or("", |(word, _)| word), 0.0, &[])
+            }
+        }
+    }
+
+    fn read_kind(&self) -> Option<ParamKind> {
+        let words = || self.words.iter().map(RStr::as_str).collect::<Vec<_>>();
+        match self.text.as_str() {
+            "choice" => Some(ParamKind::Choice(words().leak())),
+            "rows" => Some(ParamKind::Rows(self.number as usize)),
+            word => {
+                let mut kinds = PLAIN_KINDS.into_iter();
+                kinds
+                    .find(|(known, _)| *known == word)
+                    .map(|(_, kind)| kind)
+            }
+        }
+    }
+
+    fn default(default: ParamDefault) -> Option<Self> {
+        Some(match default {
+            ParamDefault::Required => return None,
+            ParamDefault::Absent => Self::new(DEFAULT, "absent", 0.0, &[]),
+            ParamDefault::Number(number) => Self::new(DEFAULT, "number", number, &[]),
+            ParamDefault::Flag(flag) => Self::new(DEFAULT, "flag", f64::from(u8::from(flag)), &[]),
+            ParamDefault::Text(word) => Self::new(DEFAULT, "text", 0.0, &[word]),
+        })
+    }
+
+    fn read_default(&self) -> Option<ParamDefault> {
+        match self.text.as_str() {
+            "absent" => Some(ParamDefault::Absent),
+            "number" => Some(ParamDefault::Number(self.number)),
+            "flag" => Some(ParamDefault::Flag(self.number != 0.0)),
+            "text" => Some(ParamDefault::Text(self.words.first()?.as_str())),
+            _ => None,
         }
     }
 }
@@ -161,44 +212,25 @@ impl AbiStrategy {
 
 impl AbiParam {
     fn receive(self, strategy: &str) -> Result<Param, UnknownKind> {
-        let unknown = |kind: RStr<'static>| UnknownKind {
+        let unknown = |field: &AbiField| UnknownKind {
             strategy: strategy.to_owned(),
             parameter: self.name.into(),
-            kind: kind.into(),
+            kind: field.text.into(),
         };
-        Ok(Param {
-            name: self.name.as_str(),
-            help: self.help.as_str(),
-            kind: self.kind().ok_or_else(|| unknown(self.kind))?,
-            default: self.default().ok_or_else(|| unknown(self.default))?,
-            min: self.min,
-            max: self.max,
-            above_min: self.above_min,
-            nonzero: self.nonzero,
-        })
-    }
-
-    fn kind(&self) -> Option<ParamKind> {
-        let words = || self.words.iter().map(RStr::as_str).collect::<Vec<_>>();
-        match self.kind.as_str() {
-            CHOICE => Some(ParamKind::Choice(words().leak())),
-            ROWS => usize::try_from(self.columns).ok().map(ParamKind::Rows),
-            plain => {
-                let mut kinds = PLAIN_KINDS.into_iter();
-                kinds.find(|(word, _)| *word == plain).map(|(_, kind)| kind)
+        // A parameter without a kind is a number, and anything goes.
+        let mut param = Param::number(self.name.as_str(), self.help.as_str());
+        for field in &self.fields {
+            match field.key.as_str() {
+                KIND => param.kind = field.read_kind().ok_or_else(|| unknown(field))?,
+                DEFAULT => param.default = field.read_default().ok_or_else(|| unknown(field))?,
+                "min" => param.min = field.number,
+                "max" => param.max = field.number,
+                "above_min" => param.above_min = field.number != 0.0,
+                "nonzero" => param.nonzero = field.number != 0.0,
+                _ => {}
             }
         }
-    }
-
-    fn default(&self) -> Option<ParamDefault> {
-        Some(match self.default.as_str() {
-            "required" => ParamDefault::Required,
-            "absent" => ParamDefault::Absent,
-            "number" => ParamDefault::Number(self.default_number),
-            "flag" => ParamDefault::Flag(self.default_number != 0.0),
-            "text" => ParamDefault::Text(self.default_text.as_str()),
-            _ => return None,
-        })
+        Ok(param)
     }
 }
 
@@ -234,11 +266,17 @@ mod tests {
                 kind: kind.into(),
             })
         };
+        for (key, word) in [(KIND, "mass"), (DEFAULT, "computed")] {
+            let mut param = AbiParam::from(&PARAMS[0]);
+            param.fields.push(AbiField::new(key, word, 0.0, &[]));
+            assert_eq!(param.receive("heavy"), unknown(word));
+        }
+    }
+
+    #[test]
+    fn an_unknown_key_is_left_out() {
         let mut param = AbiParam::from(&PARAMS[0]);
-        param.kind = "mass".into();
-        assert_eq!(param.receive("heavy"), unknown("mass"));
-        let mut param = AbiParam::from(&PARAMS[0]);
-        param.default = "computed".into();
-        assert_eq!(param.receive("heavy"), unknown("computed"));
+        param.fields.push(AbiField::number("colour", 3.0));
+        assert_eq!(param.receive("wavy"), Ok(PARAMS[0]));
     }
 }
