@@ -246,6 +246,20 @@ mod tests {
     }
 
     #[test]
+    fn an_unknown_kind_is_refused_with_the_names_of_strategy_and_parameter() {
+        let refusal = Refusal::from(OpenError::UnknownKind(UnknownKind {
+            strategy: "balanced".into(),
+            parameter: "counterweight".into(),
+            kind: "mass".into(),
+        }));
+        assert_eq!(
+            refusal.to_string(),
+            "its strategy `balanced` declares the parameter `counterweight` as `mass`, a kind that \
+             this program does not know; use a newer turnpath"
+        );
+    }
+
+    #[test]
     fn a_hint_is_help_and_no_part_of_the_message() {
         let error = |hint| {
             let reason = "no".to_owned();

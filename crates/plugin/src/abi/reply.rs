@@ -121,11 +121,17 @@ codes! {
 /// One property out of the codes of a strategy. An older plugin does not give those that were added
 /// later, and these have a default.
 pub fn property<T: Code>(code: Option<u64>, name: &str, default: Option<T>) -> Result<T> {
-    match code {
-        Some(code) => T::from_code(code).ok_or(format!("code {code}, which this program lacks")),
-        None => default.ok_or("nothing".to_owned()),
-    }
-    .map_err(|what| StrategyError::failed(format!("the plugin gives for `{name}` {what}")))
+    let message = match code {
+        Some(code) => match T::from_code(code) {
+            Some(value) => return Ok(value),
+            None => format!("the plugin's `{name}` is {code}, which this program does not know"),
+        },
+        None => match default {
+            Some(value) => return Ok(value),
+            None => format!("the plugin does not say what its `{name}` is"),
+        },
+    };
+    Err(StrategyError::failed(message))
 }
 
 const FAILED: u32 = 0;
@@ -175,5 +181,52 @@ impl From<AbiError> for StrategyError {
             (PANICKED, _) => Self::Panicked(message),
             _ => Self::Failed(message),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_the_same_after_both_conversions() {
+        let errors = [
+            StrategyError::failed("too steep"),
+            StrategyError::parameter("radius", "too small"),
+            StrategyError::Delegate {
+                slot: Slot::Surface,
+                message: "no value".into(),
+            },
+            StrategyError::Panicked("at lib.rs:3".into()),
+        ];
+        for error in errors {
+            assert_eq!(StrategyError::from(AbiError::from(error.clone())), error);
+        }
+    }
+
+    #[test]
+    fn an_error_of_an_unknown_kind_is_a_failure() {
+        let mut error = AbiError::from(StrategyError::Panicked("out of time".into()));
+        error.kind = 99;
+        assert_eq!(
+            StrategyError::from(error),
+            StrategyError::failed("out of time")
+        );
+    }
+
+    #[test]
+    fn a_property_has_its_default_or_an_error_with_its_name() {
+        let quiet = |code, default| property::<bool>(code, "quiet", default);
+        assert_eq!(quiet(Some(1), Some(false)), Ok(true));
+        assert_eq!(quiet(None, Some(true)), Ok(true));
+        let text = |answer: Result<bool>| answer.unwrap_err().to_string();
+        assert_eq!(
+            text(quiet(None, None)),
+            "the plugin does not say what its `quiet` is"
+        );
+        assert_eq!(
+            text(quiet(Some(7), Some(true))),
+            "the plugin's `quiet` is 7, which this program does not know"
+        );
     }
 }
