@@ -123,13 +123,13 @@ pub enum Refusal {
         /// The version of this program.
         ours: BoundaryVersion,
     },
-    /// The version is right, but the data have another layout.
+    /// The version fits, but the data have another layout.
     #[error(
-        "it is built against turnpath-plugin {ours} like this program, but its data have another \
+        "its version of turnpath-plugin fits this program's {ours}, but its data have another \
          layout; rebuild the plugin against this program's turnpath-plugin"
     )]
     Layout {
-        /// The version of both.
+        /// The version of this program.
         ours: BoundaryVersion,
         /// The comparison of both layouts, hundreds of lines long.
         details: String,
@@ -236,9 +236,8 @@ mod tests {
         assert_eq!(
             error.source().map(ToString::to_string),
             Some(format!(
-                "it is built against turnpath-plugin {BOUNDARY_VERSION} like this program, but its \
-                 data have another layout; rebuild the plugin against this program's \
-                 turnpath-plugin"
+                "its version of turnpath-plugin fits this program's {BOUNDARY_VERSION}, but its data \
+                 have another layout; rebuild the plugin against this program's turnpath-plugin"
             ))
         );
         assert_eq!(error.layout_details().map(str::len), Some(2500));
