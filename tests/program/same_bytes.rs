@@ -7,7 +7,9 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::support::bench::{Bench, answer};
-use crate::support::builds::{BUILT_INS, bare_program, built_in_libraries};
+use crate::support::builds::{
+    BUILT_INS, bare_program, built_in_libraries, program_without_the_feature,
+};
 use crate::support::fixtures::file_name;
 use crate::support::recipe::{SADDLE, saddle_with, with_table};
 
@@ -116,15 +118,31 @@ fn a_processor_without_fma_and_avx2_gives_the_same_bytes() {
     }
 }
 
-#[test]
-fn plugins_from_a_folder_give_the_same_bytes_as_those_inside() {
+/// A program without strategies inside makes the paths of the program that has them.
+fn assert_loaded_is_linked(bare: &Path) {
     let libraries = built_in_libraries();
     for job in &jobs() {
-        let (_, loaded) = made(job, bare_program(), |command| {
+        let (_, loaded) = made(job, bare, |command| {
             command.arg("--plugin-dir").arg(libraries.path());
         });
         assert!(linked(job, |_| ()) == loaded, "{}", job.0);
     }
+}
+
+#[test]
+fn plugins_from_a_folder_give_the_same_bytes_as_those_inside() {
+    assert_loaded_is_linked(bare_program());
+}
+
+/// The fast tests take a program whose catalogue is empty; here nothing is linked in.
+#[test]
+#[ignore = "builds the program once more; `cargo xtask long` runs it"]
+fn long_the_program_without_its_feature_has_no_strategy_and_gives_the_same_bytes() {
+    let bare = program_without_the_feature();
+    let bench = Bench::empty();
+    let list = answer(&mut bench.command_of(&bare, ["list", "sampler"])).ends(0);
+    insta::assert_snapshot!("bare_list", list.stdout);
+    assert_loaded_is_linked(&bare);
 }
 
 #[test]
