@@ -172,7 +172,7 @@ fn within_a_machines_limit_the_law_is_gentler_and_still_below_the_residual_feed(
             assert!(found <= part * unlimited, "{found} of {part} · {unlimited}");
             assert!(law.end() > free.end());
             if !inward {
-                check(&limited, 0.3);
+                check_law(&limited, &law, 0.3);
             }
         }
     }
@@ -191,13 +191,16 @@ fn a_limit_that_the_law_already_keeps_changes_no_bit_and_one_that_no_law_keeps_e
     assert_eq!(impossible.plan_law("held", "cubic").unwrap(), cubic);
 }
 
-/// Checks everything that a smooth law promises, on a dense grid.
+/// Checks everything that the case's smooth law promises, on a dense grid.
 fn check(case: &Case, offset: f64) {
-    let law = case.plan_law("held", "smooth").unwrap();
+    check_law(case, &case.plan_law("held", "smooth").unwrap(), offset);
+}
+
+fn check_law(case: &Case, law: &SpiralLaw, offset: f64) {
     let RadialRange { inner, outer } = case.task.range;
     assert_eq!(law.value(0.0), inner);
     assert!((law.value(law.end()) - outer).abs() < 1e-13 * (1.0 + outer));
-    for n in joints(&law) {
+    for n in joints(law) {
         let (before, after) = (law.series_before(n), law.series(n));
         for (k, allowed) in [(0, 1e-13), (1, 1e-12), (2, 1e-11)] {
             let jump = (before[k] - after[k]).abs();
@@ -208,7 +211,7 @@ fn check(case: &Case, offset: f64) {
         }
     }
     for i in 0..400 {
-        let (rho, rate) = rate_at(&law, law.end() * (f64::from(i) + offset) / 400.0);
+        let (rho, rate) = rate_at(law, law.end() * (f64::from(i) + offset) / 400.0);
         let limit = case
             .residual_feeds(rho, 211)
             .into_iter()

@@ -37,7 +37,7 @@ impl AtpgCase for Case {
 
     fn residual_feeds(&self, rho: f64, angles: usize) -> Vec<f64> {
         let theta = (0..angles).map(|i| TAU * i as f64 / angles as f64);
-        theta.map(|theta| self.residual_feed(theta, rho)).collect()
+        self.residual_feeds_at(&theta.collect::<Vec<_>>(), rho)
     }
 
     fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64 {
