@@ -91,7 +91,7 @@ fn nodes_off_the_locus_and_a_changing_speed_measure_like_the_reference() {
     assert!(number(&summary, "/control_point_error/max_nm") < Some(ROUNDING));
     assert!(number(&summary, "/points_added_by_refine") > Some(100.0));
     assert_eq!(summary["within"]["programs"], true);
-    for file in ["toolpath.csv", "wavy-two-speeds.pmc"] {
+    for file in ["toolpath.csv", "recipe.pmc"] {
         let found = call(&format!("verify recipe.toml out/{file} --format json")).json();
         let complaints = compare(&found, &reference, rows);
         assert!(complaints.is_empty(), "{file}\n{}", complaints.join("\n"));
