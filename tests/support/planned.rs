@@ -98,13 +98,18 @@ impl Case {
 
     /// The residual feed at one point.
     pub fn residual_feed(&self, theta: f64, rho: f64) -> f64 {
-        let mut feed = [f64::NAN];
+        self.residual_feeds_at(&[theta], rho)[0]
+    }
+
+    /// The residual feeds at these angles of one radius.
+    pub fn residual_feeds_at(&self, theta: &[f64], rho: f64) -> Vec<f64> {
+        let mut feed = vec![f64::NAN; theta.len()];
         let residual = self.task.tolerance.residual;
-        let radial = self.locus.radial();
+        let (radial, rho) = (self.locus.radial(), vec![rho; theta.len()]);
         self.locus
-            .residual_feed(residual, radial, &[theta], &[rho], &mut feed)
+            .residual_feed(residual, radial, theta, &rho, &mut feed)
             .unwrap();
-        feed[0]
+        feed
     }
 
     /// The nose centre (X, Z) at one point.

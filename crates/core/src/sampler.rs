@@ -15,9 +15,12 @@ pub enum Dependence {
 }
 
 /// Places the control points along the spiral.
+///
+/// A sampler that needs nothing of the whole path implements [`SamplerPlan`] and `Clone`. It is
+/// then a sampler whose plan is a copy of itself.
 pub trait Sampler: Send + Sync {
     /// Looks at the whole path once, before any block. The plan that comes back places the nodes
-    /// of each block. A sampler that needs nothing of the whole path gives a copy of itself.
+    /// of each block.
     fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>>;
 
     /// Whether the nodes hold the tolerance only with the exact rates of the path, because they use
@@ -27,6 +30,12 @@ pub trait Sampler: Send + Sync {
     /// default is false.
     fn needs_exact_rates(&self) -> bool {
         false
+    }
+}
+
+impl<T: SamplerPlan + Clone + 'static> Sampler for T {
+    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        Ok(Box::new(self.clone()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::observer::SilentObserver;
 use crate::plan::Plan;
-use crate::{Chain, Preparation, Result};
+use crate::{Chain, Preparation, Result, schedule};
 
 /// About how many blocks are sampled to estimate the count of control points.
 const SAMPLED_BLOCKS: usize = 8;
@@ -23,7 +23,7 @@ pub struct Estimate {
 /// # Errors
 /// When a strategy fails.
 pub fn estimate(chain: &Chain, preparation: &Preparation) -> Result<Estimate> {
-    let plan = Plan::new(chain, preparation, &SilentObserver)?;
+    let plan = schedule::plan(chain, preparation, &SilentObserver)?;
     let revolutions = plan.law.end();
     Ok(Estimate {
         revolutions,

@@ -10,7 +10,7 @@ use turnpath_core::{
 use crate::node_check::{CLOSEST_NODES, NodeCheck, in_revolutions};
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::taper::{CutLaw, taper};
-use crate::{Chain, Preparation, Result, beyond, factors, seams, spindle};
+use crate::{Chain, Preparation, Result, beyond, seams, spindle};
 
 /// Revolutions of a block. A sampler starts afresh at each border, which costs AST-50 a tenth of
 /// a percent of points; larger blocks take more memory and leave less to do in parallel.
@@ -56,7 +56,7 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Plans the laws and the nodes. Runs a sequential sampler once over the path to learn its
+    /// Plans the laws and the nodes, the spindle's law without regard to the machine. Runs a sequential sampler once over the path to learn its
     /// states.
     pub fn new(
         chain: &'a Chain,
@@ -88,7 +88,6 @@ impl<'a> Plan<'a> {
             sampler_states: Vec::new(),
         };
         plan.divide(observer)?;
-        factors::follow(&mut plan, observer)?;
         Ok(plan)
     }
 

@@ -19,12 +19,6 @@
 //!     }
 //! }
 //!
-//! impl Sampler for Even {
-//!     fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-//!         Ok(Box::new(self.clone()))
-//!     }
-//! }
-//!
 //! impl SamplerPlan for Even {
 //!     fn place(&self, _: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
 //!         nodes.extend(block.turns().flat_map(|turn| turn.subdivide(self.0)));

@@ -70,12 +70,6 @@ impl Strategy for FftAdaptiveSampler {
     }
 }
 
-impl Sampler for FftAdaptiveSampler {
-    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-        Ok(Box::new(self.clone()))
-    }
-}
-
 impl SamplerPlan for FftAdaptiveSampler {
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
         for turn in block.turns() {

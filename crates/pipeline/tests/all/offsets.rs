@@ -13,7 +13,7 @@ const STEP: f64 = 10.0 * TAU / 360.0;
 /// The error of a cubic with exact ends over one step around 45°, mm: h⁴/384·φ⁗ with
 /// φ = K ρ² sin 2θ.
 fn exact_ends(rho: f64) -> f64 {
-    STEP.powi(4) / 384.0 * 16.0 * K * rho * rho
+    Scalar::powi(STEP, 4) / 384.0 * 16.0 * K * rho * rho
 }
 
 /// Which nodes of [`long_segments`] lie off the locus.

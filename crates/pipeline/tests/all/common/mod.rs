@@ -176,15 +176,6 @@ where
 #[derive(Clone)]
 pub struct NodesOff<F>(pub F);
 
-impl<F> Sampler for NodesOff<F>
-where
-    F: Fn(&Path<'_>, Revolutions) -> NodeList + Clone + Send + Sync + 'static,
-{
-    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-        Ok(Box::new(self.clone()))
-    }
-}
-
 impl<F> SamplerPlan for NodesOff<F>
 where
     F: Fn(&Path<'_>, Revolutions) -> NodeList + Send + Sync,
@@ -207,12 +198,6 @@ pub fn even(steps: f64) -> Arc<dyn Sampler> {
 #[derive(Clone)]
 pub struct Counting {
     pub step: f64,
-}
-
-impl Sampler for Counting {
-    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-        Ok(Box::new(self.clone()))
-    }
 }
 
 impl SamplerPlan for Counting {

@@ -1,4 +1,4 @@
-//! How far the axes as played exceed the machine's limits, for spindle strategies that follow it.
+//! The plan of a path whose spindle follows the machine's limits as the path is played.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use turnpath_verify::AxesMotion;
 use crate::make::{BlockPoints, first_state, make};
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::plan::Plan;
-use crate::{Result, spindle};
+use crate::{Chain, Preparation, Result, spindle};
 
 /// How often a schedule is planned again at the most.
 const ROUNDS: usize = 3;
@@ -18,9 +18,19 @@ const ENOUGH: f64 = 0.9999;
 /// Blocks that are made at a time.
 const BATCH: usize = 16;
 
-/// Plans the spindle's law again, with the factors that the path as played asks for, if the
-/// strategy follows them and the machine has limits.
-pub fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
+/// Plans the path. If the spindle strategy follows factors and the machine has limits, its law is
+/// planned again with the factors that the path as played asks for.
+pub fn plan<'a>(
+    chain: &'a Chain,
+    preparation: &'a Preparation,
+    observer: &dyn Observer,
+) -> Result<Plan<'a>> {
+    let mut plan = Plan::new(chain, preparation, observer)?;
+    follow(&mut plan, observer)?;
+    Ok(plan)
+}
+
+fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
     let strategy = &plan.chain.spindle.strategy;
     if !(strategy.follows_factors() && plan.preparation.task.machine.has_limits()) {
         return Ok(());
