@@ -274,6 +274,22 @@ mod tests {
     }
 
     #[test]
+    fn a_strategy_of_an_unknown_slot_is_left_out() {
+        let strategy = |slot: &'static str| AbiStrategy {
+            crate_name: "new_crate".into(),
+            crate_version: "1.0.0".into(),
+            slot: slot.into(),
+            name: "wavy".into(),
+            summary: "".into(),
+            source: "".into(),
+            params: RVec::new(),
+        };
+        assert!(strategy("seventh").receive().is_ok_and(|one| one.is_none()));
+        let known = strategy("surface").receive().unwrap().unwrap();
+        assert_eq!((known.info.slot, known.info.name), (Slot::Surface, "wavy"));
+    }
+
+    #[test]
     fn an_unknown_key_is_left_out() {
         let mut param = AbiParam::from(&PARAMS[0]);
         param.fields.push(AbiField::number("colour", 3.0));
