@@ -10,7 +10,7 @@ use super::loan::{Crossing, crossing};
 use super::reply::Code;
 use super::surface::LentSurface;
 
-/// The code of what ρ means. One that this side does not know counts as the contact's radius.
+/// The code of what ρ means.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct AbiRadial(u64);
@@ -18,7 +18,7 @@ pub struct AbiRadial(u64);
 crossing! {
     [] Radial => AbiRadial, Radial: |radial| radial, |radial| AbiRadial(radial.code());
     [] AbiRadial => Radial, Radial:
-        |code| Radial::from_code(code.0).unwrap_or(Radial::Contact), |radial| *radial;
+        |radial| property(Some(radial.0), "radial", None)?, |radial| *radial;
 }
 
 declare! {

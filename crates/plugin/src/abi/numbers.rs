@@ -5,55 +5,60 @@
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::RSlice;
-use turnpath_core::{Direction, Machine, Misfit, Part, RadialRange, Task, Tolerance, Tool};
+use turnpath_core::{
+    Direction, Machine, Misfit, Part, RadialRange, StrategyError, Task, Tolerance, Tool,
+};
 
 use super::loan::crossing;
+use super::reply::{Code, codes};
+
+codes! {
+    Misfit { 0 => Misfit::Refuse, 1 => Misfit::CutWhatFits }
+    Direction { 0 => Direction::Outward, 1 => Direction::Inward }
+}
 
 /// A field that crosses as one number.
 trait Field: Sized {
-    fn write(&self) -> f64;
-    fn read(number: f64) -> Self;
+    fn write(self) -> f64;
+    /// `None` for a code that this side does not know.
+    fn read(number: f64) -> Option<Self>;
 }
 
 impl Field for f64 {
-    fn write(&self) -> f64 {
-        *self
+    fn write(self) -> f64 {
+        self
     }
 
-    fn read(number: f64) -> Self {
-        number
+    fn read(number: f64) -> Option<Self> {
+        Some(number)
     }
 }
 
 /// NaN is no value.
 impl Field for Option<f64> {
-    fn write(&self) -> f64 {
+    fn write(self) -> f64 {
         self.unwrap_or(f64::NAN)
     }
 
-    fn read(number: f64) -> Self {
-        Some(number).filter(|number| !number.is_nan())
+    fn read(number: f64) -> Option<Self> {
+        Some(Some(number).filter(|number| !number.is_nan()))
     }
 }
 
-/// Implements [`Field`] for an enum with a value for the number 1 and one for all others.
-macro_rules! either {
-    ($($type:ident: $one:ident or $other:ident;)*) => {$(
-        impl Field for $type {
-            fn write(&self) -> f64 {
-                f64::from(u8::from(*self == Self::$one))
-            }
+impl<T: Code> Field for T {
+    fn write(self) -> f64 {
+        self.code() as f64
+    }
 
-            fn read(number: f64) -> Self {
-                if number == 1.0 { Self::$one } else { Self::$other }
-            }
-        }
-    )*};
+    fn read(number: f64) -> Option<Self> {
+        T::from_code(number as u64)
+    }
 }
 
-either! {
-    Misfit: CutWhatFits or Refuse;
-    Direction: Inward or Outward;
+fn unknown(field: &str, number: f64) -> StrategyError {
+    StrategyError::failed(format!(
+        "the program gives {number} for `{field}`, which this plugin does not know"
+    ))
 }
 
 /// Lets a struct cross as the list of these fields.
@@ -71,7 +76,9 @@ macro_rules! numbers {
                 |numbers| {
                     let (mut it, mut numbers) = ($blank, numbers.0.iter());
                     $(if let Some(number) = numbers.next() {
-                        it.$($field).+ = Field::read(*number);
+                        let field = stringify!($($field).+);
+                        it.$($field).+ =
+                            Field::read(*number).ok_or_else(|| unknown(field, *number))?;
                     })+
                     it
                 },
@@ -171,5 +178,15 @@ mod tests {
         let mut expected = task();
         expected.machine.c.jerk = None;
         assert_eq!(read(&numbers[..20]), expected);
+    }
+
+    #[test]
+    fn a_code_that_this_side_does_not_know_is_an_error_with_the_fields_name() {
+        let numbers = [0.5, f64::NAN, f64::NAN, 9.0];
+        let error = AbiTool(numbers.as_slice().into()).lender().unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the program gives 9 for `misfit`, which this plugin does not know"
+        );
     }
 }
