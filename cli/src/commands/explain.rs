@@ -1,7 +1,7 @@
 //! `turnpath explain`: one strategy in full.
 
 use turnpath::{Catalogue, Strategy};
-use turnpath_core::{Param, ParamDefault, ParamKind, Quantity, Slot};
+use turnpath_core::{ParamDefault, ParamInfo, ParamKind, Slot};
 
 use super::setup::with_plugins;
 use crate::args::{ExplainArgs, slot_of};
@@ -86,7 +86,7 @@ fn explanation(strategy: &Strategy) -> String {
     text
 }
 
-fn kind(param: &Param) -> String {
+fn kind(param: &ParamInfo) -> String {
     match param.kind {
         ParamKind::Number => "a number".to_owned(),
         ParamKind::Count => "a whole number".to_owned(),
@@ -97,14 +97,15 @@ fn kind(param: &Param) -> String {
             .map(|word| format!("\"{word}\""))
             .collect::<Vec<_>>()
             .join(" | "),
-        kind => Quantity::of(kind).map_or_else(String::new, |quantity| {
+        ParamKind::Quantity(quantity) => {
             format!("{}, such as \"{}\"", quantity.noun(), quantity.example())
-        }),
+        }
+        ParamKind::File => "a file, by its path relative to the recipe".to_owned(),
     }
 }
 
-fn range(param: &Param) -> String {
-    let shown = |value: f64| match Quantity::of(param.kind) {
+fn range(param: &ParamInfo) -> String {
+    let shown = |value: f64| match param.kind.quantity() {
         Some(quantity) => quantity.format(value),
         None => value.to_string(),
     };

@@ -1,17 +1,17 @@
 //! Declarations of parameters as text: ranges and examples, for messages.
 
-use turnpath_core::{Param, ParamDefault, ParamKind, Quantity};
+use turnpath_core::{ParamDefault, ParamInfo, ParamKind};
 
 /// A value as a recipe would write it, from the units used inside (mm, rad, s).
 pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
-    match Quantity::of(kind) {
+    match kind.quantity() {
         Some(quantity) => quantity.format(value),
         None => value.to_string(),
     }
 }
 
 /// The declared range in words: "above 0 mm and at most 5 mm", "at least 3", "different from zero".
-pub(crate) fn range(param: &Param) -> String {
+pub(crate) fn range(param: &ParamInfo) -> String {
     let limit = |value: f64| shown(param.kind, value);
     let mut parts = Vec::new();
     if param.min > f64::NEG_INFINITY {
@@ -32,20 +32,21 @@ pub(crate) fn range(param: &Param) -> String {
 }
 
 /// A value that the declaration admits, as a recipe would write it.
-pub(crate) fn example(param: &Param) -> String {
+pub(crate) fn example(param: &ParamInfo) -> String {
     match (param.kind, param.default) {
         (ParamKind::Flag, ParamDefault::Flag(flag)) => flag.to_string(),
         (ParamKind::Flag, _) => "true".to_owned(),
         (ParamKind::Choice(_), ParamDefault::Text(word)) => format!("\"{word}\""),
         (ParamKind::Choice(words), _) => format!("\"{}\"", words.first().unwrap_or(&"")),
         (ParamKind::Rows(columns), _) => example_rows(columns),
+        (ParamKind::File, _) => "\"data.csv\"".to_owned(),
         (_, ParamDefault::Number(value)) => written(param.kind, value),
         _ => written(param.kind, example_number(param)),
     }
 }
 
 fn written(kind: ParamKind, value: f64) -> String {
-    match Quantity::of(kind) {
+    match kind.quantity() {
         Some(quantity) => format!("\"{}\"", quantity.format(value)),
         None => value.to_string(),
     }
@@ -59,8 +60,8 @@ fn example_rows(columns: usize) -> String {
 }
 
 /// The usual value of the kind if it is in range, else a larger or smaller value that is.
-fn example_number(param: &Param) -> f64 {
-    let usual = match (param.kind, Quantity::of(param.kind)) {
+fn example_number(param: &ParamInfo) -> f64 {
+    let usual = match (param.kind, param.kind.quantity()) {
         (ParamKind::Count, _) => 36.0,
         (_, Some(quantity)) => quantity.parse(quantity.example()).unwrap_or(1.0),
         _ => 0.5,
@@ -77,44 +78,44 @@ fn example_number(param: &Param) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use turnpath_core::DEG;
+    use turnpath_core::{DEG, Param};
 
-    use super::*;
+    fn range<K>(param: Param<K>) -> String {
+        super::range(&param.info())
+    }
+
+    fn example<K>(param: Param<K>) -> String {
+        super::example(&param.info())
+    }
 
     #[test]
     fn ranges_have_readable_units() {
         let step = Param::angle("max_step", "").positive().max(180.0 * DEG);
-        assert_eq!(range(&step), "above 0 deg and at most 180 deg");
-        assert_eq!(range(&Param::count("at_least", "").min(3.0)), "at least 3");
+        assert_eq!(range(step), "above 0 deg and at most 180 deg");
+        assert_eq!(range(Param::count("at_least", "").min(3)), "at least 3");
         assert_eq!(
-            range(&Param::length("radius", "").nonzero()),
+            range(Param::length("radius", "").nonzero()),
             "different from zero"
         );
     }
 
     #[test]
     fn examples_are_in_range() {
+        assert_eq!(example(Param::length("spacing", "").positive()), "\"5 mm\"");
         assert_eq!(
-            example(&Param::length("spacing", "").positive()),
-            "\"5 mm\""
-        );
-        assert_eq!(
-            example(&Param::length("spacing", "").positive().max(0.1)),
+            example(Param::length("spacing", "").positive().max(0.1)),
             "\"50 um\""
         );
+        assert_eq!(example(Param::feed("feed", "").positive()), "\"10 um/rev\"");
+        assert_eq!(example(Param::count("at_least", "").min(50)), "360");
+        assert_eq!(example(Param::number("conic", "").max(-0.75)), "-5");
+        assert_eq!(example(Param::rows("terms", 3, "")), "[[2, 0, 0]]");
         assert_eq!(
-            example(&Param::feed("feed", "").positive()),
-            "\"10 um/rev\""
-        );
-        assert_eq!(example(&Param::count("at_least", "").min(50.0)), "360");
-        assert_eq!(example(&Param::number("conic", "").max(-0.75)), "-5");
-        assert_eq!(example(&Param::rows("terms", 3, "")), "[[2, 0, 0]]");
-        assert_eq!(
-            example(&Param::angle("max_step", "").default(45.0 * DEG)),
+            example(Param::angle("max_step", "").default(45.0 * DEG)),
             "\"45 deg\""
         );
         assert_eq!(
-            example(&Param::choice("form", &["sum", "product"], "")),
+            example(Param::choice("form", &["sum", "product"], "")),
             "\"sum\""
         );
     }

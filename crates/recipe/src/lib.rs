@@ -60,6 +60,7 @@ mod tables;
 mod value;
 
 pub use ablation::{Variant, Variation};
+pub use bind::{Binding, NamedFile};
 pub use choice::Choice;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::{Entry, Node, Table, Value};

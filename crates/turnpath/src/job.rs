@@ -10,6 +10,7 @@ use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 
+use crate::data_files::DataFiles;
 use crate::diagnosis::{not_carried, of_pipeline};
 use crate::error::Error;
 use crate::program::{Program, programs};
@@ -19,6 +20,7 @@ use crate::strategies::chain;
 pub struct Job {
     pub(crate) recipe: Recipe,
     pub(crate) catalogue: Catalogue,
+    pub(crate) data_files: DataFiles,
     pub(crate) chain: Chain,
     pub(crate) preparation: Preparation,
     pub(crate) programs: Vec<Program>,
@@ -28,10 +30,20 @@ impl Job {
     /// Makes the strategies of a recipe and checks the tool against the part.
     ///
     /// # Errors
-    /// When a strategy is not there or refuses its parameters, when the tool does not fit, when the
+    /// When a strategy is not there or refuses its parameters, when a data file cannot be read, when
+    /// the tool does not fit, when the
     /// surface has no height somewhere, or when a program could not carry the path.
     pub fn new(recipe: Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
-        let chain = chain(&recipe, catalogue)?;
+        Self::with_files(recipe, catalogue, DataFiles::default())
+    }
+
+    /// The same with data files that may have been read already.
+    pub(crate) fn with_files(
+        recipe: Recipe,
+        catalogue: &Catalogue,
+        data_files: DataFiles,
+    ) -> Result<Self, Error> {
+        let chain = chain(&recipe, catalogue, &data_files)?;
         let spec = JobSpec {
             part: recipe.part,
             tool: recipe.tool,
@@ -46,6 +58,7 @@ impl Job {
         let job = Self {
             recipe,
             catalogue: catalogue.clone(),
+            data_files,
             chain,
             preparation,
             programs,

@@ -19,6 +19,7 @@
 
 mod ablation;
 mod check;
+mod data_files;
 mod diagnosis;
 mod error;
 mod figures;
@@ -39,6 +40,7 @@ mod toolpath;
 mod verify;
 
 pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
+pub use data_files::DataFileError;
 pub use error::{Error, Fault};
 pub use job::Job;
 pub use outputs::Outputs;

@@ -2,26 +2,29 @@
 
 use std::sync::Arc;
 
-use turnpath_core::{Compensator, Params, Slot, StrategyError, SurfaceModel, VelocitySolver};
+use turnpath_core::{
+    Compensator, DataFile, ParamValue, Params, Slot, StrategyError, SurfaceModel, VelocitySolver,
+};
 use turnpath_host::{Catalogue, Strategy};
 use turnpath_pipeline::{Chain, Link};
-use turnpath_recipe::{Diagnostic, Diagnostics, Recipe};
+use turnpath_recipe::{Binding, Diagnostic, Diagnostics, NamedFile, Recipe};
 
-use crate::diagnosis::wrong_parameter;
+use crate::data_files::DataFiles;
+use crate::diagnosis::{unreadable_file, wrong_parameter};
 use crate::error::Error;
 
-/// The strategy that a recipe chooses, with its checked parameters.
-fn chosen<'a>(
+/// The strategy that a recipe chooses, with its checked parameters. Its files are not read yet.
+pub fn chosen<'a>(
     recipe: &Recipe,
     catalogue: &'a Catalogue,
     slot: Slot,
-) -> Result<(&'a Strategy, Params), Diagnostics> {
+) -> Result<(&'a Strategy, Binding), Diagnostics> {
     let name = recipe.choice(slot).name();
     let Some(strategy) = catalogue.find(slot, name) else {
         return Err(recipe.unknown_strategy(slot, &catalogue.names(slot)).into());
     };
-    let params = recipe.bind(slot, &strategy.info())?;
-    Ok((strategy, params))
+    let binding = recipe.bind(slot, &strategy.info())?;
+    Ok((strategy, binding))
 }
 
 /// What is wrong with a recipe's choices as far as it is known before the strategies are made: all
@@ -37,10 +40,12 @@ pub fn wrong_choices(recipe: &Recipe, catalogue: &Catalogue) -> Vec<Diagnostic> 
 fn link<T: ?Sized>(
     recipe: &Recipe,
     catalogue: &Catalogue,
+    files: &DataFiles,
     slot: Slot,
     make: impl FnOnce(&Strategy, &Params) -> Result<Arc<T>, StrategyError>,
 ) -> Result<Link<T>, Error> {
-    let (strategy, params) = chosen(recipe, catalogue, slot)?;
+    let (strategy, binding) = chosen(recipe, catalogue, slot)?;
+    let params = with_files(recipe, slot, binding, files)?;
     let name = strategy.info().name.to_owned();
     let plugin = strategy.plugin().to_string();
     match make(strategy, &params) {
@@ -52,6 +57,31 @@ fn link<T: ?Sized>(
         }),
         Err(error) => Err(not_made(recipe, slot, &name, &plugin, error)),
     }
+}
+
+/// The parameters with the contents of the files that the recipe names.
+fn with_files(
+    recipe: &Recipe,
+    slot: Slot,
+    binding: Binding,
+    files: &DataFiles,
+) -> Result<Params, Error> {
+    let mut params = binding.params;
+    for NamedFile { param, path } in binding.files {
+        let contents = match files.read(&recipe.resolve(&path.value)) {
+            Ok(contents) => contents,
+            Err(source) => {
+                let diagnostic = Box::new(unreadable_file(recipe, slot, param, &path, &source));
+                return Err(Error::DataFile { diagnostic, source });
+            }
+        };
+        let file = DataFile {
+            path: path.value,
+            bytes: contents.bytes,
+        };
+        params.set(param, ParamValue::File(file));
+    }
+    Ok(params)
 }
 
 /// A constructor that refuses its parameters means that the recipe is wrong; one that panics, that
@@ -79,37 +109,65 @@ fn not_made(recipe: &Recipe, slot: Slot, name: &str, plugin: &str, error: Strate
 }
 
 /// The recipe's surface alone.
-pub fn surface(recipe: &Recipe, catalogue: &Catalogue) -> Result<Link<dyn SurfaceModel>, Error> {
-    link(recipe, catalogue, Slot::Surface, |strategy, params| {
-        strategy.offer().surface(params)
-    })
+pub fn surface(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<Link<dyn SurfaceModel>, Error> {
+    link(
+        recipe,
+        catalogue,
+        files,
+        Slot::Surface,
+        |strategy, params| strategy.offer().surface(params),
+    )
 }
 
 /// The recipe's compensator alone.
-pub fn compensator(recipe: &Recipe, catalogue: &Catalogue) -> Result<Link<dyn Compensator>, Error> {
-    link(recipe, catalogue, Slot::Compensator, |strategy, params| {
-        strategy.offer().compensator(params)
-    })
+pub fn compensator(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<Link<dyn Compensator>, Error> {
+    link(
+        recipe,
+        catalogue,
+        files,
+        Slot::Compensator,
+        |strategy, params| strategy.offer().compensator(params),
+    )
 }
 
 /// The recipe's velocity solver alone.
-pub fn velocity(recipe: &Recipe, catalogue: &Catalogue) -> Result<Link<dyn VelocitySolver>, Error> {
-    link(recipe, catalogue, Slot::Velocity, |strategy, params| {
-        strategy.offer().velocity(params)
-    })
+pub fn velocity(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<Link<dyn VelocitySolver>, Error> {
+    link(
+        recipe,
+        catalogue,
+        files,
+        Slot::Velocity,
+        |strategy, params| strategy.offer().velocity(params),
+    )
 }
 
 /// The recipe's five strategies.
-pub fn chain(recipe: &Recipe, catalogue: &Catalogue) -> Result<Chain, Error> {
+pub fn chain(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<Chain, Error> {
     Ok(Chain {
-        surface: surface(recipe, catalogue)?,
-        feed: link(recipe, catalogue, Slot::Feed, |strategy, params| {
+        surface: surface(recipe, catalogue, files)?,
+        feed: link(recipe, catalogue, files, Slot::Feed, |strategy, params| {
             strategy.offer().feed(params)
         })?,
-        sampler: link(recipe, catalogue, Slot::Sampler, |strategy, params| {
-            strategy.offer().sampler(params)
-        })?,
-        compensator: compensator(recipe, catalogue)?,
-        velocity: velocity(recipe, catalogue)?,
+        sampler: link(
+            recipe,
+            catalogue,
+            files,
+            Slot::Sampler,
+            |strategy, params| strategy.offer().sampler(params),
+        )?,
+        compensator: compensator(recipe, catalogue, files)?,
+        velocity: velocity(recipe, catalogue, files)?,
     })
 }

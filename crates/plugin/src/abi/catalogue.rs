@@ -2,7 +2,7 @@
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{RStr, RVec};
-use turnpath_core::{Param, ParamDefault, ParamKind, Slot, StrategyInfo};
+use turnpath_core::{ParamDefault, ParamInfo, ParamKind, Quantity, Slot, StrategyInfo};
 
 use crate::Registration;
 
@@ -22,16 +22,30 @@ pub struct AbiStrategy {
 #[repr(u8)]
 #[derive(StableAbi)]
 pub enum AbiKind {
-    Length,
-    Angle,
-    PerLength,
-    Feed,
+    /// The index in [`QUANTITIES`].
+    Quantity(u8),
     Number,
     Count,
     Flag,
     Choice(RVec<RStr<'static>>),
     Rows(u64),
+    File,
 }
+
+/// The quantities in an order that never changes: a new one is added at the end.
+const QUANTITIES: [Quantity; 11] = [
+    Quantity::Length,
+    Quantity::Angle,
+    Quantity::PerLength,
+    Quantity::Feed,
+    Quantity::RotationSpeed,
+    Quantity::Time,
+    Quantity::Velocity,
+    Quantity::Acceleration,
+    Quantity::Jerk,
+    Quantity::AngularAcceleration,
+    Quantity::AngularJerk,
+];
 
 #[repr(u8)]
 #[derive(StableAbi)]
@@ -76,8 +90,8 @@ impl From<&Registration> for AbiStrategy {
     }
 }
 
-impl From<&Param> for AbiParam {
-    fn from(param: &Param) -> Self {
+impl From<&ParamInfo> for AbiParam {
+    fn from(param: &ParamInfo) -> Self {
         Self {
             name: param.name.into(),
             help: param.help.into(),
@@ -94,10 +108,7 @@ impl From<&Param> for AbiParam {
 impl From<ParamKind> for AbiKind {
     fn from(kind: ParamKind) -> Self {
         match kind {
-            ParamKind::Length => Self::Length,
-            ParamKind::Angle => Self::Angle,
-            ParamKind::PerLength => Self::PerLength,
-            ParamKind::Feed => Self::Feed,
+            ParamKind::Quantity(quantity) => Self::Quantity(code(quantity)),
             ParamKind::Number => Self::Number,
             ParamKind::Count => Self::Count,
             ParamKind::Flag => Self::Flag,
@@ -105,8 +116,14 @@ impl From<ParamKind> for AbiKind {
                 Self::Choice(words.iter().map(|word| RStr::from(*word)).collect())
             }
             ParamKind::Rows(columns) => Self::Rows(columns as u64),
+            ParamKind::File => Self::File,
         }
     }
+}
+
+fn code(quantity: Quantity) -> u8 {
+    let known = (0..).zip(QUANTITIES).find(|(_, known)| *known == quantity);
+    known.map_or(u8::MAX, |(code, _)| code)
 }
 
 impl From<ParamDefault> for AbiDefault {
@@ -133,7 +150,8 @@ pub struct CatalogueEntry {
 }
 
 impl AbiStrategy {
-    /// The strategy on the host's side; `None` for a slot that this host does not know.
+    /// The strategy on the host's side; `None` for a slot or a kind of parameter that this host does
+    /// not know.
     ///
     /// The host never frees the list of parameters, just as it never unloads the library with their
     /// texts.
@@ -141,13 +159,14 @@ impl AbiStrategy {
         let slot = Slot::ALL
             .into_iter()
             .find(|slot| *slot as u8 == self.slot)?;
-        let params: Vec<Param> = self.params.into_iter().map(AbiParam::receive).collect();
+        let params: Option<Vec<ParamInfo>> =
+            self.params.into_iter().map(AbiParam::receive).collect();
         let info = StrategyInfo {
             slot,
             name: self.name.as_str(),
             summary: self.summary.as_str(),
             source: self.source.as_str(),
-            params: params.leak(),
+            params: params?.leak(),
         };
         let (crate_name, crate_version) = (self.crate_name.as_str(), self.crate_version.as_str());
         Some(CatalogueEntry {
@@ -159,27 +178,24 @@ impl AbiStrategy {
 }
 
 impl AbiParam {
-    fn receive(self) -> Param {
-        Param {
+    fn receive(self) -> Option<ParamInfo> {
+        Some(ParamInfo {
             name: self.name.as_str(),
             help: self.help.as_str(),
-            kind: self.kind.receive(),
+            kind: self.kind.receive()?,
             default: self.default.receive(),
             min: self.min,
             max: self.max,
             above_min: self.above_min,
             nonzero: self.nonzero,
-        }
+        })
     }
 }
 
 impl AbiKind {
-    fn receive(self) -> ParamKind {
-        match self {
-            Self::Length => ParamKind::Length,
-            Self::Angle => ParamKind::Angle,
-            Self::PerLength => ParamKind::PerLength,
-            Self::Feed => ParamKind::Feed,
+    fn receive(self) -> Option<ParamKind> {
+        Some(match self {
+            Self::Quantity(code) => ParamKind::Quantity(*QUANTITIES.get(usize::from(code))?),
             Self::Number => ParamKind::Number,
             Self::Count => ParamKind::Count,
             Self::Flag => ParamKind::Flag,
@@ -188,7 +204,8 @@ impl AbiKind {
                 ParamKind::Choice(words.leak())
             }
             Self::Rows(columns) => ParamKind::Rows(usize::try_from(columns).unwrap_or(usize::MAX)),
-        }
+            Self::File => ParamKind::File,
+        })
     }
 }
 
@@ -201,5 +218,19 @@ impl AbiDefault {
             Self::Flag(value) => ParamDefault::Flag(value),
             Self::Text(word) => ParamDefault::Text(word.as_str()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_quantity_crosses() {
+        for quantity in Quantity::all() {
+            let kind = ParamKind::Quantity(quantity);
+            assert_eq!(AbiKind::from(kind).receive(), Some(kind));
+        }
+        assert_eq!(AbiKind::Quantity(u8::MAX).receive(), None);
     }
 }

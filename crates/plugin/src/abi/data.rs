@@ -3,8 +3,9 @@
 use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
-    AxisLimits, Direction, Machine, Misfit, ParamValue, Params, Part, Piece, PiecewisePolynomial,
-    RadialRange, Result, Slot, SpindleLaw, StrategyError, Task, Tolerance, Tool,
+    AxisLimits, DataFile, Direction, Machine, Misfit, ParamValue, Params, Part, Piece,
+    PiecewisePolynomial, RadialRange, Result, Slot, SpindleLaw, StrategyError, Task, Tolerance,
+    Tool,
 };
 
 use crate::guard::guarded;
@@ -86,6 +87,7 @@ pub enum AbiValue {
     Flag(bool),
     Text(RString),
     Rows(RVec<RVec<f64>>),
+    File { path: RString, bytes: RVec<u8> },
 }
 
 #[repr(C)]
@@ -104,6 +106,10 @@ pub fn arguments(params: &Params) -> RVec<AbiArgument> {
         ParamValue::Rows(rows) => {
             AbiValue::Rows(rows.iter().map(|row| RVec::from(row.clone())).collect())
         }
+        ParamValue::File(file) => AbiValue::File {
+            path: file.path.as_str().into(),
+            bytes: file.bytes.to_vec().into(),
+        },
     };
     params
         .iter()
@@ -125,6 +131,10 @@ pub fn params(arguments: RVec<AbiArgument>) -> Params {
             AbiValue::Rows(rows) => {
                 ParamValue::Rows(rows.into_iter().map(RVec::into_vec).collect())
             }
+            AbiValue::File { path, bytes } => ParamValue::File(DataFile {
+                path: path.into_string(),
+                bytes: bytes.into_vec().into(),
+            }),
         };
         params.set(name.into_string(), value);
     }

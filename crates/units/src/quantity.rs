@@ -1,7 +1,5 @@
 //! The kinds of quantities that carry a unit, and the errors of reading them.
 
-use crate::ParamKind;
-
 /// The kinds of quantities that carry a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Quantity {
@@ -15,7 +13,7 @@ pub enum Quantity {
     Feed,
     /// A speed of rotation; inside in rad/s.
     RotationSpeed,
-    /// A time; inside in s. No parameter of a strategy is a time.
+    /// A time; inside in s.
     Time,
     /// A speed along a line; inside in mm/s.
     Velocity,
@@ -75,17 +73,6 @@ pub enum QuantityError {
 }
 
 impl Quantity {
-    /// The quantity of a kind of parameter; `None` for pure numbers, flags, words and rows.
-    pub const fn of(kind: ParamKind) -> Option<Self> {
-        match kind {
-            ParamKind::Length => Some(Self::Length),
-            ParamKind::Angle => Some(Self::Angle),
-            ParamKind::PerLength => Some(Self::PerLength),
-            ParamKind::Feed => Some(Self::Feed),
-            _ => None,
-        }
-    }
-
     /// The kind in words, with an article: "a length".
     pub const fn noun(self) -> &'static str {
         match self {

@@ -5,12 +5,11 @@
 //! nm"` is exactly the double `1e-4`, and `"1 in"` is exactly `25.4`.
 
 use crate::decimal::Decimal;
-use crate::units::{Scale, UNITS, Unit, find_unit, tidy_unit, unit_like};
+use crate::table::{Scale, UNITS, Unit, find_unit, tidy_unit, unit_like};
 use crate::{Quantity, QuantityError};
 
 impl Quantity {
-    /// All quantities that a recipe can contain: those with a unit, in the order of the table of
-    /// units.
+    /// All quantities, in the order of the table of units.
     pub fn all() -> impl Iterator<Item = Self> {
         let is_first = |(at, unit): (usize, &Unit)| {
             let before = UNITS.iter().take(at);
@@ -35,7 +34,7 @@ impl Quantity {
     /// nothing.
     ///
     /// ```
-    /// use turnpath_core::{DEG, Quantity};
+    /// use turnpath_units::{DEG, Quantity};
     /// assert_eq!(Quantity::Length.parse("100 nm"), Ok(1e-4));
     /// assert_eq!(Quantity::Angle.parse("45 deg"), Ok(45.0 * DEG));
     /// assert_eq!(Quantity::PerLength.parse("0.08 /mm"), Ok(0.08));
@@ -95,7 +94,7 @@ impl Quantity {
     /// Writes a value in inner units, to 12 digits, in the unit that a person would choose.
     ///
     /// ```
-    /// use turnpath_core::Quantity;
+    /// use turnpath_units::Quantity;
     /// assert_eq!(Quantity::Length.format(1e-4), "100 nm");
     /// assert_eq!(Quantity::Feed.format(0.01), "10 um/rev");
     /// ```
