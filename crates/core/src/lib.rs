@@ -49,7 +49,7 @@ pub use sampler::{Dependence, Path, Revolutions, Sampler, Turn, angle};
 pub use scalar::{Mask, Scalar};
 pub use servo::{AxisServo, Servo};
 pub use slot::Slot;
-pub use strategy::{Strategy, StrategyInfo};
+pub use strategy::{HOST_KEYS, Strategy, StrategyInfo, is_strategy_name};
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
 pub use turnpath_units::{DEG, NM, Quantity, QuantityError, UM};

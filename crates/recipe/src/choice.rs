@@ -1,6 +1,6 @@
 //! The strategy that a recipe chooses for a slot, with the parameters as the recipe gives them.
 
-use turnpath_core::Slot;
+use turnpath_core::{Slot, is_strategy_name};
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Table};
@@ -50,7 +50,7 @@ impl Choice {
             section.missing("use", &format!("\"{}\"", example(slot)));
         }
         let name = section.text("use")?;
-        if !is_valid_name(&name.value) {
+        if !is_strategy_name(&name.value) {
             section.report(invalid_name(slot, &name));
             return None;
         }
@@ -70,12 +70,6 @@ fn params(table: &Table) -> Vec<Entry> {
         .filter(|entry| entry.key != "use")
         .cloned()
         .collect()
-}
-
-/// Whether a text can be a strategy's name: lower-case letters, digits and hyphens.
-fn is_valid_name(name: &str) -> bool {
-    let valid = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    !name.is_empty() && name.chars().all(valid)
 }
 
 fn invalid_name(slot: Slot, name: &Spanned<String>) -> Diagnostic {
