@@ -13,14 +13,15 @@ use turnpath_report::Overrun;
 use crate::data_files::DataFiles;
 use crate::diagnosis::{not_carried, of_pipeline};
 use crate::error::Error;
+use crate::named_files::UsedFile;
 use crate::program::{Program, programs};
-use crate::strategies::chain;
+use crate::strategies::{chain, used_files};
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
 pub struct Job {
     pub(crate) recipe: Recipe,
     pub(crate) catalogue: Catalogue,
-    pub(crate) data_files: DataFiles,
+    pub(crate) data_files: Vec<UsedFile>,
     pub(crate) chain: Chain,
     pub(crate) preparation: Preparation,
     pub(crate) programs: Vec<Program>,
@@ -34,16 +35,17 @@ impl Job {
     /// the tool does not fit, when the
     /// surface has no height somewhere, or when a program could not carry the path.
     pub fn new(recipe: Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
-        Self::with_files(recipe, catalogue, DataFiles::default())
+        Self::with_files(recipe, catalogue, &DataFiles::default())
     }
 
     /// The same with data files that may have been read already.
     pub(crate) fn with_files(
         recipe: Recipe,
         catalogue: &Catalogue,
-        data_files: DataFiles,
+        files: &DataFiles,
     ) -> Result<Self, Error> {
-        let chain = chain(&recipe, catalogue, &data_files)?;
+        let chain = chain(&recipe, catalogue, files)?;
+        let data_files = used_files(&recipe, catalogue, files)?;
         let spec = JobSpec {
             part: recipe.part,
             tool: recipe.tool,

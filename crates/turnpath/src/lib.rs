@@ -27,6 +27,7 @@ mod folder;
 mod job;
 mod memory;
 mod meters;
+mod named_files;
 mod outputs;
 mod plots;
 mod plugins;

@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use turnpath_core::{
-    Compensator, DataFile, ParamValue, Params, Slot, StrategyError, SurfaceModel, VelocitySolver,
-};
+use turnpath_core::{Compensator, Params, Slot, StrategyError, SurfaceModel, VelocitySolver};
 use turnpath_host::{Catalogue, Strategy};
 use turnpath_pipeline::{Chain, Link};
-use turnpath_recipe::{Binding, Diagnostic, Diagnostics, NamedFile, Recipe};
+use turnpath_recipe::{Binding, Diagnostic, Diagnostics, Recipe};
 
 use crate::data_files::DataFiles;
-use crate::diagnosis::{unreadable_file, wrong_parameter};
+use crate::diagnosis::wrong_parameter;
 use crate::error::Error;
+use crate::named_files::{UsedFile, read_named, with_files};
 
 /// The strategy that a recipe chooses, with its checked parameters. Its files are not read yet.
-pub fn chosen<'a>(
+fn chosen<'a>(
     recipe: &Recipe,
     catalogue: &'a Catalogue,
     slot: Slot,
@@ -37,6 +36,23 @@ pub fn wrong_choices(recipe: &Recipe, catalogue: &Catalogue) -> Vec<Diagnostic> 
         .collect()
 }
 
+/// The data files of a recipe's strategies.
+///
+/// # Errors
+/// When a strategy is not there or does not take its parameters, or when a file cannot be read.
+pub fn used_files(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<Vec<UsedFile>, Error> {
+    let mut used = Vec::new();
+    for slot in Slot::ALL {
+        let (_, binding) = chosen(recipe, catalogue, slot)?;
+        used.extend(read_named(recipe, slot, &binding.files, files)?);
+    }
+    Ok(used)
+}
+
 fn link<T: ?Sized>(
     recipe: &Recipe,
     catalogue: &Catalogue,
@@ -57,31 +73,6 @@ fn link<T: ?Sized>(
         }),
         Err(error) => Err(not_made(recipe, slot, &name, &plugin, error)),
     }
-}
-
-/// The parameters with the contents of the files that the recipe names.
-fn with_files(
-    recipe: &Recipe,
-    slot: Slot,
-    binding: Binding,
-    files: &DataFiles,
-) -> Result<Params, Error> {
-    let mut params = binding.params;
-    for NamedFile { param, path } in binding.files {
-        let contents = match files.read(&recipe.resolve(&path.value)) {
-            Ok(contents) => contents,
-            Err(source) => {
-                let diagnostic = Box::new(unreadable_file(recipe, slot, param, &path, &source));
-                return Err(Error::DataFile { diagnostic, source });
-            }
-        };
-        let file = DataFile {
-            path: path.value,
-            bytes: contents.bytes,
-        };
-        params.set(param, ParamValue::File(file));
-    }
-    Ok(params)
 }
 
 /// A constructor that refuses its parameters means that the recipe is wrong; one that panics, that
