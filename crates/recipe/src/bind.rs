@@ -1,15 +1,15 @@
 //! Checks the parameters that a recipe gives a strategy against the strategy's declarations.
 
-use turnpath_core::{ParamDefault, ParamInfo, ParamKind, ParamValue, Params, Slot, StrategyInfo};
+use turnpath_core::{ParamDefault, ParamInfo, Params, Slot, StrategyInfo};
 
 use crate::choice::Choice;
-use crate::declared::{example, range, shown};
+use crate::declared::example;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::document::{Entry, Node};
+use crate::document::Entry;
+use crate::found::{Found, default_of, found};
 use crate::recipe::Recipe;
 use crate::span::Spanned;
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
-use crate::value;
 
 /// The parameters of a strategy, checked against its declarations. Files are named but not read.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -130,17 +130,13 @@ impl Choice {
         param: &ParamInfo,
         info: &StrategyInfo,
     ) -> Result<Option<Found>, Diagnostic> {
-        let value = |value| Ok(Some(Found::Value(value)));
         match self.param(param.name) {
             Some(entry) => found(param, &entry.node).map(Some),
-            None => match param.default {
-                ParamDefault::Number(number) => value(ParamValue::Number(number)),
-                ParamDefault::Flag(flag) => value(ParamValue::Flag(flag)),
-                ParamDefault::Text(word) => value(ParamValue::Text(word.to_owned())),
-                ParamDefault::Absent => Ok(None),
-                ParamDefault::Required if self.misspells(param, info) => Ok(None),
-                ParamDefault::Required => Err(self.missing(param)),
-            },
+            None if param.default != ParamDefault::Required => {
+                Ok(default_of(param).map(Found::Value))
+            }
+            None if self.misspells(param, info) => Ok(None),
+            None => Err(self.missing(param)),
         }
     }
 
@@ -160,75 +156,4 @@ impl Choice {
                 example(param)
             ))
     }
-}
-
-/// What a recipe has under a parameter's key.
-enum Found {
-    Value(ParamValue),
-    File(Spanned<String>),
-}
-
-/// A parameter's value, of the declared kind and in the declared range, or the name of its file.
-fn found(param: &ParamInfo, node: &Node) -> Result<Found, Diagnostic> {
-    let key = param.name;
-    let value = match param.kind {
-        ParamKind::File => return value::file(key, node).map(Found::File),
-        ParamKind::Flag => ParamValue::Flag(value::flag(key, node)?),
-        ParamKind::Choice(words) => ParamValue::Text(value::word(key, node, words)?.to_owned()),
-        ParamKind::Rows(columns) => ParamValue::Rows(rows(key, node, columns)?),
-        ParamKind::Quantity(_) | ParamKind::Number | ParamKind::Count => {
-            ParamValue::Number(number(param, node)?)
-        }
-    };
-    Ok(Found::Value(value))
-}
-
-fn number(param: &ParamInfo, node: &Node) -> Result<f64, Diagnostic> {
-    let number = match param.kind.quantity() {
-        Some(quantity) => value::quantity(param.name, node, quantity, quantity.example())?,
-        None => value::number(param.name, node)?,
-    };
-    whole_if_count(param, node, number)?;
-    in_range(param, node, number)?;
-    Ok(number)
-}
-
-fn whole_if_count(param: &ParamInfo, node: &Node, number: f64) -> Result<(), Diagnostic> {
-    /// Above this, doubles skip whole numbers.
-    const LARGEST_COUNT: f64 = 9_007_199_254_740_992.0;
-    if param.kind != ParamKind::Count || (number.floor() == number && number <= LARGEST_COUNT) {
-        return Ok(());
-    }
-    let title = format!("`{}` must be a whole number", param.name);
-    Err(Diagnostic::new(node.span.clone(), title)
-        .with_label("a count belongs here")
-        .with_help(format!("for example: {} = {}", param.name, example(param))))
-}
-
-fn in_range(param: &ParamInfo, node: &Node, number: f64) -> Result<(), Diagnostic> {
-    if param.admits(number) {
-        return Ok(());
-    }
-    let title = format!("`{}` must be {}", param.name, range(param));
-    Err(Diagnostic::new(node.span.clone(), title)
-        .with_label(format!("this is {}", shown(param.kind, number)))
-        .with_help(format!("`{}`: {}", param.name, param.help)))
-}
-
-fn rows(key: &str, node: &Node, columns: usize) -> Result<Vec<Vec<f64>>, Diagnostic> {
-    value::items(key, node)?
-        .iter()
-        .map(|item| row(key, item, columns))
-        .collect()
-}
-
-fn row(key: &str, node: &Node, columns: usize) -> Result<Vec<f64>, Diagnostic> {
-    let expected = format!("a list of rows of {columns} numbers");
-    let items = value::items(key, node).map_err(|_| value::wrong_type(key, node, &expected))?;
-    if items.len() != columns {
-        let title = format!("a row of `{key}` must have {columns} numbers");
-        return Err(Diagnostic::new(node.span.clone(), title)
-            .with_label(format!("this has {}", items.len())));
-    }
-    items.iter().map(|item| value::number(key, item)).collect()
 }

@@ -7,6 +7,7 @@ use crate::document::{Entry, Table};
 use crate::read::Section;
 use crate::span::{Span, Spanned};
 use crate::suggest::quoted;
+use crate::tables::{USE, slot_keys};
 
 /// A slot, the strategy chosen for it, and the parameters as the recipe gives them.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +18,7 @@ pub struct Choice {
     pub name: Spanned<String>,
     /// The header of the slot's table, `[sampler]`.
     pub span: Span,
-    /// The keys besides `use`. They are not checked yet.
+    /// The keys that belong to the strategy. They are not checked yet.
     pub params: Vec<Entry>,
 }
 
@@ -46,10 +47,10 @@ impl Choice {
             section.missing_table(&format!("use = \"{}\"", example(slot)));
             return None;
         };
-        if section.node("use").is_none() {
-            section.missing("use", &format!("\"{}\"", example(slot)));
+        if section.node(USE.name()).is_none() {
+            section.missing(USE.name(), &format!("\"{}\"", example(slot)));
         }
-        let name = section.text("use")?;
+        let name = section.text(USE.name())?;
         if !is_strategy_name(&name.value) {
             section.report(invalid_name(slot, &name));
             return None;
@@ -58,16 +59,16 @@ impl Choice {
             slot,
             name,
             span: section.span.clone(),
-            params: params(table),
+            params: params(slot, table),
         })
     }
 }
 
-fn params(table: &Table) -> Vec<Entry> {
-    table
-        .entries()
-        .iter()
-        .filter(|entry| entry.key != "use")
+fn params(slot: Slot, table: &Table) -> Vec<Entry> {
+    let of_host = |key: &str| slot_keys(slot).iter().any(|info| info.name == key);
+    let entries = table.entries().iter();
+    entries
+        .filter(|entry| !of_host(&entry.key))
         .cloned()
         .collect()
 }

@@ -1,4 +1,5 @@
-//! Declarations of parameters as text: ranges and examples, for messages.
+//! Declarations of parameters and keys as text, for messages, `turnpath explain` and the
+//! documentation.
 
 use turnpath_core::{ParamDefault, ParamInfo, ParamKind};
 
@@ -10,17 +11,57 @@ pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
     }
 }
 
+/// What a value is: "a length", "a whole number", "true or false", `"sum" | "product"`.
+pub fn kind(param: &ParamInfo) -> String {
+    match param.kind {
+        ParamKind::Quantity(quantity) => quantity.noun().to_owned(),
+        ParamKind::Number => "a number".to_owned(),
+        ParamKind::Count => "a whole number".to_owned(),
+        ParamKind::Flag => "true or false".to_owned(),
+        ParamKind::Choice(words) => in_quotes(words, " | "),
+        ParamKind::ChoiceOr(words, quantity) => {
+            format!("{} | {}", in_quotes(words, " | "), quantity.noun())
+        }
+        ParamKind::Text => "a text".to_owned(),
+        ParamKind::List([]) => "a list of texts".to_owned(),
+        ParamKind::List(words) => format!("a list of {}", in_quotes(words, ", ")),
+        ParamKind::Rows(columns) => format!("a list of rows of {columns} numbers"),
+        ParamKind::File => "a file, by its path relative to the recipe".to_owned(),
+    }
+}
+
+/// The same, with an example where a unit belongs: `a length, such as "5 mm"`.
+pub fn kind_with_example(param: &ParamInfo) -> String {
+    match param.kind.quantity() {
+        Some(_) => format!("{}, such as \"{}\"", kind(param), usual_text(param)),
+        None => kind(param),
+    }
+}
+
+/// What counts if the recipe leaves the key out: "required", "may be left out", "default 0.5".
+pub fn default(param: &ParamInfo) -> String {
+    match param.default {
+        ParamDefault::Required => "required".to_owned(),
+        ParamDefault::Absent => "may be left out".to_owned(),
+        ParamDefault::Number(value) => format!("default {}", shown(param.kind, value)),
+        ParamDefault::Flag(value) => format!("default {value}"),
+        ParamDefault::Text(word) => format!("default \"{word}\""),
+        ParamDefault::List(words) => format!("default [{}]", in_quotes(words, ", ")),
+    }
+}
+
+/// The limits of a number: "at least 3; at most 12"; empty if there is none.
+pub fn limits(param: &ParamInfo) -> String {
+    let mut parts = bounds(param);
+    if param.nonzero {
+        parts.push("not zero".to_owned());
+    }
+    parts.join("; ")
+}
+
 /// The declared range in words: "above 0 mm and at most 5 mm", "at least 3", "different from zero".
 pub(crate) fn range(param: &ParamInfo) -> String {
-    let limit = |value: f64| shown(param.kind, value);
-    let mut parts = Vec::new();
-    if param.min > f64::NEG_INFINITY {
-        let word = if param.above_min { "above" } else { "at least" };
-        parts.push(format!("{word} {}", limit(param.min)));
-    }
-    if param.max < f64::INFINITY {
-        parts.push(format!("at most {}", limit(param.max)));
-    }
+    let mut parts = bounds(param);
     if param.nonzero {
         parts.push("different from zero".to_owned());
     }
@@ -31,13 +72,58 @@ pub(crate) fn range(param: &ParamInfo) -> String {
     }
 }
 
+fn bounds(param: &ParamInfo) -> Vec<String> {
+    let limit = |value: f64| shown(param.kind, value);
+    if param.min == param.max {
+        return vec![limit(param.min)];
+    }
+    let mut parts = Vec::new();
+    if param.min.is_finite() {
+        let word = if param.above_min { "above" } else { "at least" };
+        parts.push(format!("{word} {}", limit(param.min)));
+    }
+    if param.max.is_finite() {
+        let word = if param.below_max { "below" } else { "at most" };
+        parts.push(format!("{word} {}", limit(param.max)));
+    }
+    parts
+}
+
+fn in_quotes(words: &[&str], between: &str) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    quoted.join(between)
+}
+
+/// A good value as a recipe has it, without quotes: the declared example, or the usual one of the
+/// quantity.
+pub(crate) fn usual_text(param: &ParamInfo) -> &'static str {
+    match param.kind.quantity() {
+        Some(quantity) if param.example.is_empty() => quantity.example(),
+        _ => param.example,
+    }
+}
+
 /// A value that the declaration admits, as a recipe would write it.
 pub(crate) fn example(param: &ParamInfo) -> String {
+    if !param.example.is_empty() {
+        return match param.kind {
+            ParamKind::Number | ParamKind::Count | ParamKind::Flag | ParamKind::Rows(_) => {
+                param.example.to_owned()
+            }
+            _ => format!("\"{}\"", param.example),
+        };
+    }
     match (param.kind, param.default) {
         (ParamKind::Flag, ParamDefault::Flag(flag)) => flag.to_string(),
         (ParamKind::Flag, _) => "true".to_owned(),
-        (ParamKind::Choice(_), ParamDefault::Text(word)) => format!("\"{word}\""),
-        (ParamKind::Choice(words), _) => format!("\"{}\"", words.first().unwrap_or(&"")),
+        (ParamKind::Choice(_) | ParamKind::ChoiceOr(..), ParamDefault::Text(word)) => {
+            format!("\"{word}\"")
+        }
+        (ParamKind::Choice(words) | ParamKind::ChoiceOr(words, _), _) => {
+            format!("\"{}\"", words.first().unwrap_or(&""))
+        }
+        (ParamKind::Text, _) => "\"…\"".to_owned(),
+        (ParamKind::List(words), _) => format!("[\"{}\"]", words.first().unwrap_or(&"…")),
         (ParamKind::Rows(columns), _) => example_rows(columns),
         (ParamKind::File, _) => "\"data.csv\"".to_owned(),
         (_, ParamDefault::Number(value)) => written(param.kind, value),

@@ -47,15 +47,17 @@
 mod ablation;
 mod bind;
 mod choice;
-mod declared;
+pub mod declared;
 mod diagnostic;
 mod document;
+mod found;
 mod presets;
 mod read;
 mod recipe;
 mod set;
 mod span;
 mod suggest;
+mod table_info;
 mod tables;
 mod value;
 
@@ -67,4 +69,5 @@ pub use document::{Entry, Node, Table, Value};
 pub use presets::Preset;
 pub use recipe::{FileProblem, Recipe, RecipeError};
 pub use span::{Source, Span, Spanned};
-pub use tables::{DataFormat, Output, PmacPvt, ZReference};
+pub use table_info::TableInfo;
+pub use tables::{DataFormat, Output, PmacPvt, ZReference, slot_keys, tables};

@@ -364,7 +364,7 @@ pub(crate) fn build(
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
     let choices = Slot::ALL.map(|slot| Choice::read(slot, &mut sections.open(slot.key())));
     let [surface, feed, sampler, compensator, velocity] = choices;
-    let tool = tool?;
+    let (tool, path_table) = (tool?, path_table?);
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
         part: part?,
@@ -380,7 +380,7 @@ pub(crate) fn build(
         clearance: path_table.clearance,
         refine: top.refine,
         output,
-        pmac_pvt,
+        pmac_pvt: pmac_pvt?,
         plugins: top.plugins,
         choices: [surface?, feed?, sampler?, compensator?, velocity?],
         document,

@@ -55,7 +55,9 @@ pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot};
 pub use turnpath_host::{Catalogue, LoadError, Plugin, Strategy};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{FileError, PmacError, ReadError};
-pub use turnpath_recipe::{Diagnostic, Diagnostics, Recipe, RecipeError};
+pub use turnpath_recipe::{
+    Diagnostic, Diagnostics, Recipe, RecipeError, TableInfo, declared, slot_keys, tables,
+};
 pub use turnpath_report as report;
 pub use verify::verify;
 

@@ -13,6 +13,8 @@ pub enum Quantity {
     Feed,
     /// A speed of rotation; inside in rad/s.
     RotationSpeed,
+    /// A frequency; inside as ω in rad/s. A speed of rotation is allowed too.
+    Frequency,
     /// A time; inside in s.
     Time,
     /// A speed along a line; inside in mm/s.
@@ -81,6 +83,7 @@ impl Quantity {
             Self::PerLength => "a quantity per length",
             Self::Feed => "a feed per revolution",
             Self::RotationSpeed => "a speed of rotation",
+            Self::Frequency => "a frequency",
             Self::Time => "a time",
             Self::Velocity => "a speed along a line",
             Self::Acceleration => "an acceleration along a line",
@@ -98,6 +101,7 @@ impl Quantity {
             Self::PerLength => "0.08 /mm",
             Self::Feed => "10 um/rev",
             Self::RotationSpeed => "500 rpm",
+            Self::Frequency => "70 Hz",
             Self::Time => "1 s",
             Self::Velocity => "50 mm/s",
             Self::Acceleration => "500 mm/s^2",

@@ -4,6 +4,8 @@
 //! A decimal prefix moves the decimal point of the text before the text becomes a double. So `"100
 //! nm"` is exactly the double `1e-4`, and `"1 in"` is exactly `25.4`.
 
+use std::f64::consts::TAU;
+
 use crate::decimal::Decimal;
 use crate::table::{Scale, UNITS, Unit, find_unit, tidy_unit, unit_like};
 use crate::{Quantity, QuantityError};
@@ -122,6 +124,8 @@ impl Quantity {
             Self::Angle => "deg",
             Self::PerLength => "/mm",
             Self::RotationSpeed => "rpm",
+            Self::Frequency if size >= 1e3 * TAU => "kHz",
+            Self::Frequency => "Hz",
             Self::Time => "s",
             Self::Velocity => "mm/s",
             Self::Acceleration if size < 1e3 => "mm/s^2",
@@ -211,6 +215,10 @@ mod tests {
         close(Quantity::RotationSpeed.parse("1 Hz"), TAU);
         close(Quantity::RotationSpeed.parse("1 rev/s"), TAU);
         assert_eq!(Quantity::RotationSpeed.parse("2 rad/s"), Ok(2.0));
+        for text in ["70 Hz", "0.07 kHz", "4200 rpm", "70 rev/s"] {
+            close(Quantity::Frequency.parse(text), 70.0 * TAU);
+        }
+        assert!(Quantity::RotationSpeed.parse("1 kHz").is_err());
     }
 
     #[test]
@@ -315,6 +323,8 @@ mod tests {
             Quantity::RotationSpeed.format(500.0 * TAU / 60.0),
             "500 rpm"
         );
+        assert_eq!(Quantity::Frequency.format(70.0 * TAU), "70 Hz");
+        assert_eq!(Quantity::Frequency.format(1500.0 * TAU), "1.5 kHz");
         assert_eq!(Quantity::PerLength.format(0.08), "0.08 /mm");
         assert_eq!(Quantity::Feed.format(0.01), "10 um/rev");
         assert_eq!(Quantity::Length.format(1e-30), "1e-24 nm");

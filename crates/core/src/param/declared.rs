@@ -7,8 +7,9 @@ use turnpath_units::Quantity;
 
 use super::info::{ParamDefault, ParamInfo, ParamKind};
 use super::kind::{
-    Acceleration, Angle, AngularAcceleration, AngularJerk, Choice, Count, Feed, File, Flag, Jerk,
-    Kind, Length, Number, PerLength, Quantified, RotationSpeed, Rows, Scale, Time, Velocity,
+    Acceleration, Angle, AngularAcceleration, AngularJerk, Choice, ChoiceOr, Count, Feed, File,
+    Flag, Frequency, Jerk, Kind, Length, List, Number, PerLength, Quantified, RotationSpeed, Rows,
+    Scale, Text, Time, Velocity,
 };
 use crate::StrategyError;
 
@@ -71,7 +72,9 @@ impl<K> Param<K> {
             min: f64::NEG_INFINITY,
             max: f64::INFINITY,
             above_min: false,
+            below_max: false,
             nonzero: false,
+            example: "",
         })
     }
 
@@ -88,6 +91,12 @@ impl<K> Param<K> {
     /// The key in the recipe.
     pub const fn name(self) -> &'static str {
         self.info.name
+    }
+
+    /// Sets an example as a recipe has it, without quotes, for messages about a missing value.
+    pub const fn example(mut self, text: &'static str) -> Self {
+        self.info.example = text;
+        self
     }
 
     /// The error that the strategy cannot work with this parameter's value. The host underlines the
@@ -123,7 +132,8 @@ quantities! {
     angle, Angle, "An angle; inside in rad.";
     per_length, PerLength, "A curvature or a spatial frequency; inside in 1/mm.";
     feed, Feed, "A feed per revolution; inside in mm.";
-    rotation_speed, RotationSpeed, "A speed of rotation or a frequency; inside in rad/s.";
+    rotation_speed, RotationSpeed, "A speed of rotation; inside in rad/s.";
+    frequency, Frequency, "A frequency; inside as ω in rad/s.";
     time, Time, "A time; inside in s.";
     velocity, Velocity, "A speed along a line; inside in mm/s.";
     acceleration, Acceleration, "An acceleration along a line; inside in mm/s².";
@@ -155,6 +165,13 @@ impl<K: Scale> Param<K> {
     /// Sets the largest value, in inner units.
     pub const fn max(mut self, largest: f64) -> Self {
         self.info.max = largest;
+        self
+    }
+
+    /// Allows only values below this one, in inner units.
+    pub const fn below(mut self, limit: f64) -> Self {
+        self.info.max = limit;
+        self.info.below_max = true;
         self
     }
 
@@ -223,6 +240,47 @@ impl Param<Choice> {
     /// Sets the default.
     pub const fn default(mut self, word: &'static str) -> Self {
         self.info.default = ParamDefault::Text(word);
+        self
+    }
+}
+
+impl Param<ChoiceOr<Length>> {
+    /// One of a few words, or a length; inside in mm.
+    pub const fn choice_or_length(
+        name: &'static str,
+        words: &'static [&'static str],
+        help: &'static str,
+    ) -> Self {
+        Self::new(name, ParamKind::ChoiceOr(words, Length::QUANTITY), help)
+    }
+
+    /// Sets the word that is the default.
+    pub const fn default_word(mut self, word: &'static str) -> Self {
+        self.info.default = ParamDefault::Text(word);
+        self
+    }
+}
+
+impl Param<Text> {
+    /// Any text.
+    pub const fn text(name: &'static str, help: &'static str) -> Self {
+        Self::new(name, ParamKind::Text, help)
+    }
+}
+
+impl Param<List> {
+    /// A list of texts: of these words, or any texts if there are none.
+    pub const fn list(
+        name: &'static str,
+        words: &'static [&'static str],
+        help: &'static str,
+    ) -> Self {
+        Self::new(name, ParamKind::List(words), help)
+    }
+
+    /// Sets the default.
+    pub const fn default(mut self, words: &'static [&'static str]) -> Self {
+        self.info.default = ParamDefault::List(words);
         self
     }
 }

@@ -15,6 +15,12 @@ pub enum ParamKind {
     Flag,
     /// One of a few words.
     Choice(&'static [&'static str]),
+    /// One of a few words, or a quantity: `"contact"`, `"0.5 mm"`.
+    ChoiceOr(&'static [&'static str], Quantity),
+    /// Any text.
+    Text,
+    /// A list of texts: of these words, or any texts if there are none.
+    List(&'static [&'static str]),
     /// A list of rows of numbers. Each row has this many columns: `[[2, 0, 0.01], [0, 2, 0.02]]`.
     Rows(usize),
     /// A file, by its path relative to the recipe: `"measured.csv"`.
@@ -25,7 +31,7 @@ impl ParamKind {
     /// The quantity; `None` for a kind that carries no unit.
     pub const fn quantity(self) -> Option<Quantity> {
         match self {
-            Self::Quantity(quantity) => Some(quantity),
+            Self::Quantity(quantity) | Self::ChoiceOr(_, quantity) => Some(quantity),
             _ => None,
         }
     }
@@ -42,8 +48,10 @@ pub enum ParamDefault {
     Number(f64),
     /// This flag.
     Flag(bool),
-    /// This choice.
+    /// This choice or text.
     Text(&'static str),
+    /// These texts.
+    List(&'static [&'static str]),
 }
 
 /// The declaration of one parameter, whatever its kind. [`Param::info`](crate::Param::info) makes
@@ -64,8 +72,12 @@ pub struct ParamInfo {
     pub max: f64,
     /// Whether `min` itself is excluded.
     pub above_min: bool,
+    /// Whether `max` itself is excluded.
+    pub below_max: bool,
     /// Whether zero is excluded.
     pub nonzero: bool,
+    /// A good value as a recipe has it, without quotes; empty for the usual one of the kind.
+    pub example: &'static str,
 }
 
 impl ParamInfo {
@@ -76,6 +88,11 @@ impl ParamInfo {
         } else {
             value >= self.min
         };
-        value.is_finite() && above && value <= self.max && !(self.nonzero && value == 0.0)
+        let below = if self.below_max {
+            value < self.max
+        } else {
+            value <= self.max
+        };
+        value.is_finite() && above && below && !(self.nonzero && value == 0.0)
     }
 }

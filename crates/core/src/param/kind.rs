@@ -7,12 +7,18 @@
 //! | [`Count`] | `u64` |
 //! | [`Flag`] | `bool` |
 //! | [`Choice`] | `&str`, one of the declared words |
+//! | [`ChoiceOr`] a quantity | [`WordOrNumber`] |
+//! | [`Text`] | `&str` |
+//! | [`List`] | `&[String]` |
 //! | [`Rows`] | `&[Vec<f64>]`, each row with the declared number of columns |
 //! | [`File`] | [`&DataFile`](DataFile) |
 //! | `Option` of a kind | `Option` of that type; `None` if the recipe leaves the parameter out |
 
-use super::value::{DataFile, ParamValue};
+use std::marker::PhantomData;
+
 use turnpath_units::Quantity;
+
+use super::value::{DataFile, ParamValue};
 
 /// A kind of parameter.
 pub trait Kind: 'static {
@@ -24,7 +30,7 @@ pub trait Kind: 'static {
     fn read(value: Option<&ParamValue>) -> Option<Self::Value<'_>>;
 }
 
-/// A kind whose values are numbers, in inner units.
+/// A kind whose values are numbers, in inner units, or numbers beside words.
 pub trait Scale: Kind {}
 
 /// A kind whose values have a unit.
@@ -67,7 +73,8 @@ quantities! {
     Angle, "An angle, `\"45 deg\"`; inside in rad.";
     PerLength, "A curvature or a spatial frequency, `\"0.08 /mm\"`; inside in 1/mm.";
     Feed, "A feed per revolution, `\"10 um/rev\"`. A bare length is allowed too. Inside in mm.";
-    RotationSpeed, "A speed of rotation or a frequency, `\"500 rpm\"`, `\"70 Hz\"`; inside in rad/s.";
+    RotationSpeed, "A speed of rotation, `\"500 rpm\"`; inside in rad/s.";
+    Frequency, "A frequency, `\"70 Hz\"`; inside as ω in rad/s. A speed of rotation is allowed too.";
     Time, "A time, `\"1 s\"`; inside in s.";
     Velocity, "A speed along a line, `\"50 mm/s\"`; inside in mm/s.";
     Acceleration, "An acceleration along a line, `\"500 mm/s^2\"`; inside in mm/s².";
@@ -127,6 +134,59 @@ impl Kind for Choice {
     fn read(value: Option<&ParamValue>) -> Option<&str> {
         match value {
             Some(ParamValue::Text(word)) => Some(word),
+            _ => None,
+        }
+    }
+}
+
+/// One of a few words, or a quantity: `"contact"`, `"0.5 mm"`.
+#[derive(Debug)]
+pub struct ChoiceOr<Q>(PhantomData<fn() -> Q>);
+
+/// The value of a parameter that is [one of a few words or a quantity](ChoiceOr).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WordOrNumber<'a> {
+    /// One of the declared words.
+    Word(&'a str),
+    /// A quantity, in inner units.
+    Number(f64),
+}
+
+impl<Q: Quantified> Kind for ChoiceOr<Q> {
+    type Value<'a> = WordOrNumber<'a>;
+
+    fn read(value: Option<&ParamValue>) -> Option<WordOrNumber<'_>> {
+        match value {
+            Some(ParamValue::Text(word)) => Some(WordOrNumber::Word(word)),
+            other => number(other).map(WordOrNumber::Number),
+        }
+    }
+}
+
+impl<Q: Quantified> Scale for ChoiceOr<Q> {}
+
+/// Any text.
+#[derive(Debug)]
+pub enum Text {}
+
+impl Kind for Text {
+    type Value<'a> = &'a str;
+
+    fn read(value: Option<&ParamValue>) -> Option<&str> {
+        Choice::read(value)
+    }
+}
+
+/// A list of texts, `["csv"]`.
+#[derive(Debug)]
+pub enum List {}
+
+impl Kind for List {
+    type Value<'a> = &'a [String];
+
+    fn read(value: Option<&ParamValue>) -> Option<&[String]> {
+        match value {
+            Some(ParamValue::List(texts)) => Some(texts),
             _ => None,
         }
     }

@@ -51,8 +51,12 @@ impl Params {
     /// When the strategy does not declare the parameter. That is a mistake of the strategy's author
     /// and shows at the first construction. The boundary turns the panic into an error.
     pub fn get<K: Kind>(&self, param: Param<K>) -> K::Value<'_> {
-        let name = param.name();
-        K::read(self.0.get(name)).unwrap_or_else(|| undeclared(name))
+        self.find(param).unwrap_or_else(|| undeclared(param.name()))
+    }
+
+    /// The same; `None` where [`get`](Self::get) would panic.
+    pub fn find<K: Kind>(&self, param: Param<K>) -> Option<K::Value<'_>> {
+        K::read(self.0.get(param.name()))
     }
 }
 
@@ -66,12 +70,17 @@ mod tests {
 
     use super::*;
     use crate::DataFile;
-    use crate::kind::{Choice, Count, File, Flag, Length, Rows};
+    use crate::kind::{
+        Choice, ChoiceOr, Count, File, Flag, Length, List, Rows, Text, WordOrNumber,
+    };
 
     const LENGTH: Param<Length> = Param::length("length", "");
     const COUNT: Param<Count> = Param::count("count", "");
     const FLAG: Param<Flag> = Param::flag("flag", "");
     const WORD: Param<Choice> = Param::choice("word", &["one", "two"], "");
+    const END: Param<ChoiceOr<Length>> = Param::choice_or_length("end", &["none"], "");
+    const TEXT: Param<Text> = Param::text("text", "");
+    const LIST: Param<List> = Param::list("list", &[], "");
     const ROWS: Param<Rows> = Param::rows("rows", 2, "");
     const FILE: Param<File> = Param::file("file", "");
 
@@ -80,6 +89,8 @@ mod tests {
         let mut params = Params::new().with("length", 0.5).with("count", 36.0);
         params.set("flag", ParamValue::Flag(true));
         params.set("word", ParamValue::Text("two".to_owned()));
+        params.set("text", ParamValue::Text("x + y".to_owned()));
+        params.set("list", ParamValue::List(vec!["csv".to_owned()]));
         params.set("rows", ParamValue::Rows(vec![vec![1.0, 2.0]]));
         let file = DataFile {
             path: "map.csv".to_owned(),
@@ -93,6 +104,12 @@ mod tests {
         let rows: &[Vec<f64>] = params.get(ROWS);
         assert_eq!((length, count, flag, word), (0.5, 36, true, "two"));
         assert_eq!(rows, [[1.0, 2.0]]);
+        assert_eq!(params.get(TEXT), "x + y");
+        assert_eq!(params.get(LIST), ["csv"]);
+        params.set("end", ParamValue::Text("none".to_owned()));
+        assert_eq!(params.get(END), WordOrNumber::Word("none"));
+        params.set("end", ParamValue::Number(0.5));
+        assert_eq!(params.get(END), WordOrNumber::Number(0.5));
         assert_eq!(params.get(FILE).bytes[..], *b"1,2");
         assert!(params.get(FILE.optional()).is_some());
     }

@@ -18,8 +18,10 @@ pub enum ParamValue {
     Number(f64),
     /// Yes or no.
     Flag(bool),
-    /// A choice.
+    /// A choice, or another text.
     Text(String),
+    /// Texts.
+    List(Vec<String>),
     /// Rows of numbers, all with the declared number of columns.
     Rows(Vec<Vec<f64>>),
     /// A file.

@@ -28,12 +28,16 @@ pub enum AbiKind {
     Count,
     Flag,
     Choice(RVec<RStr<'static>>),
+    /// Words, and the index of the quantity.
+    ChoiceOr(RVec<RStr<'static>>, u8),
+    Text,
+    List(RVec<RStr<'static>>),
     Rows(u64),
     File,
 }
 
 /// The quantities in an order that never changes: a new one is added at the end.
-const QUANTITIES: [Quantity; 11] = [
+const QUANTITIES: [Quantity; 12] = [
     Quantity::Length,
     Quantity::Angle,
     Quantity::PerLength,
@@ -45,6 +49,7 @@ const QUANTITIES: [Quantity; 11] = [
     Quantity::Jerk,
     Quantity::AngularAcceleration,
     Quantity::AngularJerk,
+    Quantity::Frequency,
 ];
 
 #[repr(u8)]
@@ -55,6 +60,7 @@ pub enum AbiDefault {
     Number(f64),
     Flag(bool),
     Text(RStr<'static>),
+    List(RVec<RStr<'static>>),
 }
 
 #[repr(C)]
@@ -67,7 +73,9 @@ pub struct AbiParam {
     min: f64,
     max: f64,
     above_min: bool,
+    below_max: bool,
     nonzero: bool,
+    example: RStr<'static>,
 }
 
 impl From<&Registration> for AbiStrategy {
@@ -100,7 +108,9 @@ impl From<&ParamInfo> for AbiParam {
             min: param.min,
             max: param.max,
             above_min: param.above_min,
+            below_max: param.below_max,
             nonzero: param.nonzero,
+            example: param.example.into(),
         }
     }
 }
@@ -112,13 +122,28 @@ impl From<ParamKind> for AbiKind {
             ParamKind::Number => Self::Number,
             ParamKind::Count => Self::Count,
             ParamKind::Flag => Self::Flag,
-            ParamKind::Choice(words) => {
-                Self::Choice(words.iter().map(|word| RStr::from(*word)).collect())
-            }
+            ParamKind::Choice(words) => Self::Choice(lent(words)),
+            ParamKind::ChoiceOr(words, quantity) => Self::ChoiceOr(lent(words), code(quantity)),
+            ParamKind::Text => Self::Text,
+            ParamKind::List(words) => Self::List(lent(words)),
             ParamKind::Rows(columns) => Self::Rows(columns as u64),
             ParamKind::File => Self::File,
         }
     }
+}
+
+fn lent(words: &[&'static str]) -> RVec<RStr<'static>> {
+    words.iter().map(|word| RStr::from(*word)).collect()
+}
+
+/// The host never frees the list, just as it never unloads the library with its texts.
+fn received(words: RVec<RStr<'static>>) -> &'static [&'static str] {
+    let words: Vec<&'static str> = words.iter().map(|word| word.as_str()).collect();
+    words.leak()
+}
+
+fn quantity(code: u8) -> Option<Quantity> {
+    QUANTITIES.get(usize::from(code)).copied()
 }
 
 fn code(quantity: Quantity) -> u8 {
@@ -134,6 +159,7 @@ impl From<ParamDefault> for AbiDefault {
             ParamDefault::Number(value) => Self::Number(value),
             ParamDefault::Flag(value) => Self::Flag(value),
             ParamDefault::Text(word) => Self::Text(word.into()),
+            ParamDefault::List(words) => Self::List(lent(words)),
         }
     }
 }
@@ -187,7 +213,9 @@ impl AbiParam {
             min: self.min,
             max: self.max,
             above_min: self.above_min,
+            below_max: self.below_max,
             nonzero: self.nonzero,
+            example: self.example.as_str(),
         })
     }
 }
@@ -195,14 +223,14 @@ impl AbiParam {
 impl AbiKind {
     fn receive(self) -> Option<ParamKind> {
         Some(match self {
-            Self::Quantity(code) => ParamKind::Quantity(*QUANTITIES.get(usize::from(code))?),
+            Self::Quantity(code) => ParamKind::Quantity(quantity(code)?),
             Self::Number => ParamKind::Number,
             Self::Count => ParamKind::Count,
             Self::Flag => ParamKind::Flag,
-            Self::Choice(words) => {
-                let words: Vec<&'static str> = words.iter().map(|word| word.as_str()).collect();
-                ParamKind::Choice(words.leak())
-            }
+            Self::Choice(words) => ParamKind::Choice(received(words)),
+            Self::ChoiceOr(words, code) => ParamKind::ChoiceOr(received(words), quantity(code)?),
+            Self::Text => ParamKind::Text,
+            Self::List(words) => ParamKind::List(received(words)),
             Self::Rows(columns) => ParamKind::Rows(usize::try_from(columns).unwrap_or(usize::MAX)),
             Self::File => ParamKind::File,
         })
@@ -217,6 +245,7 @@ impl AbiDefault {
             Self::Number(value) => ParamDefault::Number(value),
             Self::Flag(value) => ParamDefault::Flag(value),
             Self::Text(word) => ParamDefault::Text(word.as_str()),
+            Self::List(words) => ParamDefault::List(received(words)),
         }
     }
 }

@@ -86,6 +86,7 @@ pub enum AbiValue {
     Number(f64),
     Flag(bool),
     Text(RString),
+    List(RVec<RString>),
     Rows(RVec<RVec<f64>>),
     File { path: RString, bytes: RVec<u8> },
 }
@@ -103,6 +104,9 @@ pub fn arguments(params: &Params) -> RVec<AbiArgument> {
         ParamValue::Number(number) => AbiValue::Number(*number),
         ParamValue::Flag(flag) => AbiValue::Flag(*flag),
         ParamValue::Text(text) => AbiValue::Text(text.as_str().into()),
+        ParamValue::List(texts) => {
+            AbiValue::List(texts.iter().map(|text| text.as_str().into()).collect())
+        }
         ParamValue::Rows(rows) => {
             AbiValue::Rows(rows.iter().map(|row| RVec::from(row.clone())).collect())
         }
@@ -128,6 +132,9 @@ pub fn params(arguments: RVec<AbiArgument>) -> Params {
             AbiValue::Number(number) => ParamValue::Number(number),
             AbiValue::Flag(flag) => ParamValue::Flag(flag),
             AbiValue::Text(text) => ParamValue::Text(text.into_string()),
+            AbiValue::List(texts) => {
+                ParamValue::List(texts.into_iter().map(RString::into_string).collect())
+            }
             AbiValue::Rows(rows) => {
                 ParamValue::Rows(rows.into_iter().map(RVec::into_vec).collect())
             }
