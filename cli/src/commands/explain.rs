@@ -60,7 +60,7 @@ fn find<'a>(catalogue: &'a Catalogue, wanted: &str) -> Result<Vec<&'a Strategy>,
         "there is no {} named `{name}`; {}",
         match slots[..] {
             [slot] => slot.noun(),
-            _ => "strategy",
+            _ => "strategy or table",
         },
         hint(catalogue, &slots, name)
     )))
@@ -116,7 +116,8 @@ fn of_table(table: &TableInfo) -> String {
 
 fn of_slot(slot: Slot) -> String {
     let (key, noun) = (slot.key(), slot.noun());
-    let head = format!("{key}: the {noun}; the other keys are its parameters\n\n  [{key}]\n");
+    let head =
+        format!("{key}: which {noun} to use; the other keys are its parameters\n\n  [{key}]\n");
     head + &keys(slot_keys(slot))
 }
 

@@ -12,76 +12,31 @@ use crate::table_info::TableInfo;
 const PRESET: Param<Option<Choice>> =
     Param::choice("preset", NAMES, "a machine that turnpath knows").optional();
 
+/// A key that replaces a limit of the preset.
+macro_rules! limit {
+    ($kind:ident $name:literal, $what:literal) => {
+        Param::$kind($name, concat!($what, "; left out: that of the preset"))
+            .positive()
+            .optional()
+            .info()
+    };
+}
+
 pub(super) const MACHINE: TableInfo = TableInfo {
     name: "machine",
     summary: "the limits of the machine: the path is checked against these, and against no others",
     required: false,
     keys: &[
         PRESET.info(),
-        Param::velocity(
-            "x_velocity",
-            "largest velocity; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
-        Param::acceleration(
-            "x_acceleration",
-            "largest acceleration; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
-        Param::jerk(
-            "x_jerk",
-            "largest jerk within cubics; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
-        Param::velocity(
-            "z_velocity",
-            "largest velocity; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
-        Param::acceleration(
-            "z_acceleration",
-            "largest acceleration; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
-        Param::jerk(
-            "z_jerk",
-            "largest jerk within cubics; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
-        Param::rotation_speed(
-            "c_velocity",
-            "largest speed of the spindle; left out: that of the preset",
-        )
-        .positive()
-        .example("1000 rpm")
-        .optional()
-        .info(),
-        Param::angular_acceleration(
-            "c_acceleration",
-            "largest acceleration of the spindle; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
-        Param::angular_jerk(
-            "c_jerk",
-            "largest jerk of the spindle; left out: that of the preset",
-        )
-        .positive()
-        .optional()
-        .info(),
+        limit!(velocity "x_velocity", "largest velocity"),
+        limit!(acceleration "x_acceleration", "largest acceleration"),
+        limit!(jerk "x_jerk", "largest jerk within cubics"),
+        limit!(velocity "z_velocity", "largest velocity"),
+        limit!(acceleration "z_acceleration", "largest acceleration"),
+        limit!(jerk "z_jerk", "largest jerk within cubics"),
+        limit!(rotation_speed "c_velocity", "largest speed of the spindle"),
+        limit!(angular_acceleration "c_acceleration", "largest acceleration of the spindle"),
+        limit!(angular_jerk "c_jerk", "largest jerk of the spindle"),
     ],
 };
 

@@ -51,14 +51,14 @@ const CUT_WHAT_FITS: &str = "cut-what-fits";
 
 pub(super) const PART: TableInfo = TableInfo {
     name: "part",
-    summary: "the part: a disc around the spindle axis, with or without a hole",
+    summary: "a disc around the spindle axis, with or without a hole",
     required: true,
     keys: &[APERTURE.info(), INNER.info()],
 };
 
 pub(super) const TOOL: TableInfo = TableInfo {
     name: "tool",
-    summary: "the tool: a round nose with zero rake",
+    summary: "a round nose with zero rake",
     required: true,
     keys: &[
         NOSE_RADIUS.info(),
