@@ -296,6 +296,27 @@ fn an_overrun_is_a_word_or_a_length_and_defaults_to_contact() {
 }
 
 #[test]
+fn limits_are_allowed_themselves_as_they_are_written() {
+    for set in [
+        "part.aperture=0.1 um",
+        "part.aperture=0.0001 mm",
+        "tool.nose_radius=100 nm",
+        "tool.included_angle=180 deg",
+        "tolerance.residual=0.001 nm",
+        "tolerance.interpolation=1e-9 mm",
+        "spindle.speed=1e-6 rpm",
+        "spindle.speed=1e6 rpm",
+        "path.overrun=0 mm",
+        "path.clearance=1 m",
+        "servo.bandwidth=0.001 Hz",
+        "servo.bandwidth=1e6 Hz",
+        "servo.bandwidth=1000 kHz",
+    ] {
+        parse(FULL, &[set]);
+    }
+}
+
+#[test]
 fn binding_fills_defaults_and_leaves_optional_ones_absent() {
     const MAX_STEP: Param<Angle> = Param::angle("max_step", "").default(1.0);
     const AT_LEAST: Param<Count> = Param::count("at_least", "").default(36);
