@@ -80,7 +80,7 @@ fn assert_all_chains(runs: &[Value]) {
 }
 
 /// The part on which every run of the tests compares all strategies, and its size.
-const LENS_ARRAY: (&str, &str) = ("ablation-papers-mla-5.toml", "2.5 mm");
+const LENS_ARRAY: (&str, &str) = ("ablation-papers-mla-5.toml", "1.3 mm");
 
 /// The ablation of the lens array and its answer, made once for all tests.
 fn lens_array() -> &'static (Bench, Answer) {

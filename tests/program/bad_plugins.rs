@@ -104,6 +104,42 @@ fn a_sampler_with_nodes_that_are_no_numbers() {
 }
 
 #[test]
+fn a_sampler_whose_nodes_lie_too_far_off_the_locus() {
+    insta::assert_snapshot!(refused_sampler("two-speeds", "too-far"));
+}
+
+/// A refusal of a spindle strategy of the fixture.
+#[track_caller]
+fn refused_spindle(name: &str) -> String {
+    let recipe = saddle_with("spindle", &format!("use = \"{name}\"\nspeed = \"500 rpm\""));
+    let bench = bench(&recipe, &["two-speeds"]);
+    let said = refused(&bench);
+    shown(&bench, &said)
+}
+
+#[test]
+fn a_spindle_whose_time_falls() {
+    insta::assert_snapshot!(refused_spindle("backwards"));
+}
+
+#[test]
+fn a_spindle_whose_speed_jumps() {
+    insta::assert_snapshot!(refused_spindle("jumps"));
+}
+
+/// The recipe asks for both, so it is the recipe that is wrong.
+#[test]
+fn a_sampler_that_needs_exact_rates_with_a_solver_that_gives_none() {
+    let bench = bench(&saddle_with("sampler", "use = \"wavy\""), &["two-speeds"]);
+    let said = bench
+        .line("run recipe.toml -o out --plugin-dir plugins")
+        .ends(2);
+    insta::assert_snapshot!(bench.shown(&said));
+    let said = bench.line("check recipe.toml --plugin-dir plugins").ends(2);
+    assert!(said.stderr.contains("`wavy` needs exact rates"), "{said}");
+}
+
+#[test]
 fn a_surface_without_height_on_the_whole_ring_of_the_part() {
     let recipe = saddle_with("surface", "use = \"nan-surface\"");
     let recipe = changed(&recipe, "[part]\n", "[part]\ninner = \"3 mm\"\n");

@@ -4,7 +4,7 @@
 use crate::support::bench::Bench;
 
 /// Slot and name of every built-in strategy.
-const BUILT_INS: [(&str, &[&str]); 5] = [
+const BUILT_INS: [(&str, &[&str]); 6] = [
     (
         "surface",
         &[
@@ -39,6 +39,7 @@ const BUILT_INS: [(&str, &[&str]); 5] = [
             "triangle-rotary",
         ],
     ),
+    ("spindle", &["constant"]),
 ];
 
 /// Slot and name of each line of a list.

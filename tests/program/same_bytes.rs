@@ -5,18 +5,25 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::OnceLock;
 
-use crate::support::bench::{Bench, answer};
-use crate::support::builds::{BUILT_INS, bare_program, built_in_libraries};
+use crate::support::bench::{Bench, TURNPATH, answer};
+use crate::support::builds::{
+    BUILT_INS, bare_program, built_in_libraries, program_without_the_feature,
+};
 use crate::support::fixtures::file_name;
 use crate::support::recipe::{SADDLE, saddle_with, with_table};
+use serde_json::Value;
 
 /// Revolutions of a block: a path with more is made in several.
 const BLOCK: f64 = 64.0;
 
-/// Jobs with their names and `--set` arguments. Together they take every slot's built-ins, both
+/// A name, a recipe, and `--set` arguments.
+type Job = (&'static str, String, Vec<&'static str>);
+
+/// Together they take every slot's built-ins, both
 /// directions, a hole, refinement, and several blocks.
-fn jobs() -> Vec<(&'static str, String, Vec<&'static str>)> {
+fn jobs() -> Vec<Job> {
     let waves = saddle_with(
         "surface",
         "use = \"sinusoidal-array\"\nform = \"sum\"\namplitude_x = \"5 um\"\namplitude_y = \
@@ -55,11 +62,7 @@ fn jobs() -> Vec<(&'static str, String, Vec<&'static str>)> {
 }
 
 /// Runs a job; `arrange` says how. Gives the tool path.
-fn made(
-    job: &(&str, String, Vec<&str>),
-    program: &Path,
-    arrange: impl FnOnce(&mut Command),
-) -> (Bench, Vec<u8>) {
+fn made(job: &Job, program: &Path, arrange: impl FnOnce(&mut Command)) -> (Bench, Vec<u8>) {
     let (name, recipe, sets) = job;
     let bench = Bench::with(recipe);
     let mut command = bench.command_of(program, ["run", "recipe.toml", "-o", "out"]);
@@ -71,20 +74,43 @@ fn made(
     (bench, bytes)
 }
 
-fn linked(job: &(&str, String, Vec<&str>), arrange: impl FnOnce(&mut Command)) -> Vec<u8> {
-    made(job, crate::support::bench::TURNPATH.as_ref(), arrange).1
+fn linked(job: &Job, arrange: impl FnOnce(&mut Command)) -> Vec<u8> {
+    made(job, TURNPATH.as_ref(), arrange).1
 }
 
-fn summary(bench: &Bench) -> serde_json::Value {
+/// All jobs with their summaries and tool paths as the program makes them by itself, made once for all
+/// tests.
+fn references() -> &'static [Reference] {
+    static REFERENCES: OnceLock<Vec<Reference>> = OnceLock::new();
+    REFERENCES.get_or_init(|| {
+        let made = |job: Job| {
+            let (bench, bytes) = made(&job, TURNPATH.as_ref(), |_| ());
+            let summary = summary(&bench);
+            Reference {
+                job,
+                summary,
+                bytes,
+            }
+        };
+        jobs().into_iter().map(made).collect()
+    })
+}
+
+/// A job as the program makes it by itself.
+struct Reference {
+    job: Job,
+    summary: Value,
+    bytes: Vec<u8>,
+}
+
+fn summary(bench: &Bench) -> Value {
     serde_json::from_str(&bench.read("out/summary.json")).unwrap()
 }
 
 #[test]
 fn the_jobs_are_made_in_several_blocks_and_one_is_refined() {
     let mut added = 0;
-    for job in &jobs() {
-        let (bench, _) = made(job, crate::support::bench::TURNPATH.as_ref(), |_| ());
-        let summary = summary(&bench);
+    for Reference { job, summary, .. } in references() {
         let revolutions = summary["revolutions"].as_f64().unwrap();
         assert!(revolutions > BLOCK, "{}: {revolutions}", job.0);
         added += summary["points_added_by_refine"].as_u64().unwrap();
@@ -108,23 +134,39 @@ fn one_two_and_three_threads_give_the_same_bytes() {
 
 #[test]
 fn a_processor_without_fma_and_avx2_gives_the_same_bytes() {
-    for job in &jobs() {
+    for Reference { job, bytes, .. } in references() {
         let lesser = linked(job, |command| {
             command.env("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4");
         });
-        assert!(linked(job, |_| ()) == lesser, "{}", job.0);
+        assert!(*bytes == lesser, "{}", job.0);
+    }
+}
+
+/// A program without strategies inside makes the paths of the program that has them.
+fn assert_loaded_is_linked(bare: &Path) {
+    let libraries = built_in_libraries();
+    for Reference { job, bytes, .. } in references() {
+        let (_, loaded) = made(job, bare, |command| {
+            command.arg("--plugin-dir").arg(libraries.path());
+        });
+        assert!(*bytes == loaded, "{}", job.0);
     }
 }
 
 #[test]
 fn plugins_from_a_folder_give_the_same_bytes_as_those_inside() {
-    let libraries = built_in_libraries();
-    for job in &jobs() {
-        let (_, loaded) = made(job, bare_program(), |command| {
-            command.arg("--plugin-dir").arg(libraries.path());
-        });
-        assert!(linked(job, |_| ()) == loaded, "{}", job.0);
-    }
+    assert_loaded_is_linked(bare_program());
+}
+
+/// The fast tests take a program whose catalogue is empty; here nothing is linked in.
+#[test]
+#[ignore = "builds the program once more; `cargo xtask long` runs it"]
+fn long_the_program_without_its_feature_has_no_strategy_and_gives_the_same_bytes() {
+    let bare = program_without_the_feature();
+    let bench = Bench::empty();
+    let list = answer(&mut bench.command_of(&bare, ["list", "sampler"])).ends(0);
+    insta::assert_snapshot!("bare_list", list.stdout);
+    assert_loaded_is_linked(&bare);
 }
 
 #[test]
@@ -132,11 +174,11 @@ fn the_plugin_path_serves_as_well_as_the_option() {
     let libraries = built_in_libraries();
     let empty = tempfile::tempdir().unwrap();
     let path = std::env::join_paths([empty.path(), libraries.path()]).unwrap();
-    let job = &jobs()[0];
+    let Reference { job, bytes, .. } = &references()[0];
     let (_, loaded) = made(job, bare_program(), |command| {
         command.env("TURNPATH_PLUGIN_PATH", &path);
     });
-    assert!(linked(job, |_| ()) == loaded);
+    assert!(*bytes == loaded);
 }
 
 #[test]

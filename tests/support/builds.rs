@@ -21,31 +21,50 @@ pub const BUILT_INS: [&str; 8] = [
     "turnpath-triangle-rotary",
 ];
 
-/// The program without plugins inside, in the profile of this test; built when first asked for.
+/// The program with an empty catalogue, the example `without_built_ins`, in the profile of this
+/// test.
 ///
-/// It has a target folder of its own, since both programs have one name. All other artefacts are
-/// those of the build that made this test; a cargo that does not know `build-dir` makes them again.
+/// The build of all tests makes it: then cargo finds it done. It is built here after a build of one
+/// suite alone.
 pub fn bare_program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
-        let target = target_folder("bare");
-        let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
-        let mut cargo = cargo("build", &manifest, &target);
-        cargo
-            .args(["--bin", "turnpath", "--no-default-features"])
-            .env("CARGO_BUILD_BUILD_DIR", target_folder("."));
-        if !cfg!(debug_assertions) {
-            cargo.arg("--release");
-        }
-        run(cargo);
-        let profile = if cfg!(debug_assertions) {
-            "debug"
-        } else {
-            "release"
-        };
-        let name = format!("turnpath{}", std::env::consts::EXE_SUFFIX);
-        target.join(profile).join(name)
+        let example = ["--workspace", "--example", "without_built_ins"];
+        let folder = build_program(&example, &target(), &target());
+        folder
+            .join("examples")
+            .join(executable("without_built_ins"))
     })
+}
+
+/// The program that is built without the feature `built-ins`.
+///
+/// It has a target folder of its own, since both programs have one name. All other artefacts are
+/// those of the build that made this test; a cargo that does not know `build-dir` makes them again.
+pub fn program_without_the_feature() -> PathBuf {
+    let bare = ["--bin", "turnpath", "--no-default-features"];
+    let folder = build_program(&bare, &target_folder("bare"), &target());
+    folder.join(executable("turnpath"))
+}
+
+/// Builds targets of the program's package in the profile of this test; gives the profile's folder.
+fn build_program(targets: &[&str], target: &Path, artefacts: &Path) -> PathBuf {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+    let mut cargo = cargo("build", &manifest, target);
+    cargo.args(targets).env("CARGO_BUILD_BUILD_DIR", artefacts);
+    let profile = match cfg!(debug_assertions) {
+        true => "debug",
+        false => "release",
+    };
+    if profile == "release" {
+        cargo.arg("--release");
+    }
+    run(cargo);
+    target.join(profile)
+}
+
+fn executable(name: &str) -> String {
+    format!("{name}{}", std::env::consts::EXE_SUFFIX)
 }
 
 /// A plugin folder with copies of the built-in plugins' libraries, which cargo puts beside the
@@ -61,9 +80,15 @@ pub fn built_in_libraries() -> TempDir {
     folder
 }
 
-/// A folder beside the tests' scratch folder, which lies directly in the target folder.
+/// A folder in the target folder.
 pub fn target_folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name(name)
+    target().join(name)
+}
+
+/// The target folder, in which the tests' scratch folder lies directly.
+fn target() -> PathBuf {
+    let scratch = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    scratch.parent().expect("the target folder").to_owned()
 }
 
 /// Cargo on a manifest, with a target folder of its own.

@@ -12,9 +12,13 @@ use turnpath_core::{
 };
 use turnpath_surfaces::{Astigmatic, SinusoidalArray};
 
-/// A task and its locus.
+/// Speed of the spindle, rad/s.
+const SPEED: f64 = 500.0 * TAU / 60.0;
+
+/// A task, its spindle at a constant speed, and its locus.
 pub struct Case {
     pub task: Task,
+    pub spindle: SpindleLaw,
     pub locus: ToolLocus,
     pub surface: Arc<dyn SurfaceModel>,
 }
@@ -47,10 +51,11 @@ impl Case {
             range: RadialRange { inner: 0.0, outer },
             direction: Direction::Outward,
             machine: Machine::default(),
-            spindle: SpindleLaw::constant(500.0 * TAU / 60.0),
+            spindle_speed: SPEED,
         };
         Self {
             task,
+            spindle: SpindleLaw::constant(SPEED),
             locus: ToolLocus::new(surface.clone(), compensator, tool),
             surface,
         }
@@ -93,13 +98,18 @@ impl Case {
 
     /// The residual feed at one point.
     pub fn residual_feed(&self, theta: f64, rho: f64) -> f64 {
-        let mut feed = [f64::NAN];
+        self.residual_feeds_at(&[theta], rho)[0]
+    }
+
+    /// The residual feeds at these angles of one radius.
+    pub fn residual_feeds_at(&self, theta: &[f64], rho: f64) -> Vec<f64> {
+        let mut feed = vec![f64::NAN; theta.len()];
         let residual = self.task.tolerance.residual;
-        let radial = self.locus.radial();
+        let (radial, rho) = (self.locus.radial(), vec![rho; theta.len()]);
         self.locus
-            .residual_feed(residual, radial, &[theta], &[rho], &mut feed)
+            .residual_feed(residual, radial, theta, &rho, &mut feed)
             .unwrap();
-        feed[0]
+        feed
     }
 
     /// The nose centre (X, Z) at one point.

@@ -8,7 +8,12 @@ use crate::python::{script, with_packages};
 use crate::step::{Outcome, Step};
 use crate::{deny, msrv};
 
+/// How many cases each test on random input tries; `.cargo/config.toml` has the number of `.ci/run`.
+/// A larger `PROPTEST_CASES` in the environment counts.
+const RANDOM_CASES: u32 = 256;
+
 const OTHER_CHECKS: &str = "\
+random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
 msrv: `cargo xtask msrv`
@@ -25,6 +30,7 @@ pub fn list() -> String {
 pub fn run_checks() -> Vec<Step> {
     let mut steps = vec![
         Step::run("tests that `.ci/run` ignores", ignored),
+        Step::run("random input", random_input),
         Step::run("playback", || {
             with_packages(&["numpy"], || {
                 run(script("tests/reference/playback/selftest.py", &[]))
@@ -44,6 +50,18 @@ fn ignored() -> Outcome {
     let words = ["test", "--locked", "--workspace", "--release", "--tests"];
     let mut tests = cargo(&words);
     tests.args(["--", "--ignored"]);
+    run(tests)
+}
+
+/// The libraries' tests and those that a crate has in `tests/all`.
+fn random_input() -> Outcome {
+    let words = ["test", "--locked", "--workspace", "--release"];
+    let mut tests = cargo(&words);
+    let cases = std::env::var("PROPTEST_CASES").ok();
+    let cases = cases.and_then(|cases| cases.parse().ok()).unwrap_or(0);
+    tests
+        .args(["--lib", "--test", "all"])
+        .env("PROPTEST_CASES", RANDOM_CASES.max(cases).to_string());
     run(tests)
 }
 

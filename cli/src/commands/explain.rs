@@ -29,11 +29,15 @@ pub fn explain(args: &ExplainArgs, catalogue: Catalogue) -> Outcome {
     Ok(Status::Holds)
 }
 
-/// The tables of this name: those that belong to no strategy, and those of the slots.
+/// The tables of this name: one whose keys are the host's, or that of a slot.
 fn of_host(name: &str) -> Vec<String> {
     let fixed = tables().filter(|table| name_of(table) == name);
+    let texts: Vec<String> = fixed.map(of_table).collect();
+    if !texts.is_empty() {
+        return texts;
+    }
     let slots = Slot::ALL.into_iter().filter(|slot| slot.key() == name);
-    fixed.map(of_table).chain(slots.map(of_slot)).collect()
+    slots.map(of_slot).collect()
 }
 
 fn find<'a>(catalogue: &'a Catalogue, wanted: &str) -> Result<Vec<&'a Strategy>, Failure> {

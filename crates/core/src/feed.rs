@@ -5,7 +5,7 @@ use crate::{Locus, Result, Task, quintic};
 /// What a feed strategy works on: the task and the locus. There is no law yet.
 #[derive(Clone, Copy)]
 pub struct Setup<'a> {
-    /// Part, tool, tolerance, range of ρ, direction, spindle.
+    /// Part, tool, tolerance, range of ρ, direction, largest spindle speed.
     pub task: &'a Task,
     /// The locus of the nose centre.
     pub locus: &'a dyn Locus,

@@ -36,6 +36,13 @@ impl SpindleLaw {
         &self.time
     }
 
+    /// The law between `from` and `to` revolutions: what one block needs.
+    pub fn window(&self, from: f64, to: f64) -> Self {
+        Self {
+            time: self.time.window(from, to),
+        }
+    }
+
     /// The time at which the spindle has made `n` revolutions, s.
     pub fn time_at(&self, n: f64) -> f64 {
         self.time.value(n)
@@ -45,7 +52,28 @@ impl SpindleLaw {
     pub fn speed_at(&self, n: f64) -> f64 {
         TAU / self.time.rate(n)
     }
+
+    /// The revolutions after the time `time`, s, to rounding. `near` is a guess, in revolutions.
+    ///
+    /// NaN if the law has no value there.
+    pub fn revolutions_at(&self, time: f64, near: f64) -> f64 {
+        let step_from = |n: f64| (time - self.time_at(n)) * self.speed_at(n) / TAU;
+        let mut n = near + step_from(near);
+        for _ in 0..MOST_NEWTON_STEPS {
+            let step = step_from(n);
+            if step.abs() <= ROUNDING * n.abs() || step.is_nan() {
+                break;
+            }
+            n += step;
+        }
+        n
+    }
 }
+
+/// Most steps of Newton's iteration. From a guess within a turn it takes four.
+const MOST_NEWTON_STEPS: usize = 12;
+/// A step of the iteration below this part of the revolutions is rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Converts the series in N of a function into its series in θ: divides the k-th coefficient by
 /// (2π)^k.
@@ -67,5 +95,30 @@ mod tests {
         let law = SpindleLaw::constant(500.0 * TAU / 60.0);
         assert!((law.time_at(500.0) - 60.0).abs() < 1e-12);
         assert!((law.speed_at(17.3) - 500.0 * TAU / 60.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn revolutions_at_a_time_are_those_whose_time_it_is() {
+        let mut time = PiecewisePolynomial::new();
+        time.push(4.0, [0.0, 0.1, 0.0, 0.002, -0.0003, 0.0]);
+        time.push(6.0, [0.4512, 0.1192, -0.0048, 0.0, 0.0001, 0.0]);
+        let law = SpindleLaw::from_time(time);
+        for n in [0.0, 0.3, 3.9, 4.1, 9.7] {
+            for guess in [n - 0.4, n, n + 0.3] {
+                let found = law.revolutions_at(law.time_at(n), guess);
+                assert!((found - n).abs() <= 1e-14 * n.max(1.0), "{found} for {n}");
+            }
+        }
+    }
+
+    /// A node on a step of time keeps the bytes that a single step of Newton's iteration gives.
+    #[test]
+    fn a_constant_speed_takes_one_step() {
+        let law = SpindleLaw::constant(52.3);
+        for n in [0.25, 17.37, 4321.987, 99_999.01] {
+            let time = (law.time_at(n) * 2500.0).round() / 2500.0;
+            let once = n + (time - law.time_at(n)) * law.speed_at(n) / TAU;
+            assert_eq!(law.revolutions_at(time, n), once);
+        }
     }
 }

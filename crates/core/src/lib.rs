@@ -1,4 +1,4 @@
-//! The vocabulary of turnpath and the traits of its five stages: ordinary Rust, no ABI, no files.
+//! The vocabulary of turnpath and the traits of its stages: ordinary Rust, no ABI, no files.
 //!
 //! Lengths are in mm, angles in rad, times in s. θ is the angle of the C axis and ρ is the distance
 //! from the spindle axis. z points to the tool, and the material lies below. N = θ/2π counts
@@ -18,8 +18,10 @@ pub mod largest_nose;
 mod laws;
 pub mod locus;
 mod machine;
+mod node_list;
 mod param;
 mod part;
+mod path;
 mod piecewise;
 mod profile;
 pub mod ring;
@@ -27,10 +29,12 @@ mod sampler;
 mod scalar;
 mod servo;
 mod slot;
+mod spindle;
 mod strategy;
 mod surface;
 mod taylor;
 pub mod toolpath;
+mod turns;
 mod velocity;
 
 pub use compensator::{CentreSeries, Centres, Compensator, Rates};
@@ -42,15 +46,19 @@ pub use lanes::Lanes;
 pub use laws::{SpindleLaw, SpiralLaw, per_radian};
 pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use machine::{Axis, AxisLimits, Derivative, Limit, Machine};
+pub use node_list::{LARGEST_OFFSET, NodeList, NodeOffset};
 pub use param::{DataFile, Param, ParamDefault, ParamInfo, ParamKind, ParamValue, Params, kind};
 pub use part::{Direction, Misfit, Overrun, Part, RadialRange, Task, Tolerance, Tool};
+pub use path::Path;
 pub use piecewise::{Piece, PiecewisePolynomial, quintic};
-pub use sampler::{Dependence, Path, Revolutions, Sampler, Turn, angle};
+pub use sampler::{Dependence, Sampler, SamplerPlan};
 pub use scalar::{Mask, Scalar};
 pub use servo::{AxisServo, Servo};
 pub use slot::Slot;
+pub use spindle::{SpindleAsk, SpindleStrategy};
 pub use strategy::{HOST_KEYS, Strategy, StrategyInfo, is_strategy_name};
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
 pub use turnpath_units::{DEG, NM, Quantity, QuantityError, UM};
+pub use turns::{Revolutions, Turn, angle};
 pub use velocity::{Nodes, Velocities, VelocitySolver};

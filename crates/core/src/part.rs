@@ -1,6 +1,6 @@
 //! The task: the part, the tool, the tolerances and the direction of the feed.
 
-use crate::{Machine, SpindleLaw};
+use crate::Machine;
 
 /// The part: a disc around the spindle axis, with or without a hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,8 +98,8 @@ pub struct Task {
     pub range: RadialRange,
     /// The direction of the feed.
     pub direction: Direction,
-    /// The speed of the spindle.
-    pub spindle: SpindleLaw,
+    /// The largest speed of the spindle, rad/s. A constant spindle turns at this speed.
+    pub spindle_speed: f64,
     /// What the machine can do. A strategy may keep to these limits.
     pub machine: Machine,
 }

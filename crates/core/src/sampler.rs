@@ -1,8 +1,6 @@
 //! The sampler: it decides where the control points lie along the spiral.
 
-use crate::locus::Locus;
-use crate::{Result, Series, SpiralLaw, Task, per_radian};
-use std::f64::consts::TAU;
+use crate::{NodeList, Path, Result, Revolutions};
 
 /// How a strategy's answer for one block depends on the rest of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,184 +14,53 @@ pub enum Dependence {
     Sequential,
 }
 
-/// The path to sample: task, locus and spiral law.
-#[derive(Clone, Copy)]
-pub struct Path<'a> {
-    /// Part, tool, tolerance, range of ρ, direction, spindle.
-    pub task: &'a Task,
-    /// The locus of the nose centre.
-    pub locus: &'a dyn Locus,
-    /// The spiral law ρ = ℓ(N).
-    pub law: &'a SpiralLaw,
-    /// The result of [`Sampler::prepare`]; empty during `prepare` itself.
-    pub prepared: &'a [f64],
-}
-
-impl Path<'_> {
-    /// ρ after `n` revolutions, mm.
-    pub fn radius_at(&self, n: f64) -> f64 {
-        self.law.value(n)
-    }
-
-    /// The order-4 series in θ of the nose centre's (X, Z) along the true spiral at each of `n`
-    /// revolutions. At a knot of the law the series are those of the piece that begins there.
-    pub fn series_at(&self, n: &[f64], x: &mut [Series], z: &mut [Series]) -> Result<()> {
-        let theta: Vec<Series> = n.iter().map(|n| [angle(*n), 1.0, 0.0, 0.0, 0.0]).collect();
-        let rho: Vec<Series> = n.iter().map(|n| per_radian(self.law.series(*n))).collect();
-        self.locus
-            .series(&theta, &rho, crate::CentreSeries { x, z })
-    }
-}
-
-/// θ after `n` revolutions. The function reduces `n` to one turn before it scales, so that large N
-/// keep their digits.
-pub fn angle(n: f64) -> f64 {
-    TAU * (n - n.floor())
-}
-
-/// A block: a range of whole revolutions. Only the path's last block may end with a part of one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Revolutions {
-    /// Start of the block in revolutions, included.
-    pub start: f64,
-    /// End of the block in revolutions, excluded.
-    pub end: f64,
-}
-
-impl Revolutions {
-    /// The revolutions of the block one by one. The path's last one may be a part of a revolution.
-    pub fn turns(&self) -> impl Iterator<Item = Turn> + use<> {
-        let Revolutions { start, end } = *self;
-        let count = (end - start).ceil().max(0.0) as usize;
-        (0..count).map(move |i| Turn {
-            start: start + i as f64,
-            end: (start + (i + 1) as f64).min(end),
-        })
-    }
-}
-
-/// One revolution, or the part of it that belongs to the path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turn {
-    /// Start of the turn in revolutions.
-    pub start: f64,
-    /// End of the turn in revolutions.
-    pub end: f64,
-}
-
-impl Turn {
-    /// Nodes from the turn's start to its end (excluded), 1/`steps` of a revolution apart.
-    ///
-    /// `steps` is rounded up to a whole number. If `steps` is NaN or less than 1, the result is a
-    /// node that the host refuses.
-    pub fn subdivide(&self, steps: f64) -> impl Iterator<Item = f64> + use<> {
-        let Turn { start, end } = *self;
-        let whole = steps.ceil();
-        let usable = (1.0..=MOST_STEPS).contains(&whole);
-        let first = if usable { start } else { f64::NAN };
-        let length = end - start;
-        let count = if usable {
-            (length * whole - NODE_SLACK).ceil().max(1.0)
-        } else {
-            1.0
-        };
-        (0..count as u64).map(move |i| first + i as f64 / whole)
-    }
-}
-
-/// The most nodes that [`Turn::subdivide`] gives on a revolution. A larger number is likely a
-/// mistake.
-const MOST_STEPS: f64 = 1e7;
-/// A node that lies closer to the turn's end than this part of a step is left out: it would
-/// coincide with the end.
-const NODE_SLACK: f64 = 1e-9;
-
 /// Places the control points along the spiral.
+///
+/// A sampler that needs nothing of the whole path implements [`SamplerPlan`] and `Clone`. It is
+/// then a sampler whose plan is a copy of itself.
 pub trait Sampler: Send + Sync {
-    /// Appends the nodes of `block` in revolutions, in increasing order, from block.start
-    /// (included) to block.end (excluded). The host adds the first and the last point of the path.
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()>;
+    /// Looks at the whole path once, before any block. The plan that comes back places the nodes
+    /// of each block.
+    fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>>;
 
-    /// Looks at the whole path once, before any block. Every later call gets the result in
-    /// [`Path::prepared`]. In those calls `path.law` may be only the part of the law around the
-    /// block.
-    fn prepare(&self, path: &Path<'_>) -> Result<Vec<f64>> {
-        let _ = path;
-        Ok(Vec::new())
+    /// Whether the nodes hold the tolerance only with the exact rates of the path, because they use
+    /// the error of a cubic on both sides or lie off the locus. The host then refuses a velocity
+    /// solver that does not give exact rates
+    /// ([`VelocitySolver::gives_exact_rates`](crate::VelocitySolver::gives_exact_rates)). The
+    /// default is false.
+    fn needs_exact_rates(&self) -> bool {
+        false
     }
+}
+
+impl<T: SamplerPlan + Clone + 'static> Sampler for T {
+    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        Ok(Box::new(self.clone()))
+    }
+}
+
+/// The nodes of one path, block by block.
+pub trait SamplerPlan: Send + Sync {
+    /// Appends the nodes of `block`, in increasing order, from block.start (included) to block.end
+    /// (excluded). The host adds the first and the last point of the path. In `path`, the laws may
+    /// be only their parts around the block.
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()>;
 
     /// How a block depends on the others. The default is `Local`.
     fn dependence(&self) -> Dependence {
         Dependence::Local
     }
 
-    /// Does the same as [`place`](Sampler::place) for a `Sequential` sampler. `state` is what the
+    /// Does the same as [`place`](SamplerPlan::place) for a `Sequential` plan. `state` is what the
     /// call for the block before left; it is empty at first.
     fn place_sequential(
         &self,
         path: &Path<'_>,
         block: Revolutions,
         state: &mut Vec<f64>,
-        nodes: &mut Vec<f64>,
+        nodes: &mut NodeList,
     ) -> Result<()> {
         let _ = state;
         self.place(path, block, nodes)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn turns_cover_the_block_once() {
-        let turns: Vec<Turn> = Revolutions {
-            start: 64.0,
-            end: 66.25,
-        }
-        .turns()
-        .collect();
-        assert_eq!(turns.len(), 3);
-        assert_eq!(
-            turns[2],
-            Turn {
-                start: 66.0,
-                end: 66.25
-            }
-        );
-    }
-
-    #[test]
-    fn a_full_turn_has_as_many_nodes_as_steps() {
-        let turn = Turn {
-            start: 3.0,
-            end: 4.0,
-        };
-        let nodes: Vec<f64> = turn.subdivide(60.0).collect();
-        assert_eq!(nodes.len(), 60);
-        assert_eq!(nodes[0], 3.0);
-        assert!(nodes[59] < 4.0);
-    }
-
-    #[test]
-    fn a_part_of_a_turn_keeps_the_step() {
-        let turn = Turn {
-            start: 3.0,
-            end: 3.25,
-        };
-        let nodes: Vec<f64> = turn.subdivide(60.0).collect();
-        assert_eq!(nodes.len(), 15);
-        assert_eq!(nodes[1], 3.0 + 1.0 / 60.0);
-    }
-
-    #[test]
-    fn steps_that_are_no_number_give_a_node_that_is_none() {
-        let turn = Turn {
-            start: 3.0,
-            end: 4.0,
-        };
-        for steps in [f64::NAN, 0.0, -4.0, f64::INFINITY] {
-            assert!(turn.subdivide(steps).all(f64::is_nan));
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! The slots of the pipeline, one for each kind of strategy.
 
-/// The five slots of the pipeline.
+/// The six slots of the pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Slot {
@@ -14,16 +14,19 @@ pub enum Slot {
     Compensator,
     /// The PVT velocity solver.
     Velocity,
+    /// The spindle strategy.
+    Spindle,
 }
 
 impl Slot {
-    /// All slots, in the order of the pipeline.
-    pub const ALL: [Slot; 5] = [
+    /// All slots, in the order in which listings show them.
+    pub const ALL: [Slot; 6] = [
         Slot::Surface,
         Slot::Feed,
         Slot::Sampler,
         Slot::Compensator,
         Slot::Velocity,
+        Slot::Spindle,
     ];
 
     /// The slot's table in a recipe, and its name on the command line.
@@ -34,6 +37,7 @@ impl Slot {
             Slot::Sampler => "sampler",
             Slot::Compensator => "compensator",
             Slot::Velocity => "velocity",
+            Slot::Spindle => "spindle",
         }
     }
 
@@ -45,6 +49,7 @@ impl Slot {
             Slot::Sampler => "sampler",
             Slot::Compensator => "compensator",
             Slot::Velocity => "velocity solver",
+            Slot::Spindle => "spindle strategy",
         }
     }
 }

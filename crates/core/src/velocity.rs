@@ -12,13 +12,13 @@ pub struct Nodes<'a> {
     pub c: &'a [f64],
     /// X of the nose centre, mm.
     pub x: &'a [f64],
-    /// Z of the nose centre, mm.
+    /// Z of the nose centre, mm, with the sampler's offset.
     pub z: &'a [f64],
     /// dC/dt of the locus itself, rad/s.
     pub c_rate: &'a [f64],
     /// dX/dt of the locus itself, mm/s. At a knot of the law it is the mean of both sides.
     pub x_rate: &'a [f64],
-    /// ∂Z/∂θ at constant X, mm/rad.
+    /// ∂Z/∂θ at constant X, mm/rad, with what the sampler's offset adds to it.
     pub z_theta: &'a [f64],
     /// ∂Z/∂X at constant θ.
     pub z_x: &'a [f64],
@@ -39,7 +39,7 @@ impl Nodes<'_> {
         self.t.is_empty()
     }
 
-    /// dZ/dt of the locus itself at node `k`, mm/s: Z_θ·vC + Z_X·vX.
+    /// dZ/dt of the path itself at node `k`, mm/s: Z_θ·vC + Z_X·vX.
     pub fn z_rate(&self, k: usize) -> f64 {
         self.z_theta[k] * self.c_rate[k] + self.z_x[k] * self.x_rate[k]
     }
@@ -66,6 +66,12 @@ pub trait VelocitySolver: Send + Sync {
     /// What the controller must play between the control points. The default is cubics.
     fn segments(&self) -> SegmentShape {
         SegmentShape::Cubic
+    }
+
+    /// Whether the velocities are those of the path itself: vC and vX of the locus, and vZ as
+    /// [`Nodes::z_rate`] gives it. Some samplers need this. The default is false.
+    fn gives_exact_rates(&self) -> bool {
+        false
     }
 
     /// Computes the velocities at all nodes of the call.

@@ -1,9 +1,10 @@
-//! The five strategies of a task, with the names that messages need.
+//! The strategies of a task, with the names that messages need.
 
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, FeedStrategy, Sampler, Slot, StrategyError, SurfaceModel, VelocitySolver,
+    Compensator, FeedStrategy, Sampler, Slot, SpindleStrategy, StrategyError, SurfaceModel,
+    VelocitySolver,
 };
 
 use crate::PipelineError;
@@ -53,7 +54,7 @@ impl<T: ?Sized> Link<T> {
     }
 }
 
-/// The five strategies of a task.
+/// The strategies of a task, one in each slot.
 pub struct Chain {
     /// The surface to cut.
     pub surface: Link<dyn SurfaceModel>,
@@ -65,4 +66,6 @@ pub struct Chain {
     pub compensator: Link<dyn Compensator>,
     /// The velocity solver, which gives the velocities at control points.
     pub velocity: Link<dyn VelocitySolver>,
+    /// The spindle strategy, which gives the spindle law.
+    pub spindle: Link<dyn SpindleStrategy>,
 }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use turnpath_core::Nodes;
 use turnpath_core::toolpath::ControlPoint;
+use turnpath_core::{NodeList, NodeOffset, Nodes};
 
 /// Nodes on the locus. The columns have the same length; units and meaning are those of
 /// [`Nodes`].
@@ -17,10 +17,12 @@ pub struct Columns {
     pub x_rate: Vec<f64>,
     pub z_theta: Vec<f64>,
     pub z_x: Vec<f64>,
+    /// Z of each node above the locus, mm. It is part of `z`.
+    pub dz: Vec<f64>,
 }
 
 impl Columns {
-    fn each(&self) -> [&Vec<f64>; 8] {
+    fn each(&self) -> [&Vec<f64>; 9] {
         let Self {
             t,
             c,
@@ -30,11 +32,12 @@ impl Columns {
             x_rate,
             z_theta,
             z_x,
+            dz,
         } = self;
-        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
+        [t, c, x, z, c_rate, x_rate, z_theta, z_x, dz]
     }
 
-    fn each_mut(&mut self) -> [&mut Vec<f64>; 8] {
+    fn each_mut(&mut self) -> [&mut Vec<f64>; 9] {
         let Self {
             t,
             c,
@@ -44,14 +47,28 @@ impl Columns {
             x_rate,
             z_theta,
             z_x,
+            dz,
         } = self;
-        [t, c, x, z, c_rate, x_rate, z_theta, z_x]
+        [t, c, x, z, c_rate, x_rate, z_theta, z_x, dz]
     }
 
     /// Appends the nodes `range` of another set.
     pub fn append(&mut self, other: &Self, range: Range<usize>) {
         for (own, other) in self.each_mut().into_iter().zip(other.each()) {
             own.extend_from_slice(&other[range.clone()]);
+        }
+    }
+
+    /// Moves the nodes off the locus. The offsets must not have been added yet.
+    pub fn shift(&mut self, nodes: &NodeList) {
+        if !nodes.has_offsets() {
+            return;
+        }
+        for i in 0..self.len() {
+            let NodeOffset { dz, dz_dc } = nodes.offset(i);
+            self.z[i] += dz;
+            self.z_theta[i] += dz_dc;
+            self.dz[i] = dz;
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::observer::SilentObserver;
 use crate::plan::Plan;
-use crate::{Chain, Preparation, Result};
+use crate::{Chain, Preparation, Result, schedule};
 
 /// About how many blocks are sampled to estimate the count of control points.
 const SAMPLED_BLOCKS: usize = 8;
@@ -23,11 +23,11 @@ pub struct Estimate {
 /// # Errors
 /// When a strategy fails.
 pub fn estimate(chain: &Chain, preparation: &Preparation) -> Result<Estimate> {
-    let plan = Plan::new(chain, preparation, &SilentObserver)?;
+    let plan = schedule::plan(chain, preparation, &SilentObserver)?;
     let revolutions = plan.law.end();
     Ok(Estimate {
         revolutions,
-        cutting_time: plan.preparation.task.spindle.time_at(revolutions),
+        cutting_time: plan.spindle.time_at(revolutions),
         control_points: nodes_per_revolution(&plan)? * revolutions + 1.0,
     })
 }

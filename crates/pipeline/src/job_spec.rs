@@ -1,8 +1,6 @@
 //! The job of a recipe, as [`prepare()`](crate::prepare()) gets it.
 
-use turnpath_core::{
-    Direction, Machine, Overrun, Part, RadialRange, SpindleLaw, Task, Tolerance, Tool,
-};
+use turnpath_core::{Direction, Machine, Overrun, Part, RadialRange, Task, Tolerance, Tool};
 
 /// A task as a recipe describes it, before the range of ρ is known.
 #[derive(Debug, Clone)]
@@ -17,8 +15,8 @@ pub struct JobSpec {
     pub overrun: Overrun,
     /// The direction of the feed.
     pub direction: Direction,
-    /// How fast the spindle turns.
-    pub spindle: SpindleLaw,
+    /// The largest speed of the spindle, rad/s.
+    pub spindle_speed: f64,
     /// The limits of the machine.
     pub machine: Machine,
 }
@@ -32,7 +30,7 @@ impl JobSpec {
             tolerance: self.tolerance,
             range,
             direction: self.direction,
-            spindle: self.spindle,
+            spindle_speed: self.spindle_speed,
             machine: self.machine,
         }
     }

@@ -1,4 +1,4 @@
-//! Chains the five stages: law, nodes, locus, velocities. Refines and measures the path, and
+//! Chains the stages: spiral law, spindle law, nodes, locus, velocities. Refines and measures the path, and
 //! delivers it block by block.
 //!
 //! A path is made in blocks of [`BLOCK`] revolutions or fewer. The bytes of a block depend on the
@@ -20,6 +20,7 @@ mod largest_nose;
 mod law;
 mod lead;
 mod make;
+mod node_check;
 mod observer;
 mod options;
 mod order;
@@ -29,8 +30,10 @@ mod range;
 mod recorder;
 mod refine;
 mod run;
+mod schedule;
 mod seams;
 mod sink;
+mod spindle;
 mod tail;
 mod taper;
 mod window;

@@ -5,12 +5,13 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{CentreBuffers, Dependence, Locus, Rates, Velocities, angle};
+use turnpath_core::{CentreBuffers, Dependence, Locus, NodeList, Rates, Velocities, angle};
 
 use crate::Result;
 use crate::columns::Columns;
+use crate::node_check::CLOSEST_NODES;
 use crate::order::in_order;
-use crate::plan::{CLOSEST_NODES, Plan};
+use crate::plan::Plan;
 use crate::window::{NodeBlock, NodeRow, Window};
 
 /// How often each sampler segment of a block is halved. An empty list halves none.
@@ -21,6 +22,8 @@ pub type Depths = Vec<u8>;
 pub struct BlockPoints {
     /// The points, the joint with the next block included.
     pub points: PathBlock,
+    /// Z of each point above the locus, mm, as the sampler placed it.
+    pub offsets: Vec<f64>,
     /// Which sampler segment each point's segment is a part of.
     pub owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
@@ -114,7 +117,7 @@ fn locate_blocks(
     let end_of = |index: usize| {
         let next = raw
             .get(index + 1 - range.start)
-            .and_then(|nodes| nodes.first());
+            .and_then(|nodes| nodes.revolutions().first());
         next.copied().unwrap_or(plan.law.end())
     };
     in_order(range.clone().into_par_iter().map(|index| {
@@ -127,33 +130,37 @@ fn locate_blocks(
 fn locate_block(
     plan: &Plan<'_>,
     index: usize,
-    sampled: &[f64],
+    sampled: &NodeList,
     end: f64,
     depths: &[u8],
 ) -> Result<NodeBlock> {
-    let too_late = sampled
+    let revolutions = sampled.revolutions();
+    let too_late = revolutions
         .iter()
         .rev()
-        .take_while(|node| end - **node < CLOSEST_NODES)
-        .count();
-    let sampled = &sampled[..sampled.len() - too_late.min(sampled.len())];
-    let (mut n, mut owner) = (Vec::new(), Vec::new());
-    for (i, from) in sampled.iter().enumerate() {
-        let to = sampled.get(i + 1).copied().unwrap_or(end);
+        .take_while(|node| end - **node < CLOSEST_NODES);
+    let kept = &revolutions[..revolutions.len() - too_late.count()];
+    let (mut nodes, mut owner) = (NodeList::default(), Vec::new());
+    for (i, from) in kept.iter().enumerate() {
+        let to = kept.get(i + 1).copied().unwrap_or(end);
         let parts = 1u32 << depths.get(i).copied().unwrap_or(0);
         for part in 0..parts {
-            n.push(from + (to - from) * f64::from(part) / f64::from(parts));
+            let n = from + (to - from) * f64::from(part) / f64::from(parts);
+            match part {
+                0 if sampled.has_offsets() => nodes.push_off(n, sampled.offset(i)),
+                _ => nodes.push(n),
+            }
             owner.push(i as u32);
         }
     }
-    let mut count = sampled.len();
+    let mut count = kept.len();
     if plan.is_last(index) {
-        n.push(end);
-        owner.push(sampled.len() as u32);
+        nodes.push(end);
+        owner.push(kept.len() as u32);
         count += 1;
     }
     Ok(NodeBlock {
-        columns: locate(plan, &n)?,
+        columns: locate(plan, &nodes)?,
         owner,
         sampled: count,
     })
@@ -172,10 +179,10 @@ fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
     }
 }
 
-/// Puts nodes on the locus.
-fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
-    let (task, compensator) = (&plan.preparation.task, &plan.chain.compensator);
-    let (n, t) = on_time(plan, nodes)?;
+/// Puts nodes on the locus, or as far off it as the sampler placed them.
+fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
+    let compensator = &plan.chain.compensator;
+    let (n, t) = on_time(plan, nodes.revolutions())?;
     let context = || match (n.first(), n.last()) {
         (Some(first), Some(last)) => format!("in revolutions {first:.3} to {last:.3}"),
         _ => String::new(),
@@ -200,11 +207,12 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
     locus
         .rates(&theta, &rho, rates)
         .map_err(|error| compensator.failed(context(), error))?;
-    let c_rate: Vec<f64> = n.iter().map(|n| task.spindle.speed_at(*n)).collect();
+    let c_rate: Vec<f64> = n.iter().map(|n| plan.spindle.speed_at(*n)).collect();
     let x_rate = (0..n.len())
         .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
         .collect();
-    let columns = Columns {
+    let mut columns = Columns {
+        dz: vec![0.0; n.len()],
         t,
         c: n.iter().map(|n| TAU * (n + plan.start.turns)).collect(),
         x: centres.x,
@@ -214,6 +222,7 @@ fn locate(plan: &Plan<'_>, nodes: &[f64]) -> Result<Columns> {
         z_theta,
         z_x,
     };
+    columns.shift(nodes);
     match (0..n.len()).find(|i| !columns.is_finite(*i)) {
         None => Ok(columns),
         Some(i) => Err(compensator.bad_answer(format!(
@@ -257,7 +266,8 @@ fn solve(
         ..PathBlock::default()
     };
     // One more than its own: the joint with the next block.
-    for k in own.start..(own.end + 1).min(columns.len()) {
+    let with_joint = own.start..(own.end + 1).min(columns.len());
+    for k in with_joint.clone() {
         let point = columns.point(k, c[k], x[k], z[k]);
         if !point.is_finite() {
             let what = format!(
@@ -273,6 +283,7 @@ fn solve(
     });
     Ok(BlockPoints {
         points,
+        offsets: columns.dz[with_joint].to_vec(),
         owner,
         sampled,
     })

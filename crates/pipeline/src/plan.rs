@@ -3,11 +3,14 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Dependence, Overrun, Path, Revolutions, SpiralLaw};
+use turnpath_core::{
+    Dependence, NodeList, Overrun, Path, Revolutions, SamplerPlan, SpindleLaw, SpiralLaw,
+};
 
+use crate::node_check::{CLOSEST_NODES, NodeCheck, in_revolutions};
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::taper::{CutLaw, taper};
-use crate::{Chain, Preparation, Result, beyond, seams};
+use crate::{Chain, Preparation, Result, beyond, seams, spindle};
 
 /// Revolutions of a block. A sampler starts afresh at each border, which costs AST-50 a tenth of
 /// a percent of points; larger blocks take more memory and leave less to do in parallel.
@@ -16,15 +19,9 @@ pub const BLOCK: f64 = 64.0;
 /// bounded on the finest paths. The choice depends on the task alone, so the bytes do not depend on
 /// the machine.
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
-/// Most nodes that a sampler may place in a block. More are taken for a mistake.
-const MOST_NODES: usize = 4_000_000;
 /// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
 /// thousands is sequential.
 const MOST_OVERLAP: usize = 10_000;
-/// Smallest distance between nodes, in revolutions. Closer nodes are a sampler's mistake: the
-/// velocity between them would be rounding.
-pub const CLOSEST_NODES: f64 = 1e-9;
-
 /// Where and when the cutting section begins: after the lead-in, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Start {
@@ -42,6 +39,8 @@ pub struct Plan<'a> {
     pub preparation: &'a Preparation,
     /// ρ = ℓ(N).
     pub law: SpiralLaw,
+    /// t(N).
+    pub spindle: SpindleLaw,
     /// Between which revolutions the law is the feed strategy's own; `None` if no part is.
     pub own: Option<[f64; 2]>,
     /// Steps of time a second on which control points must lie, if the controller has such steps.
@@ -50,14 +49,15 @@ pub struct Plan<'a> {
     pub start: Start,
     /// Revolutions of a block: [`BLOCK`], or fewer where there are very many nodes.
     block: f64,
-    /// What the sampler prepared from the whole path.
-    sampler_data: Vec<f64>,
+    /// The sampler's plan of the whole path.
+    sampler: Box<dyn SamplerPlan>,
     /// The state that a sequential sampler carries into each block; empty for others.
     sampler_states: Vec<Vec<f64>>,
 }
 
 impl<'a> Plan<'a> {
-    /// Plans the law. Runs a sequential sampler once over the path to learn its states.
+    /// Plans the laws and the nodes, the spindle's law without regard to the machine. Runs a sequential sampler once over the path to learn its
+    /// states.
     pub fn new(
         chain: &'a Chain,
         preparation: &'a Preparation,
@@ -73,41 +73,52 @@ impl<'a> Plan<'a> {
             Overrun::None | Overrun::Length(_) => CutLaw::without_taper(law),
         };
         beyond::check(chain, preparation, &law)?;
+        let spindle = spindle::plan(chain, preparation, &law, &[])?;
+        let sampler = plan_nodes(chain, preparation, &law, &spindle)?;
         let mut plan = Self {
             chain,
             preparation,
             law,
+            spindle,
             own,
             time_steps: None,
             start: Start::default(),
             block: BLOCK,
-            sampler_data: Vec::new(),
+            sampler,
             sampler_states: Vec::new(),
         };
-        plan.sampler_data = plan.prepare_sampler()?;
-        plan.block = plan.comfortable_block()?;
-        if chain.sampler.strategy.dependence() == Dependence::Sequential {
-            let mut state = Vec::new();
-            for index in 0..plan.blocks() {
-                stop_if_cancelled(observer)?;
-                plan.sampler_states.push(state.clone());
-                plan.sample_from(index, &mut state)?;
-            }
-        }
+        plan.divide(observer)?;
         Ok(plan)
     }
 
-    fn prepare_sampler(&self) -> Result<Vec<f64>> {
-        let sampler = &self.chain.sampler;
-        let answer = sampler.strategy.prepare(&self.path(&self.law));
-        answer.map_err(|error| sampler.failed("while it looked at the whole path", error))
+    /// Takes another spindle law, and plans the nodes of the path anew.
+    pub fn turn_by(&mut self, spindle: SpindleLaw, observer: &dyn Observer) -> Result<()> {
+        self.spindle = spindle;
+        self.sampler = plan_nodes(self.chain, self.preparation, &self.law, &self.spindle)?;
+        self.divide(observer)
+    }
+
+    /// Divides the path into blocks, and learns the states of a sequential sampler.
+    fn divide(&mut self, observer: &dyn Observer) -> Result<()> {
+        self.block = BLOCK;
+        self.block = self.comfortable_block()?;
+        self.sampler_states = Vec::new();
+        if self.sampler.dependence() == Dependence::Sequential {
+            let mut state = Vec::new();
+            for index in 0..self.blocks() {
+                stop_if_cancelled(observer)?;
+                self.sampler_states.push(state.clone());
+                self.sample_from(index, &mut state)?;
+            }
+        }
+        Ok(())
     }
 
     /// Revolutions of a block, from the nodes of one revolution each at the path's start, middle
     /// and end. A sequential sampler can begin at the start only.
     fn comfortable_block(&self) -> Result<f64> {
         let last = (self.law.end() - 1.0).max(0.0).floor();
-        let sequential = self.chain.sampler.strategy.dependence() == Dependence::Sequential;
+        let sequential = self.sampler.dependence() == Dependence::Sequential;
         let count = if sequential { 1 } else { 3 };
         let mut densest = 0;
         for start in [0.0, (0.5 * last).floor(), last].into_iter().take(count) {
@@ -120,16 +131,6 @@ impl<'a> Plan<'a> {
             block *= 0.5;
         }
         Ok(block)
-    }
-
-    fn path<'b>(&'b self, law: &'b SpiralLaw) -> Path<'b> {
-        let Preparation { task, locus, .. } = self.preparation;
-        Path {
-            task,
-            locus,
-            law,
-            prepared: &self.sampler_data,
-        }
     }
 
     /// How many blocks there are.
@@ -150,8 +151,7 @@ impl<'a> Plan<'a> {
     /// to the nearest step. The path's end is moved to the step before it, so that the path does
     /// not run beyond its end.
     pub fn on_time(&self, n: f64) -> (f64, f64) {
-        let spindle = &self.preparation.task.spindle;
-        let t = spindle.time_at(n);
+        let t = self.spindle.time_at(n);
         let Some(steps) = self.time_steps else {
             return (n, self.start.time + t);
         };
@@ -160,8 +160,8 @@ impl<'a> Plan<'a> {
         } else {
             (t * steps).floor()
         };
-        let moved = (whole / steps - t) * spindle.speed_at(n) / TAU;
-        (n + moved, (self.start.time + whole) / steps)
+        let moved = self.spindle.revolutions_at(whole / steps, n);
+        (moved, (self.start.time + whole) / steps)
     }
 
     /// Between which angles of C, rad, the law is the feed strategy's own.
@@ -181,71 +181,67 @@ impl<'a> Plan<'a> {
     }
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
-    pub fn sample(&self, index: usize) -> Result<Vec<f64>> {
+    pub fn sample(&self, index: usize) -> Result<NodeList> {
         let mut state = self.sampler_states.get(index).cloned().unwrap_or_default();
         self.sample_from(index, &mut state)
     }
 
-    fn sample_from(&self, index: usize, state: &mut Vec<f64>) -> Result<Vec<f64>> {
+    fn sample_from(&self, index: usize, state: &mut Vec<f64>) -> Result<NodeList> {
         let mut nodes = self.ask_sampler(self.revolutions(index), state)?;
-        self.check(index, &nodes)
+        let check = NodeCheck {
+            block: self.revolutions(index),
+            is_last: self.is_last(index),
+            tolerance: self.preparation.task.tolerance.interpolation,
+        };
+        check
+            .check(&nodes)
             .map_err(|what| self.chain.sampler.bad_answer(what))?;
         if index == 0 {
-            let too_early = nodes.iter().take_while(|node| **node < CLOSEST_NODES);
-            nodes.splice(..too_early.count(), [0.0]);
+            let on_start = |node: &&f64| **node < CLOSEST_NODES;
+            let too_early = nodes.revolutions().iter().take_while(on_start).count();
+            nodes.replace_first(too_early, 0.0);
         }
         Ok(nodes)
     }
 
     /// The sampler's nodes as it gives them.
-    fn ask_sampler(&self, block: Revolutions, state: &mut Vec<f64>) -> Result<Vec<f64>> {
-        let sampler = &self.chain.sampler;
-        let window = self.law.window(block.start - 1.0, block.end + 1.0);
-        let path = self.path(&window);
-        let mut nodes = Vec::new();
-        let answer = match sampler.strategy.dependence() {
-            Dependence::Sequential => sampler
-                .strategy
-                .place_sequential(&path, block, state, &mut nodes),
-            _ => sampler.strategy.place(&path, block, &mut nodes),
+    fn ask_sampler(&self, block: Revolutions, state: &mut Vec<f64>) -> Result<NodeList> {
+        let Preparation { task, locus, .. } = self.preparation;
+        let (from, to) = (block.start - 1.0, block.end + 1.0);
+        let path = Path {
+            task,
+            locus,
+            law: &self.law.window(from, to),
+            spindle: &self.spindle.window(from, to),
         };
-        answer.map_err(|error| sampler.failed(in_revolutions(block), error))?;
+        let mut nodes = NodeList::default();
+        let answer = match self.sampler.dependence() {
+            Dependence::Sequential => {
+                (self.sampler).place_sequential(&path, block, state, &mut nodes)
+            }
+            _ => self.sampler.place(&path, block, &mut nodes),
+        };
+        let failed = |error| self.chain.sampler.failed(in_revolutions(block), error);
+        answer.map_err(failed)?;
         Ok(nodes)
-    }
-
-    fn check(&self, index: usize, nodes: &[f64]) -> std::result::Result<(), String> {
-        let block = self.revolutions(index);
-        let context = in_revolutions(block);
-        if nodes.is_empty() && !self.is_last(index) {
-            return Err(format!("no node {context}"));
-        }
-        if nodes.len() > MOST_NODES {
-            return Err(format!(
-                "{} nodes {context}; at most {MOST_NODES} are allowed",
-                nodes.len()
-            ));
-        }
-        let mut last: Option<f64> = None;
-        for (i, node) in nodes.iter().enumerate() {
-            if !node.is_finite() {
-                return Err(format!("node {i} is {node}, {context}"));
-            }
-            if !(block.start..block.end).contains(node) {
-                return Err(format!(
-                    "node {i} at {node} lies outside the block, {context}"
-                ));
-            }
-            if let Some(last) = last.filter(|last| node - last < CLOSEST_NODES) {
-                return Err(format!(
-                    "node {i} at {node} does not lie beyond {last}, {context}"
-                ));
-            }
-            last = Some(*node);
-        }
-        Ok(())
     }
 }
 
-fn in_revolutions(block: Revolutions) -> String {
-    format!("in revolutions {:.0} to {:.3}", block.start, block.end)
+/// Lets the sampler look at the whole path.
+fn plan_nodes(
+    chain: &Chain,
+    preparation: &Preparation,
+    law: &SpiralLaw,
+    spindle: &SpindleLaw,
+) -> Result<Box<dyn SamplerPlan>> {
+    let Preparation { task, locus, .. } = preparation;
+    let path = Path {
+        task,
+        locus,
+        law,
+        spindle,
+    };
+    let plan = chain.sampler.strategy.plan(&path);
+    let context = "while it looked at the whole path";
+    plan.map_err(|error| chain.sampler.failed(context, error))
 }

@@ -16,7 +16,7 @@ const RING_POINTS: usize = 8;
 
 /// A task whose tool fits its part.
 pub struct Preparation {
-    /// Part, tool, tolerances, range of ρ, direction, spindle, machine.
+    /// Part, tool, tolerances, range of ρ, direction, largest spindle speed, machine.
     pub task: Task,
     /// How far the path runs beyond the part.
     pub overrun: Overrun,

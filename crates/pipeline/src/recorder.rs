@@ -159,7 +159,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
             control_points: self.points,
             added_by_refine: self.points - self.sampled,
             revolutions,
-            cutting_time: plan.preparation.task.spindle.time_at(revolutions),
+            cutting_time: plan.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
@@ -178,7 +178,8 @@ fn measure_and_encode<S: Sink + ?Sized>(
     start: Option<ServoStart>,
     sink: &S,
 ) -> RunResult<BlockRecord<S::Block>, S::Error> {
-    let measured = Meter::measure(touch, &block.points).map_err(PipelineError::Measure)?;
+    let measured = Meter::measure_off(touch, &block.points, &block.offsets);
+    let measured = measured.map_err(PipelineError::Measure)?;
     let servo = start.map(|start| ServoMeter::measure(touch, &start, &block.points));
     let servo = servo.transpose().map_err(PipelineError::Measure)?;
     let own_axes = own.map_or_else(AxesMotion::default, |angles| {

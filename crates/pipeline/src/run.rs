@@ -13,7 +13,7 @@ use crate::plan::Plan;
 use crate::recorder::{Outcome, Recorder};
 use crate::refine::{refine, runs};
 use crate::sink::Sink;
-use crate::{Chain, Preparation, Result, RunError};
+use crate::{Chain, Preparation, Result, RunError, schedule};
 
 /// Most blocks that are made at a time: enough for every thread, and few enough that a batch of
 /// large blocks (half a million nodes each) stays within some hundred megabytes.
@@ -34,7 +34,7 @@ pub fn run<S: Sink + ?Sized>(
     observer: &dyn Observer,
 ) -> std::result::Result<Outcome, RunError<S::Error>> {
     observer.begin(Stage::Law, 1);
-    let mut plan = Plan::new(chain, preparation, observer)?;
+    let mut plan = schedule::plan(chain, preparation, observer)?;
     plan.time_steps = options.time_steps;
     let batch = batch_size(&plan)?;
     let depths = match options.refine {

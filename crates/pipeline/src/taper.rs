@@ -236,7 +236,7 @@ impl EndView<'_> {
 
 #[cfg(test)]
 mod tests {
-    use turnpath_core::{Machine, Misfit, Part, RadialRange, SpindleLaw, Tolerance, Tool};
+    use turnpath_core::{Machine, Misfit, Part, RadialRange, Tolerance, Tool};
 
     use super::*;
 
@@ -282,7 +282,7 @@ mod tests {
             range: RadialRange { inner, outer },
             direction,
             machine: Machine::default(),
-            spindle: SpindleLaw::constant(52.0),
+            spindle_speed: 52.0,
         }
     }
 

@@ -9,6 +9,7 @@
 //! const NODES: Param<Count> = Param::count("nodes", "nodes a revolution").min(3);
 //!
 //! /// The same number of nodes on every revolution.
+//! #[derive(Clone)]
 //! struct Even(f64);
 //!
 //! impl Strategy for Even {
@@ -20,8 +21,8 @@
 //!     }
 //! }
 //!
-//! impl Sampler for Even {
-//!     fn place(&self, _: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+//! impl SamplerPlan for Even {
+//!     fn place(&self, _: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
 //!         nodes.extend(block.turns().flat_map(|turn| turn.subdivide(self.0)));
 //!         Ok(())
 //!     }
@@ -59,9 +60,10 @@ pub mod prelude {
     pub use turnpath_core::{
         AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Continuation, Cut, DEG,
         DataFile, Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries,
-        Gradients, Lanes, Locus, Machine, Mask, Misfit, NM, Nodes, Param, ParamInfo, Params, Part,
-        Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler,
-        Scalar, Series, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Surface,
+        Gradients, LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset,
+        Nodes, Param, ParamInfo, Params, Part, Path, Piece, PiecewisePolynomial, Radial,
+        RadialRange, Rates, Result, Revolutions, Sampler, SamplerPlan, Scalar, Series, Setup,
+        SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw, Strategy, StrategyError, Surface,
         SurfaceModel, Task, Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle,
         per_radian, quintic,
     };
@@ -90,7 +92,7 @@ pub mod macros {
 /// turnpath_plugin::export!(feeds: [MyFeed], samplers: [MySampler, MyOther]);
 /// ```
 ///
-/// The slots are `surfaces`, `feeds`, `samplers`, `compensators` and `velocities`. Use the macro
+/// The slots are `surfaces`, `feeds`, `samplers`, `compensators`, `velocities` and `spindles`. Use the macro
 /// once in a crate. A plugin must unwind on panic. `panic = "abort"` in its profile would end the
 /// whole program, so the macro refuses it.
 #[macro_export]

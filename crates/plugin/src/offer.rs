@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, FeedStrategy, Params, Result, Sampler, StrategyInfo, SurfaceModel, VelocitySolver,
+    Compensator, FeedStrategy, Params, Result, Sampler, SpindleStrategy, StrategyInfo,
+    SurfaceModel, VelocitySolver,
 };
 
 use crate::abi::catalogue::CatalogueEntry;
@@ -12,6 +13,7 @@ use crate::abi::data::{arguments, result};
 use crate::abi::feed::IncomingFeed;
 use crate::abi::root::{self, AbiRequest, OpenError, RootRef};
 use crate::abi::sampler::IncomingSampler;
+use crate::abi::spindle::IncomingSpindle;
 use crate::abi::surface::IncomingSurface;
 use crate::abi::velocity::IncomingVelocity;
 
@@ -81,6 +83,12 @@ impl Offer {
             .velocity()(
             self.request(params),
         ))?)?))
+    }
+
+    /// Builds the spindle strategy.
+    pub fn spindle(&self, params: &Params) -> Result<Arc<dyn SpindleStrategy>> {
+        let made = result(self.root.spindle()(self.request(params)))?;
+        Ok(Arc::new(IncomingSpindle::new(made)?))
     }
 
     fn request(&self, params: &Params) -> AbiRequest {

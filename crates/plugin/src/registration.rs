@@ -1,8 +1,8 @@
 //! What a plugin crate registers for each strategy: its description and its constructor.
 
 use turnpath_core::{
-    Compensator, FeedStrategy, Params, Result, Sampler, Slot, Strategy, StrategyInfo, Surface,
-    SurfaceModel, VelocitySolver,
+    Compensator, FeedStrategy, Params, Result, Sampler, Slot, SpindleStrategy, Strategy,
+    StrategyInfo, Surface, SurfaceModel, VelocitySolver,
 };
 
 /// The constructor of a strategy from its parameters, one variant for each slot.
@@ -18,6 +18,8 @@ pub enum Build {
     Compensator(fn(&Params) -> Result<Box<dyn Compensator>>),
     /// A velocity solver.
     Velocity(fn(&Params) -> Result<Box<dyn VelocitySolver>>),
+    /// A spindle strategy.
+    Spindle(fn(&Params) -> Result<Box<dyn SpindleStrategy>>),
 }
 
 /// One strategy of one plugin crate.
@@ -83,5 +85,12 @@ impl Registration {
         VelocitySolver,
         VelocitySolver,
         "velocity solver"
+    );
+    registrar!(
+        spindles,
+        Spindle,
+        SpindleStrategy,
+        SpindleStrategy,
+        "spindle strategy"
     );
 }

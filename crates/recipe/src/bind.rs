@@ -10,6 +10,7 @@ use crate::found::{Found, default_of, found};
 use crate::recipe::Recipe;
 use crate::span::Spanned;
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
+use crate::tables::slot_keys;
 
 /// The parameters of a strategy, checked against its declarations. Files are named but not read.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -86,6 +87,8 @@ impl Choice {
             return None;
         }
         let names: Vec<&str> = info.params.iter().map(|param| param.name).collect();
+        let of_host = slot_keys(self.slot).iter().map(|key| key.name);
+        let known: Vec<&str> = names.iter().copied().chain(of_host).collect();
         let noun = self.slot.noun();
         let title = format!(
             "the {noun} `{}` has no parameter {}",
@@ -99,7 +102,7 @@ impl Choice {
         };
         let diagnostic = Diagnostic::new(entry.span.clone(), title)
             .with_label("unknown parameter")
-            .with_helps(did_you_mean(&entry.key, &names))
+            .with_helps(did_you_mean(&entry.key, &known))
             .with_help(list);
         Some(diagnostic.with_helps(self.help_for_left_over(entry)))
     }

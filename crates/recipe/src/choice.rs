@@ -7,7 +7,7 @@ use crate::document::{Entry, Table};
 use crate::read::Section;
 use crate::span::{Span, Spanned};
 use crate::suggest::quoted;
-use crate::tables::{USE, slot_keys};
+use crate::tables::{DEFAULT_SPINDLE, USE, slot_keys};
 
 /// A slot, the strategy chosen for it, and the parameters as the recipe gives them.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,16 +41,32 @@ impl Choice {
             .clone()
     }
 
+    fn read_name(slot: Slot, section: &mut Section<'_>) -> Option<Spanned<String>> {
+        let key = USE.name();
+        if section.node(key).is_some() {
+            return section.text(key);
+        }
+        if slot == Slot::Spindle {
+            return Some(Spanned {
+                value: DEFAULT_SPINDLE.to_owned(),
+                span: section.span.clone(),
+            });
+        }
+        section.missing(key, &format!("\"{}\"", example(slot)));
+        None
+    }
+
     /// Reads the slot's table.
     pub(crate) fn read(slot: Slot, section: &mut Section<'_>) -> Option<Self> {
         let Some(table) = section.table else {
+            if slot == Slot::Spindle {
+                // The table's own reader reports that it is missing.
+                return None;
+            }
             section.missing_table(&format!("use = \"{}\"", example(slot)));
             return None;
         };
-        if section.node(USE.name()).is_none() {
-            section.missing(USE.name(), &format!("\"{}\"", example(slot)));
-        }
-        let name = section.text(USE.name())?;
+        let name = Self::read_name(slot, section)?;
         if !is_strategy_name(&name.value) {
             section.report(invalid_name(slot, &name));
             return None;
@@ -93,5 +109,6 @@ fn example(slot: Slot) -> &'static str {
         Slot::Sampler => "equal-angle",
         Slot::Compensator => "z-direction",
         Slot::Velocity => "triangle-rotary",
+        Slot::Spindle => DEFAULT_SPINDLE,
     }
 }

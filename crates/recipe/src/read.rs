@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Node, Table, Value};
 use crate::found::{Found, default_of, found};
 use crate::span::{Span, Spanned};
-use crate::suggest::{did_you_mean, listed, quoted};
+use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
 use crate::table_info::TableInfo;
 use crate::value;
 
@@ -203,7 +203,9 @@ impl<'a> Section<'a> {
     /// Whether the recipe has the table. A table that it must have is reported.
     pub(crate) fn is_there(&mut self, info: &TableInfo) -> bool {
         let there = self.table.is_some();
-        if let (false, true, Some(first)) = (there, info.required, info.keys.first()) {
+        let mut keys = info.keys.iter();
+        let first = keys.find(|key| key.default == ParamDefault::Required);
+        if let (false, true, Some(first)) = (there, info.required, first) {
             self.missing_table(&format!("{} = {}", first.name, example(first)));
         }
         there
@@ -231,6 +233,19 @@ impl<'a> Section<'a> {
             .iter()
             .filter(|entry| !known.contains(&entry.key.as_str()));
         for entry in unknown {
+            let diagnostic = self.unknown_key(entry, &known);
+            self.report(diagnostic);
+        }
+    }
+
+    /// Reports each key that looks like a misspelling of `key`, if the table lacks `key` itself.
+    pub(crate) fn report_misspelling(&mut self, key: &str, info: &TableInfo) {
+        let known = known_keys(self.schema, info);
+        let entries = match self.table {
+            Some(table) if table.get(key).is_none() => table.entries(),
+            _ => &[],
+        };
+        for entry in entries.iter().filter(|entry| is_misspelt(&entry.key, key)) {
             let diagnostic = self.unknown_key(entry, &known);
             self.report(diagnostic);
         }

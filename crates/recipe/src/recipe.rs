@@ -15,7 +15,7 @@ use crate::presets::Preset;
 use crate::read::Sections;
 use crate::set;
 use crate::span::{Source, Span, Spanned};
-use crate::tables::{self, Output, PmacPvt};
+use crate::tables::{self, DEFAULT_SPINDLE, Output, PmacPvt};
 
 /// Largest recipe, in bytes: a hundred times as much as a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -31,7 +31,7 @@ pub struct Recipe {
     pub tool: Tool,
     /// The tolerances.
     pub tolerance: Tolerance,
-    /// Speed of the spindle, rad/s.
+    /// The largest speed of the spindle, rad/s.
     pub spindle_speed: f64,
     /// The limits of the machine; there are none unless the recipe gives them.
     pub machine: Machine,
@@ -57,7 +57,7 @@ pub struct Recipe {
     pub pmac_pvt: PmacPvt,
     /// Folders and libraries to load plugins from, as the recipe gives them, relative to the recipe.
     pub plugins: Vec<Spanned<String>>,
-    choices: [Choice; 5],
+    choices: [Choice; 6],
     document: Table,
     sets: Vec<String>,
     whole: Span,
@@ -201,7 +201,13 @@ impl Recipe {
             Slot::Sampler => &self.choices[2],
             Slot::Compensator => &self.choices[3],
             Slot::Velocity => &self.choices[4],
+            Slot::Spindle => &self.choices[5],
         }
+    }
+
+    /// Whether the spindle turns at one speed over the whole cut.
+    pub fn has_constant_spindle(&self) -> bool {
+        self.choice(Slot::Spindle).name() == DEFAULT_SPINDLE
     }
 
     /// The span of the value under a path of keys, `tool.nose_radius`; `None` if the recipe leaves
@@ -363,7 +369,7 @@ pub(crate) fn build(
     let output = tables::output(&mut sections.open("output"));
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
     let choices = Slot::ALL.map(|slot| Choice::read(slot, &mut sections.open(slot.key())));
-    let [surface, feed, sampler, compensator, velocity] = choices;
+    let [surface, feed, sampler, compensator, velocity, spindle] = choices;
     let (tool, path_table) = (tool?, path_table?);
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
@@ -382,7 +388,7 @@ pub(crate) fn build(
         output,
         pmac_pvt: pmac_pvt?,
         plugins: top.plugins,
-        choices: [surface?, feed?, sampler?, compensator?, velocity?],
+        choices: [surface?, feed?, sampler?, compensator?, velocity?, spindle?],
         document,
         sets,
         whole,

@@ -10,6 +10,7 @@ use crate::machine::{HighestSpindle, MachineReport, all_hold};
 use crate::reach::Reach;
 use crate::servo::ServoReport;
 use crate::surface_error::SurfaceError;
+use crate::unit;
 use crate::verdict::{Verdict, within};
 
 /// The figures of a path with what they are held to.
@@ -21,8 +22,12 @@ pub struct PathReport {
     pub overrun: Overrun,
     /// Played − true tool centre.
     pub interpolation_error: InterpolationError,
-    /// Control points − true tool centre.
+    /// Control points − true tool centre, without the sampler's offsets where these are known.
     pub control_point_error: ControlPointError,
+    /// The largest amount by which the sampler placed a control point off the locus, mm; `None` for a
+    /// file, which does not say.
+    #[serde(rename = "control_point_offset_nm", with = "unit::nm")]
+    pub control_point_offset: Option<f64>,
     /// Cusps.
     pub residual: Residual,
     /// What stays uncut.

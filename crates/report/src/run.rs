@@ -78,6 +78,8 @@ pub struct ChainNames {
     pub compensator: String,
     /// The velocity solver.
     pub velocity: String,
+    /// The spindle strategy.
+    pub spindle: String,
 }
 
 /// A plugin that a strategy comes from.

@@ -81,6 +81,19 @@ pub fn not_carried(recipe: &Recipe, error: PmacError) -> Error {
     Error::refused_by(recipe.diagnostic(span, title, "chosen here", help), error)
 }
 
+/// A sampler with a velocity solver that does not give the rates on which it relies.
+pub fn needs_exact_rates(recipe: &Recipe) -> Error {
+    let [sampler, velocity] =
+        [Slot::Sampler, Slot::Velocity].map(|slot| recipe.choice(slot).name());
+    let title = format!(
+        "the sampler `{sampler}` needs exact rates, and the velocity solver `{velocity}` does not \
+         give them"
+    );
+    let span = recipe.choice(Slot::Velocity).name.span.clone();
+    let help = ["choose a solver with exact rates: use = \"analytic\"".to_owned()];
+    Diagnostics::from(recipe.diagnostic(span, title, "chosen here", help)).into()
+}
+
 fn at_choice(recipe: &Recipe, slot: Slot, title: String) -> Diagnostic {
     let span = recipe.choice(slot).name.span.clone();
     recipe.diagnostic(span, title, "chosen here", [])

@@ -6,8 +6,8 @@ use turnpath_report as report;
 use turnpath_report::{LimitFigure, PathPlace};
 use turnpath_verify::machined::{MachinedFigures, PartPoint};
 use turnpath_verify::{
-    AxesMotion, AxisMotion, CoverageFigures, FollowingError, LeadFigures, PathFigures, Peak,
-    ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
+    AxesMotion, AxisMotion, CoverageFigures, FollowingError, HighestSpeed, LeadFigures,
+    PathFigures, Peak, ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
 };
 
 /// The tolerances of a recipe.
@@ -41,6 +41,7 @@ pub fn path(
             max: points.max(),
             at: place(points.at_c, points.at_x),
         },
+        control_point_offset: points.offset,
         residual: residual(&figures.residual, overrun),
         coverage: coverage(&figures.coverage),
         axis_crossing: report::AxisCrossing {
@@ -54,11 +55,20 @@ pub fn path(
             limits: limits(&figures.axes, recipe),
         }),
         highest_spindle: highest.map(|highest| report::HighestSpindle {
-            speed: highest.speed,
+            speed: highest_spindle(recipe, &highest),
             bound_by: (highest.bound_by.axis, highest.bound_by.derivative),
         }),
         lead,
         servo: servo.map(servo_report),
+    }
+}
+
+/// The highest speed of a recipe's spindle, rad/s. A constant spindle has one speed, that of the
+/// path as played. Any other schedule scales as a whole, so `speed` of the recipe scales with it.
+fn highest_spindle(recipe: &Recipe, highest: &HighestSpeed) -> f64 {
+    match recipe.has_constant_spindle() {
+        true => highest.speed,
+        false => highest.factor * recipe.spindle_speed,
     }
 }
 

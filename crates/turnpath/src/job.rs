@@ -1,6 +1,5 @@
 //! A recipe with its strategies: everything that can be refused is refused when it is made.
 
-use turnpath_core::SpindleLaw;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{
@@ -11,7 +10,7 @@ use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 
 use crate::data_files::DataFiles;
-use crate::diagnosis::{not_carried, of_pipeline};
+use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
 use crate::error::Error;
 use crate::named_files::UsedFile;
 use crate::program::{Program, programs};
@@ -46,13 +45,14 @@ impl Job {
     ) -> Result<Self, Error> {
         let chain = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
+        refuse_inexact_rates(&recipe, &chain)?;
         let spec = JobSpec {
             part: recipe.part,
             tool: recipe.tool,
             tolerance: recipe.tolerance,
             overrun: recipe.overrun,
             direction: recipe.direction,
-            spindle: SpindleLaw::constant(recipe.spindle_speed),
+            spindle_speed: recipe.spindle_speed,
             machine: recipe.machine,
         };
         let preparation = prepare(&chain, spec).map_err(|error| of_pipeline(&recipe, error))?;
@@ -109,5 +109,14 @@ impl Job {
             servo: recipe.servo,
             covers_centre: Overrun::from(recipe.overrun).covers_centre(),
         }
+    }
+}
+
+/// A sampler that relies on the exact rates of the path needs a solver that gives them.
+fn refuse_inexact_rates(recipe: &Recipe, chain: &Chain) -> Result<(), Error> {
+    let needs = chain.sampler.strategy.needs_exact_rates();
+    match needs && !chain.velocity.strategy.gives_exact_rates() {
+        true => Err(needs_exact_rates(recipe)),
+        false => Ok(()),
     }
 }

@@ -227,5 +227,6 @@ pub(crate) fn chain_names(recipe: &turnpath_recipe::Recipe) -> report::ChainName
         sampler: name(Slot::Sampler),
         compensator: name(Slot::Compensator),
         velocity: name(Slot::Velocity),
+        spindle: name(Slot::Spindle),
     }
 }

@@ -144,7 +144,7 @@ pub fn velocity(
     )
 }
 
-/// The recipe's five strategies.
+/// The recipe's strategies.
 pub fn chain(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<Chain, Error> {
     Ok(Chain {
         surface: surface(recipe, catalogue, files)?,
@@ -160,5 +160,12 @@ pub fn chain(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Resul
         )?,
         compensator: compensator(recipe, catalogue, files)?,
         velocity: velocity(recipe, catalogue, files)?,
+        spindle: link(
+            recipe,
+            catalogue,
+            files,
+            Slot::Spindle,
+            |strategy, params| strategy.offer().spindle(params),
+        )?,
     })
 }

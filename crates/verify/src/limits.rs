@@ -22,6 +22,8 @@ pub struct LimitFigure {
 /// The highest speed at which a path can be played.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HighestSpeed {
+    /// The factor by which the whole motion can be faster.
+    pub factor: f64,
     /// Mean speed of C, rad/s.
     pub speed: f64,
     /// The limit that is reached at this speed.
@@ -62,6 +64,7 @@ impl AxesMotion {
         let least = factors.min_by(|one, other| one.0.total_cmp(&other.0));
         least
             .map(|(factor, bound_by)| HighestSpeed {
+                factor,
                 speed: factor * self.c.mean_velocity().abs(),
                 bound_by,
             })

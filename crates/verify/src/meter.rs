@@ -87,6 +87,16 @@ impl Meter {
 
     /// Measures the segments between neighbouring points; can run in parallel.
     pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<BlockFigures> {
+        Self::measure_off(touch, points, &[])
+    }
+
+    /// Measures points that were placed off the locus. `offsets` has Z of each point above the
+    /// locus, mm; it may be empty.
+    pub fn measure_off(
+        touch: &FirstTouch,
+        points: &PathBlock,
+        offsets: &[f64],
+    ) -> Result<BlockFigures> {
         let mut block = BlockFigures {
             axes: AxesMotion::of(points),
             ends: ends(points),
@@ -94,7 +104,7 @@ impl Meter {
         };
         block.playback = play_back(touch, points, &mut block.per_segment)?;
         block.per_point = point_errors(touch, points)?;
-        block.points = PointFigures::of(points, &block.per_point);
+        block.points = PointFigures::of(points, &block.per_point, offsets);
         block.passes = Passes::of(touch, points)?;
         block.residual = block.passes.residual(touch)?;
         block.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;

@@ -14,13 +14,15 @@ use crate::touch::FirstTouch;
 /// The error of the control points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PointFigures {
-    /// The error with the largest amount, signed: Z of the point − first touch, mm. NaN where the
-    /// surface has no height.
+    /// The error with the largest amount, signed: Z of the point − its offset − first touch, mm. NaN
+    /// where the surface has no height.
     pub extreme: f64,
     /// C of that point, unwrapped, rad.
     pub at_c: f64,
     /// X of that point, mm.
     pub at_x: f64,
+    /// The largest amount by which a point was placed off the locus, mm; `None` if that is not known.
+    pub offset: Option<f64>,
 }
 
 impl PointFigures {
@@ -32,25 +34,33 @@ impl PointFigures {
         }
     }
 
-    /// The figures of a block, from the errors of its points.
-    pub(crate) fn of(points: &PathBlock, errors: &[f64]) -> Self {
+    /// The figures of a block, from the distances of its points from the first touch. `offsets`
+    /// has how far each point was placed off the locus; it may be empty.
+    pub(crate) fn of(points: &PathBlock, distances: &[f64], offsets: &[f64]) -> Self {
         let mut figures = Self::default();
-        for (i, error) in errors.iter().enumerate() {
+        for (i, distance) in distances.iter().enumerate() {
+            let offset = offsets.get(i).copied();
             figures.include(&Self {
-                extreme: *error,
+                extreme: distance - offset.unwrap_or(0.0),
                 at_c: points.c[i],
                 at_x: points.x[i],
+                offset: offset.map(f64::abs),
             });
         }
         figures
     }
 
-    /// Keeps the larger error of the two.
+    /// Keeps the larger error and the larger offset of the two.
     pub(crate) fn include(&mut self, other: &Self) {
         let worse = other.extreme.is_nan() || other.extreme.abs() > self.extreme.abs();
+        let offset = match (self.offset, other.offset) {
+            (Some(own), Some(other)) => Some(own.max(other)),
+            (own, other) => own.or(other),
+        };
         if !self.extreme.is_nan() && worse {
             *self = *other;
         }
+        self.offset = offset;
     }
 }
 
@@ -76,12 +86,26 @@ mod tests {
                 ..Default::default()
             });
         }
-        let figures = PointFigures::of(&points, &[1e-6, -3e-6, 2e-6, 0.0]);
+        let figures = PointFigures::of(&points, &[1e-6, -3e-6, 2e-6, 0.0], &[]);
         assert_eq!((figures.extreme, figures.at_c), (-3e-6, 1.0));
-        let broken = PointFigures::of(&points, &[1e-6, -3e-6, f64::NAN, 1.0]);
+        let broken = PointFigures::of(&points, &[1e-6, -3e-6, f64::NAN, 1.0], &[]);
         assert_eq!((broken.max(), broken.at_c), (f64::INFINITY, 2.0));
         let mut both = broken;
         both.include(&figures);
         assert_eq!(both.max(), f64::INFINITY);
+    }
+
+    #[test]
+    fn an_offset_is_no_error() {
+        let mut points = PathBlock::default();
+        for c in 0..3 {
+            points.push(turnpath_core::toolpath::ControlPoint {
+                c: f64::from(c),
+                ..Default::default()
+            });
+        }
+        let figures = PointFigures::of(&points, &[4e-6, -8e-6, 1e-6], &[4e-6, -8e-6, 0.0]);
+        assert_eq!((figures.extreme, figures.at_c), (1e-6, 2.0));
+        assert_eq!(figures.offset, Some(8e-6));
     }
 }

@@ -94,7 +94,9 @@ fn smooth_law(table: &FeedTable, task: &Task) -> Result<Vec<FeedPiece>> {
     let Some(limit) = task.machine.x.acceleration else {
         return Ok(law);
     };
-    while largest_acceleration(&law, &task.spindle) > SHARE * limit && smooth.window() < aperture {
+    // The feed is planned before the spindle's schedule: at the largest speed.
+    let spindle = SpindleLaw::constant(task.spindle_speed);
+    while largest_acceleration(&law, &spindle) > SHARE * limit && smooth.window() < aperture {
         smooth = SmoothFeed::new(table, (GROWTH * smooth.window()).min(aperture));
         law = pieces(&smooth, task.range, task.direction)?;
     }

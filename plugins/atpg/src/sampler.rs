@@ -28,7 +28,7 @@ impl Strategy for AtpgSampler {
 }
 
 impl Sampler for AtpgSampler {
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
-        self.steps.place(path, block, nodes)
+    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        Ok(Box::new(self.steps))
     }
 }

@@ -30,7 +30,7 @@ impl Strategy for AtsSampler {
 }
 
 impl Sampler for AtsSampler {
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
-        self.steps.place(path, block, nodes)
+    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        Ok(Box::new(self.steps))
     }
 }

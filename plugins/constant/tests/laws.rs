@@ -6,8 +6,7 @@ use std::sync::Arc;
 use turnpath_constant::Constant;
 use turnpath_core::{
     Compensator, Continuation, Direction, FeedStrategy, Machine, NM, Params, Part, RadialRange,
-    Result, Setup, SpindleLaw, SpiralLaw, Strategy, StrategyError, Task, Tolerance, Tool,
-    ToolLocus, UM,
+    Result, Setup, SpiralLaw, Strategy, StrategyError, Task, Tolerance, Tool, ToolLocus, UM,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic};
@@ -38,7 +37,7 @@ fn task(inner: f64, direction: Direction) -> Task {
         },
         range: RadialRange { inner, outer: RIM },
         direction,
-        spindle: SpindleLaw::constant(52.0),
+        spindle_speed: 52.0,
         machine: Machine::default(),
     }
 }

@@ -69,8 +69,8 @@ impl Strategy for FftAdaptiveSampler {
     }
 }
 
-impl Sampler for FftAdaptiveSampler {
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+impl SamplerPlan for FftAdaptiveSampler {
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
         for turn in block.turns() {
             let longest = self.critical_step(path, turn.start)?;
             let rule = Rule::new(path.task, self.chord, longest);
@@ -87,7 +87,7 @@ impl Sampler for FftAdaptiveSampler {
 }
 
 /// Appends nodes from the turn's start on. Each lies one step (rad) after the node before.
-fn walk(turn: Turn, nodes: &mut Vec<f64>, mut step: impl FnMut(f64) -> Result<f64>) -> Result<()> {
+fn walk(turn: Turn, nodes: &mut NodeList, mut step: impl FnMut(f64) -> Result<f64>) -> Result<()> {
     let mut n = turn.start;
     while n < turn.end {
         nodes.push(n);

@@ -44,36 +44,6 @@ impl ArcSteps {
         }
     }
 
-    /// Appends the nodes of a block. `state` holds the next node after the block before, in
-    /// revolutions; it is empty for the first block.
-    pub fn place(
-        &self,
-        path: &Path<'_>,
-        block: Revolutions,
-        state: &mut Vec<f64>,
-        nodes: &mut Vec<f64>,
-    ) -> Result<()> {
-        let mut n = state.first().copied().unwrap_or(block.start);
-        let ends_path = block.end >= path.law.end();
-        while n < block.end {
-            nodes.push(n);
-            let step = self.step_from(path, n);
-            if !step.is_finite() {
-                return Err(no_arc(path, n));
-            }
-            if step < SMALLEST_STEP / TAU {
-                return Err(too_short(path, n));
-            }
-            n += step;
-            if ends_path && block.end - n < SLACK * step {
-                break;
-            }
-        }
-        state.clear();
-        state.push(n);
-        Ok(())
-    }
-
     /// The length of the step from `n`, in revolutions.
     fn step_from(&self, path: &Path<'_>, n: f64) -> f64 {
         let longest = self.max_step / TAU;
@@ -100,6 +70,46 @@ impl ArcSteps {
             step = next;
         }
         step
+    }
+}
+
+impl SamplerPlan for ArcSteps {
+    fn dependence(&self) -> Dependence {
+        Dependence::Sequential
+    }
+
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
+        self.place_sequential(path, block, &mut Vec::new(), nodes)
+    }
+
+    /// Appends the nodes of a block. `state` holds the next node after the block before, in
+    /// revolutions; it is empty for the first block.
+    fn place_sequential(
+        &self,
+        path: &Path<'_>,
+        block: Revolutions,
+        state: &mut Vec<f64>,
+        nodes: &mut NodeList,
+    ) -> Result<()> {
+        let mut n = state.first().copied().unwrap_or(block.start);
+        let ends_path = block.end >= path.law.end();
+        while n < block.end {
+            nodes.push(n);
+            let step = self.step_from(path, n);
+            if !step.is_finite() {
+                return Err(no_arc(path, n));
+            }
+            if step < SMALLEST_STEP / TAU {
+                return Err(too_short(path, n));
+            }
+            n += step;
+            if ends_path && block.end - n < SLACK * step {
+                break;
+            }
+        }
+        state.clear();
+        state.push(n);
+        Ok(())
     }
 }
 

@@ -88,15 +88,6 @@ impl EqualAngle {
         }
         Ok(step)
     }
-
-    fn steps(&self, path: &Path<'_>) -> Result<Steps> {
-        match self.step.or(path.prepared.first().copied()) {
-            Some(step) => Ok(Steps::of(step)),
-            None => Err(StrategyError::failed(
-                "no step is given, and the path was not prepared",
-            )),
-        }
-    }
 }
 
 /// Equal steps.
@@ -131,25 +122,27 @@ impl Steps {
 }
 
 impl Sampler for EqualAngle {
-    fn prepare(&self, path: &Path<'_>) -> Result<Vec<f64>> {
-        match self.step {
-            Some(_) => Ok(Vec::new()),
-            None => Ok(vec![self.derive(path)?]),
-        }
+    fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        let step = match self.step {
+            Some(step) => step,
+            None => self.derive(path)?,
+        };
+        Ok(Box::new(Steps::of(step)))
     }
+}
 
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
-        let steps = self.steps(path)?;
+impl SamplerPlan for Steps {
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
         let ends_path = block.end >= path.law.end();
         let slack = if ends_path {
-            SLACK / steps.per_turn
+            SLACK / self.per_turn
         } else {
             0.0
         };
-        let from = steps.first_from(block.start);
+        let from = self.first_from(block.start);
         nodes.extend(
             (from..)
-                .map(|k| steps.node(k))
+                .map(|k| self.node(k))
                 .take_while(|n| *n < block.end - slack),
         );
         Ok(())

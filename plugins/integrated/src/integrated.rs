@@ -34,21 +34,7 @@ impl Strategy for Integrated {
 }
 
 impl Sampler for Integrated {
-    fn dependence(&self) -> Dependence {
-        Dependence::Sequential
-    }
-
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
-        self.steps.place(path, block, &mut Vec::new(), nodes)
-    }
-
-    fn place_sequential(
-        &self,
-        path: &Path<'_>,
-        block: Revolutions,
-        state: &mut Vec<f64>,
-        nodes: &mut Vec<f64>,
-    ) -> Result<()> {
-        self.steps.place(path, block, state, nodes)
+    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        Ok(Box::new(self.steps))
     }
 }

@@ -25,6 +25,10 @@ impl VelocitySolver for Analytic {
         Dependence::Local
     }
 
+    fn gives_exact_rates(&self) -> bool {
+        true
+    }
+
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
         out.c.copy_from_slice(nodes.c_rate);
         out.x.copy_from_slice(nodes.x_rate);

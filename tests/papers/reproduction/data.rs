@@ -151,6 +151,16 @@ impl Page {
         self.section.iter().flat_map(|section| &section.figure)
     }
 
+    /// Leaves out the figures that need a run of such a recipe.
+    pub fn leave_out(&mut self, recipe: impl Fn(&str) -> bool) {
+        for section in &mut self.section {
+            section.figure.retain(|figure| {
+                let mut runs = figure.run.iter().chain(&figure.over);
+                !runs.any(|run| recipe(&run.recipe))
+            });
+        }
+    }
+
     /// All runs that figures and cells need, with the common changes.
     pub fn calls(&self) -> Vec<Call> {
         let of_figures = self

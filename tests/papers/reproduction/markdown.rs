@@ -9,9 +9,9 @@ const HEAD: &str = "\
 # Reproduction
 
 What the papers print, and what turnpath gives for the same part. Every figure of turnpath comes \
-from a run of the program, or from the test that is named. `cargo test --workspace --test papers \
-reproduction` makes the runs again, and holds each figure against its bound and this page against \
-the runs. Recipes, changes and bounds: [reproduction.toml](reproduction.toml).
+from a run of the program, or from the test that is named. `cargo xtask long` makes the runs again, \
+and holds each figure against its bound and this page against the runs. `cargo test --workspace \
+--test papers reproduction` does so for the small parts. Recipes, changes and bounds: [reproduction.toml](reproduction.toml).
 ";
 
 /// The whole page.

@@ -1,52 +1,63 @@
 #!/usr/bin/env python3
 """Runs turnpath on recipes and keeps what playback.py measures on each path beside this script.
 
-    measure_all.py TURNPATH [RECIPE.toml …]     without a recipe: all of docs/recipes and hard/
+    measure_all.py TURNPATH [--plugins DIR] [RECIPE.toml …]
 
-TURNPATH is the program. Each recipe's figures go to `<recipe>.json` in the folder of its
-references: this one for docs/recipes, hard/ for hard/. They change only when a path does.
+TURNPATH is the program. Without a recipe these are all of docs/recipes and hard/, and all of
+slots/ if DIR has the libraries of tests/fixtures. Each recipe's figures go to `<recipe>.json` in
+the folder of its references: this one for docs/recipes, hard/ and slots/ for their own. They
+change only when a path does.
 """
 
+import argparse
 import json
 import subprocess
-import sys
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 
-from playback import Recipe, ToolPath, measure
+from playback import Recipe, ToolPath, measure, measure_slots
 
 HERE = Path(__file__).resolve().parent
 RECIPES = HERE.parents[2] / "docs" / "recipes"
 HARD = HERE / "hard"
+SLOTS = HERE / "slots"  # recipes that need the fixture `two-speeds`
 TOLERANCE_EXCEEDED = 1  # turnpath's exit status when a path is made but holds no tolerance
 
 
 def reference_file(recipe):
     """Where the figures of a recipe are kept."""
-    folder = HARD if recipe.parent == HARD else HERE
+    folder = recipe.parent if recipe.parent in (HARD, SLOTS) else HERE
     return folder / f"{recipe.stem}.json"
 
 
-def measure_recipe(program, recipe):
+def measure_recipe(program, plugins, recipe):
     """Runs `program` on the recipe and measures its toolpath.csv; gives the figures."""
     with tempfile.TemporaryDirectory() as folder:
-        run = subprocess.run([program, "run", recipe, "-o", folder], capture_output=True, text=True)
+        command = [program, "run", recipe, "-o", folder]
+        command += ["--plugin-dir", plugins] if recipe.parent == SLOTS else []
+        run = subprocess.run(command, capture_output=True, text=True)
         if run.returncode not in (0, TOLERANCE_EXCEEDED):
             raise SystemExit(f"{recipe.name}: exit {run.returncode}\n{run.stderr}")
-        return measure(Recipe.read(recipe), ToolPath.read(Path(folder) / "toolpath.csv"))
+        figures = measure_slots if recipe.parent == SLOTS else measure
+        return figures(Recipe.read(recipe), ToolPath.read(Path(folder) / "toolpath.csv"))
 
 
 def main():
     """Command line."""
-    if len(sys.argv) < 2:
-        raise SystemExit(__doc__)
-    program = str(Path(sys.argv[1]).resolve())
-    given = [Path(name).resolve() for name in sys.argv[2:]]
-    recipes = given or sorted(RECIPES.glob("*.toml")) + sorted(HARD.glob("*.toml"))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("recipes", nargs="*")
+    parser.add_argument("--plugins")
+    given = parser.parse_intermixed_args()
+    program = str(Path(given.program).resolve())
+    recipes = [Path(name).resolve() for name in given.recipes]
+    if not recipes:
+        folders = [RECIPES, HARD] + ([SLOTS] if given.plugins else [])
+        recipes = [recipe for folder in folders for recipe in sorted(folder.glob("*.toml"))]
     with ProcessPoolExecutor() as pool:
-        for recipe, figures in zip(recipes, pool.map(partial(measure_recipe, program), recipes)):
+        for recipe, figures in zip(recipes, pool.map(partial(measure_recipe, program, given.plugins), recipes)):
             text = json.dumps(figures, indent=2, allow_nan=False) + "\n"
             reference_file(recipe).write_text(text, encoding="utf-8")
             error, cusp = figures["interpolation_error_nm"]["max"], figures["residual_nm"]["max"]

@@ -614,6 +614,32 @@ def zoom(recipe, path, angle, s, step, pitch, extreme):
     return float(extreme(np.where(np.isfinite(errors), errors, np.nan)))
 
 
+def control_points(recipe, path, scan=129):
+    """How far the control points lie off the true tool centre, nm: the largest amount."""
+    off = path.nodes[:, 3] - true_z(recipe, radians(path.nodes[:, 1]), path.nodes[:, 2], scan)
+    return float(np.abs(off).max() * NM_PER_MM)
+
+
+def spindle(path, instants=64):
+    """How C turns as played: lowest and highest speed, and the largest acceleration."""
+    tau = np.arange(instants + 1) / instants
+    h = path.durations[:, None]
+    start, end = path.nodes[:-1, 1, None], path.nodes[1:, 1, None]
+    slope = [path.nodes[:-1, 4, None] * h, path.nodes[1:, 4, None] * h]
+    square = 3 * (end - start) - 2 * slope[0] - slope[1]
+    cube = slope[0] + slope[1] - 2 * (end - start)
+    speed = (slope[0] + 2 * square * tau + 3 * cube * tau**2) / h
+    acceleration = (2 * square + 6 * cube * tau) / h**2
+    return {"lowest_deg_per_s": float(speed.min()), "highest_deg_per_s": float(speed.max()),
+            "acceleration_deg_per_s2": float(np.abs(acceleration).max())}
+
+
+def measure_slots(recipe, path):
+    """All figures, and those of nodes off the locus and of a spindle that changes its speed."""
+    return measure(recipe, path) | {"control_point_nm": control_points(recipe, path),
+                                    "spindle": spindle(path)}
+
+
 def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
     """All figures of a path, as printed."""
     if recipe.cuts_what_fits:  # hills of nearly one height are told apart on a finer scan

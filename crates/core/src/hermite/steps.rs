@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::bound::Bound;
 use super::samples::{Knot, Samples};
 use crate::kind::Angle;
-use crate::{DEG, Param, Params, Path, Result, Revolutions, StrategyError};
+use crate::{DEG, NodeList, Param, Params, Path, Result, Revolutions, SamplerPlan, StrategyError};
 
 /// The part of the tolerance that steps aim at. It lies below refinement's aim of 0.99, so that
 /// refinement never halves a correct step because of what samples and rounding miss. It makes a
@@ -62,12 +62,14 @@ impl Steps {
             feed_part,
         }
     }
+}
 
-    /// Appends the nodes of `block`, as [`Sampler::place`](crate::Sampler::place) must.
+impl SamplerPlan for Steps {
+    /// Appends the nodes of `block`.
     ///
     /// # Errors
     /// If the path has no 4th derivative, or needs steps below [`SHORTEST`].
-    pub fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
         let mut walk = Walk::new(path, block, self)?;
         let mut n = block.start;
         while n < block.end {

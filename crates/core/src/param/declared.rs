@@ -266,6 +266,12 @@ impl Param<Text> {
     pub const fn text(name: &'static str, help: &'static str) -> Self {
         Self::new(name, ParamKind::Text, help)
     }
+
+    /// Sets the default.
+    pub const fn default(mut self, text: &'static str) -> Self {
+        self.info.default = ParamDefault::Text(text);
+        self
+    }
 }
 
 impl Param<List> {

@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::common::{fixtures, nodes, place_more, with_file, with_fixture};
+use crate::common::{fixtures, nodes, place_more, with_file, with_fixture, with_path};
 use turnpath_core::{DataFile, Dependence, ParamValue, Params, Slot};
 use turnpath_host::{Catalogue, sha256_hex_of_file};
 
@@ -146,7 +146,8 @@ fn a_sequential_sampler_hands_its_state_to_the_next_block() {
     let catalogue = with_fixture("sequential");
     let strategy = catalogue.find(Slot::Sampler, "phase").unwrap();
     let sampler = strategy.offer().sampler(&Params::new()).unwrap();
-    assert_eq!(sampler.dependence(), Dependence::Sequential);
+    let dependence = with_path(|path| sampler.plan(path).map(|plan| plan.dependence()));
+    assert_eq!(dependence.unwrap(), Dependence::Sequential);
     let mut state = Vec::new();
     let mut in_two = place_more(sampler.as_ref(), 0.0, 1.0, &mut state).unwrap();
     in_two.extend(place_more(sampler.as_ref(), 1.0, 2.0, &mut state).unwrap());

@@ -85,7 +85,7 @@ impl Join {
             LeadKind::In => plan.law.series(n),
             LeadKind::Out => plan.law.series_before(n),
         };
-        let turning = plan.preparation.task.spindle.speed_at(n) / TAU;
+        let turning = plan.spindle.speed_at(n) / TAU;
         Ok(Self {
             point,
             acceleration: [bend(&segment.c), bend(&segment.x), bend(&segment.z)],

@@ -32,7 +32,10 @@ fn assert_feed_says(feed: Arc<dyn FeedStrategy>, text: &str) {
     assert_says(&task, Slot::Feed, text);
 }
 
-fn assert_nodes_say(nodes: impl Fn(Revolutions) -> Vec<f64> + Send + Sync + 'static, text: &str) {
+fn assert_nodes_say(
+    nodes: impl Fn(Revolutions) -> Vec<f64> + Clone + Send + Sync + 'static,
+    text: &str,
+) {
     let task = Task {
         sampler: Arc::new(Nodes(move |_: &Path<'_>, block: Revolutions| nodes(block))),
         ..Task::default()

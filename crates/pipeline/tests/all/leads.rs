@@ -260,11 +260,7 @@ fn leads_are_smooth_clear_the_part_and_begin_and_end_at_rest() {
         for time_steps in [None, Some(STEPS)] {
             check(&Task {
                 time_steps,
-                feed: task.feed.clone(),
-                compensator: task.compensator.clone(),
-                velocity: task.velocity.clone(),
-                sampler: task.sampler.clone(),
-                ..task
+                ..task.clone()
             });
         }
     }
@@ -406,39 +402,57 @@ fn a_law_that_ends_in_full_motion_lets_x_overshoot_by_a_part_of_the_nose_at_most
     assert!(last < 0.0 && last > -0.3, "{last}");
 }
 
-#[test]
-fn a_lead_that_cannot_keep_its_limits_is_made_and_its_motion_reported() {
+/// Limits that nothing keeps, of one axis each.
+fn hopeless_limits() -> [LeadLimits; 3] {
     let still = AxisLimits {
         velocity: 1e-9,
         acceleration: 1e-9,
         jerk: None,
     };
-    let slow_z = LeadLimits {
-        z: still,
-        ..LeadLimits::default()
-    };
-    let slow_c = LeadLimits {
-        c: still,
-        ..LeadLimits::default()
-    };
-    let slow_x = LeadLimits {
-        x: still,
-        ..LeadLimits::default()
-    };
-    for limits in [slow_z, slow_c, slow_x] {
-        let lead = Some(LeadSettings {
-            clearance: 0.5,
-            limits,
-        });
-        let (_, _, leads) = check(&Task {
-            feed: inward(20.0),
-            lead,
-            ..task()
-        });
-        let axes = leads.figures.axes;
-        assert!(axes.c.acceleration.amount > 1e-9);
-        assert!(axes.x.velocity.amount > 1e-9 && axes.z.velocity.amount > 1e-9);
-    }
+    let others = LeadLimits::default;
+    [
+        LeadLimits {
+            z: still,
+            ..others()
+        },
+        LeadLimits {
+            c: still,
+            ..others()
+        },
+        LeadLimits {
+            x: still,
+            ..others()
+        },
+    ]
+}
+
+fn assert_made_and_reported(limits: LeadLimits) {
+    let lead = Some(LeadSettings {
+        clearance: 0.5,
+        limits,
+    });
+    let (_, _, leads) = check(&Task {
+        feed: inward(20.0),
+        lead,
+        ..task()
+    });
+    let axes = leads.figures.axes;
+    assert!(axes.c.acceleration.amount > 1e-9);
+    assert!(axes.x.velocity.amount > 1e-9 && axes.z.velocity.amount > 1e-9);
+}
+
+#[test]
+fn a_lead_that_cannot_keep_its_limits_is_made_and_its_motion_reported() {
+    let [of_z, ..] = hopeless_limits();
+    assert_made_and_reported(of_z);
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_a_lead_that_cannot_keep_its_limits_of_any_axis_is_made_and_its_motion_reported() {
+    hopeless_limits()
+        .into_iter()
+        .for_each(assert_made_and_reported);
 }
 
 /// The machine can just make the cut at a speed that is higher by a hundredth, or for jerk by two

@@ -5,5 +5,7 @@ mod common;
 mod answers;
 mod blocks;
 mod leads;
+mod offsets;
 mod refinement;
 mod runs;
+mod spindles;

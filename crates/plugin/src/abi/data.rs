@@ -4,8 +4,7 @@ use abi_stable::StableAbi;
 use abi_stable::std_types::{ROption, RResult, RString, RVec};
 use turnpath_core::{
     AxisLimits, DataFile, Direction, Machine, Misfit, ParamValue, Params, Part, Piece,
-    PiecewisePolynomial, RadialRange, Result, Slot, SpindleLaw, StrategyError, Task, Tolerance,
-    Tool,
+    PiecewisePolynomial, RadialRange, Result, Slot, StrategyError, Task, Tolerance, Tool,
 };
 
 use crate::guard::guarded;
@@ -311,7 +310,7 @@ pub struct AbiTask {
     residual: f64,
     range: AbiRange,
     inward: bool,
-    spindle: AbiLaw,
+    spindle_speed: f64,
     machine: AbiMachine,
 }
 
@@ -325,7 +324,7 @@ impl From<&Task> for AbiTask {
             residual: task.tolerance.residual,
             range: task.range.into(),
             inward: task.direction == Direction::Inward,
-            spindle: task.spindle.as_time().into(),
+            spindle_speed: task.spindle_speed,
             machine: task.machine.into(),
         }
     }
@@ -350,7 +349,7 @@ impl From<&AbiTask> for Task {
             } else {
                 Direction::Outward
             },
-            spindle: SpindleLaw::from_time((&task.spindle).into()),
+            spindle_speed: task.spindle_speed,
             machine: task.machine.into(),
         }
     }
@@ -398,7 +397,7 @@ mod tests {
                 outer: 4.1,
             },
             direction: Direction::Outward,
-            spindle: SpindleLaw::constant(50.0),
+            spindle_speed: 50.0,
             machine: Machine {
                 x: limits(1.0),
                 z: limits(2.0),

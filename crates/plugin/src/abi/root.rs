@@ -18,6 +18,7 @@ use super::data::{AbiArgument, Answer, answer, params};
 use super::feed::{AbiFeed_TO, OutgoingFeed, OwnedFeed};
 use super::panic_safe_box::PanicSafeBox;
 use super::sampler::{AbiSampler_TO, OutgoingSampler, OwnedSampler};
+use super::spindle::{AbiSpindle_TO, OutgoingSpindle, OwnedSpindle};
 use super::surface::{AbiSurface_TO, OutgoingSurface, OwnedSurface};
 use super::velocity::{AbiVelocity_TO, OutgoingVelocity, OwnedVelocity};
 use crate::{Build, Registration};
@@ -41,8 +42,9 @@ pub struct Root {
     pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
     pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
     pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
-    #[sabi(last_prefix_field)]
     pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
+    #[sabi(last_prefix_field)]
+    pub spindle: extern "C" fn(AbiRequest) -> Answer<OwnedSpindle>,
 }
 
 impl RootModule for RootRef {
@@ -63,6 +65,7 @@ pub fn own_root() -> RootRef {
             sampler,
             compensator,
             velocity,
+            spindle,
         }
         .leak_into_prefix()
     })
@@ -148,6 +151,13 @@ constructor!(
     OwnedVelocity,
     AbiVelocity_TO,
     OutgoingVelocity
+);
+constructor!(
+    spindle,
+    Spindle,
+    OwnedSpindle,
+    AbiSpindle_TO,
+    OutgoingSpindle
 );
 
 /// The strategies behind a root, as entries for the host.

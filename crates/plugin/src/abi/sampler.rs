@@ -2,12 +2,14 @@
 
 use abi_stable::StableAbi;
 use abi_stable::sabi_trait;
-use abi_stable::std_types::{RBox, RSlice, RVec};
-use turnpath_core::{Dependence, Path, Result, Revolutions, Sampler, Setup, SpiralLaw};
+use abi_stable::std_types::{RBox, RVec};
+use turnpath_core::{
+    Dependence, NodeList, Path, Result, Revolutions, Sampler, SamplerPlan, StrategyError,
+};
 
-use super::data::{AbiLaw, Answer, answer, result};
-use super::feed::{AbiSetup, lend_setup};
+use super::data::{Answer, answer, result};
 use super::panic_safe_box::PanicSafeBox;
+use super::path::{AbiPath, lend_path};
 
 /// How a strategy depends on its neighbours. `overlap` has a meaning for `kind` 1 alone.
 #[repr(C)]
@@ -46,152 +48,180 @@ impl From<AbiDependence> for Dependence {
     }
 }
 
+/// Start and end of a block, in revolutions.
 #[repr(C)]
 #[derive(StableAbi)]
-pub struct AbiPath<'a, 'p> {
-    setup: AbiSetup<'a>,
-    law: AbiLaw,
-    prepared: RSlice<'p, f64>,
+pub struct AbiBlock {
     start: f64,
     end: f64,
 }
 
-fn lend_path<T>(path: &Path<'_>, block: Revolutions, call: impl FnOnce(AbiPath<'_, '_>) -> T) -> T {
-    let Revolutions { start, end } = block;
-    lend_setup(
-        Setup {
-            task: path.task,
-            locus: path.locus,
-        },
-        |setup| {
-            call(AbiPath {
-                setup,
-                law: path.law.into(),
-                prepared: path.prepared.into(),
-                start,
-                end,
-            })
-        },
-    )
+impl From<Revolutions> for AbiBlock {
+    fn from(Revolutions { start, end }: Revolutions) -> Self {
+        Self { start, end }
+    }
 }
 
-impl AbiPath<'_, '_> {
-    fn receive<T>(self, call: impl FnOnce(&Path<'_>, Revolutions) -> T) -> T {
-        let block = Revolutions {
-            start: self.start,
-            end: self.end,
-        };
-        let law = SpiralLaw::from(&self.law);
-        let prepared = self.prepared;
-        self.setup.receive(|Setup { task, locus }| {
-            call(
-                &Path {
-                    task,
-                    locus,
-                    law: &law,
-                    prepared: prepared.as_slice(),
-                },
-                block,
-            )
-        })
+impl From<AbiBlock> for Revolutions {
+    fn from(AbiBlock { start, end }: AbiBlock) -> Self {
+        Self { start, end }
     }
+}
+
+/// The columns of a [`NodeList`].
+#[repr(C)]
+#[derive(StableAbi, Default)]
+pub struct AbiNodeList {
+    n: RVec<f64>,
+    dz: RVec<f64>,
+    dz_dc: RVec<f64>,
+}
+
+impl From<NodeList> for AbiNodeList {
+    fn from(nodes: NodeList) -> Self {
+        let [n, dz, dz_dc] = nodes.into_columns().map(RVec::from);
+        Self { n, dz, dz_dc }
+    }
+}
+
+/// Appends what a plugin placed.
+fn append(nodes: &mut NodeList, placed: AbiNodeList) -> Result<()> {
+    let AbiNodeList { n, dz, dz_dc } = placed;
+    let placed = NodeList::from_columns(n.into(), dz.into(), dz_dc.into());
+    let placed = placed.ok_or_else(|| {
+        StrategyError::failed("the columns of the nodes differ in length: n, dz and dz_dc")
+    })?;
+    nodes.append(placed);
+    Ok(())
 }
 
 #[sabi_trait]
 pub trait AbiSampler: Send + Sync {
+    fn needs_exact_rates(&self) -> Answer<bool>;
+    #[sabi(last_prefix_field)]
+    fn plan(&self, path: AbiPath<'_>) -> Answer<OwnedSamplerPlan>;
+}
+
+#[sabi_trait]
+pub trait AbiSamplerPlan: Send + Sync {
     fn dependence(&self) -> Answer<AbiDependence>;
-    fn prepare(&self, path: AbiPath<'_, '_>) -> Answer<RVec<f64>>;
-    fn place(&self, path: AbiPath<'_, '_>, nodes: &mut RVec<f64>) -> Answer<()>;
+    fn place(&self, path: AbiPath<'_>, block: AbiBlock) -> Answer<AbiNodeList>;
     #[sabi(last_prefix_field)]
     fn place_sequential(
         &self,
-        path: AbiPath<'_, '_>,
+        path: AbiPath<'_>,
+        block: AbiBlock,
         state: &mut RVec<f64>,
-        nodes: &mut RVec<f64>,
-    ) -> Answer<()>;
+    ) -> Answer<AbiNodeList>;
 }
 
 /// A sampler that belongs to its plugin.
 pub type OwnedSampler = AbiSampler_TO<'static, RBox<()>>;
+/// A plan of a sampler that belongs to its plugin.
+pub type OwnedSamplerPlan = AbiSamplerPlan_TO<'static, RBox<()>>;
 
 /// The author's sampler, wrapped for the boundary.
 pub struct OutgoingSampler(pub PanicSafeBox<dyn Sampler>);
 
 impl AbiSampler for OutgoingSampler {
+    fn needs_exact_rates(&self) -> Answer<bool> {
+        answer(|| Ok(self.0.needs_exact_rates()))
+    }
+
+    fn plan(&self, path: AbiPath<'_>) -> Answer<OwnedSamplerPlan> {
+        answer(|| {
+            let plan = path.receive(|path| self.0.plan(path))?;
+            Ok(AbiSamplerPlan_TO::from_value(
+                OutgoingSamplerPlan(PanicSafeBox::new(plan)),
+                sabi_trait::TD_Opaque,
+            ))
+        })
+    }
+}
+
+struct OutgoingSamplerPlan(PanicSafeBox<dyn SamplerPlan>);
+
+impl AbiSamplerPlan for OutgoingSamplerPlan {
     fn dependence(&self) -> Answer<AbiDependence> {
         answer(|| Ok(self.0.dependence().into()))
     }
 
-    fn prepare(&self, path: AbiPath<'_, '_>) -> Answer<RVec<f64>> {
-        answer(|| Ok(path.receive(|path, _| self.0.prepare(path))?.into()))
-    }
-
-    fn place(&self, path: AbiPath<'_, '_>, nodes: &mut RVec<f64>) -> Answer<()> {
+    fn place(&self, path: AbiPath<'_>, block: AbiBlock) -> Answer<AbiNodeList> {
         answer(|| {
-            let mut placed = Vec::new();
-            path.receive(|path, block| self.0.place(path, block, &mut placed))?;
-            nodes.extend(placed);
-            Ok(())
+            let mut placed = NodeList::default();
+            path.receive(|path| self.0.place(path, block.into(), &mut placed))?;
+            Ok(placed.into())
         })
     }
 
     fn place_sequential(
         &self,
-        path: AbiPath<'_, '_>,
+        path: AbiPath<'_>,
+        block: AbiBlock,
         state: &mut RVec<f64>,
-        nodes: &mut RVec<f64>,
-    ) -> Answer<()> {
+    ) -> Answer<AbiNodeList> {
         answer(|| {
-            let (mut kept, mut placed) = (state.to_vec(), Vec::new());
-            path.receive(|path, block| {
-                self.0.place_sequential(path, block, &mut kept, &mut placed)
+            let (mut kept, mut placed) = (state.to_vec(), NodeList::default());
+            path.receive(|path| {
+                (self.0).place_sequential(path, block.into(), &mut kept, &mut placed)
             })?;
             *state = kept.into();
-            nodes.extend(placed);
-            Ok(())
+            Ok(placed.into())
         })
     }
 }
 
-/// A plugin's sampler, wrapped as a sampler of the core. The wrapper reads the dependence once,
-/// when it is built.
+/// A plugin's sampler, wrapped as a sampler of the core. The wrapper reads once whether the sampler
+/// needs exact rates, when it is built.
 pub struct IncomingSampler {
     sampler: OwnedSampler,
-    dependence: Dependence,
+    needs_exact_rates: bool,
 }
 
 impl IncomingSampler {
-    /// Reads the sampler's dependence and wraps the sampler.
+    /// Asks the sampler whether it needs exact rates, and wraps it.
     pub fn new(sampler: OwnedSampler) -> Result<Self> {
-        let dependence = result(sampler.dependence())?.into();
+        let needs_exact_rates = result(sampler.needs_exact_rates())?;
         Ok(Self {
             sampler,
-            dependence,
+            needs_exact_rates,
         })
     }
 }
 
 impl Sampler for IncomingSampler {
+    fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        let plan = result(lend_path(path, |path| self.sampler.plan(path)))?;
+        Ok(Box::new(IncomingSamplerPlan::new(plan)?))
+    }
+
+    fn needs_exact_rates(&self) -> bool {
+        self.needs_exact_rates
+    }
+}
+
+/// A plugin's plan, wrapped as a plan of the core. The wrapper reads the dependence once, when it
+/// is built.
+struct IncomingSamplerPlan {
+    plan: OwnedSamplerPlan,
+    dependence: Dependence,
+}
+
+impl IncomingSamplerPlan {
+    fn new(plan: OwnedSamplerPlan) -> Result<Self> {
+        let dependence = result(plan.dependence())?.into();
+        Ok(Self { plan, dependence })
+    }
+}
+
+impl SamplerPlan for IncomingSamplerPlan {
     fn dependence(&self) -> Dependence {
         self.dependence
     }
 
-    fn prepare(&self, path: &Path<'_>) -> Result<Vec<f64>> {
-        let whole = Revolutions {
-            start: 0.0,
-            end: path.law.end(),
-        };
-        let found = lend_path(path, whole, |path| self.sampler.prepare(path));
-        Ok(result(found)?.into())
-    }
-
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
-        let mut placed = RVec::new();
-        result(lend_path(path, block, |path| {
-            self.sampler.place(path, &mut placed)
-        }))?;
-        nodes.extend(placed);
-        Ok(())
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
+        let placed = lend_path(path, |path| self.plan.place(path, block.into()));
+        append(nodes, result(placed)?)
     }
 
     fn place_sequential(
@@ -199,14 +229,13 @@ impl Sampler for IncomingSampler {
         path: &Path<'_>,
         block: Revolutions,
         state: &mut Vec<f64>,
-        nodes: &mut Vec<f64>,
+        nodes: &mut NodeList,
     ) -> Result<()> {
-        let (mut kept, mut placed) = (RVec::from(std::mem::take(state)), RVec::new());
-        let answer = lend_path(path, block, |path| {
-            self.sampler.place_sequential(path, &mut kept, &mut placed)
+        let mut kept = RVec::from(std::mem::take(state));
+        let placed = lend_path(path, |path| {
+            (self.plan).place_sequential(path, block.into(), &mut kept)
         });
         *state = kept.into();
-        nodes.extend(placed);
-        result(answer)
+        append(nodes, result(placed)?)
     }
 }

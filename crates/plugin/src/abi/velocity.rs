@@ -88,6 +88,7 @@ impl From<AbiShape> for SegmentShape {
 pub trait AbiVelocity: Send + Sync {
     fn dependence(&self) -> Answer<AbiDependence>;
     fn segments(&self) -> Answer<AbiShape>;
+    fn gives_exact_rates(&self) -> Answer<bool>;
     fn solve(
         &self,
         nodes: AbiNodes<'_>,
@@ -119,6 +120,10 @@ impl AbiVelocity for OutgoingVelocity {
 
     fn segments(&self) -> Answer<AbiShape> {
         answer(|| Ok(self.0.segments().into()))
+    }
+
+    fn gives_exact_rates(&self) -> Answer<bool> {
+        answer(|| Ok(self.0.gives_exact_rates()))
     }
 
     fn solve(
@@ -158,23 +163,27 @@ impl AbiVelocity for OutgoingVelocity {
     }
 }
 
-/// A plugin's solver, wrapped as a solver of the core. The wrapper reads the dependence and the
-/// shape once, when it is built.
+/// A plugin's solver, wrapped as a solver of the core. The wrapper reads once what the solver says
+/// of itself, when it is built.
 pub struct IncomingVelocity {
     solver: OwnedVelocity,
     dependence: Dependence,
     shape: SegmentShape,
+    gives_exact_rates: bool,
 }
 
 impl IncomingVelocity {
-    /// Reads the solver's dependence and the shape of its segments, and wraps the solver.
+    /// Reads the solver's dependence, the shape of its segments and whether its rates are exact,
+    /// and wraps the solver.
     pub fn new(solver: OwnedVelocity) -> Result<Self> {
         let dependence = result(solver.dependence())?.into();
         let shape = result(solver.segments())?.into();
+        let gives_exact_rates = result(solver.gives_exact_rates())?;
         Ok(Self {
             solver,
             dependence,
             shape,
+            gives_exact_rates,
         })
     }
 }
@@ -204,6 +213,10 @@ impl VelocitySolver for IncomingVelocity {
 
     fn segments(&self) -> SegmentShape {
         self.shape
+    }
+
+    fn gives_exact_rates(&self) -> bool {
+        self.gives_exact_rates
     }
 
     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {

@@ -7,7 +7,7 @@ use crate::document::{Entry, Node, Table, Value};
 use crate::read::{Section, known_keys};
 use crate::span::Span;
 use crate::suggest::{did_you_mean, listed, quoted};
-use crate::tables::{SCHEMA, TOP, is_one_at_a_time};
+use crate::tables::{DEFAULT_SPINDLE, SCHEMA, TOP, is_one_at_a_time};
 use crate::value;
 
 /// How the lists are combined.
@@ -161,21 +161,53 @@ impl Walker<'_> {
                 .with_help("give it one or more values, or leave the line out"));
         }
         let own = self.base.find(path.iter().map(|(key, _)| key.as_str()));
-        let choices = vec![own.map(|entry| entry.node.clone())];
-        let mut list = List { path, choices };
+        let own = own.map(|entry| whole_spindle(&key, &entry.node, self.base));
+        let mut list = List {
+            path,
+            choices: vec![own],
+        };
         for item in items {
             if list.is_slot() && !matches!(item.value, Value::Table(_)) {
                 return Err(not_a_strategy(&key, item));
             }
+            let item = whole_spindle(&key, item, self.base);
             let same = |choice: &Option<Node>| {
-                choice.as_ref().is_some_and(|choice| are_same(choice, item))
+                choice
+                    .as_ref()
+                    .is_some_and(|choice| are_same(choice, &item))
             };
             if !list.choices.iter().any(same) {
-                list.choices.push(Some(item.clone()));
+                list.choices.push(Some(item));
             }
         }
         Ok(list)
     }
+}
+
+/// A value of the list `spindle` with what it may leave out: `use` has a default, and `speed` is the
+/// recipe's. A value of another list stays as it is.
+fn whole_spindle(key: &str, node: &Node, base: &Table) -> Node {
+    let mut node = node.clone();
+    let Value::Table(table) = &mut node.value else {
+        return node;
+    };
+    if key != Slot::Spindle.key() {
+        return node;
+    }
+    if table.get("use").is_none() {
+        let value = Value::Text(DEFAULT_SPINDLE.to_owned());
+        let span = node.span.clone();
+        table.put(Entry {
+            key: "use".to_owned(),
+            span: span.clone(),
+            node: Node { value, span },
+        });
+    }
+    let speed = base.find([key, "speed"]);
+    if let (None, Some(speed)) = (table.get("speed"), speed) {
+        table.put(speed.clone());
+    }
+    node
 }
 
 /// Whether a path leads to a key, not to a table. This is known only of tables with fixed keys.
@@ -221,6 +253,7 @@ fn cannot_start_with(first: &str, span: &Span, entry: &Entry) -> Option<Diagnost
     let is_table = matches!(entry.node.value, Value::Table(_));
     let known = first_keys();
     match keys_of(first) {
+        _ if is_slot(first) => None,
         _ if !known.contains(&first) => Some(unknown_first_key(first, span, &known)),
         keys if keys.is_empty() => None,
         _ if is_table => None,
@@ -265,6 +298,7 @@ fn unknown_key(table: &str, key: &str, span: &Span, known: &[&str]) -> Diagnosti
 fn first_keys() -> Vec<&'static str> {
     let slots = Slot::ALL.iter().map(|slot| slot.key());
     let tables = SCHEMA.iter().map(|table| table.name);
+    let tables = tables.filter(|name| !is_slot(name));
     let all = slots.chain(tables).chain(TOP.names());
     all.filter(|name| !name.contains('.') && !FIXED.iter().any(|(fixed, _)| fixed == name))
         .collect()

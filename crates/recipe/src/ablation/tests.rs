@@ -137,6 +137,24 @@ fn a_value_of_the_recipe_is_not_repeated_whatever_the_order_of_its_keys() {
 }
 
 #[test]
+fn a_spindle_without_a_speed_takes_the_recipes() {
+    let variants = variants_of(
+        "spindle = [{ use = \"per-revolution\" }, { use = \"constant\" }, \
+         { use = \"surface-speed\", speed = \"900 rpm\" }]",
+    );
+    assert_eq!(
+        labels(&variants),
+        ["constant", "per-revolution", "surface-speed"]
+    );
+    let rpm =
+        |variant: &Variant| (variant.recipe.spindle_speed * 30.0 / std::f64::consts::PI).round();
+    let speeds: Vec<f64> = variants.iter().map(rpm).collect();
+    assert_eq!(speeds, [500.0, 500.0, 900.0]);
+    let variants = variants_of("spindle.speed = [\"400 rpm\"]");
+    assert_eq!(labels(&variants), ["500 rpm", "400 rpm"]);
+}
+
+#[test]
 fn refine_is_off_unless_the_recipe_gives_it() {
     let variants = variants_of("velocity = [{ use = \"area\" }]");
     assert!(variants.iter().all(|variant| !variant.recipe.refine));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::kind::{Length, RotationSpeed};
+use turnpath_core::kind::{Length, RotationSpeed, Text};
 use turnpath_core::{Param, Tolerance};
 
 use crate::read::Section;
@@ -29,9 +29,18 @@ const RESIDUAL: Param<Length> = Param::length(
 .min(MEASURABLE)
 .example("100 nm");
 
+/// The spindle strategy of a recipe that names none.
+pub(crate) const DEFAULT_SPINDLE: &str = "constant";
+
+const SPINDLE_USE: Param<Text> = Param::text(
+    "use",
+    "the spindle strategy, a name that `turnpath list spindle` shows",
+)
+.default(DEFAULT_SPINDLE);
 const SPEED: Param<RotationSpeed> = Param::rotation_speed(
     "speed",
-    "speed of the spindle over the cut, at most `c_velocity` of `[machine]`",
+    "largest speed of the spindle, at most `c_velocity` of `[machine]`; a constant spindle turns at this \
+     speed over the whole cut",
 )
 .min(SLOWEST)
 .max(FASTEST)
@@ -48,7 +57,7 @@ pub(super) const SPINDLE: TableInfo = TableInfo {
     name: "spindle",
     summary: "how fast the spindle turns",
     required: true,
-    keys: &[SPEED.info()],
+    keys: &[SPINDLE_USE.info(), SPEED.info()],
 };
 
 /// Reads `[tolerance]`.
@@ -63,10 +72,15 @@ pub(crate) fn tolerance(section: &mut Section<'_>) -> Option<Tolerance> {
     })
 }
 
-/// Reads `[spindle]`; the speed in rad/s.
+/// Reads what belongs to the host in `[spindle]`: the speed in rad/s.
 pub(crate) fn spindle(section: &mut Section<'_>) -> Option<f64> {
     if !section.is_there(&SPINDLE) {
         return None;
     }
-    section.bind(&SPINDLE).find(SPEED)
+    // The other keys belong to the strategy, if the recipe names one.
+    match section.node(SPINDLE_USE.name()) {
+        None => section.report_unknown_keys(&SPINDLE),
+        Some(_) => section.report_misspelling(SPEED.name(), &SPINDLE),
+    }
+    section.values(&[SPEED.info()]).find(SPEED)
 }

@@ -19,7 +19,7 @@ pub use pmac_pvt::PmacPvt;
 pub use slot::slot_keys;
 
 pub(crate) use ablation::is_one_at_a_time;
-pub(crate) use cutting::{spindle, tolerance};
+pub(crate) use cutting::{DEFAULT_SPINDLE, spindle, tolerance};
 pub(crate) use machine::{check_spindle, machine};
 pub(crate) use output::output;
 pub(crate) use path::path;

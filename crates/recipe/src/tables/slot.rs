@@ -3,6 +3,8 @@
 use turnpath_core::kind::Text;
 use turnpath_core::{Param, ParamInfo, Slot};
 
+use super::cutting::SPINDLE;
+
 /// The name of the strategy.
 pub(crate) const USE: Param<Text> = Param::text(
     "use",
@@ -14,6 +16,7 @@ pub(crate) const USE: Param<Text> = Param::text(
 pub fn slot_keys(slot: Slot) -> &'static [ParamInfo] {
     // The keys of a slot of its own, such as the place of a surface in a sum, join `use` here.
     match slot {
+        Slot::Spindle => SPINDLE.keys,
         Slot::Surface | Slot::Feed | Slot::Sampler | Slot::Compensator | Slot::Velocity => {
             const { &[USE.info()] }
         }

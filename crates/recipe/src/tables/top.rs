@@ -120,10 +120,9 @@ fn report_unknown(section: &mut Section<'_>) {
 fn table_names(schema: Schema) -> Vec<&'static str> {
     let slots = Slot::ALL.iter().map(|slot| slot.key());
     let fixed = schema.iter().map(|table| table.name);
-    fixed
-        .filter(|name| !name.contains('.'))
-        .chain(slots)
-        .collect()
+    let fixed = fixed.filter(|name| !name.contains('.'));
+    let is_slot = |name: &&str| Slot::ALL.iter().any(|slot| slot.key() == *name);
+    fixed.filter(|name| !is_slot(name)).chain(slots).collect()
 }
 
 fn not_a_table(entry: &Entry) -> Diagnostic {

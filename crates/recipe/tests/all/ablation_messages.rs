@@ -37,9 +37,10 @@ says! {
     output_cannot_vary: "output.data = [[\"csv\"], []]";
     name_cannot_vary: "name = [\"a\", \"b\"]";
     key_below_a_value: "sampler.max_step.a = [1]";
+    key_of_the_spindle_unknown: "spindle.sped = [\"50 rpm\"]";
     value_of_another_kind: "tolerance.residual = [\"50 nm\", \"5 s\"]\nrefine = [true, false]";
     values_that_contradict_each_other: "part.inner = [\"2 mm\", \"3 mm\"]\npart.aperture = [\"2.5 mm\"]";
-    several_mistakes: "mode = \"each\"\nfeed = []\nspindle.sped = [\"50 rpm\"]";
+    several_mistakes: "mode = \"each\"\nfeed = []\ntolerance.residul = [\"50 nm\"]";
 }
 
 #[test]

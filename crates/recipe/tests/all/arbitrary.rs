@@ -31,7 +31,7 @@ fn mutated(start: usize, length: usize, new: &str) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(512))]
+    #![proptest_config(ProptestConfig::with_cases(4 * ProptestConfig::default().cases))]
 
     #[test]
     fn any_text(text in "\\PC{0,200}", set in "\\PC{0,40}") {

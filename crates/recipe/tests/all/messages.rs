@@ -60,6 +60,9 @@ says! {
     quantity_that_is_no_number: "residual = \"100 nm\"" => "residual = nan";
     quantity_as_list_of_no_numbers: "residual = \"100 nm\"" => "residual = [nan]";
     tolerance_tiny: "residual = \"100 nm\"" => "residual = \"1e-300 mm\"";
+    speed_misspelt: "speed =" => "sped =";
+    speed_misspelt_with_a_strategy: "speed =" => "use = \"constant\"\nsped =";
+    spindle_not_named: "speed =" => "use = \"Fast!\"\nspeed =";
     speed_huge: "\"500 rpm\"" => "\"1e300 rpm\"";
     tolerance_zero: "interpolation = \"100 nm\"" => "interpolation = \"0 nm\"";
     included_angle_too_large: "\"120 deg\"" => "\"181 deg\"";

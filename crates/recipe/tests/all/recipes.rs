@@ -94,7 +94,8 @@ fn the_full_example_is_read() {
             "atpg",
             "atpg",
             "z-direction",
-            "triangle-rotary"
+            "triangle-rotary",
+            "constant"
         ]
     );
     for slot in Slot::ALL {

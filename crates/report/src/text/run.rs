@@ -14,15 +14,17 @@ use super::unreached::unreached;
 pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     let verdict = report.verdict();
     let chain = &report.chain;
-    let names = [
-        &chain.surface,
+    let mut names = vec![
+        chain.surface.as_str(),
         &chain.feed,
         &chain.sampler,
         &chain.compensator,
         &chain.velocity,
     ];
+    // A constant speed is what everybody expects.
+    names.extend(Some(chain.spindle.as_str()).filter(|name| *name != "constant"));
     let mut text = format!("{}\n", report.name);
-    text += &line("chain", names.map(String::as_str).join(" > "));
+    text += &line("chain", names.join(" > "));
     text += &line("points", points(report));
     text += &line("revolutions", format!("{:.2}", report.revolutions));
     text += &line("cutting time", duration(report.cutting_time));

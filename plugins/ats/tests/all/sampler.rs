@@ -7,7 +7,9 @@ use crate::common::{Case, ast_5, mla_5};
 use crate::random::{array, compensating};
 use proptest::prelude::{ProptestConfig, any, proptest};
 use turnpath_ats::{AtsFeed, AtsSampler};
-use turnpath_core::{DEG, Params, Path, Revolutions, Sampler, Series, SpiralLaw, Strategy};
+use turnpath_core::{
+    DEG, NodeList, Params, Path, Revolutions, Sampler, Series, SpiralLaw, Strategy,
+};
 use turnpath_nose_radius::{Normal, ZDirection};
 
 /// The part of the distance between passes that the sampler gives to X, and 1 % more, since the
@@ -25,21 +27,22 @@ fn path<'a>(case: &'a Case, law: &'a SpiralLaw) -> Path<'a> {
         task: &case.task,
         locus: &case.locus,
         law,
-        prepared: &[],
+        spindle: &case.spindle,
     }
 }
 
 fn nodes(path: &Path<'_>, max_step: f64) -> Vec<f64> {
     let sampler = AtsSampler::new(&Params::new().with("max_step", max_step * DEG)).unwrap();
-    let (mut nodes, mut start) = (Vec::new(), 0.0);
+    let (mut nodes, mut start) = (NodeList::default(), 0.0);
+    let plan = sampler.plan(path).unwrap();
     while start < path.law.end() {
         let end = (start + 64.0).min(path.law.end());
         let block = Revolutions { start, end };
-        sampler.place(path, block, &mut nodes).unwrap();
+        plan.place(path, block, &mut nodes).unwrap();
         start = end;
     }
     nodes.push(path.law.end());
-    nodes
+    nodes.revolutions().to_vec()
 }
 
 fn series(path: &Path<'_>, n: &[f64]) -> [Vec<Series>; 2] {
@@ -137,7 +140,7 @@ fn a_knot_a_hair_beyond_a_blocks_start_is_where_it_starts() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 8,
+        cases: ProptestConfig::default().cases / 4,
         failure_persistence: None,
         ..Default::default()
     })]

@@ -8,7 +8,7 @@ use crate::common::{Case, mla_5};
 use crate::random::{array, compensating};
 use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};
 use turnpath_core::{
-    Compensator, DEG, NM, ParamValue, Params, Path, Result, Revolutions, Sampler, Scalar,
+    Compensator, DEG, NM, NodeList, ParamValue, Params, Path, Result, Revolutions, Sampler, Scalar,
     SpiralLaw, Strategy, Surface,
 };
 use turnpath_fft_adaptive::FftAdaptiveSampler;
@@ -33,11 +33,13 @@ fn place(
         task: &case.task,
         locus: &case.locus,
         law,
-        prepared: &[],
+        spindle: &case.spindle,
     };
-    let mut nodes = Vec::new();
-    sampler.place(&path, Revolutions { start, end }, &mut nodes)?;
-    Ok(nodes)
+    let mut nodes = NodeList::default();
+    sampler
+        .plan(&path)?
+        .place(&path, Revolutions { start, end }, &mut nodes)?;
+    Ok(nodes.revolutions().to_vec())
 }
 
 /// The law of circles of one radius: it does not move.
@@ -239,7 +241,7 @@ fn the_axis_itself_is_not_an_obstacle() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 24,
+        cases: ProptestConfig::default().cases / 4,
         failure_persistence: None,
         ..Default::default()
     })]

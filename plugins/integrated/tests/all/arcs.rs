@@ -5,8 +5,8 @@ use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, propte
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use turnpath_core::{
-    DEG, Direction, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler, Series,
-    SpindleLaw, SpiralLaw, Strategy, Task, Tolerance, Tool, ToolLocus,
+    DEG, Direction, Machine, NodeList, Params, Part, Path, RadialRange, Revolutions, Sampler,
+    Series, SpindleLaw, SpiralLaw, Strategy, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::{EqualAngle, EqualArc, Integrated};
 use turnpath_nose_radius::Uncompensated;
@@ -38,7 +38,7 @@ fn task() -> Task {
         },
         direction: Direction::Inward,
         machine: Machine::default(),
-        spindle: SpindleLaw::constant(52.0),
+        spindle_speed: 52.0,
     }
 }
 
@@ -76,7 +76,15 @@ fn locus(task: &Task) -> ToolLocus {
 fn nodes(sampler: &dyn Sampler, law: &SpiralLaw, block: f64) -> Vec<f64> {
     let task = task();
     let locus = locus(&task);
-    let (mut nodes, mut state, mut start) = (Vec::new(), Vec::new(), 0.0);
+    let spindle = SpindleLaw::constant(52.0);
+    let whole = Path {
+        task: &task,
+        locus: &locus,
+        law,
+        spindle: &spindle,
+    };
+    let plan = sampler.plan(&whole).unwrap();
+    let (mut nodes, mut state, mut start) = (NodeList::default(), Vec::new(), 0.0);
     while start < law.end() {
         let end = (start + block).min(law.end());
         let window = law.window(start - 1.0, end + 1.0);
@@ -84,14 +92,13 @@ fn nodes(sampler: &dyn Sampler, law: &SpiralLaw, block: f64) -> Vec<f64> {
             task: &task,
             locus: &locus,
             law: &window,
-            prepared: &[],
+            ..whole
         };
-        sampler
-            .place_sequential(&path, Revolutions { start, end }, &mut state, &mut nodes)
+        plan.place_sequential(&path, Revolutions { start, end }, &mut state, &mut nodes)
             .unwrap();
         start = end;
     }
-    nodes
+    nodes.revolutions().to_vec()
 }
 
 #[test]
@@ -152,15 +159,16 @@ fn a_spacing_of_too_many_points_is_an_error_on_spacing() {
         task: &task,
         locus: &locus,
         law: &law,
-        prepared: &[],
+        spindle: &SpindleLaw::constant(52.0),
     };
     let block = Revolutions {
         start: 0.0,
         end: 1.0,
     };
-    let mut nodes = Vec::new();
+    let mut nodes = NodeList::default();
     for (spacing, fits) in [(0.34e-3, false), (0.36e-3, true)] {
-        let answer = equal_arc(spacing).place(&path, block, &mut nodes);
+        let plan = equal_arc(spacing).plan(&path).unwrap();
+        let answer = plan.place(&path, block, &mut nodes);
         assert_eq!(answer.is_ok(), fits);
         if let Err(error) = answer {
             assert!(error.to_string().contains("at least 0.35 um"), "{error}");
@@ -199,7 +207,7 @@ fn error_against_radius(sampler: &dyn Sampler, rings: usize) -> Vec<f64> {
         task: &task,
         locus: &locus,
         law: &law,
-        prepared: &[],
+        spindle: &SpindleLaw::constant(52.0),
     };
     let series = |n: &[f64]| {
         let (mut x, mut z) = (vec![[0.0; 5]; n.len()], vec![[0.0; 5]; n.len()]);

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Compensator, DEG, Direction, Machine, NM, ParamValue, Params, Part, Path, RadialRange, Result,
-    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Strategy, SurfaceModel, Task, Tolerance,
-    Tool, ToolLocus,
+    Compensator, DEG, Direction, Machine, NM, NodeList, ParamValue, Params, Part, Path,
+    RadialRange, Result, Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Strategy,
+    SurfaceModel, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::EqualAngle;
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
@@ -39,7 +39,7 @@ impl Case {
         }
     }
 
-    fn with_path<T>(&self, prepared: &[f64], call: impl FnOnce(&Path<'_>) -> T) -> T {
+    fn with_path<T>(&self, call: impl FnOnce(&Path<'_>) -> T) -> T {
         let tool = Tool {
             nose_radius: self.nose_radius,
             included_angle: None,
@@ -62,7 +62,7 @@ impl Case {
                 outer: self.rim,
             },
             direction: Direction::Inward,
-            spindle: SpindleLaw::constant(52.0),
+            spindle_speed: 52.0,
             machine: Machine::default(),
         };
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
@@ -73,14 +73,19 @@ impl Case {
             task: &task,
             locus: &locus,
             law: &law,
-            prepared,
+            spindle: &SpindleLaw::constant(52.0),
         })
     }
 
     fn derived(&self) -> Result<f64> {
         let sampler = EqualAngle::new(&Params::new().with("max_step", 45.0 * DEG))?;
-        self.with_path(&[], |path| sampler.prepare(path))
-            .map(|found| found[0])
+        let block = Revolutions {
+            start: 0.0,
+            end: 1.0,
+        };
+        let mut nodes = NodeList::default();
+        self.with_path(|path| sampler.plan(path)?.place(path, block, &mut nodes))?;
+        Ok(TAU * nodes.revolutions()[1])
     }
 
     /// The step at which L⁴/384·`sharpness` is the aim.
@@ -198,14 +203,12 @@ fn the_sampler_places_the_step_that_it_derived() {
     let case = Case::saddle(Arc::new(ZDirection));
     let step = case.derived().unwrap();
     let sampler = EqualAngle::new(&Params::new().with("max_step", 45.0 * DEG)).unwrap();
-    let mut nodes = Vec::new();
+    let mut nodes = NodeList::default();
     let block = Revolutions {
         start: 0.0,
         end: 101.0,
     };
-    case.with_path(&[step], |path| sampler.place(path, block, &mut nodes))
+    case.with_path(|path| sampler.plan(path)?.place(path, block, &mut nodes))
         .unwrap();
     assert_eq!(nodes.len(), (101.0 * TAU / step).ceil() as usize);
-    let unprepared = case.with_path(&[], |path| sampler.place(path, block, &mut nodes));
-    assert!(unprepared.is_err());
 }

@@ -4,8 +4,8 @@
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
 use std::sync::Arc;
 use turnpath_core::{
-    DEG, Direction, Machine, Params, Part, Path, RadialRange, Revolutions, Sampler, SpindleLaw,
-    SpiralLaw, Strategy, Task, Tolerance, Tool, ToolLocus,
+    DEG, Direction, Machine, NodeList, Params, Part, Path, RadialRange, Revolutions, Sampler,
+    SpindleLaw, SpiralLaw, Strategy, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_integrated::EqualAngle;
 use turnpath_nose_radius::Uncompensated;
@@ -32,7 +32,7 @@ fn task() -> Task {
             outer: 2.5,
         },
         direction: Direction::Inward,
-        spindle: SpindleLaw::constant(52.0),
+        spindle_speed: 52.0,
         machine: Machine::default(),
     }
 }
@@ -48,22 +48,22 @@ fn nodes(step: f64, revolutions: f64, block: f64) -> Vec<f64> {
         .with("step", step)
         .with("max_step", 90.0 * DEG);
     let sampler = EqualAngle::new(&params).unwrap();
-    let mut nodes = Vec::new();
+    let path = Path {
+        task: &task,
+        locus: &locus,
+        law: &law,
+        spindle: &SpindleLaw::constant(52.0),
+    };
+    let plan = sampler.plan(&path).unwrap();
+    let mut nodes = NodeList::default();
     let mut start = 0.0;
     while start < revolutions {
         let end = (start + block).min(revolutions);
-        let path = Path {
-            task: &task,
-            locus: &locus,
-            law: &law,
-            prepared: &[],
-        };
-        sampler
-            .place(&path, Revolutions { start, end }, &mut nodes)
+        plan.place(&path, Revolutions { start, end }, &mut nodes)
             .unwrap();
         start = end;
     }
-    nodes
+    nodes.revolutions().to_vec()
 }
 
 #[test]

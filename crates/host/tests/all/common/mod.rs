@@ -9,8 +9,9 @@ use std::path::Path as FilePath;
 use std::sync::Arc;
 
 use turnpath_core::{
-    Centres, Compensator, Cut, Direction, Machine, Part, Path, Radial, RadialRange, Result,
-    Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Task, Tolerance, Tool, ToolLocus,
+    Centres, Compensator, Cut, Direction, Machine, NodeList, Part, Path, Radial, RadialRange,
+    Result, Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Surface, Task, Tolerance, Tool,
+    ToolLocus,
 };
 use turnpath_host::{Catalogue, LoadError};
 
@@ -86,7 +87,7 @@ pub fn task() -> Task {
             outer: 2.0,
         },
         direction: Direction::Inward,
-        spindle: SpindleLaw::constant(50.0),
+        spindle_speed: 50.0,
         machine: Machine::default(),
     }
 }
@@ -102,6 +103,17 @@ pub fn nodes(sampler: &dyn Sampler, start: f64, end: f64) -> Result<Vec<f64>> {
     place_more(sampler, start, end, &mut Vec::new())
 }
 
+/// Calls a function with the path of that task.
+pub fn with_path<T>(call: impl FnOnce(&Path<'_>) -> T) -> T {
+    let locus = ToolLocus::new(Arc::new(Saddle), Arc::new(Above), TOOL);
+    call(&Path {
+        task: &task(),
+        locus: &locus,
+        law: &law(),
+        spindle: &SpindleLaw::constant(50.0),
+    })
+}
+
 /// The same with the state that the block before left.
 pub fn place_more(
     sampler: &dyn Sampler,
@@ -109,15 +121,10 @@ pub fn place_more(
     end: f64,
     state: &mut Vec<f64>,
 ) -> Result<Vec<f64>> {
-    let locus = ToolLocus::new(Arc::new(Saddle), Arc::new(Above), TOOL);
-    let (task, law) = (task(), law());
-    let path = Path {
-        task: &task,
-        locus: &locus,
-        law: &law,
-        prepared: &[],
-    };
-    let mut nodes = Vec::new();
-    sampler.place_sequential(&path, Revolutions { start, end }, state, &mut nodes)?;
-    Ok(nodes)
+    let mut nodes = NodeList::default();
+    with_path(|path| {
+        let plan = sampler.plan(path)?;
+        plan.place_sequential(path, Revolutions { start, end }, state, &mut nodes)
+    })?;
+    Ok(nodes.revolutions().to_vec())
 }

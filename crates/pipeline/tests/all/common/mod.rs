@@ -11,9 +11,9 @@ use std::sync::Arc;
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_core::{
     Centres, Compensator, Continuation, Cut, Dependence, Direction, FeedPiece, FeedPlan,
-    FeedStrategy, Machine, Overrun, Part, Path, Radial, Rates, Result, Revolutions, Sampler,
-    Scalar, Setup, Slot, SpindleLaw, StrategyError, Surface, SurfaceModel, Tolerance, Tool,
-    VelocitySolver,
+    FeedStrategy, Machine, NodeList, Overrun, Part, Path, Radial, Rates, Result, Revolutions,
+    Sampler, SamplerPlan, Scalar, Setup, Slot, SpindleAsk, SpindleLaw, SpindleStrategy,
+    StrategyError, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
     Chain, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions, PipelineError, RunError,
@@ -160,10 +160,28 @@ pub struct Nodes<F>(pub F);
 
 impl<F> Sampler for Nodes<F>
 where
-    F: Fn(&Path<'_>, Revolutions) -> Vec<f64> + Send + Sync,
+    F: Fn(&Path<'_>, Revolutions) -> Vec<f64> + Clone + Send + Sync + 'static,
 {
-    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut Vec<f64>) -> Result<()> {
-        nodes.extend((self.0)(path, block));
+    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        let from = self.0.clone();
+        Ok(Box::new(NodesOff(move |path: &Path<'_>, block| {
+            let mut nodes = NodeList::default();
+            nodes.extend(from(path, block));
+            nodes
+        })))
+    }
+}
+
+/// A sampler whose nodes and offsets come from a function.
+#[derive(Clone)]
+pub struct NodesOff<F>(pub F);
+
+impl<F> SamplerPlan for NodesOff<F>
+where
+    F: Fn(&Path<'_>, Revolutions) -> NodeList + Send + Sync,
+{
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
+        nodes.append((self.0)(path, block));
         Ok(())
     }
 }
@@ -177,12 +195,13 @@ pub fn even(steps: f64) -> Arc<dyn Sampler> {
 }
 
 /// A sampler whose node k lies k steps from the start; `state` holds the next k.
+#[derive(Clone)]
 pub struct Counting {
     pub step: f64,
 }
 
-impl Sampler for Counting {
-    fn place(&self, _: &Path<'_>, _: Revolutions, _: &mut Vec<f64>) -> Result<()> {
+impl SamplerPlan for Counting {
+    fn place(&self, _: &Path<'_>, _: Revolutions, _: &mut NodeList) -> Result<()> {
         panic!("a sequential sampler is asked in order");
     }
 
@@ -195,7 +214,7 @@ impl Sampler for Counting {
         _: &Path<'_>,
         block: Revolutions,
         state: &mut Vec<f64>,
-        nodes: &mut Vec<f64>,
+        nodes: &mut NodeList,
     ) -> Result<()> {
         if state.is_empty() != (block.start == 0.0) {
             let what = format!("a state of {} at {}", state.len(), block.start);
@@ -211,12 +230,24 @@ impl Sampler for Counting {
     }
 }
 
+/// The speed that is asked for, all along the path.
+pub struct Steady;
+
+impl SpindleStrategy for Steady {
+    fn plan(&self, _: &Path<'_>, ask: &SpindleAsk<'_>) -> Result<SpindleLaw> {
+        Ok(SpindleLaw::constant(ask.speed))
+    }
+}
+
 /// A task of small strategies. A test sets the fields that matter to it.
+#[derive(Clone)]
 pub struct Task {
     pub feed: Arc<dyn FeedStrategy>,
     pub sampler: Arc<dyn Sampler>,
     pub compensator: Arc<dyn Compensator>,
     pub velocity: Arc<dyn VelocitySolver>,
+    pub spindle: Arc<dyn SpindleStrategy>,
+    pub machine: Machine,
     pub direction: Direction,
     pub overrun: Overrun,
     pub interpolation: f64,
@@ -233,6 +264,8 @@ impl Default for Task {
             sampler: even(36.0),
             compensator: Arc::new(Bare),
             velocity: Arc::new(solvers::Exact),
+            spindle: Arc::new(Steady),
+            machine: Machine::default(),
             direction: Direction::Inward,
             overrun: Overrun::None,
             interpolation: 1e-4,
@@ -284,6 +317,7 @@ impl Task {
             sampler: link(Slot::Sampler, self.sampler.clone()),
             compensator: link(Slot::Compensator, self.compensator.clone()),
             velocity: link(Slot::Velocity, self.velocity.clone()),
+            spindle: link(Slot::Spindle, self.spindle.clone()),
         };
         let part = Part {
             aperture_radius: RIM,
@@ -305,8 +339,8 @@ impl Task {
             tolerance,
             overrun: self.overrun,
             direction: self.direction,
-            spindle: SpindleLaw::constant(self.rpm / 60.0 * TAU),
-            machine: Machine::default(),
+            spindle_speed: self.rpm / 60.0 * TAU,
+            machine: self.machine,
         };
         let preparation = prepare(&chain, spec)?;
         let options = PathOptions {

@@ -23,8 +23,9 @@ pub trait AtpgCase {
     /// The residual feed at each of `angles` even angles, at one radius.
     fn residual_feeds(&self, rho: f64, angles: usize) -> Vec<f64>;
     /// Revolutions of the fastest law that keeps the residual at every angle: ∫ dρ/min F, by brute
-    /// force.
-    fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64;
+    /// force over `angles` even angles of a turn. Only those before the part repeats are looked at,
+    /// which it does `folds` times in a turn.
+    fn fewest_revolutions(&self, radii: usize, angles: usize, folds: usize) -> f64;
     /// The nose centre's Z at the given points.
     fn heights(&self, theta: &[f64], x: &[f64]) -> Vec<f64>;
 }
@@ -37,14 +38,16 @@ impl AtpgCase for Case {
 
     fn residual_feeds(&self, rho: f64, angles: usize) -> Vec<f64> {
         let theta = (0..angles).map(|i| TAU * i as f64 / angles as f64);
-        theta.map(|theta| self.residual_feed(theta, rho)).collect()
+        self.residual_feeds_at(&theta.collect::<Vec<_>>(), rho)
     }
 
-    fn fewest_revolutions(&self, radii: usize, angles: usize) -> f64 {
+    fn fewest_revolutions(&self, radii: usize, angles: usize, folds: usize) -> f64 {
+        let theta = (0..angles / folds).map(|i| TAU * i as f64 / angles as f64);
+        let theta: Vec<f64> = theta.collect();
         let RadialRange { inner, outer } = self.task.range;
         let step = (outer - inner) / radii as f64;
         let turns = (0..radii).map(|i| {
-            let feed = self.residual_feeds(inner + (i as f64 + 0.5) * step, angles);
+            let feed = self.residual_feeds_at(&theta, inner + (i as f64 + 0.5) * step);
             step / feed.into_iter().fold(f64::INFINITY, f64::min)
         });
         turns.sum()

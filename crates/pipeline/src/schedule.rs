@@ -1,0 +1,106 @@
+//! The plan of a path whose spindle follows the machine's limits as the path is played.
+
+use std::f64::consts::PI;
+
+use turnpath_core::toolpath::PathBlock;
+use turnpath_verify::AxesMotion;
+
+use crate::make::{BlockPoints, first_state, make};
+use crate::observer::{Observer, stop_if_cancelled};
+use crate::plan::Plan;
+use crate::{Chain, Preparation, Result, spindle};
+
+/// How often a schedule is planned again at the most.
+const ROUNDS: usize = 3;
+/// A half turn counts as slow enough if its limits ask for no less than this part of its speed: a
+/// tenth of the one factor with which limits are judged.
+const ENOUGH: f64 = 0.9999;
+/// Blocks that are made at a time.
+const BATCH: usize = 16;
+
+/// Plans the path. If the spindle strategy follows factors and the machine has limits, its law is
+/// planned again with the factors that the path as played asks for.
+pub fn plan<'a>(
+    chain: &'a Chain,
+    preparation: &'a Preparation,
+    observer: &dyn Observer,
+) -> Result<Plan<'a>> {
+    let mut plan = Plan::new(chain, preparation, observer)?;
+    follow(&mut plan, observer)?;
+    Ok(plan)
+}
+
+fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
+    let strategy = &plan.chain.spindle.strategy;
+    if !(strategy.follows_factors() && plan.preparation.task.machine.has_limits()) {
+        return Ok(());
+    }
+    let mut factors = vec![1.0; half_turns(plan.law.end())];
+    for _ in 0..ROUNDS {
+        let played = played_factors(plan, observer)?;
+        if played.iter().all(|factor| *factor >= ENOUGH) {
+            break;
+        }
+        let speed = plan.preparation.task.spindle_speed;
+        for (half, (factor, played)) in factors.iter_mut().zip(played).enumerate() {
+            if played < ENOUGH {
+                *factor = f64::min(*factor, played * fastest(plan, half) / speed);
+            }
+        }
+        let law = spindle::plan(plan.chain, plan.preparation, &plan.law, &factors)?;
+        plan.turn_by(law, observer)?;
+    }
+    Ok(())
+}
+
+fn half_turns(end: f64) -> usize {
+    (2.0 * end).ceil() as usize
+}
+
+/// The largest speed at the ends and in the middle of a half turn, rad/s.
+fn fastest(plan: &Plan<'_>, half: usize) -> f64 {
+    let speed = |part: f64| plan.spindle.speed_at(0.5 * (half as f64 + part));
+    [0.0, 0.5, 1.0].map(speed).into_iter().fold(0.0, f64::max)
+}
+
+/// For each half turn, the factor of its speed at which it keeps to all limits, as the path is
+/// played without refinement.
+fn played_factors(plan: &Plan<'_>, observer: &dyn Observer) -> Result<Vec<f64>> {
+    let mut factors = vec![f64::INFINITY; half_turns(plan.law.end())];
+    let mut state = first_state(plan);
+    let mut from = 0;
+    while from < plan.blocks() {
+        stop_if_cancelled(observer)?;
+        let range = from..(from + BATCH).min(plan.blocks());
+        from = range.end;
+        for block in make(plan, range, &[], state.as_mut())? {
+            include(plan, &block, &mut factors);
+        }
+    }
+    Ok(factors)
+}
+
+/// Includes the half turns of a block. A segment across the border of two counts for both.
+fn include(plan: &Plan<'_>, block: &BlockPoints, factors: &mut [f64]) {
+    let (machine, points) = (&plan.preparation.task.machine, &block.points);
+    let (Some(first), Some(last)) = (points.c.first(), points.c.last()) else {
+        return;
+    };
+    let before = |c: f64| points.c.partition_point(|other| *other < c);
+    for half in (first / PI).floor() as usize..(last / PI).ceil() as usize {
+        let from = before(PI * half as f64).saturating_sub(1);
+        let to = before(PI * (half + 1) as f64).min(points.len() - 1);
+        let mut part = PathBlock {
+            shape: points.shape,
+            ..PathBlock::default()
+        };
+        (from..=to)
+            .filter_map(|index| points.get(index))
+            .for_each(|point| part.push(point));
+        let figures = AxesMotion::of(&part).against(machine).into_iter();
+        let needed = figures.map(|figure| figure.speed_factor());
+        if let Some(factor) = factors.get_mut(half) {
+            *factor = needed.fold(*factor, f64::min);
+        }
+    }
+}
