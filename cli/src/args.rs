@@ -33,7 +33,7 @@ pub enum Command {
     Sag(SagArgs),
     /// List the strategies that can be chosen
     List(ListArgs),
-    /// Explain one strategy: what it does, its parameters and its source
+    /// Explain one strategy, or one table of the recipe: its keys, defaults and limits
     Explain(ExplainArgs),
 }
 
@@ -194,7 +194,8 @@ pub struct ListArgs {
 
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// The strategy's name, with its slot before it where two slots have one of that name
+    /// The strategy's name, with its slot before it where two slots have one of that name; or a
+    /// table's, such as tool, and recipe for the keys above the first table
     #[arg(value_name = "[SLOT/]NAME")]
     pub name: String,
     #[command(flatten)]

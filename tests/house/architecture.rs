@@ -16,7 +16,8 @@ struct Rule {
 const PLUGINS: &str = "plugins/*";
 
 const RULES: &[Rule] = &[
-    rule("turnpath-core", &[], &[]),
+    rule("turnpath-units", &[], &[]),
+    rule("turnpath-core", &["turnpath-units"], &[]),
     rule("turnpath-plugin", &["turnpath-core"], &[]),
     rule("turnpath-recipe", &["turnpath-core"], &[]),
     rule(

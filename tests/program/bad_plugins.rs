@@ -276,6 +276,18 @@ fn other_files_in_a_plugin_folder_are_ignored() {
 }
 
 #[test]
+fn a_plugin_whose_parameter_has_a_name_of_the_host() {
+    insta::assert_snapshot!(refused_sampler("host-keys", "hasty"));
+}
+
+#[test]
+fn a_plugin_with_a_name_that_no_recipe_could_choose() {
+    let bench = bench(SADDLE, &["unusable-name"]);
+    let said = refused(&bench);
+    insta::assert_snapshot!(shown(&bench, &said));
+}
+
+#[test]
 fn list_and_explain_fail_by_a_bad_plugin_too() {
     let bench = bench(SADDLE, &["foreign"]);
     bench.line("list --plugin-dir plugins").ends(3);

@@ -133,6 +133,33 @@ fn a_velocity_solver_explained() {
 }
 
 #[test]
+fn a_table_explained() {
+    insta::assert_snapshot!(explained("tool"));
+}
+
+#[test]
+fn a_table_with_words_lists_and_texts_explained() {
+    let text = ["recipe", "path", "output", "output.pmac-pvt"].map(explained);
+    insta::assert_snapshot!(text.join("\n"));
+}
+
+#[test]
+fn a_slot_explained() {
+    insta::assert_snapshot!(explained("sampler"));
+}
+
+#[test]
+fn every_table_is_explained_with_all_its_keys() {
+    for table in turnpath::tables().filter(|table| !table.name.is_empty()) {
+        let text = explained(table.name);
+        assert!(text.starts_with(&format!("{}: {}\n", table.name, table.summary)));
+        for key in table.names() {
+            assert!(text.contains(&format!("\n  {key} = ")), "{key}");
+        }
+    }
+}
+
+#[test]
 fn a_slot_that_does_not_exist_is_a_wrong_call() {
     let bench = Bench::empty();
     insta::assert_snapshot!("list_of_no_slot", bench.shown(&bench.line("list surfaces")));
@@ -145,6 +172,8 @@ fn a_name_that_does_not_exist_is_a_wrong_call() {
     let bench = Bench::empty();
     let said = bench.line("explain astigmatik");
     insta::assert_snapshot!("explain_misspelt", bench.shown(&said));
+    let said = bench.line("explain tolerances");
+    insta::assert_snapshot!("explain_of_a_misspelt_table", bench.shown(&said));
     let said = bench.line("explain velocity/normal");
     insta::assert_snapshot!("explain_of_another_slot", bench.shown(&said));
     let said = bench.line("explain something-else-altogether");

@@ -8,6 +8,7 @@ mod bad_plugins;
 mod bad_recipes;
 mod built_ins;
 mod commands;
+mod data_files;
 mod own_sampler;
 mod readme;
 mod sag;

@@ -1,4 +1,5 @@
-//! `cargo xtask reference`: the figures under `tests/reference` and docs/reproduction.md, made again.
+//! `cargo xtask reference`: the figures under `tests/reference`, docs/reproduction.md and the
+//! tables of docs/recipe.md, made again.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -30,15 +31,17 @@ const fn figures(name: &'static str, packages: &'static [&'static str]) -> Figur
 /// What makes figures.
 type Make = fn() -> Outcome;
 
-/// Figures that need the program.
+/// What needs the program or a test of it.
 const PLAYBACK: &str = "playback";
 const PMAC: &str = "pmac";
 const REPRODUCTION: &str = "reproduction";
+/// The tables of docs/recipe.md.
+const RECIPE: &str = "recipe";
 
 /// Makes the figures of these names, or all; an unknown name is an error.
 pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
     let own = FIGURES.iter().map(|figures| figures.name);
-    let known: Vec<&str> = own.chain([PLAYBACK, PMAC, REPRODUCTION]).collect();
+    let known: Vec<&str> = own.chain([PLAYBACK, PMAC, REPRODUCTION, RECIPE]).collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
         return Err(format!(
             "there are no reference figures `{unknown}`; there are {}",
@@ -52,10 +55,11 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             with_packages(figures.packages, || figures.make())
         }));
     }
-    let steps_of_the_program: [(&str, Make); 3] = [
+    let steps_of_the_program: [(&str, Make); 4] = [
         (PLAYBACK, || with_packages(&["numpy"], playback)),
         (PMAC, || with_packages(&["numpy"], pmac)),
         (REPRODUCTION, reproduction),
+        (RECIPE, recipe),
     ];
     for (name, make) in steps_of_the_program {
         if chosen(name) {
@@ -157,6 +161,16 @@ fn pmac() -> Outcome {
         &[recipe, &files[0], &files[1]],
     );
     write(read, Path::new("tests/reference/pmac/ast-5.json"))
+}
+
+/// The tables of docs/recipe.md from the declarations of their keys.
+fn recipe() -> Outcome {
+    let words = ["test", "--locked", "--package", "turnpath-recipe", "--lib"];
+    let mut tests = cargo(&words);
+    tests
+        .args(["--", "docs_recipe_md"])
+        .env("RECIPE_PAGE", "write");
+    run(tests)
 }
 
 /// docs/reproduction.md from docs/reproduction.toml. The step fails where a figure leaves its bound.

@@ -1,7 +1,8 @@
-//! `turnpath explain`: one strategy in full.
+//! `turnpath explain`: one strategy, or one table of the recipe, in full.
 
-use turnpath::{Catalogue, Strategy};
-use turnpath_core::{Param, ParamDefault, ParamKind, Quantity, Slot};
+use turnpath::declared::{default, kind_with_example, limits};
+use turnpath::{Catalogue, Strategy, TableInfo, slot_keys, tables};
+use turnpath_core::{ParamInfo, Slot};
 
 use super::setup::with_plugins;
 use crate::args::{ExplainArgs, slot_of};
@@ -12,13 +13,31 @@ use crate::{Outcome, Status};
 /// How alike two names must be to be taken for a misspelling (Jaro–Winkler).
 const ALIKE: f64 = 0.8;
 
-/// Explains every strategy of that name.
+/// The name under which the keys above the first table are explained.
+const TOP: &str = "recipe";
+
+/// Explains every strategy and every table of that name.
 pub fn explain(args: &ExplainArgs, catalogue: Catalogue) -> Outcome {
     let catalogue = with_plugins(catalogue, &args.plugins)?;
-    let found = find(&catalogue, &args.name)?;
-    let texts: Vec<String> = found.into_iter().map(explanation).collect();
+    let mut texts = of_host(&args.name);
+    match find(&catalogue, &args.name) {
+        Ok(found) => texts.extend(found.into_iter().map(of_strategy)),
+        Err(failure) if texts.is_empty() => return Err(failure),
+        Err(_) => {}
+    }
     print(&texts.join("\n"))?;
     Ok(Status::Holds)
+}
+
+/// The tables of this name: one whose keys are the host's, or that of a slot.
+fn of_host(name: &str) -> Vec<String> {
+    let fixed = tables().filter(|table| name_of(table) == name);
+    let texts: Vec<String> = fixed.map(of_table).collect();
+    if !texts.is_empty() {
+        return texts;
+    }
+    let slots = Slot::ALL.into_iter().filter(|slot| slot.key() == name);
+    slots.map(of_slot).collect()
 }
 
 fn find<'a>(catalogue: &'a Catalogue, wanted: &str) -> Result<Vec<&'a Strategy>, Failure> {
@@ -45,7 +64,7 @@ fn find<'a>(catalogue: &'a Catalogue, wanted: &str) -> Result<Vec<&'a Strategy>,
         "there is no {} named `{name}`; {}",
         match slots[..] {
             [slot] => slot.noun(),
-            _ => "strategy",
+            _ => "strategy or table",
         },
         hint(catalogue, &slots, name)
     )))
@@ -59,9 +78,10 @@ fn hint(catalogue: &Catalogue, slots: &[Slot], name: &str) -> String {
     if let Some(slot) = elsewhere {
         return format!("did you mean `{}/{name}`?", slot.key());
     }
-    let alike = slots
-        .iter()
-        .flat_map(|slot| catalogue.names(*slot))
+    let of_strategies = slots.iter().flat_map(|slot| catalogue.names(*slot));
+    let of_tables = tables().map(name_of).filter(|_| slots.len() > 1);
+    let alike = of_strategies
+        .chain(of_tables)
         .map(|known| (strsim::jaro_winkler(known, name), known))
         .filter(|(likeness, _)| *likeness >= ALIKE)
         .max_by(|one, other| one.0.total_cmp(&other.0));
@@ -71,7 +91,7 @@ fn hint(catalogue: &Catalogue, slots: &[Slot], name: &str) -> String {
     }
 }
 
-fn explanation(strategy: &Strategy) -> String {
+fn of_strategy(strategy: &Strategy) -> String {
     let info = strategy.info();
     let mut text = format!("{}/{}: {}\n", info.slot, info.name, info.summary);
     if !info.source.is_empty() {
@@ -79,51 +99,41 @@ fn explanation(strategy: &Strategy) -> String {
     }
     text += &format!("  plugin  {}\n", strategy.plugin());
     text += &format!("\n  [{}]\n  use = \"{}\"\n", info.slot, info.name);
-    for param in info.params {
-        text += &format!("\n  {} = {}\n", param.name, kind(param));
-        text += &format!("      {}\n      {}\n", param.help, range(param));
-    }
-    text
+    text + &keys(info.params)
 }
 
-fn kind(param: &Param) -> String {
-    match param.kind {
-        ParamKind::Number => "a number".to_owned(),
-        ParamKind::Count => "a whole number".to_owned(),
-        ParamKind::Flag => "true or false".to_owned(),
-        ParamKind::Rows(columns) => format!("a list of rows of {columns} numbers"),
-        ParamKind::Choice(words) => words
-            .iter()
-            .map(|word| format!("\"{word}\""))
-            .collect::<Vec<_>>()
-            .join(" | "),
-        kind => Quantity::of(kind).map_or_else(String::new, |quantity| {
-            format!("{}, such as \"{}\"", quantity.noun(), quantity.example())
-        }),
+/// The name of a table as a person gives it.
+fn name_of(table: &TableInfo) -> &'static str {
+    match table.name {
+        "" => TOP,
+        name => name,
     }
 }
 
-fn range(param: &Param) -> String {
-    let shown = |value: f64| match Quantity::of(param.kind) {
-        Some(quantity) => quantity.format(value),
-        None => value.to_string(),
+fn of_table(table: &TableInfo) -> String {
+    let mut text = format!("{}: {}\n", name_of(table), table.summary);
+    if !table.name.is_empty() {
+        text += &format!("\n  [{}]\n", table.name);
+    }
+    text + &keys(table.keys)
+}
+
+fn of_slot(slot: Slot) -> String {
+    let (key, noun) = (slot.key(), slot.noun());
+    let head =
+        format!("{key}: which {noun} to use; the other keys are its parameters\n\n  [{key}]\n");
+    head + &keys(slot_keys(slot))
+}
+
+fn keys(declared: &[ParamInfo]) -> String {
+    let key = |info: &ParamInfo| {
+        let mut range = default(info);
+        let limits = limits(info);
+        if !limits.is_empty() {
+            range = format!("{range}; {limits}");
+        }
+        let (name, kind, help) = (info.name, kind_with_example(info), info.help);
+        format!("\n  {name} = {kind}\n      {help}\n      {range}\n")
     };
-    let mut parts = vec![match param.default {
-        ParamDefault::Required => "required".to_owned(),
-        ParamDefault::Absent => "may be left out".to_owned(),
-        ParamDefault::Number(value) => format!("default {}", shown(value)),
-        ParamDefault::Flag(value) => format!("default {value}"),
-        ParamDefault::Text(word) => format!("default \"{word}\""),
-    }];
-    if param.min.is_finite() {
-        let word = if param.above_min { "above" } else { "at least" };
-        parts.push(format!("{word} {}", shown(param.min)));
-    }
-    if param.max.is_finite() {
-        parts.push(format!("at most {}", shown(param.max)));
-    }
-    if param.nonzero {
-        parts.push("not zero".to_owned());
-    }
-    parts.join("; ")
+    declared.iter().map(key).collect()
 }

@@ -2,13 +2,6 @@
 
 use crate::Machine;
 
-/// A degree in rad.
-pub const DEG: f64 = std::f64::consts::PI / 180.0;
-/// A micrometre in mm.
-pub const UM: f64 = 1e-3;
-/// A nanometre in mm.
-pub const NM: f64 = 1e-6;
-
 /// The part: a disc around the spindle axis, with or without a hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Part {

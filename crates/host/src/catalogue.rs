@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use turnpath_core::Slot;
+use turnpath_core::{HOST_KEYS, Slot, StrategyInfo, is_strategy_name};
 use turnpath_plugin::Offer;
 
 use crate::library::{self, Library};
@@ -32,7 +32,8 @@ impl Catalogue {
     /// The strategies of the plugin crates that are linked into the program.
     ///
     /// # Errors
-    /// [`LoadError::TwoOfOneName`] when two linked crates have a strategy of one name.
+    /// When two linked crates have a strategy of one name, or when a strategy has a name that no
+    /// recipe could choose or a parameter whose name belongs to the host.
     pub fn linked() -> Result<Self, LoadError> {
         let mut catalogue = Self::new();
         let mut by_crate: BTreeMap<&'static str, Vec<Offer>> = BTreeMap::new();
@@ -89,7 +90,8 @@ impl Catalogue {
     ///
     /// # Errors
     /// When the file cannot be read, is not a plugin for this program, or has a strategy with a name
-    /// that the catalogue has already. The catalogue then has nothing of the plugin.
+    /// that the catalogue has already or no recipe could choose, or with a parameter whose name
+    /// belongs to the host. The catalogue then has nothing of the plugin.
     pub fn add_file(&mut self, file: impl AsRef<Path>) -> Result<(), LoadError> {
         let image = library::read(file.as_ref())?;
         let same = |plugin: &Arc<Plugin>| plugin.sha256.as_ref() == Some(&image.sha256);
@@ -110,6 +112,7 @@ impl Catalogue {
         let mut joined = self.strategies.clone();
         for offer in offers {
             let info = offer.info();
+            check(&info, &plugin)?;
             let strategy = Strategy::new(offer, Arc::clone(&plugin));
             if let Some(first) = joined.insert((info.slot, info.name), strategy) {
                 return Err(LoadError::TwoOfOneName {
@@ -151,6 +154,25 @@ impl Catalogue {
     /// The plugins in the order in which they were added.
     pub fn plugins(&self) -> &[Arc<Plugin>] {
         &self.plugins
+    }
+}
+
+/// Refuses a name that no recipe could choose, and parameters whose names belong to the host.
+fn check(info: &StrategyInfo, plugin: &Arc<Plugin>) -> Result<(), LoadError> {
+    let (slot, name) = (info.slot, info.name.to_owned());
+    let plugin = Arc::clone(plugin);
+    if !is_strategy_name(info.name) {
+        return Err(LoadError::UnusableName { slot, name, plugin });
+    }
+    let mut params = info.params.iter();
+    match params.find(|param| HOST_KEYS.contains(&param.name)) {
+        None => Ok(()),
+        Some(param) => Err(LoadError::HostKey {
+            slot,
+            strategy: name,
+            param: param.name.to_owned(),
+            plugin,
+        }),
     }
 }
 

@@ -65,6 +65,36 @@ pub enum LoadError {
         /// The plugin that was added later.
         second: Arc<Plugin>,
     },
+    /// A strategy has a name that no recipe could choose.
+    #[error(
+        "the {} `{}` of {plugin} has a name that no recipe could choose",
+        slot.noun(),
+        name.escape_debug()
+    )]
+    UnusableName {
+        /// The slot of the strategy.
+        slot: Slot,
+        /// The strategy's name.
+        name: String,
+        /// The plugin.
+        plugin: Arc<Plugin>,
+    },
+    /// A strategy declares a parameter whose name belongs to the host.
+    #[error(
+        "the {} `{strategy}` of {plugin} declares the parameter `{param}`, a key that belongs to \
+         the host",
+        slot.noun()
+    )]
+    HostKey {
+        /// The slot of the strategy.
+        slot: Slot,
+        /// The strategy's name.
+        strategy: String,
+        /// The parameter's name.
+        param: String,
+        /// The plugin.
+        plugin: Arc<Plugin>,
+    },
 }
 
 /// Why a file is not a plugin for this program.
@@ -186,7 +216,9 @@ impl LoadError {
             | Self::NoFolder { path }
             | Self::NoFile { path }
             | Self::Refused { path, .. } => Some(path),
-            Self::TwoOfOneName { second, .. } => second.file.as_deref(),
+            Self::TwoOfOneName { second: plugin, .. }
+            | Self::UnusableName { plugin, .. }
+            | Self::HostKey { plugin, .. } => plugin.file.as_deref(),
         }
     }
 
@@ -196,6 +228,13 @@ impl LoadError {
             Self::TwoOfOneName { .. } => {
                 Some("leave one of the two plugins out, or rename its strategy")
             }
+            Self::UnusableName { .. } => Some(
+                "name it in lower-case letters, digits and hyphens, and build the plugin again",
+            ),
+            Self::HostKey { .. } => Some(
+                "rename the parameter and build the plugin again; `use`, `speed`, `scale`, \
+                 `decentre_x`, `decentre_y`, `clocking` and `piston` belong to the host",
+            ),
             Self::Refused {
                 refusal: Refusal::Loader { hint, .. },
                 ..
@@ -219,6 +258,8 @@ impl LoadError {
 #[cfg(test)]
 mod tests {
     use std::error::Error;
+
+    use turnpath_core::HOST_KEYS;
 
     use super::*;
 
@@ -256,6 +297,25 @@ mod tests {
             "its strategy `balanced` declares the parameter `counterweight` as `mass`, a kind that \
              this program does not know; use a newer turnpath"
         );
+    }
+
+    #[test]
+    fn the_help_names_every_key_of_the_host() {
+        let error = LoadError::HostKey {
+            slot: Slot::Feed,
+            strategy: String::new(),
+            param: String::new(),
+            plugin: Arc::new(Plugin {
+                name: String::new(),
+                version: String::new(),
+                file: None,
+                sha256: None,
+            }),
+        };
+        let help = error.help().unwrap_or_default();
+        for key in HOST_KEYS {
+            assert!(help.contains(&format!("`{key}`")), "{key}");
+        }
     }
 
     #[test]

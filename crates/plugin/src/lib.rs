@@ -6,6 +6,8 @@
 //! ```
 //! use turnpath_plugin::prelude::*;
 //!
+//! const NODES: Param<Count> = Param::count("nodes", "nodes a revolution").min(3);
+//!
 //! /// The same number of nodes on every revolution.
 //! #[derive(Clone)]
 //! struct Even(f64);
@@ -13,9 +15,9 @@
 //! impl Strategy for Even {
 //!     const NAME: &'static str = "even";
 //!     const SUMMARY: &'static str = "the same number of nodes on every revolution";
-//!     const PARAMS: &'static [Param] = &[Param::count("nodes", "nodes a revolution").min(3.0)];
+//!     const PARAMS: &'static [ParamInfo] = &[NODES.info()];
 //!     fn new(p: &Params) -> Result<Self> {
-//!         Ok(Self(p.count("nodes")))
+//!         Ok(Self(p.get(NODES) as f64))
 //!     }
 //! }
 //!
@@ -55,15 +57,17 @@ pub mod prelude {
     pub use std::f64::consts::{PI, TAU};
     pub use turnpath_core::extreme;
     pub use turnpath_core::interference::{self, Interference};
+    pub use turnpath_core::kind::*;
     pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{
         AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Continuation, Cut, DEG,
-        Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries, Gradients,
-        LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset, Nodes,
-        Param, Params, Part, Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result,
-        Revolutions, Sampler, SamplerPlan, Scalar, Series, Setup, SpindleAsk, SpindleLaw,
-        SpindleStrategy, SpiralLaw, Strategy, StrategyError, Surface, SurfaceModel, Task, Taylor,
-        Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
+        DataFile, Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries,
+        Gradients, LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset,
+        Nodes, Param, ParamInfo, Params, Part, Path, Piece, PiecewisePolynomial, Radial,
+        RadialRange, Rates, Result, Revolutions, Sampler, SamplerPlan, Scalar, Series, Setup,
+        SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw, Strategy, StrategyError, Surface,
+        SurfaceModel, Task, Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle,
+        per_radian, quintic,
     };
 }
 

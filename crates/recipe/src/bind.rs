@@ -1,21 +1,39 @@
 //! Checks the parameters that a recipe gives a strategy against the strategy's declarations.
 
-use turnpath_core::{
-    Param, ParamDefault, ParamKind, ParamValue, Params, Quantity, Slot, StrategyInfo,
-};
+use turnpath_core::{ParamDefault, ParamInfo, Params, Slot, StrategyInfo};
 
-use crate::choice::{Choice, host_keys};
-use crate::declared::{example, range, shown};
+use crate::choice::Choice;
+use crate::declared::example;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::document::{Entry, Node};
+use crate::document::Entry;
+use crate::found::{Found, default_of, found};
 use crate::recipe::Recipe;
+use crate::span::Spanned;
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
-use crate::value;
+use crate::tables::slot_keys;
+
+/// The parameters of a strategy, checked against its declarations. Files are named but not read.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Binding {
+    /// The values of all parameters but files. A parameter that the recipe leaves out has its
+    /// default, or is absent if it is optional.
+    pub params: Params,
+    /// The files that the recipe names.
+    pub files: Vec<NamedFile>,
+}
+
+/// A file that a recipe names as a parameter of a strategy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedFile {
+    /// The parameter.
+    pub param: &'static str,
+    /// The path, relative to the recipe, and its place.
+    pub path: Spanned<String>,
+}
 
 impl Recipe {
     /// The parameters of the strategy chosen for a slot, checked against its declarations.
-    /// A parameter that the recipe leaves out has its default, or is absent if it is optional.
-    pub fn bind(&self, slot: Slot, info: &StrategyInfo) -> Result<Params, Diagnostics> {
+    pub fn bind(&self, slot: Slot, info: &StrategyInfo) -> Result<Binding, Diagnostics> {
         self.choice(slot).bind(info)
     }
 
@@ -27,21 +45,25 @@ impl Recipe {
 
 impl Choice {
     /// The parameters, checked against the declarations of the strategy.
-    pub fn bind(&self, info: &StrategyInfo) -> Result<Params, Diagnostics> {
+    pub fn bind(&self, info: &StrategyInfo) -> Result<Binding, Diagnostics> {
         let mut diagnostics: Vec<Diagnostic> = self
             .params
             .iter()
             .filter_map(|entry| self.unknown_param(entry, info))
             .collect();
-        let mut params = Params::new();
+        let mut binding = Binding::default();
         for param in info.params {
             match self.value_of(param, info) {
-                Ok(Some(value)) => params.set(param.name, value),
+                Ok(Some(Found::Value(value))) => binding.params.set(param.name, value),
+                Ok(Some(Found::File(path))) => {
+                    let param = param.name;
+                    binding.files.push(NamedFile { param, path });
+                }
                 Ok(None) => {}
                 Err(diagnostic) => diagnostics.push(diagnostic),
             }
         }
-        Diagnostics::unless_any(Some(params), diagnostics)
+        Diagnostics::unless_any(Some(binding), diagnostics)
     }
 
     /// The message that no strategy of this name is known.
@@ -65,6 +87,8 @@ impl Choice {
             return None;
         }
         let names: Vec<&str> = info.params.iter().map(|param| param.name).collect();
+        let of_host = slot_keys(self.slot).iter().map(|key| key.name);
+        let known: Vec<&str> = names.iter().copied().chain(of_host).collect();
         let noun = self.slot.noun();
         let title = format!(
             "the {noun} `{}` has no parameter {}",
@@ -78,10 +102,7 @@ impl Choice {
         };
         let diagnostic = Diagnostic::new(entry.span.clone(), title)
             .with_label("unknown parameter")
-            .with_helps(did_you_mean(
-                &entry.key,
-                &[&names, host_keys(self.slot)].concat(),
-            ))
+            .with_helps(did_you_mean(&entry.key, &known))
             .with_help(list);
         Some(diagnostic.with_helps(self.help_for_left_over(entry)))
     }
@@ -101,7 +122,7 @@ impl Choice {
 
     /// Whether an unknown key looks like a misspelling of this parameter. That key has its own
     /// message.
-    fn misspells(&self, param: &Param, info: &StrategyInfo) -> bool {
+    fn misspells(&self, param: &ParamInfo, info: &StrategyInfo) -> bool {
         let declared = |key: &str| info.params.iter().any(|other| other.name == key);
         let mut unknown = self.params.iter().filter(|entry| !declared(&entry.key));
         unknown.any(|entry| is_misspelt(&entry.key, param.name))
@@ -109,23 +130,20 @@ impl Choice {
 
     fn value_of(
         &self,
-        param: &Param,
+        param: &ParamInfo,
         info: &StrategyInfo,
-    ) -> Result<Option<ParamValue>, Diagnostic> {
+    ) -> Result<Option<Found>, Diagnostic> {
         match self.param(param.name) {
-            Some(entry) => read(param, &entry.node).map(Some),
-            None => match param.default {
-                ParamDefault::Number(value) => Ok(Some(ParamValue::Number(value))),
-                ParamDefault::Flag(flag) => Ok(Some(ParamValue::Flag(flag))),
-                ParamDefault::Text(word) => Ok(Some(ParamValue::Text(word.to_owned()))),
-                ParamDefault::Absent => Ok(None),
-                ParamDefault::Required if self.misspells(param, info) => Ok(None),
-                ParamDefault::Required => Err(self.missing(param)),
-            },
+            Some(entry) => found(param, &entry.node).map(Some),
+            None if param.default != ParamDefault::Required => {
+                Ok(default_of(param).map(Found::Value))
+            }
+            None if self.misspells(param, info) => Ok(None),
+            None => Err(self.missing(param)),
         }
     }
 
-    fn missing(&self, param: &Param) -> Diagnostic {
+    fn missing(&self, param: &ParamInfo) -> Diagnostic {
         let title = format!(
             "the {} `{}` needs `{}`",
             self.slot.noun(),
@@ -141,63 +159,4 @@ impl Choice {
                 example(param)
             ))
     }
-}
-
-/// A parameter's value, of the declared kind and in the declared range.
-fn read(param: &Param, node: &Node) -> Result<ParamValue, Diagnostic> {
-    let key = param.name;
-    match param.kind {
-        ParamKind::Flag => Ok(ParamValue::Flag(value::flag(key, node)?)),
-        ParamKind::Choice(words) => Ok(ParamValue::Text(value::word(key, node, words)?.to_owned())),
-        ParamKind::Rows(columns) => Ok(ParamValue::Rows(rows(key, node, columns)?)),
-        kind => {
-            let number = match Quantity::of(kind) {
-                Some(quantity) => value::quantity(key, node, quantity, quantity.example())?,
-                None => value::number(key, node)?,
-            };
-            whole_if_count(param, node, number)?;
-            in_range(param, node, number)?;
-            Ok(ParamValue::Number(number))
-        }
-    }
-}
-
-fn whole_if_count(param: &Param, node: &Node, number: f64) -> Result<(), Diagnostic> {
-    /// Above this, doubles skip whole numbers.
-    const LARGEST_COUNT: f64 = 9_007_199_254_740_992.0;
-    if param.kind != ParamKind::Count || (number.floor() == number && number <= LARGEST_COUNT) {
-        return Ok(());
-    }
-    let title = format!("`{}` must be a whole number", param.name);
-    Err(Diagnostic::new(node.span.clone(), title)
-        .with_label("a count belongs here")
-        .with_help(format!("for example: {} = {}", param.name, example(param))))
-}
-
-fn in_range(param: &Param, node: &Node, number: f64) -> Result<(), Diagnostic> {
-    if param.admits(number) {
-        return Ok(());
-    }
-    let title = format!("`{}` must be {}", param.name, range(param));
-    Err(Diagnostic::new(node.span.clone(), title)
-        .with_label(format!("this is {}", shown(param.kind, number)))
-        .with_help(format!("`{}`: {}", param.name, param.help)))
-}
-
-fn rows(key: &str, node: &Node, columns: usize) -> Result<Vec<Vec<f64>>, Diagnostic> {
-    value::items(key, node)?
-        .iter()
-        .map(|item| row(key, item, columns))
-        .collect()
-}
-
-fn row(key: &str, node: &Node, columns: usize) -> Result<Vec<f64>, Diagnostic> {
-    let expected = format!("a list of rows of {columns} numbers");
-    let items = value::items(key, node).map_err(|_| value::wrong_type(key, node, &expected))?;
-    if items.len() != columns {
-        let title = format!("a row of `{key}` must have {columns} numbers");
-        return Err(Diagnostic::new(node.span.clone(), title)
-            .with_label(format!("this has {}", items.len())));
-    }
-    items.iter().map(|item| value::number(key, item)).collect()
 }

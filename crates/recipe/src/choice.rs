@@ -1,15 +1,13 @@
 //! The strategy that a recipe chooses for a slot, with the parameters as the recipe gives them.
 
-use turnpath_core::Slot;
+use turnpath_core::{Slot, is_strategy_name};
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Table};
 use crate::read::Section;
 use crate::span::{Span, Spanned};
 use crate::suggest::quoted;
-
-/// The spindle strategy of a recipe that names none.
-pub(crate) const DEFAULT_SPINDLE: &str = "constant";
+use crate::tables::{DEFAULT_SPINDLE, USE, slot_keys};
 
 /// A slot, the strategy chosen for it, and the parameters as the recipe gives them.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,7 +18,7 @@ pub struct Choice {
     pub name: Spanned<String>,
     /// The header of the slot's table, `[sampler]`.
     pub span: Span,
-    /// The keys besides those of the host. They are not checked yet.
+    /// The keys that belong to the strategy. They are not checked yet.
     pub params: Vec<Entry>,
 }
 
@@ -44,8 +42,9 @@ impl Choice {
     }
 
     fn read_name(slot: Slot, section: &mut Section<'_>) -> Option<Spanned<String>> {
-        if section.node("use").is_some() {
-            return section.text("use");
+        let key = USE.name();
+        if section.node(key).is_some() {
+            return section.text(key);
         }
         if slot == Slot::Spindle {
             return Some(Spanned {
@@ -53,7 +52,7 @@ impl Choice {
                 span: section.span.clone(),
             });
         }
-        section.missing("use", &format!("\"{}\"", example(slot)));
+        section.missing(key, &format!("\"{}\"", example(slot)));
         None
     }
 
@@ -68,7 +67,7 @@ impl Choice {
             return None;
         };
         let name = Self::read_name(slot, section)?;
-        if !is_valid_name(&name.value) {
+        if !is_strategy_name(&name.value) {
             section.report(invalid_name(slot, &name));
             return None;
         }
@@ -81,26 +80,13 @@ impl Choice {
     }
 }
 
-/// The keys of a slot's table that belong to the host and not to a strategy.
-pub(crate) fn host_keys(slot: Slot) -> &'static [&'static str] {
-    match slot {
-        Slot::Spindle => &["use", "speed"],
-        _ => &["use"],
-    }
-}
-
 fn params(slot: Slot, table: &Table) -> Vec<Entry> {
+    let of_host = |key: &str| slot_keys(slot).iter().any(|info| info.name == key);
     let entries = table.entries().iter();
     entries
-        .filter(|entry| !host_keys(slot).contains(&entry.key.as_str()))
+        .filter(|entry| !of_host(&entry.key))
         .cloned()
         .collect()
-}
-
-/// Whether a text can be a strategy's name: lower-case letters, digits and hyphens.
-fn is_valid_name(name: &str) -> bool {
-    let valid = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    !name.is_empty() && name.chars().all(valid)
 }
 
 fn invalid_name(slot: Slot, name: &Spanned<String>) -> Diagnostic {

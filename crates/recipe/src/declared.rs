@@ -1,26 +1,67 @@
-//! Declarations of parameters as text: ranges and examples, for messages.
+//! Declarations of parameters and keys as text, for messages, `turnpath explain` and the
+//! documentation.
 
-use turnpath_core::{Param, ParamDefault, ParamKind, Quantity};
+use turnpath_core::{ParamDefault, ParamInfo, ParamKind};
 
 /// A value as a recipe would write it, from the units used inside (mm, rad, s).
 pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
-    match Quantity::of(kind) {
+    match kind.quantity() {
         Some(quantity) => quantity.format(value),
         None => value.to_string(),
     }
 }
 
+/// What a value is: "a length", "a whole number", "true or false", `"sum" | "product"`.
+pub fn kind(param: &ParamInfo) -> String {
+    match param.kind {
+        ParamKind::Quantity(quantity) => quantity.noun().to_owned(),
+        ParamKind::Number => "a number".to_owned(),
+        ParamKind::Count => "a whole number".to_owned(),
+        ParamKind::Flag => "true or false".to_owned(),
+        ParamKind::Choice(words) => in_quotes(words, " | "),
+        ParamKind::ChoiceOr(words, quantity) => {
+            format!("{} | {}", in_quotes(words, " | "), quantity.noun())
+        }
+        ParamKind::Text => "a text".to_owned(),
+        ParamKind::List([]) => "a list of texts".to_owned(),
+        ParamKind::List(words) => format!("a list of {}", in_quotes(words, ", ")),
+        ParamKind::Rows(columns) => format!("a list of rows of {columns} numbers"),
+        ParamKind::File => "a file, by its path relative to the recipe".to_owned(),
+    }
+}
+
+/// The same, with an example where a unit belongs: `a length, such as "5 mm"`.
+pub fn kind_with_example(param: &ParamInfo) -> String {
+    match param.kind.quantity() {
+        Some(_) => format!("{}, such as \"{}\"", kind(param), usual_text(param)),
+        None => kind(param),
+    }
+}
+
+/// What counts if the recipe leaves the key out: "required", "may be left out", "default 0.5".
+pub fn default(param: &ParamInfo) -> String {
+    match param.default {
+        ParamDefault::Required => "required".to_owned(),
+        ParamDefault::Absent => "may be left out".to_owned(),
+        ParamDefault::Number(value) => format!("default {}", shown(param.kind, value)),
+        ParamDefault::Flag(value) => format!("default {value}"),
+        ParamDefault::Text(word) => format!("default \"{word}\""),
+        ParamDefault::List(words) => format!("default [{}]", in_quotes(words, ", ")),
+    }
+}
+
+/// The limits of a number: "at least 3; at most 12"; empty if there is none.
+pub fn limits(param: &ParamInfo) -> String {
+    let mut parts = bounds(param);
+    if param.nonzero {
+        parts.push("not zero".to_owned());
+    }
+    parts.join("; ")
+}
+
 /// The declared range in words: "above 0 mm and at most 5 mm", "at least 3", "different from zero".
-pub(crate) fn range(param: &Param) -> String {
-    let limit = |value: f64| shown(param.kind, value);
-    let mut parts = Vec::new();
-    if param.min > f64::NEG_INFINITY {
-        let word = if param.above_min { "above" } else { "at least" };
-        parts.push(format!("{word} {}", limit(param.min)));
-    }
-    if param.max < f64::INFINITY {
-        parts.push(format!("at most {}", limit(param.max)));
-    }
+pub(crate) fn range(param: &ParamInfo) -> String {
+    let mut parts = bounds(param);
     if param.nonzero {
         parts.push("different from zero".to_owned());
     }
@@ -31,21 +72,67 @@ pub(crate) fn range(param: &Param) -> String {
     }
 }
 
+fn bounds(param: &ParamInfo) -> Vec<String> {
+    let limit = |value: f64| shown(param.kind, value);
+    if param.min == param.max {
+        return vec![limit(param.min)];
+    }
+    let mut parts = Vec::new();
+    if param.min.is_finite() {
+        let word = if param.above_min { "above" } else { "at least" };
+        parts.push(format!("{word} {}", limit(param.min)));
+    }
+    if param.max.is_finite() {
+        let word = if param.below_max { "below" } else { "at most" };
+        parts.push(format!("{word} {}", limit(param.max)));
+    }
+    parts
+}
+
+fn in_quotes(words: &[&str], between: &str) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    quoted.join(between)
+}
+
+/// A good value as a recipe has it, without quotes: the declared example, or the usual one of the
+/// quantity.
+pub(crate) fn usual_text(param: &ParamInfo) -> &'static str {
+    match param.kind.quantity() {
+        Some(quantity) if param.example.is_empty() => quantity.example(),
+        _ => param.example,
+    }
+}
+
 /// A value that the declaration admits, as a recipe would write it.
-pub(crate) fn example(param: &Param) -> String {
+pub(crate) fn example(param: &ParamInfo) -> String {
+    if !param.example.is_empty() {
+        return match param.kind {
+            ParamKind::Number | ParamKind::Count | ParamKind::Flag | ParamKind::Rows(_) => {
+                param.example.to_owned()
+            }
+            _ => format!("\"{}\"", param.example),
+        };
+    }
     match (param.kind, param.default) {
         (ParamKind::Flag, ParamDefault::Flag(flag)) => flag.to_string(),
         (ParamKind::Flag, _) => "true".to_owned(),
-        (ParamKind::Choice(_), ParamDefault::Text(word)) => format!("\"{word}\""),
-        (ParamKind::Choice(words), _) => format!("\"{}\"", words.first().unwrap_or(&"")),
+        (ParamKind::Choice(_) | ParamKind::ChoiceOr(..), ParamDefault::Text(word)) => {
+            format!("\"{word}\"")
+        }
+        (ParamKind::Choice(words) | ParamKind::ChoiceOr(words, _), _) => {
+            format!("\"{}\"", words.first().unwrap_or(&""))
+        }
+        (ParamKind::Text, _) => "\"…\"".to_owned(),
+        (ParamKind::List(words), _) => format!("[\"{}\"]", words.first().unwrap_or(&"…")),
         (ParamKind::Rows(columns), _) => example_rows(columns),
+        (ParamKind::File, _) => "\"data.csv\"".to_owned(),
         (_, ParamDefault::Number(value)) => written(param.kind, value),
         _ => written(param.kind, example_number(param)),
     }
 }
 
 fn written(kind: ParamKind, value: f64) -> String {
-    match Quantity::of(kind) {
+    match kind.quantity() {
         Some(quantity) => format!("\"{}\"", quantity.format(value)),
         None => value.to_string(),
     }
@@ -59,8 +146,8 @@ fn example_rows(columns: usize) -> String {
 }
 
 /// The usual value of the kind if it is in range, else a larger or smaller value that is.
-fn example_number(param: &Param) -> f64 {
-    let usual = match (param.kind, Quantity::of(param.kind)) {
+fn example_number(param: &ParamInfo) -> f64 {
+    let usual = match (param.kind, param.kind.quantity()) {
         (ParamKind::Count, _) => 36.0,
         (_, Some(quantity)) => quantity.parse(quantity.example()).unwrap_or(1.0),
         _ => 0.5,
@@ -77,44 +164,44 @@ fn example_number(param: &Param) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use turnpath_core::DEG;
+    use turnpath_core::{DEG, Param};
 
-    use super::*;
+    fn range<K>(param: Param<K>) -> String {
+        super::range(&param.info())
+    }
+
+    fn example<K>(param: Param<K>) -> String {
+        super::example(&param.info())
+    }
 
     #[test]
     fn ranges_have_readable_units() {
         let step = Param::angle("max_step", "").positive().max(180.0 * DEG);
-        assert_eq!(range(&step), "above 0 deg and at most 180 deg");
-        assert_eq!(range(&Param::count("at_least", "").min(3.0)), "at least 3");
+        assert_eq!(range(step), "above 0 deg and at most 180 deg");
+        assert_eq!(range(Param::count("at_least", "").min(3)), "at least 3");
         assert_eq!(
-            range(&Param::length("radius", "").nonzero()),
+            range(Param::length("radius", "").nonzero()),
             "different from zero"
         );
     }
 
     #[test]
     fn examples_are_in_range() {
+        assert_eq!(example(Param::length("spacing", "").positive()), "\"5 mm\"");
         assert_eq!(
-            example(&Param::length("spacing", "").positive()),
-            "\"5 mm\""
-        );
-        assert_eq!(
-            example(&Param::length("spacing", "").positive().max(0.1)),
+            example(Param::length("spacing", "").positive().max(0.1)),
             "\"50 um\""
         );
+        assert_eq!(example(Param::feed("feed", "").positive()), "\"10 um/rev\"");
+        assert_eq!(example(Param::count("at_least", "").min(50)), "360");
+        assert_eq!(example(Param::number("conic", "").max(-0.75)), "-5");
+        assert_eq!(example(Param::rows("terms", 3, "")), "[[2, 0, 0]]");
         assert_eq!(
-            example(&Param::feed("feed", "").positive()),
-            "\"10 um/rev\""
-        );
-        assert_eq!(example(&Param::count("at_least", "").min(50.0)), "360");
-        assert_eq!(example(&Param::number("conic", "").max(-0.75)), "-5");
-        assert_eq!(example(&Param::rows("terms", 3, "")), "[[2, 0, 0]]");
-        assert_eq!(
-            example(&Param::angle("max_step", "").default(45.0 * DEG)),
+            example(Param::angle("max_step", "").default(45.0 * DEG)),
             "\"45 deg\""
         );
         assert_eq!(
-            example(&Param::choice("form", &["sum", "product"], "")),
+            example(Param::choice("form", &["sum", "product"], "")),
             "\"sum\""
         );
     }

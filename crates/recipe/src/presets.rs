@@ -39,6 +39,9 @@ const STS_BANDWIDTH: f64 = TAU * 70.0;
 /// The largest acceleration of the motion at 2 Hz, mm/s².
 const STS_ACCELERATION: f64 = STS_AMPLITUDE * STS_FREQUENCY * STS_FREQUENCY;
 
+/// The names of all presets.
+pub const NAMES: &[&str] = &["generic-sts", "precitech-sts"];
+
 /// All presets.
 pub const PRESETS: &[Preset] = &[
     Preset {
@@ -81,11 +84,6 @@ impl Preset {
     pub(crate) fn named(name: &str) -> Option<&'static Self> {
         PRESETS.iter().find(|preset| preset.name == name)
     }
-
-    /// The names of all presets.
-    pub(crate) fn names() -> Vec<&'static str> {
-        PRESETS.iter().map(|preset| preset.name).collect()
-    }
 }
 
 #[cfg(test)]
@@ -94,6 +92,8 @@ mod tests {
 
     #[test]
     fn every_preset_has_a_name_of_its_own_a_limit_and_a_source() {
+        let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+        assert_eq!(names, NAMES);
         for (i, preset) in PRESETS.iter().enumerate() {
             assert_eq!(Preset::named(preset.name), Some(preset));
             assert!(PRESETS[..i].iter().all(|other| other.name != preset.name));

@@ -1,15 +1,18 @@
 //! Reads the keys of one table and collects the messages about them.
 
-use turnpath_core::Quantity;
+use turnpath_core::{ParamDefault, ParamInfo, ParamValue, Params};
 
+use crate::declared::example;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Node, Table, Value};
+use crate::found::{Found, default_of, found};
 use crate::span::{Span, Spanned};
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
+use crate::table_info::TableInfo;
 use crate::value;
 
-/// Tables and their fixed keys.
-pub(crate) type Schema = &'static [(&'static str, &'static [&'static str])];
+/// The tables with fixed keys.
+pub(crate) type Schema = &'static [TableInfo];
 
 /// One table of the recipe, which may be missing, and the messages so far.
 pub(crate) struct Section<'a> {
@@ -72,30 +75,15 @@ impl Sections<'_> {
     }
 }
 
-/// A condition on a number.
-#[derive(Clone, Copy)]
-pub(crate) struct Bound {
-    /// Whether it holds.
-    pub(crate) holds: fn(f64) -> bool,
-    /// The condition in words: "above zero".
-    pub(crate) words: &'static str,
-}
-
-/// Only values above zero.
-pub(crate) const POSITIVE: Bound = Bound {
-    holds: |value| value > 0.0,
-    words: "above zero",
-};
-/// No value below zero.
-pub(crate) const NOT_NEGATIVE: Bound = Bound {
-    holds: |value| value >= 0.0,
-    words: "zero or above",
-};
-
 impl<'a> Section<'a> {
     /// The value under a key, if the recipe has the key.
     pub(crate) fn node(&self, key: &str) -> Option<&'a Node> {
         self.table?.get(key).map(|entry| &entry.node)
+    }
+
+    /// The span of the value under a key, else of the table.
+    pub(crate) fn nearest_span(&self, key: &str) -> Span {
+        self.node(key).map_or(&self.span, |node| &node.span).clone()
     }
 
     /// Whether the recipe has a value of another kind under the table's name. Another message
@@ -138,66 +126,47 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// A quantity within a bound; `None` if the key is missing or its value is wrong.
-    pub(crate) fn quantity(
-        &mut self,
-        key: &str,
-        kind: Quantity,
-        bound: Bound,
-    ) -> Option<Spanned<f64>> {
-        self.quantity_with_example(key, kind, bound, kind.example())
+    /// The values of a table's declared keys. Unknown keys, wrong values and missing keys are
+    /// reported. A key that the recipe leaves out has its default.
+    pub(crate) fn bind(&mut self, info: &TableInfo) -> Params {
+        self.bind_but(info, &[])
     }
 
-    fn quantity_with_example(
-        &mut self,
-        key: &str,
-        kind: Quantity,
-        bound: Bound,
-        example: &str,
-    ) -> Option<Spanned<f64>> {
-        let read = self.at(key, |node| value::quantity(key, node, kind, example))?;
-        if (bound.holds)(read.value) {
-            return Some(read);
+    /// The same without some keys, which the table reads itself.
+    pub(crate) fn bind_but(&mut self, info: &TableInfo, own: &[&str]) -> Params {
+        self.report_unknown_keys(info);
+        let keys = info.keys.iter();
+        self.values(keys.filter(|key| !own.contains(&key.name)))
+    }
+
+    /// The values of some keys.
+    pub(crate) fn values<'k>(&mut self, keys: impl IntoIterator<Item = &'k ParamInfo>) -> Params {
+        let mut params = Params::new();
+        for key in keys {
+            if let Some(value) = self.value(key) {
+                params.set(key.name, value);
+            }
         }
-        let title = format!("`{key}` must be {}", bound.words);
-        let label = format!("not {}", bound.words);
-        self.report(Diagnostic::new(read.span, title).with_label(label));
-        None
+        params
     }
 
-    /// A quantity that the recipe must give; `example` is a value that would be right.
-    pub(crate) fn required_quantity(
-        &mut self,
-        key: &str,
-        kind: Quantity,
-        bound: Bound,
-        example: &str,
-    ) -> Option<Spanned<f64>> {
-        let there = self.table.is_none_or(|table| table.has_like(key));
-        if !there {
-            self.missing(key, &format!("\"{example}\""));
+    fn value(&mut self, key: &ParamInfo) -> Option<ParamValue> {
+        let Some(node) = self.node(key.name) else {
+            let misspelt = self.table.is_none_or(|table| table.has_like(key.name));
+            if key.default == ParamDefault::Required && !misspelt {
+                self.missing(key.name, &example(key));
+            }
+            return default_of(key);
+        };
+        match self.ok_or_report(found(key, node))? {
+            Found::Value(value) => Some(value),
+            Found::File(path) => Some(ParamValue::Text(path.value)),
         }
-        self.quantity_with_example(key, kind, bound, example)
-    }
-
-    /// A pure number; `None` if the key is missing or its value is wrong.
-    pub(crate) fn number(&mut self, key: &str) -> Option<Spanned<f64>> {
-        self.at(key, |node| value::number(key, node))
-    }
-
-    /// A flag; `None` if the key is missing or its value is wrong.
-    pub(crate) fn flag(&mut self, key: &str) -> Option<Spanned<bool>> {
-        self.at(key, |node| value::flag(key, node))
     }
 
     /// A string; `None` if the key is missing or its value is wrong.
     pub(crate) fn text(&mut self, key: &str) -> Option<Spanned<String>> {
         self.at(key, |node| value::text(key, node).map(str::to_owned))
-    }
-
-    /// One of the allowed words; `None` if the key is missing or its value is wrong.
-    pub(crate) fn word<'w>(&mut self, key: &str, words: &[&'w str]) -> Option<Spanned<&'w str>> {
-        self.at(key, |node| value::word(key, node, words))
     }
 
     /// The items of a list that are strings. Each other item is reported.
@@ -231,6 +200,17 @@ impl<'a> Section<'a> {
         self.report(diagnostic);
     }
 
+    /// Whether the recipe has the table. A table that it must have is reported.
+    pub(crate) fn is_there(&mut self, info: &TableInfo) -> bool {
+        let there = self.table.is_some();
+        let mut keys = info.keys.iter();
+        let first = keys.find(|key| key.default == ParamDefault::Required);
+        if let (false, true, Some(first)) = (there, info.required, first) {
+            self.missing_table(&format!("{} = {}", first.name, example(first)));
+        }
+        there
+    }
+
     /// Reports a missing table; `example` is a line that the table could have.
     pub(crate) fn missing_table(&mut self, example: &str) {
         if self.is_something_else() || self.misspelt {
@@ -245,26 +225,28 @@ impl<'a> Section<'a> {
         self.report(diagnostic);
     }
 
-    /// Reports each key that is not a known one.
-    pub(crate) fn report_unknown_keys(&mut self, known: &[&str]) {
+    /// Reports each key that is neither a key of the table nor a table within it.
+    pub(crate) fn report_unknown_keys(&mut self, info: &TableInfo) {
+        let known = known_keys(self.schema, info);
         let entries = self.table.map_or(&[][..], Table::entries);
         let unknown = entries
             .iter()
             .filter(|entry| !known.contains(&entry.key.as_str()));
         for entry in unknown {
-            let diagnostic = self.unknown_key(entry, known);
+            let diagnostic = self.unknown_key(entry, &known);
             self.report(diagnostic);
         }
     }
 
     /// Reports each key that looks like a misspelling of `key`, if the table lacks `key` itself.
-    pub(crate) fn report_misspelling(&mut self, key: &str, known: &[&str]) {
+    pub(crate) fn report_misspelling(&mut self, key: &str, info: &TableInfo) {
+        let known = known_keys(self.schema, info);
         let entries = match self.table {
             Some(table) if table.get(key).is_none() => table.entries(),
             _ => &[],
         };
         for entry in entries.iter().filter(|entry| is_misspelt(&entry.key, key)) {
-            let diagnostic = self.unknown_key(entry, known);
+            let diagnostic = self.unknown_key(entry, &known);
             self.report(diagnostic);
         }
     }
@@ -284,8 +266,19 @@ impl<'a> Section<'a> {
 
     /// The tables that have such a key: "[part]", or "[part] or [path]".
     pub(crate) fn tables_with(&self, key: &str) -> Option<String> {
-        let with_key = self.schema.iter().filter(|(_, keys)| keys.contains(&key));
-        let names: Vec<String> = with_key.map(|(table, _)| format!("[{table}]")).collect();
+        let with_key = self.schema.iter().filter(|table| table.has(key));
+        let names: Vec<String> = with_key.map(|table| format!("[{}]", table.name)).collect();
         (!names.is_empty()).then(|| names.join(" or "))
     }
+}
+
+/// The keys of a table, and the tables within it.
+pub(crate) fn known_keys(schema: Schema, info: &TableInfo) -> Vec<&'static str> {
+    let within = |table: &'static TableInfo| {
+        let rest = table.name.strip_prefix(info.name)?;
+        rest.strip_prefix('.')
+    };
+    info.names()
+        .chain(schema.iter().filter_map(within))
+        .collect()
 }

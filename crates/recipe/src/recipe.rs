@@ -8,14 +8,14 @@ use std::sync::Arc;
 use toml::de::DeTable;
 use turnpath_core::{Direction, Machine, Overrun, Part, Servo, Slot, Tolerance, Tool};
 
-use crate::choice::{Choice, DEFAULT_SPINDLE};
+use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Reader, Table};
 use crate::presets::Preset;
 use crate::read::Sections;
 use crate::set;
 use crate::span::{Source, Span, Spanned};
-use crate::tables::{self, Output, PmacPvt};
+use crate::tables::{self, DEFAULT_SPINDLE, Output, PmacPvt};
 
 /// Largest recipe, in bytes: a hundred times as much as a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -370,7 +370,7 @@ pub(crate) fn build(
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
     let choices = Slot::ALL.map(|slot| Choice::read(slot, &mut sections.open(slot.key())));
     let [surface, feed, sampler, compensator, velocity, spindle] = choices;
-    let tool = tool?;
+    let (tool, path_table) = (tool?, path_table?);
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
         part: part?,
@@ -386,7 +386,7 @@ pub(crate) fn build(
         clearance: path_table.clearance,
         refine: top.refine,
         output,
-        pmac_pvt,
+        pmac_pvt: pmac_pvt?,
         plugins: top.plugins,
         choices: [surface?, feed?, sampler?, compensator?, velocity?, spindle?],
         document,

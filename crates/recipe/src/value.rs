@@ -4,6 +4,7 @@ use turnpath_core::{Quantity, QuantityError};
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Node, Value};
+use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
 
 /// A quantity in the units used inside (mm, rad, s); `example` is a value that would be right.
@@ -126,6 +127,22 @@ pub(crate) fn text<'a>(key: &str, node: &'a Node) -> Result<&'a str, Diagnostic>
     match &node.value {
         Value::Text(text) => Ok(text),
         _ => Err(wrong_type(key, node, "a string").with_help("write it in double quotes")),
+    }
+}
+
+/// The path of a file.
+pub(crate) fn file(key: &str, node: &Node) -> Result<Spanned<String>, Diagnostic> {
+    match &node.value {
+        Value::Text(text) if !text.trim().is_empty() => Ok(Spanned {
+            value: text.clone(),
+            span: node.span.clone(),
+        }),
+        Value::Text(_) => Err(
+            Diagnostic::new(node.span.clone(), format!("`{key}` names no file"))
+                .with_label("the path of a file belongs here"),
+        ),
+        _ => Err(wrong_type(key, node, "the path of a file")
+            .with_help("write it in double quotes; it is relative to the recipe")),
     }
 }
 

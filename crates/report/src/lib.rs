@@ -54,7 +54,7 @@ pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
 pub use program::ProgramReport;
 pub use reach::{Radial, Radii, Reach};
-pub use run::{ChainNames, Direction, PluginSource, RunReport};
+pub use run::{ChainNames, DataSource, Direction, PluginSource, RunReport};
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
 pub use surface_error::SurfaceError;
 pub use tool_fit::{

@@ -48,6 +48,9 @@ pub struct RunReport {
     pub programs: Vec<ProgramReport>,
     /// The plugins that the strategies come from.
     pub plugins: Vec<PluginSource>,
+    /// The data files that the recipe's strategies read.
+    #[serde(default)]
+    pub data_files: Vec<DataSource>,
     /// Which tolerances and limits hold, on the path and on each program.
     pub within: Verdict,
 }
@@ -90,6 +93,21 @@ pub struct PluginSource {
     pub file: Option<String>,
     /// SHA-256 of the library.
     pub sha256: Option<String>,
+}
+
+/// A data file that a strategy reads.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DataSource {
+    /// The slot of the strategy.
+    pub slot: String,
+    /// The parameter that names the file.
+    pub param: String,
+    /// The path as the recipe gives it.
+    pub file: String,
+    /// The number of bytes.
+    pub bytes: u64,
+    /// SHA-256 of the bytes.
+    pub sha256: String,
 }
 
 impl RunReport {

@@ -4,9 +4,10 @@ use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
 use turnpath_pipeline::PipelineError;
 use turnpath_post::PmacError;
-use turnpath_recipe::{Diagnostic, Diagnostics, Recipe};
+use turnpath_recipe::{Diagnostic, Diagnostics, Recipe, Spanned};
 use turnpath_report::text::{millimetres, nose_radius};
 
+use crate::data_files::DataFileError;
 use crate::error::Error;
 use crate::posts::PMAC_PVT;
 
@@ -53,6 +54,22 @@ pub fn wrong_parameter(recipe: &Recipe, slot: Slot, parameter: &str, message: &s
     let title = format!("the {noun} `{name}` cannot work with this: {message}");
     let span = choice.param_span(parameter);
     recipe.diagnostic(span, title, format!("`{parameter}`"), [])
+}
+
+/// A data file that cannot be read, underlined where the recipe names it.
+pub fn unreadable_file(
+    recipe: &Recipe,
+    slot: Slot,
+    parameter: &str,
+    path: &Spanned<String>,
+    error: &DataFileError,
+) -> Diagnostic {
+    let (noun, name) = (slot.noun(), recipe.choice(slot).name());
+    let whole = recipe.resolve(&path.value);
+    let title = format!("cannot read the file {}: {error}", whole.display());
+    let label = format!("`{parameter}` of the {noun} `{name}`");
+    let help = "the path of a data file is relative to the recipe".to_owned();
+    recipe.diagnostic(path.span.clone(), title, label, [help])
 }
 
 /// A path that the post cannot carry: the recipe asks for both.

@@ -6,6 +6,7 @@ use turnpath_host::LoadError;
 use turnpath_post::{FileError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
+use crate::data_files::DataFileError;
 use crate::plots::PlotError;
 
 /// Where an error comes from: the source behind its messages.
@@ -35,6 +36,14 @@ pub enum Error {
         diagnostics: Diagnostics,
         /// What the stage said that called it.
         source: Option<Source>,
+    },
+    /// A data file that the recipe names could not be read.
+    #[error("{diagnostic}")]
+    DataFile {
+        /// Why, and where the recipe names it.
+        diagnostic: Box<Diagnostic>,
+        /// Why.
+        source: DataFileError,
     },
     /// A plugin could not be loaded.
     #[error(transparent)]
@@ -115,6 +124,7 @@ impl Error {
             Self::Load(error) => fault_of_load(error),
             Self::ListedPlugin { source, .. } => fault_of_load(source),
             Self::Recipe(RecipeError::File { .. })
+            | Self::DataFile { .. }
             | Self::File(_)
             | Self::Read(_)
             | Self::NothingCut { .. }
@@ -131,7 +141,9 @@ impl Error {
             Self::Recipe(RecipeError::Wrong(diagnostics))
             | Self::Refused { diagnostics, .. }
             | Self::Strategy { diagnostics, .. } => diagnostics.iter().collect(),
-            Self::ListedPlugin { diagnostic, .. } => vec![diagnostic],
+            Self::ListedPlugin { diagnostic, .. } | Self::DataFile { diagnostic, .. } => {
+                vec![diagnostic]
+            }
             _ => Vec::new(),
         }
     }

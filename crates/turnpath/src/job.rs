@@ -9,15 +9,18 @@ use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 
+use crate::data_files::DataFiles;
 use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
 use crate::error::Error;
+use crate::named_files::UsedFile;
 use crate::program::{Program, programs};
-use crate::strategies::chain;
+use crate::strategies::{chain, used_files};
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
 pub struct Job {
     pub(crate) recipe: Recipe,
     pub(crate) catalogue: Catalogue,
+    pub(crate) data_files: Vec<UsedFile>,
     pub(crate) chain: Chain,
     pub(crate) preparation: Preparation,
     pub(crate) programs: Vec<Program>,
@@ -27,10 +30,21 @@ impl Job {
     /// Makes the strategies of a recipe and checks the tool against the part.
     ///
     /// # Errors
-    /// When a strategy is not there or refuses its parameters, when the tool does not fit, when the
+    /// When a strategy is not there or refuses its parameters, when a data file cannot be read, when
+    /// the tool does not fit, when the
     /// surface has no height somewhere, or when a program could not carry the path.
     pub fn new(recipe: Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
-        let chain = chain(&recipe, catalogue)?;
+        Self::with_files(recipe, catalogue, &DataFiles::default())
+    }
+
+    /// The same with data files that may have been read already.
+    pub(crate) fn with_files(
+        recipe: Recipe,
+        catalogue: &Catalogue,
+        files: &DataFiles,
+    ) -> Result<Self, Error> {
+        let chain = chain(&recipe, catalogue, files)?;
+        let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;
         let spec = JobSpec {
             part: recipe.part,
@@ -46,6 +60,7 @@ impl Job {
         let job = Self {
             recipe,
             catalogue: catalogue.clone(),
+            data_files,
             chain,
             preparation,
             programs,

@@ -19,6 +19,7 @@
 
 mod ablation;
 mod check;
+mod data_files;
 mod diagnosis;
 mod error;
 mod figures;
@@ -26,6 +27,7 @@ mod folder;
 mod job;
 mod memory;
 mod meters;
+mod named_files;
 mod outputs;
 mod plots;
 mod plugins;
@@ -39,6 +41,7 @@ mod toolpath;
 mod verify;
 
 pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
+pub use data_files::DataFileError;
 pub use error::{Error, Fault};
 pub use job::Job;
 pub use outputs::Outputs;
@@ -52,7 +55,9 @@ pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot};
 pub use turnpath_host::{Catalogue, LoadError, Plugin, Strategy};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{FileError, PmacError, ReadError};
-pub use turnpath_recipe::{Diagnostic, Diagnostics, Recipe, RecipeError};
+pub use turnpath_recipe::{
+    Diagnostic, Diagnostics, Recipe, RecipeError, TableInfo, declared, slot_keys, tables,
+};
 pub use turnpath_report as report;
 pub use verify::verify;
 

@@ -16,6 +16,7 @@ use crate::figures;
 use crate::folder::FolderSink;
 use crate::job::Job;
 use crate::memory::MemorySink;
+use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
@@ -177,6 +178,7 @@ impl Job {
             unreached: self.unreached()?,
             programs,
             plugins: self.plugin_sources(),
+            data_files: self.data_sources(),
         };
         Ok(report.with_verdict())
     }
@@ -202,6 +204,17 @@ impl Job {
             sha256: plugin.sha256.clone(),
         });
         source.collect()
+    }
+
+    fn data_sources(&self) -> Vec<report::DataSource> {
+        let source = |file: &UsedFile| report::DataSource {
+            slot: file.slot.key().to_owned(),
+            param: file.param.to_owned(),
+            file: file.path.clone(),
+            bytes: file.contents.bytes.len() as u64,
+            sha256: file.contents.sha256.clone(),
+        };
+        self.data_files.iter().map(source).collect()
     }
 }
 

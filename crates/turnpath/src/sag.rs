@@ -9,6 +9,7 @@ use turnpath_pipeline::Link;
 use turnpath_post::{Draft, FileError};
 use turnpath_recipe::Recipe;
 
+use crate::data_files::DataFiles;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::plots::check_grid;
@@ -26,7 +27,7 @@ pub fn write_sag(
     file: &Path,
 ) -> Result<(), Error> {
     check_grid(count)?;
-    let surface = strategies::surface(recipe, catalogue)?;
+    let surface = strategies::surface(recipe, catalogue, &DataFiles::default())?;
     let grid = Grid {
         half: recipe.part.aperture_radius,
         count,

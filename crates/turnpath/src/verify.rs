@@ -15,6 +15,7 @@ use turnpath_report as report;
 use turnpath_report::FileReport;
 use turnpath_verify::{Anomaly, AnomalyKind, FirstTouch, ServoMeter, Subject, unreached};
 
+use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures;
@@ -53,9 +54,10 @@ struct Target<'a> {
 
 impl<'a> Target<'a> {
     fn new(recipe: &'a Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
-        let surface = strategies::surface(recipe, catalogue)?.strategy;
-        let compensator = strategies::compensator(recipe, catalogue)?.strategy;
-        let velocity = strategies::velocity(recipe, catalogue)?.strategy;
+        let files = DataFiles::default();
+        let surface = strategies::surface(recipe, catalogue, &files)?.strategy;
+        let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
+        let velocity = strategies::velocity(recipe, catalogue, &files)?.strategy;
         let subject = Subject {
             surface,
             part: recipe.part,

@@ -10,6 +10,15 @@ const MOST_PAIRS: usize = 1_000_000;
 /// Rounds of the search for a root: more than it takes to halve any interval down to rounding.
 const ROUNDS: usize = 200;
 
+/// The parameter that chooses this law.
+pub const FIT: Param<Choice> = Param::choice(
+    "fit",
+    &["smooth", "cubic"],
+    "smooth: never above the feed that holds the residual; cubic: the paper's single cubic \
+             through all revolutions, which may exceed that feed",
+)
+.default("smooth");
+
 /// ρ_{i+1} = ρ_i + F(ρ_i) from the inner end until it reaches the rim (eq. 5 and 6).
 ///
 /// # Errors
@@ -48,10 +57,9 @@ impl CubicFit {
     pub fn through(rho: &[f64]) -> Result<Self> {
         let turns = rho.len().saturating_sub(1);
         if turns < 4 {
-            return Err(StrategyError::parameter(
-                "fit",
-                format!("the part takes {turns} revolutions, too few for a cubic; use \"smooth\""),
-            ));
+            return Err(FIT.refused(format!(
+                "the part takes {turns} revolutions, too few for a cubic; use \"smooth\""
+            )));
         }
         let scale = turns as f64;
         let design = DMatrix::from_fn(rho.len(), 4, |i, power| {
@@ -147,13 +155,10 @@ fn least_squares(design: DMatrix<f64>, mut right_side: DVector<f64>) -> Option<D
 }
 
 fn not_monotone(rho: f64) -> StrategyError {
-    StrategyError::parameter(
-        "fit",
-        format!(
-            "the cubic does not grow all along the part (near ρ = {rho:.3} mm): the feed varies \
+    FIT.refused(format!(
+        "the cubic does not grow all along the part (near ρ = {rho:.3} mm): the feed varies \
              too much for one cubic; use \"smooth\""
-        ),
-    )
+    ))
 }
 
 #[cfg(test)]

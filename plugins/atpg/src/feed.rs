@@ -4,7 +4,7 @@ use turnpath_plugin::prelude::*;
 use turnpath_plugin::ring::FeedTable;
 
 use crate::acceleration::largest_acceleration;
-use crate::cubic::{CubicFit, explicit_pairs};
+use crate::cubic::{CubicFit, FIT, explicit_pairs};
 use crate::pieces::{pieces, revolutions};
 use crate::residual::Residual;
 use crate::smooth::SmoothFeed;
@@ -39,36 +39,28 @@ pub struct AtpgFeed {
     fit: Fit,
 }
 
+const RESIDUAL: Param<Choice> = Param::choice(
+    "residual",
+    &["held", "paper"],
+    "held: the feed for the cusps that the compensator leaves; paper: the feed of a contact \
+             with any compensator, from the smallest curvature and the largest slope, each at \
+             its own angle",
+)
+.default("held");
 impl Strategy for AtpgFeed {
     const NAME: &'static str = "atpg";
     const SUMMARY: &'static str = "at each radius the largest feed that holds the residual at \
         every angle, made smooth";
     const SOURCE: &'static str = "Wang et al. 2019, Micromachines 10, §3.2 and 3.3; fit = \
         \"smooth\" stays below the feed, which the paper's cubic does not";
-    const PARAMS: &'static [Param] = &[
-        Param::choice(
-            "residual",
-            &["held", "paper"],
-            "held: the feed for the cusps that the compensator leaves; paper: the feed of a contact \
-             with any compensator, from the smallest curvature and the largest slope, each at \
-             its own angle",
-        )
-        .default_choice("held"),
-        Param::choice(
-            "fit",
-            &["smooth", "cubic"],
-            "smooth: never above the feed that holds the residual; cubic: the paper's single cubic \
-             through all revolutions, which may exceed that feed",
-        )
-        .default_choice("smooth"),
-    ];
+    const PARAMS: &'static [ParamInfo] = &[RESIDUAL.info(), FIT.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let residual = match params.choice("residual") {
+        let residual = match params.get(RESIDUAL) {
             "paper" => Residual::Paper,
             _ => Residual::Exact,
         };
-        let fit = match params.choice("fit") {
+        let fit = match params.get(FIT) {
             "cubic" => Fit::Cubic,
             _ => Fit::Smooth,
         };

@@ -19,7 +19,7 @@ impl Strategy for AtpgSampler {
         4th derivative of the tool centre's own path";
     const SOURCE: &'static str = "Wang et al. 2019, Micromachines 10, §3.4, eq. 10; on the \
         compensated path, and with the step's own maximum";
-    const PARAMS: &'static [Param] = &[MAX_STEP];
+    const PARAMS: &'static [ParamInfo] = &[MAX_STEP.info()];
 
     fn new(params: &Params) -> Result<Self> {
         let steps = Steps::new(params, FEED_PART);

@@ -32,6 +32,14 @@ enum Inward {
     Backwards,
 }
 
+const INWARD: Param<Choice> = Param::choice(
+    "inward",
+    &["recursion", "backwards"],
+    "recursion: from the rim's circle, so that fast angles pass the axis; backwards: the outward \
+         law run backwards, which begins beyond the rim and closes at the axis",
+)
+.default("recursion");
+
 impl Strategy for AtsFeed {
     const NAME: &'static str = "ats";
     const SUMMARY: &'static str = "at every cutting point the feed that holds the residual there; X \
@@ -39,16 +47,10 @@ impl Strategy for AtsFeed {
     const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, from its abstract and \
         from Wang et al. 2019; the law is derived here";
 
-    const PARAMS: &'static [Param] = &[Param::choice(
-        "inward",
-        &["recursion", "backwards"],
-        "recursion: from the rim's circle, so that fast angles pass the axis; backwards: the outward \
-         law run backwards, which begins beyond the rim and closes at the axis",
-    )
-    .default_choice("recursion")];
+    const PARAMS: &'static [ParamInfo] = &[INWARD.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let inward = match params.choice("inward") {
+        let inward = match params.get(INWARD) {
             "backwards" => Inward::Backwards,
             _ => Inward::Recursion,
         };

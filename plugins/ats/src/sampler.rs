@@ -21,7 +21,7 @@ impl Strategy for AtsSampler {
         whose X moves within the turn";
     const SOURCE: &'static str = "after Zhu and To 2015, whose angle follows the shape at every \
         point; the bound is Wang et al. 2019, eq. 10, for Z and X together";
-    const PARAMS: &'static [Param] = &[MAX_STEP];
+    const PARAMS: &'static [ParamInfo] = &[MAX_STEP.info()];
 
     fn new(params: &Params) -> Result<Self> {
         let steps = Steps::new(params, FEED_PART);

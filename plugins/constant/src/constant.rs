@@ -16,22 +16,24 @@ pub struct Constant {
     feed: Option<f64>,
 }
 
+const FEED: Param<Option<Feed>> = Param::feed(
+    "feed",
+    "feed per revolution; left out: the largest that holds tolerance.residual everywhere",
+)
+.positive()
+.optional();
+
 impl Strategy for Constant {
     const NAME: &'static str = "constant";
     const SUMMARY: &'static str =
         "one feed for the whole part, given or the largest that holds the residual everywhere";
     const SOURCE: &'static str = "the conventional spiral; derived feed after Wang et al. 2019, \
         eq. 1–3, at the worst place";
-    const PARAMS: &'static [Param] = &[Param::feed(
-        "feed",
-        "feed per revolution; left out: the largest that holds tolerance.residual everywhere",
-    )
-    .positive()
-    .optional()];
+    const PARAMS: &'static [ParamInfo] = &[FEED.info()];
 
     fn new(params: &Params) -> Result<Self> {
         Ok(Self {
-            feed: params.given("feed"),
+            feed: params.get(FEED),
         })
     }
 }
@@ -74,14 +76,11 @@ impl FeedPlan for OnePiece {
 }
 
 fn given_too_small(least: f64) -> StrategyError {
-    StrategyError::parameter(
-        "feed",
-        format!(
-            "it takes more than {MOST_REVOLUTIONS:.0e} revolutions; \
+    FEED.refused(format!(
+        "it takes more than {MOST_REVOLUTIONS:.0e} revolutions; \
              give at least {:.1e} um/rev",
-            least / UM
-        ),
-    )
+        least / UM
+    ))
 }
 
 fn derived_too_small(feed: f64) -> StrategyError {

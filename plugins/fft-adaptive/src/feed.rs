@@ -8,9 +8,9 @@ use crate::chord::Chord;
 
 /// Fewest radial profiles of a revolution. With 36 the feed that they allow has not settled yet
 /// (121 revolutions instead of 122 on the paper's part).
-const FEWEST_ANGLES: f64 = 72.0;
+const FEWEST_ANGLES: u64 = 72;
 /// Most radial profiles of a revolution: one every 36 arc seconds.
-const MOST_ANGLES: f64 = 36_000.0;
+const MOST_ANGLES: u64 = 36_000;
 /// The largest feed, as a part of the range. The chord has no limit where nothing is curved.
 const LARGEST_PART: f64 = 0.1;
 /// The part by which a capped feed stays below the one that keeps the residual. It covers what lies
@@ -29,8 +29,32 @@ pub struct FftAdaptiveFeed {
     chord: Chord,
     tolerance: Option<f64>,
     limit_residual: bool,
-    angles: f64,
+    angles: u64,
 }
+
+const CHORD: Param<Choice> = Param::choice(
+    "chord",
+    &["full", "half"],
+    "half: a chord of half the length, which gives the paper's 122 revolutions; full: eq. 1 \
+             as printed, which gives 61",
+)
+.default("half");
+const TOLERANCE: Param<Option<Length>> = Param::length(
+    "tolerance",
+    "sagitta of the chord along the radius; left out: tolerance.interpolation",
+)
+.min(LEAST_SAGITTA)
+.optional();
+const LIMIT_RESIDUAL: Param<Flag> = Param::flag(
+    "limit_residual",
+    "keep the feed at or below the one that holds tolerance.residual at every angle; the \
+             chord takes no account of the nose",
+)
+.default(true);
+const ANGLES: Param<Count> = Param::count("angles", "radial profiles of a revolution")
+    .default(FEWEST_ANGLES)
+    .min(FEWEST_ANGLES)
+    .max(MOST_ANGLES);
 
 impl Strategy for FftAdaptiveFeed {
     const NAME: &'static str = "fft-adaptive";
@@ -38,38 +62,19 @@ impl Strategy for FftAdaptiveFeed {
         every radial profile";
     const SOURCE: &'static str = "Zhong et al., adaptive toolpath planning for diamond face \
         turning, eq. 1–3 and 5; limit_residual is not the paper's";
-    const PARAMS: &'static [Param] = &[
-        Param::choice(
-            "chord",
-            &["full", "half"],
-            "half: a chord of half the length, which gives the paper's 122 revolutions; full: eq. 1 \
-             as printed, which gives 61",
-        )
-        .default_choice("half"),
-        Param::length(
-            "tolerance",
-            "sagitta of the chord along the radius; left out: tolerance.interpolation",
-        )
-        .min(LEAST_SAGITTA)
-        .optional(),
-        Param::flag(
-            "limit_residual",
-            "keep the feed at or below the one that holds tolerance.residual at every angle; the \
-             chord takes no account of the nose",
-        )
-        .default_flag(true),
-        Param::count("angles", "radial profiles of a revolution")
-            .default(FEWEST_ANGLES)
-            .min(FEWEST_ANGLES)
-            .max(MOST_ANGLES),
+    const PARAMS: &'static [ParamInfo] = &[
+        CHORD.info(),
+        TOLERANCE.info(),
+        LIMIT_RESIDUAL.info(),
+        ANGLES.info(),
     ];
 
     fn new(params: &Params) -> Result<Self> {
         Ok(Self {
-            chord: Chord::from_word(params.choice("chord")),
-            tolerance: params.given("tolerance"),
-            limit_residual: params.flag("limit_residual"),
-            angles: params.count("angles"),
+            chord: Chord::from_word(params.get(CHORD)),
+            tolerance: params.get(TOLERANCE),
+            limit_residual: params.get(LIMIT_RESIDUAL),
+            angles: params.get(ANGLES),
         })
     }
 }
@@ -213,11 +218,8 @@ fn no_profile(theta: f64, rho: f64) -> StrategyError {
 }
 
 fn too_many(rho: f64) -> StrategyError {
-    StrategyError::parameter(
-        "tolerance",
-        format!(
-            "the path takes more than {MOST_REVOLUTIONS:.0e} revolutions and has only reached \
+    TOLERANCE.refused(format!(
+        "the path takes more than {MOST_REVOLUTIONS:.0e} revolutions and has only reached \
              ρ = {rho:.4} mm; give a larger tolerance"
-        ),
-    )
+    ))
 }

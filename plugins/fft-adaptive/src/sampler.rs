@@ -31,40 +31,39 @@ pub struct FftAdaptiveSampler {
     harmonics: Harmonics,
 }
 
-impl Strategy for FftAdaptiveSampler {
-    const NAME: &'static str = "fft-adaptive";
-    const SUMMARY: &'static str = "steps whose chord stays within the tolerance, and never longer \
-        than half the shortest wave that is as high as it";
-    const SOURCE: &'static str = "Zhong et al., adaptive toolpath planning for diamond face \
-        turning, eq. 1 and 4; the printed rule is curvature = \"start\"";
-    const PARAMS: &'static [Param] = &[
-        Param::choice(
-            "chord",
-            &["full", "half"],
-            "full: eq. 1 as printed, the chord whose sagitta is tolerance.interpolation; half: half \
+const CHORD: Param<Choice> = Param::choice(
+    "chord",
+    &["full", "half"],
+    "full: eq. 1 as printed, the chord whose sagitta is tolerance.interpolation; half: half \
              of it",
-        )
-        .default_choice("full"),
-        Param::choice(
+)
+.default("full");
+const CURVATURE: Param<Choice> = Param::choice(
             "curvature",
             &["step", "start"],
             "step: the largest curvature on the step, along the spiral; start: the curvature at \
              the step's start, along the circle of that radius, as printed; from inflections such a \
              step passes over crests",
         )
-        .default_choice("step"),
-        MAX_STEP,
-    ];
+        .default("step");
+
+impl Strategy for FftAdaptiveSampler {
+    const NAME: &'static str = "fft-adaptive";
+    const SUMMARY: &'static str = "steps whose chord stays within the tolerance, and never longer \
+        than half the shortest wave that is as high as it";
+    const SOURCE: &'static str = "Zhong et al., adaptive toolpath planning for diamond face \
+        turning, eq. 1 and 4; the printed rule is curvature = \"start\"";
+    const PARAMS: &'static [ParamInfo] = &[CHORD.info(), CURVATURE.info(), MAX_STEP.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let curvature = match params.choice("curvature") {
+        let curvature = match params.get(CURVATURE) {
             "start" => Curvature::Start,
             _ => Curvature::Step,
         };
         Ok(Self {
-            chord: Chord::from_word(params.choice("chord")),
+            chord: Chord::from_word(params.get(CHORD)),
             curvature,
-            max_step: params.angle_rad(MAX_STEP.name),
+            max_step: params.get(MAX_STEP),
             harmonics: Harmonics::default(),
         })
     }

@@ -6,7 +6,7 @@ use turnpath_plugin::prelude::*;
 /// memory.
 pub const SMALLEST_STEP: f64 = 1e-3 * DEG;
 /// The parameter `spacing`.
-pub const SPACING: Param = Param::length(
+pub const SPACING: Param<Length> = Param::length(
     "spacing",
     "largest arc between neighbouring points, in the plane of the part",
 )
@@ -39,7 +39,7 @@ impl ArcSteps {
     /// Steps of a strategy that declares [`SPACING`].
     pub fn new(params: &Params, max_step: f64) -> Self {
         Self {
-            spacing: params.length_mm(SPACING.name),
+            spacing: params.get(SPACING),
             max_step,
         }
     }
@@ -135,14 +135,11 @@ fn arc(path: &Path<'_>, n: f64, length: f64) -> f64 {
 
 fn too_short(path: &Path<'_>, n: f64) -> StrategyError {
     let least = arc(path, n, SMALLEST_STEP / TAU) / UM;
-    StrategyError::parameter(
-        "spacing",
-        format!(
-            "it takes steps below {:.3} deg at ρ = {:.3} mm; give at least {least:.2} um",
-            SMALLEST_STEP / DEG,
-            path.radius_at(n)
-        ),
-    )
+    SPACING.refused(format!(
+        "it takes steps below {:.3} deg at ρ = {:.3} mm; give at least {least:.2} um",
+        SMALLEST_STEP / DEG,
+        path.radius_at(n)
+    ))
 }
 
 fn no_arc(path: &Path<'_>, n: f64) -> StrategyError {

@@ -34,37 +34,34 @@ pub struct EqualAngle {
     largest: f64,
 }
 
+const STEP: Param<Option<Angle>> = Param::angle(
+    "step",
+    "angle between neighbouring points, such as \"6 deg\"; left out: the largest that holds \
+             tolerance.interpolation everywhere",
+)
+.min(SMALLEST_STEP)
+.max(90.0 * DEG)
+.optional();
+const MAX_STEP: Param<Angle> = Param::angle("max_step", "largest angle step, given or derived")
+    .default(45.0 * DEG)
+    .min(SMALLEST_STEP)
+    .max(90.0 * DEG);
+
 impl Strategy for EqualAngle {
     const NAME: &'static str = "equal-angle";
     const SUMMARY: &'static str = "equal steps of the C angle along the whole path";
     const SOURCE: &'static str = "the conventional sampling; derived step after Wang et al. 2019, \
         eq. 10, at the worst place of the tool centre's path";
-    const PARAMS: &'static [Param] = &[
-        Param::angle(
-            "step",
-            "angle between neighbouring points, such as \"6 deg\"; left out: the largest that holds \
-             tolerance.interpolation everywhere",
-        )
-        .min(SMALLEST_STEP)
-        .max(90.0 * DEG)
-        .optional(),
-        Param::angle("max_step", "largest angle step, given or derived")
-            .default(45.0 * DEG)
-            .min(SMALLEST_STEP)
-            .max(90.0 * DEG),
-    ];
+    const PARAMS: &'static [ParamInfo] = &[STEP.info(), MAX_STEP.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let (step, largest) = (params.given("step"), params.angle_rad("max_step"));
+        let (step, largest) = (params.get(STEP), params.get(MAX_STEP));
         if let Some(step) = step.filter(|step| *step > largest * (1.0 + WHOLE)) {
             let (step, largest) = (step / DEG, largest / DEG);
-            return Err(StrategyError::parameter(
-                "step",
-                format!(
-                    "{step:.6} deg is more than max_step, {largest:.6} deg; \
+            return Err(STEP.refused(format!(
+                "{step:.6} deg is more than max_step, {largest:.6} deg; \
                      choose a smaller step or raise max_step"
-                ),
-            ));
+            )));
         }
         Ok(Self { step, largest })
     }

@@ -18,7 +18,7 @@ impl Strategy for EqualArc {
     const SUMMARY: &'static str = "equal arcs along the spiral, at most 90 deg apart";
     const SOURCE: &'static str = "the equal arc length discretization of the integrated \
         discretization paper: worst near the centre";
-    const PARAMS: &'static [Param] = &[SPACING];
+    const PARAMS: &'static [ParamInfo] = &[SPACING.info()];
 
     fn new(params: &Params) -> Result<Self> {
         let steps = ArcSteps::new(params, LARGEST_STEP);

@@ -11,25 +11,24 @@ pub struct Integrated {
     steps: ArcSteps,
 }
 
+const MAX_STEP: Param<Angle> = Param::angle(
+    "max_step",
+    "largest angle step, which binds near the centre",
+)
+.default(45.0 * DEG)
+.min(SMALLEST_STEP)
+.max(90.0 * DEG);
+
 impl Strategy for Integrated {
     const NAME: &'static str = "integrated";
     const SUMMARY: &'static str = "equal arcs outside, and equal angles from where those would be \
         larger than max_step on inwards";
     const SOURCE: &'static str = "the integrated discretization paper: the smaller of its two \
         steps everywhere";
-    const PARAMS: &'static [Param] = &[
-        SPACING,
-        Param::angle(
-            "max_step",
-            "largest angle step, which binds near the centre",
-        )
-        .default(45.0 * DEG)
-        .min(SMALLEST_STEP)
-        .max(90.0 * DEG),
-    ];
+    const PARAMS: &'static [ParamInfo] = &[SPACING.info(), MAX_STEP.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let steps = ArcSteps::new(params, params.angle_rad("max_step"));
+        let steps = ArcSteps::new(params, params.get(MAX_STEP));
         Ok(Self { steps })
     }
 }

@@ -8,18 +8,18 @@ pub struct Astigmatic {
     twice_k: f64,
 }
 
+const K: Param<PerLength> =
+    Param::per_length("k", "height over the square of the radius, along the ridge");
+
 impl Strategy for Astigmatic {
     const NAME: &'static str = "astigmatic";
     const SUMMARY: &'static str = "a saddle, z = k ρ² sin 2θ";
     const SOURCE: &'static str = "the astigmatic mirror of Wang et al. 2019, Micromachines 10";
-    const PARAMS: &'static [Param] = &[Param::per_length(
-        "k",
-        "height over the square of the radius, along the ridge",
-    )];
+    const PARAMS: &'static [ParamInfo] = &[K.info()];
 
     fn new(params: &Params) -> Result<Self> {
         Ok(Self {
-            twice_k: 2.0 * params.per_mm("k"),
+            twice_k: 2.0 * params.get(K),
         })
     }
 }

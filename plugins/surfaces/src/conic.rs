@@ -12,25 +12,25 @@ pub struct Conic {
     bend: f64,
 }
 
+const RADIUS: Param<Length> = Param::length(
+    "radius",
+    "radius of curvature at the vertex; positive: concave",
+)
+.nonzero();
+const CONIC: Param<Number> =
+    Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0);
+
 impl Strategy for Conic {
     const NAME: &'static str = "conic";
     const SUMMARY: &'static str = "a conicoid of revolution: sphere, ellipsoid, paraboloid, …";
     const SOURCE: &'static str = "ISO 10110-12, the conic section without aspheric terms";
-    const PARAMS: &'static [Param] = &[
-        Param::length(
-            "radius",
-            "radius of curvature at the vertex; positive: concave",
-        )
-        .nonzero(),
-        Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0),
-    ];
+    const PARAMS: &'static [ParamInfo] = &[RADIUS.info(), CONIC.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let curvature = params.length_mm("radius").recip();
-        let bend = (1.0 + params.number("conic")) * curvature * curvature;
+        let curvature = params.get(RADIUS).recip();
+        let bend = (1.0 + params.get(CONIC)) * curvature * curvature;
         if !bend.is_finite() {
-            return Err(StrategyError::parameter(
-                "radius",
+            return Err(RADIUS.refused(
                 "the radius is too small for this conic number: the formula has no finite values",
             ));
         }

@@ -22,26 +22,26 @@ pub struct OffAxisParaboloid {
     sign: f64,
 }
 
+const VERTEX_RADIUS: Param<Length> = Param::length(
+    "vertex_radius",
+    "radius at the parent's vertex; positive: concave",
+)
+.nonzero();
+const OFF_AXIS_DISTANCE: Param<Length> = Param::length(
+    "off_axis_distance",
+    "from the parent's axis to the middle of the segment",
+);
+
 impl Strategy for OffAxisParaboloid {
     const NAME: &'static str = "off-axis-paraboloid";
     const SUMMARY: &'static str = "a paraboloid's segment off its axis, laid flat at its middle";
     const SOURCE: &'static str =
         "a parent paraboloid in the frame of the segment's normal: z = q/(B + sqrt(B² − s²q))";
-    const PARAMS: &'static [Param] = &[
-        Param::length(
-            "vertex_radius",
-            "radius at the parent's vertex; positive: concave",
-        )
-        .nonzero(),
-        Param::length(
-            "off_axis_distance",
-            "from the parent's axis to the middle of the segment",
-        ),
-    ];
+    const PARAMS: &'static [ParamInfo] = &[VERTEX_RADIUS.info(), OFF_AXIS_DISTANCE.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let vertex_radius = params.length_mm("vertex_radius");
-        let distance = params.length_mm("off_axis_distance");
+        let vertex_radius = params.get(VERTEX_RADIUS);
+        let distance = params.get(OFF_AXIS_DISTANCE);
         let slant_radius = Scalar::hypot(vertex_radius, distance).copysign(vertex_radius);
         let (sin, cos) = (distance / slant_radius, vertex_radius / slant_radius);
         Ok(Self {

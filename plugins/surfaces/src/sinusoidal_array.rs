@@ -24,47 +24,52 @@ enum Form {
     Product,
 }
 
+const AMPLITUDE_X: Param<Length> = Param::length(
+    "amplitude_x",
+    "amplitude of the wave along x, or of the product",
+);
+const AMPLITUDE_Y: Param<Option<Length>> = Param::length(
+    "amplitude_y",
+    "amplitude of the wave along y; as amplitude_x if left out",
+)
+.optional();
+const FREQUENCY_X: Param<PerLength> = Param::per_length("frequency_x", "waves per length along x");
+const FREQUENCY_Y: Param<Option<PerLength>> = Param::per_length(
+    "frequency_y",
+    "waves per length along y; as frequency_x if left out",
+)
+.optional();
+const FORM: Param<Choice> = Param::choice(
+    "form",
+    &["sum", "product"],
+    "cosines added, or sines multiplied",
+)
+.default("sum");
+
 impl Strategy for SinusoidalArray {
     const NAME: &'static str = "sinusoidal-array";
     const SUMMARY: &'static str = "waves along x and y: cosines added, or sines multiplied";
     const SOURCE: &'static str = "the lens array of Zhong et al. (sum) and the sinusoidal array of the integrated discretization paper (product)";
-    const PARAMS: &'static [Param] = &[
-        Param::length(
-            "amplitude_x",
-            "amplitude of the wave along x, or of the product",
-        ),
-        Param::length(
-            "amplitude_y",
-            "amplitude of the wave along y; as amplitude_x if left out",
-        )
-        .optional(),
-        Param::per_length("frequency_x", "waves per length along x"),
-        Param::per_length(
-            "frequency_y",
-            "waves per length along y; as frequency_x if left out",
-        )
-        .optional(),
-        Param::choice(
-            "form",
-            &["sum", "product"],
-            "cosines added, or sines multiplied",
-        )
-        .default_choice("sum"),
+    const PARAMS: &'static [ParamInfo] = &[
+        AMPLITUDE_X.info(),
+        AMPLITUDE_Y.info(),
+        FREQUENCY_X.info(),
+        FREQUENCY_Y.info(),
+        FORM.info(),
     ];
 
     fn new(params: &Params) -> Result<Self> {
-        let form = if params.choice("form") == "product" {
+        let form = if params.get(FORM) == "product" {
             Form::Product
         } else {
             Form::Sum
         };
-        let amplitude_x = params.length_mm("amplitude_x");
-        let amplitude_y = params.given("amplitude_y").unwrap_or(amplitude_x);
-        let frequency_x = params.per_mm("frequency_x");
-        let frequency_y = params.given("frequency_y").unwrap_or(frequency_x);
+        let amplitude_x = params.get(AMPLITUDE_X);
+        let amplitude_y = params.get(AMPLITUDE_Y).unwrap_or(amplitude_x);
+        let frequency_x = params.get(FREQUENCY_X);
+        let frequency_y = params.get(FREQUENCY_Y).unwrap_or(frequency_x);
         if form == Form::Product && amplitude_x != amplitude_y {
-            return Err(StrategyError::parameter(
-                "amplitude_y",
+            return Err(AMPLITUDE_Y.refused(
                 "a product has one amplitude: leave amplitude_y out, or give it the value of \
                  amplitude_x",
             ));

@@ -17,28 +17,28 @@ pub struct Toric {
     base_curvature: f64,
 }
 
+const RADIUS_ROTATION: Param<Length> = Param::length(
+    "radius_rotation",
+    "radius of curvature along x; positive: concave",
+)
+.nonzero();
+const RADIUS_BASE: Param<Length> = Param::length(
+    "radius_base",
+    "radius of curvature along y; positive: concave",
+)
+.nonzero();
+
 impl Strategy for Toric {
     const NAME: &'static str = "toric";
     const SUMMARY: &'static str = "a torus: a base arc along y, turned about an axis parallel to y";
     const SOURCE: &'static str =
         "z = R − sqrt((R − a + sqrt(a² − y²))² − x²), written without cancellation";
-    const PARAMS: &'static [Param] = &[
-        Param::length(
-            "radius_rotation",
-            "radius of curvature along x; positive: concave",
-        )
-        .nonzero(),
-        Param::length(
-            "radius_base",
-            "radius of curvature along y; positive: concave",
-        )
-        .nonzero(),
-    ];
+    const PARAMS: &'static [ParamInfo] = &[RADIUS_ROTATION.info(), RADIUS_BASE.info()];
 
     fn new(params: &Params) -> Result<Self> {
         Ok(Self {
-            curvature: params.length_mm("radius_rotation").recip(),
-            base_curvature: params.length_mm("radius_base").recip(),
+            curvature: params.get(RADIUS_ROTATION).recip(),
+            base_curvature: params.get(RADIUS_BASE).recip(),
         })
     }
 }

@@ -12,18 +12,20 @@ pub struct XyPolynomial {
     rows: Vec<Vec<f64>>,
 }
 
+const TERMS: Param<Rows> = Param::rows(
+    "terms",
+    3,
+    "[i, j, c] for each term c·x^i·y^j; c in mm^(1-i-j)",
+);
+
 impl Strategy for XyPolynomial {
     const NAME: &'static str = "xy-polynomial";
     const SUMMARY: &'static str = "a polynomial in x and y";
     const SOURCE: &'static str = "z = Σ c xⁱ yʲ, without a conic base";
-    const PARAMS: &'static [Param] = &[Param::rows(
-        "terms",
-        3,
-        "[i, j, c] for each term c·x^i·y^j; c in mm^(1-i-j)",
-    )];
+    const PARAMS: &'static [ParamInfo] = &[TERMS.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let terms = params.rows("terms");
+        let terms = params.get(TERMS);
         if terms.is_empty() {
             return Err(bad_terms(
                 "no term is given; a flat is [[0, 0, 0]]".to_owned(),
@@ -103,5 +105,5 @@ fn power(value: f64, term: usize) -> Result<usize> {
 }
 
 fn bad_terms(message: String) -> StrategyError {
-    StrategyError::parameter("terms", message)
+    TERMS.refused(message)
 }

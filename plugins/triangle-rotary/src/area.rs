@@ -22,6 +22,13 @@ pub struct Area {
     c: f64,
 }
 
+const C: Param<Number> = Param::number(
+        "c",
+        "share of the later velocity in a segment's mean, 0.5 to 1; 0.5 rings, 0.667 decays by half a point",
+    )
+    .default(0.5)
+    .max(LARGEST);
+
 impl Strategy for Area {
     const NAME: &'static str = "area";
     const SUMMARY: &'static str =
@@ -29,25 +36,17 @@ impl Strategy for Area {
     const SOURCE: &'static str = "the area method of the papers on triangle rotary, \
         V₊ = V + (ΔP/h − V)/c (derived: the printed formula is lost); error of order 3 for c = ½, \
         ringing (2½ on steps in no order), of order 2 for larger c";
-    const PARAMS: &'static [Param] = &[Param::number(
-        "c",
-        "share of the later velocity in a segment's mean, 0.5 to 1; 0.5 rings, 0.667 decays by half a point",
-    )
-    .default(0.5)
-    .max(LARGEST)];
+    const PARAMS: &'static [ParamInfo] = &[C.info()];
 
     /// The constructor, not the declared range, refuses c below ½, since it can give the reason.
     fn new(params: &Params) -> Result<Self> {
-        let c = params.number("c");
+        let c = params.get(C);
         if c < LEAST {
-            return Err(StrategyError::parameter(
-                "c",
-                format!(
-                    "c = {c} is unstable: an error of velocity grows from point to point, by \
+            return Err(C.refused(format!(
+                "c = {c} is unstable: an error of velocity grows from point to point, by \
                      |1 − 1/c| = {:.3}; choose 0.5 to 1",
-                    (1.0 - c.recip()).abs()
-                ),
-            ));
+                (1.0 - c.recip()).abs()
+            )));
         }
         Ok(Self { c })
     }

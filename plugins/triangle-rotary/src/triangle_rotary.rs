@@ -25,20 +25,22 @@ enum Ends {
     NotAKnot,
 }
 
+const ENDS: Param<Choice> = Param::choice(
+    "ends",
+    &["clamped", "natural", "not-a-knot"],
+    "at the path's two ends: the exact rates, no acceleration, or no jump of jerk at the next node",
+)
+.default("clamped");
+
 impl Strategy for TriangleRotary {
     const NAME: &'static str = "triangle-rotary";
     const SUMMARY: &'static str = "the C² cubic spline: no jumps of acceleration within the path";
     const SOURCE: &'static str = "cubic spline in slope form, λ m₋ + 2m + μ m₊ = 3(λ d₋ + μ d), \
         solved by forward sweep and back substitution";
-    const PARAMS: &'static [Param] = &[Param::choice(
-        "ends",
-        &["clamped", "natural", "not-a-knot"],
-        "at the path's two ends: the exact rates, no acceleration, or no jump of jerk at the next node",
-    )
-    .default_choice("clamped")];
+    const PARAMS: &'static [ParamInfo] = &[ENDS.info()];
 
     fn new(params: &Params) -> Result<Self> {
-        let ends = match params.choice("ends") {
+        let ends = match params.get(ENDS) {
             "natural" => Ends::Natural,
             "not-a-knot" => Ends::NotAKnot,
             _ => Ends::Clamped,

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::bound::Bound;
 use super::samples::{Knot, Samples};
+use crate::kind::Angle;
 use crate::{DEG, NodeList, Param, Params, Path, Result, Revolutions, SamplerPlan, StrategyError};
 
 /// The part of the tolerance that steps aim at. It lies below refinement's aim of 0.99, so that
@@ -48,7 +49,7 @@ pub const SHORTEST: f64 = SHORTEST_DEG * DEG;
 
 /// The parameter `max_step` of the samplers that look for the longest step. The default is 45 deg,
 /// and the limit is 90 deg.
-pub const MAX_STEP: Param = Param::angle("max_step", "largest angle step")
+pub const MAX_STEP: Param<Angle> = Param::angle("max_step", "largest angle step")
     .default(45.0 * DEG)
     .min(SHORTEST)
     .max(90.0 * DEG);
@@ -57,7 +58,7 @@ impl Steps {
     /// The steps of a strategy that declares [`MAX_STEP`].
     pub fn new(params: &Params, feed_part: f64) -> Self {
         Self {
-            max_step: params.angle_rad(MAX_STEP.name),
+            max_step: params.get(MAX_STEP),
             feed_part,
         }
     }

@@ -5,7 +5,7 @@
 use std::fs;
 
 use crate::common::{fixtures, nodes, place_more, with_file, with_fixture, with_path};
-use turnpath_core::{Dependence, ParamValue, Params, Slot};
+use turnpath_core::{DataFile, Dependence, ParamValue, Params, Slot};
 use turnpath_host::{Catalogue, sha256_hex_of_file};
 
 #[test]
@@ -196,6 +196,35 @@ fn catalogues_of_many_threads_hold_the_same() {
     });
 }
 
+fn data_file(bytes: &[u8]) -> DataFile {
+    DataFile {
+        path: "maps/one.csv".to_owned(),
+        bytes: bytes.into(),
+    }
+}
+
+#[test]
+fn the_bytes_of_a_file_reach_a_loaded_strategy() {
+    let catalogue = with_fixture("bowl-file");
+    let strategy = catalogue.find(Slot::Surface, "bowl-file").unwrap();
+    let surface = |bytes: &[u8]| {
+        let mut params = Params::new();
+        params.set("file", ParamValue::File(data_file(bytes)));
+        strategy.offer().surface(&params)
+    };
+    let mut z = [f64::NAN];
+    surface(b"0.25\n")
+        .unwrap()
+        .heights(&[2.0], &[0.0], &mut z)
+        .unwrap();
+    assert_eq!(z, [0.5]);
+    let Err(error) = surface(b"") else {
+        panic!("an empty file is refused");
+    };
+    let expected = "parameter `file`: the file maps/one.csv is empty";
+    assert_eq!(error.to_string(), expected);
+}
+
 #[test]
 fn a_value_of_every_kind_reaches_the_constructor() {
     let catalogue = with_fixture("constant-arc");
@@ -204,6 +233,7 @@ fn a_value_of_every_kind_reaches_the_constructor() {
     params.set("flag", ParamValue::Flag(true));
     params.set("text", ParamValue::Text("säge".into()));
     params.set("rows", ParamValue::Rows(vec![vec![1.0], vec![]]));
+    params.set("file", ParamValue::File(data_file(b"\0\xff")));
     let sampler = strategy.offer().sampler(&params).unwrap();
     assert_eq!(nodes(sampler.as_ref(), 0.0, 1.0).unwrap().len(), 400);
 }

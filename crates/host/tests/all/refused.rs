@@ -120,6 +120,39 @@ fn two_with_one_name() {
 }
 
 #[test]
+fn names_that_belong_to_the_host_and_names_that_no_recipe_could_choose() {
+    let said = |package| {
+        let file = fixtures::library(package);
+        let mut catalogue = Catalogue::new();
+        let error = catalogue.add_file(&file).unwrap_err();
+        assert!(!error.is_io() && !error.is_missing());
+        assert!(error.help().is_some());
+        assert_eq!(error.path(), Some(&*fs::canonicalize(&file).unwrap()));
+        assert_eq!(catalogue.plugins().len(), 0);
+        let folder = fs::canonicalize(fixtures::folder()).unwrap();
+        error
+            .to_string()
+            .replace(&format!("{}/", folder.display()), "")
+    };
+    assert_eq!(
+        said("host-keys"),
+        format!(
+            "the sampler `hasty` of host-keys 0.1.0 ({}) declares the parameter `speed`, a key \
+             that belongs to the host",
+            fixtures::file_name("host-keys")
+        )
+    );
+    assert_eq!(
+        said("unusable-name"),
+        format!(
+            "the sampler `Lab Arc\\n` of unusable-name 0.1.0 ({}) has a name that no recipe could \
+             choose",
+            fixtures::file_name("unusable-name")
+        )
+    );
+}
+
+#[test]
 fn a_library_with_several_plugins_under_another_name() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("libplugin.so");

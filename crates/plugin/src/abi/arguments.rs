@@ -2,12 +2,15 @@
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{RString, RVec};
-use turnpath_core::{ParamValue, Params, Result, StrategyError};
+use turnpath_core::{DataFile, ParamValue, Params, Result, StrategyError};
 
 const NUMBER: u32 = 0;
 const FLAG: u32 = 1;
 const TEXT: u32 = 2;
 const ROWS: u32 = 3;
+const LIST: u32 = 4;
+/// The path, and the bytes.
+const FILE: u32 = 5;
 
 /// A parameter's value. Its kind is an open code: it says which of the plain fields hold the value,
 /// and a new kind changes no layout.
@@ -36,6 +39,14 @@ impl AbiArgument {
             ParamValue::Text(text) => {
                 (argument.kind, argument.texts) = (TEXT, vec![text.as_str().into()].into())
             }
+            ParamValue::List(texts) => {
+                let texts = texts.iter().map(|text| text.as_str().into()).collect();
+                (argument.kind, argument.texts) = (LIST, texts);
+            }
+            ParamValue::File(file) => {
+                (argument.kind, argument.bytes) = (FILE, file.bytes.to_vec().into());
+                argument.texts.push(file.path.as_str().into());
+            }
             ParamValue::Rows(rows) => {
                 let rows = rows.iter().map(|row| RVec::from(row.clone())).collect();
                 (argument.kind, argument.rows) = (ROWS, rows);
@@ -45,13 +56,16 @@ impl AbiArgument {
     }
 
     fn value(self) -> Result<ParamValue> {
+        let mut texts = self.texts.into_iter().map(RString::into_string);
         Ok(match self.kind {
             NUMBER => ParamValue::Number(self.number),
             FLAG => ParamValue::Flag(self.number != 0.0),
-            TEXT => {
-                let text = self.texts.into_iter().next().unwrap_or_default();
-                ParamValue::Text(text.into_string())
-            }
+            TEXT => ParamValue::Text(texts.next().unwrap_or_default()),
+            LIST => ParamValue::List(texts.collect()),
+            FILE => ParamValue::File(DataFile {
+                path: texts.next().unwrap_or_default(),
+                bytes: self.bytes.into_vec().into(),
+            }),
             ROWS => ParamValue::Rows(self.rows.into_iter().map(RVec::into_vec).collect()),
             _ => {
                 let message = "the plugin does not know values of this kind; build it anew";
@@ -87,6 +101,9 @@ mod tests {
         let mut given = Params::new().with("number", -0.5);
         given.set("flag", ParamValue::Flag(true));
         given.set("text", ParamValue::Text("säge".into()));
+        given.set("list", ParamValue::List(vec!["one".into(), "two".into()]));
+        let (path, bytes) = ("a/b.csv".into(), vec![0, 255].into());
+        given.set("file", ParamValue::File(DataFile { path, bytes }));
         given.set("rows", ParamValue::Rows(vec![vec![1.0, 2.0], vec![]]));
         assert_eq!(params(arguments(&given)), Ok(given));
     }

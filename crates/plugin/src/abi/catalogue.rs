@@ -5,7 +5,7 @@
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{RStr, RVec};
-use turnpath_core::{Param, ParamDefault, ParamKind, Slot, StrategyInfo};
+use turnpath_core::{Param, ParamDefault, ParamInfo, ParamKind, Quantity, Slot, StrategyInfo};
 
 use crate::Registration;
 
@@ -48,15 +48,40 @@ const KIND: &str = "kind";
 const DEFAULT: &str = "default";
 
 /// The kinds that a word says all of.
-const PLAIN_KINDS: [(&str, ParamKind); 7] = [
-    ("length", ParamKind::Length),
-    ("angle", ParamKind::Angle),
-    ("per length", ParamKind::PerLength),
-    ("feed", ParamKind::Feed),
+const PLAIN_KINDS: [(&str, ParamKind); 5] = [
     ("number", ParamKind::Number),
     ("count", ParamKind::Count),
     ("flag", ParamKind::Flag),
+    ("text", ParamKind::Text),
+    ("file", ParamKind::File),
 ];
+
+/// The words for quantities. A kind that is a quantity has its word.
+const QUANTITIES: [(&str, Quantity); 12] = [
+    ("length", Quantity::Length),
+    ("angle", Quantity::Angle),
+    ("per length", Quantity::PerLength),
+    ("feed", Quantity::Feed),
+    ("rotation speed", Quantity::RotationSpeed),
+    ("frequency", Quantity::Frequency),
+    ("time", Quantity::Time),
+    ("velocity", Quantity::Velocity),
+    ("acceleration", Quantity::Acceleration),
+    ("jerk", Quantity::Jerk),
+    ("angular acceleration", Quantity::AngularAcceleration),
+    ("angular jerk", Quantity::AngularJerk),
+];
+/// The word for a value in a table; empty for one that is missing there.
+fn word<T: Copy + PartialEq>(table: &[(&'static str, T)], value: T) -> &'static str {
+    let found = table.iter().find(|(_, known)| *known == value);
+    found.map_or("", |(word, _)| word)
+}
+
+/// The value for a word in a table.
+fn value<T: Copy>(table: &[(&'static str, T)], word: &str) -> Option<T> {
+    let found = table.iter().find(|(known, _)| *known == word);
+    found.map(|(_, value)| *value)
+}
 
 impl From<&Registration> for AbiStrategy {
     fn from(registration: &Registration) -> Self {
@@ -73,15 +98,17 @@ impl From<&Registration> for AbiStrategy {
     }
 }
 
-impl From<&Param> for AbiParam {
-    fn from(param: &Param) -> Self {
+impl From<&ParamInfo> for AbiParam {
+    fn from(param: &ParamInfo) -> Self {
         let flag = |flag: bool| f64::from(u8::from(flag));
         let mut fields = vec![
             AbiField::kind(param.kind),
             AbiField::number("min", param.min),
             AbiField::number("max", param.max),
             AbiField::number("above_min", flag(param.above_min)),
+            AbiField::number("below_max", flag(param.below_max)),
             AbiField::number("nonzero", flag(param.nonzero)),
+            AbiField::new("example", param.example, 0.0, &[]),
         ];
         fields.extend(AbiField::default(param.default));
         Self {
@@ -106,28 +133,38 @@ impl AbiField {
         Self::new(key, "", number, &[])
     }
 
+    /// The host never frees the list, just as it never unloads the library with its texts.
+    fn read_words(&self) -> &'static [&'static str] {
+        let words: Vec<&'static str> = self.words.iter().map(RStr::as_str).collect();
+        words.leak()
+    }
+
     fn kind(kind: ParamKind) -> Self {
         match kind {
+            ParamKind::Quantity(quantity) => Self::new(KIND, word(&QUANTITIES, quantity), 0.0, &[]),
             ParamKind::Choice(words) => Self::new(KIND, "choice", 0.0, words),
-            ParamKind::Rows(columns) => Self::new(KIND, "rows", columns as f64, &[]),
-            _ => {
-                let plain = PLAIN_KINDS.iter().find(|(_, plain)| *plain == kind);
-                Self::new(KIND, plain.map_or("", |(word, _)| word), 0.0, &[])
+            // Words beside a quantity.
+            ParamKind::ChoiceOr(words, other) => {
+                Self::new(KIND, word(&QUANTITIES, other), 0.0, words)
             }
+            ParamKind::List(words) => Self::new(KIND, "list", 0.0, words),
+            ParamKind::Rows(columns) => Self::new(KIND, "rows", columns as f64, &[]),
+            plain => Self::new(KIND, word(&PLAIN_KINDS, plain), 0.0, &[]),
         }
     }
 
     fn read_kind(&self) -> Option<ParamKind> {
-        let words = || self.words.iter().map(RStr::as_str).collect::<Vec<_>>();
         match self.text.as_str() {
-            "choice" => Some(ParamKind::Choice(words().leak())),
+            "choice" => Some(ParamKind::Choice(self.read_words())),
+            "list" => Some(ParamKind::List(self.read_words())),
             "rows" => Some(ParamKind::Rows(self.number as usize)),
-            word => {
-                let mut kinds = PLAIN_KINDS.into_iter();
-                kinds
-                    .find(|(known, _)| *known == word)
-                    .map(|(_, kind)| kind)
-            }
+            word => value(&PLAIN_KINDS, word).or_else(|| {
+                let quantity = value(&QUANTITIES, word)?;
+                Some(match self.read_words() {
+                    [] => ParamKind::Quantity(quantity),
+                    words => ParamKind::ChoiceOr(words, quantity),
+                })
+            }),
         }
     }
 
@@ -138,6 +175,7 @@ impl AbiField {
             ParamDefault::Number(number) => Self::new(DEFAULT, "number", number, &[]),
             ParamDefault::Flag(flag) => Self::new(DEFAULT, "flag", f64::from(u8::from(flag)), &[]),
             ParamDefault::Text(word) => Self::new(DEFAULT, "text", 0.0, &[word]),
+            ParamDefault::List(words) => Self::new(DEFAULT, "list", 0.0, words),
         })
     }
 
@@ -147,6 +185,7 @@ impl AbiField {
             "number" => Some(ParamDefault::Number(self.number)),
             "flag" => Some(ParamDefault::Flag(self.number != 0.0)),
             "text" => Some(ParamDefault::Text(self.words.first()?.as_str())),
+            "list" => Some(ParamDefault::List(self.read_words())),
             _ => None,
         }
     }
@@ -194,7 +233,7 @@ impl AbiStrategy {
         };
         let name = self.name.as_str();
         let param = |param: AbiParam| param.receive(name);
-        let params: Result<Vec<Param>, _> = self.params.into_iter().map(param).collect();
+        let params: Result<Vec<ParamInfo>, _> = self.params.into_iter().map(param).collect();
         let info = StrategyInfo {
             slot,
             name,
@@ -211,14 +250,14 @@ impl AbiStrategy {
 }
 
 impl AbiParam {
-    fn receive(self, strategy: &str) -> Result<Param, UnknownKind> {
+    fn receive(self, strategy: &str) -> Result<ParamInfo, UnknownKind> {
         let unknown = |field: &AbiField| UnknownKind {
             strategy: strategy.to_owned(),
             parameter: self.name.into(),
             kind: field.text.into(),
         };
         // A parameter without a kind is a number, and anything goes.
-        let mut param = Param::number(self.name.as_str(), self.help.as_str());
+        let mut param = Param::number(self.name.as_str(), self.help.as_str()).info();
         for field in &self.fields {
             match field.key.as_str() {
                 KIND => param.kind = field.read_kind().ok_or_else(|| unknown(field))?,
@@ -226,6 +265,8 @@ impl AbiParam {
                 "min" => param.min = field.number,
                 "max" => param.max = field.number,
                 "above_min" => param.above_min = field.number != 0.0,
+                "below_max" => param.below_max = field.number != 0.0,
+                "example" => param.example = field.text.as_str(),
                 "nonzero" => param.nonzero = field.number != 0.0,
                 _ => {}
             }
@@ -238,17 +279,36 @@ impl AbiParam {
 mod tests {
     use super::*;
 
-    const PARAMS: &[Param] = &[
-        Param::length("radius", "of curvature").nonzero(),
-        Param::angle("tilt", "about x").optional(),
-        Param::per_length("frequency", "of the waves"),
-        Param::feed("feed", "per revolution"),
-        Param::number("conic", "constant").default(-1.0).max(2.0),
-        Param::count("nodes", "per turn").min(3.0),
-        Param::flag("inside", "the hole").default_flag(true),
-        Param::choice("form", &["sum", "product"], "of the waves").default_choice("sum"),
-        Param::rows("terms", 3, "of the polynomial"),
+    const PARAMS: &[ParamInfo] = &[
+        Param::length("radius", "of curvature").nonzero().info(),
+        Param::angle("tilt", "about x").optional().info(),
+        Param::number("conic", "constant")
+            .default(-1.0)
+            .below(2.0)
+            .info(),
+        Param::count("nodes", "per turn").min(3).info(),
+        Param::flag("inside", "the hole").default(true).info(),
+        Param::choice("form", &["sum", "product"], "of the waves")
+            .default("sum")
+            .info(),
+        Param::choice_or_length("overrun", &["contact"], "of the path").info(),
+        Param::text("title", "of the part")
+            .example("a mirror")
+            .info(),
+        Param::list("axes", &["x", "z"], "that move")
+            .default(&["x"])
+            .info(),
+        Param::rows("terms", 3, "of the polynomial").info(),
+        Param::file("map", "of the error").info(),
     ];
+
+    #[test]
+    fn every_quantity_crosses() {
+        for quantity in Quantity::all() {
+            let kind = ParamKind::Quantity(quantity);
+            assert_eq!(AbiField::kind(kind).read_kind(), Some(kind));
+        }
+    }
 
     #[test]
     fn a_declaration_is_the_same_after_both_conversions() {

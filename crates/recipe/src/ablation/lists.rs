@@ -2,13 +2,12 @@
 
 use turnpath_core::Slot;
 
-use crate::choice::DEFAULT_SPINDLE;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Entry, Node, Table, Value};
-use crate::read::Section;
+use crate::read::{Section, known_keys};
 use crate::span::Span;
 use crate::suggest::{did_you_mean, listed, quoted};
-use crate::tables::{SCHEMA, TOP_KEYS};
+use crate::tables::{DEFAULT_SPINDLE, SCHEMA, TOP, is_one_at_a_time};
 use crate::value;
 
 /// How the lists are combined.
@@ -111,9 +110,9 @@ fn mode(table: &Table, span: &Span, diagnostics: &mut Vec<Diagnostic>) -> Mode {
         schema: SCHEMA,
         diagnostics,
     };
-    match section.word("mode", &["all-pairs", "one-at-a-time"]) {
-        Some(word) if word.value == "one-at-a-time" => Mode::OneAtATime,
-        _ => Mode::AllPairs,
+    match is_one_at_a_time(&mut section) {
+        true => Mode::OneAtATime,
+        false => Mode::AllPairs,
     }
 }
 
@@ -214,7 +213,7 @@ fn whole_spindle(key: &str, node: &Node, base: &Table) -> Node {
 /// Whether a path leads to a key, not to a table. This is known only of tables with fixed keys.
 fn is_final(path: &[(String, Span)]) -> bool {
     match path {
-        [(first, _)] => TOP_KEYS.contains(&first.as_str()),
+        [(first, _)] => TOP.has(first),
         [(first, _), ..] => !is_slot(first),
         [] => false,
     }
@@ -240,7 +239,7 @@ fn cannot_vary(path: &[(String, Span)], entry: &Entry) -> Option<Diagnostic> {
         [(first, span)] => cannot_start_with(first, span, entry),
         [(table, _), (key, span)] if !is_slot(table) => {
             let known = keys_of(table);
-            (!known.contains(&key.as_str())).then(|| unknown_key(table, key, span, known))
+            (!known.contains(&key.as_str())).then(|| unknown_key(table, key, span, &known))
         }
         _ => None,
     }
@@ -256,7 +255,7 @@ fn cannot_start_with(first: &str, span: &Span, entry: &Entry) -> Option<Diagnost
     match keys_of(first) {
         _ if is_slot(first) => None,
         _ if !known.contains(&first) => Some(unknown_first_key(first, span, &known)),
-        [] => None,
+        keys if keys.is_empty() => None,
         _ if is_table => None,
         keys => {
             let title = format!("`{first}` is a table: name the key that varies");
@@ -273,10 +272,10 @@ fn cannot_start_with(first: &str, span: &Span, entry: &Entry) -> Option<Diagnost
 
 fn unknown_first_key(first: &str, span: &Span, known: &[&str]) -> Diagnostic {
     let elsewhere = || {
-        let mut tables = SCHEMA.iter().filter(|(_, keys)| keys.contains(&first));
+        let mut tables = SCHEMA.iter().filter(|table| table.has(first));
         tables
             .next()
-            .map(|(table, _)| format!("write it with its table: {table}.{first}"))
+            .map(|table| format!("write it with its table: {}.{first}", table.name))
     };
     let title = format!("the recipe has no key or table {} to vary", quoted(first));
     Diagnostic::new(span.clone(), title)
@@ -298,17 +297,17 @@ fn unknown_key(table: &str, key: &str, span: &Span, known: &[&str]) -> Diagnosti
 /// The keys that a path may start with.
 fn first_keys() -> Vec<&'static str> {
     let slots = Slot::ALL.iter().map(|slot| slot.key());
-    let tables = SCHEMA.iter().map(|(name, _)| *name);
+    let tables = SCHEMA.iter().map(|table| table.name);
     let tables = tables.filter(|name| !is_slot(name));
-    let all = slots.chain(tables).chain(TOP_KEYS.iter().copied());
+    let all = slots.chain(tables).chain(TOP.names());
     all.filter(|name| !name.contains('.') && !FIXED.iter().any(|(fixed, _)| fixed == name))
         .collect()
 }
 
 /// The keys of a table with fixed keys; none for any other table.
-fn keys_of(table: &str) -> &'static [&'static str] {
-    let entry = SCHEMA.iter().find(|(name, _)| *name == table);
-    entry.map_or(&[], |(_, keys)| keys)
+fn keys_of(table: &str) -> Vec<&'static str> {
+    let info = SCHEMA.iter().find(|info| info.name == table);
+    info.map_or_else(Vec::new, |info| known_keys(SCHEMA, info))
 }
 
 fn is_slot(key: &str) -> bool {

@@ -1,5 +1,6 @@
 //! The tables of a recipe that belong to no strategy: their keys, and how each table is read.
 
+mod ablation;
 mod cutting;
 mod machine;
 mod output;
@@ -7,6 +8,7 @@ mod path;
 mod pmac_pvt;
 mod schema;
 mod servo;
+mod slot;
 #[cfg(test)]
 mod tests;
 mod top;
@@ -14,13 +16,23 @@ mod work;
 
 pub use output::{DataFormat, Output, ZReference};
 pub use pmac_pvt::PmacPvt;
+pub use slot::slot_keys;
 
-pub(crate) use cutting::{spindle, tolerance};
+pub(crate) use ablation::is_one_at_a_time;
+pub(crate) use cutting::{DEFAULT_SPINDLE, spindle, tolerance};
 pub(crate) use machine::{check_spindle, machine};
 pub(crate) use output::output;
 pub(crate) use path::path;
 pub(crate) use pmac_pvt::pmac_pvt;
 pub(crate) use schema::SCHEMA;
 pub(crate) use servo::servo;
-pub(crate) use top::{KEYS as TOP_KEYS, format_is_one, top};
+pub(crate) use slot::USE;
+pub(crate) use top::{TOP, format_is_one, top};
 pub(crate) use work::{part, tool};
+
+use crate::table_info::TableInfo;
+
+/// The tables that belong to no strategy: first the keys above the first table, under an empty name.
+pub fn tables() -> impl Iterator<Item = &'static TableInfo> {
+    std::iter::once(&TOP).chain(SCHEMA)
+}

@@ -1,15 +1,36 @@
 //! `[output]`: the files to write.
 
+use turnpath_core::Param;
+use turnpath_core::kind::{Choice, List};
+
 use crate::diagnostic::Diagnostic;
 use crate::read::Section;
 use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
-
-pub(super) const KEYS: &[&str] = &["posts", "data", "z_reference", "pmac-pvt"];
+use crate::table_info::TableInfo;
 
 /// The known posts. Each may have a table of its name below `[output]`.
 const POSTS: &[&str] = &["pmac-pvt"];
 const DATA: &[&str] = &["csv"];
+const CENTRE: &str = "centre";
+
+const POSTS_KEY: Param<List> =
+    Param::list("posts", POSTS, "the programs to write, each once").default(&[]);
+const DATA_KEY: Param<List> =
+    Param::list("data", DATA, "the data files to write; csv: `toolpath.csv`").default(DATA);
+const Z_REFERENCE: Param<Choice> = Param::choice(
+    "z_reference",
+    &["tip", CENTRE],
+    "what Z is in programs: the tip of the tool, or the centre of the nose",
+)
+.default("tip");
+
+pub(super) const OUTPUT: TableInfo = TableInfo {
+    name: "output",
+    summary: "the files to write",
+    required: false,
+    keys: &[POSTS_KEY.info(), DATA_KEY.info(), Z_REFERENCE.info()],
+};
 
 /// A data file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,11 +61,12 @@ pub struct Output {
 
 /// Reads `[output]`.
 pub(crate) fn output(section: &mut Section<'_>) -> Output {
-    section.report_unknown_keys(KEYS);
-    let posts = section.texts("posts").unwrap_or_default();
+    // The items of the lists have messages of their own.
+    let params = section.bind_but(&OUTPUT, &[POSTS_KEY.name(), DATA_KEY.name()]);
+    let posts = section.texts(POSTS_KEY.name()).unwrap_or_default();
     check_posts(section, &posts);
-    let z_reference = match section.word("z_reference", &["tip", "centre"]) {
-        Some(word) if word.value == "centre" => ZReference::Centre,
+    let z_reference = match params.find(Z_REFERENCE) {
+        Some(CENTRE) => ZReference::Centre,
         _ => ZReference::Tip,
     };
     Output {
@@ -55,7 +77,7 @@ pub(crate) fn output(section: &mut Section<'_>) -> Output {
 }
 
 fn data(section: &mut Section<'_>) -> Vec<DataFormat> {
-    let Some(names) = section.texts("data") else {
+    let Some(names) = section.texts(DATA_KEY.name()) else {
         return vec![DataFormat::Csv];
     };
     let unknown = names

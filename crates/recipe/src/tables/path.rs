@@ -1,18 +1,54 @@
 //! `[path]`: the direction of the feed, the overrun beyond the part, and the leads.
 
-use turnpath_core::{Direction, Overrun, Quantity};
+use turnpath_core::kind::{Choice, ChoiceOr, Flag, Length, WordOrNumber};
+use turnpath_core::{Direction, Overrun, Param};
 
-use crate::document::Value;
-use crate::read::{Bound, NOT_NEGATIVE, Section};
-
-pub(super) const KEYS: &[&str] = &["direction", "overrun", "lead", "clearance"];
+use crate::read::Section;
+use crate::table_info::TableInfo;
 
 /// Height of the path's rest above the part if the recipe does not give it, mm.
-const CLEARANCE: f64 = 1.0;
-/// The allowed heights: no lathe for optics has a longer travel of Z.
-const REACH: Bound = Bound {
-    holds: |clearance| clearance > 0.0 && clearance <= 1e3,
-    words: "above zero and at most 1 m",
+const REST: f64 = 1.0;
+/// The largest height, mm: no lathe for optics has a longer travel of Z.
+const REACH: f64 = 1e3;
+
+const OUTWARD: &str = "outward";
+const NONE: &str = "none";
+
+const DIRECTION: Param<Choice> = Param::choice(
+    "direction",
+    &["inward", OUTWARD],
+    "which way the tool feeds",
+)
+.default("inward");
+const OVERRUN: Param<ChoiceOr<Length>> = Param::choice_or_length(
+    "overrun",
+    &["contact", NONE],
+    "how far the path runs beyond the part",
+)
+.default_word("contact")
+.min(0.0)
+.example("0.5 mm");
+const LEAD: Param<Flag> =
+    Param::flag("lead", "whether the path runs from rest to rest").default(true);
+const CLEARANCE: Param<Length> = Param::length(
+    "clearance",
+    "height above the highest place of the part at which the path rests",
+)
+.positive()
+.max(REACH)
+.default(REST)
+.example("1 mm");
+
+pub(super) const PATH: TableInfo = TableInfo {
+    name: "path",
+    summary: "the direction of the feed, the overrun beyond the part, and the leads",
+    required: false,
+    keys: &[
+        DIRECTION.info(),
+        OVERRUN.info(),
+        LEAD.info(),
+        CLEARANCE.info(),
+    ],
 };
 
 /// `[path]`.
@@ -23,44 +59,20 @@ pub(crate) struct PathTable {
     pub(crate) clearance: f64,
 }
 
-/// Reads `[path]`.
-pub(crate) fn path(section: &mut Section<'_>) -> PathTable {
-    section.report_unknown_keys(KEYS);
-    if section.is_something_else() {
-        return PathTable {
-            direction: Direction::Inward,
-            overrun: Overrun::Contact,
-            lead: true,
-            clearance: CLEARANCE,
-        };
-    }
-    let direction = match section.word("direction", &["inward", "outward"]) {
-        Some(word) if word.value == "outward" => Direction::Outward,
-        _ => Direction::Inward,
-    };
-    PathTable {
-        direction,
-        overrun: overrun(section),
-        lead: section.flag("lead").is_none_or(|lead| lead.value),
-        clearance: section
-            .quantity("clearance", Quantity::Length, REACH)
-            .map_or(CLEARANCE, |clearance| clearance.value),
-    }
-}
-
-/// `overrun` is a word or a length.
-fn overrun(section: &mut Section<'_>) -> Overrun {
-    let Some(node) = section.node("overrun") else {
-        return Overrun::Contact;
-    };
-    let is_word = |text: &str| text.starts_with(|c: char| c.is_ascii_alphabetic());
-    if matches!(&node.value, Value::Text(text) if is_word(text)) {
-        let word = section.word("overrun", &["contact", "none"]);
-        return match word {
-            Some(word) if word.value == "none" => Overrun::None,
-            _ => Overrun::Contact,
-        };
-    }
-    let length = section.quantity("overrun", Quantity::Length, NOT_NEGATIVE);
-    length.map_or(Overrun::Contact, |length| Overrun::Length(length.value))
+/// Reads `[path]`; `None` if a value is wrong.
+pub(crate) fn path(section: &mut Section<'_>) -> Option<PathTable> {
+    let params = section.bind(&PATH);
+    Some(PathTable {
+        direction: match params.find(DIRECTION)? {
+            OUTWARD => Direction::Outward,
+            _ => Direction::Inward,
+        },
+        overrun: match params.find(OVERRUN)? {
+            WordOrNumber::Word(NONE) => Overrun::None,
+            WordOrNumber::Word(_) => Overrun::Contact,
+            WordOrNumber::Number(length) => Overrun::Length(length),
+        },
+        lead: params.find(LEAD)?,
+        clearance: params.find(CLEARANCE)?,
+    })
 }

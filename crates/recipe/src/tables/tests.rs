@@ -1,46 +1,135 @@
-//! docs/recipe.md is the reference of these keys: it has each of them and no other.
+//! docs/recipe.md is the reference of these keys: its tables are written from the declarations.
+//!
+//! `cargo xtask reference recipe` writes them again.
 
-use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use turnpath_core::Quantity;
+use turnpath_core::{ParamDefault, ParamInfo, ParamKind, Quantity};
 
-use super::{SCHEMA, TOP_KEYS};
+use super::tables;
+use crate::declared::{kind, limits, shown};
+use crate::table_info::TableInfo;
+
+fn file() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/recipe.md")
+}
 
 fn page() -> String {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/recipe.md");
-    std::fs::read_to_string(file).expect("docs/recipe.md")
+    std::fs::read_to_string(file()).expect("docs/recipe.md")
 }
 
-/// The text below a heading, up to the next heading.
-fn below<'a>(page: &'a str, heading: &str) -> &'a str {
-    let heading = format!("\n## {heading}\n");
-    let (_, rest) = page.split_once(&heading).expect("the heading of the table");
-    rest.split_once("\n## ")
-        .map_or(rest, |(section, _)| section)
+/// The line above the table of some keys.
+fn marker(table: &TableInfo) -> String {
+    let of = match table.name {
+        "" => "the keys above the first table".to_owned(),
+        name => format!("[{name}]"),
+    };
+    format!("<!-- {of}: `cargo xtask reference recipe` writes this table -->\n")
 }
 
-/// The words set as code in the first column of a section's tables.
-fn keys_of(section: &str) -> BTreeSet<&str> {
-    let rows = section.lines().filter_map(|line| line.strip_prefix("| "));
-    let cells = rows.filter_map(|row| row.split_once(" |"));
-    cells.flat_map(|(cell, _)| in_code(cell)).collect()
+fn in_code(words: &[&str]) -> String {
+    let words: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
+    words.join(", ")
 }
 
-fn in_code(text: &str) -> impl Iterator<Item = &str> {
-    text.split('`').skip(1).step_by(2)
+fn value(key: &ParamInfo) -> String {
+    match key.kind {
+        ParamKind::Choice(words) => in_code(words),
+        ParamKind::ChoiceOr(words, quantity) => {
+            format!("{}, or {}", in_code(words), quantity.noun())
+        }
+        ParamKind::List(words) if !words.is_empty() => format!("a list of {}", in_code(words)),
+        _ => kind(key),
+    }
+}
+
+fn default(key: &ParamInfo) -> String {
+    match key.default {
+        ParamDefault::Required => "required".to_owned(),
+        ParamDefault::Absent => "may be left out".to_owned(),
+        ParamDefault::Number(number) => match key.kind.quantity() {
+            Some(_) => format!("`\"{}\"`", shown(key.kind, number)),
+            None => number.to_string(),
+        },
+        ParamDefault::Flag(flag) => format!("`{flag}`"),
+        ParamDefault::Text(word) => format!("`\"{word}\"`"),
+        ParamDefault::List(words) => {
+            let words: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+            format!("`[{}]`", words.join(", "))
+        }
+    }
+}
+
+/// The table of a table's keys. Keys that differ by name alone share a row.
+fn rows(table: &TableInfo) -> String {
+    let mut rows: Vec<(Vec<String>, String)> = Vec::new();
+    for key in table.keys {
+        let cells = [value(key), key.help.to_owned(), default(key), limits(key)];
+        let cells = cells.join(" | ");
+        let name = format!("`{}`", key.name);
+        match rows.iter_mut().find(|(_, other)| *other == cells) {
+            Some((names, _)) => names.push(name),
+            None => rows.push((vec![name], cells)),
+        }
+    }
+    let rows = rows.iter().map(|(names, cells)| {
+        let row = format!("| {} | {cells} |", names.join(", "));
+        row.replace("|  |", "| |") + "\n"
+    });
+    format!(
+        "| key | value | what | default | limits |\n|---|---|---|---|---|\n{}",
+        rows.collect::<String>()
+    )
+}
+
+/// The page with the table below each marker written anew.
+fn written(page: &str) -> String {
+    let mut page = page.to_owned();
+    for table in tables() {
+        let marker = marker(table);
+        let (before, after) = page
+            .split_once(&marker)
+            .unwrap_or_else(|| panic!("docs/recipe.md has no line {marker}"));
+        let old = after.split_inclusive('\n');
+        let old: usize = old
+            .take_while(|line| line.starts_with('|'))
+            .map(str::len)
+            .sum();
+        page = format!("{before}{marker}{}{}", rows(table), &after[old..]);
+    }
+    page
 }
 
 #[test]
-fn docs_recipe_md_has_every_fixed_key_and_no_other() {
+fn docs_recipe_md_has_the_declared_keys() {
     let page = page();
-    let tables = SCHEMA
-        .iter()
-        .map(|(name, keys)| (format!("`[{name}]`"), *keys));
-    let top = ("Above the first table".to_owned(), TOP_KEYS);
-    for (heading, known) in tables.chain([top]) {
-        let known: BTreeSet<&str> = known.iter().copied().collect();
-        assert_eq!(keys_of(below(&page, &heading)), known, "{heading}");
+    let written = written(&page);
+    if std::env::var_os("RECIPE_PAGE").is_some_and(|how| how == "write") {
+        std::fs::write(file(), &written).expect("docs/recipe.md is written");
+        return;
+    }
+    let differs = page
+        .lines()
+        .zip(written.lines())
+        .find(|(is, should)| is != should);
+    assert_eq!(differs, None, "cargo xtask reference recipe");
+    assert_eq!(page, written);
+}
+
+#[test]
+fn every_key_has_help_and_every_table_a_name_of_its_own() {
+    let all: Vec<&TableInfo> = tables().collect();
+    for (i, table) in all.iter().enumerate() {
+        assert!(!table.summary.is_empty());
+        assert!(all[..i].iter().all(|other| other.name != table.name));
+        for (k, key) in table.keys.iter().enumerate() {
+            assert!(
+                !key.help.is_empty() && !key.help.contains('|'),
+                "{}",
+                key.name
+            );
+            assert!(table.keys[..k].iter().all(|other| other.name != key.name));
+        }
     }
 }
 
@@ -50,7 +139,8 @@ fn docs_recipe_md_has_every_unit_of_every_quantity() {
     for quantity in Quantity::all() {
         let start = format!("| {} | ", quantity.noun());
         let row = page.lines().find_map(|line| line.strip_prefix(&start));
-        let written: Vec<&str> = in_code(row.expect("a row of the quantity")).collect();
+        let row = row.expect("a row of the quantity");
+        let written: Vec<&str> = row.split('`').skip(1).step_by(2).collect();
         assert_eq!(written, quantity.units().collect::<Vec<_>>(), "{start}");
     }
 }

@@ -1,19 +1,55 @@
 //! The keys above the first table, and the names of the tables.
 
-use turnpath_core::Slot;
+use turnpath_core::kind::{Count, Flag, List, Text};
+use turnpath_core::{Param, Slot};
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Table, Value};
 use crate::read::{Schema, Section};
 use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
+use crate::table_info::TableInfo;
 use crate::value;
 
-/// Keys above the first table.
-pub(crate) const KEYS: &[&str] = &["format", "name", "plugins", "refine"];
-
 /// The only format so far.
-const FORMAT: f64 = 1.0;
+const FORMAT: u64 = 1;
+
+const FORMAT_KEY: Param<Count> = Param::count("format", "the format of the recipe")
+    .min(FORMAT)
+    .max(FORMAT)
+    .example("1");
+const NAME: Param<Option<Text>> = Param::text(
+    "name",
+    "the job's name, also in the output folder's name and in programs; left out: the file's name \
+     without its extension",
+)
+.optional();
+const PLUGINS: Param<List> = Param::list(
+    "plugins",
+    &[],
+    "folders and libraries to take strategies from, used only with `--trust-recipe`: native code \
+     with your rights",
+)
+.default(&[]);
+const REFINE: Param<Flag> = Param::flag(
+    "refine",
+    "whether segments whose error exceeds the tolerance are halved until the path as played holds \
+     it; left out in `ablate`: false",
+)
+.default(true);
+
+/// The keys above the first table.
+pub(crate) const TOP: TableInfo = TableInfo {
+    name: "",
+    summary: "the keys above the first table",
+    required: true,
+    keys: &[
+        FORMAT_KEY.info(),
+        NAME.info(),
+        PLUGINS.info(),
+        REFINE.info(),
+    ],
+};
 
 /// The values above the first table.
 pub(crate) struct Top {
@@ -25,7 +61,8 @@ pub(crate) struct Top {
 /// Reads the keys above the first table and reports unknown tables.
 pub(crate) fn top(section: &mut Section<'_>) -> Top {
     report_unknown(section);
-    let name = section.text("name");
+    let params = section.values(&[REFINE.info()]);
+    let name = section.text(NAME.name());
     if let Some(empty) = name.as_ref().filter(|name| name.value.trim().is_empty()) {
         let title = "`name` is empty";
         section.report(
@@ -35,19 +72,20 @@ pub(crate) fn top(section: &mut Section<'_>) -> Top {
     }
     Top {
         name: name.map(|name| name.value),
-        plugins: section.texts("plugins").unwrap_or_default(),
-        refine: section.flag("refine").is_none_or(|refine| refine.value),
+        plugins: section.texts(PLUGINS.name()).unwrap_or_default(),
+        refine: params.find(REFINE).unwrap_or(true),
     }
 }
 
 /// Whether this version reads the recipe's format. Another format is reported.
 pub(crate) fn format_is_one(section: &mut Section<'_>) -> bool {
-    let Some(node) = section.node("format") else {
-        section.missing("format", "1");
+    let key = FORMAT_KEY.name();
+    let Some(node) = section.node(key) else {
+        section.missing(key, FORMAT_KEY.info().example);
         return true;
     };
-    match value::number("format", node) {
-        Ok(FORMAT) => true,
+    match value::number(key, node) {
+        Ok(format) if format == FORMAT as f64 => true,
         Ok(other) => {
             let title = format!("the recipe has format {other}, but this version reads format 1");
             let diagnostic = Diagnostic::new(node.span.clone(), title)
@@ -68,7 +106,7 @@ fn report_unknown(section: &mut Section<'_>) {
     for entry in section.table.map_or(&[][..], Table::entries) {
         let is_table = matches!(entry.node.value, Value::Table(_));
         let key = entry.key.as_str();
-        let diagnostic = match (names.contains(&key), KEYS.contains(&key)) {
+        let diagnostic = match (names.contains(&key), TOP.has(key)) {
             (true, _) if is_table => continue,
             (true, _) => not_a_table(entry),
             (_, true) => continue,
@@ -81,7 +119,7 @@ fn report_unknown(section: &mut Section<'_>) {
 
 fn table_names(schema: Schema) -> Vec<&'static str> {
     let slots = Slot::ALL.iter().map(|slot| slot.key());
-    let fixed = schema.iter().map(|(name, _)| *name);
+    let fixed = schema.iter().map(|table| table.name);
     let fixed = fixed.filter(|name| !name.contains('.'));
     let is_slot = |name: &&str| Slot::ALL.iter().any(|slot| slot.key() == *name);
     fixed.filter(|name| !is_slot(name)).chain(slots).collect()
@@ -110,9 +148,10 @@ fn unknown_key(section: &Section<'_>, entry: &Entry, tables: &[&str]) -> Diagnos
             .tables_with(key)
             .map(|tables| format!("`{key}` belongs to {tables}"))
     };
-    let known: Vec<&str> = KEYS.iter().copied().chain(tables.iter().copied()).collect();
+    let keys: Vec<&str> = TOP.names().collect();
+    let known: Vec<&str> = keys.iter().chain(tables).copied().collect();
     Diagnostic::new(entry.span.clone(), format!("unknown key {}", quoted(key)))
         .with_label("unknown key")
         .with_helps(did_you_mean(key, &known).or_else(elsewhere))
-        .with_help(format!("keys above the first table: {}", listed(KEYS)))
+        .with_help(format!("keys above the first table: {}", listed(&keys)))
 }

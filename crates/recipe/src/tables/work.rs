@@ -2,80 +2,107 @@
 
 use std::f64::consts::PI;
 
-use turnpath_core::{Misfit, Part, Quantity, Tool};
+use turnpath_core::kind::{Angle, Choice, Length};
+use turnpath_core::{Misfit, Param, Part, Quantity, Tool};
 
 use crate::diagnostic::Diagnostic;
-use crate::read::{Bound, NOT_NEGATIVE, Section};
+use crate::read::Section;
+use crate::table_info::TableInfo;
 
-pub(super) const PART_KEYS: &[&str] = &["aperture", "inner"];
-pub(super) const TOOL_KEYS: &[&str] = &[
-    "nose_radius",
+/// The smallest length of a part or a tool that can be made, 0.1 um in mm.
+const LEAST_LENGTH: f64 = 1e-4;
+
+const APERTURE: Param<Length> = Param::length("aperture", "diameter of the part")
+    .min(LEAST_LENGTH)
+    .example("5 mm");
+const INNER: Param<Length> = Param::length("inner", "diameter of the hole, below `aperture`")
+    .min(0.0)
+    .default(0.0);
+
+const NOSE_RADIUS: Param<Length> = Param::length("nose_radius", "radius of the nose")
+    .min(LEAST_LENGTH)
+    .example("1 mm");
+const INCLUDED_ANGLE: Param<Option<Angle>> = Param::angle(
     "included_angle",
+    "angle that the round edge spans: the contact can be up to half of it to either side; left out: \
+     180 deg, not checked",
+)
+.positive()
+.max(PI)
+.example("90 deg")
+.optional();
+const CLEARANCE_ANGLE: Param<Option<Angle>> = Param::angle(
     "clearance_angle",
+    "angle below the rake face: the steepest slope along the cut that the tool clears; left out: not \
+     checked",
+)
+.positive()
+.below(0.5 * PI)
+.example("10 deg")
+.optional();
+const INTERFERENCE: Param<Choice> = Param::choice(
     "interference",
-];
+    &["refuse", CUT_WHAT_FITS],
+    "what to do where nose, edge or flank do not fit; refuse: exit status 2; cut-what-fits: go where \
+     the edge first touches, and report what stays",
+)
+.default("refuse");
+const CUT_WHAT_FITS: &str = "cut-what-fits";
 
-/// The smallest length of a part or a tool that can be made.
-const LEAST_LENGTH: Bound = Bound {
-    holds: |length| length >= 0.999e-4,
-    words: "0.1 um or above",
+pub(super) const PART: TableInfo = TableInfo {
+    name: "part",
+    summary: "a disc around the spindle axis, with or without a hole",
+    required: true,
+    keys: &[APERTURE.info(), INNER.info()],
 };
-const INCLUDED: Bound = Bound {
-    holds: |angle| angle > 0.0 && angle <= PI,
-    words: "above zero and at most 180 deg",
-};
-const CLEARANCE: Bound = Bound {
-    holds: |angle| angle > 0.0 && angle < 0.5 * PI,
-    words: "between 0 and 90 deg",
+
+pub(super) const TOOL: TableInfo = TableInfo {
+    name: "tool",
+    summary: "a round nose with zero rake",
+    required: true,
+    keys: &[
+        NOSE_RADIUS.info(),
+        INCLUDED_ANGLE.info(),
+        CLEARANCE_ANGLE.info(),
+        INTERFERENCE.info(),
+    ],
 };
 
 /// Reads `[part]`.
 pub(crate) fn part(section: &mut Section<'_>) -> Option<Part> {
-    if section.table.is_none() {
-        section.missing_table("aperture = \"5 mm\"");
+    if !section.is_there(&PART) {
         return None;
     }
-    section.report_unknown_keys(PART_KEYS);
-    let aperture = section.required_quantity("aperture", Quantity::Length, LEAST_LENGTH, "5 mm");
-    let inner = section.quantity("inner", Quantity::Length, NOT_NEGATIVE);
-    let (aperture, hole) = (aperture?, inner.as_ref().map_or(0.0, |inner| inner.value));
-    if let Some(inner) = inner.filter(|inner| inner.value >= aperture.value) {
-        let whole = Quantity::Length.format(aperture.value);
-        let diagnostic = Diagnostic::new(inner.span, "the hole is not smaller than the aperture")
+    let params = section.bind(&PART);
+    let (aperture, hole) = (params.find(APERTURE)?, params.find(INNER)?);
+    if hole >= aperture {
+        let span = section.nearest_span(INNER.name());
+        let whole = Quantity::Length.format(aperture);
+        let diagnostic = Diagnostic::new(span, "the hole is not smaller than the aperture")
             .with_label(format!("must be below {whole}"))
             .with_help("`inner` is the diameter of the hole, `aperture` that of the part");
         section.report(diagnostic);
         return None;
     }
     Some(Part {
-        aperture_radius: 0.5 * aperture.value,
+        aperture_radius: 0.5 * aperture,
         inner_radius: 0.5 * hole,
     })
 }
 
 /// Reads `[tool]`.
 pub(crate) fn tool(section: &mut Section<'_>) -> Option<Tool> {
-    if section.table.is_none() {
-        section.missing_table("nose_radius = \"1 mm\"");
+    if !section.is_there(&TOOL) {
         return None;
     }
-    section.report_unknown_keys(TOOL_KEYS);
-    let radius = section.required_quantity("nose_radius", Quantity::Length, LEAST_LENGTH, "1 mm");
-    let included = section.quantity("included_angle", Quantity::Angle, INCLUDED);
-    let clearance = section.quantity("clearance_angle", Quantity::Angle, CLEARANCE);
-    let misfit = misfit(section);
+    let params = section.bind(&TOOL);
     Some(Tool {
-        nose_radius: radius?.value,
-        included_angle: included.map(|angle| angle.value),
-        clearance_angle: clearance.map(|angle| angle.value),
-        misfit,
+        nose_radius: params.find(NOSE_RADIUS)?,
+        included_angle: params.find(INCLUDED_ANGLE)?,
+        clearance_angle: params.find(CLEARANCE_ANGLE)?,
+        misfit: match params.find(INTERFERENCE)? {
+            CUT_WHAT_FITS => Misfit::CutWhatFits,
+            _ => Misfit::Refuse,
+        },
     })
-}
-
-fn misfit(section: &mut Section<'_>) -> Misfit {
-    let word = section.word("interference", &["refuse", "cut-what-fits"]);
-    match word {
-        Some(word) if word.value == "cut-what-fits" => Misfit::CutWhatFits,
-        _ => Misfit::Refuse,
-    }
 }

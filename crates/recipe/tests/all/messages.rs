@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "an unwrap in a helper is a failed test")]
 
 use crate::common::FULL;
-use turnpath_core::{DEG, Param, Slot, StrategyInfo};
+use turnpath_core::{DEG, Param, ParamInfo, Slot, StrategyInfo};
 use turnpath_recipe::Recipe;
 
 fn message(text: &str, sets: &[&str]) -> String {
@@ -170,23 +170,40 @@ fn styled_messages_have_colours() {
     assert!(!error.render(false).contains('\u{1b}'));
 }
 
-const PARAMS: &[Param] = &[
-    Param::length("spacing", "largest arc between neighbouring points").positive(),
+const PARAMS: &[ParamInfo] = &[
+    Param::length("spacing", "largest arc between neighbouring points")
+        .positive()
+        .info(),
     Param::angle("max_step", "largest angle step")
         .default(45.0 * DEG)
         .positive()
-        .max(180.0 * DEG),
+        .max(180.0 * DEG)
+        .info(),
     Param::count("at_least", "fewest points on a revolution")
-        .default(36.0)
-        .min(3.0),
-    Param::choice("form", &["sum", "product"], "how the waves meet").default_choice("sum"),
-    Param::number("conic", "conic constant").default(0.0),
-    Param::flag("smooth", "whether to smooth").default_flag(true),
-    Param::rows("terms", 3, "i, j and c of each term").optional(),
-    Param::per_length("k", "curvature").optional().nonzero(),
-    Param::feed("feed", "feed per revolution")
+        .default(36)
+        .min(3)
+        .info(),
+    Param::choice("form", &["sum", "product"], "how the waves meet")
+        .default("sum")
+        .info(),
+    Param::number("conic", "conic constant").default(0.0).info(),
+    Param::flag("smooth", "whether to smooth")
+        .default(true)
+        .info(),
+    Param::rows("terms", 3, "i, j and c of each term")
         .optional()
-        .positive(),
+        .info(),
+    Param::per_length("k", "curvature")
+        .nonzero()
+        .optional()
+        .info(),
+    Param::feed("feed", "feed per revolution")
+        .positive()
+        .optional()
+        .info(),
+    Param::file("map", "heights that were measured")
+        .optional()
+        .info(),
 ];
 
 const SAMPLER: StrategyInfo = StrategyInfo {
@@ -234,6 +251,8 @@ bind_says! {
     rows_flat: "spacing = \"10 um\"\nterms = [2, 0, 0.01]";
     rows_of_text: "spacing = \"10 um\"\nterms = [[2, 0, \"x\"]]";
     feed_with_an_angle: "spacing = \"10 um\"\nfeed = \"3 deg\"";
+    file_as_number: "spacing = \"10 um\"\nmap = 3";
+    file_without_a_name: "spacing = \"10 um\"\nmap = \"\"";
     several_params: "spacng = \"10 um\"\nsmooth = 1";
 }
 

@@ -5,8 +5,9 @@
 use std::f64::consts::TAU;
 
 use crate::common::FULL;
+use turnpath_core::kind::{Angle, Choice, Count, File, Flag, Number, Rows};
 use turnpath_core::{
-    DEG, Direction, Machine, Misfit, Overrun, Param, ParamValue, Slot, StrategyInfo,
+    DEG, Direction, Machine, Misfit, Overrun, Param, ParamInfo, ParamValue, Slot, StrategyInfo,
 };
 use turnpath_recipe::{DataFormat, FileProblem, Recipe, RecipeError, ZReference};
 
@@ -296,14 +297,43 @@ fn an_overrun_is_a_word_or_a_length_and_defaults_to_contact() {
 }
 
 #[test]
+fn limits_are_allowed_themselves_as_they_are_written() {
+    for set in [
+        "part.aperture=0.1 um",
+        "part.aperture=0.0001 mm",
+        "tool.nose_radius=100 nm",
+        "tool.included_angle=180 deg",
+        "tolerance.residual=0.001 nm",
+        "tolerance.interpolation=1e-9 mm",
+        "spindle.speed=1e-6 rpm",
+        "spindle.speed=1e6 rpm",
+        "path.overrun=0 mm",
+        "path.clearance=1 m",
+        "servo.bandwidth=0.001 Hz",
+        "servo.bandwidth=1e6 Hz",
+        "servo.bandwidth=1000 kHz",
+    ] {
+        parse(FULL, &[set]);
+    }
+}
+
+#[test]
 fn binding_fills_defaults_and_leaves_optional_ones_absent() {
-    const PARAMS: &[Param] = &[
-        Param::angle("max_step", "").default(1.0),
-        Param::count("at_least", "").default(36.0),
-        Param::choice("form", &["sum", "product"], "").default_choice("sum"),
-        Param::flag("smooth", "").default_flag(true),
-        Param::number("conic", "").optional(),
-        Param::rows("terms", 3, "").optional(),
+    const MAX_STEP: Param<Angle> = Param::angle("max_step", "").default(1.0);
+    const AT_LEAST: Param<Count> = Param::count("at_least", "").default(36);
+    const FORM: Param<Choice> = Param::choice("form", &["sum", "product"], "").default("sum");
+    const SMOOTH: Param<Flag> = Param::flag("smooth", "").default(true);
+    const CONIC: Param<Option<Number>> = Param::number("conic", "").optional();
+    const TERMS: Param<Option<Rows>> = Param::rows("terms", 3, "").optional();
+    const MAP: Param<Option<File>> = Param::file("map", "").optional();
+    const PARAMS: &[ParamInfo] = &[
+        MAX_STEP.info(),
+        AT_LEAST.info(),
+        FORM.info(),
+        SMOOTH.info(),
+        CONIC.info(),
+        TERMS.info(),
+        MAP.info(),
     ];
     let info = StrategyInfo {
         slot: Slot::Sampler,
@@ -312,20 +342,24 @@ fn binding_fills_defaults_and_leaves_optional_ones_absent() {
         source: "",
         params: PARAMS,
     };
-    let bound = parse(FULL, &["sampler.terms=[[2, 0, 0.5], [0, 2, -1e-3]]"])
-        .bind(Slot::Sampler, &info)
-        .unwrap();
-    assert_eq!(bound.angle_rad("max_step"), 45.0 * DEG);
-    assert_eq!(bound.count("at_least"), 36.0);
-    assert_eq!(bound.choice("form"), "sum");
-    assert!(bound.flag("smooth"));
-    assert_eq!(bound.given("conic"), None);
+    let terms = "sampler.terms=[[2, 0, 0.5], [0, 2, -1e-3]]";
+    let recipe = parse(FULL, &[terms, "sampler.map=maps/one.csv"]);
+    let bound = recipe.bind(Slot::Sampler, &info).unwrap();
+    let params = &bound.params;
+    assert_eq!(params.get(MAX_STEP), 45.0 * DEG);
+    assert_eq!(params.get(AT_LEAST), 36);
+    assert_eq!(params.get(FORM), "sum");
+    assert!(params.get(SMOOTH));
+    assert_eq!(params.get(CONIC), None);
+    let rows = [vec![2.0, 0.0, 0.5], vec![0.0, 2.0, -1e-3]];
+    assert_eq!(params.get(TERMS), Some(&rows[..]));
+    let [file] = &bound.files[..] else {
+        panic!("one file");
+    };
+    let (param, path) = (file.param, file.path.value.as_str());
+    assert_eq!((param, path), ("map", "maps/one.csv"));
     assert_eq!(
-        bound.rows("terms"),
-        [vec![2.0, 0.0, 0.5], vec![0.0, 2.0, -1e-3]]
-    );
-    assert_eq!(
-        bound
+        params
             .iter()
             .filter(|(_, value)| matches!(value, ParamValue::Number(_)))
             .count(),

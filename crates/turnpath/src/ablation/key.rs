@@ -1,18 +1,20 @@
 //! The key of a run: the hash of all that its figures depend on.
 //!
-//! These are the variant's own values, the contents of the files that it names, the plugins that it
+//! These are the variant's own values, the contents of its data files, the plugins that it
 //! chooses, and the program that runs. The key does not depend on comments, on the order of keys, on
 //! the job's name, or on what else the ablation varies.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 use serde_json::{Map, Value as Json, json};
 use turnpath_host::{Catalogue, sha256_hex, sha256_hex_of_file};
 use turnpath_recipe::{Recipe, Table, Value, Variant};
 
+use crate::data_files::DataFiles;
+use crate::error::Error;
+use crate::named_files::UsedFile;
 use crate::plugins;
+use crate::strategies::used_files;
 
 /// Counts the changes of what a record holds.
 const RECORD_FORMAT: u32 = 3;
@@ -33,32 +35,41 @@ pub struct Key {
 /// Makes the keys of runs.
 pub struct Keys<'a> {
     catalogue: &'a Catalogue,
+    files: &'a DataFiles,
     program: Option<String>,
-    /// Hashes of files that were read already.
-    files: RefCell<BTreeMap<PathBuf, Option<String>>>,
 }
 
 impl<'a> Keys<'a> {
-    /// Nothing hashed yet; plugins are looked up in the catalogue.
-    pub fn new(catalogue: &'a Catalogue) -> Self {
+    /// Plugins are looked up in the catalogue, and data files are read unless they were before.
+    pub fn new(catalogue: &'a Catalogue, files: &'a DataFiles) -> Self {
         let program = std::env::current_exe().and_then(|path| sha256_hex_of_file(&path));
         Self {
             catalogue,
+            files,
             program: program.ok(),
-            files: RefCell::default(),
         }
     }
 
     /// A key for each variant.
-    pub fn of_all(&self, variants: &[Variant]) -> Vec<Key> {
-        let key = |variant: &Variant| self.of(&variant.recipe);
+    ///
+    /// # Errors
+    /// When a data file of a variant cannot be read.
+    pub fn of_all(&self, variants: &[Variant]) -> Result<Vec<Key>, Error> {
+        let key = |variant: &Variant| {
+            let recipe = &variant.recipe;
+            let files = used_files(recipe, self.catalogue, self.files)?;
+            Ok(self.of(recipe, &files))
+        };
         variants.iter().map(key).collect()
     }
 
-    fn of(&self, recipe: &Recipe) -> Key {
+    fn of(&self, recipe: &Recipe, files: &[UsedFile]) -> Key {
         let values = values(recipe.document());
-        let mut files = Map::new();
-        self.add_files(recipe, &values, &mut files);
+        let hash = |file: &UsedFile| {
+            let key = format!("{}.{}", file.slot, file.param);
+            (key, json!(file.contents.sha256))
+        };
+        let files: Map<String, Json> = files.iter().map(hash).collect();
         let of = json!({
             "record": RECORD_FORMAT,
             "turnpath": env!("CARGO_PKG_VERSION"),
@@ -78,34 +89,6 @@ impl<'a> Keys<'a> {
         used.sort_by(|one, other| one.name.cmp(&other.name));
         let one = |plugin: &turnpath_host::Plugin| json!({ "name": plugin.name, "version": plugin.version, "sha256": plugin.sha256 });
         used.into_iter().map(one).collect()
-    }
-
-    /// Every text of the recipe that is the name of a file beside it, with the file's hash: which
-    /// parameters are files, strategies alone know.
-    fn add_files(&self, recipe: &Recipe, value: &Json, files: &mut Map<String, Json>) {
-        match value {
-            Json::String(text) => {
-                let path = recipe.resolve(text);
-                if path.is_file() {
-                    files.insert(text.clone(), json!(self.hash_once(path)));
-                }
-            }
-            Json::Array(items) => items
-                .iter()
-                .for_each(|item| self.add_files(recipe, item, files)),
-            Json::Object(entries) => entries
-                .values()
-                .for_each(|entry| self.add_files(recipe, entry, files)),
-            _ => {}
-        }
-    }
-
-    /// None for a file that cannot be read; whoever needs it will say so.
-    fn hash_once(&self, path: PathBuf) -> Option<String> {
-        let mut known = self.files.borrow_mut();
-        let hash = known.entry(path);
-        hash.or_insert_with_key(|path| sha256_hex_of_file(path).ok())
-            .clone()
     }
 }
 
@@ -143,9 +126,10 @@ fn canonical(value: &Value) -> Json {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
+    use turnpath_core::Slot;
 
     use super::*;
+    use crate::data_files::Contents;
 
     const RECIPE: &str = r#"format = 1
 name = "Map"
@@ -174,30 +158,34 @@ use = "z-direction"
 use = "analytic"
 "#;
 
-    fn key(folder: &Path, text: &str) -> Key {
-        let recipe = Recipe::parse(text, folder.join("recipe.toml"), &[]).unwrap();
-        Keys::new(&Catalogue::new()).of(&recipe)
+    fn key(text: &str, files: &[UsedFile]) -> Key {
+        let recipe = Recipe::parse(text, "recipe.toml", &[]).unwrap();
+        Keys::new(&Catalogue::new(), &DataFiles::default()).of(&recipe, files)
     }
 
     #[test]
-    fn the_contents_of_files_that_the_recipe_names_count() {
-        let folder = tempfile::tempdir().unwrap();
-        let map = folder.path().join("map.dat");
-        std::fs::write(&map, "1 2 3").unwrap();
-        let before = key(folder.path(), RECIPE);
-        assert_eq!(before, key(folder.path(), RECIPE));
-        let hash = before.of["files"]["map.dat"].as_str().unwrap();
+    fn the_contents_of_data_files_count() {
+        let file = |bytes: &[u8]| UsedFile {
+            slot: Slot::Surface,
+            param: "map",
+            path: "map.dat".to_owned(),
+            contents: Contents {
+                bytes: bytes.into(),
+                sha256: sha256_hex(bytes),
+            },
+        };
+        let before = key(RECIPE, &[file(b"1 2 3")]);
+        assert_eq!(before, key(RECIPE, &[file(b"1 2 3")]));
+        let hash = before.of["files"]["surface.map"].as_str().unwrap();
         assert_eq!(hash, sha256_hex(b"1 2 3"));
-        std::fs::write(&map, "1 2 4").unwrap();
-        assert_ne!(before.hash, key(folder.path(), RECIPE).hash);
+        assert_ne!(before.hash, key(RECIPE, &[file(b"1 2 4")]).hash);
     }
 
     #[test]
     fn names_comments_and_the_order_of_keys_do_not_count_and_values_do() {
-        let folder = tempfile::tempdir().unwrap();
         let key = |from: &str, to: &str| {
             assert!(RECIPE.contains(from), "{from}");
-            key(folder.path(), &RECIPE.replacen(from, to, 1)).hash
+            key(&RECIPE.replacen(from, to, 1), &[]).hash
         };
         let same = key("Map", "Map");
         assert_eq!(same, key("Map", "Another"));

@@ -18,6 +18,7 @@ use turnpath_host::Catalogue;
 use turnpath_recipe::{Diagnostic, Diagnostics, Recipe, Variant};
 use turnpath_report::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutcome};
 
+use crate::data_files::DataFiles;
 use crate::error::Error;
 use crate::run::chain_names;
 use crate::strategies::wrong_choices;
@@ -27,6 +28,7 @@ use key::{Key, Keys};
 pub use observer::AblationObserver;
 use record::Records;
 use runs::Outcome;
+use variant::Sources;
 
 /// How an ablation is made.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,8 +58,8 @@ pub struct AblationResult {
 /// do not hold are what an ablation shows: they are no failure.
 ///
 /// # Errors
-/// When the recipe has no `[ablation]`, when a variant chooses wrongly, or when a file cannot be
-/// written. A run that fails is a row of the report.
+/// When the recipe has no `[ablation]`, when a variant chooses wrongly, when a data file cannot be
+/// read, or when a file cannot be written. A run that fails is a row of the report.
 pub fn ablate(
     recipe: &Recipe,
     catalogue: &Catalogue,
@@ -66,14 +68,18 @@ pub fn ablate(
 ) -> Result<AblationResult, Error> {
     let variants = recipe.variants()?;
     refuse_wrong_choices(&variants, catalogue)?;
+    let data = DataFiles::default();
+    let keys = Keys::new(catalogue, &data).of_all(&variants)?;
     let files = AblationFiles::new(&options.folder)?;
     let records = Records::new(&options.folder)?;
-    let keys = Keys::new(catalogue).of_all(&variants);
     let recorded = recorded(options, &records, &keys, observer);
     let reused = recorded.iter().flatten().count();
     let outcomes = runs::complete(
         &variants,
-        catalogue,
+        Sources {
+            catalogue,
+            data: &data,
+        },
         recorded,
         options.threads,
         observer,

@@ -9,14 +9,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use rayon::ThreadPoolBuilder;
-use turnpath_host::Catalogue;
 use turnpath_recipe::Variant;
 use turnpath_report::MeasuredRun;
 
 use crate::error::{Error, Fault};
 
 use super::observer::AblationObserver;
-use super::variant;
+use super::variant::{self, Sources};
 
 /// What a variant gave, or why it gave nothing.
 pub type Outcome = Result<MeasuredRun, Error>;
@@ -25,7 +24,7 @@ pub type Outcome = Result<MeasuredRun, Error>;
 /// file that cannot be written ends the work.
 pub fn complete(
     variants: &[Variant],
-    catalogue: &Catalogue,
+    sources: Sources<'_>,
     recorded: Vec<Option<MeasuredRun>>,
     threads: Option<NonZero<usize>>,
     observer: &dyn AblationObserver,
@@ -41,7 +40,7 @@ pub fn complete(
     observer.begin(missing.len());
     let work = Work {
         missing: &missing,
-        catalogue,
+        sources,
         next: AtomicUsize::new(0),
         done: Mutex::new(Vec::new()),
         observer,
@@ -74,7 +73,7 @@ pub fn complete(
 
 struct Work<'a> {
     missing: &'a [(usize, &'a Variant)],
-    catalogue: &'a Catalogue,
+    sources: Sources<'a>,
     next: AtomicUsize,
     done: Mutex<Vec<(usize, Outcome)>>,
     observer: &'a dyn AblationObserver,
@@ -93,7 +92,7 @@ impl Work<'_> {
                 return Err(Error::Cancelled);
             }
             let outcome =
-                pool.install(|| variant::run(&variant.recipe, self.catalogue, self.observer));
+                pool.install(|| variant::run(&variant.recipe, self.sources, self.observer));
             let kept = match &outcome {
                 Ok(run) => keep(index, run),
                 Err(_) => Ok(()),

@@ -7,6 +7,7 @@ use turnpath_post::{PmacError, PmacFormat, PmacWriter};
 use turnpath_recipe::Recipe;
 use turnpath_report::MeasuredRun;
 
+use crate::data_files::DataFiles;
 use crate::error::Error;
 use crate::job::Job;
 use crate::posts::pmac_format;
@@ -14,15 +15,24 @@ use crate::posts::pmac_format;
 use super::clock;
 use super::observer::AblationObserver;
 
+/// Where the strategies and the data of all runs come from.
+#[derive(Clone, Copy)]
+pub struct Sources<'a> {
+    /// The strategies.
+    pub catalogue: &'a Catalogue,
+    /// The data files, each read once for all runs.
+    pub data: &'a DataFiles,
+}
+
 /// Makes and measures the path of a variant; on a pool of one thread, so that its processor time
 /// counts.
 pub fn run(
     recipe: &Recipe,
-    catalogue: &Catalogue,
+    sources: Sources<'_>,
     observer: &dyn AblationObserver,
 ) -> Result<MeasuredRun, Error> {
     let begun = clock::now();
-    let job = Job::new(recipe.clone(), catalogue)?;
+    let job = Job::with_files(recipe.clone(), sources.catalogue, sources.data)?;
     let mut sizes = SizeSink::new(&job);
     let outcome = job.run_into(&mut sizes, &Cancellation(observer))?;
     Ok(MeasuredRun {

@@ -4,13 +4,14 @@
 //! A decimal prefix moves the decimal point of the text before the text becomes a double. So `"100
 //! nm"` is exactly the double `1e-4`, and `"1 in"` is exactly `25.4`.
 
+use std::f64::consts::TAU;
+
 use crate::decimal::Decimal;
-use crate::units::{Scale, UNITS, Unit, find_unit, tidy_unit, unit_like};
+use crate::table::{Scale, UNITS, Unit, find_unit, tidy_unit, unit_like};
 use crate::{Quantity, QuantityError};
 
 impl Quantity {
-    /// All quantities that a recipe can contain: those with a unit, in the order of the table of
-    /// units.
+    /// All quantities, in the order of the table of units.
     pub fn all() -> impl Iterator<Item = Self> {
         let is_first = |(at, unit): (usize, &Unit)| {
             let before = UNITS.iter().take(at);
@@ -35,7 +36,7 @@ impl Quantity {
     /// nothing.
     ///
     /// ```
-    /// use turnpath_core::{DEG, Quantity};
+    /// use turnpath_units::{DEG, Quantity};
     /// assert_eq!(Quantity::Length.parse("100 nm"), Ok(1e-4));
     /// assert_eq!(Quantity::Angle.parse("45 deg"), Ok(45.0 * DEG));
     /// assert_eq!(Quantity::PerLength.parse("0.08 /mm"), Ok(0.08));
@@ -95,7 +96,7 @@ impl Quantity {
     /// Writes a value in inner units, to 12 digits, in the unit that a person would choose.
     ///
     /// ```
-    /// use turnpath_core::Quantity;
+    /// use turnpath_units::Quantity;
     /// assert_eq!(Quantity::Length.format(1e-4), "100 nm");
     /// assert_eq!(Quantity::Feed.format(0.01), "10 um/rev");
     /// ```
@@ -123,6 +124,8 @@ impl Quantity {
             Self::Angle => "deg",
             Self::PerLength => "/mm",
             Self::RotationSpeed => "rpm",
+            Self::Frequency if size >= 1e3 * TAU => "kHz",
+            Self::Frequency => "Hz",
             Self::Time => "s",
             Self::Velocity => "mm/s",
             Self::Acceleration if size < 1e3 => "mm/s^2",
@@ -212,6 +215,10 @@ mod tests {
         close(Quantity::RotationSpeed.parse("1 Hz"), TAU);
         close(Quantity::RotationSpeed.parse("1 rev/s"), TAU);
         assert_eq!(Quantity::RotationSpeed.parse("2 rad/s"), Ok(2.0));
+        for text in ["70 Hz", "0.07 kHz", "4200 rpm", "70 rev/s"] {
+            close(Quantity::Frequency.parse(text), 70.0 * TAU);
+        }
+        assert!(Quantity::RotationSpeed.parse("1 kHz").is_err());
     }
 
     #[test]
@@ -316,6 +323,8 @@ mod tests {
             Quantity::RotationSpeed.format(500.0 * TAU / 60.0),
             "500 rpm"
         );
+        assert_eq!(Quantity::Frequency.format(70.0 * TAU), "70 Hz");
+        assert_eq!(Quantity::Frequency.format(1500.0 * TAU), "1.5 kHz");
         assert_eq!(Quantity::PerLength.format(0.08), "0.08 /mm");
         assert_eq!(Quantity::Feed.format(0.01), "10 um/rev");
         assert_eq!(Quantity::Length.format(1e-30), "1e-24 nm");

@@ -1,7 +1,5 @@
 //! The kinds of quantities that carry a unit, and the errors of reading them.
 
-use crate::ParamKind;
-
 /// The kinds of quantities that carry a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Quantity {
@@ -15,7 +13,9 @@ pub enum Quantity {
     Feed,
     /// A speed of rotation; inside in rad/s.
     RotationSpeed,
-    /// A time; inside in s. No parameter of a strategy is a time.
+    /// A frequency; inside as ω in rad/s. A speed of rotation is allowed too.
+    Frequency,
+    /// A time; inside in s.
     Time,
     /// A speed along a line; inside in mm/s.
     Velocity,
@@ -75,17 +75,6 @@ pub enum QuantityError {
 }
 
 impl Quantity {
-    /// The quantity of a kind of parameter; `None` for pure numbers, flags, words and rows.
-    pub const fn of(kind: ParamKind) -> Option<Self> {
-        match kind {
-            ParamKind::Length => Some(Self::Length),
-            ParamKind::Angle => Some(Self::Angle),
-            ParamKind::PerLength => Some(Self::PerLength),
-            ParamKind::Feed => Some(Self::Feed),
-            _ => None,
-        }
-    }
-
     /// The kind in words, with an article: "a length".
     pub const fn noun(self) -> &'static str {
         match self {
@@ -94,6 +83,7 @@ impl Quantity {
             Self::PerLength => "a quantity per length",
             Self::Feed => "a feed per revolution",
             Self::RotationSpeed => "a speed of rotation",
+            Self::Frequency => "a frequency",
             Self::Time => "a time",
             Self::Velocity => "a speed along a line",
             Self::Acceleration => "an acceleration along a line",
@@ -111,6 +101,7 @@ impl Quantity {
             Self::PerLength => "0.08 /mm",
             Self::Feed => "10 um/rev",
             Self::RotationSpeed => "500 rpm",
+            Self::Frequency => "70 Hz",
             Self::Time => "1 s",
             Self::Velocity => "50 mm/s",
             Self::Acceleration => "500 mm/s^2",

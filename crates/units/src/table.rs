@@ -61,8 +61,8 @@ const fn unit(quantity: Quantity, symbol: &'static str, scale: Scale) -> Unit {
 /// All units, the usual one of each kind first.
 pub(crate) const UNITS: &[Unit] = {
     use Quantity::{
-        Acceleration, Angle, AngularAcceleration, AngularJerk, Feed, Jerk, Length, PerLength,
-        RotationSpeed, Time, Velocity,
+        Acceleration, Angle, AngularAcceleration, AngularJerk, Feed, Frequency, Jerk, Length,
+        PerLength, RotationSpeed, Time, Velocity,
     };
     use Scale::{Factor, Inches, PerInch, Shift};
     &[
@@ -92,6 +92,8 @@ pub(crate) const UNITS: &[Unit] = {
         unit(RotationSpeed, "rev/s", Factor(TAU, 1.0)),
         unit(RotationSpeed, "rad/s", Shift(0)),
         unit(RotationSpeed, "Hz", Factor(TAU, 1.0)),
+        unit(Frequency, "Hz", Factor(TAU, 1.0)),
+        unit(Frequency, "kHz", Factor(1e3 * TAU, 1.0)),
         unit(Time, "s", Shift(0)),
         unit(Time, "ms", Shift(-3)),
         unit(Time, "us", Shift(-6)),
@@ -140,10 +142,17 @@ pub(crate) fn tidy_unit(written: &str) -> String {
     }
 }
 
-/// The unit of this symbol, if it can stand for the quantity; a length can stand for a feed.
+/// The unit of this symbol, if it can stand for the quantity; a length can stand for a feed, and a
+/// speed of rotation for a frequency.
 pub(crate) fn find_unit(symbol: &str, quantity: Quantity) -> Option<&'static Unit> {
-    let fits =
-        |of: Quantity| of == quantity || (quantity == Quantity::Feed && of == Quantity::Length);
+    let fits = |of: Quantity| {
+        let too = match quantity {
+            Quantity::Feed => of == Quantity::Length,
+            Quantity::Frequency => of == Quantity::RotationSpeed,
+            _ => false,
+        };
+        of == quantity || too
+    };
     UNITS
         .iter()
         .find(|unit| unit.symbol == symbol && fits(unit.quantity))
