@@ -96,22 +96,34 @@ fn wrong_values_are_shown_at_their_place() {
     let said = bench.line("check recipe.toml").ends(2);
     assert!(said.stderr.contains("[servo] lacks `bandwidth`"), "{said}");
     for (set, reported) in [
-        ("servo.damping=0", "`damping` must be above zero"),
+        (
+            "servo.damping=0",
+            "`damping` must be above 0 and at most 100",
+        ),
         (
             "servo.damping=1e300",
-            "`damping` must be above zero and at most 100",
+            "`damping` must be above 0 and at most 100",
         ),
         (
             "servo.bandwidth=1e300Hz",
-            "must be between 0.001 and 1e6 Hz",
+            "at least 0.001 Hz and at most 1000 kHz",
         ),
         (
             "servo.x_bandwidth=1e-300Hz",
-            "must be between 0.001 and 1e6 Hz",
+            "at least 0.001 Hz and at most 1000 kHz",
         ),
-        ("servo.c_bandwidth=0Hz", "must be between 0.001 and 1e6 Hz"),
-        ("servo.z_delay=2s", "`z_delay` must be between 0 and 1 s"),
-        ("servo.velocity_feed_forward=1.2", "must be between 0 and 1"),
+        (
+            "servo.c_bandwidth=0Hz",
+            "at least 0.001 Hz and at most 1000 kHz",
+        ),
+        (
+            "servo.z_delay=2s",
+            "`z_delay` must be at least 0 s and at most 1 s",
+        ),
+        (
+            "servo.velocity_feed_forward=1.2",
+            "must be at least 0 and at most 1",
+        ),
         ("servo.bandwith=70Hz", "did you mean `bandwidth`?"),
     ] {
         let words = format!("check recipe.toml --set servo.bandwidth=70Hz --set {set}");

@@ -45,7 +45,7 @@ const BANDWIDTH: Param<Option<Frequency>> = bandwidth(
     "bandwidth",
     "natural frequency ω₀/2π; left out: that of the preset where its source has one, else required",
 );
-const DAMPING: Param<Number> = damping("damping", "ζ").default(USUAL_DAMPING);
+const DAMPING: Param<Number> = damping("damping", "damping ratio ζ").default(USUAL_DAMPING);
 const DELAY: Param<Time> = delay("delay", "how much later the axis responds").default(0.0);
 const VELOCITY_FORWARD: Param<Number> = forward(
     "velocity_feed_forward",
