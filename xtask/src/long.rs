@@ -60,7 +60,8 @@ fn random_input() -> Outcome {
     let cases = std::env::var("PROPTEST_CASES").ok();
     let cases = cases.and_then(|cases| cases.parse().ok()).unwrap_or(0);
     tests
-        .args(["--lib", "--test", "all"])
+        // A test of the plugin crate loads the example that is a plugin.
+        .args(["--lib", "--test", "all", "--examples"])
         .env("PROPTEST_CASES", RANDOM_CASES.max(cases).to_string());
     run(tests)
 }

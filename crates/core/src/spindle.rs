@@ -7,8 +7,8 @@ use crate::{Path, Result, SpindleLaw};
 pub struct SpindleAsk<'a> {
     /// The largest speed, rad/s.
     pub speed: f64,
-    /// For each half turn from N = 0 on: the part of `speed`, at most 1, at which the axes as
-    /// played keep to the machine's limits. The list is empty in the first call.
+    /// For each half turn from N = 0 on: the part of `speed` at which the axes as played keep to the
+    /// machine's limits, above 0 and at most 1. The list is empty in the first call.
     pub factors: &'a [f64],
 }
 

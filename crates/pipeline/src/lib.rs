@@ -1,5 +1,5 @@
-//! Chains the stages: spiral law, spindle law, nodes, locus, velocities. Refines and measures the path, and
-//! delivers it block by block.
+//! Chains the stages: spiral law, spindle law, nodes, locus, velocities. Refines and measures the
+//! path, and delivers it block by block.
 //!
 //! A path is made in blocks of [`BLOCK`] revolutions or fewer. The bytes of a block depend on the
 //! task alone, not on the number of threads. [`prepare()`] checks the tool against the part and

@@ -18,6 +18,8 @@ pub struct NodeCheck {
     pub is_last: bool,
     /// The interpolation tolerance, mm.
     pub tolerance: f64,
+    /// Whether nodes may lie off the locus: the solver gives the rates that they rely on.
+    pub allows_offsets: bool,
 }
 
 impl NodeCheck {
@@ -77,8 +79,14 @@ impl NodeCheck {
                      the interpolation tolerance are allowed, {most:.4} nm"
                 ));
             }
-            let is_first = *node < CLOSEST_NODES;
-            if is_first && (dz != 0.0 || dz_dc != 0.0) {
+            let is_off = dz != 0.0 || dz_dc != 0.0;
+            if is_off && !self.allows_offsets {
+                return Err(format!(
+                    "node {i} at {node} lies off the locus, but the sampler does not say that it needs \
+                     exact rates"
+                ));
+            }
+            if is_off && *node < CLOSEST_NODES {
                 return Err("the path's first point lies off the locus".to_owned());
             }
         }
@@ -103,6 +111,7 @@ mod tests {
             },
             is_last: false,
             tolerance: 100.0 * NM,
+            allows_offsets: true,
         };
         let mut nodes = NodeList::default();
         nodes.push_off(n, offset);

@@ -56,8 +56,8 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Plans the laws and the nodes, the spindle's law without regard to the machine. Runs a sequential sampler once over the path to learn its
-    /// states.
+    /// Plans the laws and the nodes. The spindle strategy gets no factors yet. A sequential sampler
+    /// runs once over the path, so that its states are known.
     pub fn new(
         chain: &'a Chain,
         preparation: &'a Preparation,
@@ -91,8 +91,8 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// Takes another spindle law, and plans the nodes of the path anew.
-    pub fn turn_by(&mut self, spindle: SpindleLaw, observer: &dyn Observer) -> Result<()> {
+    /// Takes another spindle law, and plans the nodes anew: a sampler may look at the speed.
+    pub fn take_spindle(&mut self, spindle: SpindleLaw, observer: &dyn Observer) -> Result<()> {
         self.spindle = spindle;
         self.sampler = plan_nodes(self.chain, self.preparation, &self.law, &self.spindle)?;
         self.divide(observer)
@@ -192,6 +192,7 @@ impl<'a> Plan<'a> {
             block: self.revolutions(index),
             is_last: self.is_last(index),
             tolerance: self.preparation.task.tolerance.interpolation,
+            allows_offsets: self.chain.sampler.strategy.needs_exact_rates(),
         };
         check
             .check(&nodes)

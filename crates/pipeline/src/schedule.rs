@@ -15,6 +15,9 @@ const ROUNDS: usize = 3;
 /// A half turn counts as slow enough if its limits ask for no less than this part of its speed: a
 /// tenth of the one factor with which limits are judged.
 const ENOUGH: f64 = 0.9999;
+/// The smallest factor that the host asks for. A jump between two points asks for next to nothing,
+/// and a strategy divides by factors.
+const LEAST: f64 = 1e-3;
 /// Blocks that are made at a time.
 const BATCH: usize = 16;
 
@@ -37,18 +40,19 @@ fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
     }
     let mut factors = vec![1.0; half_turns(plan.law.end())];
     for _ in 0..ROUNDS {
-        let played = played_factors(plan, observer)?;
-        if played.iter().all(|factor| *factor >= ENOUGH) {
+        let headroom = headroom(plan, observer)?;
+        if headroom.iter().all(|headroom| *headroom >= ENOUGH) {
             break;
         }
         let speed = plan.preparation.task.spindle_speed;
-        for (half, (factor, played)) in factors.iter_mut().zip(played).enumerate() {
-            if played < ENOUGH {
-                *factor = f64::min(*factor, played * fastest(plan, half) / speed);
+        for (half, (factor, headroom)) in factors.iter_mut().zip(headroom).enumerate() {
+            if headroom < ENOUGH {
+                let asked = headroom * fastest(plan, half) / speed;
+                *factor = f64::min(*factor, asked).max(LEAST);
             }
         }
         let law = spindle::plan(plan.chain, plan.preparation, &plan.law, &factors)?;
-        plan.turn_by(law, observer)?;
+        plan.take_spindle(law, observer)?;
     }
     Ok(())
 }
@@ -63,10 +67,10 @@ fn fastest(plan: &Plan<'_>, half: usize) -> f64 {
     [0.0, 0.5, 1.0].map(speed).into_iter().fold(0.0, f64::max)
 }
 
-/// For each half turn, the factor of its speed at which it keeps to all limits, as the path is
-/// played without refinement.
-fn played_factors(plan: &Plan<'_>, observer: &dyn Observer) -> Result<Vec<f64>> {
-    let mut factors = vec![f64::INFINITY; half_turns(plan.law.end())];
+/// For each half turn, by which factor its present speed may grow, or must fall, to reach the limits
+/// of the machine: on the path as played, without refinement.
+fn headroom(plan: &Plan<'_>, observer: &dyn Observer) -> Result<Vec<f64>> {
+    let mut all = vec![f64::INFINITY; half_turns(plan.law.end())];
     let mut state = first_state(plan);
     let mut from = 0;
     while from < plan.blocks() {
@@ -74,14 +78,14 @@ fn played_factors(plan: &Plan<'_>, observer: &dyn Observer) -> Result<Vec<f64>> 
         let range = from..(from + BATCH).min(plan.blocks());
         from = range.end;
         for block in make(plan, range, &[], state.as_mut())? {
-            include(plan, &block, &mut factors);
+            include(plan, &block, &mut all);
         }
     }
-    Ok(factors)
+    Ok(all)
 }
 
 /// Includes the half turns of a block. A segment across the border of two counts for both.
-fn include(plan: &Plan<'_>, block: &BlockPoints, factors: &mut [f64]) {
+fn include(plan: &Plan<'_>, block: &BlockPoints, all: &mut [f64]) {
     let (machine, points) = (&plan.preparation.task.machine, &block.points);
     let (Some(first), Some(last)) = (points.c.first(), points.c.last()) else {
         return;
@@ -98,9 +102,9 @@ fn include(plan: &Plan<'_>, block: &BlockPoints, factors: &mut [f64]) {
             .filter_map(|index| points.get(index))
             .for_each(|point| part.push(point));
         let figures = AxesMotion::of(&part).against(machine).into_iter();
-        let needed = figures.map(|figure| figure.speed_factor());
-        if let Some(factor) = factors.get_mut(half) {
-            *factor = needed.fold(*factor, f64::min);
+        let of_limits = figures.map(|figure| figure.speed_factor());
+        if let Some(headroom) = all.get_mut(half) {
+            *headroom = of_limits.fold(*headroom, f64::min);
         }
     }
 }

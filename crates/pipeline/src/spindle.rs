@@ -7,6 +7,8 @@ use turnpath_core::{Path, Piece, PiecewisePolynomial, SpindleAsk, SpindleLaw, Sp
 
 use crate::{Chain, Preparation, Result};
 
+/// By how much the law may end before the path, in revolutions: the rounding of its lengths.
+const END_SLACK: f64 = 1e-9;
 /// By how much t may jump at a knot, as a part of a revolution's time.
 const TIME_JUMP: f64 = 1e-9;
 /// By how much the speed may jump at a knot, or exceed its bound, as a part of itself.
@@ -80,6 +82,20 @@ impl SpindleCheck<'_> {
     }
 
     fn check_range(&self) -> CheckResult {
+        let mut next = 0.0;
+        for (i, piece) in self.time.pieces().iter().enumerate() {
+            let is_next = match i {
+                0 => piece.start == 0.0,
+                _ => piece.start > next && piece.start.is_finite(),
+            };
+            if !is_next {
+                return Err(format!(
+                    "piece {i} of t begins at {} revolutions, after {next}",
+                    piece.start
+                ));
+            }
+            next = piece.start;
+        }
         let finite = |piece: &Piece| piece.coefficients.iter().all(|c| c.is_finite());
         if let Some(piece) = self.time.pieces().iter().find(|piece| !finite(piece)) {
             let Piece {
@@ -91,7 +107,10 @@ impl SpindleCheck<'_> {
                 at(*start)
             ));
         }
-        if self.time.pieces().is_empty() || self.time.end() < self.end - TIME_JUMP {
+        if self.time.pieces().is_empty() {
+            return Err("a law without pieces".to_owned());
+        }
+        if !within(self.end - END_SLACK, self.time.end()) {
             return Err(format!(
                 "the law ends after {:.3} revolutions, and the path after {:.3}",
                 self.time.end(),
@@ -99,7 +118,7 @@ impl SpindleCheck<'_> {
             ));
         }
         let begin = self.time.value(0.0);
-        if begin.abs() > TIME_JUMP * self.least_period() {
+        if !within(begin.abs(), TIME_JUMP * self.least_period()) {
             return Err(format!("the law begins at t = {begin} s, not at 0"));
         }
         Ok(())
@@ -111,7 +130,7 @@ impl SpindleCheck<'_> {
         }
         let (before, after) = (self.time.series_before(n), self.time.series(n));
         let jump = |order: usize| (after[order] - before[order]).abs();
-        if jump(0) > TIME_JUMP * self.least_period() {
+        if !within(jump(0), TIME_JUMP * self.least_period()) {
             return Err(format!(
                 "t jumps from {} s to {} s {}",
                 before[0],
@@ -119,11 +138,11 @@ impl SpindleCheck<'_> {
                 at(n)
             ));
         }
-        if jump(1) > SPEED_JUMP * before[1].abs() {
+        if !within(jump(1), SPEED_JUMP * before[1].abs()) {
             let [from, to] = [before[1], after[1]].map(rpm);
             return Err(format!("the speed jumps from {from} to {to} {}", at(n)));
         }
-        if 2.0 * jump(2) > CHANGE_JUMP * before[1].abs() {
+        if !within(2.0 * jump(2), CHANGE_JUMP * before[1].abs()) {
             return Err(format!("the acceleration of the spindle jumps {}", at(n)));
         }
         Ok(())
@@ -147,7 +166,7 @@ impl SpindleCheck<'_> {
             return Ok(());
         };
         let place = at(piece.start + part * length);
-        if rate <= 0.0 {
+        if !within(f64::MIN_POSITIVE, rate) {
             return Err(format!("t does not grow {place}"));
         }
         let [speed, most] = [rate, self.least_period()].map(rpm);
@@ -168,7 +187,7 @@ impl SpindleCheck<'_> {
             for i in 0..5 {
                 let n = pair[0] + (pair[1] - pair[0]) * f64::from(i) / 4.0;
                 let rate = self.time.rate(n);
-                if (rate - steady).abs() > SPEED_JUMP * steady {
+                if !within((rate - steady).abs(), SPEED_JUMP * steady) {
                     let [here, there] = [rate, steady].map(rpm);
                     return Err(format!(
                         "the speed must be constant from {from:.3} to {to:.3} revolutions, where a \
@@ -181,6 +200,11 @@ impl SpindleCheck<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether an amount is at most `most`. It is not if either is NaN.
+fn within(amount: f64, most: f64) -> bool {
+    amount <= most
 }
 
 fn at(n: f64) -> String {
@@ -209,10 +233,11 @@ fn bernstein(piece: &Piece, length: f64) -> [f64; 5] {
     })
 }
 
-/// A place, 0 to 1, where a polynomial lies below `least`, with its value; `None` if there is none.
+/// A place, 0 to 1, where a polynomial lies below `least` or is no number, with its value; `None` if
+/// there is none.
 fn below(coefficients: [f64; 5], least: f64, divisions: usize) -> Option<(f64, f64)> {
     for (place, value) in [(0.0, coefficients[0]), (1.0, coefficients[4])] {
-        if value < least {
+        if !within(least, value) {
             return Some((place, value));
         }
     }
@@ -295,7 +320,7 @@ mod tests {
 
     #[test]
     fn a_law_that_is_too_short_or_begins_late_is_refused() {
-        refused(&PiecewisePolynomial::new(), &["after 0.000 revolutions"]);
+        refused(&PiecewisePolynomial::new(), &["without pieces"]);
         refused(&law([(9.0, straight(0.0, PERIOD))]), &["9.000", "10.000"]);
         refused(
             &law([(10.0, straight(1.0, PERIOD))]),
@@ -305,6 +330,31 @@ mod tests {
             &law([(10.0, straight(0.0, f64::NAN))]),
             &["NaN", "at 0.000"],
         );
+    }
+
+    #[test]
+    fn pieces_that_do_not_follow_each_other_are_refused() {
+        for starts in [[1.0, 2.0], [0.0, f64::NAN], [0.0, 0.0], [0.0, -1.0]] {
+            let pieces = starts.map(|start| Piece {
+                start,
+                coefficients: straight(PERIOD * start, PERIOD),
+            });
+            let time = PiecewisePolynomial::from_pieces(pieces.to_vec(), 10.0);
+            refused(&time, &["begins at"]);
+        }
+        let piece = Piece {
+            start: 0.0,
+            coefficients: straight(0.0, PERIOD),
+        };
+        let endless = PiecewisePolynomial::from_pieces(vec![piece], f64::NAN);
+        refused(&endless, &["ends after NaN"]);
+    }
+
+    /// Each coefficient is a number, and their sum is none.
+    #[test]
+    fn a_law_that_overflows_is_refused_at_once() {
+        let huge = [0.0, PERIOD, f64::MAX, -f64::MAX, f64::MAX, f64::MAX];
+        refused(&law([(10.0, huge)]), &["at 10.000"]);
     }
 
     #[test]

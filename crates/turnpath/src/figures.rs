@@ -55,7 +55,7 @@ pub fn path(
             limits: limits(&figures.axes, recipe),
         }),
         highest_spindle: highest.map(|highest| report::HighestSpindle {
-            speed: highest_spindle(recipe, &highest),
+            speed: highest_spindle(recipe, &highest, &figures.axes),
             bound_by: (highest.bound_by.axis, highest.bound_by.derivative),
         }),
         lead,
@@ -63,12 +63,12 @@ pub fn path(
     }
 }
 
-/// The highest speed of a recipe's spindle, rad/s. A constant spindle has one speed, that of the
-/// path as played. Any other schedule scales as a whole, so `speed` of the recipe scales with it.
-fn highest_spindle(recipe: &Recipe, highest: &HighestSpeed) -> f64 {
+/// The highest speed of a recipe's spindle, rad/s. A constant spindle has one speed, the mean of
+/// the path as played. Any other schedule scales as a whole, so its largest speed scales with it.
+fn highest_spindle(recipe: &Recipe, highest: &HighestSpeed, axes: &AxesMotion) -> f64 {
     match recipe.has_constant_spindle() {
         true => highest.speed,
-        false => highest.factor * recipe.spindle_speed,
+        false => highest.factor * axes.c.velocity.amount,
     }
 }
 

@@ -1,8 +1,8 @@
-//! Control points: how far they lie from the true locus, whatever is played between them.
+//! Control points: how far they lie from where the sampler placed them.
 //!
-//! A strategy may play what it likes between control points, but it puts the points themselves on
-//! the locus: to rounding in a table, to half a digit in a program. A point that someone moved by
-//! hand shows here long before it shows in the interpolation error.
+//! Whatever is played between control points, the points themselves lie on the locus, or off it by
+//! the sampler's offset: to rounding in a table, to half a digit in a program. A point that someone
+//! moved by hand shows here long before it shows in the interpolation error.
 
 use std::f64::consts::TAU;
 

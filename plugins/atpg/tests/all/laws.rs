@@ -240,7 +240,7 @@ fn check_law(case: &Case, law: &SpiralLaw, offset: f64) {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases / 4,
+        cases: ProptestConfig::default().cases.div_ceil(4),
         failure_persistence: None,
         ..Default::default()
     })]

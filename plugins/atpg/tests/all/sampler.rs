@@ -388,7 +388,7 @@ fn a_surface_that_needs_endless_nodes_is_an_error() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases / 4,
+        cases: ProptestConfig::default().cases.div_ceil(4),
         failure_persistence: None,
         ..Default::default()
     })]

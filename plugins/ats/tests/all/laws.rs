@@ -357,7 +357,7 @@ fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases / 4,
+        cases: ProptestConfig::default().cases.div_ceil(4),
         failure_persistence: None,
         ..Default::default()
     })]

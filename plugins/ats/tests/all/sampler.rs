@@ -140,7 +140,7 @@ fn a_knot_a_hair_beyond_a_blocks_start_is_where_it_starts() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases / 4,
+        cases: ProptestConfig::default().cases.div_ceil(4),
         failure_persistence: None,
         ..Default::default()
     })]

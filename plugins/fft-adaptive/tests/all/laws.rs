@@ -149,7 +149,7 @@ fn a_part_without_surface_or_without_width_is_an_error() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases / 4,
+        cases: ProptestConfig::default().cases.div_ceil(4),
         failure_persistence: None,
         ..Default::default()
     })]

@@ -241,7 +241,7 @@ fn the_axis_itself_is_not_an_obstacle() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases / 4,
+        cases: ProptestConfig::default().cases.div_ceil(4),
         failure_persistence: None,
         ..Default::default()
     })]

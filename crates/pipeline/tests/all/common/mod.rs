@@ -156,27 +156,38 @@ pub fn feed_of(pieces: Vec<FeedPiece>) -> Arc<dyn FeedStrategy> {
 }
 
 /// A sampler whose nodes come from a function.
+#[derive(Clone)]
 pub struct Nodes<F>(pub F);
 
-impl<F> Sampler for Nodes<F>
+impl<F> SamplerPlan for Nodes<F>
 where
-    F: Fn(&Path<'_>, Revolutions) -> Vec<f64> + Clone + Send + Sync + 'static,
+    F: Fn(&Path<'_>, Revolutions) -> Vec<f64> + Send + Sync,
 {
-    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-        let from = self.0.clone();
-        Ok(Box::new(NodesOff(move |path: &Path<'_>, block| {
-            let mut nodes = NodeList::default();
-            nodes.extend(from(path, block));
-            nodes
-        })))
+    fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
+        nodes.extend((self.0)(path, block));
+        Ok(())
     }
 }
 
-/// A sampler whose nodes and offsets come from a function.
-#[derive(Clone)]
+/// A sampler whose nodes and offsets come from a function. It says that it needs exact rates.
 pub struct NodesOff<F>(pub F);
 
-impl<F> SamplerPlan for NodesOff<F>
+impl<F> Sampler for NodesOff<F>
+where
+    F: Fn(&Path<'_>, Revolutions) -> NodeList + Clone + Send + Sync + 'static,
+{
+    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        Ok(Box::new(OffsetPlan(self.0.clone())))
+    }
+
+    fn needs_exact_rates(&self) -> bool {
+        true
+    }
+}
+
+struct OffsetPlan<F>(F);
+
+impl<F> SamplerPlan for OffsetPlan<F>
 where
     F: Fn(&Path<'_>, Revolutions) -> NodeList + Send + Sync,
 {
