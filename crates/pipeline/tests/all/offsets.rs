@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{K, NodesOff, RIM, Task, even};
+use turnpath_core::toolpath::ControlPoint;
 use turnpath_core::{NodeList, NodeOffset, Path, Revolutions, Sampler, Scalar, angle};
 
 /// A step, rad.
@@ -47,16 +48,14 @@ fn long_segments(ends: Ends) -> Arc<dyn Sampler> {
     }))
 }
 
-fn largest_error(sampler: Arc<dyn Sampler>, interpolation: f64, refined: bool) -> (f64, u64) {
+fn largest_error(sampler: Arc<dyn Sampler>) -> f64 {
     let task = Task {
         sampler,
-        interpolation,
-        refined,
         ..Task::default()
     };
     let (_, outcome) = task.path();
     assert!(outcome.figures.points.max() < 1e-12);
-    (outcome.figures.playback.max(), outcome.added_by_refine)
+    outcome.figures.playback.max()
 }
 
 /// The largest amount of a function over 0 to 1.
@@ -75,22 +74,75 @@ fn with_both_offsets_a_segment_holds_a_quarter_and_with_one_dropped_two_and_a_ha
     let first = largest(|s| 16.0 * u(s) * u(s) - 3.0 * u(s) * (1.0 - s));
     assert!((both - 0.25).abs() < 1e-6 && (first / both - 2.6).abs() < 0.02);
     for (ends, expected) in [(Ends::Both, both), (Ends::First, first)] {
-        let (found, _) = largest_error(long_segments(ends), 1e-4, false);
+        let found = largest_error(long_segments(ends));
         let part = found / whole / expected;
         assert!((part - 1.0).abs() < 0.03, "{part}");
     }
 }
 
-/// The tolerance lies a little below the error of the long segments in the first turns: these are
-/// halved, and the others are not.
+/// Z and vZ of a point off the locus, from the surface itself: Z = K X² sin 2C, and X is ρ here.
+fn above_locus(point: &ControlPoint) -> f64 {
+    point.z - K * point.x * point.x * Scalar::sin(2.0 * point.c)
+}
+
+/// Equal steps, each node with an offset of its own.
+fn uneven(steps: f64) -> Arc<dyn Sampler> {
+    Arc::new(NodesOff(move |path: &Path<'_>, block: Revolutions| {
+        let mut nodes = NodeList::default();
+        for n in block.turns().flat_map(|turn| turn.subdivide(steps)) {
+            let dz = uneven_offset(n, path.task.tolerance.interpolation);
+            match n == 0.0 {
+                true => nodes.push(n),
+                false => nodes.push_off(
+                    n,
+                    NodeOffset {
+                        dz,
+                        dz_dc: 3.0 * dz,
+                    },
+                ),
+            }
+        }
+        nodes
+    }))
+}
+
+/// Up to half the tolerance, and another one at each of 200 turns.
+fn uneven_offset(n: f64, tolerance: f64) -> f64 {
+    0.5 * tolerance * Scalar::sin(3.7 * n + 0.2)
+}
+
+/// The tolerance halves all segments of some turns. What the sampler placed stays where it was, with
+/// its velocity, and what is new lies on the locus.
 #[test]
 fn halving_keeps_the_offsets_of_the_ends() {
-    let tolerance = 0.98 * 0.25 * exact_ends(RIM);
-    let (before, _) = largest_error(long_segments(Ends::Both), tolerance, false);
-    assert!(before > tolerance);
-    let (after, added) = largest_error(long_segments(Ends::Both), tolerance, true);
-    assert!(after <= tolerance, "{after} of {tolerance}");
-    assert!((1..20).contains(&added), "{added} points are new");
+    let task = Task {
+        sampler: uneven(36.0),
+        interpolation: 1.2 * exact_ends(RIM),
+        ..Task::default()
+    };
+    let (before, _) = task.path();
+    let (after, outcome) = Task {
+        refined: true,
+        ..task.clone()
+    }
+    .path();
+    assert!(outcome.added_by_refine > 100);
+    assert!(outcome.figures.playback.max() <= task.interpolation);
+    let mut kept = 0;
+    for point in after.points() {
+        let placed = before.t.binary_search_by(|t| t.total_cmp(&point.t));
+        if let Ok(index) = placed {
+            assert_eq!(before.get(index), Some(point));
+            kept += 1;
+        } else {
+            assert!(above_locus(&point).abs() < 1e-14, "{}", above_locus(&point));
+        }
+    }
+    assert_eq!(kept, before.len());
+    let off = before
+        .points()
+        .filter(|point| above_locus(point).abs() > 1e-7);
+    assert!(off.count() > before.len() / 2);
 }
 
 /// Offsets of half the error on the other side: the error of equal steps halves everywhere.
@@ -114,8 +166,8 @@ fn offsets_on_the_other_side_halve_the_error_of_equal_steps() {
         }
         nodes
     });
-    let (exact, _) = largest_error(even(36.0), 1e-4, false);
-    let (found, _) = largest_error(Arc::new(balanced), 1e-4, false);
+    let exact = largest_error(even(36.0));
+    let found = largest_error(Arc::new(balanced));
     assert!((found / exact - 0.5).abs() < 0.02, "{}", found / exact);
 }
 
@@ -123,30 +175,23 @@ fn offsets_on_the_other_side_halve_the_error_of_equal_steps() {
 /// locus.
 #[test]
 fn a_node_that_moves_to_a_step_of_time_keeps_its_offset() {
-    const OFFSET: f64 = 7e-6;
-    let lifted = NodesOff(|_: &Path<'_>, block: Revolutions| {
-        let mut nodes = NodeList::default();
-        for n in block.turns().flat_map(|turn| turn.subdivide(37.0)) {
-            let offset = NodeOffset {
-                dz: OFFSET,
-                dz_dc: 0.0,
-            };
-            match n == 0.0 {
-                true => nodes.push(n),
-                false => nodes.push_off(n, offset),
-            }
-        }
-        nodes
-    });
+    const STEPS: f64 = 37.0;
     let task = Task {
-        sampler: Arc::new(lifted),
+        sampler: uneven(STEPS),
         time_steps: Some(2500.0),
-        refined: true,
         ..Task::default()
     };
     let (path, outcome) = task.path();
-    let step = |t: &f64| (t * 2500.0).round() - t * 2500.0;
-    assert!(path.t.iter().all(|t| step(t).abs() < 1e-6));
+    let from_step = |t: &f64| (t * 2500.0).round() - t * 2500.0;
+    assert!(path.t.iter().all(|t| from_step(t).abs() < 1e-6));
+    let mut moved = 0;
+    for (k, point) in path.points().enumerate().skip(1).take(path.len() - 2) {
+        let n = k as f64 / STEPS;
+        moved += usize::from((point.c / TAU - n).abs() > 1e-6);
+        let expected = uneven_offset(n, task.interpolation);
+        let found = above_locus(&point);
+        assert!((found - expected).abs() < 1e-13, "{found} for {expected}");
+    }
+    assert!(moved > path.len() / 2);
     assert!(outcome.figures.points.max() < 1e-12);
-    assert_eq!(outcome.figures.points.offset, Some(OFFSET));
 }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex};
 
 use crate::common::{RIM, Task, inward};
+use turnpath_core::toolpath::{Section, Segment};
 use turnpath_core::{
     AxisLimits, Machine, Path, PiecewisePolynomial, Result, SpindleAsk, SpindleLaw,
     SpindleStrategy, quintic,
@@ -114,13 +115,24 @@ fn leads_join_the_speed_of_their_end() {
     // A lead turns C by a hundred-thousandth faster for a moment, also at a constant speed.
     assert!((largest / speed - 1.0).abs() < 1e-5, "{largest} rad/s");
     assert_eq!((path.vc[0], path.vc[path.len() - 1]), (0.0, 0.0));
-    let cut = outcome.control_points as usize;
-    let slow: Vec<&f64> = path
-        .vc
-        .iter()
-        .filter(|vc| (**vc / speed - SLOW).abs() < 1e-9)
-        .collect();
-    assert!(slow.len() > cut / 5, "{} points", slow.len());
+    let out = sink.section(Section::LeadOut);
+    let fastest = path.vc[out].iter().copied().fold(0.0, f64::max) / speed;
+    assert!(
+        (fastest / SLOW - 1.0).abs() < 1e-5,
+        "{fastest} of the speed"
+    );
+    let cut = sink.section(Section::Cutting);
+    for joint in [cut.start, cut.end - 1] {
+        let accelerations = [joint - 1, joint].map(|from| {
+            let [from, to] = [from, from + 1].map(|index| path.get(index));
+            let (from, to) = (from.unwrap_or_default(), to.unwrap_or_default());
+            let segment = Segment::between(&from, &to);
+            let at = if from.t < path.t[joint] { 1.0 } else { 0.0 };
+            segment.c.bend(at) / (segment.duration * segment.duration)
+        });
+        let step = (accelerations[1] - accelerations[0]).abs();
+        assert!(step < 1e-3 * speed, "{step} rad/s²");
+    }
 }
 
 /// The part of the asked speed that the slowest half turn needs, for the whole path.
