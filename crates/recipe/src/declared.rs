@@ -110,6 +110,7 @@ pub(crate) fn example(param: &ParamInfo) -> String {
             ParamKind::Number | ParamKind::Count | ParamKind::Flag | ParamKind::Rows(_) => {
                 param.example.to_owned()
             }
+            ParamKind::List(_) => format!("[\"{}\"]", param.example),
             _ => format!("\"{}\"", param.example),
         };
     }

@@ -8,8 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use turnpath_host::sha256_hex;
 
-/// Largest data file. It limits the memory that a file can take.
-const MOST_BYTES: u64 = 1 << 30;
+/// Largest data file. While a strategy is made, the bytes of its files are in memory three times.
+const MOST_BYTES: u64 = 1 << 28;
 
 /// The contents of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,6 +61,8 @@ impl DataFiles {
     /// # Errors
     /// When there is no such file, or it cannot be read or is too large.
     pub fn read(&self, path: &Path) -> Result<Contents, DataFileError> {
+        // Of a file there is one copy, whatever path leads to it.
+        let path = &fs::canonicalize(path)?;
         // A panic while the lock is held leaves a valid map: each file in it is whole.
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(contents) = known.get(path) {
@@ -83,6 +85,9 @@ fn read(path: &Path) -> Result<Vec<u8>, DataFileError> {
     }
     if !metadata.is_file() {
         return Err(DataFileError::Special);
+    }
+    if metadata.len() > MOST_BYTES {
+        return Err(DataFileError::TooLarge);
     }
     let mut bytes = Vec::new();
     let file = File::open(path)?;
@@ -108,7 +113,22 @@ mod tests {
         assert_eq!(first.sha256, sha256_hex(b"1,2"));
         fs::write(&path, "3,4").unwrap();
         assert_eq!(files.clone().read(&path).unwrap(), first);
+        let another_way = folder.path().join(".").join("map.csv");
+        assert_eq!(files.read(&another_way).unwrap(), first);
         assert_ne!(DataFiles::default().read(&path).unwrap(), first);
+    }
+
+    /// The file has no bytes on the disk: only its length is looked at.
+    #[test]
+    fn a_file_above_the_limit_is_refused_before_it_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.csv");
+        File::create(&path)
+            .unwrap()
+            .set_len(MOST_BYTES + 1)
+            .unwrap();
+        let error = DataFiles::default().read(&path).unwrap_err();
+        assert!(error.to_string().contains("larger than 256 MiB"), "{error}");
     }
 
     #[test]
