@@ -31,8 +31,8 @@ impl Job {
     ///
     /// # Errors
     /// When a strategy is not there or refuses its parameters, when a data file cannot be read, when
-    /// the tool does not fit, when the
-    /// surface has no height somewhere, or when a program could not carry the path.
+    /// the tool does not fit, when the surface has no height somewhere, or when a program could not
+    /// carry the path.
     pub fn new(recipe: Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
         Self::with_files(recipe, catalogue, &DataFiles::default())
     }

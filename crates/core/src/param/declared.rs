@@ -8,8 +8,8 @@ use turnpath_units::Quantity;
 use super::info::{ParamDefault, ParamInfo, ParamKind};
 use super::kind::{
     Acceleration, Angle, AngularAcceleration, AngularJerk, Choice, ChoiceOr, Count, Feed, File,
-    Flag, Frequency, Jerk, Kind, Length, List, Number, PerLength, Quantified, RotationSpeed, Rows,
-    Scale, Text, Time, Velocity,
+    Flag, Frequency, Jerk, Kind, Length, List, Number, PerLength, RotationSpeed, Rows, Scale, Text,
+    Time, UnitKind, Velocity,
 };
 use crate::StrategyError;
 
@@ -120,7 +120,7 @@ macro_rules! quantities {
         impl Param<$kind> {
             #[doc = $what]
             pub const fn $constructor(name: &'static str, help: &'static str) -> Self {
-                const QUANTITY: Quantity = <$kind as Quantified>::QUANTITY;
+                const QUANTITY: Quantity = <$kind as UnitKind>::QUANTITY;
                 Self::new(name, ParamKind::Quantity(QUANTITY), help)
             }
         }

@@ -34,7 +34,7 @@ pub trait Kind: 'static {
 pub trait Scale: Kind {}
 
 /// A kind whose values have a unit.
-pub trait Quantified: Scale {
+pub trait UnitKind: Scale {
     /// The quantity.
     const QUANTITY: Quantity;
 }
@@ -62,7 +62,7 @@ macro_rules! quantities {
 
         impl Scale for $name {}
 
-        impl Quantified for $name {
+        impl UnitKind for $name {
             const QUANTITY: Quantity = Quantity::$name;
         }
     )+ };
@@ -152,7 +152,7 @@ pub enum WordOrNumber<'a> {
     Number(f64),
 }
 
-impl<Q: Quantified> Kind for ChoiceOr<Q> {
+impl<Q: UnitKind> Kind for ChoiceOr<Q> {
     type Value<'a> = WordOrNumber<'a>;
 
     fn read(value: Option<&ParamValue>) -> Option<WordOrNumber<'_>> {
@@ -163,7 +163,7 @@ impl<Q: Quantified> Kind for ChoiceOr<Q> {
     }
 }
 
-impl<Q: Quantified> Scale for ChoiceOr<Q> {}
+impl<Q: UnitKind> Scale for ChoiceOr<Q> {}
 
 /// Any text.
 #[derive(Debug)]
