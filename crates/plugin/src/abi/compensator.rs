@@ -8,11 +8,7 @@ use turnpath_core::{
 
 use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
-use super::reply::{Value, codes};
-
-codes! {
-    Radial { 0 => Radial::Contact, 1 => Radial::Centre }
-}
+use super::reply::Returned;
 
 composite! {
     Centres => AbiCentres { x: &'a mut [f64], z: &'a mut [f64], foot: &'a mut [f64] }
@@ -36,7 +32,7 @@ crossing! {
 }
 
 /// The value, θ and ρ of each extreme, in the order of [`Interference::extremes`].
-impl Value for Interference {
+impl Returned for Interference {
     type Wire = [[f64; 3]; 5];
 
     fn send(self) -> Self::Wire {

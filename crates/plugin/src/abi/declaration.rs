@@ -62,10 +62,12 @@ pub mod prelude {
     pub use abi_stable::pointer_trait::{AsMutPtr, AsPtr};
     pub use abi_stable::sabi_trait;
     pub use abi_stable::sabi_trait::TD_Opaque;
-    pub use abi_stable::std_types::{RBox, RVec};
+    pub use abi_stable::std_types::{RBox, RString};
+    pub use serde_json::{Value as Json, json};
 
     pub use super::super::loan::{Crossing, Lengths, Wire};
-    pub use super::super::reply::{Answer, Code, Reply, Value, answer, property, receive, result};
+    pub use super::super::reply::{Answer, Reply, Returned, answer, property, result};
+    pub(crate) use super::super::text;
     pub use super::Outgoing;
     pub(crate) use super::{by_value, declare, incoming, outgoing};
     pub use crate::panic_safe_box::PanicSafeBox;
@@ -97,7 +99,7 @@ macro_rules! declare {
                 -> Answer<<$reply as Reply>::Wire>;)*
 
             #[sabi(last_prefix_field)]
-            fn properties(&self) -> Answer<RVec<u64>>;
+            fn properties(&self) -> Answer<RString>;
 
             $(fn $later(&self $(, $later_arg: Wire<'_, $later_type>)*)
                 -> Answer<<$later_reply as Reply>::Wire>
@@ -113,8 +115,11 @@ macro_rules! declare {
                 $(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*
             }
 
-            fn properties(&self) -> Answer<RVec<u64>> {
-                answer(|| Ok(RVec::from(vec![$(Code::code(self.0.$property())),*])))
+            fn properties(&self) -> Answer<RString> {
+                answer(|| {
+                    let properties = json!({ $((stringify!($property)): self.0.$property()),* });
+                    Ok(text::write(&properties))
+                })
             }
         }
 
@@ -128,17 +133,16 @@ macro_rules! declare {
         impl<$b, P: AsPtr<PtrTarget = ()>> $incoming<$b, P> {
             /// Reads the object's properties and wraps it.
             pub fn new(object: $object<$b, P> $(, $field: $field_type)?) -> Result<Self> {
-                let properties: &[&str] = &[$(stringify!($property)),*];
+                let names: &[&str] = &[$(stringify!($property)),*];
                 // Surfaces are lent for short calls and have none.
-                let codes = if properties.is_empty() {
-                    RVec::new()
+                let _properties = if names.is_empty() {
+                    Json::Null
                 } else {
-                    result(object.properties())?
+                    text::read(&result(object.properties())?, "list of properties")?
                 };
-                let mut _codes = codes.iter().copied();
                 Ok(Self {
                     $($property: property(
-                        _codes.next(),
+                        &_properties,
                         stringify!($property),
                         None$(.or(Some($default)))?,
                     )?,)*
@@ -168,7 +172,7 @@ macro_rules! declare {
             /// An object that belongs to its plugin.
             pub type $owned = $object<'static, RBox<()>>;
 
-            impl Value for Box<dyn $core> {
+            impl Returned for Box<dyn $core> {
                 type Wire = $owned;
 
                 fn send(self) -> $owned {
@@ -210,7 +214,7 @@ macro_rules! incoming {
         fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])?: $type:ty),*) -> $reply:ty;
     )*) => {$(
         fn $method(& $($mut)? self $(, $arg: $($by)? $type)*) -> $reply {
-            receive(|| {
+            Reply::receive((|| {
                 let mut _lengths = Lengths::default();
                 $(
                     let mut $arg = Crossing::lender(by_value!($arg $($by)?))?;
@@ -220,7 +224,7 @@ macro_rules! incoming {
                 let answer = self.object.$method($(<$type as Crossing>::lend(&mut $arg)),*);
                 $(<$type as Crossing>::settle($arg)?;)*
                 result(answer)
-            })
+            })())
         }
     )*};
 }

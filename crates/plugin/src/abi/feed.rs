@@ -6,7 +6,7 @@ use turnpath_core::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Result, Set
 use super::declaration::prelude::*;
 use super::laws::{row, unrow};
 use super::loan::lists;
-use super::reply::Value;
+use super::reply::Returned;
 
 /// Pieces as (length, coefficients). The host appends them to those that it has.
 type AbiPieces = RVec<[f64; 7]>;
@@ -23,7 +23,7 @@ lists! {
 }
 
 /// Crosses as whether the law has more pieces.
-impl Value for Continuation {
+impl Returned for Continuation {
     type Wire = bool;
 
     fn send(self) -> bool {

@@ -125,12 +125,6 @@ macro_rules! composite {
     };
 }
 
-/// A list that the other side writes to.
-pub struct ListLender<'a, Home, Away> {
-    pub home: &'a mut Home,
-    pub away: Away,
-}
-
 /// Lets lists cross that the other side writes to: what it gets, and what it gives back.
 macro_rules! lists {
     ($(
@@ -138,20 +132,19 @@ macro_rules! lists {
     )*) => {$(
         impl<'a> $crate::abi::loan::Crossing for &'a mut $home {
             type Wire<'w> = &'w mut $away;
-            type Lender = $crate::abi::loan::ListLender<'a, $home, $away>;
+            type Lender = (&'a mut $home, $away);
 
             fn lender(self) -> turnpath_core::Result<Self::Lender> {
                 let $list = &mut *self;
                 let away = $get;
-                Ok($crate::abi::loan::ListLender { home: self, away })
+                Ok((self, away))
             }
 
             fn lend(lender: &mut Self::Lender) -> &mut $away {
-                &mut lender.away
+                &mut lender.1
             }
 
-            fn settle(lender: Self::Lender) -> turnpath_core::Result<()> {
-                let ($place, $back) = (lender.home, lender.away);
+            fn settle(($place, $back): Self::Lender) -> turnpath_core::Result<()> {
                 $settle;
                 Ok(())
             }

@@ -3,22 +3,22 @@
 use abi_stable::StableAbi;
 use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
+use abi_stable::std_types::RString;
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
 use super::declaration::prelude::*;
 use super::loan::{Crossing, crossing};
-use super::reply::Code;
 use super::surface::LentSurface;
+use super::text;
 
-/// The code of what ρ means.
+/// What ρ means, as a word.
 #[repr(C)]
 #[derive(StableAbi)]
-pub struct AbiRadial(u64);
+pub struct AbiRadial(RString);
 
 crossing! {
-    [] Radial => AbiRadial, Radial: |radial| radial, |radial| AbiRadial(radial.code());
-    [] AbiRadial => Radial, Radial:
-        |radial| property(Some(radial.0), "radial", None)?, |radial| *radial;
+    [] Radial => AbiRadial, Radial: |radial| radial, |radial| AbiRadial(text::write(radial));
+    [] AbiRadial => Radial, Radial: |word| text::read(&word.0, "meaning of ρ")?, |radial| *radial;
 }
 
 declare! {

@@ -18,7 +18,6 @@
 #![allow(non_local_definitions)] // the expansion of #[sabi_trait] raises it
 #![allow(missing_docs)] // private, and #[sabi_trait] generates public items without docs
 
-pub(crate) mod arguments;
 pub(crate) mod catalogue;
 pub(crate) mod compensator;
 pub(crate) mod declaration;
@@ -30,10 +29,12 @@ pub(crate) mod loan;
 pub(crate) mod locus;
 #[cfg(test)]
 mod newer_host;
-pub(crate) mod numbers;
+pub(crate) mod params;
 pub(crate) mod reply;
 pub(crate) mod root;
 pub(crate) mod sampler;
 pub(crate) mod spindle;
 pub(crate) mod surface;
+pub(crate) mod task;
+pub(crate) mod text;
 pub(crate) mod velocity;

@@ -6,17 +6,17 @@ use abi_stable::StableAbi;
 use abi_stable::library::RootModule;
 use abi_stable::prefix_type::PrefixTypeTrait;
 use abi_stable::sabi_types::VersionStrings;
-use abi_stable::std_types::{RString, RVec};
+use abi_stable::std_types::RString;
 use turnpath_core::{
     Compensator, FeedStrategy, Params, Result, Sampler, Slot, SpindleStrategy, StrategyError,
     SurfaceModel, VelocitySolver,
 };
 
-use super::arguments::{AbiArgument, arguments, params};
-use super::catalogue::AbiStrategy;
+use super::catalogue::catalogue;
 use super::compensator::OwnedCompensator;
 use super::feed::OwnedFeed;
-use super::reply::{Answer, Value, answer, result};
+use super::params::AbiParams;
+use super::reply::{Answer, Returned, answer, result};
 use super::sampler::OwnedSampler;
 use super::spindle::OwnedSpindle;
 use super::surface::OwnedSurface;
@@ -29,7 +29,7 @@ use crate::{Build, Registration};
 pub struct AbiRequest {
     crate_name: RString,
     name: RString,
-    arguments: RVec<AbiArgument>,
+    params: AbiParams,
 }
 
 impl AbiRequest {
@@ -38,7 +38,7 @@ impl AbiRequest {
         Self {
             crate_name: crate_name.into(),
             name: name.into(),
-            arguments: arguments(params),
+            params: params.into(),
         }
     }
 }
@@ -49,7 +49,7 @@ impl AbiRequest {
 #[derive(StableAbi)]
 #[sabi(kind(Prefix(prefix_ref = RootRef)))]
 pub struct Root {
-    pub catalogue: extern "C" fn() -> RVec<AbiStrategy>,
+    pub catalogue: extern "C" fn() -> RString,
     pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
     pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
     pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
@@ -83,19 +83,15 @@ pub fn own_root() -> RootRef {
     })
 }
 
-extern "C" fn catalogue() -> RVec<AbiStrategy> {
-    Registration::all().iter().map(AbiStrategy::from).collect()
-}
-
 /// Finds the requested strategy and builds it.
-fn build<T: Value>(
+fn build<T: Returned>(
     slot: Slot,
     request: AbiRequest,
     with: impl FnOnce(Build, &Params) -> Option<Result<T>>,
 ) -> Answer<T::Wire> {
     answer(|| {
         let (crate_name, name) = (request.crate_name, request.name);
-        let params = params(request.arguments)?;
+        let params = request.params.receive()?;
         let matches = |one: &&Registration| {
             one.info.slot == slot && one.info.name == name && one.crate_name == crate_name
         };
@@ -108,7 +104,7 @@ fn build<T: Value>(
 }
 
 /// What a library may build for the host: a boxed object of one slot.
-pub trait Constructed: Value {
+pub trait Constructed: Returned {
     /// The slot.
     const SLOT: Slot;
 
@@ -132,7 +128,7 @@ pub fn construct<T: Constructed>(root: RootRef, request: AbiRequest) -> Result<T
 /// The exported constructor of each slot, and the host's way to it.
 macro_rules! constructors {
     ($($name:ident: $slot:ident, $object:ident;)*) => {$(
-        extern "C" fn $name(request: AbiRequest) -> Answer<<Box<dyn $object> as Value>::Wire> {
+        extern "C" fn $name(request: AbiRequest) -> Answer<<Box<dyn $object> as Returned>::Wire> {
             build(Slot::$slot, request, |build, params| match build {
                 Build::$slot(build) => Some(build(params)),
                 _ => None,

@@ -8,26 +8,6 @@ use turnpath_core::{
 
 use super::declaration::prelude::*;
 use super::loan::{crossing, lists};
-use super::reply::Code;
-
-/// 0 is local, 1 is sequential, and 2 + n is an overlap of n nodes.
-impl Code for Dependence {
-    fn code(self) -> u64 {
-        match self {
-            Self::Local => 0,
-            Self::Sequential => 1,
-            Self::Overlap(nodes) => (nodes as u64).saturating_add(2),
-        }
-    }
-
-    fn from_code(code: u64) -> Option<Self> {
-        Some(match code {
-            0 => Self::Local,
-            1 => Self::Sequential,
-            more => Self::Overlap(usize::try_from(more - 2).unwrap_or(usize::MAX)),
-        })
-    }
-}
 
 /// Start and end of a block, in revolutions.
 #[repr(C)]

@@ -7,11 +7,6 @@ use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
 use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
-use super::reply::codes;
-
-codes! {
-    SegmentShape { 0 => SegmentShape::Cubic, 1 => SegmentShape::Linear }
-}
 
 composite! {
     Velocities => AbiVelocities { c: &'a mut [f64], x: &'a mut [f64], z: &'a mut [f64] }

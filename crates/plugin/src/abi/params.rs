@@ -1,0 +1,106 @@
+//! The values of parameters, on their way to a constructor.
+
+use std::collections::BTreeMap;
+
+use abi_stable::StableAbi;
+use abi_stable::std_types::{RString, RVec};
+use serde::Deserialize;
+use serde_json::Value;
+use turnpath_core::{ParamValue, Params, Result, StrategyError};
+
+use super::text;
+
+/// All values as JSON, and beside it the contents of the files among them.
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct AbiParams {
+    values: RString,
+    contents: RVec<RVec<u8>>,
+}
+
+impl From<&Params> for AbiParams {
+    fn from(params: &Params) -> Self {
+        let values: BTreeMap<_, _> = params.iter().collect();
+        let files = params.iter().filter_map(|(_, value)| match value {
+            ParamValue::File(file) => Some(file.bytes.to_vec().into()),
+            _ => None,
+        });
+        Self {
+            values: text::write(&values),
+            contents: files.collect(),
+        }
+    }
+}
+
+impl AbiParams {
+    /// The values on the plugin's side.
+    pub fn receive(self) -> Result<Params> {
+        let values: BTreeMap<String, Value> = text::read(&self.values, "list of parameters")?;
+        let mut contents = self.contents.into_iter();
+        let mut params = Params::new();
+        for (name, value) in values {
+            let Ok(mut value) = ParamValue::deserialize(value) else {
+                let message = "the plugin does not know values of this kind; build it anew";
+                return Err(StrategyError::parameter(name, message));
+            };
+            if let ParamValue::File(file) = &mut value {
+                file.bytes = contents.next().unwrap_or_default().into_vec().into();
+            }
+            params.set(name, value);
+        }
+        Ok(params)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use turnpath_core::DataFile;
+
+    #[test]
+    fn values_are_the_same_after_both_conversions() {
+        let mut given = Params::new().with("number", -0.5);
+        given.set("flag", ParamValue::Flag(true));
+        given.set("text", ParamValue::Text("säge".into()));
+        given.set("list", ParamValue::List(vec!["one".into(), "two".into()]));
+        for (name, bytes) in [("file", vec![0, 255]), ("gauge", vec![7])] {
+            let (path, bytes) = (format!("a/{name}.csv"), bytes.into());
+            given.set(name, ParamValue::File(DataFile { path, bytes }));
+        }
+        given.set("rows", ParamValue::Rows(vec![vec![1.0, 2.0], vec![]]));
+        assert_eq!(AbiParams::from(&given).receive(), Ok(given));
+    }
+
+    #[test]
+    fn every_bit_of_a_number_crosses() {
+        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        let next = |bits: &mut u64| {
+            *bits = bits.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+            f64::from_bits(*bits)
+        };
+        let numbers = std::iter::repeat_with(|| next(&mut bits)).filter(|n| n.is_finite());
+        for number in numbers.take(10_000).chain([-0.0, 0.1, f64::MAX, 5e-324]) {
+            let given = Params::new().with("number", number);
+            let Ok(params) = AbiParams::from(&given).receive() else {
+                panic!("{number} does not cross");
+            };
+            let Some((_, ParamValue::Number(read))) = params.iter().next() else {
+                panic!("{number} is no number any more");
+            };
+            assert_eq!(read.to_bits(), number.to_bits());
+        }
+    }
+
+    #[test]
+    fn a_value_of_an_unknown_kind_is_an_error_of_its_parameter() {
+        let strange = AbiParams {
+            values: r#"{ "mask": { "bits": 99 } }"#.into(),
+            contents: RVec::new(),
+        };
+        let error = strange.receive().unwrap_err();
+        assert!(
+            error.to_string().starts_with("parameter `mask`: "),
+            "{error}"
+        );
+    }
+}
