@@ -7,7 +7,7 @@ use turnpath_core::{
 };
 
 use super::declaration::prelude::*;
-use super::loan::{composite, crossing};
+use super::loan::composite;
 use super::reply::Returned;
 
 composite! {
@@ -17,18 +17,6 @@ composite! {
         x_theta: &'a mut [f64], x_rho: &'a mut [f64], z_theta: &'a mut [f64], z_x: &'a mut [f64],
     }
     Cut => AbiCut { surface: &'a dyn SurfaceModel, tool: &'a Tool }
-}
-
-/// The inner and the outer end of a range of ρ, mm.
-#[repr(C)]
-#[derive(abi_stable::StableAbi)]
-pub struct AbiRange(f64, f64);
-
-crossing! {
-    [] RadialRange => AbiRange, RadialRange: |range| range,
-        |range| AbiRange(range.inner, range.outer);
-    [] AbiRange => RadialRange, AbiRange: |range| range,
-        |range| RadialRange { inner: range.0, outer: range.1 };
 }
 
 /// The value, θ and ρ of each extreme, in the order of [`Interference::extremes`].

@@ -1,7 +1,5 @@
 //! One declaration of a trait gives both sides of the boundary.
 //!
-//! This declaration
-//!
 //! ```text
 //! declare! {
 //!     VelocitySolver: Deref AsPtr, Send Sync => AbiVelocity, AbiVelocity_TO, IncomingVelocity<'b>;
@@ -12,42 +10,23 @@
 //! }
 //! ```
 //!
-//! expands to the trait that crosses, which abi_stable makes into a table of functions,
+//! expands to the trait that crosses, to the author's side, which catches panics, and to the caller's
+//! side, which checks lengths:
 //!
 //! ```text
 //! #[sabi_trait]
 //! pub trait AbiVelocity: Send + Sync {
 //!     fn solve(&self, nodes: AbiNodes<'_>, out: AbiVelocities<'_>) -> Answer<()>;
 //!     #[sabi(last_prefix_field)]
-//!     fn properties(&self) -> Answer<RVec<u64>>;
+//!     fn properties(&self) -> Answer<RString>;
 //!     fn warm_up(&self) -> Answer<()> { answer(|| Ok(())) }
 //! }
+//! impl<P: Deref<Target = dyn VelocitySolver>> AbiVelocity for Outgoing<P> { … }
+//! impl<P> VelocitySolver for IncomingVelocity<'_, P> { … }
 //! ```
 //!
-//! to the author's side, which catches panics,
-//!
-//! ```text
-//! impl<P: Deref<Target = dyn VelocitySolver>> AbiVelocity for Outgoing<P> {
-//!     fn solve(&self, nodes: AbiNodes<'_>, out: AbiVelocities<'_>) -> Answer<()> {
-//!         answer(|| self.0.solve(/* nodes and out of the core */))
-//!     }
-//! }
-//! ```
-//!
-//! and to the caller's side, which reads the properties once and checks lengths:
-//!
-//! ```text
-//! pub struct IncomingVelocity<'b, P> { object: AbiVelocity_TO<'b, P>, dependence: Dependence, … }
-//!
-//! impl<P> VelocitySolver for IncomingVelocity<'_, P> {
-//!     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
-//!         result(self.object.solve(/* nodes and out as they cross */))
-//!     }
-//! }
-//! ```
-//!
-//! - `properties` have no arguments and never change. They cross as one list of codes. A property
-//!   that is added later stands last and has a default, for plugins that do not give it.
+//! - `properties` have no arguments and never change. They cross as one text, which the caller's
+//!   side reads once. One that is added later has a default, for plugins that do not give it.
 //! - `methods` are in every plugin of this number of the boundary.
 //! - `later` has the methods that were added since, in the order in which they were added. A plugin
 //!   without one gives the value after `=`.
@@ -196,7 +175,8 @@ macro_rules! outgoing {
             -> Answer<<$reply as Reply>::Wire>
         {
             answer(|| {
-                $(let mut $arg = Crossing::lender($arg)?;)*
+                let mut _lengths = Lengths::default();
+                $(let mut $arg = Crossing::lender($arg, &mut _lengths)?;)*
                 let reply = self.0.$method(
                     $($($by)? <Wire<'_, $type> as Crossing>::lend(&mut $arg)),*
                 );
@@ -216,10 +196,7 @@ macro_rules! incoming {
         fn $method(& $($mut)? self $(, $arg: $($by)? $type)*) -> $reply {
             Reply::receive((|| {
                 let mut _lengths = Lengths::default();
-                $(
-                    let mut $arg = Crossing::lender(by_value!($arg $($by)?))?;
-                    <$type as Crossing>::count(&$arg, &mut _lengths);
-                )*
+                $(let mut $arg = Crossing::lender(by_value!($arg $($by)?), &mut _lengths)?;)*
                 _lengths.check()?;
                 let answer = self.object.$method($(<$type as Crossing>::lend(&mut $arg)),*);
                 $(<$type as Crossing>::settle($arg)?;)*

@@ -6,7 +6,6 @@ use turnpath_core::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Result, Set
 use super::declaration::prelude::*;
 use super::laws::{row, unrow};
 use super::loan::lists;
-use super::reply::Returned;
 
 /// Pieces as (length, coefficients). The host appends them to those that it has.
 type AbiPieces = RVec<[f64; 7]>;
@@ -20,19 +19,6 @@ lists! {
     AbiPieces => Vec<FeedPiece>: |_list| Vec::new(), |list, pieces| {
         list.extend(pieces.iter().map(|piece| row(piece.length, piece.coefficients)));
     };
-}
-
-/// Crosses as whether the law has more pieces.
-impl Returned for Continuation {
-    type Wire = bool;
-
-    fn send(self) -> bool {
-        self == Self::More
-    }
-
-    fn receive(more: bool) -> Result<Self> {
-        Ok(if more { Self::More } else { Self::End })
-    }
 }
 
 declare! {

@@ -3,23 +3,11 @@
 use abi_stable::StableAbi;
 use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
-use abi_stable::std_types::RString;
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
 use super::declaration::prelude::*;
 use super::loan::{Crossing, crossing};
 use super::surface::LentSurface;
-use super::text;
-
-/// What ρ means, as a word.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiRadial(RString);
-
-crossing! {
-    [] Radial => AbiRadial, Radial: |radial| radial, |radial| AbiRadial(text::write(radial));
-    [] AbiRadial => Radial, Radial: |word| text::read(&word.0, "meaning of ρ")?, |radial| *radial;
-}
 
 declare! {
     Locus: Deref AsPtr, Send Sync => AbiLocus, AbiLocus_TO, IncomingLocus<'b>;
@@ -51,11 +39,12 @@ pub struct LentLocus<'a> {
 crossing! {
     ['a] &'a dyn Locus => LentLocus<'w>,
     (Outgoing<&'a dyn Locus>, Outgoing<&'a dyn SurfaceModel>):
-        |locus| (Outgoing(locus), locus.surface().lender()?),
+        |locus, lengths| (Outgoing(locus), locus.surface().lender(lengths)?),
         |lender| LentLocus {
             locus: AbiLocus_TO::from_ptr(RRef::new(&lender.0), TD_Opaque),
             surface: <&dyn SurfaceModel>::lend(&mut lender.1),
         };
     ['a] LentLocus<'a> => &'w dyn Locus, IncomingLocus<'a, RRef<'a, ()>>:
-        |lent| IncomingLocus::new(lent.locus, lent.surface.lender()?)?, |locus| locus;
+        |lent, lengths| IncomingLocus::new(lent.locus, lent.surface.lender(lengths)?)?,
+        |locus| locus;
 }

@@ -76,15 +76,11 @@ impl Reply for Option<Result<()>> {
     type Wire = bool;
 
     fn send(self) -> Result<bool> {
-        self.map_or(Ok(false), |done| done.map(|()| true))
+        Ok(self.transpose()?.is_some())
     }
 
     fn receive(result: Result<bool>) -> Self {
-        match result {
-            Ok(true) => Some(Ok(())),
-            Ok(false) => None,
-            Err(error) => Some(Err(error)),
-        }
+        result.map(|given| given.then_some(())).transpose()
     }
 }
 

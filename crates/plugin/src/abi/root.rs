@@ -66,43 +66,6 @@ impl RootModule for RootRef {
     const VERSION_STRINGS: VersionStrings = VersionStrings::new(env!("CARGO_PKG_VERSION"));
 }
 
-/// The root of this program or library itself.
-pub fn own_root() -> RootRef {
-    static ROOT: OnceLock<RootRef> = OnceLock::new();
-    *ROOT.get_or_init(|| {
-        Root {
-            catalogue,
-            surface,
-            feed,
-            sampler,
-            compensator,
-            velocity,
-            spindle,
-        }
-        .leak_into_prefix()
-    })
-}
-
-/// Finds the requested strategy and builds it.
-fn build<T: Returned>(
-    slot: Slot,
-    request: AbiRequest,
-    with: impl FnOnce(Build, &Params) -> Option<Result<T>>,
-) -> Answer<T::Wire> {
-    answer(|| {
-        let (crate_name, name) = (request.crate_name, request.name);
-        let params = request.params.receive()?;
-        let matches = |one: &&Registration| {
-            one.info.slot == slot && one.info.name == name && one.crate_name == crate_name
-        };
-        let all = Registration::all();
-        let found = all.iter().find(matches);
-        let none = || StrategyError::failed(format!("there is no {} `{name}` here", slot.noun()));
-        let built = found.and_then(|one| with(one.build, &params));
-        built.unwrap_or_else(|| Err(none())).map(T::send)
-    })
-}
-
 /// What a library may build for the host: a boxed object of one slot.
 pub trait Constructed: Returned {
     /// The slot.
@@ -110,32 +73,53 @@ pub trait Constructed: Returned {
 
     /// The constructor of a library; `None` in one that is older than the slot.
     fn constructor(root: RootRef) -> Option<extern "C" fn(AbiRequest) -> Answer<Self::Wire>>;
+
+    /// The registered function that builds it; `None` for one of another slot.
+    fn build(build: Build, params: &Params) -> Option<Result<Self>>;
 }
 
 /// Builds a strategy of a library.
 pub fn construct<T: Constructed>(root: RootRef, request: AbiRequest) -> Result<T> {
-    match T::constructor(root) {
-        Some(constructor) => result(constructor(request)).and_then(T::receive),
-        None => {
-            let what = T::SLOT.noun();
+    let slot = T::SLOT.noun();
+    let none = || StrategyError::failed(format!("this library builds no {slot}"));
+    let constructor = T::constructor(root).ok_or_else(none)?;
+    result(constructor(request)).and_then(T::receive)
+}
+
+/// Finds the requested strategy here and builds it.
+extern "C" fn build<T: Constructed>(request: AbiRequest) -> Answer<T::Wire> {
+    answer(|| {
+        let AbiRequest {
+            crate_name,
+            name,
+            params,
+        } = request;
+        let params = params.receive()?;
+        let mut all = Registration::all().into_iter().filter(|one| {
+            one.info.slot == T::SLOT && one.info.name == name && one.crate_name == crate_name
+        });
+        let built = all.find_map(|one| T::build(one.build, &params));
+        let slot = T::SLOT.noun();
+        let none = || {
             Err(StrategyError::failed(format!(
-                "this library builds no {what}"
+                "there is no {slot} `{name}` here"
             )))
-        }
-    }
+        };
+        built.unwrap_or_else(none).map(T::send)
+    })
 }
 
 /// The exported constructor of each slot, and the host's way to it.
 macro_rules! constructors {
-    ($($name:ident: $slot:ident, $object:ident;)*) => {$(
-        extern "C" fn $name(request: AbiRequest) -> Answer<<Box<dyn $object> as Returned>::Wire> {
-            build(Slot::$slot, request, |build, params| match build {
-                Build::$slot(build) => Some(build(params)),
-                _ => None,
-            })
+    ($($name:ident: $slot:ident, $object:ident;)*) => {
+        /// The root of this program or library itself.
+        pub fn own_root() -> RootRef {
+            static ROOT: OnceLock<RootRef> = OnceLock::new();
+            let root = || Root { catalogue, $($name: build::<Box<dyn $object>>),* };
+            *ROOT.get_or_init(|| root().leak_into_prefix())
         }
 
-        impl Constructed for Box<dyn $object> {
+        $(impl Constructed for Box<dyn $object> {
             const SLOT: Slot = Slot::$slot;
 
             fn constructor(
@@ -143,8 +127,15 @@ macro_rules! constructors {
             ) -> Option<extern "C" fn(AbiRequest) -> Answer<Self::Wire>> {
                 root.$name().into()
             }
-        }
-    )*};
+
+            fn build(build: Build, params: &Params) -> Option<Result<Self>> {
+                match build {
+                    Build::$slot(build) => Some(build(params)),
+                    _ => None,
+                }
+            }
+        })*
+    };
 }
 
 constructors! {

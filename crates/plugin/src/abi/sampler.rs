@@ -1,24 +1,12 @@
 //! Samplers and their plans.
 
-use abi_stable::StableAbi;
 use abi_stable::std_types::RVec;
 use turnpath_core::{
     Dependence, NodeList, Path, Result, Revolutions, Sampler, SamplerPlan, StrategyError,
 };
 
 use super::declaration::prelude::*;
-use super::loan::{crossing, lists};
-
-/// Start and end of a block, in revolutions.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiBlock(f64, f64);
-
-crossing! {
-    [] Revolutions => AbiBlock, Revolutions: |block| block, |block| AbiBlock(block.start, block.end);
-    [] AbiBlock => Revolutions, AbiBlock: |block| block,
-        |block| Revolutions { start: block.0, end: block.1 };
-}
+use super::loan::lists;
 
 /// The columns of a [`NodeList`], of which there may be more one day. The host appends what the
 /// other side places.

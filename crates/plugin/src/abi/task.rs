@@ -1,20 +1,50 @@
-//! The task and the tool, which the host lends to strategies.
+//! What the host lends in few words: the task, the tool, ranges.
 
 use abi_stable::StableAbi;
 use abi_stable::std_types::{RSlice, RString};
-use turnpath_core::{Misfit, Result, StrategyError, Task, Tool};
+use turnpath_core::{
+    Continuation, Misfit, Radial, RadialRange, Result, Revolutions, StrategyError, Task, Tool,
+};
 
 use super::loan::crossing;
+use super::reply::Returned;
 use super::text;
 
-/// A task, as text.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiTask(RString);
+/// Lets types cross as text, by value, by reference and in answers.
+macro_rules! texts {
+    ($($core:ident => $abi:ident),+ $(,)?) => {$(
+        #[repr(C)]
+        #[derive(StableAbi)]
+        pub struct $abi(RString);
 
-crossing! {
-    ['a] &'a Task => &'w AbiTask, AbiTask: |task| AbiTask(text::write(task)), |task| task;
-    ['a] &'a AbiTask => &'w Task, Task: |task| text::read(&task.0, "task")?, |task| task;
+        crossing! {
+            [] $core => $abi, $core: |it| it, |it| $abi(text::write(it));
+            [] $abi => $core, $core: |it| text::read(&it.0, stringify!($core))?, |it| it.to_owned();
+            ['a] &'a $core => &'w $abi, $abi: |it| $abi(text::write(it)), |it| it;
+            ['a] &'a $abi => &'w $core, $core:
+                |it| text::read(&it.0, stringify!($core))?, |it| it;
+        }
+
+        impl Returned for $core {
+            type Wire = RString;
+
+            fn send(self) -> RString {
+                text::write(&self)
+            }
+
+            fn receive(text: RString) -> Result<Self> {
+                text::read(&text, stringify!($core))
+            }
+        }
+    )+};
+}
+
+texts! {
+    Task => AbiTask,
+    Radial => AbiRadial,
+    RadialRange => AbiRange,
+    Revolutions => AbiBlock,
+    Continuation => AbiContinuation,
 }
 
 /// A tool, in numbers because every batch of centres needs it: the nose radius, the included and the

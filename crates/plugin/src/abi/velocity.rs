@@ -23,13 +23,13 @@ pub struct AbiNodes<'a> {
 
 crossing! {
     ['a] Nodes<'a> => AbiNodes<'w>, ([RSlice<'a, f64>; 8], u32):
-        |nodes| {
+        |nodes, lengths| {
             let Nodes { t, c, x, z, c_rate, x_rate, z_theta, z_x, at_start, at_end } = nodes;
             let columns = [t, c, x, z, c_rate, x_rate, z_theta, z_x];
+            columns.iter().for_each(|column| lengths.add(column.len()));
             (columns.map(RSlice::from_slice), u32::from(at_start) | u32::from(at_end) << 1)
         },
-        |lender| AbiNodes { columns: lender.0.as_slice().into(), ends: lender.1 },
-        |lender, lengths| lender.0.iter().for_each(|column| lengths.add(column.len()));
+        |lender| AbiNodes { columns: lender.0.as_slice().into(), ends: lender.1 };
     ['a] AbiNodes<'a> => Nodes<'w>, AbiNodes<'a>: |nodes| nodes, |nodes| {
         let mut columns = nodes.columns.iter().map(RSlice::as_slice);
         let mut column = || columns.next().unwrap_or_default();
