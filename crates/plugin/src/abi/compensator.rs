@@ -53,6 +53,5 @@ declare! {
         ) -> Option<Result<()>>;
         fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference>;
     }
-    later {}
     owned by OwnedCompensator
 }

@@ -60,15 +60,15 @@ macro_rules! declare {
     (
         $core:ident: $deref:ident $as_ptr:ident, $($bound:ident)+
             => $abi:ident, $object:ident, $incoming:ident<$b:lifetime>;
-        properties { $($property:ident: $kind:ty $(= $default:expr)?),* $(,)? }
+        $(properties { $($property:ident: $kind:ty $(= $default:expr)?),* $(,)? })?
         methods { $(
             fn $method:ident $([$mut:tt])? (&self $(, $arg:ident $([$by:tt])?: $type:ty)* $(,)?)
                 -> $reply:ty;
         )* }
-        later { $(
+        $(later { $(
             fn $later:ident(&self $(, $later_arg:ident $([$later_by:tt])?: $later_type:ty)* $(,)?)
                 -> $later_reply:ty = $without:expr;
-        )* }
+        )* })?
         $(owned by $owned:ident)?
         $(kept { $field:ident: $field_type:ty } own { $($own:tt)* })?
     ) => {
@@ -80,23 +80,25 @@ macro_rules! declare {
             #[sabi(last_prefix_field)]
             fn properties(&self) -> Answer<RString>;
 
-            $(fn $later(&self $(, $later_arg: Wire<'_, $later_type>)*)
+            $($(fn $later(&self $(, $later_arg: Wire<'_, $later_type>)*)
                 -> Answer<<$later_reply as Reply>::Wire>
             {
                 $(let _ = $later_arg;)*
                 answer(|| <$later_reply as Reply>::send($without))
-            })*
+            })*)?
         }
 
         impl<'c, P: $deref<Target = dyn $core + 'c> + $($bound +)+> $abi for Outgoing<P> {
             outgoing! {
                 $(fn $method $([$mut])? ($($arg $([$by])?: $type),*) -> $reply;)*
-                $(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*
+                $($(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*)?
             }
 
             fn properties(&self) -> Answer<RString> {
                 answer(|| {
-                    let properties = json!({ $((stringify!($property)): self.0.$property()),* });
+                    let properties = json!({
+                        $($((stringify!($property)): self.0.$property()),*)?
+                    });
                     Ok(text::write(&properties))
                 })
             }
@@ -105,14 +107,14 @@ macro_rules! declare {
         /// The object of the other side, wrapped as one of the core.
         pub struct $incoming<$b, P: AsPtr<PtrTarget = ()>> {
             object: $object<$b, P>,
-            $($property: $kind,)*
+            $($($property: $kind,)*)?
             $($field: $field_type,)?
         }
 
         impl<$b, P: AsPtr<PtrTarget = ()>> $incoming<$b, P> {
             /// Reads the object's properties and wraps it.
             pub fn new(object: $object<$b, P> $(, $field: $field_type)?) -> Result<Self> {
-                let names: &[&str] = &[$(stringify!($property)),*];
+                let names: &[&str] = &[$($(stringify!($property)),*)?];
                 // Surfaces are lent for short calls and have none.
                 let _properties = if names.is_empty() {
                     Json::Null
@@ -120,11 +122,11 @@ macro_rules! declare {
                     text::read(&result(object.properties())?, "list of properties")?
                 };
                 Ok(Self {
-                    $($property: property(
+                    $($($property: property(
                         &_properties,
                         stringify!($property),
                         None$(.or(Some($default)))?,
-                    )?,)*
+                    )?,)*)?
                     $($field,)?
                     object,
                 })
@@ -135,13 +137,13 @@ macro_rules! declare {
         where
             $object<$b, P>: $($bound +)+,
         {
-            $(fn $property(&self) -> $kind {
+            $($(fn $property(&self) -> $kind {
                 self.$property
-            })*
+            })*)?
 
             incoming! {
                 $(fn $method $([$mut])? ($($arg $([$by])?: $type),*) -> $reply;)*
-                $(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*
+                $($(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*)?
             }
 
             $($($own)*)?

@@ -23,22 +23,18 @@ lists! {
 
 declare! {
     FeedStrategy: Deref AsPtr, Send Sync => AbiFeed, AbiFeed_TO, IncomingFeed<'b>;
-    properties {}
     methods {
         fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>>;
     }
-    later {}
     owned by OwnedFeed
 }
 
 declare! {
     FeedPlan: DerefMut AsMutPtr, Send => AbiFeedPlan, AbiFeedPlan_TO, IncomingFeedPlan<'b>;
-    properties {}
     methods {
         fn extend[mut](
             &self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>,
         ) -> Result<Continuation>;
     }
-    later {}
     owned by OwnedFeedPlan
 }

@@ -20,7 +20,6 @@ declare! {
             &self, residual: f64, radial: Radial, theta: &[f64], rho: &[f64], feed: &mut [f64],
         ) -> Result<()>;
     }
-    later {}
     kept { surface: <LentSurface<'b> as Crossing>::Lender } own {
         fn surface(&self) -> &dyn SurfaceModel {
             &self.surface

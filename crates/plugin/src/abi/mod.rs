@@ -2,7 +2,7 @@
 //!
 //! - [`declaration`] has the macro that makes both sides of a trait from one declaration.
 //! - [`loan`] and [`reply`] carry arguments and answers across; [`text`] writes and reads what is
-//!   small, and [`task`], [`laws`] and [`params`] have the arguments of several slots.
+//!   small, and [`task`], [`laws`] and [`request`] have the arguments of several slots.
 //! - [`surface`], [`locus`], [`feed`], [`sampler`], [`compensator`], [`velocity`] and [`spindle`]
 //!   have the declarations.
 //! - [`catalogue`], [`root`] and [`entry`] have what a library exports, and open it; [`layout`]
@@ -28,8 +28,8 @@ pub(crate) mod loan;
 pub(crate) mod locus;
 #[cfg(test)]
 mod newer_host;
-pub(crate) mod params;
 pub(crate) mod reply;
+pub(crate) mod request;
 pub(crate) mod root;
 pub(crate) mod sampler;
 pub(crate) mod spindle;

@@ -10,7 +10,8 @@ use turnpath_core::{Continuation, Params, Revolutions};
 use super::entry::open_root;
 use super::layout;
 use super::reply::{Returned, result};
-use super::root::{AbiRequest, RootRef};
+use super::request::AbiRequest;
+use super::root::RootRef;
 use newer::Sampler;
 
 /// The boundary of one day: one more slot, and one more property and method of samplers.
@@ -24,7 +25,7 @@ mod newer {
     use super::super::declaration::prelude::*;
     use super::super::feed::OwnedFeed;
     use super::super::reply::Answer;
-    use super::super::root::AbiRequest;
+    use super::super::request::AbiRequest;
     use super::super::spindle::OwnedSpindle;
     use super::super::surface::OwnedSurface;
     use super::super::velocity::OwnedVelocity;

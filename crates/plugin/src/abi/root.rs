@@ -15,33 +15,13 @@ use turnpath_core::{
 use super::catalogue::catalogue;
 use super::compensator::OwnedCompensator;
 use super::feed::OwnedFeed;
-use super::params::AbiParams;
 use super::reply::{Answer, Returned, answer, result};
+use super::request::AbiRequest;
 use super::sampler::OwnedSampler;
 use super::spindle::OwnedSpindle;
 use super::surface::OwnedSurface;
 use super::velocity::OwnedVelocity;
-use crate::{Build, Registration};
-
-/// Which strategy to build, and from which parameters.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiRequest {
-    crate_name: RString,
-    name: RString,
-    params: AbiParams,
-}
-
-impl AbiRequest {
-    /// The request for a strategy of a crate.
-    pub fn new(crate_name: &str, name: &str, params: &Params) -> Self {
-        Self {
-            crate_name: crate_name.into(),
-            name: name.into(),
-            params: params.into(),
-        }
-    }
-}
+use crate::Build;
 
 /// A library's functions: the catalogue, and one constructor for each slot. The constructor of a
 /// new slot stands after the last one that every library has, and an older library has none.
@@ -75,7 +55,7 @@ pub trait Constructed: Returned {
     fn constructor(root: RootRef) -> Option<extern "C" fn(AbiRequest) -> Answer<Self::Wire>>;
 
     /// The registered function that builds it; `None` for one of another slot.
-    fn build(build: Build, params: &Params) -> Option<Result<Self>>;
+    fn function(build: Build) -> Option<fn(&Params) -> Result<Self>>;
 }
 
 /// Builds a strategy of a library.
@@ -89,23 +69,8 @@ pub fn construct<T: Constructed>(root: RootRef, request: AbiRequest) -> Result<T
 /// Finds the requested strategy here and builds it.
 extern "C" fn build<T: Constructed>(request: AbiRequest) -> Answer<T::Wire> {
     answer(|| {
-        let AbiRequest {
-            crate_name,
-            name,
-            params,
-        } = request;
-        let params = params.receive()?;
-        let mut all = Registration::all().into_iter().filter(|one| {
-            one.info.slot == T::SLOT && one.info.name == name && one.crate_name == crate_name
-        });
-        let built = all.find_map(|one| T::build(one.build, &params));
-        let slot = T::SLOT.noun();
-        let none = || {
-            Err(StrategyError::failed(format!(
-                "there is no {slot} `{name}` here"
-            )))
-        };
-        built.unwrap_or_else(none).map(T::send)
+        let build = request.find(T::SLOT, T::function)?;
+        build(&request.params()?).map(T::send)
     })
 }
 
@@ -128,9 +93,9 @@ macro_rules! constructors {
                 root.$name().into()
             }
 
-            fn build(build: Build, params: &Params) -> Option<Result<Self>> {
+            fn function(build: Build) -> Option<fn(&Params) -> Result<Self>> {
                 match build {
-                    Build::$slot(build) => Some(build(params)),
+                    Build::$slot(build) => Some(build),
                     _ => None,
                 }
             }

@@ -31,7 +31,6 @@ declare! {
     methods {
         fn plan(&self, path[&]: Path<'_>) -> Result<Box<dyn SamplerPlan>>;
     }
-    later {}
     owned by OwnedSampler
 }
 
@@ -48,6 +47,5 @@ declare! {
             nodes: &mut NodeList,
         ) -> Result<()>;
     }
-    later {}
     owned by OwnedSamplerPlan
 }

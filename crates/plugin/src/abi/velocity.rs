@@ -52,6 +52,5 @@ declare! {
             &self, nodes: Nodes<'_>, state: &mut Vec<f64>, out: Velocities<'_>,
         ) -> Result<()>;
     }
-    later {}
     owned by OwnedVelocity
 }

@@ -1,4 +1,4 @@
-//! The values of parameters, on their way to a constructor.
+//! What the host asks of a constructor: which strategy, and with which parameters.
 
 use std::collections::BTreeMap;
 
@@ -6,35 +6,50 @@ use abi_stable::StableAbi;
 use abi_stable::std_types::{RString, RVec};
 use serde::Deserialize;
 use serde_json::Value;
-use turnpath_core::{ParamValue, Params, Result, StrategyError};
+use turnpath_core::{ParamValue, Params, Result, Slot, StrategyError};
 
 use super::text;
+use crate::{Build, Registration};
 
-/// All values as JSON, and beside it the contents of the files among them.
+/// The crate and the name of a strategy, all values of its parameters as JSON, and beside it the
+/// contents of the files among them.
 #[repr(C)]
 #[derive(StableAbi)]
-pub struct AbiParams {
+pub struct AbiRequest {
+    crate_name: RString,
+    name: RString,
     values: RString,
     contents: RVec<RVec<u8>>,
 }
 
-impl From<&Params> for AbiParams {
-    fn from(params: &Params) -> Self {
+impl AbiRequest {
+    /// The request for a strategy of a crate.
+    pub fn new(crate_name: &str, name: &str, params: &Params) -> Self {
         let values: BTreeMap<_, _> = params.iter().collect();
         let files = params.iter().filter_map(|(_, value)| match value {
             ParamValue::File(file) => Some(file.bytes.to_vec().into()),
             _ => None,
         });
         Self {
+            crate_name: crate_name.into(),
+            name: name.into(),
             values: text::write(&values),
             contents: files.collect(),
         }
     }
-}
 
-impl AbiParams {
+    /// The constructor of the strategy here, which `function` takes out of its registration.
+    pub fn find<F>(&self, slot: Slot, function: fn(Build) -> Option<F>) -> Result<F> {
+        let (name, noun) = (&self.name, slot.noun());
+        let all = Registration::all().into_iter();
+        let mut of_name =
+            all.filter(|one| *name == one.info.name && self.crate_name == one.crate_name);
+        let found = of_name.find_map(|one| function(one.build));
+        found.ok_or_else(|| StrategyError::failed(format!("there is no {noun} `{name}` here")))
+    }
+
     /// The values on the plugin's side.
-    pub fn receive(self) -> Result<Params> {
+    pub fn params(self) -> Result<Params> {
         let values: BTreeMap<String, Value> = text::read(&self.values, "list of parameters")?;
         let mut contents = self.contents.into_iter();
         let mut params = Params::new();
@@ -57,6 +72,10 @@ mod tests {
     use super::*;
     use turnpath_core::DataFile;
 
+    fn request(params: &Params) -> AbiRequest {
+        AbiRequest::new("a_crate", "wavy", params)
+    }
+
     #[test]
     fn values_are_the_same_after_both_conversions() {
         let mut given = Params::new().with("number", -0.5);
@@ -68,7 +87,7 @@ mod tests {
             given.set(name, ParamValue::File(DataFile { path, bytes }));
         }
         given.set("rows", ParamValue::Rows(vec![vec![1.0, 2.0], vec![]]));
-        assert_eq!(AbiParams::from(&given).receive(), Ok(given));
+        assert_eq!(request(&given).params(), Ok(given));
     }
 
     #[test]
@@ -81,7 +100,7 @@ mod tests {
         let numbers = std::iter::repeat_with(|| next(&mut bits)).filter(|n| n.is_finite());
         for number in numbers.take(10_000).chain([-0.0, 0.1, f64::MAX, 5e-324]) {
             let given = Params::new().with("number", number);
-            let Ok(params) = AbiParams::from(&given).receive() else {
+            let Ok(params) = request(&given).params() else {
                 panic!("{number} does not cross");
             };
             let Some((_, ParamValue::Number(read))) = params.iter().next() else {
@@ -93,11 +112,9 @@ mod tests {
 
     #[test]
     fn a_value_of_an_unknown_kind_is_an_error_of_its_parameter() {
-        let strange = AbiParams {
-            values: r#"{ "mask": { "bits": 99 } }"#.into(),
-            contents: RVec::new(),
-        };
-        let error = strange.receive().unwrap_err();
+        let mut strange = request(&Params::new());
+        strange.values = r#"{ "mask": { "bits": 99 } }"#.into();
+        let error = strange.params().unwrap_err();
         assert!(
             error.to_string().starts_with("parameter `mask`: "),
             "{error}"
