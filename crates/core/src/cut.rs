@@ -1,10 +1,13 @@
 //! What a compensator works on, and the meaning of its radial parameter.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{SurfaceModel, Tool};
 
 /// What the radial parameter ρ of a compensator means. The feed that keeps the residual depends on
 /// it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Radial {
     /// ρ is the radius of the contact: neighbouring contacts lie one feed apart.
     Contact,

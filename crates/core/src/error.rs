@@ -2,13 +2,16 @@
 
 use std::borrow::Cow;
 
+use serde::{Deserialize, Serialize};
+
 use crate::Slot;
 
 /// The answer of a strategy, or the reason why there is none.
 pub type Result<T> = std::result::Result<T, StrategyError>;
 
 /// Why a strategy could not answer. The host adds the names of the plugin and of the strategy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum StrategyError {
     /// The strategy gave up. The text explains the reason to the person who has the recipe open.
     #[error("{0}")]

@@ -1,5 +1,7 @@
 //! The feed strategy: it gives the spiral law, piece by piece.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Locus, Result, Task, quintic};
 
 /// What a feed strategy works on: the task and the locus. There is no law yet.
@@ -12,7 +14,8 @@ pub struct Setup<'a> {
 }
 
 /// Whether a law continues.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Continuation {
     /// The law has more pieces.
     More,

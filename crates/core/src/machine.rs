@@ -1,5 +1,7 @@
 //! What a machine's axes can do: the limits for a path.
 
+use serde::{Deserialize, Serialize};
+
 use crate::Quantity;
 
 /// An axis of the machine.
@@ -80,7 +82,7 @@ impl Derivative {
 }
 
 /// What one axis can do, as far as it is known; in mm or rad, and s.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct AxisLimits {
     /// Largest speed.
     pub velocity: Option<f64>,
@@ -100,7 +102,7 @@ pub struct AxisLimits {
 /// assert_eq!(machine.x.acceleration, Some(500.0));
 /// assert_eq!(machine.limits().count(), 1);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Machine {
     /// X, mm.
     pub x: AxisLimits,

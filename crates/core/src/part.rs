@@ -1,9 +1,11 @@
 //! The task: the part, the tool, the tolerances and the direction of the feed.
 
+use serde::{Deserialize, Serialize};
+
 use crate::Machine;
 
 /// The part: a disc around the spindle axis, with or without a hole.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// Radius of the aperture, mm.
     pub aperture_radius: f64,
@@ -13,7 +15,8 @@ pub struct Part {
 
 /// What happens where the nose does not fit: in hollows that are tighter than the nose, and on
 /// slopes where the contact would leave the edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Misfit {
     /// The host refuses the task.
     #[default]
@@ -23,7 +26,7 @@ pub enum Misfit {
 }
 
 /// The tool: a round nose in the XZ plane with zero rake.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tool {
     /// Nose radius R, mm.
     pub nose_radius: f64,
@@ -48,7 +51,7 @@ impl Tool {
 }
 
 /// The tolerances of the path.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tolerance {
     /// Largest |played − true| tool centre along z, mm.
     pub interpolation: f64,
@@ -57,7 +60,7 @@ pub struct Tolerance {
 }
 
 /// A range of the radial parameter ρ, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RadialRange {
     /// Smallest ρ.
     pub inner: f64,
@@ -77,7 +80,8 @@ pub enum Overrun {
 }
 
 /// The direction of the feed. C increases with time in both directions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Direction {
     /// From the rim to the centre.
     Inward,
@@ -86,7 +90,7 @@ pub enum Direction {
 }
 
 /// All that a strategy may know of the task, apart from the locus.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Task {
     /// The part.
     pub part: Part,

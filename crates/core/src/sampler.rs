@@ -1,9 +1,12 @@
 //! The sampler: it decides where the control points lie along the spiral.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{NodeList, Path, Result, Revolutions};
 
 /// How a strategy's answer for one block depends on the rest of the path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Dependence {
     /// The answer depends on the block alone.
     Local,

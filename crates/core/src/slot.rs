@@ -1,7 +1,10 @@
 //! The slots of the pipeline, one for each kind of strategy.
 
+use serde::{Deserialize, Serialize};
+
 /// The six slots of the pipeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[repr(u8)]
 pub enum Slot {
     /// The surface model.

@@ -1,5 +1,7 @@
 //! What every strategy declares about itself.
 
+use serde::{Deserialize, Deserializer, Serialize};
+
 use crate::{ParamInfo, Params, Result, Slot};
 
 /// What every strategy declares about itself, and its constructor.
@@ -48,7 +50,7 @@ pub fn is_strategy_name(name: &str) -> bool {
 }
 
 /// A strategy as `turnpath list` and `turnpath explain` show it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StrategyInfo {
     /// The slot that the strategy fills.
     pub slot: Slot,
@@ -59,5 +61,13 @@ pub struct StrategyInfo {
     /// The paper and the equation, or empty.
     pub source: &'static str,
     /// The strategy's parameters.
+    #[serde(deserialize_with = "kept_params")]
     pub params: &'static [ParamInfo],
+}
+
+/// Reads declarations, which stay for the whole program.
+fn kept_params<D: Deserializer<'static>>(
+    params: D,
+) -> std::result::Result<&'static [ParamInfo], D::Error> {
+    Ok(Vec::deserialize(params)?.leak())
 }

@@ -1,5 +1,7 @@
 //! The tool path: control points in blocks, and the cubics that the controller plays between them.
 
+use serde::{Deserialize, Serialize};
+
 /// The section of the path to which a point belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
@@ -13,7 +15,8 @@ pub enum Section {
 }
 
 /// What the controller plays between neighbouring control points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SegmentShape {
     /// The cubic Hermite segment of both points' positions and velocities: a PVT move.
     #[default]

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 /// θ after `n` revolutions. The function reduces `n` to one turn before it scales, so that large N
 /// keep their digits.
 pub fn angle(n: f64) -> f64 {
@@ -9,7 +11,7 @@ pub fn angle(n: f64) -> f64 {
 }
 
 /// A block: a range of whole revolutions. Only the path's last block may end with a part of one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Revolutions {
     /// Start of the block in revolutions, included.
     pub start: f64,

@@ -9,7 +9,8 @@ use turnpath_core::{
 
 use crate::abi::catalogue::CatalogueEntry;
 use crate::abi::entry;
-use crate::abi::root::{self, AbiRequest, Constructed, RootRef};
+use crate::abi::request::AbiRequest;
+use crate::abi::root::{self, Constructed, RootRef};
 use crate::head::OpenError;
 
 /// A strategy that the host can build. Linked strategies cross the same boundary as loaded ones, so

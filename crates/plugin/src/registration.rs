@@ -1,5 +1,6 @@
 //! What a plugin crate registers for each strategy: its description and its constructor.
 
+use serde::Serialize;
 use turnpath_core::{
     Compensator, FeedStrategy, Params, Result, Sampler, Slot, SpindleStrategy, Strategy,
     StrategyInfo, Surface, SurfaceModel, VelocitySolver,
@@ -23,7 +24,7 @@ pub enum Build {
 }
 
 /// One strategy of one plugin crate.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Registration {
     /// The crate that registered the strategy. A library may contain the code of other plugins too.
     pub crate_name: &'static str,
@@ -32,6 +33,7 @@ pub struct Registration {
     /// Name, summary, source and parameters.
     pub info: StrategyInfo,
     /// The constructor.
+    #[serde(skip)]
     pub build: Build,
 }
 

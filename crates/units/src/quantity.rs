@@ -1,7 +1,10 @@
 //! The kinds of quantities that carry a unit, and the errors of reading them.
 
+use serde::{Deserialize, Serialize};
+
 /// The kinds of quantities that carry a unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Quantity {
     /// A length; inside in mm.
     Length,

@@ -1,9 +1,11 @@
 //! The declaration of a parameter as data.
 
+use serde::{Deserialize, Deserializer, Serialize};
 use turnpath_units::Quantity;
 
 /// The kind of a parameter. Inside turnpath a quantity is a number in mm, rad and s.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ParamKind {
     /// A quantity with a unit: `"5 mm"`, `"45 deg"`, `"10 um/rev"`.
     Quantity(Quantity),
@@ -14,13 +16,16 @@ pub enum ParamKind {
     /// Yes or no, `true`.
     Flag,
     /// One of a few words.
-    Choice(&'static [&'static str]),
+    Choice(#[serde(deserialize_with = "kept_words")] &'static [&'static str]),
     /// One of a few words, or a quantity: `"contact"`, `"0.5 mm"`.
-    ChoiceOr(&'static [&'static str], Quantity),
+    ChoiceOr(
+        #[serde(deserialize_with = "kept_words")] &'static [&'static str],
+        Quantity,
+    ),
     /// Any text.
     Text,
     /// A list of texts: of these words, or any texts if there are none.
-    List(&'static [&'static str]),
+    List(#[serde(deserialize_with = "kept_words")] &'static [&'static str]),
     /// A list of rows of numbers. Each row has this many columns: `[[2, 0, 0.01], [0, 2, 0.02]]`.
     Rows(usize),
     /// A file, by its path relative to the recipe: `"measured.csv"`.
@@ -38,7 +43,8 @@ impl ParamKind {
 }
 
 /// The value of a parameter that the recipe leaves out.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ParamDefault {
     /// There is no default: the recipe must give the parameter.
     Required,
@@ -51,12 +57,12 @@ pub enum ParamDefault {
     /// This choice or text.
     Text(&'static str),
     /// These texts.
-    List(&'static [&'static str]),
+    List(#[serde(deserialize_with = "kept_words")] &'static [&'static str]),
 }
 
 /// The declaration of one parameter, whatever its kind. [`Param::info`](crate::Param::info) makes
 /// it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ParamInfo {
     /// The key in the recipe.
     pub name: &'static str,
@@ -67,8 +73,10 @@ pub struct ParamInfo {
     /// The value if the recipe leaves the parameter out.
     pub default: ParamDefault,
     /// Least value, in inner units.
+    #[serde(default = "lowest", skip_serializing_if = "is_infinite")]
     pub min: f64,
     /// Largest value, in inner units.
+    #[serde(default = "highest", skip_serializing_if = "is_infinite")]
     pub max: f64,
     /// Whether `min` itself is excluded.
     pub above_min: bool,
@@ -95,4 +103,25 @@ impl ParamInfo {
         };
         value.is_finite() && above && below && !(self.nonzero && value == 0.0)
     }
+}
+
+// Texts cannot hold an infinite bound, so they leave it out.
+
+fn is_infinite(bound: &f64) -> bool {
+    bound.is_infinite()
+}
+
+fn lowest() -> f64 {
+    f64::NEG_INFINITY
+}
+
+fn highest() -> f64 {
+    f64::INFINITY
+}
+
+/// Reads the words of a declaration. Like every declaration, they stay for the whole program.
+fn kept_words<'de, D: Deserializer<'de>>(words: D) -> Result<&'static [&'static str], D::Error> {
+    let words = Vec::<String>::deserialize(words)?;
+    let kept = words.into_iter().map(|word| &*word.leak());
+    Ok(kept.collect::<Vec<_>>().leak())
 }

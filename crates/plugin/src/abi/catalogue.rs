@@ -1,198 +1,21 @@
-//! The list of a library's strategies, in the form that crosses the boundary.
-//!
-//! Slots cross as words, and what a parameter declares crosses as fields under keys. A new slot, a
-//! new kind of parameter and a new thing to declare change no layout.
+//! The list of a library's strategies. It crosses as one JSON text, so that a new slot, a new kind
+//! of parameter and a new thing to declare change no layout.
 
-use abi_stable::StableAbi;
-use abi_stable::std_types::{RStr, RVec};
-use turnpath_core::{Param, ParamDefault, ParamInfo, ParamKind, Quantity, Slot, StrategyInfo};
+use abi_stable::std_types::RString;
+use serde::Deserialize;
+use serde_json::Value;
+use turnpath_core::{ParamInfo, ParamKind, Slot, StrategyInfo};
 
+use super::text;
 use crate::Registration;
 
-/// One strategy. Its texts live as long as the library, which is never unloaded.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiStrategy {
-    crate_name: RStr<'static>,
-    crate_version: RStr<'static>,
-    slot: RStr<'static>,
-    name: RStr<'static>,
-    summary: RStr<'static>,
-    source: RStr<'static>,
-    params: RVec<AbiParam>,
+/// The strategies of this program or library itself.
+pub extern "C" fn catalogue() -> RString {
+    text::write(&Registration::all())
 }
 
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiParam {
-    name: RStr<'static>,
-    help: RStr<'static>,
-    fields: RVec<AbiField>,
-}
-
-/// What a parameter declares under one key, for example its kind or its least value. The key says
-/// which of the other fields have a meaning. A reader leaves out a key that it does not know.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiField {
-    key: RStr<'static>,
-    number: f64,
-    text: RStr<'static>,
-    words: RVec<RStr<'static>>,
-}
-
-/// The key of a parameter's kind. `text` is a word for it, and a kind that the reader does not know
-/// is refused.
-const KIND: &str = "kind";
-/// The key of a parameter's default. `text` is a word for its kind, or there is no default.
-const DEFAULT: &str = "default";
-
-/// The kinds that a word says all of.
-const PLAIN_KINDS: [(&str, ParamKind); 5] = [
-    ("number", ParamKind::Number),
-    ("count", ParamKind::Count),
-    ("flag", ParamKind::Flag),
-    ("text", ParamKind::Text),
-    ("file", ParamKind::File),
-];
-
-/// The words for quantities. A kind that is a quantity has its word.
-const QUANTITIES: [(&str, Quantity); 12] = [
-    ("length", Quantity::Length),
-    ("angle", Quantity::Angle),
-    ("per length", Quantity::PerLength),
-    ("feed", Quantity::Feed),
-    ("rotation speed", Quantity::RotationSpeed),
-    ("frequency", Quantity::Frequency),
-    ("time", Quantity::Time),
-    ("velocity", Quantity::Velocity),
-    ("acceleration", Quantity::Acceleration),
-    ("jerk", Quantity::Jerk),
-    ("angular acceleration", Quantity::AngularAcceleration),
-    ("angular jerk", Quantity::AngularJerk),
-];
-/// The word for a value in a table; empty for one that is missing there.
-fn word<T: Copy + PartialEq>(table: &[(&'static str, T)], value: T) -> &'static str {
-    let found = table.iter().find(|(_, known)| *known == value);
-    found.map_or("", |(word, _)| word)
-}
-
-/// The value for a word in a table.
-fn value<T: Copy>(table: &[(&'static str, T)], word: &str) -> Option<T> {
-    let found = table.iter().find(|(known, _)| *known == word);
-    found.map(|(_, value)| *value)
-}
-
-impl From<&Registration> for AbiStrategy {
-    fn from(registration: &Registration) -> Self {
-        let info = registration.info;
-        Self {
-            crate_name: registration.crate_name.into(),
-            crate_version: registration.crate_version.into(),
-            slot: info.slot.key().into(),
-            name: info.name.into(),
-            summary: info.summary.into(),
-            source: info.source.into(),
-            params: info.params.iter().map(AbiParam::from).collect(),
-        }
-    }
-}
-
-impl From<&ParamInfo> for AbiParam {
-    fn from(param: &ParamInfo) -> Self {
-        let flag = |flag: bool| f64::from(u8::from(flag));
-        let mut fields = vec![
-            AbiField::kind(param.kind),
-            AbiField::number("min", param.min),
-            AbiField::number("max", param.max),
-            AbiField::number("above_min", flag(param.above_min)),
-            AbiField::number("below_max", flag(param.below_max)),
-            AbiField::number("nonzero", flag(param.nonzero)),
-            AbiField::new("example", param.example, 0.0, &[]),
-        ];
-        fields.extend(AbiField::default(param.default));
-        Self {
-            name: param.name.into(),
-            help: param.help.into(),
-            fields: fields.into(),
-        }
-    }
-}
-
-impl AbiField {
-    fn new(key: &'static str, text: &'static str, number: f64, words: &[&'static str]) -> Self {
-        Self {
-            key: key.into(),
-            number,
-            text: text.into(),
-            words: words.iter().map(|word| RStr::from(*word)).collect(),
-        }
-    }
-
-    fn number(key: &'static str, number: f64) -> Self {
-        Self::new(key, "", number, &[])
-    }
-
-    /// The host never frees the list, just as it never unloads the library with its texts.
-    fn read_words(&self) -> &'static [&'static str] {
-        let words: Vec<&'static str> = self.words.iter().map(RStr::as_str).collect();
-        words.leak()
-    }
-
-    fn kind(kind: ParamKind) -> Self {
-        match kind {
-            ParamKind::Quantity(quantity) => Self::new(KIND, word(&QUANTITIES, quantity), 0.0, &[]),
-            ParamKind::Choice(words) => Self::new(KIND, "choice", 0.0, words),
-            // Words beside a quantity.
-            ParamKind::ChoiceOr(words, other) => {
-                Self::new(KIND, word(&QUANTITIES, other), 0.0, words)
-            }
-            ParamKind::List(words) => Self::new(KIND, "list", 0.0, words),
-            ParamKind::Rows(columns) => Self::new(KIND, "rows", columns as f64, &[]),
-            plain => Self::new(KIND, word(&PLAIN_KINDS, plain), 0.0, &[]),
-        }
-    }
-
-    fn read_kind(&self) -> Option<ParamKind> {
-        match self.text.as_str() {
-            "choice" => Some(ParamKind::Choice(self.read_words())),
-            "list" => Some(ParamKind::List(self.read_words())),
-            "rows" => Some(ParamKind::Rows(self.number as usize)),
-            word => value(&PLAIN_KINDS, word).or_else(|| {
-                let quantity = value(&QUANTITIES, word)?;
-                Some(match self.read_words() {
-                    [] => ParamKind::Quantity(quantity),
-                    words => ParamKind::ChoiceOr(words, quantity),
-                })
-            }),
-        }
-    }
-
-    fn default(default: ParamDefault) -> Option<Self> {
-        Some(match default {
-            ParamDefault::Required => return None,
-            ParamDefault::Absent => Self::new(DEFAULT, "absent", 0.0, &[]),
-            ParamDefault::Number(number) => Self::new(DEFAULT, "number", number, &[]),
-            ParamDefault::Flag(flag) => Self::new(DEFAULT, "flag", f64::from(u8::from(flag)), &[]),
-            ParamDefault::Text(word) => Self::new(DEFAULT, "text", 0.0, &[word]),
-            ParamDefault::List(words) => Self::new(DEFAULT, "list", 0.0, words),
-        })
-    }
-
-    fn read_default(&self) -> Option<ParamDefault> {
-        match self.text.as_str() {
-            "absent" => Some(ParamDefault::Absent),
-            "number" => Some(ParamDefault::Number(self.number)),
-            "flag" => Some(ParamDefault::Flag(self.number != 0.0)),
-            "text" => Some(ParamDefault::Text(self.words.first()?.as_str())),
-            "list" => Some(ParamDefault::List(self.read_words())),
-            _ => None,
-        }
-    }
-}
-
-/// A strategy of a library, on the host's side.
-#[derive(Debug, Clone, Copy)]
+/// A strategy of a library, on the host's side: a [`Registration`] without its constructor.
+#[derive(Debug, Clone, Copy, Deserialize)]
 pub struct CatalogueEntry {
     /// The crate that registered the strategy.
     pub crate_name: &'static str,
@@ -209,78 +32,54 @@ pub struct UnknownKind {
     pub strategy: String,
     /// The parameter's key.
     pub parameter: String,
-    /// The word for its kind, or for the kind of its default.
+    /// Its kind, or the kind of its default.
     pub kind: String,
 }
 
-impl AbiStrategy {
-    /// The name of the crate that registered the strategy.
-    pub fn crate_name(&self) -> &'static str {
-        self.crate_name.as_str()
-    }
-
-    /// The strategy on the host's side; `None` for a slot that this host does not know.
-    ///
-    /// The host never frees the list of parameters, just as it never unloads the library with their
-    /// texts.
-    ///
-    /// # Errors
-    /// If a parameter is of a kind that this host does not know.
-    pub fn receive(self) -> Result<Option<CatalogueEntry>, UnknownKind> {
-        let mut slots = Slot::ALL.into_iter();
-        let Some(slot) = slots.find(|slot| slot.key() == self.slot.as_str()) else {
-            return Ok(None);
-        };
-        let name = self.name.as_str();
-        let param = |param: AbiParam| param.receive(name);
-        let params: Result<Vec<ParamInfo>, _> = self.params.into_iter().map(param).collect();
-        let info = StrategyInfo {
-            slot,
-            name,
-            summary: self.summary.as_str(),
-            source: self.source.as_str(),
-            params: params?.leak(),
-        };
-        Ok(Some(CatalogueEntry {
-            crate_name: self.crate_name.as_str(),
-            crate_version: self.crate_version.as_str(),
-            info,
-        }))
-    }
+/// Reads the strategies of those crates that `wanted` names, and leaves out slots that this host does
+/// not know. What was read stays for the whole program, as the library does.
+///
+/// # Errors
+/// If a parameter is of a kind that this host does not know.
+pub fn entries(
+    catalogue: &str,
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<CatalogueEntry>, UnknownKind> {
+    let all: Vec<Value> = serde_json::from_str(catalogue).unwrap_or_default();
+    let all: &'static [Value] = all.leak();
+    let is_known = |one: &&Value| Slot::deserialize(&one["info"]["slot"]).is_ok();
+    all.iter()
+        .filter(|one| one["crate_name"].as_str().is_some_and(&wanted))
+        .filter(is_known)
+        .map(|one| CatalogueEntry::deserialize(one).map_err(|_| unknown_kind(&one["info"])))
+        .collect()
 }
 
-impl AbiParam {
-    fn receive(self, strategy: &str) -> Result<ParamInfo, UnknownKind> {
-        let unknown = |field: &AbiField| UnknownKind {
-            strategy: strategy.to_owned(),
-            parameter: self.name.into(),
-            kind: field.text.into(),
-        };
-        // A parameter without a kind is a number, and anything goes.
-        let mut param = Param::number(self.name.as_str(), self.help.as_str()).info();
-        for field in &self.fields {
-            match field.key.as_str() {
-                KIND => param.kind = field.read_kind().ok_or_else(|| unknown(field))?,
-                DEFAULT => param.default = field.read_default().ok_or_else(|| unknown(field))?,
-                "min" => param.min = field.number,
-                "max" => param.max = field.number,
-                "above_min" => param.above_min = field.number != 0.0,
-                "below_max" => param.below_max = field.number != 0.0,
-                "example" => param.example = field.text.as_str(),
-                "nonzero" => param.nonzero = field.number != 0.0,
-                _ => {}
-            }
-        }
-        Ok(param)
+/// Finds what this host does not know in a strategy.
+fn unknown_kind(strategy: &'static Value) -> UnknownKind {
+    let words = |value: &Value| value.as_str().map_or_else(|| value.to_string(), Into::into);
+    let mut params = strategy["params"].as_array().into_iter().flatten();
+    let param = params.find(|param| ParamInfo::deserialize(*param).is_err());
+    let param = param.unwrap_or(&Value::Null);
+    let kind = match ParamKind::deserialize(&param["kind"]) {
+        Ok(_) => &param["default"],
+        Err(_) => &param["kind"],
+    };
+    UnknownKind {
+        strategy: words(&strategy["name"]),
+        parameter: words(&param["name"]),
+        kind: words(kind),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
+    use turnpath_core::{Param, Quantity};
 
     const PARAMS: &[ParamInfo] = &[
-        Param::length("radius", "of curvature").nonzero().info(),
+        Param::length("radius", "of \"curvature\"").nonzero().info(),
         Param::angle("tilt", "about x").optional().info(),
         Param::number("conic", "constant")
             .default(-1.0)
@@ -302,57 +101,68 @@ mod tests {
         Param::file("map", "of the error").info(),
     ];
 
+    /// A strategy with these parameters, as it crosses.
+    fn strategy(slot: &str, params: &[Value]) -> Value {
+        let info = json!({
+            "slot": slot, "name": "heavy", "summary": "", "source": "", "params": params,
+        });
+        json!({ "crate_name": "new_crate", "crate_version": "1.0.0", "info": info })
+    }
+
+    fn read(one: &Value) -> Result<Vec<CatalogueEntry>, UnknownKind> {
+        entries(&json!([one]).to_string(), |_| true)
+    }
+
+    fn params_after_crossing(params: &[Value]) -> Result<&'static [ParamInfo], UnknownKind> {
+        read(&strategy("surface", params)).map(|entries| entries[0].info.params)
+    }
+
     #[test]
-    fn every_quantity_crosses() {
+    fn every_slot_and_every_quantity_cross() {
+        for slot in Slot::ALL {
+            assert_eq!(serde_json::to_value(slot).unwrap(), slot.key());
+            assert_eq!(read(&strategy(slot.key(), &[])).unwrap()[0].info.slot, slot);
+        }
         for quantity in Quantity::all() {
-            let kind = ParamKind::Quantity(quantity);
-            assert_eq!(AbiField::kind(kind).read_kind(), Some(kind));
+            let kind = serde_json::to_value(ParamKind::Quantity(quantity)).unwrap();
+            assert_eq!(
+                ParamKind::deserialize(kind).unwrap(),
+                ParamKind::Quantity(quantity)
+            );
         }
     }
 
     #[test]
     fn a_declaration_is_the_same_after_both_conversions() {
-        for param in PARAMS {
-            assert_eq!(AbiParam::from(param).receive("wavy"), Ok(*param));
-        }
+        let params = PARAMS.iter().map(|param| json!(param)).collect::<Vec<_>>();
+        assert_eq!(params_after_crossing(&params), Ok(PARAMS));
     }
 
     #[test]
     fn an_unknown_kind_names_its_parameter() {
-        let unknown = |kind: &str| {
-            Err(UnknownKind {
+        for (key, kind) in [("kind", "mass"), ("default", "computed")] {
+            let mut param = json!(PARAMS[0]);
+            param[key] = kind.into();
+            let unknown = UnknownKind {
                 strategy: "heavy".into(),
                 parameter: "radius".into(),
                 kind: kind.into(),
-            })
-        };
-        for (key, word) in [(KIND, "mass"), (DEFAULT, "computed")] {
-            let mut param = AbiParam::from(&PARAMS[0]);
-            param.fields.push(AbiField::new(key, word, 0.0, &[]));
-            assert_eq!(param.receive("heavy"), unknown(word));
+            };
+            assert_eq!(params_after_crossing(&[param]), Err(unknown));
         }
     }
 
     #[test]
     fn a_strategy_of_an_unknown_slot_is_left_out() {
-        let strategy = |slot: &'static str| AbiStrategy {
-            crate_name: "new_crate".into(),
-            crate_version: "1.0.0".into(),
-            slot: slot.into(),
-            name: "wavy".into(),
-            summary: "".into(),
-            source: "".into(),
-            params: RVec::new(),
-        };
-        assert!(strategy("seventh").receive().is_ok_and(|one| one.is_none()));
-        let known = strategy("surface").receive().unwrap().unwrap();
-        assert_eq!((known.info.slot, known.info.name), (Slot::Surface, "wavy"));
+        let mut seventh = strategy("seventh", &[]);
+        seventh["info"]["params"] = json!([{ "kind": "mass" }]);
+        assert!(read(&seventh).is_ok_and(|entries| entries.is_empty()));
     }
 
     #[test]
     fn an_unknown_key_is_left_out() {
-        let mut param = AbiParam::from(&PARAMS[0]);
-        param.fields.push(AbiField::number("colour", 3.0));
-        assert_eq!(param.receive("wavy"), Ok(PARAMS[0]));
+        let mut param = json!(PARAMS[0]);
+        param["colour"] = json!(3.0);
+        assert_eq!(params_after_crossing(&[param]), Ok(&PARAMS[..1]));
     }
 }

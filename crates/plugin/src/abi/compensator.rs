@@ -7,12 +7,8 @@ use turnpath_core::{
 };
 
 use super::declaration::prelude::*;
-use super::loan::{composite, crossing};
-use super::reply::{Value, codes};
-
-codes! {
-    Radial { 0 => Radial::Contact, 1 => Radial::Centre }
-}
+use super::loan::composite;
+use super::reply::Returned;
 
 composite! {
     Centres => AbiCentres { x: &'a mut [f64], z: &'a mut [f64], foot: &'a mut [f64] }
@@ -23,20 +19,8 @@ composite! {
     Cut => AbiCut { surface: &'a dyn SurfaceModel, tool: &'a Tool }
 }
 
-/// The inner and the outer end of a range of ρ, mm.
-#[repr(C)]
-#[derive(abi_stable::StableAbi)]
-pub struct AbiRange(f64, f64);
-
-crossing! {
-    [] RadialRange => AbiRange, RadialRange: |range| range,
-        |range| AbiRange(range.inner, range.outer);
-    [] AbiRange => RadialRange, AbiRange: |range| range,
-        |range| RadialRange { inner: range.0, outer: range.1 };
-}
-
 /// The value, θ and ρ of each extreme, in the order of [`Interference::extremes`].
-impl Value for Interference {
+impl Returned for Interference {
     type Wire = [[f64; 3]; 5];
 
     fn send(self) -> Self::Wire {
@@ -69,6 +53,5 @@ declare! {
         ) -> Option<Result<()>>;
         fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference>;
     }
-    later {}
     owned by OwnedCompensator
 }

@@ -1,7 +1,5 @@
 //! One declaration of a trait gives both sides of the boundary.
 //!
-//! This declaration
-//!
 //! ```text
 //! declare! {
 //!     VelocitySolver: Deref AsPtr, Send Sync => AbiVelocity, AbiVelocity_TO, IncomingVelocity<'b>;
@@ -12,42 +10,23 @@
 //! }
 //! ```
 //!
-//! expands to the trait that crosses, which abi_stable makes into a table of functions,
+//! expands to the trait that crosses, to the author's side, which catches panics, and to the caller's
+//! side, which checks lengths:
 //!
 //! ```text
 //! #[sabi_trait]
 //! pub trait AbiVelocity: Send + Sync {
 //!     fn solve(&self, nodes: AbiNodes<'_>, out: AbiVelocities<'_>) -> Answer<()>;
 //!     #[sabi(last_prefix_field)]
-//!     fn properties(&self) -> Answer<RVec<u64>>;
+//!     fn properties(&self) -> Answer<RString>;
 //!     fn warm_up(&self) -> Answer<()> { answer(|| Ok(())) }
 //! }
+//! impl<P: Deref<Target = dyn VelocitySolver>> AbiVelocity for Outgoing<P> { … }
+//! impl<P> VelocitySolver for IncomingVelocity<'_, P> { … }
 //! ```
 //!
-//! to the author's side, which catches panics,
-//!
-//! ```text
-//! impl<P: Deref<Target = dyn VelocitySolver>> AbiVelocity for Outgoing<P> {
-//!     fn solve(&self, nodes: AbiNodes<'_>, out: AbiVelocities<'_>) -> Answer<()> {
-//!         answer(|| self.0.solve(/* nodes and out of the core */))
-//!     }
-//! }
-//! ```
-//!
-//! and to the caller's side, which reads the properties once and checks lengths:
-//!
-//! ```text
-//! pub struct IncomingVelocity<'b, P> { object: AbiVelocity_TO<'b, P>, dependence: Dependence, … }
-//!
-//! impl<P> VelocitySolver for IncomingVelocity<'_, P> {
-//!     fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
-//!         result(self.object.solve(/* nodes and out as they cross */))
-//!     }
-//! }
-//! ```
-//!
-//! - `properties` have no arguments and never change. They cross as one list of codes. A property
-//!   that is added later stands last and has a default, for plugins that do not give it.
+//! - `properties` have no arguments and never change. They cross as one text, which the caller's
+//!   side reads once. One that is added later has a default, for plugins that do not give it.
 //! - `methods` are in every plugin of this number of the boundary.
 //! - `later` has the methods that were added since, in the order in which they were added. A plugin
 //!   without one gives the value after `=`.
@@ -62,10 +41,12 @@ pub mod prelude {
     pub use abi_stable::pointer_trait::{AsMutPtr, AsPtr};
     pub use abi_stable::sabi_trait;
     pub use abi_stable::sabi_trait::TD_Opaque;
-    pub use abi_stable::std_types::{RBox, RVec};
+    pub use abi_stable::std_types::{RBox, RString};
+    pub use serde_json::{Value as Json, json};
 
     pub use super::super::loan::{Crossing, Lengths, Wire};
-    pub use super::super::reply::{Answer, Code, Reply, Value, answer, property, receive, result};
+    pub use super::super::reply::{Answer, Reply, Returned, answer, property, result};
+    pub(crate) use super::super::text;
     pub use super::Outgoing;
     pub(crate) use super::{by_value, declare, incoming, outgoing};
     pub use crate::panic_safe_box::PanicSafeBox;
@@ -79,15 +60,15 @@ macro_rules! declare {
     (
         $core:ident: $deref:ident $as_ptr:ident, $($bound:ident)+
             => $abi:ident, $object:ident, $incoming:ident<$b:lifetime>;
-        properties { $($property:ident: $kind:ty $(= $default:expr)?),* $(,)? }
+        $(properties { $($property:ident: $kind:ty $(= $default:expr)?),* $(,)? })?
         methods { $(
             fn $method:ident $([$mut:tt])? (&self $(, $arg:ident $([$by:tt])?: $type:ty)* $(,)?)
                 -> $reply:ty;
         )* }
-        later { $(
+        $(later { $(
             fn $later:ident(&self $(, $later_arg:ident $([$later_by:tt])?: $later_type:ty)* $(,)?)
                 -> $later_reply:ty = $without:expr;
-        )* }
+        )* })?
         $(owned by $owned:ident)?
         $(kept { $field:ident: $field_type:ty } own { $($own:tt)* })?
     ) => {
@@ -97,51 +78,55 @@ macro_rules! declare {
                 -> Answer<<$reply as Reply>::Wire>;)*
 
             #[sabi(last_prefix_field)]
-            fn properties(&self) -> Answer<RVec<u64>>;
+            fn properties(&self) -> Answer<RString>;
 
-            $(fn $later(&self $(, $later_arg: Wire<'_, $later_type>)*)
+            $($(fn $later(&self $(, $later_arg: Wire<'_, $later_type>)*)
                 -> Answer<<$later_reply as Reply>::Wire>
             {
                 $(let _ = $later_arg;)*
                 answer(|| <$later_reply as Reply>::send($without))
-            })*
+            })*)?
         }
 
         impl<'c, P: $deref<Target = dyn $core + 'c> + $($bound +)+> $abi for Outgoing<P> {
             outgoing! {
                 $(fn $method $([$mut])? ($($arg $([$by])?: $type),*) -> $reply;)*
-                $(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*
+                $($(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*)?
             }
 
-            fn properties(&self) -> Answer<RVec<u64>> {
-                answer(|| Ok(RVec::from(vec![$(Code::code(self.0.$property())),*])))
+            fn properties(&self) -> Answer<RString> {
+                answer(|| {
+                    let properties = json!({
+                        $($((stringify!($property)): self.0.$property()),*)?
+                    });
+                    Ok(text::write(&properties))
+                })
             }
         }
 
         /// The object of the other side, wrapped as one of the core.
         pub struct $incoming<$b, P: AsPtr<PtrTarget = ()>> {
             object: $object<$b, P>,
-            $($property: $kind,)*
+            $($($property: $kind,)*)?
             $($field: $field_type,)?
         }
 
         impl<$b, P: AsPtr<PtrTarget = ()>> $incoming<$b, P> {
             /// Reads the object's properties and wraps it.
             pub fn new(object: $object<$b, P> $(, $field: $field_type)?) -> Result<Self> {
-                let properties: &[&str] = &[$(stringify!($property)),*];
+                let names: &[&str] = &[$($(stringify!($property)),*)?];
                 // Surfaces are lent for short calls and have none.
-                let codes = if properties.is_empty() {
-                    RVec::new()
+                let _properties = if names.is_empty() {
+                    Json::Null
                 } else {
-                    result(object.properties())?
+                    text::read(&result(object.properties())?, "list of properties")?
                 };
-                let mut _codes = codes.iter().copied();
                 Ok(Self {
-                    $($property: property(
-                        _codes.next(),
+                    $($($property: property(
+                        &_properties,
                         stringify!($property),
                         None$(.or(Some($default)))?,
-                    )?,)*
+                    )?,)*)?
                     $($field,)?
                     object,
                 })
@@ -152,13 +137,13 @@ macro_rules! declare {
         where
             $object<$b, P>: $($bound +)+,
         {
-            $(fn $property(&self) -> $kind {
+            $($(fn $property(&self) -> $kind {
                 self.$property
-            })*
+            })*)?
 
             incoming! {
                 $(fn $method $([$mut])? ($($arg $([$by])?: $type),*) -> $reply;)*
-                $(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*
+                $($(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*)?
             }
 
             $($($own)*)?
@@ -168,7 +153,7 @@ macro_rules! declare {
             /// An object that belongs to its plugin.
             pub type $owned = $object<'static, RBox<()>>;
 
-            impl Value for Box<dyn $core> {
+            impl Returned for Box<dyn $core> {
                 type Wire = $owned;
 
                 fn send(self) -> $owned {
@@ -192,7 +177,8 @@ macro_rules! outgoing {
             -> Answer<<$reply as Reply>::Wire>
         {
             answer(|| {
-                $(let mut $arg = Crossing::lender($arg)?;)*
+                let mut _lengths = Lengths::default();
+                $(let mut $arg = Crossing::lender($arg, &mut _lengths)?;)*
                 let reply = self.0.$method(
                     $($($by)? <Wire<'_, $type> as Crossing>::lend(&mut $arg)),*
                 );
@@ -210,17 +196,14 @@ macro_rules! incoming {
         fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])?: $type:ty),*) -> $reply:ty;
     )*) => {$(
         fn $method(& $($mut)? self $(, $arg: $($by)? $type)*) -> $reply {
-            receive(|| {
+            Reply::receive((|| {
                 let mut _lengths = Lengths::default();
-                $(
-                    let mut $arg = Crossing::lender(by_value!($arg $($by)?))?;
-                    <$type as Crossing>::count(&$arg, &mut _lengths);
-                )*
+                $(let mut $arg = Crossing::lender(by_value!($arg $($by)?), &mut _lengths)?;)*
                 _lengths.check()?;
                 let answer = self.object.$method($(<$type as Crossing>::lend(&mut $arg)),*);
                 $(<$type as Crossing>::settle($arg)?;)*
                 result(answer)
-            })
+            })())
         }
     )*};
 }

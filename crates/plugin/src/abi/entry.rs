@@ -5,7 +5,7 @@ use abi_stable::library::{AbiHeaderRef, CheckTypeLayout, LibHeader, RootModuleRe
 use abi_stable::prefix_type::PrefixRefTrait;
 use abi_stable::std_types::RStr;
 
-use super::catalogue::{CatalogueEntry, UnknownKind};
+use super::catalogue::{CatalogueEntry, entries};
 use super::layout;
 use super::root::{RootRef, own_root};
 use crate::head::{EntryHead, OpenError};
@@ -52,18 +52,10 @@ pub fn inspect(entry: &[u8]) -> Result<(), OpenError> {
 pub fn own() -> (RootRef, Vec<CatalogueEntry>) {
     let root = own_root();
     // The kinds are this build's own, so all of them are known.
-    (root, entries(root, |_| true).unwrap_or_default())
-}
-
-/// The strategies behind a root, of the crates that `wanted` names.
-fn entries(
-    root: RootRef,
-    wanted: impl Fn(&str) -> bool,
-) -> Result<Vec<CatalogueEntry>, UnknownKind> {
-    let all = root.catalogue()().into_iter();
-    all.filter(|one| wanted(one.crate_name()))
-        .filter_map(|one| one.receive().transpose())
-        .collect()
+    (
+        root,
+        entries(&root.catalogue()(), |_| true).unwrap_or_default(),
+    )
 }
 
 /// Opens the entry that a library exports, and lists the strategies of its own crate.
@@ -75,7 +67,7 @@ fn entries(
 pub unsafe fn open(entry: *const u8) -> Result<(RootRef, Vec<CatalogueEntry>), OpenError> {
     // SAFETY: the caller makes the same promise.
     let (crate_name, root) = unsafe { open_root::<RootRef>(entry) }?;
-    let entries = entries(root, |name| name == crate_name);
+    let entries = entries(&root.catalogue()(), |name| name == crate_name);
     Ok((root, entries.map_err(OpenError::UnknownKind)?))
 }
 

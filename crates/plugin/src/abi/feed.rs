@@ -6,7 +6,6 @@ use turnpath_core::{Continuation, FeedPiece, FeedPlan, FeedStrategy, Result, Set
 use super::declaration::prelude::*;
 use super::laws::{row, unrow};
 use super::loan::lists;
-use super::reply::Value;
 
 /// Pieces as (length, coefficients). The host appends them to those that it has.
 type AbiPieces = RVec<[f64; 7]>;
@@ -22,37 +21,20 @@ lists! {
     };
 }
 
-/// Crosses as whether the law has more pieces.
-impl Value for Continuation {
-    type Wire = bool;
-
-    fn send(self) -> bool {
-        self == Self::More
-    }
-
-    fn receive(more: bool) -> Result<Self> {
-        Ok(if more { Self::More } else { Self::End })
-    }
-}
-
 declare! {
     FeedStrategy: Deref AsPtr, Send Sync => AbiFeed, AbiFeed_TO, IncomingFeed<'b>;
-    properties {}
     methods {
         fn plan(&self, setup: Setup<'_>) -> Result<Box<dyn FeedPlan>>;
     }
-    later {}
     owned by OwnedFeed
 }
 
 declare! {
     FeedPlan: DerefMut AsMutPtr, Send => AbiFeedPlan, AbiFeedPlan_TO, IncomingFeedPlan<'b>;
-    properties {}
     methods {
         fn extend[mut](
             &self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>,
         ) -> Result<Continuation>;
     }
-    later {}
     owned by OwnedFeedPlan
 }

@@ -7,7 +7,7 @@ use turnpath_core::{
 };
 
 use super::loan::{composite, crossing};
-use super::reply::Value;
+use super::reply::Returned;
 
 /// A number and the coefficients of a piece in one row.
 pub fn row(first: f64, [a, b, c, d, e, f]: [f64; 6]) -> [f64; 7] {
@@ -53,7 +53,7 @@ impl From<&AbiLaw> for PiecewisePolynomial {
     }
 }
 
-impl Value for SpindleLaw {
+impl Returned for SpindleLaw {
     type Wire = AbiTime;
 
     fn send(self) -> AbiTime {

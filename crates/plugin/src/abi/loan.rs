@@ -14,14 +14,11 @@ pub trait Crossing: Sized {
     /// What holds the argument during the call.
     type Lender;
 
-    /// Moves the argument to its lender.
-    fn lender(self) -> Result<Self::Lender>;
+    /// Moves the argument to its lender, and reports the length of each batch.
+    fn lender(self, lengths: &mut Lengths) -> Result<Self::Lender>;
 
     /// Lends the argument.
     fn lend(lender: &mut Self::Lender) -> Self::Wire<'_>;
-
-    /// Reports the length of each batch.
-    fn count(_: &Self::Lender, _: &mut Lengths) {}
 
     /// Brings back what the other side wrote.
     fn settle(_: Self::Lender) -> Result<()> {
@@ -59,34 +56,33 @@ impl Lengths {
 macro_rules! crossing {
     ($(
         [$($life:tt)*] $from:ty => $to:ty,
-        $lender:ty: |$given:ident| $new:expr, |$it:ident| $lend:expr
-        $(, |$counted:ident, $lengths:ident| $count:expr)?;
+        $lender:ty: |$given:ident $(, $lengths:ident)?| $new:expr, |$it:ident| $lend:expr;
     )*) => {$(
         impl<$($life)*> $crate::abi::loan::Crossing for $from {
             type Wire<'w> = $to;
             type Lender = $lender;
 
-            fn lender(self) -> turnpath_core::Result<$lender> {
+            fn lender(
+                self,
+                _lengths: &mut $crate::abi::loan::Lengths,
+            ) -> turnpath_core::Result<$lender> {
                 let $given = self;
+                $(let $lengths = _lengths;)?
                 Ok($new)
             }
 
             fn lend<'w>($it: &'w mut $lender) -> Self::Wire<'w> {
                 $lend
             }
-
-            $(fn count($counted: &$lender, $lengths: &mut $crate::abi::loan::Lengths) {
-                $count
-            })?
         }
     )*};
 }
 
 crossing! {
-    ['a, T: 'static] &'a [T] => RSlice<'w, T>, &'a [T]: |slice| slice,
-        |slice| RSlice::from_slice(slice), |slice, lengths| lengths.add(slice.len());
-    ['a, T: 'static] &'a mut [T] => RSliceMut<'w, T>, &'a mut [T]: |slice| slice,
-        |slice| RSliceMut::from_mut_slice(slice), |slice, lengths| lengths.add(slice.len());
+    ['a, T: 'static] &'a [T] => RSlice<'w, T>, &'a [T]:
+        |slice, lengths| { lengths.add(slice.len()); slice }, |slice| RSlice::from_slice(slice);
+    ['a, T: 'static] &'a mut [T] => RSliceMut<'w, T>, &'a mut [T]:
+        |slice, lengths| { lengths.add(slice.len()); slice }, |slice| RSliceMut::from_mut_slice(slice);
     ['a, T: 'static] RSlice<'a, T> => &'w [T], RSlice<'a, T>: |slice| slice,
         |slice| slice.as_slice();
     ['a, T: 'static] RSliceMut<'a, T> => &'w mut [T], RSliceMut<'a, T>: |slice| slice,
@@ -112,23 +108,15 @@ macro_rules! composite {
         $crate::abi::loan::crossing! {
             ['a] $from<'a> => $to<'w>,
             ($(<$type as $crate::abi::loan::Crossing>::Lender,)+):
-                |from| ($($crate::abi::loan::Crossing::lender(from.$field)?,)+),
+                |from, lengths| (
+                    $($crate::abi::loan::Crossing::lender(from.$field, lengths)?,)+
+                ),
                 |lender| {
                     let ($($field,)+) = lender;
                     $to { $($field: <$type as $crate::abi::loan::Crossing>::lend($field),)+ }
-                },
-                |lender, lengths| {
-                    let ($($field,)+) = lender;
-                    $(<$type as $crate::abi::loan::Crossing>::count($field, lengths);)+
                 };
         }
     };
-}
-
-/// A list that the other side writes to.
-pub struct ListLender<'a, Home, Away> {
-    pub home: &'a mut Home,
-    pub away: Away,
 }
 
 /// Lets lists cross that the other side writes to: what it gets, and what it gives back.
@@ -138,20 +126,22 @@ macro_rules! lists {
     )*) => {$(
         impl<'a> $crate::abi::loan::Crossing for &'a mut $home {
             type Wire<'w> = &'w mut $away;
-            type Lender = $crate::abi::loan::ListLender<'a, $home, $away>;
+            type Lender = (&'a mut $home, $away);
 
-            fn lender(self) -> turnpath_core::Result<Self::Lender> {
+            fn lender(
+                self,
+                _: &mut $crate::abi::loan::Lengths,
+            ) -> turnpath_core::Result<Self::Lender> {
                 let $list = &mut *self;
                 let away = $get;
-                Ok($crate::abi::loan::ListLender { home: self, away })
+                Ok((self, away))
             }
 
             fn lend(lender: &mut Self::Lender) -> &mut $away {
-                &mut lender.away
+                &mut lender.1
             }
 
-            fn settle(lender: Self::Lender) -> turnpath_core::Result<()> {
-                let ($place, $back) = (lender.home, lender.away);
+            fn settle(($place, $back): Self::Lender) -> turnpath_core::Result<()> {
                 $settle;
                 Ok(())
             }

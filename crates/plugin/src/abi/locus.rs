@@ -7,19 +7,7 @@ use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series,
 
 use super::declaration::prelude::*;
 use super::loan::{Crossing, crossing};
-use super::reply::Code;
 use super::surface::LentSurface;
-
-/// The code of what ρ means.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiRadial(u64);
-
-crossing! {
-    [] Radial => AbiRadial, Radial: |radial| radial, |radial| AbiRadial(radial.code());
-    [] AbiRadial => Radial, Radial:
-        |radial| property(Some(radial.0), "radial", None)?, |radial| *radial;
-}
 
 declare! {
     Locus: Deref AsPtr, Send Sync => AbiLocus, AbiLocus_TO, IncomingLocus<'b>;
@@ -32,7 +20,6 @@ declare! {
             &self, residual: f64, radial: Radial, theta: &[f64], rho: &[f64], feed: &mut [f64],
         ) -> Result<()>;
     }
-    later {}
     kept { surface: <LentSurface<'b> as Crossing>::Lender } own {
         fn surface(&self) -> &dyn SurfaceModel {
             &self.surface
@@ -51,11 +38,12 @@ pub struct LentLocus<'a> {
 crossing! {
     ['a] &'a dyn Locus => LentLocus<'w>,
     (Outgoing<&'a dyn Locus>, Outgoing<&'a dyn SurfaceModel>):
-        |locus| (Outgoing(locus), locus.surface().lender()?),
+        |locus, lengths| (Outgoing(locus), locus.surface().lender(lengths)?),
         |lender| LentLocus {
             locus: AbiLocus_TO::from_ptr(RRef::new(&lender.0), TD_Opaque),
             surface: <&dyn SurfaceModel>::lend(&mut lender.1),
         };
     ['a] LentLocus<'a> => &'w dyn Locus, IncomingLocus<'a, RRef<'a, ()>>:
-        |lent| IncomingLocus::new(lent.locus, lent.surface.lender()?)?, |locus| locus;
+        |lent, lengths| IncomingLocus::new(lent.locus, lent.surface.lender(lengths)?)?,
+        |locus| locus;
 }

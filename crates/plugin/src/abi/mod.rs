@@ -1,8 +1,8 @@
 //! Everything that crosses the plugin boundary. This is the only module with abi_stable in it.
 //!
 //! - [`declaration`] has the macro that makes both sides of a trait from one declaration.
-//! - [`loan`] and [`reply`] carry arguments and answers across; [`numbers`] and [`laws`] do so for
-//!   what the host lends, [`arguments`] for parameters.
+//! - [`loan`] and [`reply`] carry arguments and answers across; [`text`] writes and reads what is
+//!   small, and [`task`], [`laws`] and [`request`] have the arguments of several slots.
 //! - [`surface`], [`locus`], [`feed`], [`sampler`], [`compensator`], [`velocity`] and [`spindle`]
 //!   have the declarations.
 //! - [`catalogue`], [`root`] and [`entry`] have what a library exports, and open it; [`layout`]
@@ -12,13 +12,11 @@
 //! `unsafe` code except for that in [`entry`].
 //!
 //! What crosses can grow without a new number of the boundary: traits by methods with a default,
-//! properties and lists of numbers at their ends, kinds of parameters by words, and the root by
-//! constructors.
+//! texts by fields and words, lists of numbers at their ends, and the root by constructors.
 #![allow(unsafe_code)] // #[sabi_trait] and #[derive(StableAbi)] expand to unsafe code
 #![allow(non_local_definitions)] // the expansion of #[sabi_trait] raises it
 #![allow(missing_docs)] // private, and #[sabi_trait] generates public items without docs
 
-pub(crate) mod arguments;
 pub(crate) mod catalogue;
 pub(crate) mod compensator;
 pub(crate) mod declaration;
@@ -30,10 +28,12 @@ pub(crate) mod loan;
 pub(crate) mod locus;
 #[cfg(test)]
 mod newer_host;
-pub(crate) mod numbers;
 pub(crate) mod reply;
+pub(crate) mod request;
 pub(crate) mod root;
 pub(crate) mod sampler;
 pub(crate) mod spindle;
 pub(crate) mod surface;
+pub(crate) mod task;
+pub(crate) mod text;
 pub(crate) mod velocity;

@@ -9,23 +9,23 @@ use turnpath_core::{Continuation, Params, Revolutions};
 
 use super::entry::open_root;
 use super::layout;
-use super::reply::{Value, result};
-use super::root::{AbiRequest, RootRef};
+use super::reply::{Returned, result};
+use super::request::AbiRequest;
+use super::root::RootRef;
 use newer::Sampler;
 
 /// The boundary of one day: one more slot, and one more property and method of samplers.
 #[allow(dead_code, reason = "a test needs a part of it")]
 mod newer {
     use abi_stable::StableAbi;
-    use abi_stable::std_types::RVec;
+    use abi_stable::std_types::RString;
     use turnpath_core::{Continuation, Path, Result, Revolutions, SamplerPlan};
 
-    use super::super::catalogue::AbiStrategy;
     use super::super::compensator::OwnedCompensator;
     use super::super::declaration::prelude::*;
     use super::super::feed::OwnedFeed;
     use super::super::reply::Answer;
-    use super::super::root::AbiRequest;
+    use super::super::request::AbiRequest;
     use super::super::spindle::OwnedSpindle;
     use super::super::surface::OwnedSurface;
     use super::super::velocity::OwnedVelocity;
@@ -53,7 +53,7 @@ mod newer {
     #[derive(StableAbi)]
     #[sabi(kind(Prefix(prefix_ref = RootRef)))]
     pub struct Root {
-        pub catalogue: extern "C" fn() -> RVec<AbiStrategy>,
+        pub catalogue: extern "C" fn() -> RString,
         pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
         pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
         pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
@@ -127,5 +127,5 @@ fn abi_stable_alone_would_refuse_an_older_library() {
 #[test]
 fn a_library_whose_functions_have_changed_is_refused() {
     let text = layout::check::<RootRef>(other::RootRef::LAYOUT).unwrap_err();
-    assert!(text.contains("AbiStrategy"), "{text}");
+    assert!(text.contains("RString"), "{text}");
 }

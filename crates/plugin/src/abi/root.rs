@@ -6,42 +6,22 @@ use abi_stable::StableAbi;
 use abi_stable::library::RootModule;
 use abi_stable::prefix_type::PrefixTypeTrait;
 use abi_stable::sabi_types::VersionStrings;
-use abi_stable::std_types::{RString, RVec};
+use abi_stable::std_types::RString;
 use turnpath_core::{
     Compensator, FeedStrategy, Params, Result, Sampler, Slot, SpindleStrategy, StrategyError,
     SurfaceModel, VelocitySolver,
 };
 
-use super::arguments::{AbiArgument, arguments, params};
-use super::catalogue::AbiStrategy;
+use super::catalogue::catalogue;
 use super::compensator::OwnedCompensator;
 use super::feed::OwnedFeed;
-use super::reply::{Answer, Value, answer, result};
+use super::reply::{Answer, Returned, answer, result};
+use super::request::AbiRequest;
 use super::sampler::OwnedSampler;
 use super::spindle::OwnedSpindle;
 use super::surface::OwnedSurface;
 use super::velocity::OwnedVelocity;
-use crate::{Build, Registration};
-
-/// Which strategy to build, and from which parameters.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiRequest {
-    crate_name: RString,
-    name: RString,
-    arguments: RVec<AbiArgument>,
-}
-
-impl AbiRequest {
-    /// The request for a strategy of a crate.
-    pub fn new(crate_name: &str, name: &str, params: &Params) -> Self {
-        Self {
-            crate_name: crate_name.into(),
-            name: name.into(),
-            arguments: arguments(params),
-        }
-    }
-}
+use crate::Build;
 
 /// A library's functions: the catalogue, and one constructor for each slot. The constructor of a
 /// new slot stands after the last one that every library has, and an older library has none.
@@ -49,7 +29,7 @@ impl AbiRequest {
 #[derive(StableAbi)]
 #[sabi(kind(Prefix(prefix_ref = RootRef)))]
 pub struct Root {
-    pub catalogue: extern "C" fn() -> RVec<AbiStrategy>,
+    pub catalogue: extern "C" fn() -> RString,
     pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
     pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
     pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
@@ -66,80 +46,45 @@ impl RootModule for RootRef {
     const VERSION_STRINGS: VersionStrings = VersionStrings::new(env!("CARGO_PKG_VERSION"));
 }
 
-/// The root of this program or library itself.
-pub fn own_root() -> RootRef {
-    static ROOT: OnceLock<RootRef> = OnceLock::new();
-    *ROOT.get_or_init(|| {
-        Root {
-            catalogue,
-            surface,
-            feed,
-            sampler,
-            compensator,
-            velocity,
-            spindle,
-        }
-        .leak_into_prefix()
-    })
-}
-
-extern "C" fn catalogue() -> RVec<AbiStrategy> {
-    Registration::all().iter().map(AbiStrategy::from).collect()
-}
-
-/// Finds the requested strategy and builds it.
-fn build<T: Value>(
-    slot: Slot,
-    request: AbiRequest,
-    with: impl FnOnce(Build, &Params) -> Option<Result<T>>,
-) -> Answer<T::Wire> {
-    answer(|| {
-        let (crate_name, name) = (request.crate_name, request.name);
-        let params = params(request.arguments)?;
-        let matches = |one: &&Registration| {
-            one.info.slot == slot && one.info.name == name && one.crate_name == crate_name
-        };
-        let all = Registration::all();
-        let found = all.iter().find(matches);
-        let none = || StrategyError::failed(format!("there is no {} `{name}` here", slot.noun()));
-        let built = found.and_then(|one| with(one.build, &params));
-        built.unwrap_or_else(|| Err(none())).map(T::send)
-    })
-}
-
 /// What a library may build for the host: a boxed object of one slot.
-pub trait Constructed: Value {
+pub trait Constructed: Returned {
     /// The slot.
     const SLOT: Slot;
 
     /// The constructor of a library; `None` in one that is older than the slot.
     fn constructor(root: RootRef) -> Option<extern "C" fn(AbiRequest) -> Answer<Self::Wire>>;
+
+    /// The registered function that builds it; `None` for one of another slot.
+    fn function(build: Build) -> Option<fn(&Params) -> Result<Self>>;
 }
 
 /// Builds a strategy of a library.
 pub fn construct<T: Constructed>(root: RootRef, request: AbiRequest) -> Result<T> {
-    match T::constructor(root) {
-        Some(constructor) => result(constructor(request)).and_then(T::receive),
-        None => {
-            let what = T::SLOT.noun();
-            Err(StrategyError::failed(format!(
-                "this library builds no {what}"
-            )))
-        }
-    }
+    let slot = T::SLOT.noun();
+    let none = || StrategyError::failed(format!("this library builds no {slot}"));
+    let constructor = T::constructor(root).ok_or_else(none)?;
+    result(constructor(request)).and_then(T::receive)
+}
+
+/// Finds the requested strategy here and builds it.
+extern "C" fn build<T: Constructed>(request: AbiRequest) -> Answer<T::Wire> {
+    answer(|| {
+        let build = request.find(T::SLOT, T::function)?;
+        build(&request.params()?).map(T::send)
+    })
 }
 
 /// The exported constructor of each slot, and the host's way to it.
 macro_rules! constructors {
-    ($($name:ident: $slot:ident, $object:ident;)*) => {$(
-        extern "C" fn $name(request: AbiRequest) -> Answer<<Box<dyn $object> as Value>::Wire> {
-            build(Slot::$slot, request, |build, params| match build {
-                Build::$slot(build) => Some(build(params)),
-                _ => None,
-            })
+    ($($name:ident: $slot:ident, $object:ident;)*) => {
+        /// The root of this program or library itself.
+        pub fn own_root() -> RootRef {
+            static ROOT: OnceLock<RootRef> = OnceLock::new();
+            let root = || Root { catalogue, $($name: build::<Box<dyn $object>>),* };
+            *ROOT.get_or_init(|| root().leak_into_prefix())
         }
 
-        impl Constructed for Box<dyn $object> {
+        $(impl Constructed for Box<dyn $object> {
             const SLOT: Slot = Slot::$slot;
 
             fn constructor(
@@ -147,8 +92,15 @@ macro_rules! constructors {
             ) -> Option<extern "C" fn(AbiRequest) -> Answer<Self::Wire>> {
                 root.$name().into()
             }
-        }
-    )*};
+
+            fn function(build: Build) -> Option<fn(&Params) -> Result<Self>> {
+                match build {
+                    Build::$slot(build) => Some(build),
+                    _ => None,
+                }
+            }
+        })*
+    };
 }
 
 constructors! {

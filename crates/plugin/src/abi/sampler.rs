@@ -1,44 +1,12 @@
 //! Samplers and their plans.
 
-use abi_stable::StableAbi;
 use abi_stable::std_types::RVec;
 use turnpath_core::{
     Dependence, NodeList, Path, Result, Revolutions, Sampler, SamplerPlan, StrategyError,
 };
 
 use super::declaration::prelude::*;
-use super::loan::{crossing, lists};
-use super::reply::Code;
-
-/// 0 is local, 1 is sequential, and 2 + n is an overlap of n nodes.
-impl Code for Dependence {
-    fn code(self) -> u64 {
-        match self {
-            Self::Local => 0,
-            Self::Sequential => 1,
-            Self::Overlap(nodes) => (nodes as u64).saturating_add(2),
-        }
-    }
-
-    fn from_code(code: u64) -> Option<Self> {
-        Some(match code {
-            0 => Self::Local,
-            1 => Self::Sequential,
-            more => Self::Overlap(usize::try_from(more - 2).unwrap_or(usize::MAX)),
-        })
-    }
-}
-
-/// Start and end of a block, in revolutions.
-#[repr(C)]
-#[derive(StableAbi)]
-pub struct AbiBlock(f64, f64);
-
-crossing! {
-    [] Revolutions => AbiBlock, Revolutions: |block| block, |block| AbiBlock(block.start, block.end);
-    [] AbiBlock => Revolutions, AbiBlock: |block| block,
-        |block| Revolutions { start: block.0, end: block.1 };
-}
+use super::loan::lists;
 
 /// The columns of a [`NodeList`], of which there may be more one day. The host appends what the
 /// other side places.
@@ -63,7 +31,6 @@ declare! {
     methods {
         fn plan(&self, path[&]: Path<'_>) -> Result<Box<dyn SamplerPlan>>;
     }
-    later {}
     owned by OwnedSampler
 }
 
@@ -80,6 +47,5 @@ declare! {
             nodes: &mut NodeList,
         ) -> Result<()>;
     }
-    later {}
     owned by OwnedSamplerPlan
 }

@@ -15,6 +15,5 @@ declare! {
     methods {
         fn plan(&self, path[&]: Path<'_>, ask[&]: SpindleAsk<'_>) -> Result<SpindleLaw>;
     }
-    later {}
     owned by OwnedSpindle
 }

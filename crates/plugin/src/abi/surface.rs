@@ -16,14 +16,12 @@ composite! {
 
 declare! {
     SurfaceModel: Deref AsPtr, Send Sync => AbiSurface, AbiSurface_TO, IncomingSurface<'b>;
-    properties {}
     methods {
         fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()>;
         fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()>;
         fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()>;
         fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()>;
     }
-    later {}
     owned by OwnedSurface
 }
 

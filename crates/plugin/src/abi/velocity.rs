@@ -7,11 +7,6 @@ use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
 
 use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
-use super::reply::codes;
-
-codes! {
-    SegmentShape { 0 => SegmentShape::Cubic, 1 => SegmentShape::Linear }
-}
 
 composite! {
     Velocities => AbiVelocities { c: &'a mut [f64], x: &'a mut [f64], z: &'a mut [f64] }
@@ -28,13 +23,13 @@ pub struct AbiNodes<'a> {
 
 crossing! {
     ['a] Nodes<'a> => AbiNodes<'w>, ([RSlice<'a, f64>; 8], u32):
-        |nodes| {
+        |nodes, lengths| {
             let Nodes { t, c, x, z, c_rate, x_rate, z_theta, z_x, at_start, at_end } = nodes;
             let columns = [t, c, x, z, c_rate, x_rate, z_theta, z_x];
+            columns.iter().for_each(|column| lengths.add(column.len()));
             (columns.map(RSlice::from_slice), u32::from(at_start) | u32::from(at_end) << 1)
         },
-        |lender| AbiNodes { columns: lender.0.as_slice().into(), ends: lender.1 },
-        |lender, lengths| lender.0.iter().for_each(|column| lengths.add(column.len()));
+        |lender| AbiNodes { columns: lender.0.as_slice().into(), ends: lender.1 };
     ['a] AbiNodes<'a> => Nodes<'w>, AbiNodes<'a>: |nodes| nodes, |nodes| {
         let mut columns = nodes.columns.iter().map(RSlice::as_slice);
         let mut column = || columns.next().unwrap_or_default();
@@ -57,6 +52,5 @@ declare! {
             &self, nodes: Nodes<'_>, state: &mut Vec<f64>, out: Velocities<'_>,
         ) -> Result<()>;
     }
-    later {}
     owned by OwnedVelocity
 }
