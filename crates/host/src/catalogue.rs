@@ -7,9 +7,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use turnpath_core::{HOST_KEYS, Slot, StrategyInfo, is_strategy_name};
+use turnpath_core::{HOST_KEYS, ParamKind, Slot, StrategyInfo, is_strategy_name};
 use turnpath_plugin::Offer;
 
+use crate::error::MOST_COLUMNS;
 use crate::library::{self, Library};
 use crate::{LoadError, Plugin, Strategy};
 
@@ -157,12 +158,27 @@ impl Catalogue {
     }
 }
 
-/// Refuses a name that no recipe could choose, and parameters whose names belong to the host.
+/// Refuses a name that no recipe could choose, parameters whose names belong to the host, and rows
+/// that nobody could write.
 fn check(info: &StrategyInfo, plugin: &Arc<Plugin>) -> Result<(), LoadError> {
     let (slot, name) = (info.slot, info.name.to_owned());
     let plugin = Arc::clone(plugin);
     if !is_strategy_name(info.name) {
         return Err(LoadError::UnusableName { slot, name, plugin });
+    }
+    for param in info.params {
+        match param.kind {
+            ParamKind::Rows(columns) if columns > MOST_COLUMNS => {
+                return Err(LoadError::TooManyColumns {
+                    slot,
+                    strategy: name,
+                    param: param.name.to_owned(),
+                    columns,
+                    plugin,
+                });
+            }
+            _ => {}
+        }
     }
     let mut params = info.params.iter();
     match params.find(|param| HOST_KEYS.contains(&param.name)) {
@@ -209,5 +225,35 @@ fn folder_error(folder: &Path, source: io::Error) -> LoadError {
     match source.kind() {
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => LoadError::NoFolder { path },
         _ => LoadError::Unreadable { path, source },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use turnpath_core::{Param, ParamInfo};
+
+    use super::*;
+
+    const WIDE: &[ParamInfo] = &[Param::rows("terms", usize::MAX, "of a polynomial").info()];
+    const NARROW: &[ParamInfo] = &[Param::rows("terms", 3, "of a polynomial").info()];
+
+    #[test]
+    fn rows_that_nobody_could_write_are_refused() {
+        let of = |params| {
+            let info = StrategyInfo {
+                slot: Slot::Surface,
+                name: "wide",
+                summary: "",
+                source: "",
+                params,
+            };
+            check(&info, &Arc::new(plugin("lab_wide", "1.0.0", None)))
+        };
+        assert!(of(NARROW).is_ok());
+        let error = of(WIDE).unwrap_err().to_string();
+        assert!(
+            error.contains("`terms`") && error.contains("at most 1000"),
+            "{error}"
+        );
     }
 }

@@ -10,6 +10,10 @@ use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion, OpenError, Unk
 
 use crate::Plugin;
 
+/// Most columns of a parameter. Nobody writes rows of a thousand numbers, and messages show an
+/// example of a row.
+pub(crate) const MOST_COLUMNS: usize = 1000;
+
 /// Why a plugin could not be added to a catalogue.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -76,6 +80,25 @@ pub enum LoadError {
         slot: Slot,
         /// The strategy's name.
         name: String,
+        /// The plugin.
+        plugin: Arc<Plugin>,
+    },
+    /// A strategy declares a parameter with more columns than anyone writes.
+    #[error(
+        "the {} `{strategy}` of {plugin} declares the parameter `{}` with {columns} columns; at most \
+         {MOST_COLUMNS} are allowed",
+        slot.noun(),
+        param.escape_debug()
+    )]
+    TooManyColumns {
+        /// The slot of the strategy.
+        slot: Slot,
+        /// The strategy's name.
+        strategy: String,
+        /// The parameter's name.
+        param: String,
+        /// The columns that it declares.
+        columns: usize,
         /// The plugin.
         plugin: Arc<Plugin>,
     },
@@ -168,7 +191,7 @@ pub enum Refusal {
     #[error(
         "its strategy `{}` declares the parameter `{}` as `{}`, a kind that this program does not \
          know; use a newer turnpath",
-        .0.strategy, .0.parameter, .0.kind
+        .0.strategy.escape_debug(), .0.parameter.escape_debug(), .0.kind.escape_debug()
     )]
     UnknownKind(
         /// The parameter.
@@ -218,6 +241,7 @@ impl LoadError {
             | Self::Refused { path, .. } => Some(path),
             Self::TwoOfOneName { second: plugin, .. }
             | Self::UnusableName { plugin, .. }
+            | Self::TooManyColumns { plugin, .. }
             | Self::HostKey { plugin, .. } => plugin.file.as_deref(),
         }
     }

@@ -36,40 +36,50 @@ pub struct UnknownKind {
     pub kind: String,
 }
 
+/// Why the list of a library's strategies could not be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CatalogueError {
+    /// It is no list at all, or a strategy in it lacks a name.
+    Damaged,
+    /// A strategy has a parameter of an unknown kind.
+    UnknownKind(UnknownKind),
+}
+
 /// Reads the strategies of those crates that `wanted` names, and leaves out slots that this host does
 /// not know. What was read stays for the whole program, as the library does.
 ///
 /// # Errors
-/// If a parameter is of a kind that this host does not know.
+/// If the text is no list, or a parameter is of a kind that this host does not know.
 pub fn entries(
     catalogue: &str,
     wanted: impl Fn(&str) -> bool,
-) -> Result<Vec<CatalogueEntry>, UnknownKind> {
-    let all: Vec<Value> = serde_json::from_str(catalogue).unwrap_or_default();
+) -> Result<Vec<CatalogueEntry>, CatalogueError> {
+    let all: Vec<Value> = serde_json::from_str(catalogue).map_err(|_| CatalogueError::Damaged)?;
     let all: &'static [Value] = all.leak();
     let is_known = |one: &&Value| Slot::deserialize(&one["info"]["slot"]).is_ok();
     all.iter()
         .filter(|one| one["crate_name"].as_str().is_some_and(&wanted))
         .filter(is_known)
-        .map(|one| CatalogueEntry::deserialize(one).map_err(|_| unknown_kind(&one["info"])))
+        .map(|one| CatalogueEntry::deserialize(one).map_err(|_| unreadable(&one["info"])))
         .collect()
 }
 
 /// Finds what this host does not know in a strategy.
-fn unknown_kind(strategy: &'static Value) -> UnknownKind {
+fn unreadable(strategy: &'static Value) -> CatalogueError {
     let words = |value: &Value| value.as_str().map_or_else(|| value.to_string(), Into::into);
     let mut params = strategy["params"].as_array().into_iter().flatten();
-    let param = params.find(|param| ParamInfo::deserialize(*param).is_err());
-    let param = param.unwrap_or(&Value::Null);
+    let Some(param) = params.find(|param| ParamInfo::deserialize(*param).is_err()) else {
+        return CatalogueError::Damaged;
+    };
     let kind = match ParamKind::deserialize(&param["kind"]) {
         Ok(_) => &param["default"],
         Err(_) => &param["kind"],
     };
-    UnknownKind {
+    CatalogueError::UnknownKind(UnknownKind {
         strategy: words(&strategy["name"]),
         parameter: words(&param["name"]),
         kind: words(kind),
-    }
+    })
 }
 
 #[cfg(test)]
@@ -109,11 +119,11 @@ mod tests {
         json!({ "crate_name": "new_crate", "crate_version": "1.0.0", "info": info })
     }
 
-    fn read(one: &Value) -> Result<Vec<CatalogueEntry>, UnknownKind> {
+    fn read(one: &Value) -> Result<Vec<CatalogueEntry>, CatalogueError> {
         entries(&json!([one]).to_string(), |_| true)
     }
 
-    fn params_after_crossing(params: &[Value]) -> Result<&'static [ParamInfo], UnknownKind> {
+    fn params_after_crossing(params: &[Value]) -> Result<&'static [ParamInfo], CatalogueError> {
         read(&strategy("surface", params)).map(|entries| entries[0].info.params)
     }
 
@@ -148,8 +158,20 @@ mod tests {
                 parameter: "radius".into(),
                 kind: kind.into(),
             };
+            let unknown = CatalogueError::UnknownKind(unknown);
             assert_eq!(params_after_crossing(&[param]), Err(unknown));
         }
+    }
+
+    #[test]
+    fn a_damaged_list_is_an_error() {
+        for text in ["", "{}", "[{\"crate_name\": 3"] {
+            let error = entries(text, |_| true).unwrap_err();
+            assert_eq!(error, CatalogueError::Damaged);
+        }
+        let mut nameless = strategy("sampler", &[]);
+        nameless["info"]["name"] = Value::Null;
+        assert_eq!(read(&nameless).unwrap_err(), CatalogueError::Damaged);
     }
 
     #[test]

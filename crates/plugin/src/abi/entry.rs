@@ -5,7 +5,7 @@ use abi_stable::library::{AbiHeaderRef, CheckTypeLayout, LibHeader, RootModuleRe
 use abi_stable::prefix_type::PrefixRefTrait;
 use abi_stable::std_types::RStr;
 
-use super::catalogue::{CatalogueEntry, entries};
+use super::catalogue::{CatalogueEntry, CatalogueError, entries};
 use super::layout;
 use super::root::{RootRef, own_root};
 use crate::head::{EntryHead, OpenError};
@@ -68,7 +68,11 @@ pub unsafe fn open(entry: *const u8) -> Result<(RootRef, Vec<CatalogueEntry>), O
     // SAFETY: the caller makes the same promise.
     let (crate_name, root) = unsafe { open_root::<RootRef>(entry) }?;
     let entries = entries(&root.catalogue()(), |name| name == crate_name);
-    Ok((root, entries.map_err(OpenError::UnknownKind)?))
+    let entries = entries.map_err(|error| match error {
+        CatalogueError::Damaged => OpenError::NotAPlugin,
+        CatalogueError::UnknownKind(unknown) => OpenError::UnknownKind(unknown),
+    })?;
+    Ok((root, entries))
 }
 
 /// Checks and opens an entry: the name of its crate, and its root.

@@ -13,8 +13,8 @@ use abi_stable::type_layout::TypeLayout;
 /// Checks that the layout of `T` here fits the one that a library was built with.
 ///
 /// # Errors
-/// If neither is the other with more functions. The text is that of the comparison that got
-/// further, hundreds of lines long.
+/// If neither is the other with more functions. The text is that of the shorter
+/// comparison, hundreds of lines long.
 pub fn check<T: StableAbi>(library: &'static TypeLayout) -> Result<(), String> {
     let older = check_layout_compatibility(library, T::LAYOUT);
     let Err(as_older) = older else {

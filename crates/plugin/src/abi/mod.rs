@@ -8,7 +8,7 @@
 //! - [`catalogue`], [`root`] and [`entry`] have what a library exports, and open it; [`layout`]
 //!   decides whether it fits.
 //!
-//! A batch crosses as slices. Only laws and nodes are copied. The macros of abi_stable write all the
+//! A batch crosses as slices. Laws, nodes, texts and the bytes of files are copied. The macros of abi_stable write all the
 //! `unsafe` code except for that in [`entry`].
 //!
 //! What crosses can grow without a new number of the boundary: traits by methods with a default,

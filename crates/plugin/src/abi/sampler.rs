@@ -9,7 +9,7 @@ use super::declaration::prelude::*;
 use super::loan::lists;
 
 /// The columns of a [`NodeList`], of which there may be more one day. The host appends what the
-/// other side places.
+/// other side places, and refuses a column that it does not know.
 type AbiNodeList = RVec<RVec<f64>>;
 
 lists! {
@@ -17,6 +17,11 @@ lists! {
         let mut columns = placed.into_iter().map(RVec::into_vec);
         let mut column = || columns.next().unwrap_or_default();
         let placed = NodeList::from_columns(column(), column(), column());
+        if columns.any(|column| !column.is_empty()) {
+            return Err(StrategyError::failed(
+                "the nodes have a column that this turnpath does not know; use a newer one",
+            ));
+        }
         list.append(placed.ok_or_else(|| StrategyError::failed(
             "the columns of the nodes differ in length: n, dz and dz_dc",
         ))?);
