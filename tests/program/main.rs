@@ -9,6 +9,7 @@ mod bad_recipes;
 mod built_ins;
 mod commands;
 mod data_files;
+mod frozen_boundary;
 mod own_sampler;
 mod readme;
 mod sag;
