@@ -16,9 +16,10 @@ struct Figures {
     packages: &'static [&'static str],
 }
 
-const FIGURES: [Figures; 5] = [
+const FIGURES: [Figures; 6] = [
     figures("compensators", &["mpmath"]),
     figures("dropcutter", &["numpy", "opencamlib"]),
+    figures("poses", &["mpmath"]),
     figures("series", &["mpmath"]),
     figures("splines", &["numpy", "scipy"]),
     figures("surfaces", &["mpmath"]),

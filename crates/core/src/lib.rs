@@ -23,6 +23,8 @@ mod param;
 mod part;
 mod path;
 mod piecewise;
+mod placement;
+mod pose;
 mod profile;
 pub mod ring;
 mod sampler;
@@ -51,6 +53,8 @@ pub use param::{DataFile, Param, ParamDefault, ParamInfo, ParamKind, ParamValue,
 pub use part::{Direction, Misfit, Overrun, Part, RadialRange, Task, Tolerance, Tool};
 pub use path::Path;
 pub use piecewise::{Piece, PiecewisePolynomial, quintic};
+pub use placement::Placement;
+pub use pose::{Attitude, Pose};
 pub use sampler::{Dependence, Sampler, SamplerPlan};
 pub use scalar::{Mask, Scalar};
 pub use servo::{AxisServo, Servo};

@@ -10,6 +10,7 @@ mod attributed;
 mod beyond;
 mod chain;
 mod columns;
+mod composite;
 mod contact;
 mod drift;
 mod error;
@@ -39,7 +40,9 @@ mod taper;
 mod window;
 
 pub use aim::AIM;
+pub use attributed::NamedSurface;
 pub use chain::{Chain, Link};
+pub use composite::{PlacedSurface, PoseError, PosedSurface, SurfaceSum};
 pub use error::{PipelineError, Result, RunError};
 pub use estimate::{Estimate, estimate};
 pub use job_spec::JobSpec;

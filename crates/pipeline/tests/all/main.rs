@@ -4,6 +4,7 @@ mod common;
 
 mod answers;
 mod blocks;
+mod composites;
 mod leads;
 mod offsets;
 mod refinement;

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test uses what it needs")]
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
+pub mod formulas;
 pub mod solvers;
 
 use std::convert::Infallible;

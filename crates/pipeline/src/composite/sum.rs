@@ -1,0 +1,119 @@
+//! The sum of several surfaces.
+
+use std::sync::Arc;
+
+use turnpath_core::{GradientSeries, Gradients, ORDER, Result, Series, SurfaceModel};
+
+use super::rooms::{CURVES, POINTS, ranges, same_lengths};
+
+/// The sum of the heights of several surfaces. It has a value where all of them have one.
+pub struct SurfaceSum {
+    surfaces: Vec<Arc<dyn SurfaceModel>>,
+}
+
+impl SurfaceSum {
+    /// The sum of some surfaces; of none it is the plane z = 0.
+    pub fn new(surfaces: Vec<Arc<dyn SurfaceModel>>) -> Self {
+        Self { surfaces }
+    }
+}
+
+fn add(sum: &mut [f64], more: &[f64]) {
+    for (sum, more) in sum.iter_mut().zip(more) {
+        *sum += more;
+    }
+}
+
+fn add_series(sum: &mut [Series], more: &[Series]) {
+    for (sum, more) in sum.iter_mut().zip(more) {
+        add(sum, more);
+    }
+}
+
+impl SurfaceModel for SurfaceSum {
+    fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
+        same_lengths(x.len(), [y.len(), z.len()])?;
+        let mut more = [0.0; POINTS];
+        for range in ranges(x.len(), POINTS) {
+            let (x, y) = (&x[range.clone()], &y[range.clone()]);
+            let (z, more) = (&mut z[range.clone()], &mut more[..range.len()]);
+            z.fill(0.0);
+            for surface in &self.surfaces {
+                surface.heights(x, y, more)?;
+                add(z, more);
+            }
+        }
+        Ok(())
+    }
+
+    fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
+        let Gradients { z, zx, zy } = out;
+        same_lengths(x.len(), [y.len(), z.len(), zx.len(), zy.len()])?;
+        let mut more = [[0.0; POINTS]; 3];
+        for range in ranges(x.len(), POINTS) {
+            let count = range.len();
+            let (x, y) = (&x[range.clone()], &y[range.clone()]);
+            let z = &mut z[range.clone()];
+            let (zx, zy) = (&mut zx[range.clone()], &mut zy[range]);
+            for slopes in [&mut *z, &mut *zx, &mut *zy] {
+                slopes.fill(0.0);
+            }
+            for surface in &self.surfaces {
+                let [more_z, more_zx, more_zy] = &mut more;
+                let answer = Gradients {
+                    z: &mut more_z[..count],
+                    zx: &mut more_zx[..count],
+                    zy: &mut more_zy[..count],
+                };
+                surface.gradient(x, y, answer)?;
+                add(z, more_z);
+                add(zx, more_zx);
+                add(zy, more_zy);
+            }
+        }
+        Ok(())
+    }
+
+    fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
+        let GradientSeries { z, zx, zy } = out;
+        same_lengths(x.len(), [y.len(), z.len(), zx.len(), zy.len()])?;
+        let mut more = [[[0.0; ORDER + 1]; CURVES]; 3];
+        for range in ranges(x.len(), CURVES) {
+            let count = range.len();
+            let (x, y) = (&x[range.clone()], &y[range.clone()]);
+            let z = &mut z[range.clone()];
+            let (zx, zy) = (&mut zx[range.clone()], &mut zy[range]);
+            for slopes in [&mut *z, &mut *zx, &mut *zy] {
+                slopes.fill([0.0; ORDER + 1]);
+            }
+            for surface in &self.surfaces {
+                let [more_z, more_zx, more_zy] = &mut more;
+                let answer = GradientSeries {
+                    z: &mut more_z[..count],
+                    zx: &mut more_zx[..count],
+                    zy: &mut more_zy[..count],
+                };
+                surface.series(x, y, answer)?;
+                add_series(z, more_z);
+                add_series(zx, more_zx);
+                add_series(zy, more_zy);
+            }
+        }
+        Ok(())
+    }
+
+    fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
+        same_lengths(x.len(), [y.len(), z.len()])?;
+        let mut more = [[0.0; ORDER + 1]; CURVES];
+        for range in ranges(x.len(), CURVES) {
+            let (x, y) = (&x[range.clone()], &y[range.clone()]);
+            let (z, more) = (&mut z[range.clone()], &mut more[..range.len()]);
+            z.fill([0.0; ORDER + 1]);
+            for surface in &self.surfaces {
+                surface.height_series(x, y, more)?;
+                add_series(z, more);
+            }
+        }
+        Ok(())
+    }
+}
