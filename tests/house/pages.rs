@@ -60,7 +60,9 @@ fn strategies(slot: &str) -> Vec<String> {
 fn parameters(slot: &str, name: &str) -> Vec<(String, String)> {
     let said = Bench::empty().call(["explain", &format!("{slot}/{name}")]);
     let said = said.ends(0).stdout;
-    let blocks = said.split("\n\n").skip(2);
+    // What every surface takes has a table of its own.
+    let own = said.split("\n\n  every surface takes:").next();
+    let blocks = own.expect("a part").split("\n\n").skip(2);
     blocks
         .map(|block| {
             let lines: Vec<&str> = block.trim_end().lines().collect();

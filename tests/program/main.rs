@@ -14,4 +14,5 @@ mod own_sampler;
 mod readme;
 mod sag;
 mod same_bytes;
+mod sums;
 mod verify;

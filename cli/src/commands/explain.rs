@@ -99,7 +99,17 @@ fn of_strategy(strategy: &Strategy) -> String {
     }
     text += &format!("  plugin  {}\n", strategy.plugin());
     text += &format!("\n  [{}]\n  use = \"{}\"\n", info.slot, info.name);
-    text + &keys(info.params)
+    text += &keys(info.params);
+    text + &of_every_surface(info.slot)
+}
+
+/// The keys that every surface takes besides its own; nothing for another slot.
+fn of_every_surface(slot: Slot) -> String {
+    if slot != Slot::Surface {
+        return String::new();
+    }
+    let of_place = slot_keys(slot).iter().filter(|key| key.name != "use");
+    "\n  every surface takes:\n".to_owned() + &keys(of_place)
 }
 
 /// The name of a table as a person gives it.
@@ -125,7 +135,7 @@ fn of_slot(slot: Slot) -> String {
     head + &keys(slot_keys(slot))
 }
 
-fn keys(declared: &[ParamInfo]) -> String {
+fn keys<'a>(declared: impl IntoIterator<Item = &'a ParamInfo>) -> String {
     let key = |info: &ParamInfo| {
         let mut range = default(info);
         let limits = limits(info);
@@ -135,5 +145,5 @@ fn keys(declared: &[ParamInfo]) -> String {
         let (name, kind, help) = (info.name, kind_with_example(info), info.help);
         format!("\n  {name} = {kind}\n      {help}\n      {range}\n")
     };
-    declared.iter().map(key).collect()
+    declared.into_iter().map(key).collect()
 }

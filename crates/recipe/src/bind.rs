@@ -10,6 +10,7 @@ use crate::found::{Found, default_of, found};
 use crate::recipe::Recipe;
 use crate::span::Spanned;
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
+use crate::surface_list::heading;
 use crate::tables::slot_keys;
 
 /// The parameters of a strategy, checked against its declarations. Files are named but not read.
@@ -112,9 +113,9 @@ impl Choice {
         let chosen_later = self.name.span.source().rank > entry.span.source().rank;
         chosen_later.then(|| {
             format!(
-                "`--set {slot}.use` keeps the table's other keys; to replace the whole table: \
-                 --set '{slot}={{ use = \"{name}\" }}'",
-                slot = self.slot,
+                "`--set {path}.use` keeps the table's other keys; to replace the whole table: \
+                 --set '{path}={{ use = \"{name}\" }}'",
+                path = self.path,
                 name = self.name()
             )
         })
@@ -153,8 +154,8 @@ impl Choice {
         Diagnostic::new(self.name.span.clone(), title)
             .with_label(format!("`{}` is missing: {}", param.name, param.help))
             .with_help(format!(
-                "add to [{}] a line such as: {} = {}",
-                self.slot,
+                "add to {} a line such as: {} = {}",
+                heading(&self.path),
                 param.name,
                 example(param)
             ))

@@ -14,6 +14,8 @@ use crate::tables::{DEFAULT_SPINDLE, USE, slot_keys};
 pub struct Choice {
     /// The slot.
     pub slot: Slot,
+    /// The path of the slot's table, `sampler`; of a surface of several `surface.0` and so on.
+    pub path: String,
     /// The strategy's name: lower-case letters, digits and hyphens.
     pub name: Spanned<String>,
     /// The header of the slot's table, `[sampler]`.
@@ -73,6 +75,7 @@ impl Choice {
         }
         Some(Self {
             slot,
+            path: section.name.to_owned(),
             name,
             span: section.span.clone(),
             params: params(slot, table),

@@ -66,6 +66,27 @@ impl Value {
     }
 }
 
+impl Node {
+    fn below(&self, key: &str) -> Option<&Self> {
+        match (&self.value, index(key)) {
+            (Value::Table(_), Some(0)) => Some(self),
+            (Value::Table(table), _) => table.get(key).map(|entry| &entry.node),
+            (Value::Array(items), Some(index)) => items.get(index),
+            (Value::Array(items), None) => match items.as_slice() {
+                [only] => only.below(key),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+/// The index of a list's item that a key stands for.
+pub(crate) fn index(key: &str) -> Option<usize> {
+    let index: usize = key.parse().ok()?;
+    (index.to_string() == key).then_some(index)
+}
+
 impl Table {
     /// All entries, in the order of the text.
     pub fn entries(&self) -> &[Entry] {
@@ -103,17 +124,12 @@ impl Table {
         self.entries.retain(|entry| entry.key != key);
     }
 
-    /// The entry at a path of keys, `["tool", "nose_radius"]`.
-    pub fn find<'k>(&self, path: impl IntoIterator<Item = &'k str>) -> Option<&Entry> {
+    /// The node at a path of keys, `["tool", "nose_radius"]`. An index names an item of a list; a
+    /// single item needs none, and a table counts as a list of one.
+    pub fn find<'k>(&self, path: impl IntoIterator<Item = &'k str>) -> Option<&Node> {
         let mut keys = path.into_iter();
-        let mut entry = self.get(keys.next()?)?;
-        for key in keys {
-            let Value::Table(table) = &entry.node.value else {
-                return None;
-            };
-            entry = table.get(key)?;
-        }
-        Some(entry)
+        let first = &self.get(keys.next()?)?.node;
+        keys.try_fold(first, Node::below)
     }
 }
 

@@ -8,6 +8,7 @@ use crate::document::{Entry, Node, Table, Value};
 use crate::found::{Found, default_of, found};
 use crate::span::{Span, Spanned};
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
+use crate::surface_list::heading;
 use crate::table_info::TableInfo;
 use crate::value;
 
@@ -17,7 +18,7 @@ pub(crate) type Schema = &'static [TableInfo];
 /// One table of the recipe, which may be missing, and the messages so far.
 pub(crate) struct Section<'a> {
     /// `tool`; empty for the keys above the first table.
-    pub(crate) name: &'static str,
+    pub(crate) name: &'a str,
     /// The keys of the table; `None` if the recipe has no such table.
     pub(crate) table: Option<&'a Table>,
     /// The header of the table; the recipe as a whole if there is no header.
@@ -57,18 +58,40 @@ impl Sections<'_> {
 
     /// A table by its name, `output` or `output.pmac-pvt`. The recipe need not have it.
     pub(crate) fn open(&mut self, name: &'static str) -> Section<'_> {
-        let entry = self.root.find(name.split('.'));
-        let span = entry.map_or(self.whole, |entry| &entry.node.span).clone();
-        let table = match entry.map(|entry| &entry.node.value) {
+        let node = self.root.find(name.split('.'));
+        let span = node.map_or(self.whole, |node| &node.span).clone();
+        let table = match node.map(|node| &node.value) {
             Some(Value::Table(table)) => Some(table),
             _ => None,
         };
-        let misspelt = entry.is_none() && self.root.has_like(name);
+        let misspelt = node.is_none() && self.root.has_like(name);
         Section {
             name,
             table,
             span,
             misspelt,
+            schema: self.schema,
+            diagnostics: self.diagnostics,
+        }
+    }
+}
+
+impl<'r> Sections<'r> {
+    /// A table that is known already, by its path.
+    pub(crate) fn open_table<'s>(
+        &'s mut self,
+        name: &'s str,
+        table: &'s Table,
+        span: Span,
+    ) -> Section<'s>
+    where
+        'r: 's,
+    {
+        Section {
+            name,
+            table: Some(table),
+            span,
+            misspelt: false,
             schema: self.schema,
             diagnostics: self.diagnostics,
         }
@@ -188,8 +211,8 @@ impl<'a> Section<'a> {
             (format!("the recipe lacks `{key}`"), String::new())
         } else {
             (
-                format!("[{}] lacks `{key}`", self.name),
-                format!(" to [{}]", self.name),
+                format!("{} lacks `{key}`", heading(self.name)),
+                format!(" to {}", heading(self.name)),
             )
         };
         let mut diagnostic = Diagnostic::new(self.span.clone(), title)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::de::DeTable;
-use turnpath_core::{Direction, Machine, Overrun, Part, Servo, Slot, Tolerance, Tool};
+use turnpath_core::{Direction, Machine, Overrun, Part, Pose, Servo, Slot, Tolerance, Tool};
 
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -15,6 +15,7 @@ use crate::presets::Preset;
 use crate::read::Sections;
 use crate::set;
 use crate::span::{Source, Span, Spanned};
+use crate::surface_entry::{SurfaceEntry, surface_entries};
 use crate::tables::{self, DEFAULT_SPINDLE, Output, PmacPvt};
 
 /// Largest recipe, in bytes: a hundred times as much as a person writes.
@@ -27,6 +28,10 @@ pub struct Recipe {
     pub name: String,
     /// The part.
     pub part: Part,
+    /// Where the part lies on the surface; without a pose the part's axis is that of the surface.
+    pub pose: Option<Pose>,
+    /// The surfaces that are added up, one or more.
+    pub surfaces: Vec<SurfaceEntry>,
     /// The tool.
     pub tool: Tool,
     /// The tolerances.
@@ -193,7 +198,25 @@ impl Recipe {
         &self.sets
     }
 
-    /// The strategy chosen for a slot.
+    /// The strategies chosen for a slot: of surfaces one or more, else one.
+    pub fn choices(&self, slot: Slot) -> Vec<&Choice> {
+        match slot {
+            Slot::Surface => self.surfaces.iter().map(|entry| &entry.choice).collect(),
+            slot => vec![self.choice(slot)],
+        }
+    }
+
+    /// The name of the surface; of a sum "conic + zernike".
+    pub fn surface_name(&self) -> String {
+        let names: Vec<&str> = self
+            .surfaces
+            .iter()
+            .map(|entry| entry.choice.name())
+            .collect();
+        names.join(" + ")
+    }
+
+    /// The strategy chosen for a slot; of a sum the first surface.
     pub fn choice(&self, slot: Slot) -> &Choice {
         match slot {
             Slot::Surface => &self.choices[0],
@@ -215,7 +238,7 @@ impl Recipe {
     pub fn span(&self, path: &str) -> Option<Span> {
         self.document
             .find(path.split('.'))
-            .map(|entry| entry.node.span.clone())
+            .map(|node| node.span.clone())
     }
 
     /// The span of the value under a path of keys, else of its table, else of the recipe as a whole.
@@ -357,6 +380,7 @@ pub(crate) fn build(
     }
     let top = tables::top(&mut sections.top());
     let part = tables::part(&mut sections.open("part"));
+    let pose = tables::pose(&mut sections.open("part.pose"));
     let tool = tables::tool(&mut sections.open("tool"));
     let tolerance = tables::tolerance(&mut sections.open("tolerance"));
     let speed = tables::spindle(&mut sections.open("spindle"));
@@ -368,12 +392,23 @@ pub(crate) fn build(
     let path_table = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
     let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
-    let choices = Slot::ALL.map(|slot| Choice::read(slot, &mut sections.open(slot.key())));
-    let [surface, feed, sampler, compensator, velocity, spindle] = choices;
-    let (tool, path_table) = (tool?, path_table?);
+    let surfaces = surface_entries(&mut sections);
+    let mut choose = |slot: Slot| Choice::read(slot, &mut sections.open(slot.key()));
+    let [feed, sampler, compensator, velocity, spindle] = [
+        Slot::Feed,
+        Slot::Sampler,
+        Slot::Compensator,
+        Slot::Velocity,
+        Slot::Spindle,
+    ]
+    .map(&mut choose);
+    let (tool, path_table, surfaces) = (tool?, path_table?, surfaces?);
+    let surface = surfaces.first().map(|entry| entry.choice.clone());
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
         part: part?,
+        pose: pose?,
+        surfaces,
         tool,
         tolerance: tolerance?,
         spindle_speed: speed?,

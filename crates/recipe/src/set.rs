@@ -8,6 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Node, Reader, Table, Value};
 use crate::span::{Source, Span};
 use crate::suggest::quoted;
+use crate::surface_list::surface_of;
 
 /// Longest path of keys; no recipe nests deeper.
 const DEEPEST: usize = 8;
@@ -116,20 +117,40 @@ fn read_value(source: &Arc<Source>, start: usize) -> Node {
 
 /// Replaces the key's value, or adds the key.
 pub(crate) fn put(table: &mut Table, setting: Setting) -> Result<(), Diagnostic> {
-    let mut keys = setting.keys.into_iter();
+    let Setting { mut keys, node } = setting;
+    let Some((surface, used)) = surface_of(table, &keys)? else {
+        return put_below(table, keys, node);
+    };
+    let path: Vec<&str> = keys
+        .iter()
+        .take(used)
+        .map(|(key, _)| key.as_str())
+        .collect();
+    let (path, span) = (path.join("."), keys[used - 1].1.clone());
+    keys.drain(..used);
+    match &mut surface.value {
+        _ if keys.is_empty() => *surface = node,
+        Value::Table(inner) => return put_below(inner, keys, node),
+        _ => return Err(not_a_table(&path, &span)),
+    }
+    Ok(())
+}
+
+/// Replaces the value of a key of this table, or of a table within it.
+fn put_below(
+    mut table: &mut Table,
+    keys: Vec<(String, Span)>,
+    node: Node,
+) -> Result<(), Diagnostic> {
+    let mut keys = keys.into_iter();
     let Some((mut key, mut span)) = keys.next() else {
         return Ok(());
     };
-    let mut table = table;
     for (next_key, next_span) in keys {
         table = inner_table(table, &key, &span)?;
         (key, span) = (next_key, next_span);
     }
-    table.put(Entry {
-        key,
-        span,
-        node: setting.node,
-    });
+    table.put(Entry { key, span, node });
     Ok(())
 }
 
@@ -151,10 +172,12 @@ fn inner_table<'t>(
     }
     match table.get_mut(key).map(|entry| &mut entry.node.value) {
         Some(Value::Table(inner)) => Ok(inner),
-        _ => {
-            let title = format!("{} is not a table", quoted(key));
-            let label = "this key has a value, not keys of its own";
-            Err(Diagnostic::new(span.clone(), title).with_label(label))
-        }
+        _ => Err(not_a_table(key, span)),
     }
+}
+
+fn not_a_table(key: &str, span: &Span) -> Diagnostic {
+    let title = format!("{} is not a table", quoted(key));
+    let label = "this key has a value, not keys of its own";
+    Diagnostic::new(span.clone(), title).with_label(label)
 }

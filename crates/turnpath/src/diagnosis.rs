@@ -4,7 +4,7 @@ use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
 use turnpath_pipeline::PipelineError;
 use turnpath_post::PmacError;
-use turnpath_recipe::{Diagnostic, Diagnostics, Recipe, Spanned};
+use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned};
 use turnpath_report::text::{millimetres, nose_radius};
 
 use crate::data_files::DataFileError;
@@ -21,7 +21,7 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
             error: StrategyError::Parameter { name, message },
             ..
         } => {
-            let diagnostic = wrong_parameter(recipe, *slot, name, message);
+            let diagnostic = wrong_parameter(recipe, recipe.choice(*slot), name, message);
             Error::refused_by(diagnostic, error)
         }
         PipelineError::Strategy { slot, .. }
@@ -48,9 +48,13 @@ pub fn of_measure(recipe: &Recipe, error: StrategyError) -> Error {
 }
 
 /// A parameter that a strategy cannot work with, underlined where it stands.
-pub fn wrong_parameter(recipe: &Recipe, slot: Slot, parameter: &str, message: &str) -> Diagnostic {
-    let choice = recipe.choice(slot);
-    let (noun, name) = (slot.noun(), choice.name());
+pub fn wrong_parameter(
+    recipe: &Recipe,
+    choice: &Choice,
+    parameter: &str,
+    message: &str,
+) -> Diagnostic {
+    let (noun, name) = (choice.slot.noun(), choice.name());
     let title = format!("the {noun} `{name}` cannot work with this: {message}");
     let span = choice.param_span(parameter);
     recipe.diagnostic(span, title, format!("`{parameter}`"), [])
@@ -59,12 +63,12 @@ pub fn wrong_parameter(recipe: &Recipe, slot: Slot, parameter: &str, message: &s
 /// A data file that cannot be read, underlined where the recipe names it.
 pub fn unreadable_file(
     recipe: &Recipe,
-    slot: Slot,
+    choice: &Choice,
     parameter: &str,
     path: &Spanned<String>,
     error: &DataFileError,
 ) -> Diagnostic {
-    let (noun, name) = (slot.noun(), recipe.choice(slot).name());
+    let (noun, name) = (choice.slot.noun(), choice.name());
     let whole = recipe.resolve(&path.value);
     let title = format!("cannot read the file {}: {error}", whole.display());
     let label = format!("`{parameter}` of the {noun} `{name}`");
@@ -95,8 +99,18 @@ pub fn needs_exact_rates(recipe: &Recipe) -> Error {
 }
 
 fn at_choice(recipe: &Recipe, slot: Slot, title: String) -> Diagnostic {
-    let span = recipe.choice(slot).name.span.clone();
-    recipe.diagnostic(span, title, "chosen here", [])
+    let choice = named_choice(recipe, slot, &title);
+    recipe.diagnostic(choice.name.span.clone(), title, "chosen here", [])
+}
+
+/// Of several surfaces the one that a message names, else the first.
+fn named_choice<'a>(recipe: &'a Recipe, slot: Slot, message: &str) -> &'a Choice {
+    let is_named = |choice: &&Choice| {
+        let name = format!("the {} `{}`", slot.noun(), choice.name());
+        message.contains(&name)
+    };
+    let named = recipe.choices(slot).into_iter().find(is_named);
+    named.unwrap_or_else(|| recipe.choice(slot))
 }
 
 fn no_surface(recipe: &Recipe, title: String) -> Diagnostic {

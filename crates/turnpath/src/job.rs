@@ -9,12 +9,13 @@ use turnpath_post::{PMAC_TIME_STEPS, PmacError};
 use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 
+use crate::chain::chain;
 use crate::data_files::DataFiles;
 use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
 use crate::error::Error;
 use crate::named_files::UsedFile;
 use crate::program::{Program, programs};
-use crate::strategies::{chain, used_files};
+use crate::strategies::used_files;
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
 pub struct Job {

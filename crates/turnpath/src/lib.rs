@@ -18,6 +18,7 @@
 //! ```
 
 mod ablation;
+mod chain;
 mod check;
 mod data_files;
 mod diagnosis;
@@ -37,6 +38,7 @@ mod run;
 mod sag;
 mod sinks;
 mod strategies;
+mod surface;
 mod toolpath;
 mod verify;
 

@@ -1,7 +1,7 @@
 //! The data files that a recipe names, with their contents.
 
-use turnpath_core::{DataFile, ParamValue, Params, Slot};
-use turnpath_recipe::{Binding, NamedFile, Recipe};
+use turnpath_core::{DataFile, ParamValue, Params};
+use turnpath_recipe::{Binding, Choice, NamedFile, Recipe};
 
 use crate::data_files::{Contents, DataFiles};
 use crate::diagnosis::unreadable_file;
@@ -10,8 +10,8 @@ use crate::error::Error;
 /// A data file, and the parameter that names it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UsedFile {
-    /// The slot of the strategy.
-    pub slot: Slot,
+    /// The path of the strategy's table, `surface` or `surface.1`.
+    pub table: String,
     /// The parameter.
     pub param: &'static str,
     /// The path as the recipe gives it.
@@ -20,13 +20,13 @@ pub struct UsedFile {
     pub contents: Contents,
 }
 
-/// Reads the files that a recipe names for the strategy of a slot, unless they were read before.
+/// Reads the files that a recipe names for a strategy, unless they were read before.
 ///
 /// # Errors
 /// When one cannot be read.
 pub fn read_named(
     recipe: &Recipe,
-    slot: Slot,
+    choice: &Choice,
     named: &[NamedFile],
     files: &DataFiles,
 ) -> Result<Vec<UsedFile>, Error> {
@@ -34,13 +34,13 @@ pub fn read_named(
         let NamedFile { param, path } = file;
         match files.read(&recipe.resolve(&path.value)) {
             Ok(contents) => Ok(UsedFile {
-                slot,
+                table: choice.path.clone(),
                 param,
                 path: path.value.clone(),
                 contents,
             }),
             Err(source) => {
-                let diagnostic = Box::new(unreadable_file(recipe, slot, param, path, &source));
+                let diagnostic = Box::new(unreadable_file(recipe, choice, param, path, &source));
                 Err(Error::DataFile { diagnostic, source })
             }
         }
@@ -54,12 +54,12 @@ pub fn read_named(
 /// When a file cannot be read.
 pub fn with_files(
     recipe: &Recipe,
-    slot: Slot,
+    choice: &Choice,
     binding: Binding,
     files: &DataFiles,
 ) -> Result<Params, Error> {
     let mut params = binding.params;
-    for used in read_named(recipe, slot, &binding.files, files)? {
+    for used in read_named(recipe, choice, &binding.files, files)? {
         let file = DataFile {
             path: used.path,
             bytes: used.contents.bytes,

@@ -40,9 +40,8 @@ fn not_loaded(recipe: &Recipe, listed: &Spanned<String>, error: LoadError) -> Er
 /// The plugins of a recipe's strategies, each once.
 pub fn used<'a>(recipe: &Recipe, catalogue: &'a Catalogue) -> Vec<&'a Plugin> {
     let mut used: Vec<&Plugin> = Vec::new();
-    for slot in Slot::ALL {
-        let name = recipe.choice(slot).name();
-        if let Some(strategy) = catalogue.find(slot, name) {
+    for choice in Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot)) {
+        if let Some(strategy) = catalogue.find(choice.slot, choice.name()) {
             let plugin = strategy.plugin().as_ref();
             if !used.contains(&plugin) {
                 used.push(plugin);

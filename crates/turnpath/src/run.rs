@@ -208,7 +208,7 @@ impl Job {
 
     fn data_sources(&self) -> Vec<report::DataSource> {
         let source = |file: &UsedFile| report::DataSource {
-            slot: file.slot.key().to_owned(),
+            slot: file.table.clone(),
             param: file.param.to_owned(),
             file: file.path.clone(),
             bytes: file.contents.bytes.len() as u64,
@@ -222,7 +222,7 @@ impl Job {
 pub(crate) fn chain_names(recipe: &turnpath_recipe::Recipe) -> report::ChainNames {
     let name = |slot| recipe.choice(slot).name().to_owned();
     report::ChainNames {
-        surface: name(Slot::Surface),
+        surface: recipe.surface_name(),
         feed: name(Slot::Feed),
         sampler: name(Slot::Sampler),
         compensator: name(Slot::Compensator),

@@ -13,7 +13,7 @@ use crate::data_files::DataFiles;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::plots::check_grid;
-use crate::strategies;
+use crate::surface::surface;
 
 /// Writes the recipe's surface and its slopes at `count` × `count` points of the square around the
 /// aperture, its edges included. A point where the surface has no height is NaN.
@@ -27,7 +27,7 @@ pub fn write_sag(
     file: &Path,
 ) -> Result<(), Error> {
     check_grid(count)?;
-    let surface = strategies::surface(recipe, catalogue, &DataFiles::default())?;
+    let surface = surface(recipe, catalogue, &DataFiles::default())?;
     let grid = Grid {
         half: recipe.part.aperture_radius,
         count,

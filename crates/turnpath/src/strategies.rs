@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use turnpath_core::{Compensator, Params, Slot, StrategyError, SurfaceModel, VelocitySolver};
+use turnpath_core::{Compensator, Params, Slot, StrategyError, VelocitySolver};
 use turnpath_host::{Catalogue, Strategy};
-use turnpath_pipeline::{Chain, Link};
-use turnpath_recipe::{Binding, Diagnostic, Diagnostics, Recipe};
+use turnpath_pipeline::Link;
+use turnpath_recipe::{Binding, Choice, Diagnostic, Diagnostics, Recipe};
 
 use crate::data_files::DataFiles;
 use crate::diagnosis::wrong_parameter;
@@ -14,23 +14,25 @@ use crate::named_files::{UsedFile, read_named, with_files};
 
 /// The strategy that a recipe chooses, with its checked parameters. Its files are not read yet.
 fn chosen<'a>(
-    recipe: &Recipe,
+    choice: &Choice,
     catalogue: &'a Catalogue,
-    slot: Slot,
 ) -> Result<(&'a Strategy, Binding), Diagnostics> {
-    let name = recipe.choice(slot).name();
-    let Some(strategy) = catalogue.find(slot, name) else {
-        return Err(recipe.unknown_strategy(slot, &catalogue.names(slot)).into());
+    let Some(strategy) = catalogue.find(choice.slot, choice.name()) else {
+        return Err(choice.unknown(&catalogue.names(choice.slot)).into());
     };
-    let binding = recipe.bind(slot, &strategy.info())?;
+    let binding = choice.bind(&strategy.info())?;
     Ok((strategy, binding))
+}
+
+/// All choices of a recipe.
+fn choices(recipe: &Recipe) -> impl Iterator<Item = &Choice> {
+    Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot))
 }
 
 /// What is wrong with a recipe's choices as far as it is known before the strategies are made: all
 /// of it.
 pub fn wrong_choices(recipe: &Recipe, catalogue: &Catalogue) -> Vec<Diagnostic> {
-    let wrong = |slot| chosen(recipe, catalogue, slot).err();
-    let wrong = Slot::ALL.into_iter().filter_map(wrong);
+    let wrong = choices(recipe).filter_map(|choice| chosen(choice, catalogue).err());
     wrong
         .flat_map(|found| found.iter().cloned().collect::<Vec<_>>())
         .collect()
@@ -46,44 +48,46 @@ pub fn used_files(
     files: &DataFiles,
 ) -> Result<Vec<UsedFile>, Error> {
     let mut used = Vec::new();
-    for slot in Slot::ALL {
-        let (_, binding) = chosen(recipe, catalogue, slot)?;
-        used.extend(read_named(recipe, slot, &binding.files, files)?);
+    for choice in choices(recipe) {
+        let (_, binding) = chosen(choice, catalogue)?;
+        used.extend(read_named(recipe, choice, &binding.files, files)?);
     }
     Ok(used)
 }
 
-fn link<T: ?Sized>(
+/// The strategy of a choice, made.
+pub(crate) fn link<T: ?Sized>(
     recipe: &Recipe,
     catalogue: &Catalogue,
     files: &DataFiles,
-    slot: Slot,
+    choice: &Choice,
     make: impl FnOnce(&Strategy, &Params) -> Result<Arc<T>, StrategyError>,
 ) -> Result<Link<T>, Error> {
-    let (strategy, binding) = chosen(recipe, catalogue, slot)?;
-    let params = with_files(recipe, slot, binding, files)?;
+    let (strategy, binding) = chosen(choice, catalogue)?;
+    let params = with_files(recipe, choice, binding, files)?;
     let name = strategy.info().name.to_owned();
     let plugin = strategy.plugin().to_string();
     match make(strategy, &params) {
         Ok(strategy) => Ok(Link {
-            slot,
+            slot: choice.slot,
             name,
             plugin,
             strategy,
         }),
-        Err(error) => Err(not_made(recipe, slot, &name, &plugin, error)),
+        Err(error) => Err(not_made(recipe, choice, &plugin, error)),
     }
 }
 
 /// A constructor that refuses its parameters means that the recipe is wrong; one that panics, that
 /// the plugin is.
-fn not_made(recipe: &Recipe, slot: Slot, name: &str, plugin: &str, error: StrategyError) -> Error {
-    let (noun, span) = (slot.noun(), recipe.choice(slot).name.span.clone());
+fn not_made(recipe: &Recipe, choice: &Choice, plugin: &str, error: StrategyError) -> Error {
+    let (noun, name) = (choice.slot.noun(), choice.name());
+    let span = choice.name.span.clone();
     match &error {
         StrategyError::Parameter {
             name: parameter,
             message,
-        } => Error::refused_by(wrong_parameter(recipe, slot, parameter, message), error),
+        } => Error::refused_by(wrong_parameter(recipe, choice, parameter, message), error),
         StrategyError::Failed(message) => {
             let title = format!("the {noun} `{name}` cannot be made: {message}");
             let label = format!("from {plugin}");
@@ -99,21 +103,6 @@ fn not_made(recipe: &Recipe, slot: Slot, name: &str, plugin: &str, error: Strate
     }
 }
 
-/// The recipe's surface alone.
-pub fn surface(
-    recipe: &Recipe,
-    catalogue: &Catalogue,
-    files: &DataFiles,
-) -> Result<Link<dyn SurfaceModel>, Error> {
-    link(
-        recipe,
-        catalogue,
-        files,
-        Slot::Surface,
-        |strategy, params| strategy.offer().surface(params),
-    )
-}
-
 /// The recipe's compensator alone.
 pub fn compensator(
     recipe: &Recipe,
@@ -124,7 +113,7 @@ pub fn compensator(
         recipe,
         catalogue,
         files,
-        Slot::Compensator,
+        recipe.choice(Slot::Compensator),
         |strategy, params| strategy.offer().compensator(params),
     )
 }
@@ -139,33 +128,7 @@ pub fn velocity(
         recipe,
         catalogue,
         files,
-        Slot::Velocity,
+        recipe.choice(Slot::Velocity),
         |strategy, params| strategy.offer().velocity(params),
     )
-}
-
-/// The recipe's strategies.
-pub fn chain(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<Chain, Error> {
-    Ok(Chain {
-        surface: surface(recipe, catalogue, files)?,
-        feed: link(recipe, catalogue, files, Slot::Feed, |strategy, params| {
-            strategy.offer().feed(params)
-        })?,
-        sampler: link(
-            recipe,
-            catalogue,
-            files,
-            Slot::Sampler,
-            |strategy, params| strategy.offer().sampler(params),
-        )?,
-        compensator: compensator(recipe, catalogue, files)?,
-        velocity: velocity(recipe, catalogue, files)?,
-        spindle: link(
-            recipe,
-            catalogue,
-            files,
-            Slot::Spindle,
-            |strategy, params| strategy.offer().spindle(params),
-        )?,
-    })
 }

@@ -5,8 +5,8 @@
 
 use std::path::Path;
 
+use turnpath_core::RadialRange;
 use turnpath_core::toolpath::SegmentShape;
-use turnpath_core::{RadialRange, Slot};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Stage};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
@@ -23,6 +23,7 @@ use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::posts::{PMAC_EXTENSION, pmac_format};
 use crate::strategies;
+use crate::surface::surface;
 
 /// Measures the tool path in a file: a `toolpath.csv`, or a program of the post `pmac-pvt`. Plots go
 /// to `folder`.
@@ -55,7 +56,7 @@ struct Target<'a> {
 impl<'a> Target<'a> {
     fn new(recipe: &'a Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
         let files = DataFiles::default();
-        let surface = strategies::surface(recipe, catalogue, &files)?.strategy;
+        let surface = surface(recipe, catalogue, &files)?.strategy;
         let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
         let velocity = strategies::velocity(recipe, catalogue, &files)?.strategy;
         let subject = Subject {
@@ -121,7 +122,7 @@ impl<'a> Target<'a> {
             format: report::FORMAT,
             name: recipe.name.clone(),
             file: file.display().to_string(),
-            surface: recipe.choice(Slot::Surface).name().to_owned(),
+            surface: recipe.surface_name(),
             control_points: read.cutting_points(),
             rows: read.points(),
             within: path.verdict(Some(&reach)),

@@ -1,8 +1,9 @@
 //! Values as text, for the rows of the comparison.
 
-use crate::document::{Entry, Node, Table, Value};
+use crate::document::{Entry, Table, Value};
 
 use super::lists::List;
+use super::sums::{name, of_table, tables};
 
 /// A value of a list as a person reads it.
 pub(super) fn of_choice(list: &List, index: usize) -> String {
@@ -10,35 +11,33 @@ pub(super) fn of_choice(list: &List, index: usize) -> String {
         return "(default)".to_owned();
     };
     match &node.value {
-        Value::Table(table) if list.is_slot() => of_strategy(list, table),
+        value if list.is_slot() => of_strategy(list, value),
         Value::Text(text) => text.clone(),
         value => toml_of(value),
     }
 }
 
-/// A strategy's name, with its parameters if the list has several strategies of that name.
-fn of_strategy(list: &List, table: &Table) -> String {
-    let name = name(table).unwrap_or_default();
-    let of_name = |choice: &&Option<Node>| match choice.as_ref().map(|node| &node.value) {
-        Some(Value::Table(table)) => self::name(table) == Some(name),
-        _ => false,
-    };
-    let params: Vec<String> = table
-        .entries()
-        .iter()
+/// The name of a strategy or of a sum, with the parameters if the list has several of that name.
+fn of_strategy(list: &List, value: &Value) -> String {
+    let own = name(value);
+    let choices = list.choices.iter().flatten();
+    if choices.filter(|choice| name(&choice.value) == own).count() < 2 {
+        return own;
+    }
+    let parts: Vec<String> = tables(value).into_iter().map(with_params).collect();
+    parts.join(" + ")
+}
+
+fn with_params(table: &Table) -> String {
+    let entries = table.entries().iter();
+    let params: Vec<String> = entries
         .filter(|entry| entry.key != "use")
         .map(setting)
         .collect();
-    if params.is_empty() || list.choices.iter().filter(of_name).count() < 2 {
-        return name.to_owned();
-    }
-    format!("{name} ({})", params.join(", "))
-}
-
-fn name(table: &Table) -> Option<&str> {
-    match &table.get("use")?.node.value {
-        Value::Text(name) => Some(name),
-        _ => None,
+    let name = of_table(table);
+    match params.is_empty() {
+        true => name,
+        false => format!("{name} ({})", params.join(", ")),
     }
 }
 

@@ -10,6 +10,8 @@ use crate::suggest::{did_you_mean, listed, quoted};
 use crate::tables::{DEFAULT_SPINDLE, SCHEMA, TOP, is_one_at_a_time};
 use crate::value;
 
+use super::sums::{are_strategies, is_strategy_or_sum, without_single_sum};
+
 /// How the lists are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mode {
@@ -43,7 +45,7 @@ impl List {
 
     /// Whether the values are strategies, each a whole table.
     pub(super) fn is_slot(&self) -> bool {
-        matches!(self.path.as_slice(), [(key, _)] if is_slot(key))
+        are_strategies(&keys(&self.path))
     }
 
     fn order(&self) -> (usize, usize) {
@@ -160,27 +162,26 @@ impl Walker<'_> {
                 .with_label("nothing to vary")
                 .with_help("give it one or more values, or leave the line out"));
         }
-        let own = self.base.find(path.iter().map(|(key, _)| key.as_str()));
-        let own = own.map(|entry| whole_spindle(&key, &entry.node, self.base));
-        let mut list = List {
-            path,
-            choices: vec![own],
-        };
+        let names = keys(&path);
+        let own = self.base.find(names.iter().copied());
+        let own = own.map(|node| whole_spindle(&key, node, self.base));
+        let own = own.map(|node| without_single_sum(&names, node));
+        let mut choices = vec![own];
         for item in items {
-            if list.is_slot() && !matches!(item.value, Value::Table(_)) {
+            if are_strategies(&names) && !is_strategy_or_sum(&names, &item.value) {
                 return Err(not_a_strategy(&key, item));
             }
-            let item = whole_spindle(&key, item, self.base);
+            let item = without_single_sum(&names, whole_spindle(&key, item, self.base));
             let same = |choice: &Option<Node>| {
                 choice
                     .as_ref()
                     .is_some_and(|choice| are_same(choice, &item))
             };
-            if !list.choices.iter().any(same) {
-                list.choices.push(Some(item));
+            if !choices.iter().any(same) {
+                choices.push(Some(item));
             }
         }
-        Ok(list)
+        Ok(List { path, choices })
     }
 }
 
@@ -203,8 +204,11 @@ fn whole_spindle(key: &str, node: &Node, base: &Table) -> Node {
             node: Node { value, span },
         });
     }
-    let speed = base.find([key, "speed"]);
-    if let (None, Some(speed)) = (table.get("speed"), speed) {
+    let own = match base.get(key).map(|entry| &entry.node.value) {
+        Some(Value::Table(own)) => own.get("speed"),
+        _ => None,
+    };
+    if let (None, Some(speed)) = (table.get("speed"), own) {
         table.put(speed.clone());
     }
     node
@@ -214,7 +218,7 @@ fn whole_spindle(key: &str, node: &Node, base: &Table) -> Node {
 fn is_final(path: &[(String, Span)]) -> bool {
     match path {
         [(first, _)] => TOP.has(first),
-        [(first, _), ..] => !is_slot(first),
+        [(first, _), ..] => !is_slot(first) && !is_table(&dotted(path)),
         [] => false,
     }
 }
@@ -222,7 +226,7 @@ fn is_final(path: &[(String, Span)]) -> bool {
 /// Whether the value is a single strategy where a list of strategies belongs.
 fn is_strategy(path: &[(String, Span)], table: &Table) -> bool {
     let name = table.get("use").map(|entry| &entry.node.value);
-    matches!(path, [(key, _)] if is_slot(key)) && matches!(name, Some(Value::Text(_)))
+    are_strategies(&keys(path)) && matches!(name, Some(Value::Text(_)))
 }
 
 fn not_a_strategy(key: &str, item: &Node) -> Diagnostic {
@@ -240,6 +244,11 @@ fn cannot_vary(path: &[(String, Span)], entry: &Entry) -> Option<Diagnostic> {
         [(table, _), (key, span)] if !is_slot(table) => {
             let known = keys_of(table);
             (!known.contains(&key.as_str())).then(|| unknown_key(table, key, span, &known))
+        }
+        [above @ .., (key, span)] if is_table(&dotted(above)) => {
+            let (table, key) = (dotted(above), key.as_str());
+            let known = keys_of(&table);
+            (!known.contains(&key)).then(|| unknown_key(&table, key, span, &known))
         }
         _ => None,
     }
@@ -314,9 +323,17 @@ fn is_slot(key: &str) -> bool {
     Slot::ALL.iter().any(|slot| slot.key() == key)
 }
 
+fn is_table(name: &str) -> bool {
+    SCHEMA.iter().any(|table| table.name == name)
+}
+
+/// The keys of a path, without their spans.
+fn keys(path: &[(String, Span)]) -> Vec<&str> {
+    path.iter().map(|(key, _)| key.as_str()).collect()
+}
+
 fn dotted(path: &[(String, Span)]) -> String {
-    let keys: Vec<&str> = path.iter().map(|(key, _)| key.as_str()).collect();
-    keys.join(".")
+    keys(path).join(".")
 }
 
 fn example(path: &[(String, Span)]) -> String {

@@ -9,6 +9,7 @@
 
 mod label;
 mod lists;
+mod sums;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Entry, Node, Table, Value};

@@ -194,3 +194,49 @@ fn a_million_runs_are_refused() {
     let said = recipe.variants().unwrap_err().render(false);
     assert!(said.contains("more than 4096 runs"), "{said}");
 }
+
+#[test]
+fn an_inner_list_is_a_sum() {
+    let variants = variants_of(
+        "surface = [[{ use = \"conic\" }, { use = \"zernike\" }], { use = \"conic\" }, \
+         [{ use = \"conic\" }]]",
+    );
+    let expected = ["astigmatic", "conic + zernike", "conic"];
+    assert_eq!(labels(&variants), expected);
+    assert_eq!(variants[1].recipe.surface_name(), "conic + zernike");
+    assert_eq!(variants[2].recipe.surface_name(), "conic");
+}
+
+#[test]
+fn sums_of_one_name_have_their_parameters() {
+    let variants = variants_of(
+        "surface = [[{ use = \"conic\", scale = 2 }, { use = \"toric\" }], \
+         [{ use = \"conic\" }, { use = \"toric\", scale = 3 }]]",
+    );
+    let expected = [
+        "astigmatic",
+        "conic (scale = 2) + toric",
+        "conic + toric (scale = 3)",
+    ];
+    assert_eq!(labels(&variants), expected);
+}
+
+#[test]
+fn keys_of_one_surface_and_of_the_pose_vary() {
+    let surfaces = "[[surface]]\nuse = \"conic\"\nradius = \"1 m\"\n[[surface]]\nuse = \"toric\"\n";
+    let single = "[surface]\nuse = \"astigmatic\"\nk = \"0.08 /mm\"\n";
+    let text = BASE.replacen(single, surfaces, 1)
+        + "[ablation]\nsurface.0.radius = [\"2 m\"]\nsurface.1 = [{ use = \"flat\" }]\n\
+           part.pose.x = [\"3 mm\"]\n";
+    let recipe = Recipe::parse(&text, "mirror.toml", &[]).unwrap();
+    let variants = recipe.variants().unwrap();
+    assert_eq!(variants.len(), 8);
+    let keys = variants[0].variations.iter().map(|one| one.key.as_str());
+    let expected = ["surface.0.radius", "surface.1", "part.pose.x"];
+    assert_eq!(keys.collect::<Vec<_>>(), expected);
+    let labels = labels(&variants);
+    assert_eq!(labels[0], "1 m | toric | (default)");
+    assert_eq!(labels[7], "2 m | flat | 3 mm");
+    assert_eq!(variants[7].recipe.surface_name(), "conic + flat");
+    assert_eq!(variants[7].recipe.pose.map(|pose| pose.x), Some(3.0));
+}

@@ -6,9 +6,12 @@ mod machine;
 mod output;
 mod path;
 mod pmac_pvt;
+mod pose;
 mod schema;
 mod servo;
 mod slot;
+mod strategy;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod top;
@@ -24,9 +27,11 @@ pub(crate) use machine::{check_spindle, machine};
 pub(crate) use output::output;
 pub(crate) use path::path;
 pub(crate) use pmac_pvt::pmac_pvt;
+pub(crate) use pose::pose;
 pub(crate) use schema::SCHEMA;
 pub(crate) use servo::servo;
-pub(crate) use slot::USE;
+pub(crate) use strategy::USE;
+pub(crate) use surface::placement;
 pub(crate) use top::{TOP, format_is_one, top};
 pub(crate) use work::{part, tool};
 

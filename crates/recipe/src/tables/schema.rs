@@ -2,11 +2,12 @@
 
 use crate::read::Schema;
 
-use super::{ablation, cutting, machine, output, path, pmac_pvt, servo, work};
+use super::{ablation, cutting, machine, output, path, pmac_pvt, pose, servo, work};
 
 /// The tables with fixed keys.
 pub(crate) const SCHEMA: Schema = &[
     work::PART,
+    pose::POSE,
     work::TOOL,
     cutting::TOLERANCE,
     cutting::SPINDLE,

@@ -1,25 +1,18 @@
 //! The keys of the host in a strategy's table.
 
-use turnpath_core::kind::Text;
-use turnpath_core::{Param, ParamInfo, Slot};
+use turnpath_core::{ParamInfo, Slot};
 
 use super::cutting::SPINDLE;
-
-/// The name of the strategy.
-pub(crate) const USE: Param<Text> = Param::text(
-    "use",
-    "the name of the strategy; `turnpath list` shows all names",
-);
+use super::strategy::USE;
+use super::surface;
 
 /// The keys that the host itself reads from a slot's table. All of them are among
 /// [`HOST_KEYS`](turnpath_core::HOST_KEYS), so that no strategy has a parameter of that name.
 pub fn slot_keys(slot: Slot) -> &'static [ParamInfo] {
-    // The keys of a slot of its own, such as the place of a surface in a sum, join `use` here.
     match slot {
         Slot::Spindle => SPINDLE.keys,
-        Slot::Surface | Slot::Feed | Slot::Sampler | Slot::Compensator | Slot::Velocity => {
-            const { &[USE.info()] }
-        }
+        Slot::Surface => surface::KEYS,
+        Slot::Feed | Slot::Sampler | Slot::Compensator | Slot::Velocity => const { &[USE.info()] },
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::{ParamDefault, ParamInfo, ParamKind, Quantity};
 
-use super::tables;
+use super::{surface, tables};
 use crate::declared::{kind, limits, shown};
 use crate::table_info::TableInfo;
 
@@ -17,6 +17,14 @@ fn file() -> PathBuf {
 fn page() -> String {
     std::fs::read_to_string(file()).expect("docs/recipe.md")
 }
+
+/// The keys that place a surface.
+static PLACE: TableInfo = TableInfo {
+    name: "surface",
+    summary: "the place of a surface in a sum",
+    required: true,
+    keys: surface::KEYS.split_at(1).1,
+};
 
 /// The line above the table of some keys.
 fn marker(table: &TableInfo) -> String {
@@ -85,7 +93,7 @@ fn rows(table: &TableInfo) -> String {
 /// The page with the table below each marker written anew.
 fn written(page: &str) -> String {
     let mut page = page.to_owned();
-    for table in tables() {
+    for table in tables().chain([&PLACE]) {
         let marker = marker(table);
         let (before, after) = page
             .split_once(&marker)
@@ -118,7 +126,7 @@ fn docs_recipe_md_has_the_declared_keys() {
 
 #[test]
 fn every_key_has_help_and_every_table_a_name_of_its_own() {
-    let all: Vec<&TableInfo> = tables().collect();
+    let all: Vec<&TableInfo> = tables().chain([&PLACE]).collect();
     for (i, table) in all.iter().enumerate() {
         assert!(!table.summary.is_empty());
         assert!(all[..i].iter().all(|other| other.name != table.name));

@@ -4,7 +4,7 @@ use turnpath_core::kind::{Count, Flag, List, Text};
 use turnpath_core::{Param, Slot};
 
 use crate::diagnostic::Diagnostic;
-use crate::document::{Entry, Table, Value};
+use crate::document::{Entry, Node, Table, Value};
 use crate::read::{Schema, Section};
 use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
@@ -106,6 +106,10 @@ fn report_unknown(section: &mut Section<'_>) {
     for entry in section.table.map_or(&[][..], Table::entries) {
         let is_table = matches!(entry.node.value, Value::Table(_));
         let key = entry.key.as_str();
+        if let (true, Value::Array(items)) = (key == Slot::Surface.key(), &entry.node.value) {
+            report_wrong_surfaces(section, items);
+            continue;
+        }
         let diagnostic = match (names.contains(&key), TOP.has(key)) {
             (true, _) if is_table => continue,
             (true, _) => not_a_table(entry),
@@ -123,6 +127,17 @@ fn table_names(schema: Schema) -> Vec<&'static str> {
     let fixed = fixed.filter(|name| !name.contains('.'));
     let is_slot = |name: &&str| Slot::ALL.iter().any(|slot| slot.key() == *name);
     fixed.filter(|name| !is_slot(name)).chain(slots).collect()
+}
+
+/// Reports each surface of a list that is not a table.
+fn report_wrong_surfaces(section: &mut Section<'_>, items: &[Node]) {
+    for item in items {
+        if !matches!(item.value, Value::Table(_)) {
+            let diagnostic = value::wrong_type(Slot::Surface.key(), item, "a list of tables")
+                .with_help("write [[surface]] and its keys below it, once for each surface");
+            section.report(diagnostic);
+        }
+    }
 }
 
 fn not_a_table(entry: &Entry) -> Diagnostic {

@@ -6,3 +6,4 @@ mod ablation_messages;
 mod arbitrary;
 mod messages;
 mod recipes;
+mod sums;

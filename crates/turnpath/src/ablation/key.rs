@@ -66,7 +66,7 @@ impl<'a> Keys<'a> {
     fn of(&self, recipe: &Recipe, files: &[UsedFile]) -> Key {
         let values = values(recipe.document());
         let hash = |file: &UsedFile| {
-            let key = format!("{}.{}", file.slot, file.param);
+            let key = format!("{}.{}", file.table, file.param);
             (key, json!(file.contents.sha256))
         };
         let files: Map<String, Json> = files.iter().map(hash).collect();
@@ -126,8 +126,6 @@ fn canonical(value: &Value) -> Json {
 
 #[cfg(test)]
 mod tests {
-    use turnpath_core::Slot;
-
     use super::*;
     use crate::data_files::Contents;
 
@@ -166,7 +164,7 @@ use = "analytic"
     #[test]
     fn the_contents_of_data_files_count() {
         let file = |bytes: &[u8]| UsedFile {
-            slot: Slot::Surface,
+            table: "surface".to_owned(),
             param: "map",
             path: "map.dat".to_owned(),
             contents: Contents {

@@ -1,0 +1,106 @@
+//! The surface of a recipe: one strategy, or several in their places, added up and posed.
+
+use std::sync::Arc;
+
+use turnpath_core::{Slot, SurfaceModel};
+use turnpath_host::Catalogue;
+use turnpath_pipeline::{Link, NamedSurface, PlacedSurface, PoseError, PosedSurface, SurfaceSum};
+use turnpath_recipe::{Diagnostics, Recipe, SurfaceEntry};
+
+use crate::data_files::DataFiles;
+use crate::diagnosis::of_pipeline;
+use crate::error::Error;
+use crate::strategies::link;
+
+/// The recipe's surface. A single one that stays as it is is the strategy itself.
+pub fn surface(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<Link<dyn SurfaceModel>, Error> {
+    let entry = |entry: &SurfaceEntry| {
+        link(
+            recipe,
+            catalogue,
+            files,
+            &entry.choice,
+            |strategy, params| strategy.offer().surface(params),
+        )
+    };
+    let links: Vec<Link<dyn SurfaceModel>> = recipe
+        .surfaces
+        .iter()
+        .map(entry)
+        .collect::<Result<_, _>>()?;
+    match (links.as_slice(), recipe.surfaces.as_slice()) {
+        ([_], [only]) if only.placement.is_plain() && recipe.pose.is_none() => {}
+        _ => return composite(recipe, &links),
+    }
+    let only = links.into_iter().next();
+    only.map_or_else(|| composite(recipe, &[]), Ok)
+}
+
+/// The surfaces in their places, added up and posed. Its errors carry the name of the surface that
+/// failed.
+fn composite(
+    recipe: &Recipe,
+    links: &[Link<dyn SurfaceModel>],
+) -> Result<Link<dyn SurfaceModel>, Error> {
+    let placed = links.iter().zip(&recipe.surfaces).map(placed);
+    let mut sum = Link {
+        slot: Slot::Surface,
+        name: recipe.surface_name(),
+        plugin: plugins(links),
+        strategy: added_up(placed.collect()),
+    };
+    let Some(pose) = recipe.pose else {
+        return Ok(sum);
+    };
+    match PosedSurface::new(sum.strategy.clone(), pose) {
+        Ok(posed) => sum.strategy = Arc::new(posed),
+        Err(PoseError::Strategy(error)) => {
+            let error = sum.failed("at the part's middle", error);
+            return Err(of_pipeline(recipe, error));
+        }
+        Err(error) => return Err(no_pose(recipe, error)),
+    }
+    Ok(sum)
+}
+
+fn placed((link, entry): (&Link<dyn SurfaceModel>, &SurfaceEntry)) -> Arc<dyn SurfaceModel> {
+    let named = Arc::new(NamedSurface::new(link));
+    match entry.placement.is_plain() {
+        true => named,
+        false => Arc::new(PlacedSurface::new(named, entry.placement)),
+    }
+}
+
+fn added_up(mut surfaces: Vec<Arc<dyn SurfaceModel>>) -> Arc<dyn SurfaceModel> {
+    match surfaces.len() {
+        1 => surfaces.remove(0),
+        _ => Arc::new(SurfaceSum::new(surfaces)),
+    }
+}
+
+/// The plugins of a sum, each once.
+fn plugins(links: &[Link<dyn SurfaceModel>]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for link in links {
+        if !names.contains(&link.plugin.as_str()) {
+            names.push(&link.plugin);
+        }
+    }
+    names.join(" and ")
+}
+
+/// A surface without a pose: the recipe puts the part where the surface is not.
+fn no_pose(recipe: &Recipe, error: PoseError) -> Error {
+    let span = recipe.nearest_span("part.pose");
+    let help = match error {
+        PoseError::NoMiddle => "choose another `x` and `y`",
+        PoseError::Overhang | PoseError::Strategy(_) => "choose smaller tilts",
+    };
+    let title = format!("the part cannot lie there: {error}");
+    let diagnostic = recipe.diagnostic(span, title, "from this pose", [help.to_owned()]);
+    Error::refused(Diagnostics::from(diagnostic))
+}
