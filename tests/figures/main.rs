@@ -10,6 +10,7 @@ mod leads;
 mod machine;
 mod machined_surface;
 mod pmac;
+mod poses;
 mod recipes;
 mod servo;
 mod spoiled_paths;

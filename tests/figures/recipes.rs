@@ -54,6 +54,13 @@ fn hard_chains_measure_like_the_reference() {
     check_all(&folder, &folder, Requirement::AsReference, |_| true);
 }
 
+/// Sums of surfaces in poses: their heights and slopes are nowhere in closed form.
+#[test]
+fn sums_in_poses_hold_and_measure_like_the_reference() {
+    let folder = repository().join("tests/reference/playback/sums");
+    check_all(&folder, &folder, Requirement::Holds, |_| true);
+}
+
 /// Nodes off the locus and a spindle of two speeds, both from a library: with leads, refinement,
 /// time steps and a program.
 #[test]

@@ -25,7 +25,7 @@ import tomllib
 
 import numpy as np
 
-from surfaces import ANGLE_RAD, LENGTH_MM, SURFACES, quantity
+from surfaces import ANGLE_RAD, LENGTH_MM, quantity, surface
 
 COLUMNS = "time_s,c_deg,x_mm,z_mm,vc_deg_per_s,vx_mm_per_s,vz_mm_per_s,section"
 NM_PER_MM = 1e6
@@ -50,10 +50,7 @@ class Recipe:
         self.compensator = table["compensator"]["use"]
         if self.compensator not in COMPENSATORS:
             raise SystemExit(f"no reference for the compensator `{self.compensator}`")
-        surface = table["surface"]
-        if surface["use"] not in SURFACES:
-            raise SystemExit(f"no reference for the surface `{surface['use']}`")
-        self.sag = SURFACES[surface["use"]](surface)
+        self.sag = surface(table)
 
     @property
     def leaves_seams(self):

@@ -104,6 +104,78 @@ def off_axis_paraboloid(table):
     return sag
 
 
+def placed(table):
+    """scale * f(R(-clocking)(r - decentre)) + piston, of one [[surface]]."""
+    if table["use"] not in SURFACES:
+        raise SystemExit(f"no reference for the surface `{table['use']}`")
+    f = SURFACES[table["use"]](table)
+    scale = float(table.get("scale", 1.0))
+    x0 = quantity(table, "decentre_x", LENGTH_MM, 0.0)
+    y0 = quantity(table, "decentre_y", LENGTH_MM, 0.0)
+    clocking = quantity(table, "clocking", ANGLE_RAD, 0.0)
+    piston = quantity(table, "piston", LENGTH_MM, 0.0)
+    c, s = math.cos(clocking), math.sin(clocking)
+
+    def sag(x, y):
+        u, v = x - x0, y - y0
+        return scale * f(c * u + s * v, c * v - s * u) + piston
+
+    return sag
+
+
+def turn(axis, angle):
+    """The matrix of a right-handed rotation about axis 0, 1 or 2."""
+    c, s = math.cos(angle), math.sin(angle)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    matrix = np.eye(3)
+    matrix[i, i], matrix[i, j], matrix[j, i], matrix[j, j] = c, -s, s, c
+    return matrix
+
+
+def posed(f, pose):
+    """f in the frame of a part whose middle lies on f at (x, y): level, or tilted.
+
+    The rotation is three plain ones. The point of f above (x, y) is looked for along the line with
+    a difference quotient for the slope, which is Newton's to six digits, of complex numbers too.
+    """
+    x0 = quantity(pose, "x", LENGTH_MM, 0.0)
+    y0 = quantity(pose, "y", LENGTH_MM, 0.0)
+    if pose.get("level", False):
+        p, q = np.imag(f(x0 + 1e-30j, y0)) / 1e-30, np.imag(f(x0, y0 + 1e-30j)) / 1e-30
+        ascent = math.atan2(q, p)
+        matrix = turn(2, ascent) @ turn(1, math.atan(math.hypot(p, q))) @ turn(2, -ascent)
+    else:
+        matrix = turn(1, quantity(pose, "tilt_y", ANGLE_RAD, 0.0))
+        matrix = matrix @ turn(0, quantity(pose, "tilt_x", ANGLE_RAD, 0.0))
+    z0 = f(x0, y0)
+
+    def miss(x, y, z):
+        u, v, w = (matrix[0, k] * x + matrix[1, k] * y + matrix[2, k] * z for k in range(3))
+        return z0 + w - f(x0 + u, y0 + v)
+
+    def sag(x, y):
+        z = 0 * (x + y)
+        for _ in range(4):
+            here = miss(x, y, z)
+            z = z - here * 1e-6 / (miss(x, y, z + 1e-6) - here)
+        return z
+
+    return sag
+
+
+def surface(recipe):
+    """The sag of a recipe: one surface or the sum of several, in the pose of the part."""
+    tables = recipe["surface"]
+    entries = [placed(table) for table in (tables if isinstance(tables, list) else [tables])]
+    if len(entries) == 1:
+        total = entries[0]
+    else:
+        def total(x, y):
+            return sum((f(x, y) for f in entries), 0 * (x + y))
+    pose = recipe["part"].get("pose")
+    return total if pose is None else posed(total, pose)
+
+
 SURFACES = {"astigmatic": astigmatic, "conic": conic, "xy-polynomial": xy_polynomial,
             "toric": toric, "sinusoidal-array": sinusoidal_array,
             "off-axis-paraboloid": off_axis_paraboloid}
