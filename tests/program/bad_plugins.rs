@@ -5,7 +5,7 @@ use std::fs;
 
 use crate::support::bench::{Answer, Bench};
 use crate::support::fixtures::{file_name, library, plugin_folder};
-use crate::support::recipe::{SADDLE, changed, saddle_with};
+use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
 use crate::support::repository;
 use tempfile::TempDir;
 
@@ -105,7 +105,11 @@ fn a_sampler_with_nodes_that_are_no_numbers() {
 
 #[test]
 fn a_sampler_whose_nodes_lie_too_far_off_the_locus() {
-    insta::assert_snapshot!(refused_sampler("two-speeds", "too-far"));
+    let recipe = saddle_with("sampler", "use = \"too-far\"");
+    let recipe = with_table(&recipe, "velocity", "use = \"analytic\"");
+    let bench = bench(&recipe, &["two-speeds"]);
+    let said = refused(&bench);
+    insta::assert_snapshot!(shown(&bench, &said));
 }
 
 /// A refusal of a spindle strategy of the fixture.
