@@ -82,7 +82,9 @@ fn its_strategies_are_explained_with_their_parameters() {
         let said = bench.line(&format!("explain {strategy} --plugin-dir plugins"));
         let plugins = bench.path("plugins").display().to_string();
         let shown = said.ends(0).stdout.replace(&plugins, "[plugins]");
-        insta::assert_snapshot!(strategy.replace(['/', '-'], "_"), shown);
+        // The keys of the host follow, and they may change.
+        let (own, _) = shown.split_once("\n  every ").unwrap_or((&shown, ""));
+        insta::assert_snapshot!(strategy.replace(['/', '-'], "_"), own);
     }
 }
 

@@ -100,16 +100,16 @@ fn of_strategy(strategy: &Strategy) -> String {
     text += &format!("  plugin  {}\n", strategy.plugin());
     text += &format!("\n  [{}]\n  use = \"{}\"\n", info.slot, info.name);
     text += &keys(info.params);
-    text + &of_every_surface(info.slot)
+    text + &keys_of_host(info.slot)
 }
 
-/// The keys that every surface takes besides its own; nothing for another slot.
-fn of_every_surface(slot: Slot) -> String {
-    if slot != Slot::Surface {
-        return String::new();
+/// The keys that every strategy of a slot takes besides its own, because the host reads them.
+fn keys_of_host(slot: Slot) -> String {
+    let besides = slot_keys(slot).iter().filter(|key| key.name != "use");
+    match keys(besides) {
+        none if none.is_empty() => none,
+        of_host => format!("\n  every {slot} takes:\n{of_host}"),
     }
-    let of_place = slot_keys(slot).iter().filter(|key| key.name != "use");
-    "\n  every surface takes:\n".to_owned() + &keys(of_place)
 }
 
 /// The name of a table as a person gives it.

@@ -69,8 +69,10 @@ impl Value {
 impl Node {
     fn below(&self, key: &str) -> Option<&Self> {
         match (&self.value, index(key)) {
-            (Value::Table(_), Some(0)) => Some(self),
-            (Value::Table(table), _) => table.get(key).map(|entry| &entry.node),
+            (Value::Table(table), index) => match table.get(key) {
+                None if index == Some(0) => Some(self),
+                entry => entry.map(|entry| &entry.node),
+            },
             (Value::Array(items), Some(index)) => items.get(index),
             (Value::Array(items), None) => match items.as_slice() {
                 [only] => only.below(key),

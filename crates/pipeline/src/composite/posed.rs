@@ -68,12 +68,17 @@ impl PosedSurface {
             frame,
             guess: Guess::default(),
         };
-        posed.guess = posed.near_middle()?;
+        let [along_x, along_y, rate] = posed.frame.rates(zx, zy);
+        posed.guess = Guess {
+            slope_x: -along_x / rate,
+            slope_y: -along_y / rate,
+            bends: posed.bends_at_middle()?,
+        };
         Ok(posed)
     }
 
-    /// Slopes and bends at the part's middle.
-    fn near_middle(&self) -> Result<Guess> {
+    /// Bends at the part's middle; zero where the surface has no series there.
+    fn bends_at_middle(&self) -> Result<[f64; 3]> {
         let (still, moving) = (BLANK, [0.0, 1.0, 0.0, 0.0, 0.0]);
         let [mut z, mut zx, mut zy] = [[BLANK; 2]; 3];
         let out = GradientSeries {
@@ -83,14 +88,9 @@ impl PosedSurface {
         };
         self.series(&[moving, still], &[still, moving], out)?;
         let bends = [zx[0][1], zx[1][1], zy[1][1]];
-        let bends = match bends.iter().all(|bend| bend.is_finite()) {
+        Ok(match bends.iter().all(|bend| bend.is_finite()) {
             true => bends,
             false => [0.0; 3],
-        };
-        Ok(Guess {
-            slope_x: zx[0][0],
-            slope_y: zy[0][0],
-            bends,
         })
     }
 
@@ -103,8 +103,8 @@ impl PosedSurface {
     /// coordinates.
     ///
     /// Order 0 is the root, order 1 follows from its slopes. A pass over the surface's series then
-    /// gives one order more: the gap's coefficient of order k is off by the rate of the gap times
-    /// the missing coefficient of the height, and by nothing else.
+    /// gives one order more: with all orders of the height below k right and order k left at 0, the
+    /// gap's coefficient of order k is −rate times that of the height.
     fn lift(&self, x: &[Series], y: &[Series], z: &mut [Series], own: &mut Curves) -> Result<()> {
         let (mut roots, count) = (Roots::BLANK, x.len());
         let [start_x, start_y] = [x, y].map(|curves| -> [f64; CURVES] {

@@ -73,6 +73,13 @@ impl Roots {
         zy: [0.0; POINTS],
         rate: [0.0; POINTS],
     };
+
+    /// Marks a line for which no point was found.
+    fn lose(&mut self, line: usize) {
+        for column in [&mut self.z, &mut self.zx, &mut self.zy, &mut self.rate] {
+            column[line] = f64::NAN;
+        }
+    }
 }
 
 /// The search for the roots of at most [`POINTS`] lines.
@@ -108,10 +115,13 @@ impl<'a> Search<'a> {
     ) -> Self {
         let mut open = [0.0; POINTS];
         roots.rate = [0.0; POINTS];
-        let starts = roots.z.iter_mut().zip(&mut open);
-        for (((z, open), x), y) in starts.zip(x).zip(y) {
-            *z = guess.height(*x, *y);
-            *open = if z.is_finite() { 1.0 } else { 0.0 };
+        for (i, (x, y)) in x.iter().zip(y).enumerate() {
+            roots.z[i] = guess.height(*x, *y);
+            if roots.z[i].is_finite() {
+                open[i] = 1.0;
+            } else {
+                roots.lose(i);
+            }
         }
         Self {
             surface,
@@ -138,10 +148,7 @@ impl<'a> Search<'a> {
         }
         for (i, open) in self.open.iter().enumerate().take(self.x.len()) {
             if *open > 0.0 {
-                self.roots.z[i] = f64::NAN;
-                self.roots.zx[i] = f64::NAN;
-                self.roots.zy[i] = f64::NAN;
-                self.roots.rate[i] = f64::NAN;
+                self.roots.lose(i);
             }
         }
         Ok(())
