@@ -73,7 +73,7 @@ fn a_labs_own_surface_in_a_sum_with_a_pose_runs_and_holds() {
     let conic = "use = \"conic\"\nradius = \"150 mm\"\n";
     let rippled = "use = \"rippled-conic\"\nradius = \"150 mm\"\nscale = 0.2\n";
     let recipe = changed(&recipe, conic, rippled);
-    // The fixture is built without optimisation: a small part takes seconds.
+    // A small part: the whole one stands among the references, with built-in surfaces.
     let recipe = changed(&recipe, "aperture = \"12 mm\"", "aperture = \"2 mm\"");
     let plugins = plugin_folder(&["builds-on"]);
     let bench = Bench::with(&recipe);
