@@ -6,7 +6,7 @@ use crate::choice::Choice;
 use crate::declared::example;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Entry;
-use crate::found::{Found, default_of, found};
+use crate::key_value::{KeyValue, default_of, key_value};
 use crate::recipe::Recipe;
 use crate::span::Spanned;
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
@@ -55,8 +55,8 @@ impl Choice {
         let mut binding = Binding::default();
         for param in info.params {
             match self.value_of(param, info) {
-                Ok(Some(Found::Value(value))) => binding.params.set(param.name, value),
-                Ok(Some(Found::File(path))) => {
+                Ok(Some(KeyValue::Value(value))) => binding.params.set(param.name, value),
+                Ok(Some(KeyValue::File(path))) => {
                     let param = param.name;
                     binding.files.push(NamedFile { param, path });
                 }
@@ -133,11 +133,11 @@ impl Choice {
         &self,
         param: &ParamInfo,
         info: &StrategyInfo,
-    ) -> Result<Option<Found>, Diagnostic> {
+    ) -> Result<Option<KeyValue>, Diagnostic> {
         match self.param(param.name) {
-            Some(entry) => found(param, &entry.node).map(Some),
+            Some(entry) => key_value(param, &entry.node).map(Some),
             None if param.default != ParamDefault::Required => {
-                Ok(default_of(param).map(Found::Value))
+                Ok(default_of(param).map(KeyValue::Value))
             }
             None if self.misspells(param, info) => Ok(None),
             None => Err(self.missing(param)),

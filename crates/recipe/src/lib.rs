@@ -50,7 +50,7 @@ mod choice;
 pub mod declared;
 mod diagnostic;
 mod document;
-mod found;
+mod key_value;
 mod presets;
 mod read;
 mod recipe;

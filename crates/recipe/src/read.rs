@@ -5,7 +5,7 @@ use turnpath_core::{ParamDefault, ParamInfo, ParamValue, Params};
 use crate::declared::example;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Node, Table, Value};
-use crate::found::{Found, default_of, found};
+use crate::key_value::{KeyValue, default_of, key_value};
 use crate::span::{Span, Spanned};
 use crate::suggest::{did_you_mean, is_misspelt, listed, quoted};
 use crate::surface_list::heading;
@@ -181,9 +181,9 @@ impl<'a> Section<'a> {
             }
             return default_of(key);
         };
-        match self.ok_or_report(found(key, node))? {
-            Found::Value(value) => Some(value),
-            Found::File(path) => Some(ParamValue::Text(path.value)),
+        match self.ok_or_report(key_value(key, node))? {
+            KeyValue::Value(value) => Some(value),
+            KeyValue::File(path) => Some(ParamValue::Text(path.value)),
         }
     }
 

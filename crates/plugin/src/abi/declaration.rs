@@ -21,7 +21,7 @@
 //!     fn properties(&self) -> Answer<RString>;
 //!     fn warm_up(&self) -> Answer<()> { answer(|| Ok(())) }
 //! }
-//! impl<P: Deref<Target = dyn VelocitySolver>> AbiVelocity for Outgoing<P> { … }
+//! impl<P: Deref<Target = dyn VelocitySolver>> AbiVelocity for AuthorObject<P> { … }
 //! impl<P> VelocitySolver for IncomingVelocity<'_, P> { … }
 //! ```
 //!
@@ -47,13 +47,13 @@ pub mod prelude {
     pub use super::super::loan::{Crossing, Lengths, Wire};
     pub use super::super::reply::{Answer, Reply, Returned, answer, property, result};
     pub(crate) use super::super::text;
-    pub use super::Outgoing;
+    pub use super::AuthorObject;
     pub(crate) use super::{by_value, declare, incoming, outgoing};
     pub use crate::panic_safe_box::PanicSafeBox;
 }
 
 /// An object of the core, wrapped for the boundary.
-pub struct Outgoing<P>(pub P);
+pub struct AuthorObject<P>(pub P);
 
 /// See the module.
 macro_rules! declare {
@@ -88,7 +88,7 @@ macro_rules! declare {
             })*)?
         }
 
-        impl<'c, P: $deref<Target = dyn $core + 'c> + $($bound +)+> $abi for Outgoing<P> {
+        impl<'c, P: $deref<Target = dyn $core + 'c> + $($bound +)+> $abi for AuthorObject<P> {
             outgoing! {
                 $(fn $method $([$mut])? ($($arg $([$by])?: $type),*) -> $reply;)*
                 $($(fn $later($($later_arg $([$later_by])?: $later_type),*) -> $later_reply;)*)?
@@ -157,7 +157,7 @@ macro_rules! declare {
                 type Wire = $owned;
 
                 fn send(self) -> $owned {
-                    $object::from_value(Outgoing(PanicSafeBox::new(self)), TD_Opaque)
+                    $object::from_value(AuthorObject(PanicSafeBox::new(self)), TD_Opaque)
                 }
 
                 fn receive(object: $owned) -> Result<Self> {

@@ -37,8 +37,8 @@ pub struct LentLocus<'a> {
 
 crossing! {
     ['a] &'a dyn Locus => LentLocus<'w>,
-    (Outgoing<&'a dyn Locus>, Outgoing<&'a dyn SurfaceModel>):
-        |locus, lengths| (Outgoing(locus), locus.surface().lender(lengths)?),
+    (AuthorObject<&'a dyn Locus>, AuthorObject<&'a dyn SurfaceModel>):
+        |locus, lengths| (AuthorObject(locus), locus.surface().lender(lengths)?),
         |lender| LentLocus {
             locus: AbiLocus_TO::from_ptr(RRef::new(&lender.0), TD_Opaque),
             surface: <&dyn SurfaceModel>::lend(&mut lender.1),

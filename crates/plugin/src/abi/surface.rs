@@ -29,8 +29,8 @@ declare! {
 pub type LentSurface<'a> = AbiSurface_TO<'a, RRef<'a, ()>>;
 
 crossing! {
-    ['a] &'a dyn SurfaceModel => LentSurface<'w>, Outgoing<&'a dyn SurfaceModel>:
-        |surface| Outgoing(surface), |surface| AbiSurface_TO::from_ptr(RRef::new(surface), TD_Opaque);
+    ['a] &'a dyn SurfaceModel => LentSurface<'w>, AuthorObject<&'a dyn SurfaceModel>:
+        |surface| AuthorObject(surface), |surface| AbiSurface_TO::from_ptr(RRef::new(surface), TD_Opaque);
     ['a] LentSurface<'a> => &'w dyn SurfaceModel, IncomingSurface<'a, RRef<'a, ()>>:
         |surface| IncomingSurface::new(surface)?, |surface| surface;
 }

@@ -9,7 +9,7 @@ use crate::span::Spanned;
 use crate::value;
 
 /// What a recipe has under a declared key.
-pub(crate) enum Found {
+pub(crate) enum KeyValue {
     /// A value.
     Value(ParamValue),
     /// The path of a file, which is not read here.
@@ -17,10 +17,10 @@ pub(crate) enum Found {
 }
 
 /// The value of a declared key, of its kind and in its range.
-pub(crate) fn found(param: &ParamInfo, node: &Node) -> Result<Found, Diagnostic> {
+pub(crate) fn key_value(param: &ParamInfo, node: &Node) -> Result<KeyValue, Diagnostic> {
     let key = param.name;
     let value = match param.kind {
-        ParamKind::File => return value::file(key, node).map(Found::File),
+        ParamKind::File => return value::file(key, node).map(KeyValue::File),
         ParamKind::Flag => ParamValue::Flag(value::flag(key, node)?),
         ParamKind::Text => ParamValue::Text(value::text(key, node)?.to_owned()),
         ParamKind::Choice(words) => ParamValue::Text(value::word(key, node, words)?.to_owned()),
@@ -33,7 +33,7 @@ pub(crate) fn found(param: &ParamInfo, node: &Node) -> Result<Found, Diagnostic>
             ParamValue::Number(number(param, node)?)
         }
     };
-    Ok(Found::Value(value))
+    Ok(KeyValue::Value(value))
 }
 
 /// The value of a key that the recipe leaves out; `None` if there is none.
