@@ -10,7 +10,7 @@ use crate::suggest::{did_you_mean, listed, quoted};
 use crate::tables::{DEFAULT_SPINDLE, SCHEMA, TOP, is_one_at_a_time};
 use crate::value;
 
-use super::sums::{are_strategies, is_strategy_or_sum, without_single_sum};
+use super::sums::{are_strategies, is_strategy_or_sum, without_number, without_single_sum};
 
 /// How the lists are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,11 +144,27 @@ impl Walker<'_> {
                 }
                 Value::Table(inner) if !is_final(&path) => self.table(inner, &path),
                 _ => match self.list(path, &entry.node) {
-                    Ok(list) => self.lists.push(list),
+                    Ok(list) => self.add(list, &entry.span),
                     Err(diagnostic) => self.diagnostics.push(diagnostic),
                 },
             }
         }
+    }
+
+    /// Adds a list, unless another one varies the same key: that of a single surface has two names,
+    /// `surface.radius` and `surface.0.radius`.
+    fn add(&mut self, list: List, span: &Span) {
+        let one_name = |list: &List| without_number(keys(&list.path), self.base).join(".");
+        let name = one_name(&list);
+        let Some(other) = self.lists.iter().find(|other| one_name(other) == name) else {
+            self.lists.push(list);
+            return;
+        };
+        let title = format!("`{}` and `{}` are the same key", other.key(), list.key());
+        let diagnostic = Diagnostic::new(span.clone(), title)
+            .with_label("varies twice")
+            .with_help("write all values in one list");
+        self.diagnostics.push(diagnostic);
     }
 
     fn list(&self, path: Vec<(String, Span)>, node: &Node) -> Result<List, Diagnostic> {

@@ -26,6 +26,18 @@ pub(super) fn is_strategy_or_sum(path: &[&str], value: &Value) -> bool {
     }
 }
 
+/// The keys of a path. A single surface needs no number, so its number is left out.
+pub(super) fn without_number<'p>(mut path: Vec<&'p str>, base: &Table) -> Vec<&'p str> {
+    let surface = Slot::Surface.key();
+    let surfaces = base
+        .get(surface)
+        .map_or(0, |entry| tables(&entry.node.value).len());
+    if surfaces == 1 && path.starts_with(&[surface, "0"]) {
+        path.remove(1);
+    }
+    path
+}
+
 /// A sum of one surface as that surface; any other value as it is.
 pub(super) fn without_single_sum(path: &[&str], node: Node) -> Node {
     match &node.value {

@@ -25,6 +25,7 @@ says! {
     mode_unknown: "mode = \"all-pair\"\nrefine = [true]";
     nothing_to_vary: "mode = \"all-pairs\"";
     list_empty: "feed = []";
+    one_key_by_two_names: "surface.k = [\"0.1 /mm\"]\nsurface.0.k = [\"0.2 /mm\"]";
     list_missing: "tolerance.residual = \"50 nm\"";
     strategy_without_list: "velocity = { use = \"area\" }";
     strategies_as_text: "velocity = [\"area\", { use = \"linear\" }]";
