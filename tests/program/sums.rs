@@ -126,6 +126,31 @@ fn a_surface_of_a_sum_that_panics_is_named_with_its_plugin() {
     }
 }
 
+/// Both surfaces have one strategy. The first lies where it does not panic.
+#[test]
+fn of_two_surfaces_with_one_strategy_the_one_that_fails_is_underlined() {
+    let recipe = changed(
+        &sum(),
+        "use = \"xy-polynomial\"\nterms = [[1, 1, 0.16]]",
+        "use = \"panicking-surface\"\ndecentre_x = \"100 mm\"\n\n\
+         [[surface]]\nuse = \"panicking-surface\"",
+    );
+    let bench = Bench::with(&recipe);
+    fs::create_dir(bench.path("plugins")).unwrap();
+    let copy = bench.path("plugins").join(file_name("panics"));
+    fs::copy(library("panics"), copy).unwrap();
+    let said = run(&bench, "--plugin-dir plugins").ends(3);
+    let uses = |line: &(usize, &str)| line.1 == "use = \"panicking-surface\"";
+    let lines: Vec<usize> = (1..)
+        .zip(recipe.lines())
+        .filter(uses)
+        .map(|line| line.0)
+        .collect();
+    assert_eq!(lines.len(), 2);
+    let place = format!("--> recipe.toml:{}:", lines[1]);
+    assert!(said.stderr.contains(&place), "{place}\n{said}");
+}
+
 #[test]
 fn a_pose_where_the_part_cannot_lie_is_refused() {
     let sphere = "use = \"conic\"\nradius = \"40 mm\"\n";

@@ -30,6 +30,10 @@ pub enum StrategyError {
     Delegate {
         /// The slot of the strategy that was called.
         slot: Slot,
+        /// Which of the slot's strategies it is: the number of a surface in a sum, else 0. A plugin
+        /// that was built before sums hands the error on without it.
+        #[serde(default)]
+        entry: usize,
         /// That strategy's error, with its name and the name of its plugin.
         message: Cow<'static, str>,
     },

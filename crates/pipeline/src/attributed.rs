@@ -17,11 +17,13 @@ use crate::Link;
 #[derive(Debug, Clone)]
 struct StrategyName {
     slot: Slot,
+    /// The number of a surface in a sum, else 0.
+    entry: usize,
     text: String,
 }
 
 impl StrategyName {
-    fn of<T: ?Sized>(link: &Link<T>) -> Self {
+    fn of<T: ?Sized>(link: &Link<T>, entry: usize) -> Self {
         let text = format!(
             "the {} `{}` of {}",
             link.slot.noun(),
@@ -30,6 +32,7 @@ impl StrategyName {
         );
         Self {
             slot: link.slot,
+            entry,
             text,
         }
     }
@@ -40,6 +43,7 @@ impl StrategyName {
             inner @ StrategyError::Delegate { .. } => inner,
             own => StrategyError::Delegate {
                 slot: self.slot,
+                entry: self.entry,
                 message: format!("{}: {own}", self.text).into(),
             },
         })
@@ -55,8 +59,13 @@ pub struct NamedSurface {
 impl NamedSurface {
     /// The surface of a chain.
     pub fn new(link: &Link<dyn SurfaceModel>) -> Self {
+        Self::of_sum(link, 0)
+    }
+
+    /// The surface of that number in a sum, counted from 0.
+    pub fn of_sum(link: &Link<dyn SurfaceModel>, entry: usize) -> Self {
         Self {
-            name: StrategyName::of(link),
+            name: StrategyName::of(link, entry),
             surface: link.strategy.clone(),
         }
     }
@@ -90,7 +99,7 @@ impl NamedCompensator {
     /// The compensator of a chain.
     pub fn new(link: &Link<dyn Compensator>) -> Self {
         Self {
-            name: StrategyName::of(link),
+            name: StrategyName::of(link, 0),
             compensator: link.strategy.clone(),
         }
     }

@@ -26,10 +26,16 @@ impl<T: ?Sized> Link<T> {
     /// says what the strategy was doing, or for which part of the path.
     pub fn failed(&self, context: impl Into<Box<str>>, error: StrategyError) -> PipelineError {
         let context = context.into();
-        if let StrategyError::Delegate { slot, message } = error {
+        if let StrategyError::Delegate {
+            slot,
+            entry,
+            message,
+        } = error
+        {
             let message = message.into_owned();
             return PipelineError::InnerStrategy {
                 slot,
+                entry,
                 context,
                 message,
             };

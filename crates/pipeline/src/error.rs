@@ -32,6 +32,8 @@ pub enum PipelineError {
     InnerStrategy {
         /// The slot of the strategy that was called.
         slot: Slot,
+        /// The number of the surface in a sum, else 0.
+        entry: usize,
         /// What the caller was doing, or for which part of the path.
         context: Box<str>,
         /// Its own message.

@@ -24,13 +24,17 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
             let diagnostic = wrong_parameter(recipe, recipe.choice(*slot), name, message);
             Error::refused_by(diagnostic, error)
         }
-        PipelineError::Strategy { slot, .. }
-        | PipelineError::InnerStrategy { slot, .. }
-        | PipelineError::BadAnswer { slot, .. } => {
-            Error::strategy(at_choice(recipe, *slot, title), error)
+        PipelineError::InnerStrategy { slot, entry, .. } => {
+            Error::strategy(at_choice(recipe, *slot, *entry, title), error)
+        }
+        PipelineError::Strategy { slot, .. } | PipelineError::BadAnswer { slot, .. } => {
+            Error::strategy(at_choice(recipe, *slot, 0, title), error)
+        }
+        PipelineError::Measure(StrategyError::Delegate { slot, entry, .. }) => {
+            Error::strategy(at_choice(recipe, *slot, *entry, title), error)
         }
         PipelineError::Measure(_) => {
-            Error::strategy(at_choice(recipe, Slot::Surface, title), error)
+            Error::strategy(at_choice(recipe, Slot::Surface, 0, title), error)
         }
         PipelineError::Gouge { conflicts, .. } => {
             let all = conflicts.iter().map(|conflict| gouge(recipe, conflict));
@@ -98,19 +102,11 @@ pub fn needs_exact_rates(recipe: &Recipe) -> Error {
     Diagnostics::from(recipe.diagnostic(span, title, "chosen here", help)).into()
 }
 
-fn at_choice(recipe: &Recipe, slot: Slot, title: String) -> Diagnostic {
-    let choice = named_choice(recipe, slot, &title);
+/// A message at the strategy of a slot, or at the surface of that number in a sum.
+fn at_choice(recipe: &Recipe, slot: Slot, entry: usize, title: String) -> Diagnostic {
+    let numbered = recipe.choices(slot).get(entry).copied();
+    let choice = numbered.unwrap_or_else(|| recipe.choice(slot));
     recipe.diagnostic(choice.name.span.clone(), title, "chosen here", [])
-}
-
-/// Of several surfaces the one that a message names, else the first.
-fn named_choice<'a>(recipe: &'a Recipe, slot: Slot, message: &str) -> &'a Choice {
-    let is_named = |choice: &&Choice| {
-        let name = format!("the {} `{}`", slot.noun(), choice.name());
-        message.contains(&name)
-    };
-    let named = recipe.choices(slot).into_iter().find(is_named);
-    named.unwrap_or_else(|| recipe.choice(slot))
 }
 
 fn no_surface(recipe: &Recipe, title: String) -> Diagnostic {

@@ -46,7 +46,7 @@ fn composite(
     recipe: &Recipe,
     links: &[Link<dyn SurfaceModel>],
 ) -> Result<Link<dyn SurfaceModel>, Error> {
-    let placed = links.iter().zip(&recipe.surfaces).map(placed);
+    let placed = links.iter().zip(&recipe.surfaces).enumerate().map(placed);
     let mut sum = Link {
         slot: Slot::Surface,
         name: recipe.surface_name(),
@@ -67,8 +67,11 @@ fn composite(
     Ok(sum)
 }
 
-fn placed((link, entry): (&Link<dyn SurfaceModel>, &SurfaceEntry)) -> Arc<dyn SurfaceModel> {
-    let named = Arc::new(NamedSurface::new(link));
+/// A surface of the sum, by its number.
+type Numbered<'a> = (usize, (&'a Link<dyn SurfaceModel>, &'a SurfaceEntry));
+
+fn placed((number, (link, entry)): Numbered<'_>) -> Arc<dyn SurfaceModel> {
+    let named = Arc::new(NamedSurface::of_sum(link, number));
     match entry.placement.is_plain() {
         true => named,
         false => Arc::new(PlacedSurface::new(named, entry.placement)),

@@ -117,6 +117,7 @@ mod tests {
             StrategyError::parameter("radius", "too small"),
             StrategyError::Delegate {
                 slot: Slot::Surface,
+                entry: 2,
                 message: "no value".into(),
             },
             StrategyError::Panicked("at lib.rs:3".into()),
@@ -124,6 +125,18 @@ mod tests {
         for error in errors {
             assert_eq!(result::<()>(answer(|| Err(error.clone()))), Err(error));
         }
+    }
+
+    #[test]
+    fn an_error_that_an_older_plugin_handed_on_is_that_of_the_first_strategy() {
+        let text = r#"{"delegate":{"slot":"surface","message":"no value"}}"#;
+        let answer: Answer<()> = RResult::RErr(text.into());
+        let delegate = StrategyError::Delegate {
+            slot: Slot::Surface,
+            entry: 0,
+            message: "no value".into(),
+        };
+        assert_eq!(result(answer), Err(delegate));
     }
 
     #[test]
