@@ -3,6 +3,7 @@
 use crate::anomalies::{Anomalies, Anomaly, AnomalyKind};
 use crate::file::FileReport;
 use crate::reach::{Radial, Radii, Reach};
+use crate::result_check::ResultCheck;
 
 use super::lead::lead;
 use super::numbers::{grouped, line, millimetres, path_place, small_length};
@@ -18,6 +19,7 @@ pub fn file(report: &FileReport) -> String {
     let verdict = report.verdict();
     let mut text = format!("{}\n", report.name);
     text += &line("file", &report.file);
+    text += &report.result.as_ref().map(result).unwrap_or_default();
     text += &line("surface", &report.surface);
     let (cutting, rows) = (grouped(report.control_points), grouped(report.rows));
     text += &line("points", format!("{cutting} that cut, of {rows} rows"));
@@ -35,6 +37,16 @@ pub fn file(report: &FileReport) -> String {
         text += &line("file", file);
     }
     text
+}
+
+/// What the summary beside the file says of it.
+fn result(result: &ResultCheck) -> String {
+    let verdict = match result.holds {
+        true => format!("as {} lists it; holds", result.summary),
+        false => format!("NOT AS {} lists it", result.summary),
+    };
+    let notes = result.notes.iter().map(|note| line("", note));
+    line("result", verdict) + &notes.collect::<String>()
 }
 
 fn reach(reach: &Reach) -> String {
