@@ -12,6 +12,7 @@ mod data_files;
 mod frozen_boundary;
 mod own_sampler;
 mod readme;
+mod results;
 mod sag;
 mod same_bytes;
 mod sums;
