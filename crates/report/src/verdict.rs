@@ -29,6 +29,10 @@ pub struct Verdict {
     /// Whether the path covers the part; of a file alone, since the law of a run is held to that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach: Option<bool>,
+    /// Whether the path is there from its beginning to its end; of a file alone, and only if the
+    /// recipe asks for leads.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole: Option<bool>,
     /// The tolerances of the programs, each on its own text; `None` without programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub programs: Option<bool>,
@@ -49,6 +53,7 @@ impl Verdict {
             machine,
             lead,
             reach,
+            whole,
             programs,
         } = *self;
         [
@@ -58,6 +63,7 @@ impl Verdict {
             ("machine", machine),
             ("lead", lead),
             ("reach", reach),
+            ("whole", whole),
             ("programs", programs),
         ]
         .into_iter()
@@ -81,6 +87,7 @@ mod tests {
         machine: None,
         lead: None,
         reach: None,
+        whole: None,
         programs: Some(true),
     };
 
