@@ -40,9 +40,10 @@ mod tool_fit;
 pub mod unit;
 mod unreached;
 mod verdict;
+mod wholeness;
 
 pub use ablation::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutcome};
-pub use anomalies::{Anomalies, Anomaly, AnomalyKind};
+pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
 pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
@@ -66,3 +67,4 @@ pub use tool_fit::{
 };
 pub use unreached::Unreached;
 pub use verdict::{Verdict, within};
+pub use wholeness::{Wholeness, WholenessFault};
