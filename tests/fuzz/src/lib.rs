@@ -3,7 +3,10 @@
 //! panics, or where an answer contradicts what its crate promises.
 //!
 //! The fuzzer itself is not used here, so that every compiler can build these functions.
-#![allow(clippy::expect_used, reason = "a target panics where an answer is wrong")]
+#![allow(
+    clippy::expect_used,
+    reason = "a target panics where an answer is wrong"
+)]
 
 pub mod csv;
 pub mod library;
