@@ -9,6 +9,7 @@ use turnpath_verify::{
 };
 
 use crate::error::{RunError, RunResult};
+use crate::feed_cap::FeedCap;
 use crate::lead::Leads;
 use crate::make::BlockPoints;
 use crate::observer::{Observer, stop_if_cancelled};
@@ -37,6 +38,8 @@ pub struct Outcome {
     pub own_axes: Option<AxesMotion>,
     /// The surface that the path would leave; `None` where it cuts nothing of the part.
     pub machined: Option<MachinedFigures>,
+    /// Where the reach of the nose sets the feed; `None` where it does so nowhere.
+    pub feed_cap: Option<FeedCap>,
     /// The leads, where the path has some.
     pub lead: Option<Leads>,
     /// The predicted following error, where [`PathOptions::servo`](crate::PathOptions::servo) is
@@ -163,6 +166,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
+            feed_cap: None,
             lead,
             servo: self.servo.map(|servo| *servo.figures()),
         })

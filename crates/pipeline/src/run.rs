@@ -4,7 +4,7 @@ use turnpath_core::toolpath::Section;
 use turnpath_verify::{Meter, ServoMeter};
 
 use crate::error::RunResult;
-use crate::estimate::nodes_per_revolution;
+use crate::estimate::{Estimate, nodes_per_revolution};
 use crate::lead::LeadRun;
 use crate::make::{Depths, close_joints, first_state, make};
 use crate::observer::{Observer, Stage, stop_if_cancelled};
@@ -13,7 +13,7 @@ use crate::plan::Plan;
 use crate::recorder::{Outcome, Recorder};
 use crate::refine::{refine, runs};
 use crate::sink::Sink;
-use crate::{Chain, Preparation, Result, RunError, schedule};
+use crate::{Chain, Preparation, RunError, schedule};
 
 /// Most blocks that are made at a time: enough for every thread, and few enough that a batch of
 /// large blocks (half a million nodes each) stays within some hundred megabytes.
@@ -36,7 +36,10 @@ pub fn run<S: Sink + ?Sized>(
     observer.begin(Stage::Law, 1);
     let mut plan = schedule::plan(chain, preparation, observer)?;
     plan.time_steps = options.time_steps;
-    let batch = batch_size(&plan)?;
+    let nodes = nodes_per_revolution(&plan)?;
+    let estimate = Estimate::of(&plan, nodes)?;
+    sink.expect(&estimate).map_err(RunError::Sink)?;
+    let batch = batch_size(&plan, nodes);
     let depths = match options.refine {
         true => refine(&plan, batch, observer)?,
         false => Vec::new(),
@@ -49,7 +52,11 @@ pub fn run<S: Sink + ?Sized>(
     let meter = Meter::new(preparation.touch.clone()).counting_centre(options.covers_centre);
     let servo = options.servo.as_ref().map(ServoMeter::new);
     let recorder = Recorder::new(sink, observer, meter, servo);
-    write(&plan, batch, &depths, leads, recorder, observer)
+    let outcome = write(&plan, batch, &depths, leads, recorder, observer)?;
+    Ok(Outcome {
+        feed_cap: estimate.feed_cap,
+        ..outcome
+    })
 }
 
 fn write<S: Sink + ?Sized>(
@@ -90,8 +97,8 @@ fn write<S: Sink + ?Sized>(
 }
 
 /// How many blocks are made at a time. It changes memory and speed, never the path.
-fn batch_size(plan: &Plan<'_>) -> Result<usize> {
-    let per_block = nodes_per_revolution(plan)? * plan.block();
+fn batch_size(plan: &Plan<'_>, nodes_per_revolution: f64) -> usize {
+    let per_block = nodes_per_revolution * plan.block();
     let fitting = (BATCH_POINTS / per_block.max(1.0)) as usize;
-    Ok(fitting.clamp(1, LARGE_BATCH))
+    fitting.clamp(1, LARGE_BATCH)
 }

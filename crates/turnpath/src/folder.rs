@@ -5,9 +5,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::SectionBlock;
-use turnpath_pipeline::{Observer, Outcome, Sink};
+use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
 use turnpath_post::{Draft, FileError, PathReader, PathWriter, PmacReader, PmacWriter};
-use turnpath_recipe::Recipe;
 use turnpath_report::ProgramReport;
 
 use crate::error::Error;
@@ -15,6 +14,7 @@ use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
 use crate::program::Program;
 use crate::sinks::SinkError;
+use crate::sizes::{check_room, toolpath_bytes};
 
 /// Names of the files in the folder.
 const TOOLPATH: &str = "toolpath.csv";
@@ -26,6 +26,8 @@ pub struct FolderSink<'a> {
     folder: PathBuf,
     writes_toolpath: bool,
     programs: &'a [Program],
+    /// The outer end of the range of ρ, mm.
+    radius: f64,
     files: Option<Files>,
     rows: u64,
 }
@@ -52,13 +54,15 @@ impl<'a> FolderSink<'a> {
     ///
     /// # Errors
     /// When something is in the way that would stop the run only at its end.
-    pub fn new(folder: &Path, recipe: &Recipe, programs: &'a [Program]) -> Result<Self, FileError> {
+    pub fn new(folder: &Path, job: &'a Job) -> Result<Self, FileError> {
+        let programs = &job.programs;
         let names = programs.iter().map(|program| program.file.as_str());
         nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
         Ok(Self {
             folder: folder.to_owned(),
-            writes_toolpath: !recipe.output.data.is_empty(),
+            writes_toolpath: !job.recipe.output.data.is_empty(),
             programs,
+            radius: job.preparation.task.range.outer,
             files: None,
             rows: 0,
         })
@@ -187,6 +191,18 @@ fn nothing_in_the_way<'a>(
 impl Sink for FolderSink<'_> {
     type Block = FileBlock;
     type Error = SinkError;
+
+    fn expect(&mut self, expected: &Estimate) -> Result<(), SinkError> {
+        let programs = self.programs.iter();
+        let programs = programs.map(|program| program.expected_bytes(self.radius, expected));
+        let toolpath = if self.writes_toolpath {
+            toolpath_bytes(expected)
+        } else {
+            0.0
+        };
+        check_room(&self.folder, toolpath + programs.sum::<f64>())?;
+        Ok(())
+    }
 
     fn encode(&self, block: &SectionBlock<'_>) -> Result<FileBlock, SinkError> {
         let rows = self
