@@ -30,4 +30,5 @@ pub use catalogue::Catalogue;
 pub use error::{LoadError, Refusal};
 pub use hash::{sha256_hex, sha256_hex_of_file};
 pub use plugin::{Plugin, Strategy};
+pub use turnpath_plugin::calls;
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

@@ -6,7 +6,9 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use turnpath_core::printable_line;
 use turnpath_plugin::Offer;
+use turnpath_plugin::calls::Callee;
 use turnpath_plugin::loading::SYMBOL_PREFIX;
 
 use crate::hash::sha256_hex;
@@ -113,8 +115,12 @@ impl Image {
             folder: std::env::temp_dir(),
             source,
         })?;
+        let text = format!("the library {}", self.path.display());
+        let library = Callee::new(printable_line(&text).into_owned(), true);
+        let mark = library.enter();
         let offers = native::load(&copy.file, symbol)
             .map_err(|error| self.refused(refusal(error, &copy.file, &self.path)))?;
+        drop(mark);
         Ok(Library {
             crate_name: symbol.replacen(SYMBOL_PREFIX, "", 1),
             version: offers.first().map_or("", Offer::crate_version).to_owned(),

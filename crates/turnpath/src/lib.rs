@@ -54,7 +54,7 @@ pub use sag::write_sag;
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot};
-pub use turnpath_host::{Catalogue, LoadError, Plugin, Strategy};
+pub use turnpath_host::{Catalogue, LoadError, Plugin, Strategy, calls};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{FileError, PmacError, ReadError};
 pub use turnpath_recipe::{
