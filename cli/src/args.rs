@@ -7,6 +7,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use turnpath::report::comparison;
 use turnpath_core::Slot;
 
+use crate::crash::TimeLimit;
+
 /// Tool paths for slow-tool-servo diamond turning of freeform optics.
 ///
 /// Exit status: 0 done, and all tolerances hold; 1 done, and a tolerance or a limit of the
@@ -43,6 +45,9 @@ pub struct PluginArgs {
     /// Take plugins from this folder too; may be given several times
     #[arg(long, value_name = "DIR")]
     pub plugin_dir: Vec<PathBuf>,
+    /// End a run in which one call into a plugin takes longer, such as "2 min"; none for no limit
+    #[arg(long, value_name = "DURATION", default_value_t)]
+    pub plugin_time_limit: TimeLimit,
     /// Print the whole comparison when a plugin's layout differs
     #[arg(long)]
     pub layout_details: bool,

@@ -11,6 +11,7 @@
 
 mod args;
 mod commands;
+mod crash;
 mod failure;
 mod print;
 mod progress;
@@ -49,14 +50,19 @@ type Outcome = Result<Status, Failure>;
 /// Runs the program with these arguments, the program's name first, and with the strategies of
 /// this catalogue beside those of plugin folders. Answers on standard output and standard error.
 /// Wrong arguments and `--help` end the process.
+///
+/// This is for the whole of a process: a plugin that ends it is named, and what else the process
+/// prints to standard output, now or later, goes to standard error.
 pub fn main_with(
     args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     catalogue: Result<Catalogue, LoadError>,
 ) -> ExitCode {
     let Program { command } = Program::parse_from(args);
     let details = command.plugins().layout_details;
-    let outcome = catalogue
-        .map_err(Failure::from)
+    crash::guard();
+    let outcome = crash::take_output()
+        .map_err(Failure::Output)
+        .and_then(|()| catalogue.map_err(Failure::from))
         .and_then(|catalogue| run(&command, catalogue));
     match outcome {
         Ok(Status::Holds) => ExitCode::SUCCESS,

@@ -1,18 +1,17 @@
 //! Printing an answer.
 
-use std::io::{self, Write};
+use std::io;
 
 use serde::Serialize;
 use turnpath::report::to_json;
 
 use crate::args::Format;
+use crate::crash::answer_to;
 use crate::failure::Failure;
 
 /// Writes a text to standard output. A reader that has gone, such as `head`, is no failure.
 pub fn print(text: &str) -> Result<(), Failure> {
-    let mut stdout = io::stdout();
-    let written = stdout.write_all(text.as_bytes());
-    match written.and_then(|()| stdout.flush()) {
+    match answer_to(text.as_bytes()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::Output(error)),
         Ok(()) => Ok(()),

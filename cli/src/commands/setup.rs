@@ -3,6 +3,7 @@
 use turnpath::{Catalogue, Error, Job, LoadError, Recipe, with_listed_plugins};
 
 use crate::args::{PluginArgs, RecipeArgs, WorkArgs};
+use crate::crash::watch;
 use crate::failure::Failure;
 
 /// Folders to take plugins from, besides those on the command line.
@@ -18,6 +19,7 @@ pub fn use_threads(work: &WorkArgs) {
 
 /// The catalogue with the plugins of `--plugin-dir` and of the environment.
 pub fn with_plugins(mut catalogue: Catalogue, args: &PluginArgs) -> Result<Catalogue, LoadError> {
+    watch(args.plugin_time_limit);
     for folder in &args.plugin_dir {
         catalogue.add_folder(folder)?;
     }

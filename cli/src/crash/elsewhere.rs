@@ -35,5 +35,6 @@ pub fn guard() {}
 /// Ends the process with the status of a plugin that failed, after this message.
 pub fn end<const N: usize>(message: [&str; N]) -> ! {
     let _ = io::stderr().write_all(message.concat().as_bytes());
+    turnpath_files::remove_drafts();
     std::process::exit(PLUGIN_FAILED)
 }

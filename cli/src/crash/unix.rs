@@ -8,11 +8,11 @@
 use std::fs::File;
 use std::io::{self, IsTerminal, Write};
 use std::os::fd::AsFd;
-use std::process::abort;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use libc::{c_int, c_void, sigaction, siginfo_t};
+use turnpath_files::remove_drafts;
 
 use super::blame::Blame;
 
@@ -122,10 +122,14 @@ extern "C" fn on_signal(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
     let before = BEFORE.get().zip(index).and_then(|(all, index)| all.get(index));
     match before {
         // SAFETY: the action is the one that the system gave for this signal.
-        Some(before) => unsafe { libc::sigaction(signal, before, std::ptr::null_mut()) },
+        Some(before) => unsafe {
+            libc::sigaction(signal, before, std::ptr::null_mut());
+        },
         // SAFETY: the default needs no code of this process.
-        None => unsafe { libc::signal(signal, libc::SIG_DFL) as c_int },
-    };
+        None => unsafe {
+            libc::signal(signal, libc::SIG_DFL);
+        },
+    }
     // SAFETY: the signal is blocked until this returns, so `raise` only leaves it pending.
     unsafe { libc::raise(signal) };
 }
@@ -155,8 +159,8 @@ pub fn end<const N: usize>(message: [&str; N]) -> ! {
         }
     }
     for piece in message {
-        // Nobody can be told that standard error takes nothing.
-        let _ = rustix::io::write(rustix::stdio::stderr(), piece.as_bytes());
+        // SAFETY: the piece is that long. Nobody can be told that standard error takes nothing.
+        unsafe { libc::write(libc::STDERR_FILENO, piece.as_ptr().cast(), piece.len()) };
     }
     remove_drafts();
     // SAFETY: it ends the process at once, without the handlers of `exit`.
