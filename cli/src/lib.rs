@@ -15,6 +15,7 @@ mod crash;
 mod failure;
 mod print;
 mod progress;
+mod trial;
 mod width;
 
 use std::ffi::OsString;
@@ -51,12 +52,16 @@ type Outcome = Result<Status, Failure>;
 /// this catalogue beside those of plugin folders. Answers on standard output and standard error.
 /// Wrong arguments and `--help` end the process.
 ///
-/// This is for the whole of a process: a plugin that ends it is named, and what else the process
+/// This is for the whole of a process, which does nothing before it: the process is started once more
+/// to try the libraries of plugins, a plugin that ends it is named, and what else the process
 /// prints to standard output, now or later, goes to standard error.
 pub fn main_with(
     args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     catalogue: Result<Catalogue, LoadError>,
 ) -> ExitCode {
+    if let Some(status) = trial::child() {
+        return status;
+    }
     let Program { command } = Program::parse_from(args);
     let details = command.plugins().layout_details;
     crash::guard();

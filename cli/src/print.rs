@@ -1,9 +1,10 @@
 //! Printing an answer.
 
-use std::io;
+use std::io::{self, Write};
 
 use serde::Serialize;
 use turnpath::report::to_json;
+use turnpath_core::printable;
 
 use crate::args::Format;
 use crate::crash::answer_to;
@@ -18,6 +19,30 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Standard output as a writer, for more text than should be held at once.
+pub struct Output;
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        answer_to(bytes)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Writes a remark to standard error, which may take nothing.
+pub fn note(text: &str) {
+    say(&format!("note: {text}"));
+}
+
+/// Writes a line to standard error. Where that takes nothing, nobody can be told.
+pub fn say(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
 /// Writes a report in the form that was asked for; `text` is the one for a person.
 pub fn print_report<T: Serialize>(
     format: Format,
@@ -26,6 +51,6 @@ pub fn print_report<T: Serialize>(
 ) -> Result<(), Failure> {
     print(&match format {
         Format::Json => to_json(report),
-        Format::Human => text(report),
+        Format::Human => printable(&text(report)).into_owned(),
     })
 }

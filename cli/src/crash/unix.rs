@@ -21,7 +21,10 @@ const PLUGIN_FAILED: c_int = 3;
 
 /// What a plugin that fails sends its own process, and what that means.
 const SIGNALS: [(c_int, &str); 5] = [
-    (libc::SIGABRT, " ended the program: it called abort (SIGABRT)"),
+    (
+        libc::SIGABRT,
+        " ended the program: it called abort (SIGABRT)",
+    ),
     (
         libc::SIGSEGV,
         " ended the program: it used memory that is not its own, or its stack overflowed (SIGSEGV)",
@@ -87,6 +90,16 @@ pub fn output_is_terminal() -> Option<impl AsFd> {
     output.ok().filter(IsTerminal::is_terminal)
 }
 
+/// Lets the system keep no picture of this process's memory when it dies.
+pub fn leave_no_core() {
+    let none = rustix::process::Rlimit {
+        current: Some(0),
+        maximum: Some(0),
+    };
+    // Where the limit cannot be set, a picture is kept.
+    let _ = rustix::process::setrlimit(rustix::process::Resource::Core, none);
+}
+
 /// Sets the handlers that name the plugin that ends the process. Only the first call does it.
 pub fn guard() {
     BEFORE.get_or_init(|| {
@@ -119,7 +132,10 @@ extern "C" fn on_signal(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
     }
     // No plugin: whatever handled the signal before gets it again, as soon as this returns.
     remove_drafts();
-    let before = BEFORE.get().zip(index).and_then(|(all, index)| all.get(index));
+    let before = BEFORE
+        .get()
+        .zip(index)
+        .and_then(|(all, index)| all.get(index));
     match before {
         // SAFETY: the action is the one that the system gave for this signal.
         Some(before) => unsafe {

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::format::FORMAT;
 use crate::machine::MachineLimits;
+use crate::program::ControllerCommand;
 use crate::tool_fit::ToolFit;
 use crate::unit;
 use crate::unreached::Unreached;
@@ -24,6 +25,9 @@ pub struct CheckReport {
     pub unreached: Option<Unreached>,
     /// What the path will be, before refinement.
     pub expected: Estimate,
+    /// What the recipe's own header and footer put into the programs.
+    #[serde(default)]
+    pub controller_commands: Vec<ControllerCommand>,
 }
 
 /// What a path will be, before refinement.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::axes::Axes;
 use crate::format::FORMAT;
 use crate::path::PathReport;
-use crate::program::ProgramReport;
+use crate::program::{ControllerCommand, ProgramReport};
 use crate::unit;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
@@ -46,6 +46,9 @@ pub struct RunReport {
     pub unreached: Option<Unreached>,
     /// The motion programs.
     pub programs: Vec<ProgramReport>,
+    /// What the recipe's own header and footer put into the programs.
+    #[serde(default)]
+    pub controller_commands: Vec<ControllerCommand>,
     /// The plugins that the strategies come from.
     pub plugins: Vec<PluginSource>,
     /// The data files that the recipe's strategies read.

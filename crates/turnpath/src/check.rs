@@ -7,6 +7,7 @@ use turnpath_pipeline::{estimate, largest_nose};
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
 
+use crate::commands::controller_commands;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::figures::machine_source;
@@ -45,6 +46,7 @@ impl Job {
                 toolpath_bytes: (expected.control_points * ROW_BYTES) as u64,
                 programs: programs.collect(),
             },
+            controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
     }

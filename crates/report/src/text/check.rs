@@ -1,7 +1,10 @@
 //! A check for a person.
 
+use turnpath_core::printable_line;
+
 use crate::check::CheckReport;
 
+use super::commands::commands;
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
 use super::tool_fit::tool_fit;
@@ -9,7 +12,7 @@ use super::unreached::unreached;
 
 /// The text on a check.
 pub fn check(report: &CheckReport) -> String {
-    let mut text = format!("{}\n", report.name);
+    let mut text = format!("{}\n", printable_line(&report.name));
     text += &tool_fit(&report.tool_fit);
     text += &unreached(report.unreached.as_ref());
     if let Some(machine) = &report.machine {
@@ -29,5 +32,5 @@ pub fn check(report: &CheckReport) -> String {
             format!("about {size}, before refinement: {file}"),
         );
     }
-    text
+    text + &commands(&report.controller_commands)
 }

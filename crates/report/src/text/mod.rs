@@ -1,6 +1,7 @@
 //! Reports as text for a terminal.
 
 mod check;
+mod commands;
 mod coverage;
 mod file;
 mod lead;
