@@ -6,6 +6,7 @@ use crate::anomalies::Anomalies;
 use crate::format::FORMAT;
 use crate::path::PathReport;
 use crate::reach::Reach;
+use crate::result_check::ResultCheck;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
 
@@ -36,6 +37,10 @@ pub struct FileReport {
     pub anomalies: Anomalies,
     /// What the nose leaves standing where it does not fit; `None` where it leaves nothing.
     pub unreached: Option<Unreached>,
+    /// What the summary beside the file says of it; `None` where there is none, or it does not list
+    /// the file.
+    #[serde(default)]
+    pub result: Option<ResultCheck>,
     /// Which tolerances and limits hold.
     pub within: Verdict,
 }
@@ -46,6 +51,7 @@ impl FileReport {
     pub fn with_verdict(mut self) -> Self {
         self.format = FORMAT;
         self.within = self.path.verdict(Some(&self.reach));
+        self.within.result = self.result.as_ref().map(|result| result.holds);
         crate::format::rounded_for_files(self)
     }
 

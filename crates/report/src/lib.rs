@@ -29,6 +29,7 @@ mod path;
 mod place;
 mod program;
 mod reach;
+mod result_check;
 mod run;
 #[cfg(test)]
 mod sample;
@@ -54,7 +55,10 @@ pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
 pub use program::{ControllerCommand, ProgramReport};
 pub use reach::{Radial, Radii, Reach};
-pub use run::{ChainNames, DataSource, Direction, PluginSource, RunReport};
+pub use result_check::ResultCheck;
+pub use run::{
+    ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
+};
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
 pub use surface_error::SurfaceError;
 pub use tool_fit::{

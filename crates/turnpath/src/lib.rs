@@ -36,6 +36,7 @@ mod plugins;
 mod plugins_lock;
 mod posts;
 mod program;
+mod result_check;
 mod run;
 mod sag;
 mod sinks;
@@ -53,16 +54,18 @@ pub use outputs::Outputs;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
 pub use plugins::with_listed_plugins;
 pub use plugins_lock::{PluginsLock, PluginsLockError};
+pub use result_check::{ResultError, read_result};
 pub use run::RunResult;
 pub use sag::{write_sag, write_sag_to};
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot};
+pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
 };
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
-pub use turnpath_post::{FileError, PmacError, ReadError};
+pub use turnpath_post::{PmacError, ReadError};
 pub use turnpath_recipe::{
     Diagnostic, Diagnostics, Recipe, RecipeError, Span, TableInfo, declared, slot_keys, tables,
 };

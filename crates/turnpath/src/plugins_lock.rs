@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use turnpath_host::{Admission, Catalogue, LibraryFile, LoadError, Refusal};
-use turnpath_post::{Draft, FileError};
+use turnpath_files::{Draft, FileError};
 
 /// The form of the file.
 const FORMAT: u32 = 1;

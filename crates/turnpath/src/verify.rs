@@ -7,6 +7,7 @@ use std::path::Path;
 
 use turnpath_core::RadialRange;
 use turnpath_core::toolpath::SegmentShape;
+use turnpath_files::Draft;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Stage};
 use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
@@ -22,6 +23,7 @@ use crate::figures;
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::posts::{PMAC_EXTENSION, pmac_format};
+use crate::result_check::result_check;
 use crate::strategies;
 use crate::surface::surface;
 
@@ -131,6 +133,7 @@ impl<'a> Target<'a> {
             files: self.draw(file, plots, &played, observer)?,
             anomalies: anomalies(meters.anomalies.finish()),
             unreached,
+            result: result_check(file, recipe),
         };
         Ok(report.with_verdict())
     }
@@ -174,7 +177,13 @@ impl<'a> Target<'a> {
         let mut reader = self.open(file)?;
         make_folder(folder)?;
         let mut files = Vec::new();
-        for draft in draw(plots, played, reader.as_mut(), observer)? {
+        for draft in draw(
+            plots,
+            played,
+            reader.as_mut(),
+            &|file| Draft::begin(file),
+            observer,
+        )? {
             files.push(draft.complete()?.display().to_string());
         }
         Ok(files)

@@ -5,6 +5,7 @@ use turnpath_core::printable_line;
 use crate::anomalies::{Anomalies, Anomaly, AnomalyKind};
 use crate::file::FileReport;
 use crate::reach::{Radial, Radii, Reach};
+use crate::result_check::ResultCheck;
 
 use super::lead::lead;
 use super::numbers::{grouped, line, millimetres, path_place, small_length};
@@ -20,6 +21,7 @@ pub fn file(report: &FileReport) -> String {
     let verdict = report.verdict();
     let mut text = format!("{}\n", printable_line(&report.name));
     text += &line("file", printable_line(&report.file));
+    text += &report.result.as_ref().map(result).unwrap_or_default();
     text += &line("surface", &report.surface);
     let (cutting, rows) = (grouped(report.control_points), grouped(report.rows));
     text += &line("points", format!("{cutting} that cut, of {rows} rows"));
@@ -37,6 +39,16 @@ pub fn file(report: &FileReport) -> String {
         text += &line("file", printable_line(file));
     }
     text
+}
+
+/// What the summary beside the file says of it.
+fn result(result: &ResultCheck) -> String {
+    let verdict = match result.holds {
+        true => format!("as {} lists it; holds", result.summary),
+        false => format!("NOT AS {} lists it", result.summary),
+    };
+    let notes = result.notes.iter().map(|note| line("", note));
+    line("result", verdict) + &notes.collect::<String>()
 }
 
 fn reach(reach: &Reach) -> String {
