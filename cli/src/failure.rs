@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use turnpath::{Diagnostic, Error, Fault, FileError, LoadError, PluginsLockError, RecipeError};
 
-use crate::print::say;
+use crate::message::say;
 
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]

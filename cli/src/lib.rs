@@ -13,6 +13,7 @@ mod args;
 mod commands;
 mod crash;
 mod failure;
+mod message;
 mod print;
 mod progress;
 mod trial;

@@ -33,16 +33,6 @@ impl Write for Output {
     }
 }
 
-/// Writes a remark to standard error, which may take nothing.
-pub fn note(text: &str) {
-    say(&format!("note: {text}"));
-}
-
-/// Writes a line to standard error. Where that takes nothing, nobody can be told.
-pub fn say(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
-}
-
 /// Writes a report in the form that was asked for; `text` is the one for a person.
 pub fn print_report<T: Serialize>(
     format: Format,

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use turnpath::{AblationObserver, Observer, Stage};
 use turnpath_core::printable_line;
 
-use crate::print::note;
+use crate::message::note;
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";

@@ -15,6 +15,7 @@ use std::time::Duration;
 use turnpath::{Admission, Catalogue, LibraryFile, LoadError, Refusal};
 
 use crate::crash::{self, TimeLimit};
+use crate::message::note;
 
 /// The variable that makes a child of this program. Its value is the limit on the time of a call.
 const TRIAL: &str = "TURNPATH_TRIAL_OF_PLUGINS";
@@ -99,7 +100,7 @@ impl Admission for Trial {
             Ok(end) => self.problem(&end).is_none(),
             Err(error) => {
                 // Where no process can be started, libraries are loaded as they would be anyway.
-                crate::print::note(&format!("the plugins are not tried before ({error})"));
+                note(&format!("the plugins are not tried before ({error})"));
                 return Ok(());
             }
         };

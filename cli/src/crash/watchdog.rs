@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use turnpath::calls::{self, Call, Callee};
 use turnpath_core::Quantity;
+use turnpath_files::end_writing;
 
 use super::system;
 
@@ -20,6 +21,9 @@ const LOOKS: u32 = 50;
 const LONGEST_STEP: Duration = Duration::from_millis(500);
 /// The shortest limit: below it the watchdog itself would take time from the work.
 const SHORTEST: Duration = Duration::from_millis(10);
+
+/// How long a file that gets its name on another thread is waited for: an ablation has several runs.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// How long a single call into a plugin may take; `None` for as long as it likes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +91,7 @@ fn look_on(limit: Duration) {
     loop {
         thread::sleep(step);
         if let Some(callee) = seen.look(&calls::on_all_threads(), most) {
+            end_writing(PATIENCE);
             system::end([
                 "error: ",
                 callee.text(),

@@ -6,8 +6,8 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use turnpath_host::{Admission, Catalogue, LibraryFile, LoadError, Refusal};
 use turnpath_files::{Draft, FileError};
+use turnpath_host::{Admission, Catalogue, LibraryFile, LoadError, Refusal};
 
 /// The form of the file.
 const FORMAT: u32 = 1;

@@ -141,14 +141,26 @@ fn the_summary_lists_the_files_of_its_folder_and_the_recipe() {
 fn a_summary_without_its_files_or_with_other_bytes_is_no_result() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let error = || turnpath::read_result(folder.path()).unwrap_err().to_string();
+    let error = || {
+        turnpath::read_result(folder.path())
+            .unwrap_err()
+            .to_string()
+    };
     assert!(error().starts_with("cannot read"), "{}", error());
     run(Outputs::in_folder(folder.path()));
     let table = std::fs::read(path("toolpath.csv")).unwrap();
     std::fs::write(path("toolpath.csv"), &table[1..]).unwrap();
-    assert!(error().contains("is not as summary.json lists it"), "{}", error());
+    assert!(
+        error().contains("is not as summary.json lists it"),
+        "{}",
+        error()
+    );
     std::fs::remove_file(path("toolpath.csv")).unwrap();
-    assert!(error().contains("is not as summary.json lists it"), "{}", error());
+    assert!(
+        error().contains("is not as summary.json lists it"),
+        "{}",
+        error()
+    );
     std::fs::write(path("toolpath.csv"), &table).unwrap();
     turnpath::read_result(folder.path()).unwrap();
     std::fs::write(path("summary.json"), "{}").unwrap();
