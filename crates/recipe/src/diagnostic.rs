@@ -5,6 +5,8 @@ use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
+use turnpath_core::{printable, printable_line};
+
 use crate::span::Span;
 
 /// One message about a recipe.
@@ -109,13 +111,13 @@ impl Diagnostic {
         match &self.span {
             None => group,
             Some(span) if span.is_whole() => {
-                group.element(Origin::path(span.source().name.as_str()))
+                group.element(Origin::path(printable_line(&span.source().name)))
             }
             Some(span) => {
                 let label = Some(printable(&self.label)).filter(|label| !label.is_empty());
                 let annotation = AnnotationKind::Primary.span(span.range()).label(label);
                 let snippet = Snippet::source(span.source().text.as_str())
-                    .path(span.source().name.as_str())
+                    .path(printable_line(&span.source().name))
                     .annotation(annotation);
                 group.element(snippet)
             }
@@ -186,19 +188,6 @@ impl fmt::Display for Diagnostics {
 }
 
 impl Error for Diagnostics {}
-
-/// The text without control characters, which a recipe could use to repaint the terminal.
-fn printable(text: &str) -> String {
-    text.chars()
-        .map(|c| {
-            if c.is_control() && c != '\n' {
-                '\u{FFFD}'
-            } else {
-                c
-            }
-        })
-        .collect()
-}
 
 #[cfg(test)]
 mod tests {
