@@ -290,17 +290,24 @@ impl Made {
 /// What `verify` made of one spoil.
 struct Found {
     places: usize,
+    /// In how many of them the file was refused, with the number of the line.
+    refused: usize,
     /// The worths in nm, the smallest first.
     worths: Vec<f64>,
-    /// Whether all tolerances still held; `None` where the file was refused.
-    holds: Option<bool>,
+    /// Whether all tolerances still held in the files that were not refused.
+    holds: bool,
 }
 
 impl Found {
     /// A cell of the table.
     fn cell(&self) -> String {
-        let Some(holds) = self.holds else {
-            return format!("{} of {0}; refused", self.places);
+        let all = format!("{} of {0}", self.places);
+        if self.refused == self.places {
+            return format!("{all}; refused");
+        }
+        let all = match self.refused {
+            0 => all,
+            refused => format!("{all}; {refused} refused"),
         };
         let number = |worth: f64| match worth {
             w if w < 0.005 => "0".to_owned(),
@@ -314,8 +321,8 @@ impl Found {
             true => least,
             false => format!("{least} to {most}"),
         };
-        let verdict = if holds { "holds" } else { "exceeded" };
-        format!("{} of {0}; {worth} nm; {verdict}", self.places)
+        let verdict = if self.holds { "holds" } else { "exceeded" };
+        format!("{all}; {worth} nm; {verdict}")
     }
 }
 
@@ -364,8 +371,9 @@ fn spoil(made: &Made, spoil: Spoil, what: &str) -> Found {
 fn found(said: &Answer, rows: &BTreeSet<u64>, what: &str) -> Found {
     Found {
         places: rows.len(),
+        refused: 0,
         worths: exactly(said, rows, what),
-        holds: Some(said.status == Some(0)),
+        holds: said.status == Some(0),
     }
 }
 
@@ -394,7 +402,7 @@ fn lose(made: &Made, what: &str) -> Found {
 /// Rows that are swapped where C must grow are refused; elsewhere one row seems lost and one added.
 fn swap(made: &Made, what: &str) -> Found {
     let places = made.places(|_| true);
-    let mut all_refused = true;
+    let mut refused = 0;
     let mut worths = Vec::new();
     let mut holds = true;
     for row in &places {
@@ -403,9 +411,9 @@ fn swap(made: &Made, what: &str) -> Found {
         let said = made.verify(&lines);
         if said.status == Some(4) {
             assert!(said.stderr.contains(", line "), "{what}: {said}");
+            refused += 1;
             continue;
         }
-        all_refused = false;
         holds &= said.status == Some(0);
         let verified = said.json();
         let count = verified["anomalies"]["count"].as_u64().unwrap();
@@ -423,8 +431,9 @@ fn swap(made: &Made, what: &str) -> Found {
     worths.sort_by(f64::total_cmp);
     Found {
         places: places.len(),
+        refused,
         worths,
-        holds: (!all_refused).then_some(holds),
+        holds,
     }
 }
 

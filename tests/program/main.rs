@@ -16,3 +16,4 @@ mod sag;
 mod same_bytes;
 mod sums;
 mod verify;
+mod wholeness;
