@@ -7,6 +7,7 @@ use turnpath_verify::{
     ServoStart,
 };
 
+use crate::feed_cap::FeedCap;
 use crate::lead::Leads;
 use crate::make::BlockPoints;
 use crate::options::PathOptions;
@@ -32,6 +33,8 @@ pub struct Outcome {
     pub own_axes: Option<AxesMotion>,
     /// The surface that the path would leave; `None` where it cuts nothing of the part.
     pub machined: Option<MachinedFigures>,
+    /// Where the reach of the nose sets the feed; `None` where it does so nowhere.
+    pub feed_cap: Option<FeedCap>,
     /// The leads, where the path has some.
     pub lead: Option<Leads>,
     /// The predicted following error, where [`PathOptions::servo`](crate::PathOptions::servo) is
@@ -90,7 +93,12 @@ impl Measurement {
     }
 
     /// The result of the run.
-    pub fn outcome(self, plan: &Plan<'_>, lead: Option<Leads>) -> Result<Outcome> {
+    pub fn outcome(
+        self,
+        plan: &Plan<'_>,
+        lead: Option<Leads>,
+        feed_cap: Option<FeedCap>,
+    ) -> Result<Outcome> {
         let revolutions = plan.law.end();
         Ok(Outcome {
             control_points: self.points,
@@ -100,6 +108,7 @@ impl Measurement {
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
+            feed_cap,
             lead,
             servo: self.servo.map(|servo| *servo.figures()),
         })

@@ -4,7 +4,8 @@
 use turnpath_core::toolpath::Section;
 
 use crate::error::RunResult;
-use crate::estimate::nodes_per_revolution;
+use crate::estimate::{Estimate, nodes_per_revolution};
+use crate::feed_cap::FeedCap;
 use crate::lead::{LeadRun, Leads};
 use crate::make::{Depths, close_joints, first_state, make};
 use crate::measurement::{Measurement, Outcome};
@@ -14,7 +15,7 @@ use crate::plan::Plan;
 use crate::recorder::Recorder;
 use crate::refine::{refine, runs};
 use crate::sink::Sink;
-use crate::{Chain, Preparation, Result, RunError, schedule};
+use crate::{Chain, Preparation, RunError, schedule};
 
 /// Most blocks that are made at a time: enough for every thread, and few enough that a batch of
 /// large blocks (half a million nodes each) stays within some hundred megabytes.
@@ -34,11 +35,12 @@ pub fn run<S: Sink + ?Sized>(
     sink: &mut S,
     observer: &dyn Observer,
 ) -> std::result::Result<Outcome, RunError<S::Error>> {
-    let ready = ReadyPath::new(chain, preparation, options, observer)?;
+    let ready = ReadyPath::new(chain, preparation, options, sink, observer)?;
     let mut measurement = Measurement::new(preparation, &options);
+    let feed_cap = ready.feed_cap;
     let recorder = Recorder::new(sink, observer, Some(&mut measurement));
     let (plan, lead) = ready.write(recorder, observer)?;
-    Ok(measurement.outcome(&plan, lead)?)
+    Ok(measurement.outcome(&plan, lead, feed_cap)?)
 }
 
 /// Makes the same path as [`run`] and gives it to the sink, without measuring what it would cut.
@@ -52,7 +54,7 @@ pub fn make_unmeasured<S: Sink + ?Sized>(
     sink: &mut S,
     observer: &dyn Observer,
 ) -> std::result::Result<(), RunError<S::Error>> {
-    let ready = ReadyPath::new(chain, preparation, options, observer)?;
+    let ready = ReadyPath::new(chain, preparation, options, sink, observer)?;
     ready.write(Recorder::new(sink, observer, None), observer)?;
     Ok(())
 }
@@ -60,6 +62,8 @@ pub fn make_unmeasured<S: Sink + ?Sized>(
 /// A path of which all is known but its points.
 struct ReadyPath<'a> {
     plan: Plan<'a>,
+    /// Where the reach of the nose sets the feed.
+    feed_cap: Option<FeedCap>,
     /// Blocks that are made at a time.
     batch: usize,
     depths: Vec<Depths>,
@@ -67,17 +71,21 @@ struct ReadyPath<'a> {
 }
 
 impl<'a> ReadyPath<'a> {
-    /// Plans and refines the path, and makes its lead-in.
-    fn new(
+    /// Plans the path, tells the sink what to expect, refines the path, and makes its lead-in.
+    fn new<S: Sink + ?Sized>(
         chain: &'a Chain,
         preparation: &'a Preparation,
         options: PathOptions,
+        sink: &mut S,
         observer: &dyn Observer,
-    ) -> Result<Self> {
+    ) -> RunResult<Self, S::Error> {
         observer.begin(Stage::Law, 1);
         let mut plan = schedule::plan(chain, preparation, observer)?;
         plan.time_steps = options.time_steps;
-        let batch = batch_size(&plan)?;
+        let nodes = nodes_per_revolution(&plan)?;
+        let estimate = Estimate::of(&plan, nodes)?;
+        sink.expect(&estimate).map_err(RunError::Sink)?;
+        let batch = batch_size(&plan, nodes);
         let depths = match options.refine {
             true => refine(&plan, batch, observer)?,
             false => Vec::new(),
@@ -89,6 +97,7 @@ impl<'a> ReadyPath<'a> {
             .transpose()?;
         Ok(Self {
             plan,
+            feed_cap: estimate.feed_cap,
             batch,
             depths,
             leads,
@@ -103,6 +112,7 @@ impl<'a> ReadyPath<'a> {
     ) -> RunResult<(Plan<'a>, Option<Leads>), S::Error> {
         let Self {
             plan,
+            feed_cap: _,
             batch,
             depths,
             leads,
@@ -138,8 +148,8 @@ impl<'a> ReadyPath<'a> {
 }
 
 /// How many blocks are made at a time. It changes memory and speed, never the path.
-fn batch_size(plan: &Plan<'_>) -> Result<usize> {
-    let per_block = nodes_per_revolution(plan)? * plan.block();
+fn batch_size(plan: &Plan<'_>, nodes_per_revolution: f64) -> usize {
+    let per_block = nodes_per_revolution * plan.block();
     let fitting = (BATCH_POINTS / per_block.max(1.0)) as usize;
-    Ok(fitting.clamp(1, LARGE_BATCH))
+    fitting.clamp(1, LARGE_BATCH)
 }

@@ -6,6 +6,7 @@ use crate::anomalies::Anomalies;
 use crate::format::FORMAT;
 use crate::path::PathReport;
 use crate::reach::Reach;
+use crate::result_check::ResultCheck;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
 use crate::wholeness::Wholeness;
@@ -41,6 +42,10 @@ pub struct FileReport {
     pub anomalies: Anomalies,
     /// What the nose leaves standing where it does not fit; `None` where it leaves nothing.
     pub unreached: Option<Unreached>,
+    /// What the summary beside the file says of it; `None` where there is none, or it does not list
+    /// the file.
+    #[serde(default)]
+    pub result: Option<ResultCheck>,
     /// Which tolerances and limits hold.
     pub within: Verdict,
 }
@@ -52,6 +57,7 @@ impl FileReport {
         self.format = FORMAT;
         self.within = Verdict {
             whole: self.wholeness.as_ref().map(Wholeness::is_whole),
+            result: self.result.as_ref().map(|result| result.holds),
             ..self.path.verdict(Some(&self.reach))
         };
         crate::format::rounded_for_files(self)

@@ -29,6 +29,10 @@ pub struct Verdict {
     /// Whether the path covers the part; of a file alone, since the law of a run is held to that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach: Option<bool>,
+    /// Whether a file has the bytes that the summary beside it lists; of a file alone, `None` where
+    /// no summary lists it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<bool>,
     /// Whether the path is there from its beginning to its end; of a file alone, and only if the
     /// recipe asks for leads.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -53,6 +57,7 @@ impl Verdict {
             machine,
             lead,
             reach,
+            result,
             whole,
             programs,
         } = *self;
@@ -63,6 +68,7 @@ impl Verdict {
             ("machine", machine),
             ("lead", lead),
             ("reach", reach),
+            ("result", result),
             ("whole", whole),
             ("programs", programs),
         ]
@@ -87,6 +93,7 @@ mod tests {
         machine: None,
         lead: None,
         reach: None,
+        result: None,
         whole: None,
         programs: Some(true),
     };

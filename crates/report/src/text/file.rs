@@ -2,6 +2,7 @@
 
 use crate::file::FileReport;
 use crate::reach::{Radial, Radii, Reach};
+use crate::result_check::ResultCheck;
 use crate::wholeness::Wholeness;
 
 use super::anomalies::anomalies;
@@ -16,6 +17,7 @@ pub fn file(report: &FileReport) -> String {
     let verdict = report.verdict();
     let mut text = format!("{}\n", report.name);
     text += &line("file", &report.file);
+    text += &report.result.as_ref().map(result).unwrap_or_default();
     text += &line("surface", &report.surface);
     let (cutting, rows) = (grouped(report.control_points), grouped(report.rows));
     text += &line("points", format!("{cutting} that cut, of {rows} rows"));
@@ -34,6 +36,16 @@ pub fn file(report: &FileReport) -> String {
         text += &line("file", file);
     }
     text
+}
+
+/// What the summary beside the file says of it.
+fn result(result: &ResultCheck) -> String {
+    let verdict = match result.holds {
+        true => format!("as {} lists it; holds", result.summary),
+        false => format!("NOT AS {} lists it", result.summary),
+    };
+    let notes = result.notes.iter().map(|note| line("", note));
+    line("result", verdict) + &notes.collect::<String>()
 }
 
 fn reach(reach: &Reach) -> String {

@@ -13,6 +13,7 @@ use std::path::Path;
 
 use turnpath_core::RadialRange;
 use turnpath_core::toolpath::SegmentShape;
+use turnpath_files::Draft;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Stage};
 use turnpath_recipe::Recipe;
@@ -26,6 +27,7 @@ use crate::error::Error;
 use crate::figures;
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
+use crate::result_check::result_check;
 use crate::strategies;
 use crate::surface::surface;
 
@@ -134,6 +136,7 @@ impl<'a> Target<'a> {
             files: self.draw(file, plots, &played, observer)?,
             anomalies,
             unreached,
+            result: result_check(&file.path, recipe),
         };
         Ok(report.with_verdict())
     }
@@ -209,7 +212,13 @@ impl<'a> Target<'a> {
         let mut reader = file.open()?;
         make_folder(folder)?;
         let mut files = Vec::new();
-        for draft in draw(plots, played, reader.as_mut(), observer)? {
+        for draft in draw(
+            plots,
+            played,
+            reader.as_mut(),
+            &|file| Draft::begin(file),
+            observer,
+        )? {
             files.push(draft.complete()?.display().to_string());
         }
         Ok(files)
