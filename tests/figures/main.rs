@@ -14,4 +14,5 @@ mod poses;
 mod recipes;
 mod servo;
 mod spoiled_paths;
+mod spoils;
 mod whole_part;

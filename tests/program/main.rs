@@ -25,3 +25,4 @@ mod same_bytes;
 mod sums;
 mod terminal;
 mod verify;
+mod wholeness;
