@@ -15,6 +15,7 @@ mod frozen_boundary;
 mod own_sampler;
 mod random;
 mod readme;
+mod results;
 mod sag;
 mod same_bytes;
 mod sums;

@@ -11,7 +11,8 @@ use crate::chord::Chord;
 const FEWEST_ANGLES: u64 = 72;
 /// Most radial profiles of a revolution: one every 36 arc seconds.
 const MOST_ANGLES: u64 = 36_000;
-/// The largest feed, as a part of the range. The chord has no limit where nothing is curved.
+/// The largest feed of a chord alone, as a part of the range. The chord has no limit where nothing
+/// is curved.
 const LARGEST_PART: f64 = 0.1;
 /// The part by which a capped feed stays below the one that keeps the residual. It covers what lies
 /// between the floors of the table, and the passes where two feeds meet.
@@ -159,10 +160,9 @@ impl FftAdaptivePlan {
         let chord = self.rays.largest_feed(surface, self.rho, |profile| {
             self.chord.length(profile.curvature(), self.tolerance) / profile.slant()
         })?;
-        let feed = chord.min(self.largest);
         Ok(match &self.residual_feed {
-            None => feed,
-            Some(residual_feed) => feed.min(self.least_residual_feed(residual_feed)),
+            None => chord.min(self.largest),
+            Some(residual_feed) => chord.min(self.least_residual_feed(residual_feed)),
         })
     }
 

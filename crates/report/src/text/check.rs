@@ -4,6 +4,7 @@ use crate::check::CheckReport;
 
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
+use super::remark::{feed_cap, remarks};
 use super::tool_fit::tool_fit;
 use super::unreached::unreached;
 
@@ -20,6 +21,7 @@ pub fn check(report: &CheckReport) -> String {
     text += &line("points", format!("about {points}, before refinement"));
     text += &line("revolutions", format!("{:.2}", expected.revolutions));
     text += &line("cutting time", duration(expected.cutting_time));
+    text += &feed_cap(&report.feed_cap);
     let size = bytes(expected.toolpath_bytes as f64);
     text += &line("toolpath.csv", format!("about {size}, before refinement"));
     for program in &expected.programs {
@@ -29,5 +31,6 @@ pub fn check(report: &CheckReport) -> String {
             format!("about {size}, before refinement: {file}"),
         );
     }
+    text += &remarks(&report.remarks);
     text
 }

@@ -1,5 +1,6 @@
 //! Reports as text for a terminal.
 
+mod anomalies;
 mod check;
 mod coverage;
 mod file;
@@ -7,6 +8,7 @@ mod lead;
 mod machine;
 mod numbers;
 mod path;
+mod remark;
 mod run;
 mod servo;
 mod tool_fit;
@@ -14,5 +16,5 @@ mod unreached;
 
 pub use check::check;
 pub use file::file;
-pub use numbers::{grouped, millimetres, nose_radius};
+pub use numbers::{bytes, grouped, millimetres, nose_radius};
 pub use run::run;

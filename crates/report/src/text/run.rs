@@ -7,6 +7,7 @@ use crate::run::RunReport;
 use super::lead::lead;
 use super::numbers::{against, duration, grouped, line, small_length};
 use super::path::path;
+use super::remark::{feed_cap, remarks};
 use super::servo::servo;
 use super::unreached::unreached;
 
@@ -28,6 +29,7 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     text += &line("points", points(report));
     text += &line("revolutions", format!("{:.2}", report.revolutions));
     text += &line("cutting time", duration(report.cutting_time));
+    text += &feed_cap(&report.feed_cap);
     text += &path(&report.path, verdict);
     if let Some(report) = &report.path.lead {
         text += &lead(report, verdict.lead);
@@ -48,6 +50,7 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
             );
         }
     }
+    text += &remarks(&report.remarks);
     for file in files {
         text += &line("file", file.display());
     }
