@@ -43,7 +43,7 @@ pub fn file(report: &FileReport) -> String {
 /// What the summary beside the file says of it.
 fn result(result: &ResultCheck) -> String {
     let verdict = match result.holds {
-        true => format!("as {} lists it; holds", result.summary),
+        true => format!("as {} lists it", result.summary),
         false => format!("NOT AS {} lists it", result.summary),
     };
     let notes = result.notes.iter().map(|note| line("", note));
