@@ -59,4 +59,4 @@ pub use recorder::Outcome;
 pub use refine::{MOST_ROUNDS, SMALLEST_SEGMENT};
 pub use run::run;
 pub use sink::Sink;
-pub use size::{MOST_POINTS, MOST_REVOLUTIONS, PathSize};
+pub use size::{Excess, MOST_POINTS, MOST_REVOLUTIONS, PathSize};
