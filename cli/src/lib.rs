@@ -14,6 +14,7 @@ mod commands;
 mod failure;
 mod print;
 mod progress;
+mod signals;
 mod width;
 
 use std::ffi::OsString;
@@ -48,12 +49,14 @@ type Outcome = Result<Status, Failure>;
 
 /// Runs the program with these arguments, the program's name first, and with the strategies of
 /// this catalogue beside those of plugin folders. Answers on standard output and standard error.
-/// Wrong arguments and `--help` end the process.
+/// Wrong arguments and `--help` end the process. So does an interrupt, after it has removed the files
+/// that are not whole.
 pub fn main_with(
     args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     catalogue: Result<Catalogue, LoadError>,
 ) -> ExitCode {
     let Program { command } = Program::parse_from(args);
+    signals::remove_drafts_on_signals();
     let details = command.plugins().layout_details;
     let outcome = catalogue
         .map_err(Failure::from)

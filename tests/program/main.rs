@@ -1,5 +1,7 @@
 //! The program as a person calls it: commands, messages, exit statuses and files.
 
+#[path = "../fuzz/src/lib.rs"]
+mod fuzz;
 #[path = "../support/mod.rs"]
 mod support;
 
@@ -11,8 +13,10 @@ mod commands;
 mod data_files;
 mod frozen_boundary;
 mod own_sampler;
+mod random;
 mod readme;
 mod remarks;
+mod results;
 mod sag;
 mod same_bytes;
 mod sums;

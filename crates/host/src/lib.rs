@@ -29,5 +29,6 @@ mod plugin;
 pub use catalogue::Catalogue;
 pub use error::{LoadError, Refusal};
 pub use hash::{sha256_hex, sha256_hex_of_file};
+pub use image::entry_symbol;
 pub use plugin::{Plugin, Strategy};
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

@@ -31,6 +31,7 @@ mod place;
 mod program;
 mod reach;
 mod remark;
+mod result_check;
 mod run;
 #[cfg(test)]
 mod sample;
@@ -41,9 +42,10 @@ mod tool_fit;
 pub mod unit;
 mod unreached;
 mod verdict;
+mod wholeness;
 
 pub use ablation::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutcome};
-pub use anomalies::{Anomalies, Anomaly, AnomalyKind};
+pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
 pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
@@ -58,7 +60,10 @@ pub use place::{PathPlace, SurfacePoint};
 pub use program::ProgramReport;
 pub use reach::{Radial, Radii, Reach};
 pub use remark::{Remark, RemarkSubject};
-pub use run::{ChainNames, DataSource, Direction, PluginSource, RunReport};
+pub use result_check::ResultCheck;
+pub use run::{
+    ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
+};
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
 pub use surface_error::SurfaceError;
 pub use tool_fit::{
@@ -66,3 +71,4 @@ pub use tool_fit::{
 };
 pub use unreached::Unreached;
 pub use verdict::{Verdict, within};
+pub use wholeness::{Wholeness, WholenessFault};

@@ -56,6 +56,13 @@ pub struct RunReport {
     /// The data files that the recipe's strategies read.
     #[serde(default)]
     pub data_files: Vec<DataSource>,
+    /// What was run; `None` in an ablation, where the key of a run says it, and in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recipe: Option<RecipeSource>,
+    /// The other files of the result that this summary is beside; `None` where the run wrote no
+    /// files, and in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub files: Option<Vec<ResultFile>>,
     /// What is allowed but seldom meant.
     #[serde(default)]
     pub remarks: Vec<Remark>,
@@ -111,6 +118,28 @@ pub struct DataSource {
     /// The parameter that names the file.
     pub param: String,
     /// The path as the recipe gives it.
+    pub file: String,
+    /// The number of bytes.
+    pub bytes: u64,
+    /// SHA-256 of the bytes.
+    pub sha256: String,
+}
+
+/// The recipe of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RecipeSource {
+    /// The name of its file.
+    pub file: String,
+    /// SHA-256 of its text, without the changes.
+    pub sha256: String,
+    /// The changes by `--set`, `key=value`, in their order.
+    pub sets: Vec<String>,
+}
+
+/// A file of a result.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ResultFile {
+    /// Its name in the folder of the summary.
     pub file: String,
     /// The number of bytes.
     pub bytes: u64,

@@ -35,6 +35,7 @@ mod plugins;
 mod posts;
 mod program;
 mod remarks;
+mod result_check;
 mod run;
 mod sag;
 mod sinks;
@@ -51,14 +52,16 @@ pub use job::Job;
 pub use outputs::Outputs;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
 pub use plugins::with_listed_plugins;
+pub use result_check::{ResultError, read_result};
 pub use run::RunResult;
 pub use sag::write_sag;
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot};
+pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{Catalogue, LoadError, Plugin, Strategy};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
-pub use turnpath_post::{FileError, PmacError, ReadError};
+pub use turnpath_post::{PmacError, ReadError};
 pub use turnpath_recipe::{
     Diagnostic, Diagnostics, Recipe, RecipeError, TableInfo, declared, slot_keys, tables,
 };

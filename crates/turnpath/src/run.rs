@@ -4,6 +4,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::{Direction, Misfit, Slot};
+use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
 use turnpath_post::PmacReader;
 use turnpath_report as report;
@@ -54,8 +55,8 @@ impl Job {
     ///
     /// # Errors
     /// When a plot cannot be drawn so, when a strategy fails, when a file cannot be written, or when
-    /// the observer cancels. No file and no new folder is left behind then, unless the failure
-    /// comes while the files take their names.
+    /// the observer cancels. The folder then has the files that it had, and no new folder is left
+    /// behind. Only where a whole result cannot give a file its name, the next run does it.
     pub fn run(&self, outputs: Outputs, observer: &dyn Observer) -> Result<RunResult, Error> {
         let has_folder = matches!(outputs.destination, Destination::Folder(_));
         if !has_folder && outputs.plots != PlotRequest::default() {
@@ -95,7 +96,7 @@ impl Job {
         let mut sink = RowCount::default();
         let outcome = self.run_into(&mut sink, observer)?;
         let report = self.report(sink.rows, &outcome, Vec::new())?;
-        Ok(RunResult::of(report))
+        Ok(RunResult::of(self.with_recipe(report)))
     }
 
     fn run_in_memory(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
@@ -117,7 +118,7 @@ impl Job {
         Ok(RunResult {
             toolpath: Some(sink.toolpath),
             programs,
-            ..RunResult::of(self.report(rows, &outcome, reports)?)
+            ..RunResult::of(self.with_recipe(self.report(rows, &outcome, reports)?))
         })
     }
 
@@ -128,12 +129,18 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
+        plots.can_be_in_result(folder)?;
         let mut sink = FolderSink::new(folder, self)?;
         let outcome = self.run_into(&mut sink, observer)?;
         let reports = sink.read_back(self, &outcome, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
-        let report = self.report(sink.rows(), &outcome, reports)?;
-        let files = sink.complete(&report::to_json(&report))?;
+        let report = self.with_recipe(self.report(sink.rows(), &outcome, reports)?);
+        let whole = sink.finish()?;
+        let report = RunReport {
+            files: Some(whole.listed()),
+            ..report
+        };
+        let files = whole.commit(&report::to_json(&report))?;
         Ok(RunResult {
             files,
             ..RunResult::of(report)
@@ -183,8 +190,24 @@ impl Job {
             programs,
             plugins: self.plugin_sources(),
             data_files: self.data_sources(),
+            recipe: None,
+            files: None,
         };
         Ok(report.with_verdict())
+    }
+
+    /// The report of a run, which says what was run. A run of an ablation is known by its key.
+    fn with_recipe(&self, report: RunReport) -> RunReport {
+        let file = self.recipe.path().file_name().unwrap_or_default();
+        let recipe = report::RecipeSource {
+            file: file.to_string_lossy().into_owned(),
+            sha256: sha256_hex(self.recipe.text().as_bytes()),
+            sets: self.recipe.sets().to_vec(),
+        };
+        RunReport {
+            recipe: Some(recipe),
+            ..report
+        }
     }
 
     /// What the nose leaves standing; `None` unless the recipe asks for what fits of a nose.

@@ -4,9 +4,9 @@ use std::io;
 use std::path::Path;
 
 use turnpath_core::{Gradients, StrategyError, SurfaceModel};
+use turnpath_files::{Draft, FileError};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::Link;
-use turnpath_post::{Draft, FileError};
 use turnpath_recipe::Recipe;
 
 use crate::data_files::DataFiles;

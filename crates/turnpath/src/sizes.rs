@@ -3,8 +3,8 @@
 use std::io;
 use std::path::Path;
 
+use turnpath_files::FileError;
 use turnpath_pipeline::Estimate;
-use turnpath_post::FileError;
 
 /// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
 const ROW_BYTES: f64 = 125.0;

@@ -1,5 +1,6 @@
 //! Reports as text for a terminal.
 
+mod anomalies;
 mod check;
 mod coverage;
 mod file;
