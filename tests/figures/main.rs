@@ -6,6 +6,7 @@ mod support;
 mod cut_what_fits;
 mod every_chain;
 mod gouges;
+mod large_feeds;
 mod leads;
 mod machine;
 mod machined_surface;
