@@ -18,7 +18,8 @@ pub struct Constant {
 
 const FEED: Param<Option<Feed>> = Param::feed(
     "feed",
-    "feed per revolution; left out: the largest that holds tolerance.residual everywhere",
+    "feed per revolution; left out: the largest that holds tolerance.residual everywhere, as far as \
+     neighbouring noses meet within their edges",
 )
 .positive()
 .optional();
