@@ -107,6 +107,16 @@ impl Plots {
         }
     }
 
+    /// Finds before the work whether the folder takes files, where it is there. A result does that by
+    /// its lock.
+    pub fn try_folder(&self, folder: &Path) -> Result<(), FileError> {
+        let mut files = self.files().filter(|file| file.parent() == Some(folder));
+        match files.next().filter(|_| folder.exists()) {
+            Some(file) => Draft::begin(file).map(drop),
+            None => Ok(()),
+        }
+    }
+
     /// Refuses files of a result that could not be part of it.
     pub fn can_be_in_result(&self, folder: &Path) -> Result<(), FolderError> {
         let members = self
@@ -188,12 +198,12 @@ fn for_name(value: f64) -> f64 {
 }
 
 /// Finds before the work what would stop it at its end. The folder of all files may still have to
-/// be made; any other must be there.
+/// be made, and who writes in it finds out whether it takes files; any other must be there.
 fn can_be_made(file: &Path, folder: &Path) -> Result<(), FileError> {
     let parent = file.parent().filter(|parent| *parent != Path::new(""));
     let parent = parent.unwrap_or(Path::new("."));
     Draft::can_be(file)?;
-    if parent == folder && !parent.exists() {
+    if parent == folder {
         return Ok(());
     }
     Draft::begin(file).map(drop)

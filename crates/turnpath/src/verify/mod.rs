@@ -51,6 +51,7 @@ pub fn verify(
 ) -> Result<FileReport, Error> {
     let target = Target::new(recipe, catalogue)?;
     let plots = Plots::new(request, &recipe.part, folder)?;
+    plots.try_folder(folder)?;
     let file = SourceFile::new(file, recipe, target.subject.compensates_nose);
     target.verify(&file, (&plots, folder), observer)
 }
