@@ -73,6 +73,7 @@ pub fn main_with(
         .map_err(Failure::Output)
         .and_then(|()| catalogue.map_err(Failure::from))
         .and_then(|catalogue| run(&command, catalogue));
+    turnpath_files::wait_if_ending();
     match outcome {
         Ok(Status::Holds) => ExitCode::SUCCESS,
         Ok(Status::Exceeded) => ExitCode::from(1),

@@ -26,6 +26,12 @@ pub fn enter_if_free() -> Option<MutexGuard<'static, ()>> {
     }
 }
 
+/// Waits for the end of the process if [`end_writing`] has begun it. Work that fails because its drafts
+/// are gone calls this before it says so: the process ends by the signal, and not with that failure.
+pub fn wait_if_ending() {
+    drop(enter());
+}
+
 /// Removes all drafts, for a process that ends next. Names that are being given are waited for, at
 /// most for `patience`; after that no draft is made and no name is given any more: whoever tries
 /// waits for the end of the process. So a result is the old or the new.

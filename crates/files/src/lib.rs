@@ -36,7 +36,7 @@ mod temporary;
 
 pub use draft::{Draft, WholeFile};
 pub use file_error::FileError;
-pub use gate::end_writing;
+pub use gate::{end_writing, wait_if_ending};
 pub use hashed_file::Contents;
 pub use operation::{Operation, watch_operations};
 pub use registry::{DraftKind, Registration, remove_drafts};
