@@ -16,6 +16,7 @@ mod failure;
 mod message;
 mod print;
 mod progress;
+mod signals;
 mod trial;
 mod width;
 
@@ -51,7 +52,8 @@ type Outcome = Result<Status, Failure>;
 
 /// Runs the program with these arguments, the program's name first, and with the strategies of
 /// this catalogue beside those of plugin folders. Answers on standard output and standard error.
-/// Wrong arguments and `--help` end the process.
+/// Wrong arguments and `--help` end the process. So does an interrupt, after it has removed the files
+/// that are not whole.
 ///
 /// This is for the whole of a process, which does nothing before it: the process is started once more
 /// to try the libraries of plugins, a plugin that ends it is named, and what else the process
@@ -64,6 +66,7 @@ pub fn main_with(
         return status;
     }
     let Program { command } = Program::parse_from(args);
+    signals::remove_drafts_on_signals();
     let details = command.plugins().layout_details;
     crash::guard();
     let outcome = crash::take_output()

@@ -58,6 +58,7 @@ impl Observer for Bar {
                 Stage::Write => "measuring and writing".to_owned(),
                 Stage::ReadBack => "reading programs back".to_owned(),
                 Stage::Measure => "measuring the file".to_owned(),
+                Stage::Compare => "comparing with the recipe's path".to_owned(),
                 Stage::Map => "mapping what is cut".to_owned(),
             });
             bar.enable_steady_tick(TICK);

@@ -5,6 +5,7 @@
 //! revolutions.
 
 mod compensator;
+mod cusp;
 mod cut;
 mod dual;
 mod error;
@@ -18,6 +19,7 @@ pub mod largest_nose;
 mod laws;
 pub mod locus;
 mod machine;
+mod neighbours;
 mod node_list;
 mod param;
 mod part;

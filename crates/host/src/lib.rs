@@ -31,6 +31,7 @@ pub use admission::Admission;
 pub use catalogue::Catalogue;
 pub use error::{LoadError, Refusal};
 pub use hash::{sha256_hex, sha256_hex_of_file};
+pub use image::entry_symbol;
 pub use library::LibraryFile;
 pub use plugin::{Plugin, Strategy};
 pub use turnpath_plugin::calls;

@@ -9,6 +9,7 @@ use crate::reach::Reach;
 use crate::result_check::ResultCheck;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
+use crate::wholeness::Wholeness;
 
 /// What `verify` measured on a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,13 +28,17 @@ pub struct FileReport {
     pub rows: u64,
     /// From which to which radius the path runs.
     pub reach: Reach,
+    /// Whether the path is there from its beginning to its end, by the file itself; `None` if a file
+    /// of this recipe does not show it, since the path has no leads.
+    #[serde(default)]
+    pub wholeness: Option<Wholeness>,
     /// What was measured on the path.
     #[serde(flatten)]
     pub path: PathReport,
     /// Maps, profiles, circles and spectra that were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
-    /// Control points that stand out among their neighbours.
+    /// Rows that are not as the recipe gives them, or stand out among their neighbours.
     pub anomalies: Anomalies,
     /// What the nose leaves standing where it does not fit; `None` where it leaves nothing.
     pub unreached: Option<Unreached>,
@@ -50,8 +55,11 @@ impl FileReport {
     #[must_use]
     pub fn with_verdict(mut self) -> Self {
         self.format = FORMAT;
-        self.within = self.path.verdict(Some(&self.reach));
-        self.within.result = self.result.as_ref().map(|result| result.holds);
+        self.within = Verdict {
+            whole: self.wholeness.as_ref().map(Wholeness::is_whole),
+            result: self.result.as_ref().map(|result| result.holds),
+            ..self.path.verdict(Some(&self.reach))
+        };
         crate::format::rounded_for_files(self)
     }
 

@@ -21,6 +21,7 @@ mod check;
 pub mod comparison;
 mod coverage;
 mod errors;
+mod feed_cap;
 mod file;
 mod format;
 mod lead;
@@ -29,6 +30,7 @@ mod path;
 mod place;
 mod program;
 mod reach;
+mod remark;
 mod result_check;
 mod run;
 #[cfg(test)]
@@ -40,13 +42,15 @@ mod tool_fit;
 pub mod unit;
 mod unreached;
 mod verdict;
+mod wholeness;
 
 pub use ablation::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutcome};
-pub use anomalies::{Anomalies, Anomaly, AnomalyKind};
+pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
 pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
 pub use errors::{ControlPointError, InterpolationError, LeftOut, Residual, Tolerances};
+pub use feed_cap::FeedCap;
 pub use file::FileReport;
 pub use format::{FORMAT, FormatError, from_json, to_json};
 pub use lead::{AccelerationStep, LeadLayout, LeadReport};
@@ -55,6 +59,7 @@ pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
 pub use program::{ControllerCommand, ProgramReport};
 pub use reach::{Radial, Radii, Reach};
+pub use remark::{Remark, RemarkSubject};
 pub use result_check::ResultCheck;
 pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
@@ -66,3 +71,4 @@ pub use tool_fit::{
 };
 pub use unreached::Unreached;
 pub use verdict::{Verdict, within};
+pub use wholeness::{Wholeness, WholenessFault};

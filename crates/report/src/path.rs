@@ -73,6 +73,7 @@ impl PathReport {
                 .map(|lead| within(-lead.smallest_clearance, interpolation)),
             reach: reach.map(Reach::covers_part),
             result: None,
+            whole: None,
             programs: None,
         }
     }

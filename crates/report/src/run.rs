@@ -3,9 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::axes::Axes;
+use crate::feed_cap::FeedCap;
 use crate::format::FORMAT;
 use crate::path::PathReport;
 use crate::program::{ControllerCommand, ProgramReport};
+use crate::remark::Remark;
 use crate::unit;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
@@ -37,6 +39,9 @@ pub struct RunReport {
     /// Time of the cutting section, s.
     #[serde(rename = "cutting_time_s", with = "unit::s")]
     pub cutting_time: f64,
+    /// Whether the reach of the nose sets the feed, and where.
+    #[serde(default)]
+    pub feed_cap: FeedCap,
     /// What was measured on the path.
     #[serde(flatten)]
     pub path: PathReport,
@@ -61,6 +66,9 @@ pub struct RunReport {
     /// files, and in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub files: Option<Vec<ResultFile>>,
+    /// What is allowed but seldom meant.
+    #[serde(default)]
+    pub remarks: Vec<Remark>,
     /// Which tolerances and limits hold, on the path and on each program.
     pub within: Verdict,
 }

@@ -33,6 +33,10 @@ pub struct Verdict {
     /// no summary lists it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub result: Option<bool>,
+    /// Whether the path is there from its beginning to its end; of a file alone, and only if the
+    /// recipe asks for leads.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole: Option<bool>,
     /// The tolerances of the programs, each on its own text; `None` without programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub programs: Option<bool>,
@@ -54,6 +58,7 @@ impl Verdict {
             lead,
             reach,
             result,
+            whole,
             programs,
         } = *self;
         [
@@ -64,6 +69,7 @@ impl Verdict {
             ("lead", lead),
             ("reach", reach),
             ("result", result),
+            ("whole", whole),
             ("programs", programs),
         ]
         .into_iter()
@@ -88,6 +94,7 @@ mod tests {
         lead: None,
         reach: None,
         result: None,
+        whole: None,
         programs: Some(true),
     };
 

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
-use turnpath_pipeline::{Observer, Outcome, Sink};
+use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
 use turnpath_post::{PathReader, PathWriter, PmacReader, PmacWriter};
-use turnpath_recipe::Recipe;
 use turnpath_report::{ProgramReport, ResultFile};
 
 use crate::error::Error;
@@ -16,6 +15,7 @@ use crate::plots::{PlayedPath, Plots, draw};
 use crate::program::Program;
 use crate::result_check::SUMMARY;
 use crate::sinks::SinkError;
+use crate::sizes::{check_room, toolpath_bytes};
 
 /// The table of the path.
 const TOOLPATH: &str = "toolpath.csv";
@@ -28,6 +28,8 @@ pub struct FolderSink<'a> {
     folder: ResultFolder,
     writes_toolpath: bool,
     programs: &'a [Program],
+    /// The outer end of the range of ρ, mm.
+    radius: f64,
     rows: u64,
 }
 
@@ -58,17 +60,15 @@ impl<'a> FolderSink<'a> {
     ///
     /// # Errors
     /// When another run has it, or something is in the way that would stop this one only at its end.
-    pub fn new(
-        folder: &Path,
-        recipe: &Recipe,
-        programs: &'a [Program],
-    ) -> Result<Self, FolderError> {
+    pub fn new(folder: &Path, job: &'a Job) -> Result<Self, FolderError> {
+        let programs = &job.programs;
         let names = programs.iter().map(|program| program.file.as_str());
         nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
         Ok(Self {
             folder: ResultFolder::open(folder)?,
-            writes_toolpath: !recipe.output.data.is_empty(),
+            writes_toolpath: !job.recipe.output.data.is_empty(),
             programs,
+            radius: job.preparation.task.range.outer,
             files: None,
             rows: 0,
         })
@@ -215,6 +215,18 @@ fn nothing_in_the_way<'a>(
 impl Sink for FolderSink<'_> {
     type Block = FileBlock;
     type Error = SinkError;
+
+    fn expect(&mut self, expected: &Estimate) -> Result<(), SinkError> {
+        let programs = self.programs.iter();
+        let programs = programs.map(|program| program.expected_bytes(self.radius, expected));
+        let toolpath = if self.writes_toolpath {
+            toolpath_bytes(expected)
+        } else {
+            0.0
+        };
+        check_room(self.folder.path(), toolpath + programs.sum::<f64>())?;
+        Ok(())
+    }
 
     fn encode(&self, block: &SectionBlock<'_>) -> Result<FileBlock, SinkError> {
         let rows = self

@@ -22,6 +22,7 @@ use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
+use crate::remarks::remarks;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -130,7 +131,7 @@ impl Job {
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
         plots.can_be_in_result(folder)?;
-        let mut sink = FolderSink::new(folder, &self.recipe, &self.programs)?;
+        let mut sink = FolderSink::new(folder, self)?;
         let outcome = self.run_into(&mut sink, observer)?;
         let reports = sink.read_back(self, &outcome, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
@@ -165,6 +166,7 @@ impl Job {
             lead,
             outcome.servo.as_ref(),
         );
+        let z_acceleration = path.axes.z.acceleration.max;
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),
@@ -180,6 +182,8 @@ impl Job {
             points_added_by_refine: outcome.added_by_refine,
             revolutions: outcome.revolutions,
             cutting_time: outcome.cutting_time,
+            feed_cap: figures::feed_cap(outcome.feed_cap.as_ref()),
+            remarks: remarks(recipe, outcome.cutting_time, Some(z_acceleration)),
             within: path.verdict(None),
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),

@@ -74,6 +74,27 @@ impl PmacWriter {
         encode::lines(format, stretch)
     }
 
+    /// A part of the path as a reader finds it in the program: on the controller's times, and in the
+    /// program's digits. C is unwrapped, and begins [`PmacWriter::turns_left_out`] later.
+    ///
+    /// # Errors
+    /// When a program cannot carry the path.
+    pub fn carried(
+        format: &PmacFormat,
+        stretch: &SectionBlock<'_>,
+    ) -> Result<PathBlock, PmacError> {
+        encode::carried(format, stretch)
+    }
+
+    /// Whole turns of C, rad, that a program leaves out before the path's first point: not zero only
+    /// if its C is wrapped.
+    ///
+    /// # Errors
+    /// When a program cannot carry the point.
+    pub fn turns_left_out(format: &PmacFormat, first: &ControlPoint) -> Result<f64, PmacError> {
+        encode::turns_left_out(format, first)
+    }
+
     /// The complete program as a file that still lacks its name.
     ///
     /// # Errors

@@ -7,6 +7,7 @@ use crate::check::CheckReport;
 use super::commands::commands;
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
+use super::remark::{feed_cap, remarks};
 use super::tool_fit::tool_fit;
 use super::unreached::unreached;
 
@@ -23,6 +24,7 @@ pub fn check(report: &CheckReport) -> String {
     text += &line("points", format!("about {points}, before refinement"));
     text += &line("revolutions", format!("{:.2}", expected.revolutions));
     text += &line("cutting time", duration(expected.cutting_time));
+    text += &feed_cap(&report.feed_cap);
     let size = bytes(expected.toolpath_bytes as f64);
     text += &line("toolpath.csv", format!("about {size}, before refinement"));
     for program in &expected.programs {
@@ -32,5 +34,6 @@ pub fn check(report: &CheckReport) -> String {
             format!("about {size}, before refinement: {file}"),
         );
     }
-    text + &commands(&report.controller_commands)
+    text += &commands(&report.controller_commands);
+    text + &remarks(&report.remarks)
 }

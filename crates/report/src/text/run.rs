@@ -10,6 +10,7 @@ use super::commands::commands;
 use super::lead::lead;
 use super::numbers::{against, duration, grouped, line, small_length};
 use super::path::path;
+use super::remark::{feed_cap, remarks};
 use super::servo::servo;
 use super::unreached::unreached;
 
@@ -31,6 +32,7 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     text += &line("points", points(report));
     text += &line("revolutions", format!("{:.2}", report.revolutions));
     text += &line("cutting time", duration(report.cutting_time));
+    text += &feed_cap(&report.feed_cap);
     text += &path(&report.path, verdict);
     if let Some(report) = &report.path.lead {
         text += &lead(report, verdict.lead);
@@ -52,6 +54,7 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
         }
     }
     text += &commands(&report.controller_commands);
+    text += &remarks(&report.remarks);
     for file in files {
         text += &line("file", printable_line(&file.display().to_string()));
     }
