@@ -10,7 +10,8 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 
 use super::whole::{Found, entries, found, left_behind};
 use super::{Bench, tiny};
-use crate::support::recipe::SADDLE;
+use crate::support::bench_with_plugins;
+use crate::support::recipe::{SADDLE, with_table};
 
 /// Sends a signal to a process that this test has started.
 fn send(signal: i32, process: u32) {
@@ -98,4 +99,24 @@ fn a_signal_that_is_ignored_when_the_program_starts_does_not_end_it() {
     let mut shell = bench.command_of("sh".as_ref(), ["-c", &script]);
     crate::support::bench::answer(&mut shell).ends(0);
     assert!(matches!(found(&bench.path("out")), Found::Result(_)));
+}
+
+#[test]
+fn a_plugin_that_never_answers_keeps_nobody_from_interrupting() {
+    let recipe = with_table(&tiny(), "sampler", "use = \"never-answers\"");
+    let bench = bench_with_plugins::bench(&recipe, &["ends-process"]);
+    let before = bench.files();
+    let mut command = bench.command(["run", "recipe.toml", "-o", "a/b", "--plugin-dir", "plugins"]);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut run = command.spawn().unwrap();
+    let start = Instant::now();
+    while left_behind(&bench.path("a/b")).len() < 2 {
+        assert!(start.elapsed() < Duration::from_secs(60), "no draft");
+        assert_eq!(run.try_wait().unwrap(), None, "it has ended");
+        thread::sleep(Duration::from_millis(1));
+    }
+    send(SIGINT, run.id());
+    assert_eq!(run.wait().unwrap().signal(), Some(SIGINT));
+    assert_eq!(bench.files(), before);
+    assert!(!bench.path("a").exists(), "a folder is left");
 }
