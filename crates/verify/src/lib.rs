@@ -13,6 +13,7 @@ mod contact_bounds;
 mod corners;
 mod coverage;
 mod cusp;
+mod edge;
 mod instants;
 mod lead;
 mod limits;
@@ -33,7 +34,8 @@ mod worst;
 
 pub use anomalies::{Anomaly, AnomalyDetector, AnomalyKind};
 pub use axes::{AxesMotion, AxisMotion, Peak};
-pub use coverage::{CoverageFigures, UncutHeight};
+pub use coverage::CoverageFigures;
+pub use edge::UncutHeight;
 pub use instants::INSTANTS;
 pub use lead::{Jumps, LeadBlockFigures, LeadFigures, LeadMeter};
 pub use limits::{HighestSpeed, LimitFigure};

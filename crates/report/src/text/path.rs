@@ -1,7 +1,9 @@
 //! The lines on what was measured: each error against its tolerance, motion against limits.
 
+use crate::errors::PlayedCusp;
 use crate::path::PathReport;
-use crate::surface_error::SurfaceError;
+use crate::place::SurfacePoint;
+use crate::surface_error::{RealNose, SurfaceError};
 use crate::unit;
 use crate::verdict::Verdict;
 
@@ -18,7 +20,9 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     let mut text = line("interpolation", limit);
     text += &line("", format!("{rms:>12} rms; the largest at {at}"));
     text += &line("residual", residual(path, verdict));
+    text += &played_cusp(path.played_cusp.as_ref());
     text += &surface_error(path.surface_error.as_ref());
+    text += &real_nose(path.real_nose.as_ref());
     text += &coverage(&path.coverage, tolerance, path.overrun, verdict.coverage);
     text += &axis_crossing(&path.axis_crossing);
     if let Some(report) = &path.machine {
@@ -32,6 +36,37 @@ fn residual(path: &PathReport, verdict: &Verdict) -> String {
         Some(max) => against(max, path.tolerance.residual, verdict.residual),
         None => "not measured: no turn has a neighbour".to_owned(),
     }
+}
+
+/// The second line on cusps: as played.
+fn played_cusp(cusp: Option<&PlayedCusp>) -> String {
+    cusp.map_or_else(String::new, |cusp| {
+        let (max, at) = (small_length(cusp.max), path_place(&cusp.at));
+        let text = format!("{max:>12} as played, with the interpolation error; at {at}");
+        line("", text)
+    })
+}
+
+/// The warning where the path takes the nose radius as 0.
+fn real_nose(nose: Option<&RealNose>) -> String {
+    let Some(nose) = nose else {
+        return String::new();
+    };
+    let point = |point: &SurfacePoint| {
+        let amount = small_length(point.error.abs());
+        let [x, y] = [point.x, point.y].map(|mm| millimetres(mm, 4));
+        format!("{amount} at x = {x}, y = {y}")
+    };
+    let gouge = match nose.lowest.error < 0.0 {
+        true => format!("gouges {}", point(&nose.lowest)),
+        false => "gouges nowhere".to_owned(),
+    };
+    let text = format!("the path takes the nose radius as 0; the real nose {gouge}");
+    let left = match nose.highest.error > 0.0 {
+        true => line("", format!("and leaves up to {}", point(&nose.highest))),
+        false => String::new(),
+    };
+    line("warning", text) + &left
 }
 
 fn surface_error(error: Option<&SurfaceError>) -> String {
