@@ -35,7 +35,10 @@ fn a_path_without_compensation_tells_what_the_real_nose_gouges() {
     // Both edges of the diameter gouge alike; within is the machined part.
     let known = gouge_at(2.5, 20.0, 1.0) * 1e6;
     let lowest = number(&summary, "/real_nose/lowest/error_nm");
-    assert!((-lowest / known - 1.0).abs() < 0.02, "{lowest}, not {known}");
+    assert!(
+        (-lowest / known - 1.0).abs() < 0.02,
+        "{lowest}, not {known}"
+    );
     let highest = number(&summary, "/real_nose/highest/error_nm");
     let pv = number(&summary, "/real_nose/pv_nm");
     assert!((pv - (highest - lowest)).abs() < 1e-6 * pv);
@@ -43,7 +46,13 @@ fn a_path_without_compensation_tells_what_the_real_nose_gouges() {
     assert!(number(&summary, "/surface_error/pv_nm") < 0.1 * pv);
     let warning = "the path takes the nose radius as 0; the real nose gouges ";
     assert!(run.stdout.contains(warning), "{}", run.stdout);
-    let verified = bench.call(["verify", "recipe.toml", "out/toolpath.csv", "--format", "json"]);
+    let verified = bench.call([
+        "verify",
+        "recipe.toml",
+        "out/toolpath.csv",
+        "--format",
+        "json",
+    ]);
     let verified = verified.ends(0).json();
     let again = number(&verified, "/real_nose/lowest/error_nm");
     assert!((again / lowest - 1.0).abs() < 1e-6, "{again}");

@@ -83,3 +83,47 @@ fn surface_error(error: Option<&SurfaceError>) -> String {
     };
     line("surface error", text) + &uncut
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn nose(lowest: f64, highest: f64) -> RealNose {
+        let point = |error| SurfacePoint {
+            error,
+            x: 2.5,
+            y: -0.01,
+        };
+        RealNose {
+            pv: highest - lowest,
+            highest: point(highest),
+            lowest: point(lowest),
+        }
+    }
+
+    #[test]
+    fn a_person_reads_what_the_real_nose_gouges_and_leaves() {
+        assert_eq!(real_nose(None), "");
+        assert_eq!(
+            real_nose(Some(&nose(-7.7e-3, 1e-4))),
+            "  warning         the path takes the nose radius as 0; the real nose gouges 7700.00 nm \
+             at x = 2.5000 mm, y = -0.0100 mm\n                  and leaves up to 100.00 nm at x = \
+             2.5000 mm, y = -0.0100 mm\n"
+        );
+        let never = real_nose(Some(&nose(1e-6, 1e-4)));
+        assert!(never.contains("the real nose gouges nowhere\n"), "{never}");
+        let always = real_nose(Some(&nose(-1e-4, -1e-6)));
+        assert!(!always.contains("leaves"), "{always}");
+    }
+
+    #[test]
+    fn the_real_nose_counts_as_the_error_of_form() {
+        let mut report = crate::sample::run_report().path;
+        let of_path = report.surface_error.map(|error| error.pv);
+        assert!(of_path.is_some_and(|pv| pv > 0.0));
+        assert_eq!(report.form_error(), of_path);
+        let nose = nose(-7.7e-3, 1e-4);
+        report.real_nose = Some(nose);
+        assert_eq!(report.form_error(), Some(nose.pv));
+    }
+}
