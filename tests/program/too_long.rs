@@ -6,8 +6,8 @@ use std::time::Instant;
 use crate::support::bench::Bench;
 use crate::support::recipe::SADDLE;
 
-/// Seconds within which a refusal must come.
-const AT_ONCE: u64 = 20;
+/// Seconds within which a refusal must come, on a machine that has much else to do.
+const AT_ONCE: u64 = 60;
 
 #[track_caller]
 fn refusal(words: &str) -> String {
@@ -49,7 +49,7 @@ fn an_aperture_of_too_many_revolutions_is_not_the_strategys_fault() {
 #[test]
 fn a_step_of_too_many_points_in_too_many_turns() {
     let line = format!(
-        "check recipe.toml {FLAT} --set part.aperture=100m --set sampler.step=0.01deg \
+        "check recipe.toml {FLAT} --set part.aperture=20m --set sampler.step=0.01deg \
          --set feed={{use=\"atpg\"}}"
     );
     let said = refusal(&line);

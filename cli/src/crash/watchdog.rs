@@ -109,20 +109,26 @@ fn look_on(limit: Duration) {
 struct Seen(HashMap<(usize, usize, u64), u128>);
 
 impl Seen {
-    /// Counts a look. The callee of a call that was seen more than `most` times, the innermost of
-    /// such calls: those outside only wait for it.
+    /// Counts a look. If a call was seen more than `most` times, the callee to blame: that of the
+    /// innermost call on that thread that was seen at half of these looks, for which those outside
+    /// only wait.
     fn look(&mut self, calls: &[Call], most: u128) -> Option<&'static Callee> {
         let before = std::mem::take(&mut self.0);
-        let mut late: Option<&Call> = None;
-        for call in calls.iter().filter(|call| call.callee.is_loaded()) {
+        let loaded = calls.iter().filter(|call| call.callee.is_loaded());
+        let mut counted: Vec<(&Call, u128)> = Vec::new();
+        for call in loaded {
             let key = (call.thread, call.depth, call.number);
             let times = before.get(&key).map_or(1, |times| times + 1);
             self.0.insert(key, times);
-            if times > most && late.is_none_or(|late| call.depth > late.depth) {
-                late = Some(call);
-            }
+            counted.push((call, times));
         }
-        late.map(|call| call.callee)
+        let (late, _) = counted.iter().find(|(_, times)| *times > most)?;
+        let of_thread = counted
+            .iter()
+            .filter(|(call, _)| call.thread == late.thread);
+        let lasting = of_thread.filter(|(_, times)| 2 * times > most);
+        let innermost = lasting.max_by_key(|(call, _)| call.depth);
+        innermost.map(|(call, _)| call.callee)
     }
 }
 

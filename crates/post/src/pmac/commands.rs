@@ -114,7 +114,6 @@ mod tests {
         for text in [
             "OPEN ROT",
             "close open prog 12 clear",
-            "OPENPROG999CLEAR",
             "N10 ABS (X, Z) INC",
             "DWELL 100",
             "CLOSE ; M1=1 in a comment",
