@@ -7,6 +7,9 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use turnpath::{AblationObserver, Observer, Stage};
+use turnpath_core::printable_line;
+
+use crate::message::note;
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";
@@ -55,6 +58,7 @@ impl Observer for Bar {
                 Stage::Write => "measuring and writing".to_owned(),
                 Stage::ReadBack => "reading programs back".to_owned(),
                 Stage::Measure => "measuring the file".to_owned(),
+                Stage::Compare => "comparing with the recipe's path".to_owned(),
                 Stage::Map => "mapping what is cut".to_owned(),
             });
             bar.enable_steady_tick(TICK);
@@ -105,8 +109,10 @@ impl AblationObserver for RunsBar {
     }
 
     fn damaged(&self, record: &Path, why: &str) {
-        let name = record.display();
-        eprintln!("note: {name} is damaged ({why}); its run is made again");
+        let name = record.display().to_string();
+        note(&printable_line(&format!(
+            "{name} is damaged ({why}); its run is made again"
+        )));
     }
 
     fn end(&self) {

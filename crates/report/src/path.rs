@@ -85,6 +85,8 @@ impl PathReport {
                 .as_ref()
                 .map(|lead| within(-lead.smallest_clearance, interpolation)),
             reach: reach.map(Reach::covers_part),
+            result: None,
+            whole: None,
             programs: None,
         }
     }

@@ -1,6 +1,6 @@
 //! What the meters measured, as parts of a report.
 
-use turnpath_pipeline::Leads;
+use turnpath_pipeline::{FeedCap, Leads};
 use turnpath_recipe::Recipe;
 use turnpath_report as report;
 use turnpath_report::{LimitFigure, PathPlace};
@@ -15,6 +15,16 @@ pub fn tolerances(recipe: &Recipe) -> report::Tolerances {
     report::Tolerances {
         interpolation: recipe.tolerance.interpolation,
         residual: recipe.tolerance.residual,
+    }
+}
+
+/// Where the reach of the nose sets the feed.
+pub fn feed_cap(cap: Option<&FeedCap>) -> report::FeedCap {
+    report::FeedCap {
+        binds: cap.is_some(),
+        from: cap.map(|cap| cap.from),
+        to: cap.map(|cap| cap.to),
+        feed: cap.map(|cap| cap.feed),
     }
 }
 

@@ -1,12 +1,15 @@
 //! Reports as text for a terminal.
 
+mod anomalies;
 mod check;
+mod commands;
 mod coverage;
 mod file;
 mod lead;
 mod machine;
 mod numbers;
 mod path;
+mod remark;
 mod run;
 mod servo;
 mod tool_fit;
@@ -14,5 +17,5 @@ mod unreached;
 
 pub use check::check;
 pub use file::file;
-pub use numbers::{grouped, millimetres, nose_radius};
+pub use numbers::{bytes, grouped, millimetres, nose_radius};
 pub use run::run;

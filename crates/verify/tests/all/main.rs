@@ -6,6 +6,7 @@ mod common;
 mod reference;
 
 mod blocks;
+mod comparison;
 mod coverage;
 mod cusps;
 mod drop_cutter;
