@@ -1,5 +1,5 @@
 //! `cargo xtask reference`: the figures under `tests/reference`, docs/reproduction.md and the
-//! tables of docs/recipe.md, made again.
+//! tables of docs/recipe.md and docs/measuring.md, made again.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -38,11 +38,13 @@ const PMAC: &str = "pmac";
 const REPRODUCTION: &str = "reproduction";
 /// The tables of docs/recipe.md.
 const RECIPE: &str = "recipe";
+/// The table of docs/measuring.md.
+const SPOILS: &str = "spoils";
 
 /// Makes the figures of these names, or all; an unknown name is an error.
 pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
     let own = FIGURES.iter().map(|figures| figures.name);
-    let known: Vec<&str> = own.chain([PLAYBACK, PMAC, REPRODUCTION, RECIPE]).collect();
+    let known: Vec<&str> = own.chain([PLAYBACK, PMAC, REPRODUCTION, RECIPE, SPOILS]).collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
         return Err(format!(
             "there are no reference figures `{unknown}`; there are {}",
@@ -56,11 +58,12 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             with_packages(figures.packages, || figures.make())
         }));
     }
-    let steps_of_the_program: [(&str, Make); 4] = [
+    let steps_of_the_program: [(&str, Make); 5] = [
         (PLAYBACK, || with_packages(&["numpy"], playback)),
         (PMAC, || with_packages(&["numpy"], pmac)),
         (REPRODUCTION, reproduction),
         (RECIPE, recipe),
+        (SPOILS, spoils),
     ];
     for (name, make) in steps_of_the_program {
         if chosen(name) {
@@ -171,6 +174,16 @@ fn recipe() -> Outcome {
     tests
         .args(["--", "docs_recipe_md"])
         .env("RECIPE_PAGE", "write");
+    run(tests)
+}
+
+/// The table of docs/measuring.md: which faults of spoiled files `verify` finds.
+fn spoils() -> Outcome {
+    let words = ["test", "--locked", "--workspace", "--test", "figures"];
+    let mut tests = cargo(&words);
+    tests
+        .args(["--", "spoils::every_spoil"])
+        .env("SPOILS_PAGE", "write");
     run(tests)
 }
 

@@ -5,6 +5,8 @@ use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
+use turnpath_core::{printable, printable_line};
+
 use crate::span::Span;
 
 /// Most messages about one recipe. Nobody reads more, and each of them shows its line: a list of many
@@ -113,13 +115,13 @@ impl Diagnostic {
         match &self.span {
             None => group,
             Some(span) if span.is_whole() => {
-                group.element(Origin::path(span.source().name.as_str()))
+                group.element(Origin::path(printable_line(&span.source().name)))
             }
             Some(span) => {
                 let label = Some(printable(&self.label)).filter(|label| !label.is_empty());
                 let annotation = AnnotationKind::Primary.span(span.range()).label(label);
                 let snippet = Snippet::source(span.source().text.as_str())
-                    .path(span.source().name.as_str())
+                    .path(printable_line(&span.source().name))
                     .annotation(annotation);
                 group.element(snippet)
             }
@@ -205,19 +207,6 @@ impl fmt::Display for Diagnostics {
 }
 
 impl Error for Diagnostics {}
-
-/// The text without control characters, which a recipe could use to repaint the terminal.
-fn printable(text: &str) -> String {
-    text.chars()
-        .map(|c| {
-            if c.is_control() && c != '\n' {
-                '\u{FFFD}'
-            } else {
-                c
-            }
-        })
-        .collect()
-}
 
 #[cfg(test)]
 mod tests {

@@ -57,7 +57,7 @@ pub use lead::{AccelerationStep, LeadLayout, LeadReport};
 pub use machine::{HighestSpindle, LimitFigure, MachineLimits, MachineReport, MachineSource};
 pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
-pub use program::ProgramReport;
+pub use program::{ControllerCommand, ProgramReport};
 pub use reach::{Radial, Radii, Reach};
 pub use remark::{Remark, RemarkSubject};
 pub use result_check::ResultCheck;
