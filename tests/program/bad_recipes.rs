@@ -127,6 +127,26 @@ fn an_aperture_that_reaches_beyond_the_surface() {
     insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
 }
 
+/// It was the surface's plugin that was blamed.
+#[test]
+fn a_decentre_that_moves_the_surface_away_from_the_part() {
+    let sphere = "use = \"conic\"\nradius = \"20 mm\"\ndecentre_y = \"10 m\"";
+    let recipe = saddle_with("surface", sphere);
+    insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
+}
+
+/// Each value is wrong, and each message would show the line.
+#[test]
+fn ten_thousand_wrong_values_on_a_line_end_in_a_hundred_messages() {
+    let posts = "\"x\", ".repeat(10_000);
+    let recipe = format!("{SADDLE}\n[output]\nposts = [{posts}]\n");
+    let said = answer(recipe, "run recipe.toml");
+    assert!(said.starts_with("exit 2"), "{}", said.len());
+    assert!(said.ends_with("messages left out: 9900 more\n"));
+    assert_eq!(said.matches("error: ").count(), 101);
+    assert!(said.len() < 100_000, "{} bytes", said.len());
+}
+
 #[test]
 fn parameters_that_contradict_each_other() {
     let recipe = saddle_with(

@@ -4,7 +4,7 @@ use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
 use turnpath_pipeline::{Excess, PathSize, PipelineError};
 use turnpath_post::PmacError;
-use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned};
+use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned, SurfaceEntry};
 use turnpath_report::text::{millimetres, nose_radius};
 
 use crate::data_files::DataFileError;
@@ -31,6 +31,12 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
             let diagnostic = wrong_parameter(recipe, recipe.choice(*slot), name, message);
             Error::refused_by(diagnostic, error)
         }
+        // A surface without a height on the part's inner ring is wrong only if it lies where its
+        // author put it.
+        PipelineError::BadAnswer {
+            slot: Slot::Surface,
+            ..
+        } if moves_surface(recipe) => Error::refused_by(nothing_there(recipe), error),
         PipelineError::InnerStrategy { slot, entry, .. } => {
             Error::strategy(at_choice(recipe, *slot, *entry, title), error)
         }
@@ -115,6 +121,23 @@ fn at_choice(recipe: &Recipe, slot: Slot, entry: usize, title: String) -> Diagno
     let numbered = recipe.choices(slot).get(entry).copied();
     let choice = numbered.unwrap_or_else(|| recipe.choice(slot));
     recipe.diagnostic(choice.name.span.clone(), title, "chosen here", [])
+}
+
+/// Whether the recipe has the part elsewhere than at the surface's own origin.
+fn moves_surface(recipe: &Recipe) -> bool {
+    let moved = |entry: &SurfaceEntry| !entry.placement.is_plain();
+    recipe.pose.is_some() || recipe.surfaces.iter().any(moved)
+}
+
+fn nothing_there(recipe: &Recipe) -> Diagnostic {
+    let of_pose = recipe.pose.is_some();
+    let span = recipe.nearest_span(if of_pose { "part.pose" } else { "surface" });
+    let title = "the part lies where the surface has no height";
+    let help = match of_pose {
+        true => "choose another `x` and `y`",
+        false => "choose smaller decentres, or a surface that reaches farther",
+    };
+    recipe.diagnostic(span, title, "placed here", [help.to_owned()])
 }
 
 fn no_surface(recipe: &Recipe, title: String) -> Diagnostic {

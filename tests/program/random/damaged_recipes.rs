@@ -12,7 +12,7 @@ use crate::support::bench::Bench;
 
 const SEED: u64 = 2_000_003;
 /// Recipes of every run of the tests, and of `cargo xtask long`.
-const CASES: u64 = 25;
+const CASES: u64 = 32;
 const MANY_CASES: u64 = 1000;
 /// From so many points on, a run may take longer than a call of these tests, and is no endless one.
 const LONG_WORK: f64 = 1e6;

@@ -7,7 +7,7 @@ use crate::support::bench::Bench;
 
 const SEED: u64 = 1_000_003;
 /// Recipes of every run of the tests, and of `cargo xtask long`.
-const CASES: u64 = 25;
+const CASES: u64 = 8;
 const MANY_CASES: u64 = 1000;
 
 /// Runs one recipe, and then another command on what it gave.

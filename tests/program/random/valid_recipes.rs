@@ -102,7 +102,8 @@ pub fn valid_recipe(random: &mut Seeded) -> ValidRecipe {
 }
 
 fn refine(random: &mut Seeded) -> &'static str {
-    *random.pick(&["", "refine = true\n", "refine = false\n"])
+    let lines: [&'static str; 3] = ["", "refine = true\n", "refine = false\n"];
+    lines[random.below(lines.len())]
 }
 
 /// A length in one of the units, with digits enough for any of them.
@@ -181,8 +182,10 @@ fn surface(reach: f64, random: &mut Seeded) -> String {
         }
         _ => {
             let share = STEEPEST / 4.0;
-            let [one, two, three] = [1, 2, 3].map(|degree: i32| {
-                let most = share / (f64::from(degree) * reach.powi(degree - 1));
+            // What a power of x and y of each degree has as its steepest slope.
+            let slopes = [1.0, 2.0 * reach, 3.0 * reach * reach];
+            let [one, two, three] = slopes.map(|slope| {
+                let most = share / slope;
                 random.between(-most, most)
             });
             format!(
