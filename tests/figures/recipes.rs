@@ -271,6 +271,7 @@ fn compare(summary: &Value, reference: &Value, rows: u64) -> Vec<String> {
         ("/interpolation_error/max_nm", "/interpolation_error_nm/max"),
         ("/interpolation_error/rms_nm", "/interpolation_error_nm/rms"),
         ("/residual/max_nm", "/residual_nm/max"),
+        ("/played_cusp/max_nm", "/played_cusp_nm/max"),
         ("/surface_error/pv_nm", "/surface_error_nm/pv"),
         ("/surface_error/rms_nm", "/surface_error_nm/rms"),
         ("/coverage/rim/height_nm", "/coverage_nm/rim"),

@@ -35,6 +35,7 @@ type Make = fn() -> Outcome;
 /// What needs the program or a test of it.
 const PLAYBACK: &str = "playback";
 const PMAC: &str = "pmac";
+const RIMS: &str = "rims";
 const REPRODUCTION: &str = "reproduction";
 /// The tables of docs/recipe.md.
 const RECIPE: &str = "recipe";
@@ -45,7 +46,7 @@ const SPOILS: &str = "spoils";
 pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
     let own = FIGURES.iter().map(|figures| figures.name);
     let known: Vec<&str> = own
-        .chain([PLAYBACK, PMAC, REPRODUCTION, RECIPE, SPOILS])
+        .chain([PLAYBACK, PMAC, RIMS, REPRODUCTION, RECIPE, SPOILS])
         .collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
         return Err(format!(
@@ -60,9 +61,10 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             with_packages(figures.packages, || figures.make())
         }));
     }
-    let steps_of_the_program: [(&str, Make); 5] = [
+    let steps_of_the_program: [(&str, Make); 6] = [
         (PLAYBACK, || with_packages(&["numpy"], playback)),
         (PMAC, || with_packages(&["numpy"], pmac)),
+        (RIMS, || with_packages(&["numpy"], rims)),
         (REPRODUCTION, reproduction),
         (RECIPE, recipe),
         (SPOILS, spoils),
@@ -117,6 +119,14 @@ fn playback() -> Outcome {
     let mut call = script("tests/reference/playback/measure_all.py", &[&program]);
     call.arg("--plugins").arg(plugins);
     run(call)
+}
+
+/// What rims.py measures at the rims of steep caps.
+fn rims() -> Outcome {
+    match program() {
+        Ok(program) => run(script("tests/reference/rims/rims.py", &[&program])),
+        Err(outcome) => outcome,
+    }
 }
 
 /// A folder with the library of the fixture that some recipes use.

@@ -60,4 +60,4 @@ pub use prepare::{Preparation, prepare};
 pub use refine::{MOST_ROUNDS, SMALLEST_SEGMENT};
 pub use run::{make_unmeasured, run};
 pub use sink::Sink;
-pub use size::{MOST_POINTS, MOST_REVOLUTIONS, PathSize};
+pub use size::{Excess, MOST_POINTS, MOST_REVOLUTIONS, PathSize};

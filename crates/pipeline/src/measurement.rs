@@ -7,7 +7,7 @@ use turnpath_verify::{
     ServoStart,
 };
 
-use crate::feed_cap::FeedCap;
+use crate::feed_cap::{FeedCap, feed_cap};
 use crate::lead::Leads;
 use crate::make::BlockPoints;
 use crate::options::PathOptions;
@@ -93,12 +93,7 @@ impl Measurement {
     }
 
     /// The result of the run.
-    pub fn outcome(
-        self,
-        plan: &Plan<'_>,
-        lead: Option<Leads>,
-        feed_cap: Option<FeedCap>,
-    ) -> Result<Outcome> {
+    pub fn outcome(self, plan: &Plan<'_>, lead: Option<Leads>) -> Result<Outcome> {
         let revolutions = plan.law.end();
         Ok(Outcome {
             control_points: self.points,
@@ -108,7 +103,7 @@ impl Measurement {
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
-            feed_cap,
+            feed_cap: feed_cap(plan.preparation, &plan.law)?,
             lead,
             servo: self.servo.map(|servo| *servo.figures()),
         })

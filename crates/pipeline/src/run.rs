@@ -5,7 +5,6 @@ use turnpath_core::toolpath::Section;
 
 use crate::error::RunResult;
 use crate::estimate::{Estimate, nodes_per_revolution};
-use crate::feed_cap::FeedCap;
 use crate::lead::{LeadRun, Leads};
 use crate::make::{Depths, close_joints, first_state, make};
 use crate::measurement::{Measurement, Outcome};
@@ -37,10 +36,9 @@ pub fn run<S: Sink + ?Sized>(
 ) -> std::result::Result<Outcome, RunError<S::Error>> {
     let ready = ReadyPath::new(chain, preparation, options, sink, observer)?;
     let mut measurement = Measurement::new(preparation, &options);
-    let feed_cap = ready.feed_cap;
     let recorder = Recorder::new(sink, observer, Some(&mut measurement));
     let (plan, lead) = ready.write(recorder, observer)?;
-    Ok(measurement.outcome(&plan, lead, feed_cap)?)
+    Ok(measurement.outcome(&plan, lead)?)
 }
 
 /// Makes the same path as [`run`] and gives it to the sink, without measuring what it would cut.
@@ -62,8 +60,6 @@ pub fn make_unmeasured<S: Sink + ?Sized>(
 /// A path of which all is known but its points.
 struct ReadyPath<'a> {
     plan: Plan<'a>,
-    /// Where the reach of the nose sets the feed.
-    feed_cap: Option<FeedCap>,
     /// Blocks that are made at a time.
     batch: usize,
     depths: Vec<Depths>,
@@ -71,7 +67,7 @@ struct ReadyPath<'a> {
 }
 
 impl<'a> ReadyPath<'a> {
-    /// Plans the path, tells the sink what to expect, refines the path, and makes its lead-in.
+    /// Plans the path, tells the sink how long it will be, refines it, and makes its lead-in.
     fn new<S: Sink + ?Sized>(
         chain: &'a Chain,
         preparation: &'a Preparation,
@@ -97,7 +93,6 @@ impl<'a> ReadyPath<'a> {
             .transpose()?;
         Ok(Self {
             plan,
-            feed_cap: estimate.feed_cap,
             batch,
             depths,
             leads,
@@ -112,7 +107,6 @@ impl<'a> ReadyPath<'a> {
     ) -> RunResult<(Plan<'a>, Option<Leads>), S::Error> {
         let Self {
             plan,
-            feed_cap: _,
             batch,
             depths,
             leads,

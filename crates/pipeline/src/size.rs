@@ -16,8 +16,9 @@ pub(crate) const MOST_PIECES: usize = 8_000_000;
 /// Fewest revolutions from which the length of the whole law is foretold.
 const FORETOLD: f64 = 1000.0;
 /// How much longer than allowed a law must be foretold to be refused before it is planned. Its feed
-/// may grow on the way.
-const CERTAIN: f64 = 10.0;
+/// may grow on the way. A larger factor would let a strategy that plans turn by turn work for
+/// minutes before it is refused.
+const CERTAIN: f64 = 2.0;
 /// A law whose mean feed is at least this part of the one that the residual asks for is as long as
 /// the recipe makes it. A slower one is its strategy's own.
 const ASKED_FOR: f64 = 0.01;
@@ -31,22 +32,37 @@ pub struct PathSize {
     pub distance: f64,
     /// Revolutions, at least.
     pub revolutions: f64,
-    /// Control points, where there are too many of them.
-    pub control_points: Option<f64>,
+    /// Of what there is too much.
+    pub excess: Excess,
+}
+
+/// Of what there is too much in a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Excess {
+    /// Revolutions.
+    Revolutions,
+    /// Pieces of the law: so many at least.
+    Pieces(f64),
+    /// Control points: about so many.
+    Points(f64),
 }
 
 impl std::fmt::Display for PathSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let revolutions = self.revolutions;
-        match self.control_points {
-            None => write!(
+        write!(f, "it takes about {revolutions:.1e} revolutions")?;
+        match self.excess {
+            Excess::Revolutions => write!(f, ", and {MOST_REVOLUTIONS:.0e} are the most"),
+            Excess::Pieces(pieces) => {
+                let most = MOST_PIECES as f64;
+                write!(
+                    f,
+                    " in {pieces:.1e} pieces of the law, and {most:.0e} pieces are the most"
+                )
+            }
+            Excess::Points(points) => write!(
                 f,
-                "it takes about {revolutions:.1e} revolutions, and {MOST_REVOLUTIONS:.0e} are the most"
-            ),
-            Some(points) => write!(
-                f,
-                "it takes about {points:.1e} control points in {revolutions:.1e} revolutions, and \
-                 {MOST_POINTS:.0e} points are the most"
+                " with {points:.1e} control points, and {MOST_POINTS:.0e} points are the most"
             ),
         }
     }
@@ -67,7 +83,7 @@ pub(crate) fn check_part(spec: &JobSpec) -> Result<()> {
     Err(PipelineError::TooLong(PathSize {
         distance,
         revolutions,
-        control_points: None,
+        excess: Excess::Revolutions,
     }))
 }
 
@@ -83,22 +99,26 @@ pub(crate) fn check_law(
     let revolutions = law.end();
     let moved = (law.value(revolutions) - law.value(0.0)).abs();
     let covered = (moved / distance).min(1.0);
-    let pieces = law.pieces().len() + more;
-    let whole = revolutions / covered;
-    let foretold = revolutions >= FORETOLD
-        && (whole > CERTAIN * MOST_REVOLUTIONS
-            || pieces as f64 / covered > CERTAIN * MOST_PIECES as f64);
-    let too_long = revolutions > MOST_REVOLUTIONS
-        || pieces > MOST_PIECES && revolutions >= FORETOLD
-        || foretold;
-    if too_long && moved / revolutions >= ASKED_FOR * asked_for(task, locus) {
-        return Err(PipelineError::TooLong(PathSize {
+    let pieces = (law.pieces().len() + more) as f64;
+    let [whole, whole_pieces] = [revolutions / covered, pieces / covered];
+    let foretold = revolutions >= FORETOLD;
+    let of_revolutions =
+        revolutions > MOST_REVOLUTIONS || foretold && whole > CERTAIN * MOST_REVOLUTIONS;
+    let most = MOST_PIECES as f64;
+    let of_pieces = foretold && (pieces > most || whole_pieces > CERTAIN * most);
+    let excess = match (of_revolutions, of_pieces) {
+        (true, _) => Excess::Revolutions,
+        (_, true) => Excess::Pieces(whole_pieces),
+        _ => return Ok(()),
+    };
+    match moved / revolutions >= ASKED_FOR * asked_for(task, locus) {
+        true => Err(PipelineError::TooLong(PathSize {
             distance,
             revolutions: whole.max(revolutions),
-            control_points: None,
-        }));
+            excess,
+        })),
+        false => Ok(()),
     }
-    Ok(())
 }
 
 /// The least feed of the residual at some places of the range, mm; infinite where there is none.
@@ -128,6 +148,6 @@ pub(crate) fn check_points(distance: f64, revolutions: f64, per_revolution: f64)
     Err(PipelineError::TooLong(PathSize {
         distance,
         revolutions,
-        control_points: Some(points),
+        excess: Excess::Points(points),
     }))
 }

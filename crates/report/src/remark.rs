@@ -11,9 +11,9 @@ const LARGEST_RESIDUAL: f64 = 1e-3;
 /// The smallest aperture without a remark, mm. A lower threshold would miss `um` for `mm`, a higher
 /// one would remark on lenslets.
 const SMALLEST_APERTURE: f64 = 0.1;
-/// The largest acceleration of Z without a remark where the machine has no limit for it, mm/s²: half
-/// of g, which few slow tool servos reach.
-const LARGEST_Z_ACCELERATION: f64 = 4900.0;
+/// The largest acceleration of Z without a remark where the machine has no limit for it, mm/s²: g,
+/// which few slow tool servos reach. A lower threshold would remark on fast servos.
+const LARGEST_Z_ACCELERATION: f64 = 9806.65;
 /// The longest cut without a remark, s: eight hours. In a longer one the machine's temperature
 /// drifts with that of the day.
 const LONGEST_CUT: f64 = 8.0 * 3600.0;

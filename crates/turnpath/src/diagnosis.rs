@@ -2,7 +2,7 @@
 
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
-use turnpath_pipeline::{PathSize, PipelineError};
+use turnpath_pipeline::{Excess, PathSize, PipelineError};
 use turnpath_post::PmacError;
 use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned};
 use turnpath_report::text::{millimetres, nose_radius};
@@ -129,9 +129,7 @@ fn too_long(recipe: &Recipe, size: &PathSize, title: String) -> Diagnostic {
     let feed = size.distance / size.revolutions;
     let longer = matches!(recipe.overrun, Overrun::Length(length) if 2.0 * length > size.distance);
     let slow = feed < SLOW_FEED * recipe.tool.nose_radius;
-    let dense = size
-        .control_points
-        .is_some_and(|points| points > DENSE * size.revolutions);
+    let dense = matches!(size.excess, Excess::Points(points) if points > DENSE * size.revolutions);
     let (key, help) = match (longer, slow, dense) {
         (true, ..) => ("path.overrun", "choose a shorter `overrun`"),
         (_, true, _) => ("tolerance.residual", "allow a larger residual"),

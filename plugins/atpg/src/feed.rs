@@ -52,7 +52,8 @@ impl Strategy for AtpgFeed {
     const SUMMARY: &'static str = "at each radius the largest feed that holds the residual at \
         every angle, made smooth";
     const SOURCE: &'static str = "Wang et al. 2019, Micromachines 10, §3.2 and 3.3; fit = \
-        \"smooth\" stays below the feed, which the paper's cubic does not";
+        \"smooth\" stays below the feed, which the paper's cubic does not; large feeds from the \
+        exact cusp, as far as neighbouring noses meet within their edges";
     const PARAMS: &'static [ParamInfo] = &[RESIDUAL.info(), FIT.info()];
 
     fn new(params: &Params) -> Result<Self> {

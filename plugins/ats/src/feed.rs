@@ -44,7 +44,8 @@ impl Strategy for AtsFeed {
     const SUMMARY: &'static str = "at every cutting point the feed that holds the residual there; X \
         moves back and forth within each turn";
     const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, from its abstract and \
-        from Wang et al. 2019; the law is derived here";
+        from Wang et al. 2019; the law is derived here; large feeds from the exact cusp, as far as \
+        neighbouring noses meet within their edges";
 
     const PARAMS: &'static [ParamInfo] = &[INWARD.info()];
 

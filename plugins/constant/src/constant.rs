@@ -18,7 +18,8 @@ pub struct Constant {
 
 const FEED: Param<Option<Feed>> = Param::feed(
     "feed",
-    "feed per revolution; left out: the largest that holds tolerance.residual everywhere",
+    "feed per revolution; left out: the largest that holds tolerance.residual everywhere, as far as \
+     neighbouring noses meet within their edges",
 )
 .positive()
 .optional();
@@ -28,7 +29,7 @@ impl Strategy for Constant {
     const SUMMARY: &'static str =
         "one feed for the whole part, given or the largest that holds the residual everywhere";
     const SOURCE: &'static str = "the conventional spiral; derived feed after Wang et al. 2019, \
-        eq. 1–3, at the worst place";
+        eq. 1–3, at the worst place; large feeds from the exact cusp";
     const PARAMS: &'static [ParamInfo] = &[FEED.info()];
 
     fn new(params: &Params) -> Result<Self> {

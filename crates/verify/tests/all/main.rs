@@ -1,5 +1,6 @@
 //! What `turnpath-verify` does from outside, each subject a module.
 
+mod as_played;
 mod common;
 #[path = "../../../../tests/support/drop_cutter.rs"]
 mod reference;
