@@ -101,6 +101,11 @@ fn assembled(points: usize, lines: &[u8]) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
+/// The time of the first point as a program carries it; a reader counts from there.
+fn carried_start(points: &[ControlPoint]) -> f64 {
+    (points[0].t * QUANTA_PER_S).round() / QUANTA_PER_S
+}
+
 fn read(format: &PmacFormat, text: &[u8]) -> Result<Vec<ControlPoint>, String> {
     Ok(read_sections(format, text)?.0)
 }
@@ -216,6 +221,47 @@ proptest! {
         let points = path_of(&steps);
         let text = program(&format, &points);
         assert_same(&format, &points, &read(&format, text.as_bytes()).unwrap());
+    }
+
+    /// What `verify` compares a program with: the points that a reader finds in it, to the rounding of
+    /// doubles.
+    #[test]
+    fn what_a_program_carries_is_what_a_reader_finds_in_it(
+        format in format(),
+        steps in prop::collection::vec(step(), 1..60),
+        cut in 0..60usize,
+    ) {
+        let points = path_of(&steps);
+        let read = read(&format, program(&format, &points).as_bytes()).unwrap();
+        let left_out = PmacWriter::turns_left_out(&format, &points[0]).unwrap();
+        let cut = cut.min(points.len());
+        let mut carried = Vec::new();
+        for (from, to) in [(0, cut), (cut, points.len())] {
+            let mut block = PathBlock::default();
+            points[from..to].iter().for_each(|point| block.push(*point));
+            let stretch = SectionBlock {
+                section: Section::Cutting,
+                opens_section: from == 0,
+                before: &points[from.saturating_sub(2)..from],
+                points: &block,
+            };
+            carried.extend(PmacWriter::carried(&format, &stretch).unwrap().points());
+        }
+        prop_assert_eq!(carried.len(), read.len());
+        for (carried, read) in carried.iter().zip(&read) {
+            let pairs = [
+                (carried.t - carried_start(&points), read.t),
+                (carried.c - left_out, read.c),
+                (carried.x, read.x),
+                (carried.z, read.z),
+                (carried.vc, read.vc),
+                (carried.vx, read.vx),
+                (carried.vz, read.vz),
+            ];
+            for (one, other) in pairs {
+                prop_assert!((one - other).abs() <= 1e-14 * (1.0 + other.abs()), "{} {}", one, other);
+            }
+        }
     }
 
     #[test]

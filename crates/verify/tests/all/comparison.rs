@@ -1,5 +1,6 @@
 //! Rows of a file against those of another path: on a plane of slope 0.1, where every worth has a closed
 //! form.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
 
