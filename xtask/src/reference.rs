@@ -44,7 +44,9 @@ const SPOILS: &str = "spoils";
 /// Makes the figures of these names, or all; an unknown name is an error.
 pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
     let own = FIGURES.iter().map(|figures| figures.name);
-    let known: Vec<&str> = own.chain([PLAYBACK, PMAC, REPRODUCTION, RECIPE, SPOILS]).collect();
+    let known: Vec<&str> = own
+        .chain([PLAYBACK, PMAC, REPRODUCTION, RECIPE, SPOILS])
+        .collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
         return Err(format!(
             "there are no reference figures `{unknown}`; there are {}",
