@@ -5,7 +5,7 @@
 //! child dies, a child for each library finds out which one is to blame.
 
 use std::ffi::OsString;
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitCode, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -129,7 +129,7 @@ fn signs(child: &mut Child) -> Receiver<u8> {
     let (send, receive) = mpsc::channel();
     if let Some(output) = child.stdout.take() {
         thread::spawn(move || {
-            let bytes = output.bytes().map_while(Result::ok);
+            let bytes = BufReader::new(output).bytes().map_while(Result::ok);
             // An error means that nobody waits any more.
             let _ = bytes.map(|byte| send.send(byte)).find(Result::is_err);
         });
