@@ -7,6 +7,9 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use turnpath::{AblationObserver, Observer, Stage};
+use turnpath_core::printable_line;
+
+use crate::message::note;
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";
@@ -106,8 +109,10 @@ impl AblationObserver for RunsBar {
     }
 
     fn damaged(&self, record: &Path, why: &str) {
-        let name = record.display();
-        eprintln!("note: {name} is damaged ({why}); its run is made again");
+        let name = record.display().to_string();
+        note(&printable_line(&format!(
+            "{name} is damaged ({why}); its run is made again"
+        )));
     }
 
     fn end(&self) {

@@ -34,7 +34,7 @@ const RULES: &[Rule] = &[
     ),
     rule(
         "turnpath-host",
-        &["turnpath-core", "turnpath-plugin"],
+        &["turnpath-core", "turnpath-files", "turnpath-plugin"],
         &[PLUGINS],
     ),
     rule(PLUGINS, &["turnpath-plugin"], &["turnpath-core", PLUGINS]),

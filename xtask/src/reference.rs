@@ -1,5 +1,5 @@
 //! `cargo xtask reference`: the figures under `tests/reference`, docs/reproduction.md and the
-//! tables of docs/recipe.md, made again.
+//! tables of docs/recipe.md and docs/measuring.md, made again.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -35,14 +35,19 @@ type Make = fn() -> Outcome;
 /// What needs the program or a test of it.
 const PLAYBACK: &str = "playback";
 const PMAC: &str = "pmac";
+const RIMS: &str = "rims";
 const REPRODUCTION: &str = "reproduction";
 /// The tables of docs/recipe.md.
 const RECIPE: &str = "recipe";
+/// The table of docs/measuring.md.
+const SPOILS: &str = "spoils";
 
 /// Makes the figures of these names, or all; an unknown name is an error.
 pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
     let own = FIGURES.iter().map(|figures| figures.name);
-    let known: Vec<&str> = own.chain([PLAYBACK, PMAC, REPRODUCTION, RECIPE]).collect();
+    let known: Vec<&str> = own
+        .chain([PLAYBACK, PMAC, RIMS, REPRODUCTION, RECIPE, SPOILS])
+        .collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
         return Err(format!(
             "there are no reference figures `{unknown}`; there are {}",
@@ -56,11 +61,13 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             with_packages(figures.packages, || figures.make())
         }));
     }
-    let steps_of_the_program: [(&str, Make); 4] = [
+    let steps_of_the_program: [(&str, Make); 6] = [
         (PLAYBACK, || with_packages(&["numpy"], playback)),
         (PMAC, || with_packages(&["numpy"], pmac)),
+        (RIMS, || with_packages(&["numpy"], rims)),
         (REPRODUCTION, reproduction),
         (RECIPE, recipe),
+        (SPOILS, spoils),
     ];
     for (name, make) in steps_of_the_program {
         if chosen(name) {
@@ -112,6 +119,14 @@ fn playback() -> Outcome {
     let mut call = script("tests/reference/playback/measure_all.py", &[&program]);
     call.arg("--plugins").arg(plugins);
     run(call)
+}
+
+/// What rims.py measures at the rims of steep caps.
+fn rims() -> Outcome {
+    match program() {
+        Ok(program) => run(script("tests/reference/rims/rims.py", &[&program])),
+        Err(outcome) => outcome,
+    }
 }
 
 /// A folder with the library of the fixture that some recipes use.
@@ -171,6 +186,16 @@ fn recipe() -> Outcome {
     tests
         .args(["--", "docs_recipe_md"])
         .env("RECIPE_PAGE", "write");
+    run(tests)
+}
+
+/// The table of docs/measuring.md: which faults of spoiled files `verify` finds.
+fn spoils() -> Outcome {
+    let words = ["test", "--locked", "--workspace", "--test", "figures"];
+    let mut tests = cargo(&words);
+    tests
+        .args(["--", "spoils::every_spoil"])
+        .env("SPOILS_PAGE", "write");
     run(tests)
 }
 

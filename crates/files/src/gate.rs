@@ -16,6 +16,16 @@ pub fn enter() -> MutexGuard<'static, ()> {
     GATE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Holds the gate, unless it is held already: by this thread, which then has it anyway, or by
+/// another, which is rare.
+pub fn enter_if_free() -> Option<MutexGuard<'static, ()>> {
+    match GATE.try_lock() {
+        Ok(guard) => Some(guard),
+        Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
+        Err(TryLockError::WouldBlock) => None,
+    }
+}
+
 /// Removes all drafts, for a process that ends next. Names that are being given are waited for, at
 /// most for `patience`; after that no draft is made and no name is given any more: whoever tries
 /// waits for the end of the process. So a result is the old or the new.

@@ -34,12 +34,17 @@ impl Temporary {
 }
 
 impl Drop for Temporary {
+    /// The registration ends last: whenever a signal comes, somebody removes the file.
     fn drop(&mut self) {
-        if self.registration.take().is_some_and(Registration::withdraw) {
-            // Nobody hears of it: the work has failed already, and says why.
-            let _ = perform(Operation::RemoveFile, &self.path, || {
-                fs::remove_file(&self.path)
-            });
+        if self.registration.is_some() {
+            // Nobody hears of it: the work has failed already, and says why. It is tried twice, since
+            // nobody else removes the file.
+            let remove = || {
+                perform(Operation::RemoveFile, &self.path, || {
+                    fs::remove_file(&self.path)
+                })
+            };
+            let _ = remove().or_else(|_| remove());
         }
     }
 }

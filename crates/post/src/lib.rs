@@ -6,6 +6,7 @@
 //! A reader shares no code with the writer of its format.
 
 mod maps;
+mod ordinary_file;
 mod path_reader;
 mod pmac;
 mod read_csv;
@@ -20,8 +21,9 @@ mod write_csv;
 pub use maps::{GsfWriter, XyzWriter};
 pub use path_reader::{ReadCount, ReadPath};
 pub use pmac::{
-    ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError, PmacFileBody,
-    PmacFormat, PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template, TemplateError,
+    Command, ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError,
+    PmacFileBody, PmacFormat, PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template,
+    TemplateError, commands,
 };
 pub use read_csv::PathReader;
 pub use read_error::ReadError;

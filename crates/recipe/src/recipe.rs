@@ -1,6 +1,6 @@
 //! A whole recipe: its values, read and checked.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -95,6 +95,9 @@ pub enum FileProblem {
     /// It is a folder.
     #[error("it is a folder; give the file in it")]
     Folder,
+    /// It is a pipe or a device, which may never give its first byte.
+    #[error("it is a pipe or a device; write what it gives into a file first")]
+    Special,
     /// It is not UTF-8 text.
     #[error("it is not UTF-8 text (line {line})")]
     NotText {
@@ -332,10 +335,14 @@ fn stem(path: &Path) -> String {
 }
 
 fn read_text(path: &Path) -> Result<String, FileProblem> {
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
+    let kind = fs::metadata(path)?.file_type();
+    if kind.is_dir() {
         return Err(FileProblem::Folder);
     }
+    if !kind.is_file() {
+        return Err(FileProblem::Special);
+    }
+    let file = File::open(path)?;
     let mut bytes = Vec::new();
     file.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::feed_cap::FeedCap;
 use crate::format::FORMAT;
 use crate::machine::MachineLimits;
+use crate::program::ControllerCommand;
 use crate::remark::Remark;
 use crate::tool_fit::ToolFit;
 use crate::unit;
@@ -32,6 +33,9 @@ pub struct CheckReport {
     /// What is allowed but seldom meant.
     #[serde(default)]
     pub remarks: Vec<Remark>,
+    /// What the recipe's own header and footer put into the programs.
+    #[serde(default)]
+    pub controller_commands: Vec<ControllerCommand>,
 }
 
 /// What a path will be, before refinement.

@@ -53,7 +53,8 @@ pub enum LeftOut {
     Everything,
 }
 
-/// Cusps between neighbouring passes along the profile's normal.
+/// Cusps between neighbouring passes along the profile's normal, with the nose at the played X and
+/// its true Z.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Residual {
     /// Highest cusp, mm; `None` where no pass has a neighbour, which holds no tolerance.
@@ -63,4 +64,15 @@ pub struct Residual {
     pub at: PathPlace,
     /// What the figure leaves out.
     pub left_out: LeftOut,
+}
+
+/// Cusps of the surface that the played path leaves, along the profile's normal: residual and
+/// interpolation error together.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlayedCusp {
+    /// Height of the highest, mm.
+    #[serde(rename = "max_nm", with = "unit::nm")]
+    pub max: f64,
+    /// Where it is: the angle of its section and its radius.
+    pub at: PathPlace,
 }

@@ -49,7 +49,9 @@ pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
 pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
-pub use errors::{ControlPointError, InterpolationError, LeftOut, Residual, Tolerances};
+pub use errors::{
+    ControlPointError, InterpolationError, LeftOut, PlayedCusp, Residual, Tolerances,
+};
 pub use feed_cap::FeedCap;
 pub use file::FileReport;
 pub use format::{FORMAT, FormatError, from_json, to_json};
@@ -57,7 +59,7 @@ pub use lead::{AccelerationStep, LeadLayout, LeadReport};
 pub use machine::{HighestSpindle, LimitFigure, MachineLimits, MachineReport, MachineSource};
 pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
-pub use program::ProgramReport;
+pub use program::{ControllerCommand, ProgramReport};
 pub use reach::{Radial, Radii, Reach};
 pub use remark::{Remark, RemarkSubject};
 pub use result_check::ResultCheck;
@@ -65,7 +67,7 @@ pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
 };
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
-pub use surface_error::SurfaceError;
+pub use surface_error::{RealNose, SurfaceError};
 pub use tool_fit::{
     AngleMargin, ContactPlace, Hollow, Margins, NoseMargin, Region, Sections, Slope, ToolFit,
 };

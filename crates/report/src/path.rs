@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::axes::Axes;
 use crate::coverage::{AxisCrossing, Coverage, Overrun};
-use crate::errors::{ControlPointError, InterpolationError, Residual, Tolerances};
+use crate::errors::{ControlPointError, InterpolationError, PlayedCusp, Residual, Tolerances};
 use crate::lead::LeadReport;
 use crate::machine::{HighestSpindle, MachineReport, all_hold};
 use crate::reach::Reach;
 use crate::servo::ServoReport;
-use crate::surface_error::SurfaceError;
+use crate::surface_error::{RealNose, SurfaceError};
 use crate::unit;
 use crate::verdict::{Verdict, within};
 
@@ -30,12 +30,18 @@ pub struct PathReport {
     pub control_point_offset: Option<f64>,
     /// Cusps.
     pub residual: Residual,
+    /// Cusps as played; `None` where no two passes meet on the part. No tolerance applies to it.
+    #[serde(default)]
+    pub played_cusp: Option<PlayedCusp>,
     /// What stays uncut.
     pub coverage: Coverage,
     /// How far the tool goes beyond the axis.
     pub axis_crossing: AxisCrossing,
     /// Machined − wanted surface; `None` where nothing of the part is cut.
     pub surface_error: Option<SurfaceError>,
+    /// What the real nose leaves where the path takes its radius as 0; `None` elsewhere.
+    #[serde(default)]
+    pub real_nose: Option<RealNose>,
     /// Motion of the axes over the cut.
     pub axes: Axes,
     /// The machine's limits; `None` without any.
@@ -50,6 +56,13 @@ pub struct PathReport {
 }
 
 impl PathReport {
+    /// The peak to valley that counts as the error of form, mm: that of the machined surface, or of
+    /// the real nose where the path takes its radius as 0. `None` where nothing of the part is cut.
+    pub fn form_error(&self) -> Option<f64> {
+        let of_path = self.surface_error.as_ref().map(|error| error.pv);
+        self.real_nose.as_ref().map(|nose| nose.pv).or(of_path)
+    }
+
     /// Which tolerances and limits hold; `reach` is that of a file.
     pub fn verdict(&self, reach: Option<&Reach>) -> Verdict {
         let Tolerances {

@@ -6,7 +6,7 @@ use crate::axes::Axes;
 use crate::feed_cap::FeedCap;
 use crate::format::FORMAT;
 use crate::path::PathReport;
-use crate::program::ProgramReport;
+use crate::program::{ControllerCommand, ProgramReport};
 use crate::remark::Remark;
 use crate::unit;
 use crate::unreached::Unreached;
@@ -51,6 +51,9 @@ pub struct RunReport {
     pub unreached: Option<Unreached>,
     /// The motion programs.
     pub programs: Vec<ProgramReport>,
+    /// What the recipe's own header and footer put into the programs.
+    #[serde(default)]
+    pub controller_commands: Vec<ControllerCommand>,
     /// The plugins that the strategies come from.
     pub plugins: Vec<PluginSource>,
     /// The data files that the recipe's strategies read.

@@ -34,3 +34,16 @@ pub struct SurfaceError {
     #[serde(rename = "uncut_percent", with = "unit::percent")]
     pub uncut: f64,
 }
+
+/// What the real nose leaves where the path takes its radius as 0: machined − wanted along z, with
+/// the nose's lowest point at the played points.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RealNose {
+    /// Peak to valley, mm.
+    #[serde(rename = "pv_nm", with = "unit::nm")]
+    pub pv: f64,
+    /// Where most material stays.
+    pub highest: SurfacePoint,
+    /// Where the nose goes deepest. A negative error is a gouge.
+    pub lowest: SurfacePoint,
+}

@@ -7,6 +7,7 @@ use turnpath_pipeline::{estimate, largest_nose};
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
 
+use crate::commands::controller_commands;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::figures::{self, machine_source};
@@ -47,6 +48,7 @@ impl Job {
             },
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
             remarks: remarks(&self.recipe, expected.cutting_time, None),
+            controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
     }

@@ -53,12 +53,25 @@ pub fn path(
         },
         control_point_offset: points.offset,
         residual: residual(&figures.residual, overrun),
+        played_cusp: machined
+            .and_then(|machined| machined.cusp)
+            .map(|cusp| report::PlayedCusp {
+                max: cusp.height,
+                at: place(cusp.at_theta, cusp.at_rho),
+            }),
         coverage: coverage(&figures.coverage),
         axis_crossing: report::AxisCrossing {
             x: figures.coverage.x_beyond_axis,
             contact: figures.coverage.contact_beyond_axis,
         },
         surface_error: machined.map(surface_error),
+        real_nose: machined
+            .and_then(|machined| machined.real_nose)
+            .map(|nose| report::RealNose {
+                pv: nose.pv(),
+                highest: surface_point(&nose.highest),
+                lowest: surface_point(&nose.lowest),
+            }),
         axes: axes(&figures.axes),
         machine: machine_source(recipe).map(|machine| report::MachineReport {
             machine,
@@ -117,21 +130,24 @@ fn coverage(figures: &CoverageFigures) -> report::Coverage {
 }
 
 fn surface_error(figures: &MachinedFigures) -> report::SurfaceError {
-    let point = |point: &PartPoint| report::SurfacePoint {
-        error: point.error,
-        x: point.x,
-        y: point.y,
-    };
     report::SurfaceError {
         pv: figures.pv(),
         rms: figures.rms,
         sq: figures.sq,
         sa: figures.sa,
         mean: figures.mean,
-        highest: point(&figures.highest),
-        lowest: point(&figures.lowest),
+        highest: surface_point(&figures.highest),
+        lowest: surface_point(&figures.lowest),
         slope_rms: figures.rms_slope,
         uncut: figures.uncut,
+    }
+}
+
+fn surface_point(point: &PartPoint) -> report::SurfacePoint {
+    report::SurfacePoint {
+        error: point.error,
+        x: point.x,
+        y: point.y,
     }
 }
 

@@ -11,6 +11,7 @@ use turnpath_report as report;
 use turnpath_report::{ProgramReport, RunReport};
 use turnpath_verify::unreached;
 
+use crate::commands::controller_commands;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures;
@@ -188,6 +189,7 @@ impl Job {
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),
             unreached: self.unreached()?,
             programs,
+            controller_commands: controller_commands(&self.recipe),
             plugins: self.plugin_sources(),
             data_files: self.data_sources(),
             recipe: None,

@@ -1,11 +1,6 @@
 //! Coverage: the material that no pass has cut at the rim, at the hole and around the axis.
 //!
-//! At an edge of the part the figure is the distance from the wanted surface to the nearest cut,
-//! over all passes of the section and of its opposite half. Where cusps are all that stands there,
-//! it is a cusp's height, and it does not grow with the slope. Where the nose may leave seams, the
-//! distance is measured from the closing, the lowest surface that the nose can cut
-//! ([`crate::closing`]). A pass counts where its edge stands above the point: within the reach of
-//! half the included angle.
+//! The figure of an edge of the part is that of module `edge`.
 //!
 //! Around the axis the figure is the highest cusp on one line through the axis, between the passes
 //! of θ and of θ + π together, where the two sides meet. A path that ends at the axis has these
@@ -14,31 +9,18 @@
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
 
-use crate::closing;
-use crate::cusp::Point;
-use crate::profiles::Profiles;
+use crate::edge::{PartEdge, UncutHeight};
 use crate::residual::{Pass, Passes, ResidualFigures, SECTIONS, angle_of, highest};
 use crate::touch::FirstTouch;
 
-/// Sections of a revolution.
-const TURN: usize = SECTIONS as usize;
 /// Sections of half a revolution.
-const HALF_TURN: usize = TURN / 2;
+const HALF_TURN: usize = SECTIONS as usize / 2;
 /// Passes of a line, two per turn, that are kept up to the point where its two sides meet. A spiral
 /// that ends at the axis has its widest gap between the second and the third pass of a line. A
 /// spiral whose feed runs out at the axis has it somewhat further out.
 const INNERMOST: usize = 6;
 /// Passes of a line that are kept after that point, if the path goes on so far.
 const BEYOND: usize = 4;
-
-/// The largest uncut height at one edge of the part, or around the axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct UncutHeight {
-    /// The height, mm; infinite where no pass reaches.
-    pub height: f64,
-    /// Angle of its section, rad.
-    pub at_theta: f64,
-}
 
 /// The uncut heights that a path leaves, and how far it goes beyond the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -70,14 +52,14 @@ impl Coverage {
     pub fn of(touch: &FirstTouch, points: &PathBlock, passes: &Passes) -> Result<Self> {
         let part = touch.subject().part;
         let hole = match part.inner_radius > 0.0 {
-            true => PartEdge::of(touch, part.inner_radius, passes)?,
+            true => PartEdge::of(touch, part.inner_radius, points, passes)?,
             false => PartEdge::default(),
         };
         let beyond = |least: f64, here: f64| least.max(-here);
         let played = points.segments().map(|segment| lowest(&segment.x));
         let contacts = passes.passes.iter().map(|pass| pass.foot);
         Ok(Self {
-            rim: PartEdge::of(touch, part.aperture_radius, passes)?,
+            rim: PartEdge::of(touch, part.aperture_radius, points, passes)?,
             hole,
             around_axis: AxisPasses::default(),
             x_beyond_axis: played.fold(0.0, beyond),
@@ -97,13 +79,13 @@ impl Coverage {
     /// The coverage of the whole path, and the residual around the axis.
     pub fn figures(&self, touch: &FirstTouch) -> Result<(CoverageFigures, ResidualFigures)> {
         let mut figures = CoverageFigures {
-            rim: Some(self.rim.uncut()),
+            rim: Some(self.rim.uncut(touch)?),
             x_beyond_axis: self.x_beyond_axis,
             contact_beyond_axis: self.contact_beyond_axis,
             ..CoverageFigures::default()
         };
         if touch.subject().part.inner_radius > 0.0 {
-            figures.hole = Some(self.hole.uncut());
+            figures.hole = Some(self.hole.uncut(touch)?);
             return Ok((figures, ResidualFigures::default()));
         }
         let cusps = around_axis(touch, &self.around_axis)?;
@@ -194,75 +176,6 @@ impl AxisLine {
             false => &self.meeting,
         }
     }
-}
-
-/// The distance from one edge of the part to the nearest cut, on each section.
-#[derive(Debug, Clone, Default)]
-struct PartEdge {
-    /// Distances, mm; infinite where no pass reaches; empty if nothing was measured.
-    nearest: Vec<f64>,
-}
-
-impl PartEdge {
-    /// The distances that `passes` leave at one radius, mm.
-    fn of(touch: &FirstTouch, radius: f64, passes: &Passes) -> Result<Self> {
-        let tool = touch.subject().tool;
-        let mut nearest = vec![f64::INFINITY; TURN];
-        let comes_near = |pass: &Pass| (pass.centre.x.abs() - radius).abs() < tool.reach();
-        if !passes.passes.iter().any(comes_near) {
-            return Ok(Self { nearest });
-        }
-        let ring = ring(touch, radius)?;
-        for (number, pass) in (passes.first..).zip(&passes.passes) {
-            let section = number.rem_euclid(SECTIONS) as usize;
-            let across = (section + HALF_TURN) % TURN;
-            for (section, pass) in [(section, *pass), (across, pass.mirrored())] {
-                let off = ring[section] - pass.centre;
-                let uncut = off.norm() - tool.nose_radius;
-                if off.x.abs() < tool.reach() && uncut < nearest[section] {
-                    nearest[section] = uncut.max(0.0);
-                }
-            }
-        }
-        Ok(Self { nearest })
-    }
-
-    fn append(&mut self, next: &Self) {
-        if self.nearest.is_empty() {
-            self.nearest.clone_from(&next.nearest);
-        }
-        for (nearest, next) in self.nearest.iter_mut().zip(&next.nearest) {
-            *nearest = nearest.min(*next);
-        }
-    }
-
-    /// The largest distance over all sections; infinite if nothing was measured.
-    fn uncut(&self) -> UncutHeight {
-        let sections = self.nearest.iter().zip(0..);
-        let highest = sections.max_by(|a, b| a.0.total_cmp(b.0));
-        let (height, section) = highest.map_or((f64::INFINITY, 0), |(h, s)| (*h, s));
-        UncutHeight {
-            height,
-            at_theta: angle_of(section),
-        }
-    }
-}
-
-/// The points of the wanted surface at one radius on every section; where the nose may leave seams,
-/// the points of the closing.
-fn ring(touch: &FirstTouch, radius: f64) -> Result<Vec<Point>> {
-    let theta: Vec<f64> = (0..SECTIONS).map(angle_of).collect();
-    let radii = vec![radius; TURN];
-    let heights = match touch.leaves_seams() {
-        true => closing::at(touch, &theta, &radii)?,
-        false => {
-            let mut profiles = Profiles::new(touch.subject().surface.as_ref(), &theta);
-            profiles.at_all(&radii)?;
-            profiles.height
-        }
-    };
-    let points = heights.into_iter().map(|z| Point::new(radius, z));
-    Ok(points.collect())
 }
 
 /// The highest cusp between neighbours on every line through the axis; infinite where a line has

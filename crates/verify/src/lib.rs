@@ -14,6 +14,7 @@ mod contact_bounds;
 mod corners;
 mod coverage;
 mod cusp;
+mod edge;
 mod instants;
 mod lead;
 mod limits;
@@ -38,7 +39,8 @@ pub use axes::{AxesMotion, AxisMotion, Peak};
 pub use comparison::{
     Column, ComparisonFigures, HalfDigits, PathRow, RowAnomaly, RowComparison, RowFault,
 };
-pub use coverage::{CoverageFigures, UncutHeight};
+pub use coverage::CoverageFigures;
+pub use edge::UncutHeight;
 pub use instants::INSTANTS;
 pub use lead::{Jumps, LeadBlockFigures, LeadFigures, LeadMeter};
 pub use limits::{HighestSpeed, LimitFigure};

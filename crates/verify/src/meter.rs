@@ -28,6 +28,8 @@ pub struct BlockFigures {
     pub axes: AxesMotion,
     passes: Passes,
     sections: SectionPasses,
+    /// The passes of the real nose, where the path takes its radius as 0.
+    real_nose: Option<SectionPasses>,
     coverage: Coverage,
     ends: Option<[ControlPoint; 2]>,
 }
@@ -53,6 +55,8 @@ pub struct Meter {
     figures: PathFigures,
     passes: Passes,
     lines: Lines,
+    /// The lines of the real nose, where the path takes its radius as 0.
+    real_nose: Option<Lines>,
     coverage: Coverage,
     counts_centre: bool,
     ends: Option<[ControlPoint; 2]>,
@@ -61,7 +65,9 @@ pub struct Meter {
 impl Meter {
     /// A meter that has measured nothing yet.
     pub fn new(touch: FirstTouch) -> Self {
+        let real_nose = !touch.subject().compensates_nose;
         Self {
+            real_nose: real_nose.then(|| Lines::new(Fan::WHOLE)),
             touch,
             figures: PathFigures::default(),
             passes: Passes::default(),
@@ -108,6 +114,11 @@ impl Meter {
         block.passes = Passes::of(touch, points)?;
         block.residual = block.passes.residual(touch)?;
         block.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
+        if !touch.subject().compensates_nose {
+            let radius = touch.subject().tool.nose_radius;
+            let passes = SectionPasses::of_lowest_point(radius, &Fan::WHOLE, points);
+            block.real_nose = Some(passes);
+        }
         block.coverage = Coverage::of(touch, points, &block.passes)?;
         Ok(block)
     }
@@ -129,6 +140,9 @@ impl Meter {
         let joint = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&joint);
         self.lines.append(&next.sections);
+        if let (Some(lines), Some(passes)) = (&mut self.real_nose, &next.real_nose) {
+            lines.append(passes);
+        }
         self.coverage.append(&next.coverage, &next.passes);
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
@@ -167,7 +181,15 @@ impl Meter {
     /// # Errors
     /// When the surface fails.
     pub fn machined(&self) -> Result<Option<MachinedFigures>> {
-        self.lines.figures(self.touch.subject())
+        let Some(figures) = self.lines.figures(&self.touch, self.counts_centre)? else {
+            return Ok(None);
+        };
+        let of_real_nose = |lines: &Lines| lines.extremes(self.touch.subject());
+        let real_nose = self.real_nose.as_ref().map(of_real_nose).transpose()?;
+        Ok(Some(MachinedFigures {
+            real_nose: real_nose.flatten(),
+            ..figures
+        }))
     }
 
     /// The figures so far.

@@ -132,12 +132,9 @@ impl Passes {
         }
         let first = numbers.first().copied().unwrap_or_default();
         let theta: Vec<f64> = numbers.iter().map(|number| angle_of(*number)).collect();
-        let mut touches = Vec::new();
-        touch.find(&theta, &x, &mut touches)?;
-        let pass = |(x, found): (&f64, &Touch)| Pass::of(touch.subject(), *x, found);
         Ok(Self {
             first,
-            passes: x.iter().zip(&touches).map(pass).collect(),
+            passes: passes_at(touch, &theta, &x)?,
         })
     }
 
@@ -182,6 +179,14 @@ impl Passes {
             passes: self.passes.iter().skip(dropped).copied().collect(),
         }
     }
+}
+
+/// The passes with the tool at each angle, rad, and X, mm, from their first touches.
+pub(crate) fn passes_at(touch: &FirstTouch, theta: &[f64], x: &[f64]) -> Result<Vec<Pass>> {
+    let mut touches = Vec::new();
+    touch.find(theta, x, &mut touches)?;
+    let pass = |(x, found): (&f64, &Touch)| Pass::of(touch.subject(), *x, found);
+    Ok(x.iter().zip(&touches).map(pass).collect())
 }
 
 /// The angle of a section, rad.
@@ -234,7 +239,8 @@ fn residual_between(
     highest(touch, &theta, &cusps)
 }
 
-/// The residual of those of these cusps that stand on the part, each at its own angle.
+/// The residual of those of these cusps that stand on the part, each at its own angle. A cusp stands
+/// there if its tip or the foot of its normal does.
 pub(crate) fn highest(
     touch: &FirstTouch,
     theta: &[f64],
@@ -259,10 +265,7 @@ pub fn cusp_heights(
 ) -> Result<Vec<Option<f64>>> {
     let passes = |which: usize| -> Result<Vec<Pass>> {
         let x: Vec<f64> = pairs.iter().map(|pair| pair[which]).collect();
-        let mut touches = Vec::new();
-        touch.find(theta, &x, &mut touches)?;
-        let pass = |(x, found): (&f64, &Touch)| Pass::of(touch.subject(), *x, found);
-        Ok(x.iter().zip(&touches).map(pass).collect())
+        passes_at(touch, theta, &x)
     };
     let cusps: Vec<Cusp> = (passes(0)?.iter().zip(&passes(1)?))
         .map(|(one, other)| one.cusp(other, &touch.subject().tool))
@@ -298,7 +301,10 @@ fn each(touch: &FirstTouch, theta: &[f64], cusps: &[Cusp]) -> Result<Vec<Option<
             true => (height, foot),
             false => (f64::INFINITY, 0.5 * (cusp.ends[0] + cusp.ends[1])),
         };
-        part.contains(&at_rho.abs()).then_some(ResidualFigures {
+        // On a steep wall the foot of a tip within the part's radii may lie beyond them.
+        let tip_on_part = cut && part.contains(&cusp.tip.x.abs());
+        let counts = tip_on_part || part.contains(&at_rho.abs());
+        counts.then_some(ResidualFigures {
             max,
             at_theta: *theta,
             at_rho,
@@ -310,7 +316,7 @@ fn each(touch: &FirstTouch, theta: &[f64], cusps: &[Cusp]) -> Result<Vec<Option<
 
 /// The distance of each cusp from its profile, mm, and the radius of the nearest point of the
 /// profile, mm.
-fn heights(
+pub(crate) fn heights(
     surface: &dyn SurfaceModel,
     theta: &[f64],
     cusps: &[Point],

@@ -19,6 +19,9 @@ const LARGEST_PART: f64 = 0.1;
 const MARGIN: f64 = 2e-4;
 /// The least sagitta, mm: a thousandth of a nanometre, like the recipe's own tolerances.
 const LEAST_SAGITTA: f64 = 1e-9;
+/// The last revolution takes a rest of the range that is shorter than this part of its feed. Rounding
+/// leaves such a rest where the feed divides the range.
+const LEAST_REST: f64 = 1e-9;
 /// Number of revolutions in each answer.
 const BATCH: usize = 64;
 /// Most revolutions: two weeks at 500 rpm.
@@ -126,8 +129,12 @@ impl FeedPlan for FftAdaptivePlan {
         let RadialRange { inner, outer } = setup.task.range;
         let end = if self.outward > 0.0 { outer } else { inner };
         for _ in 0..BATCH {
-            let feed = self.feed(setup.locus.surface())?;
+            let mut feed = self.feed(setup.locus.surface())?;
             let left = self.outward * (end - self.rho);
+            let last = left <= feed * (1.0 + LEAST_REST);
+            if last {
+                feed = feed.max(left);
+            }
             let length = (left / feed).min(1.0);
             pieces.push(FeedPiece {
                 length,
@@ -135,7 +142,7 @@ impl FeedPlan for FftAdaptivePlan {
             });
             self.rho += self.outward * feed;
             self.revolutions += 1;
-            if left <= feed {
+            if last {
                 return Ok(Continuation::End);
             }
         }

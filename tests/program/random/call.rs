@@ -3,21 +3,27 @@
 
 use std::fmt;
 use std::fs::{self, File};
-use std::process::Command;
+use std::process::{Command, ExitStatus};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::support::bench::{Bench, TURNPATH};
 
-/// Longest time that a call may take.
-const LONGEST: Duration = Duration::from_secs(20);
+/// Longest time that a call may take: far more than its processor time, since the tests may share
+/// the machine.
+const LONGEST: Duration = Duration::from_secs(300);
+/// Most processor time of a call, s. A lead that no limit lets end takes a third of it.
+const MOST_TIME: &str = "30";
+/// The signal that ends a call whose processor time is used up, SIGXCPU.
+const TIME_IS_UP: i32 = 24;
 /// Time between two looks whether a call has ended.
 const PAUSE: Duration = Duration::from_millis(2);
 /// Most address space of a call, KiB: four times what a run of a small part takes.
 const MOST_MEMORY: &str = "4194304";
-/// How a call begins that sets the limit of its memory. Elsewhere than on Unix there is none.
-const WITH_LIMIT: &str = "ulimit -v \"$1\"; shift; exec \"$@\"";
+/// How a call begins that sets the limits of its memory and of its processor time. Elsewhere than on
+/// Unix there are none.
+const WITH_LIMITS: &str = "ulimit -v \"$1\"; ulimit -S -t \"$2\"; shift 2; exec \"$@\"";
 /// Words of a message that the program itself did not write.
 const OF_A_PANIC: [&str; 3] = ["thread '", "panicked at", "RUST_BACKTRACE"];
 
@@ -28,7 +34,7 @@ pub enum End {
     Status(i32),
     /// By a signal.
     Signal,
-    /// It did not end in the time that it had.
+    /// Not in the time that it had.
     Never,
 }
 
@@ -50,7 +56,7 @@ impl Call {
         let begin = Instant::now();
         let end = loop {
             if let Some(status) = child.try_wait().expect("the program is watched") {
-                break status.code().map_or(End::Signal, End::Status);
+                break end_of(status);
             }
             if begin.elapsed() > LONGEST {
                 child.kill().expect("the program is ended");
@@ -103,15 +109,23 @@ impl fmt::Display for Call {
     }
 }
 
+fn end_of(status: ExitStatus) -> End {
+    #[cfg(unix)]
+    if std::os::unix::process::ExitStatusExt::signal(&status) == Some(TIME_IS_UP) {
+        return End::Never;
+    }
+    status.code().map_or(End::Signal, End::Status)
+}
+
 #[cfg(unix)]
 fn command(bench: &Bench, args: &[String]) -> Command {
-    let before = ["-c", WITH_LIMIT, "sh", MOST_MEMORY, TURNPATH].map(str::to_owned);
+    let before = ["-c", WITH_LIMITS, "sh", MOST_MEMORY, MOST_TIME, TURNPATH].map(str::to_owned);
     bench.command_of("/bin/sh".as_ref(), before.iter().chain(args))
 }
 
 #[cfg(not(unix))]
 fn command(bench: &Bench, args: &[String]) -> Command {
-    let _ = (WITH_LIMIT, MOST_MEMORY, TURNPATH);
+    let _ = (WITH_LIMITS, MOST_MEMORY, MOST_TIME, TIME_IS_UP, TURNPATH);
     bench.command(args)
 }
 

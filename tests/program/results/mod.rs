@@ -100,17 +100,13 @@ fn a_folder_that_another_run_has_is_refused_at_once() {
     for command in ["run recipe.toml -o out", "ablate ablation.toml -o out"] {
         bench.write(
             "ablation.toml",
-            format!(
-                "{}\n[ablation]\n\"spindle.speed\" = [\"400 rpm\"]\n",
-                tiny()
-            ),
+            format!("{}\n[ablation]\ntolerance.residual = [\"20 um\"]\n", tiny()),
         );
         let said = bench.line(command).ends(4);
-        insta::assert_snapshot!(said.stderr, @r"
-        error: another run is writing into out
-
-        help: wait until it ends, or choose another folder with `-o`
-        ");
+        let title = "error: another run is writing into out\n";
+        assert!(said.stderr.starts_with(title), "{said}");
+        let help = "help: wait until it ends, or choose another folder with `-o`";
+        assert!(said.stderr.contains(help), "{said}");
         assert_eq!(found(&out), before);
     }
     drop(held);

@@ -1,5 +1,6 @@
 //! A run that a signal ends, at some time: the result is the old or the new, and no draft stays.
 
+use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Stdio};
 use std::thread;
@@ -9,7 +10,8 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 
 use super::whole::{Found, entries, found, left_behind};
 use super::{Bench, tiny};
-use crate::support::recipe::SADDLE;
+use crate::support::bench_with_plugins;
+use crate::support::recipe::{SADDLE, with_table};
 
 /// Sends a signal to a process that this test has started.
 fn send(signal: i32, process: u32) {
@@ -21,6 +23,15 @@ fn send(signal: i32, process: u32) {
     let _ = sent.unwrap();
 }
 
+/// Whether a run has begun its table.
+fn has_begun(bench: &Bench) -> bool {
+    let files = fs::read_dir(bench.path("out/.turnpath"))
+        .into_iter()
+        .flatten();
+    let mut tables = files.flatten().map(|next| next.path().join("toolpath.csv"));
+    tables.any(|table| table.exists())
+}
+
 #[test]
 fn a_run_that_a_signal_ends_leaves_the_result_before_and_ends_by_that_signal() {
     for signal in [SIGINT, SIGTERM, SIGHUP] {
@@ -29,12 +40,12 @@ fn a_run_that_a_signal_ends_leaves_the_result_before_and_ends_by_that_signal() {
         bench.write("long.toml", SADDLE);
         let before = found(&bench.path("out"));
         let mut command = bench.command(["run", "long.toml", "-o", "out", "--map", "../map.xyz"]);
-        command.args(["--set", "part.aperture=50mm", "--set", "sampler.step=1deg"]);
+        command.args(["--set", "sampler.step=0.5deg", "--set", "refine=false"]);
         command.stdout(Stdio::null()).stderr(Stdio::null());
         let mut run = command.spawn().unwrap();
         // It has begun to write.
         let start = Instant::now();
-        while left_behind(&bench.path("out")).is_empty() {
+        while !has_begun(&bench) {
             assert!(start.elapsed() < Duration::from_secs(60), "no draft");
             assert_eq!(run.try_wait().unwrap(), None, "it has ended");
             thread::sleep(Duration::from_millis(1));
@@ -88,4 +99,24 @@ fn a_signal_that_is_ignored_when_the_program_starts_does_not_end_it() {
     let mut shell = bench.command_of("sh".as_ref(), ["-c", &script]);
     crate::support::bench::answer(&mut shell).ends(0);
     assert!(matches!(found(&bench.path("out")), Found::Result(_)));
+}
+
+#[test]
+fn a_plugin_that_never_answers_keeps_nobody_from_interrupting() {
+    let recipe = with_table(&tiny(), "sampler", "use = \"never-answers\"");
+    let bench = bench_with_plugins::bench(&recipe, &["ends-process"]);
+    let before = bench.files();
+    let mut command = bench.command(["run", "recipe.toml", "-o", "a/b", "--plugin-dir", "plugins"]);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut run = command.spawn().unwrap();
+    let start = Instant::now();
+    while left_behind(&bench.path("a/b")).len() < 2 {
+        assert!(start.elapsed() < Duration::from_secs(60), "no draft");
+        assert_eq!(run.try_wait().unwrap(), None, "it has ended");
+        thread::sleep(Duration::from_millis(1));
+    }
+    send(SIGINT, run.id());
+    assert_eq!(run.wait().unwrap().signal(), Some(SIGINT));
+    assert_eq!(bench.files(), before);
+    assert!(!bench.path("a").exists(), "a folder is left");
 }

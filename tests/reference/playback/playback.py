@@ -11,7 +11,8 @@ A point of the part is (theta, rho), rho signed, with x = rho cos(theta), y = rh
     playback.py RECIPE.toml toolpath.csv [--stride N] [--instants M] [--sections S] [--scan P]
 
 prints JSON: the error of interpolation (played minus true Z, along z), the residual (cusp
-height along the profile's normal in the XZ plane, tool centres at their true Z), what stays
+height along the profile's normal in the XZ plane, tool centres at their true Z), the highest cusp
+as played, what stays
 uncut at the part's edges and around the axis (null: not reached, or no such place), the error of
 the machined surface (what the played nose leaves, along z), the rows of the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
 cut what fits, cusps count from the closing of the profile by the nose, and what stays between
@@ -46,6 +47,7 @@ class Recipe:
         self.nose_radius = quantity(tool, "nose_radius", LENGTH_MM)
         included = quantity(tool, "included_angle", ANGLE_RAD, math.pi)
         self.nose_half_angle = min(included / 2, math.pi / 2)
+        self.covers_axis = table.get("path", {}).get("overrun", "contact") != "none"
         self.cuts_what_fits = tool.get("interference", "refuse") == "cut-what-fits"
         self.compensator = table["compensator"]["use"]
         if self.compensator not in COMPENSATORS:
@@ -363,14 +365,14 @@ def residual(recipe, path, sections=90, scan=129):
 
 
 class Sections:
-    """X as played just behind every degree, a turn in each place. At an edge the height goes up
+    """X as played just behind every degree, a turn in each place. At the axis the height goes up
     and down between cusp and pass with the angle, so turnpath's own sections are the ones to take;
     on a degree itself a point where the path begins or ends would count or not by rounding."""
 
     COUNT = 360
 
     def __init__(self, recipe, path, scan):
-        self.recipe, self.scan = recipe, scan
+        self.recipe, self.path, self.scan = recipe, path, scan
         self.degrees = np.arange(self.COUNT) * 360 / self.COUNT + 1e-7
         self.played = [self.turns(path, c) for c in self.degrees]
 
@@ -385,34 +387,68 @@ class Sections:
         """True nose centres (x, z) along the line of section i: its own passes, and those of the
         opposite half mirrored. `chosen` takes the passes' X and gives the ones that count."""
         j = (i + self.COUNT // 2) % self.COUNT
+        sides = ((self.degrees[k], self.played[k]) for k in (i, j))
+        return self.centres(sides, chosen)
+
+    def line_at(self, degrees, chosen):
+        """The same at any angle."""
+        sides = ((c, self.turns(self.path, c)) for c in (degrees, (degrees + 180) % 360))
+        return self.centres(sides, chosen)
+
+    def centres(self, sides, chosen):
+        """True nose centres of the passes of both sides of a line."""
         found = []
-        for section, sign in ((i, 1.0), (j, -1.0)):
-            played = chosen(self.played[section], sign)
-            theta = math.radians(self.degrees[section])
+        for (degrees, played), sign in zip(sides, (1.0, -1.0)):
+            played = chosen(played, sign)
+            theta = math.radians(degrees)
             with np.errstate(invalid="ignore"):
                 x, z = nose_centres(self.recipe, theta, played, self.scan)
             found.append((sign * x, z))
         return found
 
 
-def uncut_at_edge(sections, radius):
-    """The largest distance of the wanted surface at `radius`, or of the best that a nose which may
-    leave seams can cut of it, from all that the nose cuts there, over all angles; infinite where the
-    nose stands above it nowhere."""
+def uncut_at(sections, radius, degrees):
+    """What the nose leaves of the wanted surface at `radius` and an angle: the distance from the
+    nearest cut, or the height along the normal of the lowest that is cut at that radius, whichever
+    is larger; infinite where the nose stands above it nowhere. Over a seam it is the distance from
+    the best that the nose can cut."""
     recipe = sections.recipe
     nose, reach = recipe.nose_radius, recipe.nose_radius * math.sin(recipe.nose_half_angle)
-    worst = -math.inf
-    for i, degrees in enumerate(sections.degrees):
-        near = lambda x, sign: x[np.abs(sign * x - radius) < 2 * nose]
-        theta = math.radians(degrees)
-        place = float(recipe.profile(theta)(np.float64(radius)))
-        if recipe.leaves_seams:
-            place += float(np.interp(radius, *section_closing(recipe, theta, CLOSING_STEP)))
-        uncut = math.inf
-        for x, z in sections.line(i, near):
-            away = np.hypot(x - radius, z - place)[np.abs(x - radius) < reach]
-            uncut = min(uncut, away.min(initial=math.inf) - nose)
-        worst = max(worst, uncut)
+    near = lambda x, sign: x[np.abs(sign * x - radius) < 2 * nose]
+    profile = recipe.profile(math.radians(degrees))
+    place, seam = float(profile(np.float64(radius))), 0.0
+    if recipe.leaves_seams:
+        seam = float(np.interp(radius, *section_closing(recipe, math.radians(degrees), CLOSING_STEP)))
+    uncut = lowest = math.inf
+    for x, z in sections.line_at(degrees, near):
+        over = np.abs(x - radius) < reach
+        x, z = x[over], z[over]
+        away = np.hypot(x - radius, z - place - seam)
+        uncut = min(uncut, away.min(initial=math.inf) - nose)
+        lowest = min(lowest, np.min(z - np.sqrt(nose**2 - (x - radius)**2), initial=math.inf))
+    if math.isinf(lowest) or seam > 1e-6:
+        return uncut
+    with np.errstate(invalid="ignore", divide="ignore"):
+        height, _ = height_above(profile, np.array([radius]), np.array([lowest]))
+    if not np.isfinite(height[0]):  # the surface ends before the foot
+        height = (lowest - place) / np.sqrt(1 + slope(profile, np.array([radius]))**2)
+    return max(uncut, float(height[0]))
+
+
+def uncut_at_edge(sections, radius):
+    """The largest of `uncut_at` over all angles: over every degree, beside the path's ends, where
+    it jumps, and ever more finely around the largest."""
+    path = sections.path
+    angles = list(sections.degrees)
+    angles += [float(np.fmod(path.nodes[end, 1] + off, 360)) % 360 for end in (0, -1) for off in (-1e-7, 1e-7)]
+    height = lambda degrees: uncut_at(sections, radius, degrees)
+    heights = [height(degrees) for degrees in angles]
+    worst = max(heights)
+    at, step = angles[heights.index(worst)], 0.25
+    while step > 1e-5 and math.isfinite(worst):
+        around = [(height(at + k * step), at + k * step) for k in range(-4, 5)]
+        worst, at = max([(worst, at), *around])
+        step /= 4
     return worst
 
 
@@ -453,6 +489,65 @@ def coverage(recipe, path, scan=129):
         heights["centre"] = uncut_at_centre(sections)
     return {place: None if height is None or math.isinf(height) else float(height * NM_PER_MM)
             for place, height in heights.items()}
+
+
+# --- cusps as played ----------------------------------------------------------------------
+
+def section_played_cusp(recipe, path, section_deg, scan):
+    """The highest cusp on the line at an angle, of the noses as played; -inf without one.
+
+    A nose that is played too high may cut nothing: such ones are dropped until every nose cuts
+    between its neighbours. Where the path is not meant to cover the axis, the cusp between its two
+    sides is left out.
+    """
+    x, z, own = played_circles(recipe, path, section_deg, with_side=True)
+    kept, tips = [], []
+    for i in range(len(x)):
+        while kept:
+            pair = [kept[-1], i]
+            tip, _ = cusps(recipe, x[pair], z[pair])
+            if x[i] == x[kept[-1]]:
+                tip[0] = -math.inf if z[i] < z[kept[-1]] else math.inf
+            if not tips or tip[0] > tips[-1]:
+                break
+            kept.pop()
+            tips.pop()
+        if kept:
+            if tip[0] == math.inf:
+                continue
+            if tip[0] == -math.inf:
+                kept.pop()
+            else:
+                tips.append(float(tip[0]))
+        kept.append(i)
+    kept = np.array(kept)
+    cusp_x, cusp_z = cusps(recipe, x[kept], z[kept])
+    chosen = (np.abs(cusp_x) <= recipe.part_radius) & (np.abs(cusp_x) >= recipe.hole_radius)
+    chosen &= np.hypot(np.diff(x[kept]), np.diff(z[kept])) > 1e-9
+    if not recipe.covers_axis:
+        chosen &= own[kept][1:] == own[kept][:-1]
+    if not np.any(chosen):
+        return -math.inf
+    if recipe.leaves_seams:
+        first, second = x[kept][:-1][chosen], x[kept][1:][chosen]
+        heights = height_above_closing(recipe, math.radians(section_deg), cusp_x[chosen],
+                                       cusp_z[chosen], first, second, scan)
+    else:
+        profile = recipe.profile(math.radians(section_deg))
+        heights, _ = height_above(profile, cusp_x[chosen], cusp_z[chosen])
+    return float(np.max(heights))
+
+
+def played_cusp(recipe, path, sections=180, scan=129):
+    """The highest cusp of the path as played, over lines through the axis, and over finer ones
+    around the worst."""
+    step = 180 / sections
+    at = [(i + 0.29) * step for i in range(sections)]
+    heights = [section_played_cusp(recipe, path, degrees, scan) for degrees in at]
+    worst = at[int(np.argmax(heights))]
+    fine = [section_played_cusp(recipe, path, worst + step * k / 6, scan) for k in range(-6, 7)]
+    highest = max(heights + fine)
+    return {"max": None if math.isinf(highest) else highest * NM_PER_MM}
 
 
 # --- what the nose cannot reach -----------------------------------------------------------
@@ -516,15 +611,17 @@ FEWEST_PLACES = 2000
 ZOOMED = 8          # lines around which the highest and the lowest place are looked for again
 
 
-def played_circles(recipe, path, section_deg):
-    """Nose centres (signed place, Z) on the line through the axis at an angle, as played."""
-    places, heights = [], []
+def played_circles(recipe, path, section_deg, with_side=False):
+    """Nose centres (signed place, Z) on the line through the axis at an angle, as played, and
+    which side of the axis their X belongs to, if that is asked."""
+    places, heights, sides = [], [], []
     for turned, sign in ((0.0, 1.0), (180.0, -1.0)):
         section = section_deg + turned
         first = math.ceil((path.nodes[0, 1] - section) / 360)
         last = math.floor((path.nodes[-1, 1] - section) / 360)
         when = path.when(section + 360.0 * np.arange(first, last + 1))
         x, z = path.play("x", *when), path.play("z", *when)
+        sides.append(sign * np.where(x < 0, -1.0, 1.0))
         if recipe.compensator == "none":
             tilt = slope(recipe.profile(math.radians(section)), x)
             w = np.sqrt(1 + tilt * tilt)
@@ -533,6 +630,8 @@ def played_circles(recipe, path, section_deg):
         heights.append(z)
     places, heights = np.concatenate(places), np.concatenate(heights)
     order = np.argsort(places, kind="stable")
+    if with_side:
+        return places[order], heights[order], np.concatenate(sides)[order]
     return places[order], heights[order]
 
 
@@ -643,6 +742,7 @@ def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
         scan = max(scan, SEAM_SCAN)
     return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
             "residual_nm": residual(recipe, path, sections, scan),
+            "played_cusp_nm": played_cusp(recipe, path, scan=scan),
             "surface_error_nm": surface_error(recipe, path),
             "coverage_nm": coverage(recipe, path, scan),
             "unreached": unreached(recipe),

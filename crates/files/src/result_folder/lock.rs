@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::error::FolderError;
 use super::made_folders::MadeFolders;
 use crate::file_error::FileError;
+use crate::gate;
 use crate::operation::{Operation, perform};
 use crate::registry::Registration;
 
@@ -109,8 +110,10 @@ fn registered(_: &Path) -> Option<Registration> {
 }
 
 impl Drop for FolderLock {
-    /// The file goes while the lock is held.
+    /// The file goes while the lock is held. Its registration ends first, since another writer may
+    /// have a file of this name as soon as this one is gone; a signal waits meanwhile.
     fn drop(&mut self) {
+        let _gate = gate::enter_if_free();
         if self.registration.take().is_some_and(Registration::withdraw) {
             let _ = perform(Operation::RemoveFile, &self.path, || {
                 std::fs::remove_file(&self.path)

@@ -51,10 +51,10 @@ impl MadeFolders {
 impl Drop for MadeFolders {
     fn drop(&mut self) {
         for (folder, registration) in self.0.drain(..).rev() {
-            if registration.withdraw() {
-                // It stays where something has come into it, the result itself among it.
-                let _ = perform(Operation::RemoveFolder, &folder, || fs::remove_dir(&folder));
-            }
+            // It stays where something has come into it, the result itself among it.
+            let _ = perform(Operation::RemoveFolder, &folder, || fs::remove_dir(&folder));
+            // The registration ends last: whenever a signal comes, somebody removes the folder.
+            drop(registration);
         }
     }
 }

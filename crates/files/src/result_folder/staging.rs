@@ -50,7 +50,7 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        if self.registration.take().is_some_and(Registration::withdraw) {
+        if self.registration.is_some() {
             let _ = remove_all(&self.path);
         }
     }

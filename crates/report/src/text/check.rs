@@ -1,7 +1,10 @@
 //! A check for a person.
 
+use turnpath_core::printable_line;
+
 use crate::check::CheckReport;
 
+use super::commands::commands;
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
 use super::remark::{feed_cap, remarks};
@@ -10,7 +13,7 @@ use super::unreached::unreached;
 
 /// The text on a check.
 pub fn check(report: &CheckReport) -> String {
-    let mut text = format!("{}\n", report.name);
+    let mut text = format!("{}\n", printable_line(&report.name));
     text += &tool_fit(&report.tool_fit);
     text += &unreached(report.unreached.as_ref());
     if let Some(machine) = &report.machine {
@@ -31,6 +34,6 @@ pub fn check(report: &CheckReport) -> String {
             format!("about {size}, before refinement: {file}"),
         );
     }
-    text += &remarks(&report.remarks);
-    text
+    text += &commands(&report.controller_commands);
+    text + &remarks(&report.remarks)
 }

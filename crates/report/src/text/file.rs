@@ -1,5 +1,7 @@
 //! A file of a tool path for a person.
 
+use turnpath_core::printable_line;
+
 use crate::file::FileReport;
 use crate::reach::{Radial, Radii, Reach};
 use crate::result_check::ResultCheck;
@@ -15,8 +17,8 @@ use super::unreached::unreached;
 /// The text on a file.
 pub fn file(report: &FileReport) -> String {
     let verdict = report.verdict();
-    let mut text = format!("{}\n", report.name);
-    text += &line("file", &report.file);
+    let mut text = format!("{}\n", printable_line(&report.name));
+    text += &line("file", printable_line(&report.file));
     text += &report.result.as_ref().map(result).unwrap_or_default();
     text += &line("surface", &report.surface);
     let (cutting, rows) = (grouped(report.control_points), grouped(report.rows));
@@ -33,7 +35,7 @@ pub fn file(report: &FileReport) -> String {
     }
     text += &unreached(report.unreached.as_ref());
     for file in &report.files {
-        text += &line("file", file);
+        text += &line("file", printable_line(file));
     }
     text
 }
@@ -41,7 +43,7 @@ pub fn file(report: &FileReport) -> String {
 /// What the summary beside the file says of it.
 fn result(result: &ResultCheck) -> String {
     let verdict = match result.holds {
-        true => format!("as {} lists it; holds", result.summary),
+        true => format!("as {} lists it", result.summary),
         false => format!("NOT AS {} lists it", result.summary),
     };
     let notes = result.notes.iter().map(|note| line("", note));

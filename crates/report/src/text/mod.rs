@@ -2,6 +2,7 @@
 
 mod anomalies;
 mod check;
+mod commands;
 mod coverage;
 mod file;
 mod lead;

@@ -1,7 +1,9 @@
 //! The lines on what was measured: each error against its tolerance, motion against limits.
 
+use crate::errors::PlayedCusp;
 use crate::path::PathReport;
-use crate::surface_error::SurfaceError;
+use crate::place::SurfacePoint;
+use crate::surface_error::{RealNose, SurfaceError};
 use crate::unit;
 use crate::verdict::Verdict;
 
@@ -18,7 +20,9 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     let mut text = line("interpolation", limit);
     text += &line("", format!("{rms:>12} rms; the largest at {at}"));
     text += &line("residual", residual(path, verdict));
+    text += &played_cusp(path.played_cusp.as_ref());
     text += &surface_error(path.surface_error.as_ref());
+    text += &real_nose(path.real_nose.as_ref());
     text += &coverage(&path.coverage, tolerance, path.overrun, verdict.coverage);
     text += &axis_crossing(&path.axis_crossing);
     if let Some(report) = &path.machine {
@@ -34,6 +38,37 @@ fn residual(path: &PathReport, verdict: &Verdict) -> String {
     }
 }
 
+/// The second line on cusps: as played.
+fn played_cusp(cusp: Option<&PlayedCusp>) -> String {
+    cusp.map_or_else(String::new, |cusp| {
+        let (max, at) = (small_length(cusp.max), path_place(&cusp.at));
+        let text = format!("{max:>12} as played, with the interpolation error; at {at}");
+        line("", text)
+    })
+}
+
+/// The warning where the path takes the nose radius as 0.
+fn real_nose(nose: Option<&RealNose>) -> String {
+    let Some(nose) = nose else {
+        return String::new();
+    };
+    let point = |point: &SurfacePoint| {
+        let amount = small_length(point.error.abs());
+        let [x, y] = [point.x, point.y].map(|mm| millimetres(mm, 4));
+        format!("{amount} at x = {x}, y = {y}")
+    };
+    let gouge = match nose.lowest.error < 0.0 {
+        true => format!("gouges {}", point(&nose.lowest)),
+        false => "gouges nowhere".to_owned(),
+    };
+    let text = format!("the path takes the nose radius as 0; the real nose {gouge}");
+    let left = match nose.highest.error > 0.0 {
+        true => line("", format!("and leaves up to {}", point(&nose.highest))),
+        false => String::new(),
+    };
+    line("warning", text) + &left
+}
+
 fn surface_error(error: Option<&SurfaceError>) -> String {
     let Some(error) = error else {
         return line("surface error", "not measured: nothing of the part is cut");
@@ -47,4 +82,48 @@ fn surface_error(error: Option<&SurfaceError>) -> String {
         false => String::new(),
     };
     line("surface error", text) + &uncut
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn nose(lowest: f64, highest: f64) -> RealNose {
+        let point = |error| SurfacePoint {
+            error,
+            x: 2.5,
+            y: -0.01,
+        };
+        RealNose {
+            pv: highest - lowest,
+            highest: point(highest),
+            lowest: point(lowest),
+        }
+    }
+
+    #[test]
+    fn a_person_reads_what_the_real_nose_gouges_and_leaves() {
+        assert_eq!(real_nose(None), "");
+        assert_eq!(
+            real_nose(Some(&nose(-7.7e-3, 1e-4))),
+            "  warning         the path takes the nose radius as 0; the real nose gouges 7700.00 nm \
+             at x = 2.5000 mm, y = -0.0100 mm\n                  and leaves up to 100.00 nm at x = \
+             2.5000 mm, y = -0.0100 mm\n"
+        );
+        let never = real_nose(Some(&nose(1e-6, 1e-4)));
+        assert!(never.contains("the real nose gouges nowhere\n"), "{never}");
+        let always = real_nose(Some(&nose(-1e-4, -1e-6)));
+        assert!(!always.contains("leaves"), "{always}");
+    }
+
+    #[test]
+    fn the_real_nose_counts_as_the_error_of_form() {
+        let mut report = crate::sample::run_report().path;
+        let of_path = report.surface_error.map(|error| error.pv);
+        assert!(of_path.is_some_and(|pv| pv > 0.0));
+        assert_eq!(report.form_error(), of_path);
+        let nose = nose(-7.7e-3, 1e-4);
+        report.real_nose = Some(nose);
+        assert_eq!(report.form_error(), Some(nose.pv));
+    }
 }

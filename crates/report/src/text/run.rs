@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
+use turnpath_core::printable_line;
+
 use crate::run::RunReport;
 
+use super::commands::commands;
 use super::lead::lead;
 use super::numbers::{against, duration, grouped, line, small_length};
 use super::path::path;
@@ -24,7 +27,7 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     ];
     // A constant speed is what everybody expects.
     names.extend(Some(chain.spindle.as_str()).filter(|name| *name != "constant"));
-    let mut text = format!("{}\n", report.name);
+    let mut text = format!("{}\n", printable_line(&report.name));
     text += &line("chain", names.join(" > "));
     text += &line("points", points(report));
     text += &line("revolutions", format!("{:.2}", report.revolutions));
@@ -50,9 +53,10 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
             );
         }
     }
+    text += &commands(&report.controller_commands);
     text += &remarks(&report.remarks);
     for file in files {
-        text += &line("file", file.display());
+        text += &line("file", printable_line(&file.display().to_string()));
     }
     text
 }

@@ -3,9 +3,12 @@
 use rayon::prelude::*;
 use turnpath_core::{Part, Result, Scalar};
 
+use super::cusps::HighestCusp;
 use super::sections::Lines;
 use super::strip::{Sample, Strip};
+use crate::cusp::Point;
 use crate::subject::Subject;
+use crate::touch::FirstTouch;
 
 /// A point of the part and the surface error there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,9 +42,29 @@ pub struct MachinedFigures {
     pub uncut: f64,
     /// Number of lines through the axis that were measured.
     pub lines: usize,
+    /// The highest cusp as played; `None` where no two passes meet on the part.
+    pub cusp: Option<HighestCusp>,
+    /// What the real nose leaves where the path takes its radius as 0; `None` elsewhere.
+    pub real_nose: Option<SurfaceExtremes>,
 }
 
 impl MachinedFigures {
+    /// Peak to valley, mm.
+    pub fn pv(&self) -> f64 {
+        self.highest.error - self.lowest.error
+    }
+}
+
+/// The extremes of a machined surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceExtremes {
+    /// The point where most material is left.
+    pub highest: PartPoint,
+    /// The point where most material is missing or least is left.
+    pub lowest: PartPoint,
+}
+
+impl SurfaceExtremes {
     /// Peak to valley, mm.
     pub fn pv(&self) -> f64 {
         self.highest.error - self.lowest.error
@@ -91,23 +114,19 @@ impl Sums {
 
 impl Lines {
     /// The figures of the part; `None` if nothing of the part was cut. Lines are measured in
-    /// parallel and combined in order.
+    /// parallel and combined in order. `counts_centre` says whether cusps between the passes of the
+    /// two sides of the axis count.
     ///
     /// # Errors
     /// When the surface fails.
-    pub fn figures(&self, subject: &Subject) -> Result<Option<MachinedFigures>> {
+    pub fn figures(
+        &self,
+        touch: &FirstTouch,
+        counts_centre: bool,
+    ) -> Result<Option<MachinedFigures>> {
+        let subject = touch.subject();
         let lines = self.all();
-        let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[_])| {
-            strip.set_line(subject, *angle, passes);
-            strip.look_up(subject.surface.as_ref())?;
-            let mut sums = Sums::NONE;
-            strip.samples().for_each(|sample| sums.include(&sample));
-            Ok(sums)
-        };
-        let sums: Vec<Sums> = lines
-            .par_iter()
-            .map_init(Strip::default, of_line)
-            .collect::<Result<_>>()?;
+        let sums = sums(subject, &lines)?;
         let total = |of: fn(&Sums) -> f64| sums.iter().map(of).sum::<f64>();
         let area = total(|line| line.area);
         if area <= 0.0 {
@@ -115,7 +134,7 @@ impl Lines {
         }
         let mean = total(|line| line.error) / area;
         let mean_square = total(|line| line.square) / area;
-        let (highest, lowest) = extremes(&lines, &sums);
+        let SurfaceExtremes { highest, lowest } = extremes(&lines, &sums);
         Ok(Some(MachinedFigures {
             highest,
             lowest,
@@ -127,7 +146,20 @@ impl Lines {
             rms_slope: (total(|line| line.slope_square) / area).sqrt(),
             uncut: uncut(&subject.part, &sums),
             lines: lines.len(),
+            cusp: self.highest_cusp(touch, counts_centre)?,
+            real_nose: None,
         }))
+    }
+
+    /// The extremes over the part; `None` if nothing of the part was cut.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn extremes(&self, subject: &Subject) -> Result<Option<SurfaceExtremes>> {
+        let lines = self.all();
+        let sums = sums(subject, &lines)?;
+        let cut = sums.iter().any(|line| line.area > 0.0);
+        Ok(cut.then(|| extremes(&lines, &sums)))
     }
 
     /// The integral of |error − mean|.
@@ -147,8 +179,23 @@ impl Lines {
     }
 }
 
+/// The integrals along each line.
+fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
+    let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[Point])| {
+        strip.set_line(subject, *angle, passes);
+        strip.look_up(subject.surface.as_ref())?;
+        let mut sums = Sums::NONE;
+        strip.samples().for_each(|sample| sums.include(&sample));
+        Ok(sums)
+    };
+    lines
+        .par_iter()
+        .map_init(Strip::default, of_line)
+        .collect::<Result<_>>()
+}
+
 /// The highest and the lowest point over all lines.
-fn extremes<T>(lines: &[(f64, T)], sums: &[Sums]) -> (PartPoint, PartPoint) {
+fn extremes<T>(lines: &[(f64, T)], sums: &[Sums]) -> SurfaceExtremes {
     let point = |angle: f64, (error, s): (f64, f64)| {
         let (sin, cos) = Scalar::sin_cos(angle);
         let (x, y) = (s * cos, s * sin);
@@ -164,7 +211,7 @@ fn extremes<T>(lines: &[(f64, T)], sums: &[Sums]) -> (PartPoint, PartPoint) {
             lowest = point(*angle, sums.lowest);
         }
     }
-    (highest, lowest)
+    SurfaceExtremes { highest, lowest }
 }
 
 /// An uncut part of the area below this comes from rounding of the sums.

@@ -7,6 +7,7 @@
 //! such lines ([`Lines`]), a profile along one line ([`ProfileLine`]), maps and circles point by
 //! point ([`Map`]).
 
+mod cusps;
 mod envelope;
 mod figures;
 mod grid;
@@ -17,8 +18,9 @@ mod spectrum;
 mod strip;
 mod turns;
 
+pub use cusps::HighestCusp;
 pub use envelope::{Arc, lower_envelope};
-pub use figures::{MachinedFigures, PartPoint};
+pub use figures::{MachinedFigures, PartPoint, SurfaceExtremes};
 pub use grid::{Grid, GridPoint};
 pub use map::{Map, Nose};
 pub use profile::{ProfileLine, ProfilePoint};

@@ -70,6 +70,22 @@ impl SectionPasses {
     /// # Errors
     /// When the surface fails.
     pub fn of(touch: &FirstTouch, fan: &Fan, points: &PathBlock) -> Result<Self> {
+        let mut passes = Self::played(fan, points);
+        let angles = (passes.first..).map(|number| fan.angle(number));
+        to_centres(touch, angles, &mut passes.centres)?;
+        Ok(passes)
+    }
+
+    /// The passes of a nose of this radius, mm, whose lowest point is at the played points.
+    pub fn of_lowest_point(radius: f64, fan: &Fan, points: &PathBlock) -> Self {
+        let mut passes = Self::played(fan, points);
+        let above = Point::new(0.0, radius);
+        passes.centres.iter_mut().for_each(|point| *point += above);
+        passes
+    }
+
+    /// The played points on the sections.
+    fn played(fan: &Fan, points: &PathBlock) -> Self {
         let (mut first, mut centres) = (None, Vec::new());
         let width = fan.width();
         for (segment, c) in points.segments().zip(points.c.windows(2)) {
@@ -86,9 +102,7 @@ impl SectionPasses {
             }
         }
         let first = first.unwrap_or_default();
-        let angles = (first..).map(|number| fan.angle(number));
-        to_centres(touch, angles, &mut centres)?;
-        Ok(Self { first, centres })
+        Self { first, centres }
     }
 }
 

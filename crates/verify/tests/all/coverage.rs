@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::common::{AST5, Ball, Plane, bare_spiral, figures, touch_of, touch_on};
-use turnpath_core::toolpath::PathBlock;
+use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{DEG, Misfit, Part, Scalar, Tool, UM};
 use turnpath_verify::{CoverageFigures, FirstTouch, Meter, PathFigures, Subject};
 
@@ -24,9 +24,14 @@ fn with_centre(touch: &FirstTouch, path: &PathBlock) -> PathFigures {
     meter.figures().unwrap()
 }
 
-/// The height that a nose of 1 mm leaves at a point of a flat, `away` from the nearest contact.
+/// The distance of a nose of 1 mm from a point of a flat, `away` from the contact.
 fn left_at(away: f64) -> f64 {
     (1.0 + away * away).sqrt() - 1.0
+}
+
+/// The height of a nose of 1 mm above a point of a flat, `away` from the contact.
+fn rise(away: f64) -> f64 {
+    1.0 - (1.0 - away * away).sqrt()
 }
 
 /// The cusp between two contacts of a nose of 1 mm on a flat.
@@ -39,16 +44,44 @@ fn at_the_rim_of_a_flat_the_last_pass_leaves_the_rise_of_its_circle() {
     let (feed, turns) = (0.02, 120.0);
     let outward = bare_spiral(turns, |n| feed * n);
     let inward = bare_spiral(turns, |n| feed * (turns - n));
-    // The outward spiral ends on the first section. Its last point is no pass, so the last pass on
-    // this section lies a turn further in. On an inward spiral, the last section of the first turn
-    // has its pass 359/360 of a turn after the start.
-    for (path, away) in [(outward, feed), (inward, feed * 359.0 / 360.0)] {
+    // Just after the end of an outward spiral, the last pass lies a turn further in. So does the
+    // first pass just before the start of an inward one.
+    for path in [outward, inward] {
         for compensates in [true, false] {
             let touch = touch_on(FLAT, 2.5, 1.0, compensates);
             let rim = coverage(&touch, &path).rim.unwrap();
-            assert!((rim.height - left_at(2.5 - feed * turns + away)).abs() < 1e-13);
+            assert!((rim.height - rise(2.5 - feed * turns + feed)).abs() < 1e-13);
+            assert!(rim.at_theta.min(TAU - rim.at_theta) < 1e-9);
         }
     }
+}
+
+/// Between sections: a path ends anywhere, and the height jumps there.
+#[test]
+fn the_jump_at_the_rim_is_found_where_the_path_ends() {
+    let (feed, touch) = (0.02, touch_on(FLAT, 2.5, 1.0, true));
+    for part in [0.15, 0.4, 0.65, 0.9] {
+        let turns = 120.0 + part / 60.0;
+        let outward = spiral_to(turns, |n| feed * n);
+        let rim = coverage(&touch, &outward).rim.unwrap();
+        let known = rise(2.5 - feed * (turns - 1.0));
+        assert!((rim.height - known).abs() < 1e-12, "{part}: {rim:?}");
+        assert!((rim.at_theta - TAU * part / 60.0).abs() < 1e-9, "{rim:?}");
+    }
+}
+
+/// A straight spiral whose last step is as short as its length asks.
+fn spiral_to(turns: f64, x: impl Fn(f64) -> f64) -> PathBlock {
+    let mut points = bare_spiral(turns, &x);
+    let whole = points.get(points.len() - 1).unwrap();
+    let share = turns * TAU - whole.c;
+    points.push(ControlPoint {
+        t: whole.t + share / whole.vc,
+        c: turns * TAU,
+        x: x(turns),
+        ..whole
+    });
+    points
 }
 
 #[test]
@@ -59,8 +92,32 @@ fn on_a_slope_the_rim_is_measured_from_the_surface_not_along_z() {
         .unwrap();
     // The path ends at 180 degrees. There, or a degree on, the last pass lies a turn further in.
     let known = left_at(2f64.sqrt() * (0.05 + feed));
-    assert!((rim.height / known - 1.0).abs() < 2e-3);
-    assert!((rim.at_theta - 180.0 * DEG).abs() < 1.5 * DEG);
+    assert!((rim.height / known - 1.0).abs() < 1e-9);
+    assert!((rim.at_theta - 180.0 * DEG).abs() < 1e-9);
+}
+
+/// Where the wall rises outward, the normal through the machined point at the rim has its foot
+/// beyond the rim, farther from the contact.
+#[test]
+fn on_a_rising_wall_the_machined_point_at_the_rim_counts() {
+    let feed = 0.02;
+    for slope in [0.2, 1.0, 2.0] {
+        let touch = touch_on(Plane { slope }, 2.5, 1.0, false);
+        let path = bare_spiral(122.0, |n| feed * n);
+        let rim = coverage(&touch, &path).rim.unwrap();
+        let away = (1.0f64 + slope * slope).sqrt() * (2.5 - feed * 121.0);
+        // A height h above the wall at the rim stands h·slope further up the wall.
+        let known = (0..200).fold(0.0, |height, _| rise(away + slope * height));
+        assert!((rim.height / known - 1.0).abs() < 1e-6, "{rim:?}, {known}");
+        assert!(known > left_at(away));
+        assert!(rim.at_theta.min(TAU - rim.at_theta) < 1e-9);
+    }
+    // The nose ends 0.05 mm beyond its contact, and the rim lies 0.08 mm beyond.
+    let touch = touch_on(Plane { slope: 3.0 }, 2.5, 1.0, false);
+    let rim = coverage(&touch, &bare_spiral(122.0, |n| feed * n))
+        .rim
+        .unwrap();
+    assert_eq!(rim.height, f64::INFINITY);
 }
 
 /// A path that ends at X = a touches AST-5 only out to 2.17 mm where the surface falls outward. The
@@ -95,7 +152,7 @@ fn an_edge_that_no_pass_reaches_has_an_infinite_uncut_height() {
     let path = bare_spiral(121.0, |n| 0.02 * n);
     // From the pass at 2.4 mm to the rim: within sin 6 degrees, beyond sin 5.
     let reached = coverage(&touch_of(FLAT, 2.5, narrow(12.0), true), &path);
-    assert!((reached.rim.unwrap().height - left_at(0.1)).abs() < 1e-13);
+    assert!((reached.rim.unwrap().height - rise(0.1)).abs() < 1e-13);
     let missed = coverage(&touch_of(FLAT, 2.5, narrow(10.0), true), &path);
     assert_eq!(missed.rim.unwrap().height, f64::INFINITY);
 }
@@ -120,9 +177,9 @@ fn at_a_hole_the_innermost_pass_leaves_the_rise_of_its_circle() {
     .unwrap();
     let found = coverage(&touch, &bare_spiral(70.0, |n| 2.5 - 0.02 * n));
     assert_eq!(found.centre, None);
-    // A turn before the path's end at 1.1 mm, or up to a degree later.
+    // A turn before the path's end at 1.1 mm.
     let hole = found.hole.unwrap().height;
-    assert!((hole / left_at(0.12) - 1.0).abs() < 2e-3);
+    assert!((hole - rise(0.12)).abs() < 1e-12, "{hole}");
 }
 
 /// Sections are a degree apart, so the widest measured gap is that of a degree before it closes.

@@ -1,10 +1,12 @@
 //! What `turnpath-verify` does from outside, each subject a module.
 
+mod as_played;
 mod common;
 #[path = "../../../../tests/support/drop_cutter.rs"]
 mod reference;
 
 mod blocks;
+mod comparison;
 mod coverage;
 mod cusps;
 mod drop_cutter;

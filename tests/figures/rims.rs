@@ -1,0 +1,69 @@
+//! What stays at the rims of steep caps, against a measurement apart.
+//!
+//! `tests/reference/rims/rims.py` plays the path of each cap and looks for the machined point at the
+//! rim. It knows the caps as spheres, and shares no code with turnpath.
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
+
+use std::fs;
+
+use crate::support::bench::Bench;
+use crate::support::repository;
+use serde_json::Value;
+
+/// Largest difference of a figure from the one apart, as a part of it.
+const TOLERANCE: f64 = 0.02;
+/// A tolerance holds when measured ≤ this × tolerance.
+const ALLOWED: f64 = 1.001;
+/// The residual tolerance of the caps, nm.
+const RESIDUAL: f64 = 2000.0;
+
+fn caps() -> Vec<Value> {
+    let file = repository().join("tests/reference/rims/rims.json");
+    serde_json::from_str(&fs::read_to_string(file).expect("a file")).expect("JSON")
+}
+
+fn summary_of(cap: &Value) -> (Option<i32>, Value) {
+    let recipe = fs::read_to_string(repository().join("tests/reference/rims/cap.toml"));
+    let bench = Bench::with(&recipe.expect("a recipe"));
+    let set = |key: &str, value: &str, unit: &str| format!("{key}={} {unit}", cap[value]);
+    let answer = bench.call([
+        "run".to_owned(),
+        "recipe.toml".to_owned(),
+        "-o".to_owned(),
+        "out".to_owned(),
+        "--set".to_owned(),
+        set("part.aperture", "aperture_mm", "mm"),
+        "--set".to_owned(),
+        set("surface.radius", "radius_mm", "mm"),
+        "--set".to_owned(),
+        set("tolerance.interpolation", "interpolation_nm", "nm"),
+    ]);
+    let summary = serde_json::from_str(&bench.read("out/summary.json")).expect("JSON");
+    (answer.status, summary)
+}
+
+/// The nearest cut alone holds 2 µm on each of them, while the machined point at the rim of the
+/// steepest stands 2.7 µm off.
+#[test]
+fn the_rims_of_steep_caps_measure_like_the_reference() {
+    let (caps, mut complaints) = (caps(), Vec::new());
+    for cap in &caps {
+        let (status, summary) = summary_of(cap);
+        let known = cap["rim_nm"].as_f64().expect("a rim that is reached");
+        let rim = &summary["coverage"]["rim"];
+        let found = rim["height_nm"].as_f64().unwrap_or(f64::INFINITY);
+        let holds = known <= ALLOWED * RESIDUAL;
+        let said = [
+            &summary["within"]["coverage"],
+            &Value::from(status == Some(0)),
+        ];
+        if (found / known - 1.0).abs() > TOLERANCE || said != [&Value::from(holds); 2] {
+            let name = &cap["name"];
+            complaints.push(format!("{name}: {rim}, {said:?}, not {known} nm"));
+        }
+    }
+    assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
+    let of = |key: &str| -> Vec<f64> { caps.iter().filter_map(|cap| cap[key].as_f64()).collect() };
+    assert!(of("rim_nm").iter().any(|rim| *rim > ALLOWED * RESIDUAL));
+    assert!(of("nearest_nm").iter().all(|nearest| *nearest < RESIDUAL));
+}
