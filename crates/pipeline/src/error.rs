@@ -3,7 +3,7 @@
 use turnpath_core::interference::{Conflict, Interference};
 use turnpath_core::{Slot, StrategyError};
 
-use crate::size::PathSize;
+use crate::path_size::PathSize;
 
 /// The result of a pipeline's step.
 pub type Result<T> = std::result::Result<T, PipelineError>;

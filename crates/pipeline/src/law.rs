@@ -9,7 +9,8 @@ use turnpath_core::{
 };
 
 use crate::observer::{Observer, stop_if_cancelled};
-use crate::size::{MOST_PIECES, MOST_REVOLUTIONS, check_law};
+use crate::path_size::{MOST_PIECES, MOST_REVOLUTIONS};
+use crate::size::check_law;
 use crate::{Chain, Result};
 
 /// Angles of a revolution at which each turn must lie beyond the one before.

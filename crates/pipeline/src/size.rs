@@ -1,18 +1,12 @@
-//! How long a path may be. A recipe that asks for more is refused before the work.
+//! Refuses a recipe whose path would be too long, before the work.
 
 use std::f64::consts::TAU;
 
 use turnpath_core::{Locus, Overrun, RadialRange, SpiralLaw, Task};
 
+use crate::path_size::{Excess, MOST_PIECES, MOST_POINTS, MOST_REVOLUTIONS, PathSize};
 use crate::{JobSpec, PipelineError, Result};
 
-/// Most revolutions: two weeks at 500 rpm.
-pub const MOST_REVOLUTIONS: f64 = 1e7;
-/// Most control points: 250 GB of `toolpath.csv`, and more than a day of work.
-pub const MOST_POINTS: f64 = 2e9;
-/// Most pieces of a law, which take half a gigabyte. They suffice for some pieces in each of
-/// 100,000 revolutions.
-pub(crate) const MOST_PIECES: usize = 8_000_000;
 /// Fewest revolutions from which the length of the whole law is foretold.
 const FORETOLD: f64 = 1000.0;
 /// How much longer than allowed a law must be foretold to be refused before it is planned. Its feed
@@ -24,49 +18,6 @@ const CERTAIN: f64 = 2.0;
 const ASKED_FOR: f64 = 0.01;
 /// Angles and radii at which the residual's feed is looked at.
 const LOOKED_AT: [usize; 2] = [12, 9];
-
-/// A path that is too long.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PathSize {
-    /// How far the path feeds, mm.
-    pub distance: f64,
-    /// Revolutions, at least.
-    pub revolutions: f64,
-    /// Of what there is too much.
-    pub excess: Excess,
-}
-
-/// Of what there is too much in a path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Excess {
-    /// Revolutions.
-    Revolutions,
-    /// Pieces of the law: so many at least.
-    Pieces(f64),
-    /// Control points: about so many.
-    Points(f64),
-}
-
-impl std::fmt::Display for PathSize {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let revolutions = self.revolutions;
-        write!(f, "it takes about {revolutions:.1e} revolutions")?;
-        match self.excess {
-            Excess::Revolutions => write!(f, ", and {MOST_REVOLUTIONS:.0e} are the most"),
-            Excess::Pieces(pieces) => {
-                let most = MOST_PIECES as f64;
-                write!(
-                    f,
-                    " in {pieces:.1e} pieces of the law, and {most:.0e} pieces are the most"
-                )
-            }
-            Excess::Points(points) => write!(
-                f,
-                " with {points:.1e} control points, and {MOST_POINTS:.0e} points are the most"
-            ),
-        }
-    }
-}
 
 /// Refuses a part of which even the largest feed of the nose, two radii, would take too many
 /// revolutions. No search on the part runs before this.
