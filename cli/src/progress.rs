@@ -50,6 +50,7 @@ impl Observer for Bar {
                 bar.set_style(style);
             }
             bar.set_message(match stage {
+                Stage::Form(path) => format!("path {path} for the form"),
                 Stage::Law => "planning the feed".to_owned(),
                 Stage::Refine(round) => format!("playing back, round {round}"),
                 Stage::Write => "measuring and writing".to_owned(),

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{PathBlock, Section};
-use turnpath_verify::machined::MachinedFigures;
+use turnpath_verify::machined::{FormFigures, MachinedFigures};
 use turnpath_verify::{
     AxesMotion, BlockFigures, FirstTouch, Meter, PathFigures, ServoBlockFigures, ServoFigures,
     ServoMeter, ServoStart,
@@ -37,6 +37,8 @@ pub struct Outcome {
     pub own_axes: Option<AxesMotion>,
     /// The surface that the path would leave; `None` where it cuts nothing of the part.
     pub machined: Option<MachinedFigures>,
+    /// The form of that surface, where [`PathOptions::form`](crate::PathOptions::form) asks for it.
+    pub form: Option<FormFigures>,
     /// The leads, where the path has some.
     pub lead: Option<Leads>,
     /// The predicted following error, where [`PathOptions::servo`](crate::PathOptions::servo) is
@@ -162,6 +164,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
             cutting_time: plan.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
+            form: self.meter.form().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
             lead,
             servo: self.servo.map(|servo| *servo.figures()),

@@ -46,7 +46,9 @@ pub fn run<S: Sink + ?Sized>(
         .lead
         .map(|settings| LeadRun::begin(&mut plan, &depths, settings))
         .transpose()?;
-    let meter = Meter::new(preparation.touch.clone()).counting_centre(options.covers_centre);
+    let meter = Meter::new(preparation.touch.clone())
+        .counting_centre(options.covers_centre)
+        .with_form(options.form);
     let servo = options.servo.as_ref().map(ServoMeter::new);
     let recorder = Recorder::new(sink, observer, meter, servo);
     write(&plan, batch, &depths, leads, recorder, observer)

@@ -1,5 +1,6 @@
 //! A recipe with its strategies: everything that can be refused is refused when it is made.
 
+use turnpath_core::Tolerance;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{
@@ -13,11 +14,13 @@ use crate::chain::chain;
 use crate::data_files::DataFiles;
 use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
 use crate::error::Error;
+use crate::figures::form_scope;
 use crate::named_files::UsedFile;
 use crate::program::{Program, programs};
 use crate::strategies::used_files;
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
+#[derive(Clone)]
 pub struct Job {
     pub(crate) recipe: Recipe,
     pub(crate) catalogue: Catalogue,
@@ -75,6 +78,15 @@ impl Job {
         &self.recipe
     }
 
+    /// The same job with the path made for other tolerances, such as another division of a tolerance
+    /// of form. What the recipe asks for, and what is judged, stays as it is.
+    #[must_use]
+    pub fn with_tolerance(&self, tolerance: Tolerance) -> Self {
+        let mut job = self.clone();
+        job.preparation.task.tolerance = tolerance;
+        job
+    }
+
     /// A program in PVT mode plays cubics; a path of straight lines is another one.
     fn refuse_straight_lines(&self) -> Result<(), Error> {
         match self.plays_straight_lines() && !self.programs.is_empty() {
@@ -107,6 +119,7 @@ impl Job {
                 clearance: recipe.clearance,
                 limits: LeadLimits::within(recipe.machine),
             }),
+            form: form_scope(recipe),
             servo: recipe.servo,
             covers_centre: Overrun::from(recipe.overrun).covers_centre(),
         }

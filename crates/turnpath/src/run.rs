@@ -7,13 +7,14 @@ use turnpath_core::{Direction, Misfit, Slot};
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
 use turnpath_post::PmacReader;
 use turnpath_report as report;
-use turnpath_report::{ProgramReport, RunReport};
+use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::unreached;
 
 use crate::diagnosis::of_measure;
 use crate::error::Error;
-use crate::figures;
+use crate::figures::{self, CutFigures, material_threshold};
 use crate::folder::FolderSink;
+use crate::form::{SettledPath, settle};
 use crate::job::Job;
 use crate::memory::MemorySink;
 use crate::named_files::UsedFile;
@@ -91,15 +92,26 @@ impl Job {
     }
 
     fn run_nowhere(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
-        let mut sink = RowCount::default();
-        let outcome = self.run_into(&mut sink, observer)?;
-        let report = self.report(sink.rows, &outcome, Vec::new())?;
+        let path = settle(self, observer, |job| {
+            let mut sink = RowCount::default();
+            let outcome = job.run_into(&mut sink, observer)?;
+            Ok((sink, outcome))
+        })?;
+        let report = self.report(path.sink.rows, &path.outcome, path.split, Vec::new())?;
         Ok(RunResult::of(report))
     }
 
     fn run_in_memory(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
-        let mut sink = MemorySink::new(&self.programs);
-        let outcome = self.run_into(&mut sink, observer)?;
+        let path = settle(self, observer, |job| {
+            let mut sink = MemorySink::new(&self.programs);
+            let outcome = job.run_into(&mut sink, observer)?;
+            Ok((sink, outcome))
+        })?;
+        let SettledPath {
+            sink,
+            outcome,
+            split,
+        } = path;
         let rows = sink.toolpath.len() as u64;
         let (mut reports, mut programs) = (Vec::new(), Vec::new());
         for (program, writer) in self.programs.iter().zip(sink.writers) {
@@ -116,7 +128,7 @@ impl Job {
         Ok(RunResult {
             toolpath: Some(sink.toolpath),
             programs,
-            ..RunResult::of(self.report(rows, &outcome, reports)?)
+            ..RunResult::of(self.report(rows, &outcome, split, reports)?)
         })
     }
 
@@ -127,11 +139,19 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
-        let mut sink = FolderSink::new(folder, &self.recipe, &self.programs)?;
-        let outcome = self.run_into(&mut sink, observer)?;
+        let path = settle(self, observer, |job| {
+            let mut sink = FolderSink::new(folder, &self.recipe, &self.programs)?;
+            let outcome = job.run_into(&mut sink, observer)?;
+            Ok((sink, outcome))
+        })?;
+        let SettledPath {
+            mut sink,
+            outcome,
+            split,
+        } = path;
         let reports = sink.read_back(self, &outcome, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
-        let report = self.report(sink.rows(), &outcome, reports)?;
+        let report = self.report(sink.rows(), &outcome, split, reports)?;
         let files = sink.complete(&report::to_json(&report))?;
         Ok(RunResult {
             files,
@@ -139,24 +159,27 @@ impl Job {
         })
     }
 
-    /// What a path gave.
+    /// What a path gave; `split` is how a tolerance of form was divided for it.
     pub(crate) fn report(
         &self,
         rows: u64,
         outcome: &Outcome,
+        split: Option<FormSplit>,
         programs: Vec<ProgramReport>,
     ) -> Result<RunReport, Error> {
         let recipe = &self.recipe;
         let leads = outcome.lead.as_ref();
         let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), recipe));
-        let machined = outcome.machined.as_ref();
-        let path = figures::path(
-            recipe,
-            &outcome.figures,
-            machined,
-            lead,
-            outcome.servo.as_ref(),
-        );
+        let cut = CutFigures {
+            path: &outcome.figures,
+            machined: outcome.machined.as_ref(),
+            form: outcome.form.as_ref(),
+            servo: outcome.servo.as_ref(),
+        };
+        let mut path = figures::path(recipe, &cut, lead);
+        if let Some(form) = &mut path.form {
+            form.split = split;
+        }
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),
@@ -190,7 +213,7 @@ impl Job {
             let asked = self.recipe.tool.misfit == Misfit::CutWhatFits && self.compensates_nose();
             return Ok(asked.then(report::Unreached::default));
         }
-        let figures = unreached(touch, self.recipe.tolerance.residual);
+        let figures = unreached(touch, material_threshold(&self.recipe));
         let figures = figures.map_err(|error| of_measure(&self.recipe, error))?;
         Ok(Some(figures::unreached(&figures)))
     }

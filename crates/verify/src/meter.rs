@@ -5,7 +5,7 @@ use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
 use crate::coverage::{Coverage, CoverageFigures};
-use crate::machined::{Fan, Lines, MachinedFigures, SectionPasses};
+use crate::machined::{Fan, FormFigures, FormScope, Lines, MachinedFigures, SectionPasses};
 use crate::playback::{PlaybackFigures, play_back};
 use crate::points::{PointFigures, point_errors};
 use crate::residual::{Passes, ResidualFigures};
@@ -55,6 +55,7 @@ pub struct Meter {
     lines: Lines,
     coverage: Coverage,
     counts_centre: bool,
+    form: Option<FormScope>,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -68,6 +69,7 @@ impl Meter {
             lines: Lines::new(Fan::WHOLE),
             coverage: Coverage::default(),
             counts_centre: false,
+            form: None,
             ends: None,
         }
     }
@@ -77,6 +79,14 @@ impl Meter {
     #[must_use]
     pub fn counting_centre(mut self, counts: bool) -> Self {
         self.counts_centre = counts;
+        self
+    }
+
+    /// Sets which part of the machined surface counts for its form; without it the form is not
+    /// measured.
+    #[must_use]
+    pub fn with_form(mut self, scope: Option<FormScope>) -> Self {
+        self.form = scope;
         self
     }
 
@@ -168,6 +178,18 @@ impl Meter {
     /// When the surface fails.
     pub fn machined(&self) -> Result<Option<MachinedFigures>> {
         self.lines.figures(self.touch.subject())
+    }
+
+    /// The form of the machined surface; `None` if it is not asked for, or if the path cuts nothing
+    /// of the part.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn form(&self) -> Result<Option<FormFigures>> {
+        match self.form {
+            Some(scope) => self.lines.form(&self.touch, scope),
+            None => Ok(None),
+        }
     }
 
     /// The figures so far.

@@ -2,6 +2,7 @@
 
 use crate::check::CheckReport;
 
+use super::form::first_split;
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
 use super::tool_fit::tool_fit;
@@ -15,6 +16,7 @@ pub fn check(report: &CheckReport) -> String {
     if let Some(machine) = &report.machine {
         text += &limits(machine);
     }
+    text += &report.form.as_ref().map(first_split).unwrap_or_default();
     let expected = &report.expected;
     let points = grouped(expected.control_points);
     text += &line("points", format!("about {points}, before refinement"));

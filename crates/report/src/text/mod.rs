@@ -3,6 +3,7 @@
 mod check;
 mod coverage;
 mod file;
+mod form;
 mod lead;
 mod machine;
 mod numbers;

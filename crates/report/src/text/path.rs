@@ -6,19 +6,23 @@ use crate::unit;
 use crate::verdict::Verdict;
 
 use super::coverage::{axis_crossing, coverage};
+use super::form::form;
 use super::machine::{highest_spindle, machine};
-use super::numbers::{against, line, millimetres, path_place, small_length};
+use super::numbers::{against_any, line, millimetres, path_place, small_length};
 
 /// The lines on the cut.
 pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     let tolerance = &path.tolerance;
     let error = &path.interpolation_error;
-    let limit = against(error.max, tolerance.interpolation, verdict.interpolation);
+    let limit = against_any(error.max, tolerance.interpolation, verdict.interpolation);
     let (rms, at) = (small_length(error.rms), path_place(&error.at));
     let mut text = line("interpolation", limit);
     text += &line("", format!("{rms:>12} rms; the largest at {at}"));
     text += &line("residual", residual(path, verdict));
     text += &surface_error(path.surface_error.as_ref());
+    if let Some(report) = &path.form {
+        text += &form(report, verdict.form);
+    }
     text += &coverage(&path.coverage, tolerance, path.overrun, verdict.coverage);
     text += &axis_crossing(&path.axis_crossing);
     if let Some(report) = &path.machine {
@@ -29,7 +33,7 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
 
 fn residual(path: &PathReport, verdict: &Verdict) -> String {
     match path.residual.max {
-        Some(max) => against(max, path.tolerance.residual, verdict.residual),
+        Some(max) => against_any(max, path.tolerance.residual, verdict.residual),
         None => "not measured: no turn has a neighbour".to_owned(),
     }
 }

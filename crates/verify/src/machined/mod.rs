@@ -9,6 +9,7 @@
 
 mod envelope;
 mod figures;
+mod form;
 mod grid;
 mod map;
 mod profile;
@@ -19,6 +20,7 @@ mod turns;
 
 pub use envelope::{Arc, lower_envelope};
 pub use figures::{MachinedFigures, PartPoint};
+pub use form::{FormFigures, FormScope};
 pub use grid::{Grid, GridPoint};
 pub use map::{Map, Nose};
 pub use profile::{ProfileLine, ProfilePoint};
