@@ -5,6 +5,7 @@ mod support;
 
 mod cut_what_fits;
 mod every_chain;
+mod form;
 mod gouges;
 mod leads;
 mod machine;

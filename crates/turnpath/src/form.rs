@@ -7,7 +7,7 @@
 
 use turnpath_core::{FormBudget, Tolerance};
 use turnpath_pipeline::{Observer, Outcome, Stage};
-use turnpath_report::FormSplit;
+use turnpath_report::{FormSplit, unit};
 
 use crate::error::{Error, Fault};
 use crate::figures::form_error;
@@ -61,18 +61,20 @@ pub fn settle<T>(
     observer: &dyn Observer,
     make: impl Fn(&Job) -> Result<(T, Outcome), Error>,
 ) -> Result<SettledPath<T>, Error> {
-    let Some(budget) = job.recipe.asked.budget() else {
+    let budget = job.recipe.asked.budget();
+    let Some(budget) = budget.filter(|_| job.settled.is_none()) else {
         let (sink, outcome) = make(job)?;
+        let settled = budget.and(job.settled);
         return Ok(SettledPath {
             sink,
             outcome,
-            split: None,
+            split: settled.map(|tolerance| split_of(tolerance, 1)),
         });
     };
     let mut search = Search::new(budget);
     let mut sum = budget.form();
     loop {
-        let tolerance = budget.shares(sum);
+        let tolerance = shares(&budget, sum);
         observer.begin(Stage::Form(search.trials.len() as u32 + 1), 0);
         let made = make(&job.with_tolerance(tolerance));
         let (sink, outcome) = match made {
@@ -95,7 +97,7 @@ pub fn settle<T>(
         }
     }
     let best = search.best().map_or(sum, |best| best.sum);
-    let (sink, outcome) = make(&job.with_tolerance(budget.shares(best)))?;
+    let (sink, outcome) = make(&job.with_tolerance(shares(&budget, best)))?;
     search.include(best, &outcome);
     let split = Some(search.split(best));
     Ok(SettledPath {
@@ -103,6 +105,28 @@ pub fn settle<T>(
         outcome,
         split,
     })
+}
+
+/// The shares of a sum as `summary.json` holds them, so that a path is made again from there with
+/// the same bytes.
+fn shares(budget: &FormBudget, sum: f64) -> Tolerance {
+    let as_in_files = |mm: f64| unit::rounded(mm * unit::nm::PER) / unit::nm::PER;
+    let Tolerance {
+        interpolation,
+        residual,
+    } = budget.shares(sum);
+    Tolerance {
+        interpolation: as_in_files(interpolation),
+        residual: as_in_files(residual),
+    }
+}
+
+fn split_of(tolerance: Tolerance, rounds: u32) -> FormSplit {
+    FormSplit {
+        residual: tolerance.residual,
+        interpolation: tolerance.interpolation,
+        rounds,
+    }
 }
 
 impl Search {
@@ -142,15 +166,7 @@ impl Search {
     }
 
     fn split(&self, sum: f64) -> FormSplit {
-        let Tolerance {
-            interpolation,
-            residual,
-        } = self.budget.shares(sum);
-        FormSplit {
-            residual,
-            interpolation,
-            rounds: self.trials.len() as u32,
-        }
+        split_of(shares(&self.budget, sum), self.trials.len() as u32)
     }
 
     /// The sum of the shares for the next path; `None` where the last path will do, or where no
@@ -168,7 +184,7 @@ impl Search {
         };
         let wanted = wanted.clamp(last.sum / FURTHEST, last.sum * FURTHEST);
         let next = self.between_known(wanted);
-        let changes = self.budget.shares(next) != self.budget.shares(last.sum);
+        let changes = shares(&self.budget, next) != shares(&self.budget, last.sum);
         changes.then_some(next)
     }
 
@@ -221,7 +237,7 @@ mod tests {
         let mut search = Search::new(budget);
         let mut next = Some(budget.form());
         while let Some(sum) = next {
-            let shares = budget.shares(sum);
+            let shares = shares(&budget, sum);
             let points = 1e9 / shares.residual.sqrt() / shares.interpolation.sqrt().sqrt();
             search.trials.push(Trial {
                 sum,

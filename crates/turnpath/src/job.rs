@@ -28,6 +28,8 @@ pub struct Job {
     pub(crate) chain: Chain,
     pub(crate) preparation: Preparation,
     pub(crate) programs: Vec<Program>,
+    /// The tolerances of the path, where they are settled.
+    pub(crate) settled: Option<Tolerance>,
 }
 
 impl Job {
@@ -68,6 +70,7 @@ impl Job {
             chain,
             preparation,
             programs,
+            settled: None,
         };
         job.refuse_straight_lines()?;
         Ok(job)
@@ -78,12 +81,14 @@ impl Job {
         &self.recipe
     }
 
-    /// The same job with the path made for other tolerances, such as another division of a tolerance
-    /// of form. What the recipe asks for, and what is judged, stays as it is.
+    /// The same job with its path made for these tolerances, and made once: such as those into which
+    /// a run has divided a tolerance of form. What the recipe asks for, and what is judged, stays as
+    /// it is.
     #[must_use]
     pub fn with_tolerance(&self, tolerance: Tolerance) -> Self {
         let mut job = self.clone();
         job.preparation.task.tolerance = tolerance;
+        job.settled = Some(tolerance);
         job
     }
 
