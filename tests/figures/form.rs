@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::support::bench::Bench;
+use crate::support::bench::{Bench, answer};
 use crate::support::recipe::{SADDLE, changed, with_table};
 use crate::support::repository;
 use serde_json::Value;
@@ -30,9 +30,7 @@ fn summary(bench: &Bench, status: i32, sets: &[&str]) -> Value {
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     let run = ["run", "recipe.toml", "-o", "out", "--format", "json"];
     let words = run.into_iter().chain(sets);
-    crate::support::bench::answer(bench.command(words))
-        .ends(status)
-        .json()
+    answer(&mut bench.command(words)).ends(status).json()
 }
 
 /// The part of the form that a path uses.

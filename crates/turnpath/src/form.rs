@@ -175,7 +175,8 @@ impl Search {
         let last = self.trials.last()?;
         let form = self.budget.form();
         let will_do = self.holds(last) && last.error >= ENOUGH * form;
-        if will_do || self.trials.len() == MOST_PATHS || !(last.error > 0.0) {
+        let scales = last.error > 0.0;
+        if will_do || self.trials.len() == MOST_PATHS || !scales {
             return None;
         }
         let wanted = match self.trials.len().checked_sub(2) {
@@ -199,7 +200,7 @@ impl Search {
             return None;
         }
         let slope = rise / run;
-        if !(slope > 0.0) {
+        if slope <= 0.0 {
             return Some(last.sum * AIM * form / last.error);
         }
         let rest = last.error - slope * last.sum;
