@@ -34,7 +34,7 @@ const RESIDUAL: Param<Option<Length>> = Param::length(
 const FORM: Param<Option<Length>> = Param::length(
     "form",
     "peak to valley of the machined surface minus the wanted one, along z, everything included; \
-     the program divides it between the two keys above",
+     divided between `residual` and `interpolation` where they are left out",
 )
 .min(MEASURABLE)
 .example("150 nm")
