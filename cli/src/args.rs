@@ -7,6 +7,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use turnpath::report::comparison;
 use turnpath_core::Slot;
 
+use crate::crash::TimeLimit;
+
 /// Tool paths for slow-tool-servo diamond turning of freeform optics.
 ///
 /// Exit status: 0 done, and all tolerances hold; 1 done, and a tolerance or a limit of the
@@ -43,6 +45,12 @@ pub struct PluginArgs {
     /// Take plugins from this folder too; may be given several times
     #[arg(long, value_name = "DIR")]
     pub plugin_dir: Vec<PathBuf>,
+    /// End a run in which one call into a plugin takes longer, such as "2 min"; none for no limit
+    #[arg(long, value_name = "DURATION", default_value_t)]
+    pub plugin_time_limit: TimeLimit,
+    /// Load only plugins that this lock has, with the SHA-256 that it has for them
+    #[arg(long, value_name = "FILE")]
+    pub plugins_lock: Option<PathBuf>,
     /// Print the whole comparison when a plugin's layout differs
     #[arg(long)]
     pub layout_details: bool,
@@ -58,7 +66,8 @@ pub struct RecipeArgs {
     pub set: Vec<String>,
     #[command(flatten)]
     pub plugins: PluginArgs,
-    /// Load the plugins that the recipe itself lists: native code with your rights
+    /// Load the plugins that the recipe itself lists, native code with your rights, and put the
+    /// commands of its header and footer into the program, whatever they make the machine do
     #[arg(long)]
     pub trust_recipe: bool,
 }
@@ -178,7 +187,7 @@ pub struct SagArgs {
     /// Points along each side of the square around the aperture, its edges included
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=20_000))]
     pub grid: u32,
-    /// The file to write
+    /// The file to write; - for standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
 }
@@ -188,6 +197,9 @@ pub struct ListArgs {
     /// Only the strategies of this slot
     #[arg(value_parser = PossibleValuesParser::new(Slot::ALL.map(Slot::key)))]
     pub slot: Option<String>,
+    /// Print a lock of the plugins that are loaded, or write it to FILE
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    pub lock: Option<Option<PathBuf>>,
     #[command(flatten)]
     pub plugins: PluginArgs,
 }

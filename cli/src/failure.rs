@@ -2,7 +2,9 @@
 
 use std::io::IsTerminal;
 
-use turnpath::{Diagnostic, Error, Fault, LoadError, RecipeError};
+use turnpath::{Diagnostic, Error, Fault, FileError, LoadError, PluginsLockError, RecipeError};
+
+use crate::message::say;
 
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -10,6 +12,12 @@ pub enum Failure {
     /// The library says why.
     #[error(transparent)]
     Work(#[from] Error),
+    /// The lock of plugins cannot be used.
+    #[error(transparent)]
+    Lock(#[from] PluginsLockError),
+    /// The lock of plugins cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The call is wrong, apart from the recipe.
     #[error("{0}")]
     Call(String),
@@ -22,8 +30,8 @@ impl Failure {
     /// The program's exit status.
     pub fn status(&self) -> u8 {
         match self {
-            Self::Call(_) => 2,
-            Self::Output(_) => 4,
+            Self::Call(_) | Self::Lock(PluginsLockError::Wrong { .. }) => 2,
+            Self::Output(_) | Self::File(_) | Self::Lock(_) => 4,
             Self::Work(error) => match error.fault() {
                 Fault::Request | Fault::Cancelled => 2,
                 Fault::Plugin => 3,
@@ -34,7 +42,7 @@ impl Failure {
 
     /// Shows the failure to the user; `details` adds the comparison of a plugin's layout.
     pub fn report(&self, details: bool) {
-        eprintln!("{}", self.text(details, color()));
+        say(&self.text(details, color()));
     }
 
     fn text(&self, details: bool, color: bool) -> String {
@@ -44,7 +52,7 @@ impl Failure {
                 .iter()
                 .map(|one| one.render(color))
                 .collect(),
-            Self::Call(_) | Self::Output(_) => Vec::new(),
+            _ => Vec::new(),
         };
         if texts.is_empty() {
             texts.push(self.without_place().render(color));
@@ -59,7 +67,7 @@ impl Failure {
     fn without_place(&self) -> Diagnostic {
         let help = match self {
             Self::Work(error) => error.help(),
-            Self::Call(_) | Self::Output(_) => None,
+            _ => None,
         };
         Diagnostic::from_error(self).with_helps(help.map(str::to_owned))
     }

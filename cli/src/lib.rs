@@ -11,9 +11,13 @@
 
 mod args;
 mod commands;
+mod crash;
 mod failure;
+mod message;
 mod print;
 mod progress;
+mod signals;
+mod trial;
 mod width;
 
 use std::ffi::OsString;
@@ -48,15 +52,26 @@ type Outcome = Result<Status, Failure>;
 
 /// Runs the program with these arguments, the program's name first, and with the strategies of
 /// this catalogue beside those of plugin folders. Answers on standard output and standard error.
-/// Wrong arguments and `--help` end the process.
+/// Wrong arguments and `--help` end the process. So does an interrupt, after it has removed the files
+/// that are not whole.
+///
+/// This is for the whole of a process, which does nothing before it: the process is started once more
+/// to try the libraries of plugins, a plugin that ends it is named, and what else the process
+/// prints to standard output, now or later, goes to standard error.
 pub fn main_with(
     args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     catalogue: Result<Catalogue, LoadError>,
 ) -> ExitCode {
+    if let Some(status) = trial::child() {
+        return status;
+    }
     let Program { command } = Program::parse_from(args);
+    signals::remove_drafts_on_signals();
     let details = command.plugins().layout_details;
-    let outcome = catalogue
-        .map_err(Failure::from)
+    crash::guard();
+    let outcome = crash::take_output()
+        .map_err(Failure::Output)
+        .and_then(|()| catalogue.map_err(Failure::from))
         .and_then(|catalogue| run(&command, catalogue));
     match outcome {
         Ok(Status::Holds) => ExitCode::SUCCESS,

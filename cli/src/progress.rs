@@ -8,6 +8,9 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use turnpath::{AblationObserver, Observer, Stage};
+use turnpath_core::printable_line;
+
+use crate::message::note;
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<32} {bar:30} {percent:>3} %, {eta} left";
@@ -75,6 +78,7 @@ impl Observer for Bar {
                 Stage::Write => "measuring and writing".to_owned(),
                 Stage::ReadBack => "reading programs back".to_owned(),
                 Stage::Measure => "measuring the file".to_owned(),
+                Stage::Compare => "comparing with the recipe's path".to_owned(),
                 Stage::Map => "mapping what is cut".to_owned(),
             };
             bar.set_message(self.of_path() + &message);
@@ -126,8 +130,10 @@ impl AblationObserver for RunsBar {
     }
 
     fn damaged(&self, record: &Path, why: &str) {
-        let name = record.display();
-        eprintln!("note: {name} is damaged ({why}); its run is made again");
+        let name = record.display().to_string();
+        note(&printable_line(&format!(
+            "{name} is damaged ({why}); its run is made again"
+        )));
     }
 
     fn end(&self) {

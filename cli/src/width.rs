@@ -1,8 +1,8 @@
 //! How wide a table may be.
 
-use std::io::{IsTerminal, stdout};
-
 use terminal_size::{Width, terminal_size_of};
+
+use crate::crash::output_is_terminal;
 
 /// Widest table, however wide the terminal.
 const WIDEST: usize = 100;
@@ -17,8 +17,7 @@ pub fn of_terminal() -> usize {
 }
 
 fn of_stdout() -> Option<usize> {
-    let terminal = stdout().is_terminal().then(stdout)?;
-    let (Width(columns), _) = terminal_size_of(terminal)?;
+    let (Width(columns), _) = terminal_size_of(output_is_terminal()?)?;
     Some(usize::from(columns)).filter(|columns| *columns > 0)
 }
 

@@ -430,10 +430,11 @@ fn a_lead_that_plunges_or_jumps_is_found_in_a_file() {
     bench.write("bare.csv", format!("{}\n{}\n", lines[0], cut.join("\n")));
     let bare = bench
         .line("verify recipe.toml bare.csv --format json")
-        .ends(0)
+        .ends(1)
         .json();
     assert_eq!(bare["lead"], Value::Null);
     assert_eq!(bare["within"]["lead"], Value::Null);
+    assert_eq!(bare["within"]["whole"], false);
 }
 
 #[test]

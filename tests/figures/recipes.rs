@@ -111,6 +111,7 @@ fn nodes_off_the_locus_and_a_changing_speed_measure_like_the_reference() {
         let complaints = compare(&found, &reference, rows);
         assert!(complaints.is_empty(), "{file}\n{}", complaints.join("\n"));
         assert_eq!(found["control_point_offset_nm"], Value::Null);
+        assert_eq!(anomalies(&found), None, "{file}");
     }
 }
 
@@ -186,10 +187,32 @@ fn check(recipe: &Path, references: &Path, expected: Requirement) -> Vec<String>
     let path = fs::read_to_string(folder.path().join("toolpath.csv")).expect("a path");
     let mut complaints = compare(&summary, &reference, path.lines().count() as u64 - 1);
     complaints.extend(compare_verdicts(&summary, &reference, run.status.code()));
+    for file in ["csv", "pmc"]
+        .iter()
+        .flat_map(|end| files(folder.path(), end))
+    {
+        let mut verify = Command::new(env!("CARGO_BIN_EXE_turnpath"));
+        let said = answer(
+            verify
+                .arg("verify")
+                .args([recipe, &file])
+                .args(["--format", "json"]),
+        );
+        complaints.extend(anomalies(&said.json()));
+    }
     complaints
         .into_iter()
         .map(|complaint| format!("{stem}: {complaint}"))
         .collect()
+}
+
+/// What `verify` has against a file that a run wrote; nothing if its rows are the recipe's.
+fn anomalies(verified: &Value) -> Option<String> {
+    let anomalies = &verified["anomalies"];
+    let clean = anomalies["count"] == 0 && anomalies["compared_with"] == "recipe";
+    let whole = verified["within"]["whole"] != false;
+    let file = &verified["file"];
+    (!clean || !whole).then(|| format!("{file}: {anomalies}, {}", verified["within"]))
 }
 
 /// Where the run's verdicts differ from those of the reference's figures.

@@ -17,6 +17,7 @@ const PLUGINS: &str = "plugins/*";
 
 const RULES: &[Rule] = &[
     rule("turnpath-units", &[], &[]),
+    rule("turnpath-files", &[], &[]),
     rule("turnpath-core", &["turnpath-units"], &[]),
     rule("turnpath-plugin", &["turnpath-core"], &[]),
     rule("turnpath-recipe", &["turnpath-core"], &[]),
@@ -25,7 +26,7 @@ const RULES: &[Rule] = &[
         &["turnpath-core"],
         &["turnpath-surfaces"],
     ),
-    rule("turnpath-post", &["turnpath-core"], &[]),
+    rule("turnpath-post", &["turnpath-core", "turnpath-files"], &[]),
     rule(
         "turnpath-pipeline",
         &["turnpath-core", "turnpath-verify"],
@@ -33,19 +34,24 @@ const RULES: &[Rule] = &[
     ),
     rule(
         "turnpath-host",
-        &["turnpath-core", "turnpath-plugin"],
+        &["turnpath-core", "turnpath-files", "turnpath-plugin"],
         &[PLUGINS],
     ),
     rule(PLUGINS, &["turnpath-plugin"], &["turnpath-core", PLUGINS]),
     rule("turnpath-report", &["turnpath-core"], &[]),
     rule("turnpath", LIBRARIES, &[]),
-    rule(PROGRAM, &["turnpath", "turnpath-core"], LIBRARIES),
+    rule(
+        PROGRAM,
+        &["turnpath", "turnpath-core", "turnpath-files"],
+        LIBRARIES,
+    ),
     rule("xtask", &[], &[]),
 ];
 
 /// What the library `turnpath` puts together.
 const LIBRARIES: &[&str] = &[
     "turnpath-core",
+    "turnpath-files",
     "turnpath-host",
     "turnpath-pipeline",
     "turnpath-post",

@@ -4,34 +4,11 @@
 use std::fs;
 
 use crate::support::bench::{Answer, Bench};
+use crate::support::bench_with_plugins::{bench, refused};
 use crate::support::fixtures::{file_name, library, plugin_folder};
 use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
 use crate::support::repository;
 use tempfile::TempDir;
-
-/// A bench with plugins in its folder `plugins`.
-fn bench(recipe: &str, fixtures: &[&str]) -> Bench {
-    let bench = Bench::with(recipe);
-    fs::create_dir(bench.path("plugins")).unwrap();
-    for fixture in fixtures {
-        let copy = bench.path("plugins").join(file_name(fixture));
-        fs::copy(library(fixture), copy).unwrap();
-    }
-    bench
-}
-
-/// Runs a recipe that must fail by its plugin, and checks that it leaves no file.
-#[track_caller]
-fn refused(bench: &Bench) -> Answer {
-    let before = bench.files();
-    let said = bench.line("run recipe.toml -o out --plugin-dir plugins");
-    let said = said.ends(3);
-    assert_eq!(bench.files(), before, "files are left");
-    assert!(!bench.path("out").exists(), "a folder is left");
-    assert!(bench.scratch_is_empty(), "temporary files are left");
-    assert_eq!(said.stdout, "");
-    said
-}
 
 /// The same with a sampler of a fixture in the saddle's recipe.
 #[track_caller]

@@ -90,6 +90,15 @@ fn a_nose_that_would_gouge() {
     ));
 }
 
+/// Beside it the part has no digits left: it was the compensator that was blamed.
+#[test]
+fn a_nose_larger_than_any_machine() {
+    insta::assert_snapshot!(with_change(
+        "nose_radius = \"1 mm\"",
+        "nose_radius = \"1e6 m\"\ninterference = \"cut-what-fits\""
+    ));
+}
+
 #[test]
 fn a_tool_whose_edge_ends_before_the_contact() {
     insta::assert_snapshot!(with_change("\"120 deg\"", "\"30 deg\""));

@@ -84,9 +84,9 @@ fn files_go_to_a_folder_of_the_recipe_s_name() {
     let named = |name: &str| changed(SADDLE, "\"Saddle\"", &format!("{name:?}"));
     for (name, folder) in [
         ("Astigmatic mirror, 5 mm", "Astigmatic mirror, 5 mm"),
-        ("labs/mirror 5/7", "labs-mirror 5-7"),
-        ("../../escape", "-.-..-escape"),
-        ("C:\\mirror", "C--mirror"),
+        ("labs/mirror 5/7", "labs%2Fmirror 5%2F7"),
+        ("../../escape", "%2E.%2F..%2Fescape"),
+        ("C:\\mirror", "C%3A%5Cmirror"),
     ] {
         let bench = Bench::with(&named(name));
         let said = bench.line("run recipe.toml").ends(0);

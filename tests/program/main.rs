@@ -1,5 +1,7 @@
 //! The program as a person calls it: commands, messages, exit statuses and files.
 
+#[path = "../fuzz/src/lib.rs"]
+mod fuzz;
 #[path = "../support/mod.rs"]
 mod support;
 
@@ -8,11 +10,21 @@ mod bad_plugins;
 mod bad_recipes;
 mod built_ins;
 mod commands;
+mod controller_commands;
+mod damaged_libraries;
 mod data_files;
+mod ending_plugins;
 mod frozen_boundary;
 mod own_sampler;
+mod plugins_lock;
+mod random;
 mod readme;
+mod remarks;
+mod results;
 mod sag;
 mod same_bytes;
 mod sums;
+mod terminal;
+mod too_long;
 mod verify;
+mod wholeness;

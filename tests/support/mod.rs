@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 pub mod bench;
+pub mod bench_with_plugins;
 pub mod builds;
 pub mod fixtures;
 pub mod recipe;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use turnpath_core::{
     CentreBuffers, Compensator, Continuation, Direction, FeedStrategy, Locus, Machine, NM,
-    ParamValue, Params, Part, RadialRange, Result, Setup, SpindleLaw, SpiralLaw, Strategy,
+    ParamValue, Params, Part, RadialRange, Result, Scalar, Setup, SpindleLaw, SpiralLaw, Strategy,
     SurfaceModel, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_surfaces::{Astigmatic, SinusoidalArray};
@@ -120,6 +120,40 @@ impl Case {
             .centre(&[theta], &[rho], room.as_centres())
             .unwrap();
         [room.x[0], room.z[0]]
+    }
+
+    /// The height of the crossing of two noses above the surface, by a search of the nearest point
+    /// on finer and finer grids, mm.
+    pub fn cusp(&self, theta: f64, one: [f64; 2], two: [f64; 2]) -> f64 {
+        let radius = self.task.tool.nose_radius;
+        let (dx, dz) = (two[0] - one[0], two[1] - one[1]);
+        let half = 0.5 * (dx * dx + dz * dz).sqrt();
+        let down = (radius * radius - half * half).sqrt() / (2.0 * half);
+        let sign = dx.signum();
+        let tip = [
+            0.5 * (one[0] + two[0]) + sign * dz * down,
+            0.5 * (one[1] + two[1]) - sign * dx * down,
+        ];
+        let (sin, cos) = Scalar::sin_cos(theta);
+        let (mut foot, mut width, mut nearest) = (tip[0], 2.0 * half, f64::INFINITY);
+        for _ in 0..30 {
+            let feet: Vec<f64> = (-8..=8)
+                .map(|i| foot + width * f64::from(i) / 8.0)
+                .collect();
+            let x: Vec<f64> = feet.iter().map(|foot| foot * cos).collect();
+            let y: Vec<f64> = feet.iter().map(|foot| foot * sin).collect();
+            let mut z = vec![f64::NAN; feet.len()];
+            self.surface.heights(&x, &y, &mut z).unwrap();
+            for (here, z) in feet.iter().zip(&z) {
+                let off = [tip[0] - here, tip[1] - z];
+                let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();
+                if distance < nearest {
+                    (nearest, foot) = (distance, *here);
+                }
+            }
+            width *= 0.5;
+        }
+        nearest
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::commands::{cargo, repository, run, target};
 use crate::python::{script, with_packages};
 use crate::step::{Outcome, Step};
-use crate::{deny, msrv};
+use crate::{deny, fuzz, msrv};
 
 /// How many cases each test on random input tries; `.cargo/config.toml` has the number of `.ci/run`.
 /// A larger `PROPTEST_CASES` in the environment counts.
@@ -16,6 +16,7 @@ const OTHER_CHECKS: &str = "\
 random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
+fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
 deny: `cargo xtask deny`";
 
@@ -38,6 +39,7 @@ pub fn run_checks() -> Vec<Step> {
         }),
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
     ];
+    steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
     steps.extend(deny::run_checks());
     steps

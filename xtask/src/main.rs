@@ -2,6 +2,7 @@
 
 mod commands;
 mod deny;
+mod fuzz;
 mod long;
 mod msrv;
 mod python;
@@ -17,6 +18,7 @@ cargo xtask COMMAND
 
   long [--list]       every check that `.ci/run` leaves out, or their names
   reference [NAME…]   makes the reference figures again, or those of these names
+  fuzz [NAME…]        fuzzes the targets of tests/fuzz with cargo-fuzz, or those of these names
   msrv                checks the workspace with the oldest Rust version that it promises
   deny                checks licences, bans and sources of all dependencies with cargo-deny
 
@@ -38,6 +40,7 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
+        ["fuzz", names @ ..] => fuzz::run_targets(names),
         ["msrv"] => msrv::run_checks(),
         ["deny"] => deny::run_checks(),
         _ => {

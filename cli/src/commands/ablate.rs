@@ -5,7 +5,9 @@ use std::path::Path;
 
 use turnpath::report::{AblationReport, comparison};
 use turnpath::{AblationOptions, AblationResult, Catalogue, Recipe};
+use turnpath_core::printable_line;
 
+use super::output::refuse_output;
 use super::setup;
 use crate::args::AblateArgs;
 use crate::print::print_report;
@@ -17,6 +19,7 @@ use crate::{Outcome, Status, width};
 pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
+    refuse_output(args.output.as_deref(), "-o")?;
     let folder = match &args.output {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(format!("{}-ablation", recipe.folder_name())),
@@ -42,7 +45,11 @@ fn human(
     report: &AblationReport,
     result: &AblationResult,
 ) -> String {
-    let mut text = format!("{}: {} runs", recipe.name, report.runs.len());
+    let mut text = format!(
+        "{}: {} runs",
+        printable_line(&recipe.name),
+        report.runs.len()
+    );
     for (count, what) in [
         (result.reused, "taken over from before"),
         (result.failures.len(), "failed"),
@@ -62,7 +69,7 @@ fn human(
     text += &comparison::table(&report.runs, &columns, width::of_terminal());
     text.push('\n');
     for file in &result.files {
-        text += &format!("  file  {}\n", file.display());
+        text += &format!("  file  {}\n", printable_line(&file.display().to_string()));
     }
     text
 }

@@ -2,7 +2,7 @@
 
 use turnpath::declared::{default, kind_with_example, limits};
 use turnpath::{Catalogue, Strategy, TableInfo, slot_keys, tables};
-use turnpath_core::{ParamInfo, Slot};
+use turnpath_core::{ParamInfo, Slot, printable};
 
 use super::setup::with_plugins;
 use crate::args::{ExplainArgs, slot_of};
@@ -25,7 +25,7 @@ pub fn explain(args: &ExplainArgs, catalogue: Catalogue) -> Outcome {
         Err(failure) if texts.is_empty() => return Err(failure),
         Err(_) => {}
     }
-    print(&texts.join("\n"))?;
+    print(&printable(&texts.join("\n")))?;
     Ok(Status::Holds)
 }
 

@@ -1,8 +1,11 @@
 //! `turnpath list`: the strategies that can be chosen.
 
-use turnpath::Catalogue;
-use turnpath_core::Slot;
+use std::path::Path;
 
+use turnpath::{Catalogue, PluginsLock};
+use turnpath_core::{Slot, printable_line};
+
+use super::output::is_standard;
 use super::setup::with_plugins;
 use crate::args::{ListArgs, slot_of};
 use crate::print::print;
@@ -11,6 +14,9 @@ use crate::{Outcome, Status};
 /// Lists strategies by slot and name.
 pub fn list(args: &ListArgs, catalogue: Catalogue) -> Outcome {
     let catalogue = with_plugins(catalogue, &args.plugins)?;
+    if let Some(file) = &args.lock {
+        return lock(&catalogue, file.as_deref());
+    }
     let only = args.slot.as_deref().and_then(slot_of);
     let width = catalogue
         .strategies()
@@ -25,9 +31,17 @@ pub fn list(args: &ListArgs, catalogue: Catalogue) -> Outcome {
         text += &format!("{slot}\n");
         for strategy in catalogue.strategies().filter(|one| one.info().slot == slot) {
             let info = strategy.info();
-            text += &format!("  {:<width$}  {}\n", info.name, info.summary);
+            text += &format!(
+                "  {:<width$}  {}\n",
+                info.name,
+                printable_line(info.summary)
+            );
             if let Some(file) = &strategy.plugin().file {
-                text += &format!("  {:<width$}  from {}\n", "", file.display());
+                text += &format!(
+                    "  {:<width$}  from {}\n",
+                    "",
+                    printable_line(&file.display().to_string())
+                );
             }
         }
         if catalogue.names(slot).is_empty() {
@@ -35,5 +49,15 @@ pub fn list(args: &ListArgs, catalogue: Catalogue) -> Outcome {
         }
     }
     print(&text)?;
+    Ok(Status::Holds)
+}
+
+/// Prints the lock of the loaded plugins, or writes it to a file.
+fn lock(catalogue: &Catalogue, file: Option<&Path>) -> Outcome {
+    match file {
+        Some(file) if is_standard(file) => print(&PluginsLock::text_of(catalogue))?,
+        None => print(&PluginsLock::text_of(catalogue))?,
+        Some(file) => PluginsLock::write(catalogue, file)?,
+    }
     Ok(Status::Holds)
 }

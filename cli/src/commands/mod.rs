@@ -4,6 +4,7 @@ mod ablate;
 mod check;
 mod explain;
 mod list;
+mod output;
 mod plots;
 mod run;
 mod sag;

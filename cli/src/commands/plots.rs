@@ -3,11 +3,13 @@
 use turnpath::{MapGrid, MapRequest, PlotRequest};
 use turnpath_core::Quantity;
 
+use super::output::refuse_output;
 use crate::args::{self, PlotArgs};
 use crate::failure::Failure;
 
 /// What the arguments ask for.
 pub fn request(args: &PlotArgs) -> Result<PlotRequest, Failure> {
+    refuse_output(args.map.as_deref(), "--map")?;
     let map = args.map.as_ref().map(|file| MapRequest {
         file: file.clone(),
         cells: args.map_size as usize,

@@ -5,6 +5,7 @@ use std::path::Path;
 use turnpath::report::text;
 use turnpath::{Catalogue, Outputs};
 
+use super::output::refuse_output;
 use super::{plots, setup};
 use crate::args::RunArgs;
 use crate::print::print_report;
@@ -13,6 +14,7 @@ use crate::{Outcome, Status};
 
 /// Runs a recipe and writes its files.
 pub fn run(args: &RunArgs, catalogue: Catalogue) -> Outcome {
+    refuse_output(args.output.as_deref(), "-o")?;
     let job = setup::job(&args.recipe, &args.work, catalogue)?;
     let folder = match &args.output {
         Some(folder) => folder.clone(),

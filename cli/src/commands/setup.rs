@@ -1,9 +1,16 @@
 //! What several commands begin with: threads, the recipe, and the strategies.
 
-use turnpath::{Catalogue, Error, Job, LoadError, Recipe, with_listed_plugins};
+use std::sync::Arc;
+
+use turnpath::report::ControllerCommand;
+use turnpath::{
+    Catalogue, Diagnostic, Error, Job, PluginsLock, Recipe, commands_to_trust, with_listed_plugins,
+};
 
 use crate::args::{PluginArgs, RecipeArgs, WorkArgs};
+use crate::crash::watch;
 use crate::failure::Failure;
+use crate::trial::Trial;
 
 /// Folders to take plugins from, besides those on the command line.
 const PLUGIN_PATH: &str = "TURNPATH_PLUGIN_PATH";
@@ -16,8 +23,15 @@ pub fn use_threads(work: &WorkArgs) {
         .build_global();
 }
 
-/// The catalogue with the plugins of `--plugin-dir` and of the environment.
-pub fn with_plugins(mut catalogue: Catalogue, args: &PluginArgs) -> Result<Catalogue, LoadError> {
+/// The catalogue with the plugins of `--plugin-dir` and of the environment. It has asked the lock,
+/// and tried each library, before it loads one, and does so for what is added later.
+pub fn with_plugins(catalogue: Catalogue, args: &PluginArgs) -> Result<Catalogue, Failure> {
+    watch(args.plugin_time_limit);
+    let mut catalogue = match &args.plugins_lock {
+        Some(lock) => catalogue.with_admission(Arc::new(PluginsLock::load(lock)?)),
+        None => catalogue,
+    }
+    .with_admission(Arc::new(Trial::new(args.plugin_time_limit)));
     for folder in &args.plugin_dir {
         catalogue.add_folder(folder)?;
     }
@@ -56,9 +70,42 @@ fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
     })
 }
 
+/// Refuses a recipe whose own header or footer may make the controller do something besides the path.
+fn refuse_commands(recipe: &Recipe) -> Result<(), Error> {
+    let diagnostics: Vec<Diagnostic> = commands_to_trust(recipe)
+        .into_iter()
+        .map(|(command, span)| {
+            let ControllerCommand {
+                template,
+                line,
+                command,
+                ..
+            } = command;
+            let title = format!(
+                "line {line} of the {template} takes --trust-recipe: it tells the controller \
+                 `{command}`"
+            );
+            let label = "may move an axis, set a variable, or start what does";
+            let help = "if that is right for your machine, call again with `--trust-recipe`; the \
+                        words that need no trust stand in docs/pmac.md";
+            recipe.diagnostic(span, title, label, [help.to_owned()])
+        })
+        .collect();
+    match diagnostics.is_empty() {
+        true => Ok(()),
+        false => Err(Error::Refused {
+            diagnostics: diagnostics.into_iter().collect(),
+            source: None,
+        }),
+    }
+}
+
 /// The job of a recipe.
 pub fn job(args: &RecipeArgs, work: &WorkArgs, catalogue: Catalogue) -> Result<Job, Failure> {
     use_threads(work);
     let (recipe, catalogue) = recipe(args, catalogue)?;
+    if !args.trust_recipe {
+        refuse_commands(&recipe)?;
+    }
     Ok(Job::new(recipe, &catalogue)?)
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use turnpath::Catalogue;
 use turnpath::report::text;
 
+use super::output::refuse_output;
 use super::{plots, setup};
 use crate::args::VerifyArgs;
 use crate::print::print_report;
@@ -13,6 +14,7 @@ use crate::{Outcome, Status};
 
 /// Measures a file.
 pub fn verify(args: &VerifyArgs, catalogue: Catalogue) -> Outcome {
+    refuse_output(args.output.as_deref(), "-o")?;
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
     let request = plots::request(&args.plots)?;

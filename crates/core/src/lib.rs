@@ -5,6 +5,7 @@
 //! revolutions.
 
 mod compensator;
+mod cusp;
 mod cut;
 mod dual;
 mod error;
@@ -19,6 +20,7 @@ pub mod largest_nose;
 mod laws;
 pub mod locus;
 mod machine;
+mod neighbours;
 mod node_list;
 mod param;
 mod part;
@@ -26,6 +28,7 @@ mod path;
 mod piecewise;
 mod placement;
 mod pose;
+mod printable;
 mod profile;
 pub mod ring;
 mod sampler;
@@ -57,6 +60,7 @@ pub use path::Path;
 pub use piecewise::{Piece, PiecewisePolynomial, quintic};
 pub use placement::Placement;
 pub use pose::{Attitude, Pose};
+pub use printable::{printable, printable_line};
 pub use sampler::{Dependence, Sampler, SamplerPlan};
 pub use scalar::{Mask, Scalar};
 pub use servo::{AxisServo, Servo};

@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
-pub use crate::profile::{LARGEST_FEED, LEAST_GAP, Profile, profile_at};
+pub use crate::cusp::{CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO};
+use crate::neighbours::{FeedSearch, Neighbours};
+pub use crate::profile::{Profile, profile_at};
 use crate::{
-    CentreSeries, Centres, Compensator, Cut, Radial, Rates, Result, Series, SurfaceModel, Tool, fit,
+    CentreSeries, Centres, Compensator, Cut, Misfit, Radial, Rates, Result, Series, SurfaceModel,
+    Tool, fit,
 };
 
 /// The locus of the tool as strategies use it. It also gives access to the bare surface. Calls are
@@ -27,10 +30,13 @@ pub trait Locus: Send + Sync {
 
     /// The feed dρ/dN, mm, that leaves cusps of height `residual` (mm) at each (θ, ρ).
     ///
-    /// The feed is sqrt(8Rε/(1 − Rκ))/w if ρ is the contact's radius, and sqrt(8Rε(1 − Rκ))/w if ρ
-    /// is the centre's X. κ and w are those of the contact. The feed is never above R/10. It is NaN
-    /// where the surface has no curvature. With a tool that cuts what fits, 1 − Rκ counts as at
-    /// least [`LEAST_GAP`].
+    /// A small feed is sqrt(8Rε/(1 − Rκ))/w if ρ is the contact's radius, and sqrt(8Rε(1 − Rκ))/w
+    /// if ρ is the centre's X. κ and w are those of the contact. From R/15 on, the feed is that of
+    /// passes half a feed to either side of ρ whose cusp is `residual` high, as far as the noses
+    /// meet within their edges ([`CuspFeed::cap`]). Between R/25 and R/15 it passes smoothly from
+    /// one to the other. The feed is NaN where the surface has no curvature. With a tool that cuts
+    /// what fits, 1 − Rκ counts as at least [`LEAST_GAP`], and the profile as its circle of
+    /// curvature.
     ///
     /// `radial` overrides the meaning of ρ.
     fn residual_feed(
@@ -120,6 +126,15 @@ impl ToolLocus {
         Ok(())
     }
 
+    /// Whether passes can be placed with this meaning of ρ, and follow the profile there.
+    fn places(&self, radial: Radial) -> bool {
+        radial == self.compensator.radial() && self.tool.misfit == Misfit::Refuse
+    }
+
+    fn gap(&self, profile: &Profile) -> f64 {
+        1.0 - self.tool.nose_radius * profile.curvature()
+    }
+
     /// Computes the rates from the series along θ and along ρ.
     fn rates_from_series(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
         let along = |values: &[f64], rate: f64| -> Vec<Series> {
@@ -206,8 +221,28 @@ impl Locus for ToolLocus {
         self.centre(theta, rho, room.as_centres())?;
         let mut profile = vec![Profile::default(); theta.len()];
         profile_at(self.surface.as_ref(), theta, &room.foot, &mut profile)?;
-        for (feed, profile) in feed.iter_mut().zip(&profile) {
-            *feed = profile.residual_feed(residual, radial, &self.tool);
+        let law = CuspFeed::new(residual, radial, &self.tool);
+        let (mut large, mut searches) = (Vec::new(), Vec::new());
+        for (i, profile) in profile.iter().enumerate() {
+            let (parabola, whole) = (law.parabola(profile), law.feed(profile));
+            feed[i] = whole;
+            if law.needs_circles(parabola) && parabola.is_finite() && self.places(radial) {
+                large.push((i, parabola));
+                searches.push(FeedSearch {
+                    theta: theta[i],
+                    rho: rho[i],
+                    cap: law.cap(profile.slope, self.gap(profile)),
+                    feed: law.circles(profile),
+                });
+            }
+        }
+        let neighbours = Neighbours {
+            cut: self.cut(),
+            compensator: self.compensator.as_ref(),
+        };
+        neighbours.search(residual, &mut searches);
+        for ((i, parabola), search) in large.into_iter().zip(&searches) {
+            feed[i] = law.joined(parabola, search.feed);
         }
         Ok(())
     }

@@ -1,16 +1,6 @@
-//! The radial profile of a surface at one point, and the feed that keeps the residual there.
+//! The radial profile of a surface at one point.
 
-use crate::{Misfit, Radial, Result, Scalar, SurfaceModel, Tool};
-
-/// The largest feed as a part of the nose radius. Where Rκ approaches 1, the residual feed would
-/// grow without bound, and its formula is no longer true.
-pub const LARGEST_FEED: f64 = 0.1;
-
-/// The least value of 1 − Rκ in the residual feed with [`Misfit::CutWhatFits`]. The feed there is a
-/// seventh of the feed on a flat. The formula goes to zero where the nose touches a hollow of its
-/// own radius in one point. A seam beside such a point leaves cusps that grow with the feed itself,
-/// not with its square, and no formula of the curvature describes these cusps.
-pub const LEAST_GAP: f64 = 0.02;
+use crate::{Result, Scalar, SurfaceModel};
 
 /// The radial profile z = g(θ, ρ) at one point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -33,25 +23,6 @@ impl Profile {
     pub fn curvature(&self) -> f64 {
         let w = self.slant();
         self.second / (w * w * w)
-    }
-
-    /// The feed that [`Locus::residual_feed`](crate::Locus::residual_feed) describes.
-    pub fn residual_feed(&self, residual: f64, radial: Radial, tool: &Tool) -> f64 {
-        let nose_radius = tool.nose_radius;
-        let gap = match (1.0 - nose_radius * self.curvature(), tool.misfit) {
-            (gap, Misfit::CutWhatFits) if gap < LEAST_GAP => LEAST_GAP,
-            (gap, _) => gap,
-        };
-        let cap = LARGEST_FEED * nose_radius;
-        if gap <= 0.0 {
-            return cap;
-        }
-        let squared = match radial {
-            Radial::Contact => 8.0 * nose_radius * residual / gap,
-            Radial::Centre => 8.0 * nose_radius * residual * gap,
-        };
-        let feed = squared.sqrt() / self.slant();
-        if feed > cap { cap } else { feed }
     }
 }
 

@@ -1,9 +1,6 @@
 //! All strategies that a run can choose from.
 
 use std::collections::BTreeMap;
-use std::ffi::OsStr;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,17 +8,15 @@ use turnpath_core::{HOST_KEYS, ParamKind, Slot, StrategyInfo, is_strategy_name};
 use turnpath_plugin::Offer;
 
 use crate::error::MOST_COLUMNS;
-use crate::library::{self, Library};
-use crate::{LoadError, Plugin, Strategy};
-
-/// The extensions of libraries. A plugin folder may hold other files too.
-const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
+use crate::library::Library;
+use crate::{Admission, LibraryFile, LoadError, Plugin, Strategy};
 
 /// The strategies by slot and name, of linked and of loaded plugins.
 #[derive(Debug, Clone, Default)]
 pub struct Catalogue {
     strategies: BTreeMap<(Slot, &'static str), Strategy>,
     plugins: Vec<Arc<Plugin>>,
+    admissions: Vec<Arc<dyn Admission>>,
 }
 
 impl Catalogue {
@@ -74,37 +69,63 @@ impl Catalogue {
         Ok(self)
     }
 
+    /// The catalogue, which asks this before it loads libraries from here on.
+    pub fn with_admission(mut self, admission: Arc<dyn Admission>) -> Self {
+        self.admissions.push(admission);
+        self
+    }
+
     /// Adds the plugins that lie directly in a folder, in the order of their names: the files
     /// `*.so`, `*.dylib` and `*.dll`. Other files and folders are ignored.
     ///
     /// # Errors
-    /// When a library cannot be loaded. The libraries before it stay in the catalogue.
+    /// When a library cannot be read, is not admitted, or cannot be loaded. The libraries before one
+    /// that cannot be loaded stay in the catalogue.
     pub fn add_folder(&mut self, folder: impl AsRef<Path>) -> Result<(), LoadError> {
-        for file in libraries_in(folder.as_ref())? {
-            self.add_file(&file)?;
-        }
-        Ok(())
+        self.add_libraries(LibraryFile::read_folder(folder)?)
     }
 
     /// Adds the plugin of a file. Nothing happens if the catalogue has the same library already,
     /// under whatever path.
     ///
     /// # Errors
-    /// When the file cannot be read, is not a plugin for this program, or has a strategy with a name
-    /// that the catalogue has already or no recipe could choose, or with a parameter whose name
-    /// belongs to the host. The catalogue then has nothing of the plugin.
+    /// When the file cannot be read, is not admitted, is not a plugin for this program, or has a
+    /// strategy with a name that the catalogue has already or no recipe could choose, or with a
+    /// parameter whose name belongs to the host. The catalogue then has nothing of the plugin.
     pub fn add_file(&mut self, file: impl AsRef<Path>) -> Result<(), LoadError> {
-        let image = library::read(file.as_ref())?;
-        let same = |plugin: &Arc<Plugin>| plugin.sha256.as_ref() == Some(&image.sha256);
-        if self.plugins.iter().any(same) {
+        self.add_libraries(vec![LibraryFile::read(file)?])
+    }
+
+    fn add_libraries(&mut self, mut libraries: Vec<LibraryFile>) -> Result<(), LoadError> {
+        libraries.retain(|library| !self.has(library));
+        if libraries.is_empty() {
+            return Ok(());
+        }
+        for admission in &self.admissions {
+            admission.admit(&libraries)?;
+        }
+        libraries
+            .iter()
+            .try_for_each(|library| self.add_library(library))
+    }
+
+    /// Whether the same library is there already, under whatever path.
+    fn has(&self, library: &LibraryFile) -> bool {
+        let same = |plugin: &Arc<Plugin>| plugin.sha256.as_deref() == Some(library.sha256());
+        self.plugins.iter().any(same)
+    }
+
+    fn add_library(&mut self, library: &LibraryFile) -> Result<(), LoadError> {
+        // A folder may hold one library twice.
+        if self.has(library) {
             return Ok(());
         }
         let Library {
             crate_name,
             version,
             offers,
-        } = image.load()?;
-        let from = Some((image.path, image.sha256));
+        } = library.load()?;
+        let from = Some((library.path().to_owned(), library.sha256().to_owned()));
         self.add(plugin(&crate_name, &version, from), offers)
     }
 
@@ -199,32 +220,6 @@ fn plugin(crate_name: &str, version: &str, from: Option<(PathBuf, String)>) -> P
         version: version.to_owned(),
         file,
         sha256,
-    }
-}
-
-fn libraries_in(folder: &Path) -> Result<Vec<PathBuf>, LoadError> {
-    let entries = fs::read_dir(folder).map_err(|source| folder_error(folder, source))?;
-    let mut files = Vec::new();
-    for entry in entries {
-        let path = entry.map_err(|source| folder_error(folder, source))?.path();
-        if is_library_name(&path) && !path.is_dir() {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
-}
-
-fn is_library_name(path: &Path) -> bool {
-    let extension = path.extension().and_then(OsStr::to_str);
-    extension.is_some_and(|extension| EXTENSIONS.contains(&extension))
-}
-
-fn folder_error(folder: &Path, source: io::Error) -> LoadError {
-    let path = folder.to_owned();
-    match source.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => LoadError::NoFolder { path },
-        _ => LoadError::Unreadable { path, source },
     }
 }
 

@@ -57,6 +57,15 @@ pub enum LoadError {
         #[source]
         refusal: Refusal,
     },
+    /// Libraries that load one by one end a process that loads all of them.
+    #[error(
+        "these plugins end the process that loads them together: {}",
+        names(paths)
+    )]
+    NotTogether {
+        /// The libraries.
+        paths: Vec<PathBuf>,
+    },
     /// Two strategies have one name in one slot.
     #[error("two {}s are named `{name}`: one of {first}, one of {second}", slot.noun())]
     TwoOfOneName {
@@ -197,6 +206,30 @@ pub enum Refusal {
         /// The parameter.
         UnknownKind,
     ),
+    /// Its SHA-256 is not the one that the lock has for it.
+    #[error("its SHA-256 is {}, but {} has {}", short(found), lock.display(), short(locked))]
+    OtherThanLocked {
+        /// The lock.
+        lock: PathBuf,
+        /// SHA-256 of the file.
+        found: String,
+        /// SHA-256 in the lock.
+        locked: String,
+    },
+    /// The lock does not have it.
+    #[error("it is not in {} (its SHA-256 is {})", lock.display(), short(found))]
+    NotLocked {
+        /// The lock.
+        lock: PathBuf,
+        /// SHA-256 of the file.
+        found: String,
+    },
+    /// A process that loads it ends, or does not come back.
+    #[error("{how}; if the file may be damaged, copy or build it again")]
+    FailedTrial {
+        /// What happens: "loading it ends the process (SIGSEGV)".
+        how: String,
+    },
     /// The system's loader refused it.
     #[error("the system's loader refuses it: {reason}")]
     Loader {
@@ -205,6 +238,20 @@ pub enum Refusal {
         /// What the user may try.
         hint: Option<&'static str>,
     },
+}
+
+/// The beginning of a hash, enough to tell two apart.
+fn short(sha256: &str) -> String {
+    let beginning: String = sha256.chars().take(12).collect();
+    format!("{beginning}…")
+}
+
+fn names(paths: &[PathBuf]) -> String {
+    let names: Vec<String> = paths
+        .iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    names.join(", ")
 }
 
 impl From<OpenError> for Refusal {
@@ -239,6 +286,7 @@ impl LoadError {
             | Self::NoFolder { path }
             | Self::NoFile { path }
             | Self::Refused { path, .. } => Some(path),
+            Self::NotTogether { paths } => paths.first().map(PathBuf::as_path),
             Self::TwoOfOneName { second: plugin, .. }
             | Self::UnusableName { plugin, .. }
             | Self::TooManyColumns { plugin, .. }
@@ -252,6 +300,14 @@ impl LoadError {
             Self::TwoOfOneName { .. } => {
                 Some("leave one of the two plugins out, or rename its strategy")
             }
+            Self::NotTogether { .. } => Some("leave one of them out"),
+            Self::Refused {
+                refusal: Refusal::OtherThanLocked { .. } | Refusal::NotLocked { .. },
+                ..
+            } => Some(
+                "if you trust the file, write the lock anew with `turnpath list --lock`; if you do \
+                 not, find out who changed it",
+            ),
             Self::UnusableName { .. } => Some(
                 "name it in lower-case letters, digits and hyphens, and build the plugin again",
             ),

@@ -16,6 +16,7 @@
 //! adding it. The checks here keep damaged, foreign and outdated files from running; they do not
 //! make a hostile library harmless.
 
+mod admission;
 mod catalogue;
 mod elf;
 mod error;
@@ -26,8 +27,12 @@ mod machine;
 mod native;
 mod plugin;
 
+pub use admission::Admission;
 pub use catalogue::Catalogue;
 pub use error::{LoadError, Refusal};
 pub use hash::{sha256_hex, sha256_hex_of_file};
+pub use image::entry_symbol;
+pub use library::LibraryFile;
 pub use plugin::{Plugin, Strategy};
+pub use turnpath_plugin::calls;
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

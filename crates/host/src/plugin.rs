@@ -4,8 +4,9 @@ use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use turnpath_core::StrategyInfo;
+use turnpath_core::{StrategyInfo, printable_line};
 use turnpath_plugin::Offer;
+use turnpath_plugin::calls::Callee;
 
 /// A crate that registers strategies. It is linked into the program or loaded from a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -38,7 +39,12 @@ pub struct Strategy {
 }
 
 impl Strategy {
+    /// Calls of the strategy are marked with its name, so that one that ends the process can be named.
     pub(crate) fn new(offer: Offer, plugin: Arc<Plugin>) -> Self {
+        let info = offer.info();
+        let text = format!("the {} `{}` of {plugin}", info.slot.noun(), info.name);
+        let callee = Callee::new(printable_line(&text).into_owned(), plugin.file.is_some());
+        let offer = offer.named(callee);
         Self { offer, plugin }
     }
 

@@ -3,6 +3,8 @@
 use turnpath_core::interference::{Conflict, Interference};
 use turnpath_core::{Slot, StrategyError};
 
+use crate::size::PathSize;
+
 /// The result of a pipeline's step.
 pub type Result<T> = std::result::Result<T, PipelineError>;
 /// The result of a step that also uses a sink.
@@ -73,6 +75,9 @@ pub enum PipelineError {
     /// The surface failed while the path was measured.
     #[error("the path could not be measured: {0}")]
     Measure(#[source] StrategyError),
+    /// The path would be too long.
+    #[error("the path is too long: {0}")]
+    TooLong(PathSize),
     /// The observer cancelled the run.
     #[error("the run was cancelled")]
     Cancelled,

@@ -1,5 +1,6 @@
 //! How long a path will be, before it is made.
 
+use crate::feed_cap::{FeedCap, feed_cap};
 use crate::observer::SilentObserver;
 use crate::plan::Plan;
 use crate::{Chain, Preparation, Result, schedule};
@@ -16,6 +17,21 @@ pub struct Estimate {
     pub cutting_time: f64,
     /// Control points that the sampler will place, estimated from a few blocks.
     pub control_points: f64,
+    /// Where the reach of the nose sets the feed; `None` where it does so nowhere.
+    pub feed_cap: Option<FeedCap>,
+}
+
+impl Estimate {
+    /// The estimate of a plan.
+    pub(crate) fn of(plan: &Plan<'_>, nodes_per_revolution: f64) -> Result<Self> {
+        let revolutions = plan.law.end();
+        Ok(Self {
+            revolutions,
+            cutting_time: plan.spindle.time_at(revolutions),
+            control_points: nodes_per_revolution * revolutions + 1.0,
+            feed_cap: feed_cap(plan.preparation, &plan.law)?,
+        })
+    }
 }
 
 /// Estimates the path from the chain's law and a few blocks of its sampler.
@@ -24,12 +40,8 @@ pub struct Estimate {
 /// When a strategy fails.
 pub fn estimate(chain: &Chain, preparation: &Preparation) -> Result<Estimate> {
     let plan = schedule::plan(chain, preparation, &SilentObserver)?;
-    let revolutions = plan.law.end();
-    Ok(Estimate {
-        revolutions,
-        cutting_time: plan.spindle.time_at(revolutions),
-        control_points: nodes_per_revolution(&plan)? * revolutions + 1.0,
-    })
+    let nodes = nodes_per_revolution(&plan)?;
+    Estimate::of(&plan, nodes)
 }
 
 /// Mean count of the sampler's nodes on a revolution, from a few blocks.

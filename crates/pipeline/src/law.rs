@@ -9,15 +9,11 @@ use turnpath_core::{
 };
 
 use crate::observer::{Observer, stop_if_cancelled};
+use crate::size::{MOST_PIECES, MOST_REVOLUTIONS, check_law};
 use crate::{Chain, Result};
 
 /// Angles of a revolution at which each turn must lie beyond the one before.
 const CHECKED_ANGLES: usize = 72;
-/// More revolutions than any task has. A law that exceeds them does not end.
-const MOST_REVOLUTIONS: f64 = 1e7;
-/// Most pieces of a law, which take half a gigabyte. They suffice for some pieces in each of
-/// 100,000 revolutions.
-const MOST_PIECES: usize = 8_000_000;
 /// Largest jump of ρ where two pieces meet, mm: a nanometre, far above rounding.
 const LARGEST_JUMP: f64 = 1e-6;
 /// How much of the range a law may leave uncovered at either end, mm.
@@ -46,9 +42,11 @@ pub fn plan(
             let what = format!("no piece, {}", after(&law));
             return Err(chain.feed.bad_answer(what));
         }
+        check_law(&law, pieces.len(), task, locus)?;
         for piece in &pieces {
             add(&mut law, piece).map_err(|what| chain.feed.bad_answer(what))?;
         }
+        check_law(&law, 0, task, locus)?;
         check
             .follow(&law)
             .map_err(|what| chain.feed.bad_answer(what))?;
@@ -69,6 +67,9 @@ type CheckResult = std::result::Result<(), String>;
 
 /// Appends a piece that begins where the law ends.
 fn add(law: &mut SpiralLaw, piece: &FeedPiece) -> CheckResult {
+    if law.pieces().len() >= MOST_PIECES {
+        return Err(format!("more than {MOST_PIECES} pieces, {}", after(law)));
+    }
     let numbers = piece.coefficients.iter().all(|c| c.is_finite());
     if !(numbers && piece.length.is_finite() && piece.length > 0.0) {
         let FeedPiece {
@@ -77,9 +78,6 @@ fn add(law: &mut SpiralLaw, piece: &FeedPiece) -> CheckResult {
         } = piece;
         let what = format!("a piece of {length} revolutions with coefficients {coefficients:?}");
         return Err(format!("{what}, {}", after(law)));
-    }
-    if law.pieces().len() >= MOST_PIECES {
-        return Err(format!("more than {MOST_PIECES} pieces, {}", after(law)));
     }
     let (before, here) = (law.value(law.end()), piece.coefficients[0]);
     if (here - before).abs() > LARGEST_JUMP {

@@ -19,6 +19,8 @@ pub enum Stage {
     ReadBack,
     /// Measuring a path in a file; how many blocks it has is not known.
     Measure,
+    /// Making a path again and comparing a file with it.
+    Compare,
     /// Making maps and profiles of the surface that is cut.
     Map,
 }

@@ -9,6 +9,7 @@ use turnpath_core::{
 
 use crate::node_check::{CLOSEST_NODES, NodeCheck, in_revolutions};
 use crate::observer::{Observer, stop_if_cancelled};
+use crate::size::check_points;
 use crate::taper::{CutLaw, taper};
 use crate::{Chain, Preparation, Result, beyond, seams, spindle};
 
@@ -120,12 +121,15 @@ impl<'a> Plan<'a> {
         let last = (self.law.end() - 1.0).max(0.0).floor();
         let sequential = self.sampler.dependence() == Dependence::Sequential;
         let count = if sequential { 1 } else { 3 };
-        let mut densest = 0;
+        let (mut densest, mut sparsest) = (0, usize::MAX);
         for start in [0.0, (0.5 * last).floor(), last].into_iter().take(count) {
             let end = (start + 1.0).min(self.law.end());
             let nodes = self.ask_sampler(Revolutions { start, end }, &mut Vec::new())?;
             densest = densest.max(nodes.len());
+            sparsest = sparsest.min(nodes.len());
         }
+        let range = self.preparation.task.range;
+        check_points(range.outer - range.inner, self.law.end(), sparsest as f64)?;
         let mut block = BLOCK;
         while block > 1.0 && block * densest as f64 > COMFORTABLE_BLOCK {
             block *= 0.5;

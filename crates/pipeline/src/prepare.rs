@@ -9,6 +9,7 @@ use turnpath_verify::{FirstTouch, Subject};
 use crate::contact::contact_range;
 use crate::fit::Fit;
 use crate::job_spec::JobSpec;
+use crate::size::check_part;
 use crate::{Chain, PipelineError, Result};
 
 /// Points on the part's inner ring at which the surface is looked for.
@@ -35,6 +36,7 @@ pub struct Preparation {
 /// When the tool does not fit, when the surface has no height somewhere on the part or on its
 /// overrun, or when a strategy fails.
 pub fn prepare(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
+    check_part(&spec)?;
     if spec.tool.misfit == Misfit::Refuse {
         return settle(chain, spec);
     }

@@ -1,19 +1,20 @@
-//! The whole run: the law, refinement, then every block made, measured and delivered in order.
+//! The whole run: the law, refinement, then every block made, measured where that is asked, and
+//! delivered in order.
 
 use turnpath_core::toolpath::Section;
-use turnpath_verify::{Meter, ServoMeter};
 
 use crate::error::RunResult;
-use crate::estimate::nodes_per_revolution;
-use crate::lead::LeadRun;
+use crate::estimate::{Estimate, nodes_per_revolution};
+use crate::lead::{LeadRun, Leads};
 use crate::make::{Depths, close_joints, first_state, make};
+use crate::measurement::{Measurement, Outcome};
 use crate::observer::{Observer, Stage, stop_if_cancelled};
 use crate::options::PathOptions;
 use crate::plan::Plan;
-use crate::recorder::{Outcome, Recorder};
+use crate::recorder::Recorder;
 use crate::refine::{refine, runs};
 use crate::sink::Sink;
-use crate::{Chain, Preparation, Result, RunError, schedule};
+use crate::{Chain, Preparation, RunError, schedule};
 
 /// Most blocks that are made at a time: enough for every thread, and few enough that a batch of
 /// large blocks (half a million nodes each) stays within some hundred megabytes.
@@ -33,67 +34,116 @@ pub fn run<S: Sink + ?Sized>(
     sink: &mut S,
     observer: &dyn Observer,
 ) -> std::result::Result<Outcome, RunError<S::Error>> {
-    observer.begin(Stage::Law, 1);
-    let mut plan = schedule::plan(chain, preparation, observer)?;
-    plan.time_steps = options.time_steps;
-    let batch = batch_size(&plan)?;
-    let depths = match options.refine {
-        true => refine(&plan, batch, observer)?,
-        false => Vec::new(),
-    };
-    stop_if_cancelled(observer)?;
-    let leads = options
-        .lead
-        .map(|settings| LeadRun::begin(&mut plan, &depths, settings))
-        .transpose()?;
-    let meter = Meter::new(preparation.touch.clone())
-        .counting_centre(options.covers_centre)
-        .with_form(options.form);
-    let servo = options.servo.as_ref().map(ServoMeter::new);
-    let recorder = Recorder::new(sink, observer, meter, servo);
-    write(&plan, batch, &depths, leads, recorder, observer)
+    let ready = ReadyPath::new(chain, preparation, options, sink, observer)?;
+    let mut measurement = Measurement::new(preparation, &options);
+    let recorder = Recorder::new(sink, observer, Some(&mut measurement));
+    let (plan, lead) = ready.write(recorder, observer)?;
+    Ok(measurement.outcome(&plan, lead)?)
 }
 
-fn write<S: Sink + ?Sized>(
-    plan: &Plan<'_>,
-    batch: usize,
-    depths: &[Depths],
-    leads: Option<LeadRun>,
-    mut recorder: Recorder<'_, S>,
+/// Makes the same path as [`run`] and gives it to the sink, without measuring what it would cut.
+///
+/// # Errors
+/// As [`run`].
+pub fn make_unmeasured<S: Sink + ?Sized>(
+    chain: &Chain,
+    preparation: &Preparation,
+    options: PathOptions,
+    sink: &mut S,
     observer: &dyn Observer,
-) -> RunResult<Outcome, S::Error> {
-    if let Some(leads) = &leads {
-        recorder.follow(&leads.lead_in_and_join());
-        recorder.deliver(Section::LeadIn, &leads.lead_in())?;
-    }
-    let indices: Vec<usize> = (0..plan.blocks()).collect();
-    observer.begin(Stage::Write, indices.len() as u64);
-    let (mut waiting, mut state) = (Vec::new(), first_state(plan));
-    for range in runs(&indices, batch) {
+) -> std::result::Result<(), RunError<S::Error>> {
+    let ready = ReadyPath::new(chain, preparation, options, sink, observer)?;
+    ready.write(Recorder::new(sink, observer, None), observer)?;
+    Ok(())
+}
+
+/// A path of which all is known but its points.
+struct ReadyPath<'a> {
+    plan: Plan<'a>,
+    /// Blocks that are made at a time.
+    batch: usize,
+    depths: Vec<Depths>,
+    leads: Option<LeadRun>,
+}
+
+impl<'a> ReadyPath<'a> {
+    /// Plans the path, tells the sink how long it will be, refines it, and makes its lead-in.
+    fn new<S: Sink + ?Sized>(
+        chain: &'a Chain,
+        preparation: &'a Preparation,
+        options: PathOptions,
+        sink: &mut S,
+        observer: &dyn Observer,
+    ) -> RunResult<Self, S::Error> {
+        observer.begin(Stage::Law, 1);
+        let mut plan = schedule::plan(chain, preparation, observer)?;
+        plan.time_steps = options.time_steps;
+        let nodes = nodes_per_revolution(&plan)?;
+        let estimate = Estimate::of(&plan, nodes)?;
+        sink.expect(&estimate).map_err(RunError::Sink)?;
+        let batch = batch_size(&plan, nodes);
+        let depths = match options.refine {
+            true => refine(&plan, batch, observer)?,
+            false => Vec::new(),
+        };
         stop_if_cancelled(observer)?;
-        let mut blocks = waiting;
-        blocks.extend(make(plan, range.clone(), depths, state.as_mut())?);
-        close_joints(&mut blocks);
-        // The last block waits for the first point of the next one.
-        waiting = blocks.split_off(blocks.len() - usize::from(range.end < plan.blocks()));
-        recorder.record(plan, blocks)?;
-        observer.advance(range.len() as u64);
+        let leads = options
+            .lead
+            .map(|settings| LeadRun::begin(&mut plan, &depths, settings))
+            .transpose()?;
+        Ok(Self {
+            plan,
+            batch,
+            depths,
+            leads,
+        })
     }
-    let lead = match leads.zip(recorder.tail().last_two()) {
-        None => None,
-        Some((leads, pair)) => {
-            stop_if_cancelled(observer)?;
-            let (points, leads) = leads.end(plan, &pair, recorder.last_motion())?;
-            recorder.deliver(Section::LeadOut, &points)?;
-            Some(leads)
+
+    /// Makes the blocks and the lead-out, and gives all to the recorder.
+    fn write<S: Sink + ?Sized>(
+        self,
+        mut recorder: Recorder<'_, S>,
+        observer: &dyn Observer,
+    ) -> RunResult<(Plan<'a>, Option<Leads>), S::Error> {
+        let Self {
+            plan,
+            batch,
+            depths,
+            leads,
+        } = self;
+        if let Some(leads) = &leads {
+            recorder.follow(&leads.lead_in_and_join());
+            recorder.deliver(Section::LeadIn, &leads.lead_in())?;
         }
-    };
-    Ok(recorder.outcome(plan, lead)?)
+        let indices: Vec<usize> = (0..plan.blocks()).collect();
+        observer.begin(Stage::Write, indices.len() as u64);
+        let (mut waiting, mut state) = (Vec::new(), first_state(&plan));
+        for range in runs(&indices, batch) {
+            stop_if_cancelled(observer)?;
+            let mut blocks = waiting;
+            blocks.extend(make(&plan, range.clone(), &depths, state.as_mut())?);
+            close_joints(&mut blocks);
+            // The last block waits for the first point of the next one.
+            waiting = blocks.split_off(blocks.len() - usize::from(range.end < plan.blocks()));
+            recorder.record(&plan, blocks)?;
+            observer.advance(range.len() as u64);
+        }
+        let lead = match leads.zip(recorder.tail().last_two()) {
+            None => None,
+            Some((leads, pair)) => {
+                stop_if_cancelled(observer)?;
+                let (points, leads) = leads.end(&plan, &pair, recorder.last_motion())?;
+                recorder.deliver(Section::LeadOut, &points)?;
+                Some(leads)
+            }
+        };
+        Ok((plan, lead))
+    }
 }
 
 /// How many blocks are made at a time. It changes memory and speed, never the path.
-fn batch_size(plan: &Plan<'_>) -> Result<usize> {
-    let per_block = nodes_per_revolution(plan)? * plan.block();
+fn batch_size(plan: &Plan<'_>, nodes_per_revolution: f64) -> usize {
+    let per_block = nodes_per_revolution * plan.block();
     let fitting = (BATCH_POINTS / per_block.max(1.0)) as usize;
-    Ok(fitting.clamp(1, LARGE_BATCH))
+    fitting.clamp(1, LARGE_BATCH)
 }

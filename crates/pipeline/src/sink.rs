@@ -2,12 +2,24 @@
 
 use turnpath_core::toolpath::SectionBlock;
 
+use crate::estimate::Estimate;
+
 /// Takes the path while it is made. Blocks are encoded in parallel and taken in order.
 pub trait Sink: Sync {
     /// A block in the form that this sink keeps: bytes of files, counts, columns.
     type Block: Send;
     /// Why a block could not be encoded or taken.
     type Error: Send;
+
+    /// Hears how long the path will be, before refinement, before its first block.
+    ///
+    /// # Errors
+    /// When there is no room for it. The run then ends with [`RunError::Sink`].
+    ///
+    /// [`RunError::Sink`]: crate::RunError::Sink
+    fn expect(&mut self, _: &Estimate) -> Result<(), Self::Error> {
+        Ok(())
+    }
 
     /// Puts a block into the form that this sink keeps.
     ///

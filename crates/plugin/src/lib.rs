@@ -37,6 +37,8 @@
 //! loads plugins whose number has the same first two parts, older ones and newer ones.
 
 mod abi;
+#[doc(hidden)]
+pub mod calls;
 mod guard;
 mod head;
 mod offer;

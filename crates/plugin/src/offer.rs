@@ -11,6 +11,7 @@ use crate::abi::catalogue::CatalogueEntry;
 use crate::abi::entry;
 use crate::abi::request::AbiRequest;
 use crate::abi::root::{self, Constructed, RootRef};
+use crate::calls::Callee;
 use crate::head::OpenError;
 
 /// A strategy that the host can build. Linked strategies cross the same boundary as loaded ones, so
@@ -19,6 +20,7 @@ use crate::head::OpenError;
 pub struct Offer {
     entry: CatalogueEntry,
     root: RootRef,
+    callee: Option<&'static Callee>,
 }
 
 impl std::fmt::Debug for Offer {
@@ -41,6 +43,12 @@ impl Offer {
     /// The version of that crate.
     pub fn crate_version(&self) -> &'static str {
         self.entry.crate_version
+    }
+
+    /// The offer with the name under which its calls are marked.
+    pub fn named(self, callee: &'static Callee) -> Self {
+        let callee = Some(callee);
+        Self { callee, ..self }
     }
 
     /// Builds the surface model.
@@ -80,6 +88,7 @@ impl Offer {
         let CatalogueEntry {
             crate_name, info, ..
         } = self.entry;
+        let _mark = self.callee.map(Callee::enter);
         let request = AbiRequest::new(crate_name, info.name, params);
         root::construct::<Box<T>>(self.root, request).map(Arc::from)
     }
@@ -88,7 +97,11 @@ impl Offer {
 fn offers(root: RootRef, entries: Vec<CatalogueEntry>) -> Vec<Offer> {
     entries
         .into_iter()
-        .map(|entry| Offer { entry, root })
+        .map(|entry| Offer {
+            entry,
+            root,
+            callee: None,
+        })
         .collect()
 }
 

@@ -1,12 +1,12 @@
 //! Files of a tool path: writers of data files and motion programs, and the readers that check
 //! them.
 //!
-//! A file is written under a temporary name in its folder ([`Draft`]) and gets its own name when it
-//! is complete. Data files and programs can be written to memory instead, and read from memory.
+//! A writer takes a [`Draft`](turnpath_files::Draft), which gets its own name when it is whole. Data
+//! files and programs can be written to memory instead, and read from memory.
 //! A reader shares no code with the writer of its format.
 
-mod draft;
 mod maps;
+mod ordinary_file;
 mod path_reader;
 mod pmac;
 mod read_csv;
@@ -18,12 +18,12 @@ mod tests;
 mod turn;
 mod write_csv;
 
-pub use draft::{Draft, FileError};
 pub use maps::{GsfWriter, XyzWriter};
 pub use path_reader::{ReadCount, ReadPath};
 pub use pmac::{
-    ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError, PmacFileBody,
-    PmacFormat, PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template, TemplateError,
+    Command, ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError,
+    PmacFileBody, PmacFormat, PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template,
+    TemplateError, commands,
 };
 pub use read_csv::PathReader;
 pub use read_error::ReadError;

@@ -3,9 +3,7 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::PathBuf;
-
-use crate::draft::{Draft, FileError};
+use turnpath_files::{Draft, FileError};
 
 /// Metres in a millimetre.
 const M_PER_MM: f64 = 1e-3;
@@ -25,9 +23,9 @@ impl GsfWriter {
     /// Begins a map of `count` × `count` cells over a square of side 2 · `half` mm.
     ///
     /// # Errors
-    /// When the file cannot be begun.
+    /// When the file cannot be written.
     pub fn begin(
-        path: impl Into<PathBuf>,
+        mut draft: Draft,
         title: &str,
         count: usize,
         half: f64,
@@ -43,7 +41,6 @@ impl GsfWriter {
              ZUnits = m\n"
         );
         let padding = ALIGNMENT - header.len() % ALIGNMENT;
-        let mut draft = Draft::begin(path)?;
         let mut bytes = header.into_bytes();
         bytes.extend(std::iter::repeat_n(0, padding));
         put(&mut draft, &bytes)?;
@@ -74,14 +71,10 @@ pub struct XyzWriter {
 }
 
 impl XyzWriter {
-    /// Begins the file.
-    ///
-    /// # Errors
-    /// When the file cannot be begun.
-    pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
-        let draft = Draft::begin(path)?;
+    /// A map without a point.
+    pub fn new(draft: Draft) -> Self {
         let line = String::new();
-        Ok(Self { draft, line })
+        Self { draft, line }
     }
 
     /// Writes the next point and its value, mm.
@@ -116,7 +109,7 @@ mod tests {
     fn of_title(title: &str) -> Vec<u8> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("map.gsf");
-        let mut writer = GsfWriter::begin(&path, title, 2, 2.5).unwrap();
+        let mut writer = GsfWriter::begin(Draft::begin(&path).unwrap(), title, 2, 2.5).unwrap();
         writer.row([0.5, f32::NAN].into_iter()).unwrap();
         writer.row([0.0, -2e-4].into_iter()).unwrap();
         writer.whole().complete().unwrap();
@@ -150,7 +143,7 @@ mod tests {
     fn an_xyz_file_has_metres() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("map.xyz");
-        let mut writer = XyzWriter::begin(&path).unwrap();
+        let mut writer = XyzWriter::new(Draft::begin(&path).unwrap());
         writer.point(2.5, -1.0, 1e-4).unwrap();
         writer.whole().complete().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();

@@ -22,8 +22,8 @@ impl ReadCount {
         self.cutting_points += u64::from(section == Section::Cutting);
     }
 
-    /// The last point and its section.
-    pub(crate) fn last(&self) -> Option<&(ControlPoint, Section)> {
+    /// The last point that was read, and its section.
+    pub fn last(&self) -> Option<&(ControlPoint, Section)> {
         self.last.as_ref()
     }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, Section};
 
+use crate::ordinary_file;
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::read_error::ReadError;
 use crate::row::{HEADER, Row};
@@ -29,7 +30,7 @@ impl PathReader {
     /// When the file cannot be read or begins with another line.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, ReadError> {
         let path = path.into();
-        match File::open(&path) {
+        match ordinary_file::open(&path) {
             Ok(file) => Self::from_reader(file, path),
             Err(error) => Err(ReadError::File { path, error }),
         }

@@ -1,6 +1,7 @@
 //! A written file reads back, and a damaged file is refused with the line of the damage.
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
+use turnpath_files::Draft;
 
 use crate::{PathReader, PathWriter, ReadPath};
 
@@ -24,10 +25,10 @@ fn path_of(count: usize) -> PathBlock {
 fn written(text: impl Fn(&str) -> String) -> (tempfile::TempDir, std::path::PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("toolpath.csv");
-    let mut writer = PathWriter::begin(&path).unwrap();
+    let mut writer = PathWriter::begin(Draft::begin(&path).unwrap()).unwrap();
     let rows = PathWriter::rows(Section::Cutting, &path_of(10)).unwrap();
     writer.append(&rows).unwrap();
-    writer.complete().unwrap();
+    writer.whole().complete().unwrap();
     let good = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, text(&good)).unwrap();
     (folder, path)
@@ -86,7 +87,7 @@ fn the_segment_between_lead_and_cut_belongs_to_the_lead() {
         LeadIn, LeadIn, LeadIn, Cutting, Cutting, Cutting, Cutting, LeadOut, LeadOut, LeadOut,
     ];
     let blocks = |leave_out: &[Section]| {
-        let mut writer = PathWriter::begin(&path).unwrap();
+        let mut writer = PathWriter::begin(Draft::begin(&path).unwrap()).unwrap();
         for (point, section) in points.iter().zip(sections) {
             if leave_out.contains(&section) {
                 continue;
@@ -97,7 +98,7 @@ fn the_segment_between_lead_and_cut_belongs_to_the_lead() {
                 .append(&PathWriter::rows(section, &block).unwrap())
                 .unwrap();
         }
-        writer.complete().unwrap();
+        writer.whole().complete().unwrap();
         let mut reader = PathReader::open(&path).unwrap();
         let mut found = Vec::new();
         while let Some((section, block)) = reader.next_block(3).unwrap() {

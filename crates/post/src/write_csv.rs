@@ -1,11 +1,11 @@
 //! Writes `toolpath.csv`.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use turnpath_core::toolpath::{PathBlock, Section};
+use turnpath_files::{Draft, FileError};
 
-use crate::draft::{Draft, FileError};
 use crate::row::{HEADER, Row};
 
 /// Writes `toolpath.csv` to a file or to memory.
@@ -29,8 +29,7 @@ impl PathWriter {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
-        let mut output = Draft::begin(path)?;
+    pub fn begin(mut output: Draft) -> Result<Self, FileError> {
         match output.write_all(first_line().as_bytes()) {
             Ok(()) => Ok(Self { output }),
             Err(error) => Err(FileError {
@@ -62,12 +61,9 @@ impl PathWriter {
         self.output.readable()
     }
 
-    /// Gives the complete file its name.
-    ///
-    /// # Errors
-    /// When the file cannot be written or renamed.
-    pub fn complete(self) -> Result<PathBuf, FileError> {
-        self.output.complete()
+    /// The complete file, still without its name.
+    pub fn whole(self) -> Draft {
+        self.output
     }
 }
 

@@ -5,7 +5,13 @@ use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
+use turnpath_core::{printable, printable_line};
+
 use crate::span::Span;
+
+/// Most messages about one recipe. Nobody reads more, and each of them shows its line: a list of many
+/// wrong values on one line would take time and room that grow with its square.
+const MOST_MESSAGES: usize = 100;
 
 /// One message about a recipe.
 ///
@@ -109,13 +115,13 @@ impl Diagnostic {
         match &self.span {
             None => group,
             Some(span) if span.is_whole() => {
-                group.element(Origin::path(span.source().name.as_str()))
+                group.element(Origin::path(printable_line(&span.source().name)))
             }
             Some(span) => {
                 let label = Some(printable(&self.label)).filter(|label| !label.is_empty());
                 let annotation = AnnotationKind::Primary.span(span.range()).label(label);
                 let snippet = Snippet::source(span.source().text.as_str())
-                    .path(span.source().name.as_str())
+                    .path(printable_line(&span.source().name))
                     .annotation(annotation);
                 group.element(snippet)
             }
@@ -153,6 +159,21 @@ impl Diagnostics {
 
     fn sorted(mut diagnostics: Vec<Diagnostic>) -> Self {
         diagnostics.sort_by_key(Diagnostic::order);
+        Self::limited(diagnostics)
+    }
+
+    /// The first messages, and how many more there are.
+    fn limited(mut diagnostics: Vec<Diagnostic>) -> Self {
+        let more = diagnostics.len().saturating_sub(MOST_MESSAGES);
+        if more > 0 {
+            diagnostics.truncate(MOST_MESSAGES);
+            diagnostics.push(Diagnostic {
+                title: format!("messages left out: {more} more"),
+                span: None,
+                label: String::new(),
+                help: Vec::new(),
+            });
+        }
         Self(diagnostics)
     }
 }
@@ -160,7 +181,7 @@ impl Diagnostics {
 impl FromIterator<Diagnostic> for Diagnostics {
     /// Messages in the order in which they come.
     fn from_iter<I: IntoIterator<Item = Diagnostic>>(diagnostics: I) -> Self {
-        Self(diagnostics.into_iter().collect())
+        Self::limited(diagnostics.into_iter().collect())
     }
 }
 
@@ -187,19 +208,6 @@ impl fmt::Display for Diagnostics {
 
 impl Error for Diagnostics {}
 
-/// The text without control characters, which a recipe could use to repaint the terminal.
-fn printable(text: &str) -> String {
-    text.chars()
-        .map(|c| {
-            if c.is_control() && c != '\n' {
-                '\u{FFFD}'
-            } else {
-                c
-            }
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
@@ -224,6 +232,20 @@ mod tests {
         ];
         let error = Diagnostics::unless_any(Some(()), messages).unwrap_err();
         assert_eq!(error.to_string(), "first\nsecond");
+    }
+
+    #[test]
+    fn of_very_many_messages_the_first_are_kept_and_the_rest_is_counted() {
+        let messages = (0..=MOST_MESSAGES).map(|which| Diagnostic::new(span(9), which.to_string()));
+        let kept: Vec<String> = Diagnostics::from_iter(messages.clone())
+            .iter()
+            .map(|one| one.title().to_owned())
+            .collect();
+        assert_eq!(kept.len(), MOST_MESSAGES + 1);
+        assert_eq!(kept[MOST_MESSAGES - 1], (MOST_MESSAGES - 1).to_string());
+        assert_eq!(kept[MOST_MESSAGES], "messages left out: 1 more");
+        let all = Diagnostics::from_iter(messages.take(MOST_MESSAGES));
+        assert_eq!(all.iter().count(), MOST_MESSAGES);
     }
 
     #[test]

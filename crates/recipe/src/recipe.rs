@@ -1,6 +1,6 @@
 //! A whole recipe: its values, read and checked.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -98,6 +98,9 @@ pub enum FileProblem {
     /// It is a folder.
     #[error("it is a folder; give the file in it")]
     Folder,
+    /// It is a pipe or a device, which may never give its first byte.
+    #[error("it is a pipe or a device; write what it gives into a file first")]
+    Special,
     /// It is not UTF-8 text.
     #[error("it is not UTF-8 text (line {line})")]
     NotText {
@@ -282,13 +285,10 @@ impl Recipe {
         stem(&self.path)
     }
 
-    /// The recipe's name as the name of a folder: separators and control characters become hyphens.
+    /// The recipe's name as the name of a folder that every system allows. Other characters stand as
+    /// their bytes, `%2F` for `/`, so that names that differ have folders that differ.
     pub fn folder_name(&self) -> String {
-        let name: String = self.name.trim().chars().map(folder_char).collect();
-        match name.strip_prefix('.') {
-            Some(rest) => format!("-{rest}"),
-            None => name,
-        }
+        folder_name(&self.name)
     }
 
     /// The path of a file that the recipe names: relative names start at the recipe's folder.
@@ -310,13 +310,26 @@ impl Recipe {
     }
 }
 
-/// The character if every system allows it in a folder's name, else a hyphen.
-fn folder_char(c: char) -> char {
-    if c.is_control() || "/\\:*?\"<>|".contains(c) {
-        '-'
-    } else {
-        c
+/// Characters that some system does not allow in a name, and the one that stands for them.
+const NOT_IN_NAMES: &str = "/\\:*?\"<>|%";
+
+/// A text as the name of a folder. A dot at the beginning would hide the folder; a dot or a space at
+/// the end, which some systems drop, would make two names one.
+fn folder_name(text: &str) -> String {
+    if text.is_empty() {
+        return "%".to_owned();
     }
+    let last = text.len();
+    let mut name = String::new();
+    for (at, c) in text.char_indices() {
+        let is_at_end = at == 0 || at + c.len_utf8() == last;
+        let hides = is_at_end && (c == '.' || c.is_whitespace());
+        match hides || c.is_control() || NOT_IN_NAMES.contains(c) {
+            true => name.extend(c.to_string().bytes().map(|byte| format!("%{byte:02X}"))),
+            false => name.push(c),
+        }
+    }
+    name
 }
 
 fn stem(path: &Path) -> String {
@@ -325,10 +338,14 @@ fn stem(path: &Path) -> String {
 }
 
 fn read_text(path: &Path) -> Result<String, FileProblem> {
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
+    let kind = fs::metadata(path)?.file_type();
+    if kind.is_dir() {
         return Err(FileProblem::Folder);
     }
+    if !kind.is_file() {
+        return Err(FileProblem::Special);
+    }
+    let file = File::open(path)?;
     let mut bytes = Vec::new();
     file.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {
@@ -435,4 +452,75 @@ pub(crate) fn build(
         whole,
         path: path.to_owned(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use proptest::prelude::*;
+
+    use super::folder_name;
+
+    #[test]
+    fn a_name_that_every_system_allows_stays() {
+        for name in ["mirror", "Astigmatic mirror, 5 mm", "a-b_c.d", "Spiegel Ø"] {
+            assert_eq!(folder_name(name), name);
+        }
+    }
+
+    #[test]
+    fn other_names_are_folders_of_their_own() {
+        let names = [
+            "a/b",
+            "a\nb",
+            "a\tb",
+            "a-b",
+            "a%2Fb",
+            "a\\b",
+            "",
+            "%",
+            ".",
+            "..",
+            " a",
+            "a",
+            "a ",
+            "a.",
+            "\u{1b}[2J",
+            "\u{85}",
+        ];
+        let mut folders = BTreeMap::new();
+        for name in names {
+            let folder = folder_name(name);
+            let is_safe = !folder.is_empty()
+                && !folder.starts_with('.')
+                && !folder.contains(['/', '\\'])
+                && !folder.contains(char::is_control);
+            assert!(is_safe, "{name:?}: {folder:?}");
+            let other = folders.insert(folder, name);
+            assert_eq!(other, None, "{name:?}");
+        }
+        assert_eq!(folder_name("../../escape"), "%2E.%2F..%2Fescape");
+    }
+
+    proptest! {
+        #[test]
+        fn a_folder_gives_its_name_back(name in any::<String>()) {
+            let folder = folder_name(&name);
+            let mut bytes = Vec::new();
+            let mut rest = folder.bytes();
+            while let Some(byte) = rest.next() {
+                bytes.push(match byte {
+                    b'%' if folder != "%" => {
+                        let digits = [rest.next().unwrap(), rest.next().unwrap()];
+                        let digits = std::str::from_utf8(&digits).unwrap().to_owned();
+                        u8::from_str_radix(&digits, 16).unwrap()
+                    }
+                    byte => byte,
+                });
+            }
+            let text = String::from_utf8(bytes).unwrap();
+            prop_assert!(text == name || (name.is_empty() && folder == "%"));
+        }
+    }
 }

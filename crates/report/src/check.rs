@@ -2,9 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::feed_cap::FeedCap;
 use crate::form::FormReport;
 use crate::format::FORMAT;
 use crate::machine::MachineLimits;
+use crate::program::ControllerCommand;
+use crate::remark::Remark;
 use crate::tool_fit::ToolFit;
 use crate::unit;
 use crate::unreached::Unreached;
@@ -29,6 +32,15 @@ pub struct CheckReport {
     pub form: Option<FormReport>,
     /// What the path will be, before refinement.
     pub expected: Estimate,
+    /// Whether the reach of the nose sets the feed, and where.
+    #[serde(default)]
+    pub feed_cap: FeedCap,
+    /// What is allowed but seldom meant.
+    #[serde(default)]
+    pub remarks: Vec<Remark>,
+    /// What the recipe's own header and footer put into the programs.
+    #[serde(default)]
+    pub controller_commands: Vec<ControllerCommand>,
 }
 
 /// What a path will be, before refinement.

@@ -6,8 +6,10 @@ use crate::anomalies::Anomalies;
 use crate::format::FORMAT;
 use crate::path::PathReport;
 use crate::reach::Reach;
+use crate::result_check::ResultCheck;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
+use crate::wholeness::Wholeness;
 
 /// What `verify` measured on a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -26,16 +28,24 @@ pub struct FileReport {
     pub rows: u64,
     /// From which to which radius the path runs.
     pub reach: Reach,
+    /// Whether the path is there from its beginning to its end, by the file itself; `None` if a file
+    /// of this recipe does not show it, since the path has no leads.
+    #[serde(default)]
+    pub wholeness: Option<Wholeness>,
     /// What was measured on the path.
     #[serde(flatten)]
     pub path: PathReport,
     /// Maps, profiles, circles and spectra that were written.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
-    /// Control points that stand out among their neighbours.
+    /// Rows that are not as the recipe gives them, or stand out among their neighbours.
     pub anomalies: Anomalies,
     /// What the nose leaves standing where it does not fit; `None` where it leaves nothing.
     pub unreached: Option<Unreached>,
+    /// What the summary beside the file says of it; `None` where there is none, or it does not list
+    /// the file.
+    #[serde(default)]
+    pub result: Option<ResultCheck>,
     /// Which tolerances and limits hold.
     pub within: Verdict,
 }
@@ -45,7 +55,11 @@ impl FileReport {
     #[must_use]
     pub fn with_verdict(mut self) -> Self {
         self.format = FORMAT;
-        self.within = self.path.verdict(Some(&self.reach));
+        self.within = Verdict {
+            whole: self.wholeness.as_ref().map(Wholeness::is_whole),
+            result: self.result.as_ref().map(|result| result.holds),
+            ..self.path.verdict(Some(&self.reach))
+        };
         crate::format::rounded_for_files(self)
     }
 

@@ -10,7 +10,20 @@ pub const FORMAT: u32 = 2;
 pub fn to_json(report: &impl Serialize) -> String {
     let mut text = serde_json::to_string_pretty(report).unwrap_or_else(|error| error.to_string());
     text.push('\n');
-    text
+    escaped(text)
+}
+
+/// The text with the control characters escaped that JSON allows in texts and a terminal obeys.
+fn escaped(text: String) -> String {
+    let must_be = |c: char| c.is_control() && c != '\n';
+    if !text.contains(must_be) {
+        return text;
+    }
+    let escape = |c: char| match must_be(c) {
+        true => format!("\\u{:04x}", u32::from(c)),
+        false => c.to_string(),
+    };
+    text.chars().map(escape).collect()
 }
 
 /// Why a JSON text is no report.
@@ -69,6 +82,15 @@ mod tests {
         let report: RunReport = from_json(SUMMARY).unwrap();
         assert_eq!(to_json(&report), SUMMARY);
         assert!(report.verdict().holds());
+    }
+
+    #[test]
+    fn control_characters_are_escaped_and_read_back() {
+        let name = "a\u{1b}b\u{7f}c\u{9b}2J\n";
+        let text = to_json(&name);
+        assert_eq!(text, "\"a\\u001bb\\u007fc\\u009b2J\\n\"\n");
+        let back: String = serde_json::from_str(&text).unwrap();
+        assert_eq!(back, name);
     }
 
     #[test]

@@ -21,6 +21,7 @@ mod check;
 pub mod comparison;
 mod coverage;
 mod errors;
+mod feed_cap;
 mod file;
 mod form;
 mod format;
@@ -30,6 +31,8 @@ mod path;
 mod place;
 mod program;
 mod reach;
+mod remark;
+mod result_check;
 mod run;
 #[cfg(test)]
 mod sample;
@@ -40,13 +43,15 @@ mod tool_fit;
 pub mod unit;
 mod unreached;
 mod verdict;
+mod wholeness;
 
 pub use ablation::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutcome};
-pub use anomalies::{Anomalies, Anomaly, AnomalyKind};
+pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
 pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
 pub use errors::{ControlPointError, InterpolationError, LeftOut, Residual, Tolerances};
+pub use feed_cap::FeedCap;
 pub use file::FileReport;
 pub use form::{FormReport, FormSplit};
 pub use format::{FORMAT, FormatError, from_json, to_json};
@@ -54,9 +59,13 @@ pub use lead::{AccelerationStep, LeadLayout, LeadReport};
 pub use machine::{HighestSpindle, LimitFigure, MachineLimits, MachineReport, MachineSource};
 pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
-pub use program::{ProgramFigures, ProgramReport};
+pub use program::{ControllerCommand, ProgramFigures, ProgramReport};
 pub use reach::{Radial, Radii, Reach};
-pub use run::{ChainNames, DataSource, Direction, PluginSource, RunReport};
+pub use remark::{Remark, RemarkSubject};
+pub use result_check::ResultCheck;
+pub use run::{
+    ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
+};
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
 pub use surface_error::SurfaceError;
 pub use tool_fit::{
@@ -64,3 +73,4 @@ pub use tool_fit::{
 };
 pub use unreached::Unreached;
 pub use verdict::{Verdict, within};
+pub use wholeness::{Wholeness, WholenessFault};

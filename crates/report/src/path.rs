@@ -81,6 +81,8 @@ impl PathReport {
                 .as_ref()
                 .and_then(|lead| held(Some(-lead.smallest_clearance), tolerance.deepest())),
             reach: reach.map(Reach::covers_part),
+            result: None,
+            whole: None,
             programs: None,
         }
     }

@@ -6,6 +6,19 @@ use crate::errors::Tolerances;
 use crate::unit;
 use crate::verdict::within;
 
+/// What a recipe's own header or footer tells the controller besides the path.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ControllerCommand {
+    /// `header` or `footer`.
+    pub template: String,
+    /// The line in it, from 1.
+    pub line: u64,
+    /// The line without its comment; placeholders stand as the recipe has them.
+    pub command: String,
+    /// Whether all of its words are known to move nothing, set nothing and start nothing.
+    pub harmless: bool,
+}
+
 /// A motion program, measured on its own text as it was read back.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProgramReport {

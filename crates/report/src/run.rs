@@ -3,9 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::axes::Axes;
+use crate::feed_cap::FeedCap;
 use crate::format::FORMAT;
 use crate::path::PathReport;
-use crate::program::ProgramReport;
+use crate::program::{ControllerCommand, ProgramReport};
+use crate::remark::Remark;
 use crate::unit;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
@@ -37,6 +39,9 @@ pub struct RunReport {
     /// Time of the cutting section, s.
     #[serde(rename = "cutting_time_s", with = "unit::s")]
     pub cutting_time: f64,
+    /// Whether the reach of the nose sets the feed, and where.
+    #[serde(default)]
+    pub feed_cap: FeedCap,
     /// What was measured on the path.
     #[serde(flatten)]
     pub path: PathReport,
@@ -46,11 +51,24 @@ pub struct RunReport {
     pub unreached: Option<Unreached>,
     /// The motion programs.
     pub programs: Vec<ProgramReport>,
+    /// What the recipe's own header and footer put into the programs.
+    #[serde(default)]
+    pub controller_commands: Vec<ControllerCommand>,
     /// The plugins that the strategies come from.
     pub plugins: Vec<PluginSource>,
     /// The data files that the recipe's strategies read.
     #[serde(default)]
     pub data_files: Vec<DataSource>,
+    /// What was run; `None` in an ablation, where the key of a run says it, and in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recipe: Option<RecipeSource>,
+    /// The other files of the result that this summary is beside; `None` where the run wrote no
+    /// files, and in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub files: Option<Vec<ResultFile>>,
+    /// What is allowed but seldom meant.
+    #[serde(default)]
+    pub remarks: Vec<Remark>,
     /// Which tolerances and limits hold, on the path and on each program.
     pub within: Verdict,
 }
@@ -103,6 +121,28 @@ pub struct DataSource {
     /// The parameter that names the file.
     pub param: String,
     /// The path as the recipe gives it.
+    pub file: String,
+    /// The number of bytes.
+    pub bytes: u64,
+    /// SHA-256 of the bytes.
+    pub sha256: String,
+}
+
+/// The recipe of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RecipeSource {
+    /// The name of its file.
+    pub file: String,
+    /// SHA-256 of its text, without the changes.
+    pub sha256: String,
+    /// The changes by `--set`, `key=value`, in their order.
+    pub sets: Vec<String>,
+}
+
+/// A file of a result.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ResultFile {
+    /// Its name in the folder of the summary.
     pub file: String,
     /// The number of bytes.
     pub bytes: u64,

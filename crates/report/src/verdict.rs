@@ -36,6 +36,14 @@ pub struct Verdict {
     /// Whether the path covers the part; of a file alone, since the law of a run is held to that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach: Option<bool>,
+    /// Whether a file has the bytes that the summary beside it lists; of a file alone, `None` where
+    /// no summary lists it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<bool>,
+    /// Whether the path is there from its beginning to its end; of a file alone, and only if the
+    /// recipe asks for leads.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole: Option<bool>,
     /// The tolerances of the programs, each on its own text; `None` without programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub programs: Option<bool>,
@@ -58,6 +66,8 @@ impl Verdict {
             servo,
             lead,
             reach,
+            result,
+            whole,
             programs,
         } = *self;
         [
@@ -69,6 +79,8 @@ impl Verdict {
             ("servo", servo),
             ("lead", lead),
             ("reach", reach),
+            ("result", result),
+            ("whole", whole),
             ("programs", programs),
         ]
         .into_iter()
@@ -94,6 +106,8 @@ mod tests {
         servo: None,
         lead: None,
         reach: None,
+        result: None,
+        whole: None,
         programs: Some(true),
     };
 

@@ -7,13 +7,14 @@ use turnpath_pipeline::{estimate, largest_nose};
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
 
+use crate::commands::controller_commands;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
-use crate::figures::machine_source;
+use crate::figures::{self, machine_source};
 use crate::job::Job;
+use crate::remarks::remarks;
+use crate::sizes::toolpath_bytes;
 
-/// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
-const ROW_BYTES: f64 = 125.0;
 /// A place is on the part up to this much beyond its edges, mm.
 const ON_PART: f64 = 1e-9;
 
@@ -43,9 +44,12 @@ impl Job {
                 revolutions: expected.revolutions,
                 cutting_time: expected.cutting_time,
                 control_points: expected.control_points.round() as u64,
-                toolpath_bytes: (expected.control_points * ROW_BYTES) as u64,
+                toolpath_bytes: toolpath_bytes(&expected) as u64,
                 programs: programs.collect(),
             },
+            feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
+            remarks: remarks(&self.recipe, expected.cutting_time, None),
+            controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
     }

@@ -2,7 +2,7 @@
 
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
-use turnpath_pipeline::PipelineError;
+use turnpath_pipeline::{Excess, PathSize, PipelineError};
 use turnpath_post::PmacError;
 use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned};
 use turnpath_report::text::{millimetres, nose_radius};
@@ -10,6 +10,13 @@ use turnpath_report::text::{millimetres, nose_radius};
 use crate::data_files::DataFileError;
 use crate::error::Error;
 use crate::posts::PMAC_PVT;
+
+/// A feed below this part of the nose radius leaves cusps of less than a thousandth of a nanometre
+/// under any usual nose: the residual makes such a path long, and not the part.
+const SLOW_FEED: f64 = 1e-4;
+/// More control points than this on a revolution, a thousandth of a degree apart, are the
+/// interpolation tolerance's.
+const DENSE: f64 = 360_000.0;
 
 /// An error of the pipeline at its place in the recipe.
 pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
@@ -41,6 +48,7 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
             Error::refused_by(all.collect::<Diagnostics>(), error)
         }
         PipelineError::NoSurface(_) => Error::refused_by(no_surface(recipe, title), error),
+        PipelineError::TooLong(size) => Error::refused_by(too_long(recipe, size, title), error),
         PipelineError::Lead { .. } => Error::refused_by(no_lead(recipe, title), error),
         PipelineError::Cancelled => Error::Cancelled,
     }
@@ -114,6 +122,25 @@ fn no_surface(recipe: &Recipe, title: String) -> Diagnostic {
     let longer = matches!(recipe.overrun, Overrun::Length(length) if length > 0.0);
     let help = longer.then(|| "or choose a shorter `overrun` under [path]".to_owned());
     recipe.diagnostic(span, title, "the part reaches there", help)
+}
+
+/// The message for a path that is too long, at the number that makes it so.
+fn too_long(recipe: &Recipe, size: &PathSize, title: String) -> Diagnostic {
+    let feed = size.distance / size.revolutions;
+    let longer = matches!(recipe.overrun, Overrun::Length(length) if 2.0 * length > size.distance);
+    let slow = feed < SLOW_FEED * recipe.tool.nose_radius;
+    let dense = matches!(size.excess, Excess::Points(points) if points > DENSE * size.revolutions);
+    let (key, help) = match (longer, slow, dense) {
+        (true, ..) => ("path.overrun", "choose a shorter `overrun`"),
+        (_, true, _) => ("tolerance.residual", "allow a larger residual"),
+        (.., true) => (
+            "tolerance.interpolation",
+            "allow a larger interpolation error",
+        ),
+        _ => ("part.aperture", "choose a smaller aperture"),
+    };
+    let span = recipe.nearest_span(key);
+    recipe.diagnostic(span, title, "makes it so long", [help.to_owned()])
 }
 
 fn no_lead(recipe: &Recipe, title: String) -> Diagnostic {

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use turnpath_files::{FileError, FolderError};
 use turnpath_host::LoadError;
-use turnpath_post::{FileError, ReadError};
+use turnpath_post::ReadError;
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
@@ -62,6 +63,9 @@ pub enum Error {
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// The folder of a result takes none.
+    #[error(transparent)]
+    Folder(FolderError),
     /// A file of a tool path could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
@@ -126,6 +130,7 @@ impl Error {
             Self::Recipe(RecipeError::File { .. })
             | Self::DataFile { .. }
             | Self::File(_)
+            | Self::Folder(_)
             | Self::Read(_)
             | Self::NothingCut { .. }
             | Self::PointsLost { .. }
@@ -152,6 +157,7 @@ impl Error {
     pub fn help(&self) -> Option<&'static str> {
         match self {
             Self::Load(error) => error.help(),
+            Self::Folder(error) => error.help(),
             _ => None,
         }
     }
@@ -188,6 +194,15 @@ impl Error {
         Self::Strategy {
             diagnostics: diagnostic.into(),
             source: Some(source.into()),
+        }
+    }
+}
+
+impl From<FolderError> for Error {
+    fn from(error: FolderError) -> Self {
+        match error {
+            FolderError::File(error) => Self::File(error),
+            error => Self::Folder(error),
         }
     }
 }

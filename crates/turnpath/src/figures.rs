@@ -1,6 +1,6 @@
 //! What the meters measured, as parts of a report.
 
-use turnpath_pipeline::Leads;
+use turnpath_pipeline::{FeedCap, Leads};
 use turnpath_recipe::Recipe;
 use turnpath_report as report;
 use turnpath_report::{LimitFigure, PathPlace};
@@ -17,6 +17,16 @@ pub fn tolerances(recipe: &Recipe) -> report::Tolerances {
         residual: recipe.asked.residual,
         form: recipe.asked.form,
         servo: recipe.asked.servo,
+    }
+}
+
+/// Where the reach of the nose sets the feed.
+pub fn feed_cap(cap: Option<&FeedCap>) -> report::FeedCap {
+    report::FeedCap {
+        binds: cap.is_some(),
+        from: cap.map(|cap| cap.from),
+        to: cap.map(|cap| cap.to),
+        feed: cap.map(|cap| cap.feed),
     }
 }
 

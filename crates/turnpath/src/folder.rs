@@ -1,44 +1,52 @@
-//! The files of a run: begun with its first control points, and named when all is done.
+//! The files of a run: begun with its first control points, and named together when all is done.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::SectionBlock;
-use turnpath_pipeline::{Observer, Outcome, Sink};
-use turnpath_post::{Draft, FileError, PathReader, PathWriter, PmacReader, PmacWriter};
-use turnpath_recipe::Recipe;
-use turnpath_report::ProgramReport;
+use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
+use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
+use turnpath_post::{PathReader, PathWriter, PmacReader, PmacWriter};
+use turnpath_report::{ProgramReport, ResultFile};
 
 use crate::error::Error;
 use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
 use crate::program::Program;
+use crate::result_check::SUMMARY;
 use crate::sinks::SinkError;
+use crate::sizes::{check_room, toolpath_bytes};
 
-/// Names of the files in the folder.
+/// The table of the path.
 const TOOLPATH: &str = "toolpath.csv";
-const SUMMARY: &str = "summary.json";
 
-/// The files of a run. They are begun with the first control points, so that a run which fails
-/// before that leaves nothing behind; one that fails later removes them again.
+/// The files of a run, in the making. A run that fails leaves none of them, nor the folders that
+/// were made for them.
 pub struct FolderSink<'a> {
-    folder: PathBuf,
+    // Dropped before the folder in which they lie.
+    files: Option<Files>,
+    folder: ResultFolder,
     writes_toolpath: bool,
     programs: &'a [Program],
-    files: Option<Files>,
+    /// The outer end of the range of ρ, mm.
+    radius: f64,
     rows: u64,
 }
 
-/// The files in the making.
+/// The files that the first control points begin.
 #[derive(Default)]
 struct Files {
-    /// Folders that were made for the files, the deepest first.
-    new_folders: Vec<PathBuf>,
     toolpath: Option<PathWriter>,
     programs: Vec<PmacWriter>,
     /// Files that are whole, and still without their names.
     drafts: Vec<Draft>,
+}
+
+/// The files of a run, whole and on the disk, and still without their names.
+pub struct WholeResult {
+    // Dropped before the folder in which they lie.
+    files: Vec<WholeFile>,
+    folder: ResultFolder,
 }
 
 /// A block in the form of each file.
@@ -48,17 +56,19 @@ pub struct FileBlock {
 }
 
 impl<'a> FolderSink<'a> {
-    /// Nothing yet.
+    /// Takes the folder for this run alone.
     ///
     /// # Errors
-    /// When something is in the way that would stop the run only at its end.
-    pub fn new(folder: &Path, recipe: &Recipe, programs: &'a [Program]) -> Result<Self, FileError> {
+    /// When another run has it, or something is in the way that would stop this one only at its end.
+    pub fn new(folder: &Path, job: &'a Job) -> Result<Self, FolderError> {
+        let programs = &job.programs;
         let names = programs.iter().map(|program| program.file.as_str());
         nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
         Ok(Self {
-            folder: folder.to_owned(),
-            writes_toolpath: !recipe.output.data.is_empty(),
+            folder: ResultFolder::open(folder)?,
+            writes_toolpath: !job.recipe.output.data.is_empty(),
             programs,
+            radius: job.preparation.task.range.outer,
             files: None,
             rows: 0,
         })
@@ -70,24 +80,19 @@ impl<'a> FolderSink<'a> {
     }
 
     fn begin(&self) -> Result<Files, FileError> {
-        let missing = self.folder.ancestors();
-        let missing = missing.take_while(|part| !part.as_os_str().is_empty() && !part.exists());
-        let new_folders = missing.map(Path::to_owned).collect();
-        fs::create_dir_all(&self.folder).map_err(|error| FileError {
-            path: self.folder.clone(),
-            error,
-        })?;
-        // From here on the folders are removed again if anything fails.
         let mut files = Files::default();
-        files.new_folders = new_folders;
         if self.writes_toolpath {
-            files.toolpath = Some(PathWriter::begin(self.folder.join(TOOLPATH))?);
+            files.toolpath = Some(PathWriter::begin(self.draft(TOOLPATH)?)?);
         }
         for program in self.programs {
-            let file = self.folder.join(&program.file);
-            files.programs.push(PmacWriter::begin(file)?);
+            let draft = self.draft(&program.file)?;
+            files.programs.push(PmacWriter::begin(draft)?);
         }
         Ok(files)
+    }
+
+    fn draft(&self, name: &str) -> Result<Draft, FileError> {
+        self.folder.draft(&self.folder.path().join(name))
     }
 
     /// Puts the programs together, reads each back and measures it on its own text.
@@ -127,7 +132,7 @@ impl<'a> FolderSink<'a> {
             return Ok(());
         };
         if let Some(toolpath) = &mut files.toolpath {
-            let name = self.folder.join(TOOLPATH);
+            let name = self.folder.path().join(TOOLPATH);
             let reader = PathReader::open(toolpath.readable()?);
             let mut reader = reader.map_err(|error| error.named(&name))?;
             let played = PlayedPath {
@@ -137,30 +142,55 @@ impl<'a> FolderSink<'a> {
                 largest_error: outcome.figures.playback.max(),
                 points: self.rows,
             };
-            let drawn = draw(plots, &played, &mut reader, observer)?;
+            let begin = |file: &Path| self.folder.draft(file);
+            let drawn = draw(plots, &played, &mut reader, &begin, observer)?;
             files.drafts.extend(drawn);
         }
         Ok(())
     }
 
-    /// Gives the files their names. The summary comes last, so that where it is, all files are.
-    pub fn complete(mut self, summary: &str) -> Result<Vec<PathBuf>, FileError> {
-        let path = self.folder.join(SUMMARY);
-        let mut draft = Draft::begin(&path)?;
-        draft
-            .write_all(summary.as_bytes())
-            .map_err(|error| FileError { path, error })?;
-        let mut written = Vec::new();
-        if let Some(files) = &mut self.files {
-            for draft in files.drafts.drain(..) {
-                written.push(draft.complete()?);
-            }
-            if let Some(toolpath) = files.toolpath.take() {
-                written.push(toolpath.complete()?);
-            }
-        }
-        written.push(draft.complete()?);
-        Ok(written)
+    /// Brings all files to the disk, and reads them back by their hashes.
+    pub fn finish(self) -> Result<WholeResult, FileError> {
+        let Files {
+            toolpath,
+            programs: _,
+            drafts,
+        } = self.files.unwrap_or_default();
+        let drafts = drafts.into_iter().chain(toolpath.map(PathWriter::whole));
+        Ok(WholeResult {
+            files: drafts.map(Draft::finish).collect::<Result<_, _>>()?,
+            folder: self.folder,
+        })
+    }
+}
+
+impl WholeResult {
+    /// The files that lie in the folder, for the summary.
+    pub fn listed(&self) -> Vec<ResultFile> {
+        let member = |file: &WholeFile| {
+            let Contents { bytes, sha256 } = file.contents().clone();
+            let file = file.member()?.to_owned();
+            Some(ResultFile {
+                file,
+                bytes,
+                sha256,
+            })
+        };
+        self.files.iter().filter_map(member).collect()
+    }
+
+    /// Makes these files and the summary the result of the folder; gives their paths, the summary
+    /// last.
+    pub fn commit(self, summary: &str) -> Result<Vec<PathBuf>, FolderError> {
+        let path = self.folder.path().join(SUMMARY);
+        let mut draft = self.folder.draft(&path)?;
+        let written = draft.write_all(summary.as_bytes());
+        written.map_err(FileError::of(&path))?;
+        let summary = draft.finish()?;
+        let paths = self.files.iter().map(|file| file.path().to_owned());
+        let paths = paths.chain([path]).collect();
+        self.folder.commit(self.files, summary)?;
+        Ok(paths)
     }
 }
 
@@ -169,17 +199,15 @@ impl<'a> FolderSink<'a> {
 fn nothing_in_the_way<'a>(
     folder: &Path,
     files: impl Iterator<Item = &'a str>,
-) -> Result<(), FileError> {
+) -> Result<(), FolderError> {
     let nearest = folder.ancestors().find(|part| part.exists());
     if let Some(file) = nearest.filter(|part| !part.is_dir()) {
         let cause = format!("{} is a file, not a folder", file.display());
-        return Err(FileError {
-            path: folder.to_owned(),
-            error: io::Error::new(io::ErrorKind::NotADirectory, cause),
-        });
+        let error = io::Error::new(io::ErrorKind::NotADirectory, cause);
+        return Err(FileError::of(folder)(error).into());
     }
-    for file in files.map(|name| folder.join(name)) {
-        Draft::can_be(&file)?;
+    for name in files {
+        ResultFolder::can_have(folder, name)?;
     }
     Ok(())
 }
@@ -188,12 +216,24 @@ impl Sink for FolderSink<'_> {
     type Block = FileBlock;
     type Error = SinkError;
 
+    fn expect(&mut self, expected: &Estimate) -> Result<(), SinkError> {
+        let programs = self.programs.iter();
+        let programs = programs.map(|program| program.expected_bytes(self.radius, expected));
+        let toolpath = if self.writes_toolpath {
+            toolpath_bytes(expected)
+        } else {
+            0.0
+        };
+        check_room(self.folder.path(), toolpath + programs.sum::<f64>())?;
+        Ok(())
+    }
+
     fn encode(&self, block: &SectionBlock<'_>) -> Result<FileBlock, SinkError> {
         let rows = self
             .writes_toolpath
             .then(|| PathWriter::rows(block.section, block.points));
         let rows = rows.transpose().map_err(|error| FileError {
-            path: self.folder.join(TOOLPATH),
+            path: self.folder.path().join(TOOLPATH),
             error,
         })?;
         let lines = self.programs.iter().map(|program| program.lines(block));
@@ -212,7 +252,7 @@ impl Sink for FolderSink<'_> {
             return Ok(());
         };
         let not_written = |name: &str, error| FileError {
-            path: self.folder.join(name),
+            path: self.folder.path().join(name),
             error,
         };
         if let Some((toolpath, rows)) = files.toolpath.as_mut().zip(block.rows) {
@@ -225,19 +265,5 @@ impl Sink for FolderSink<'_> {
             appended.map_err(|error| not_written(&program.file, error))?;
         }
         Ok(())
-    }
-}
-
-impl Drop for Files {
-    /// Of a run that failed nothing stays, nor the folders that were made for it.
-    fn drop(&mut self) {
-        self.toolpath = None;
-        self.programs.clear();
-        self.drafts.clear();
-        for folder in &self.new_folders {
-            // A folder stays where something else has come into it meanwhile, the result itself
-            // among it.
-            let _ = fs::remove_dir(folder);
-        }
     }
 }

@@ -20,6 +20,7 @@
 mod ablation;
 mod chain;
 mod check;
+mod commands;
 mod data_files;
 mod diagnosis;
 mod error;
@@ -33,33 +34,43 @@ mod named_files;
 mod outputs;
 mod plots;
 mod plugins;
+mod plugins_lock;
 mod posts;
 mod program;
+mod remarks;
+mod result_check;
 mod run;
 mod sag;
 mod sinks;
+mod sizes;
 mod strategies;
 mod surface;
 mod toolpath;
 mod verify;
 
 pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
+pub use commands::{commands_to_trust, controller_commands};
 pub use data_files::DataFileError;
 pub use error::{Error, Fault};
 pub use job::Job;
 pub use outputs::Outputs;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
 pub use plugins::with_listed_plugins;
+pub use plugins_lock::{PluginsLock, PluginsLockError};
+pub use result_check::{ResultError, read_result};
 pub use run::RunResult;
-pub use sag::write_sag;
+pub use sag::{write_sag, write_sag_to};
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
-pub use turnpath_host::{Catalogue, LoadError, Plugin, Strategy};
+pub use turnpath_files::{FileError, FolderError};
+pub use turnpath_host::{
+    Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
+};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
-pub use turnpath_post::{FileError, PmacError, ReadError};
+pub use turnpath_post::{PmacError, ReadError};
 pub use turnpath_recipe::{
-    Diagnostic, Diagnostics, Recipe, RecipeError, TableInfo, declared, slot_keys, tables,
+    Diagnostic, Diagnostics, Recipe, RecipeError, Span, TableInfo, declared, slot_keys, tables,
 };
 pub use turnpath_report as report;
 pub use verify::verify;

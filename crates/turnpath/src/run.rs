@@ -4,12 +4,14 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::{Direction, Misfit, Slot};
+use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
 use turnpath_post::PmacReader;
 use turnpath_report as report;
 use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::unreached;
 
+use crate::commands::controller_commands;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
@@ -21,6 +23,7 @@ use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
+use crate::remarks::remarks;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -54,8 +57,8 @@ impl Job {
     ///
     /// # Errors
     /// When a plot cannot be drawn so, when a strategy fails, when a file cannot be written, or when
-    /// the observer cancels. No file and no new folder is left behind then, unless the failure
-    /// comes while the files take their names.
+    /// the observer cancels. The folder then has the files that it had, and no new folder is left
+    /// behind. Only where a whole result cannot give a file its name, the next run does it.
     pub fn run(&self, outputs: Outputs, observer: &dyn Observer) -> Result<RunResult, Error> {
         let has_folder = matches!(outputs.destination, Destination::Folder(_));
         if !has_folder && outputs.plots != PlotRequest::default() {
@@ -98,7 +101,7 @@ impl Job {
             Ok((sink, outcome))
         })?;
         let report = self.report(path.sink.rows, &path.outcome, path.split, Vec::new())?;
-        Ok(RunResult::of(report))
+        Ok(RunResult::of(self.with_recipe(report)))
     }
 
     fn run_in_memory(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
@@ -128,7 +131,7 @@ impl Job {
         Ok(RunResult {
             toolpath: Some(sink.toolpath),
             programs,
-            ..RunResult::of(self.report(rows, &outcome, split, reports)?)
+            ..RunResult::of(self.with_recipe(self.report(rows, &outcome, split, reports)?))
         })
     }
 
@@ -139,8 +142,9 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
+        plots.can_be_in_result(folder)?;
         let path = settle(self, observer, |job| {
-            let mut sink = FolderSink::new(folder, &self.recipe, &self.programs)?;
+            let mut sink = FolderSink::new(folder, self)?;
             let outcome = job.run_into(&mut sink, observer)?;
             Ok((sink, outcome))
         })?;
@@ -151,8 +155,13 @@ impl Job {
         } = path;
         let reports = sink.read_back(self, &outcome, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
-        let report = self.report(sink.rows(), &outcome, split, reports)?;
-        let files = sink.complete(&report::to_json(&report))?;
+        let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
+        let whole = sink.finish()?;
+        let report = RunReport {
+            files: Some(whole.listed()),
+            ..report
+        };
+        let files = whole.commit(&report::to_json(&report))?;
         Ok(RunResult {
             files,
             ..RunResult::of(report)
@@ -180,6 +189,7 @@ impl Job {
         if let Some(form) = &mut path.form {
             form.split = split;
         }
+        let z_acceleration = path.axes.z.acceleration.max;
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),
@@ -195,15 +205,34 @@ impl Job {
             points_added_by_refine: outcome.added_by_refine,
             revolutions: outcome.revolutions,
             cutting_time: outcome.cutting_time,
+            feed_cap: figures::feed_cap(outcome.feed_cap.as_ref()),
+            remarks: remarks(recipe, outcome.cutting_time, Some(z_acceleration)),
             within: path.verdict(None),
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),
             unreached: self.unreached()?,
             programs,
+            controller_commands: controller_commands(&self.recipe),
             plugins: self.plugin_sources(),
             data_files: self.data_sources(),
+            recipe: None,
+            files: None,
         };
         Ok(report.with_verdict())
+    }
+
+    /// The report of a run, which says what was run. A run of an ablation is known by its key.
+    fn with_recipe(&self, report: RunReport) -> RunReport {
+        let file = self.recipe.path().file_name().unwrap_or_default();
+        let recipe = report::RecipeSource {
+            file: file.to_string_lossy().into_owned(),
+            sha256: sha256_hex(self.recipe.text().as_bytes()),
+            sets: self.recipe.sets().to_vec(),
+        };
+        RunReport {
+            recipe: Some(recipe),
+            ..report
+        }
     }
 
     /// What the nose leaves standing; `None` unless the recipe asks for what fits of a nose.

@@ -4,9 +4,9 @@ use std::io;
 use std::path::Path;
 
 use turnpath_core::{Gradients, StrategyError, SurfaceModel};
+use turnpath_files::{Draft, FileError};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::Link;
-use turnpath_post::{Draft, FileError};
 use turnpath_recipe::Recipe;
 
 use crate::data_files::DataFiles;
@@ -27,14 +27,32 @@ pub fn write_sag(
     file: &Path,
 ) -> Result<(), Error> {
     check_grid(count)?;
+    let mut draft = Draft::begin(file)?;
+    write_sag_to(recipe, catalogue, count, &mut draft, file)?;
+    draft.complete()?;
+    Ok(())
+}
+
+/// Writes the same into `output`; errors name it `name`.
+///
+/// # Errors
+/// Those of [`write_sag`].
+pub fn write_sag_to(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    count: usize,
+    output: &mut impl io::Write,
+    name: &Path,
+) -> Result<(), Error> {
+    check_grid(count)?;
     let surface = surface(recipe, catalogue, &DataFiles::default())?;
     let grid = Grid {
         half: recipe.part.aperture_radius,
         count,
     };
-    let mut rows = csv::Writer::from_writer(Draft::begin(file)?);
+    let mut rows = csv::Writer::from_writer(output);
     let not_written = |error: io::Error| FileError {
-        path: file.to_owned(),
+        path: name.to_owned(),
         error,
     };
     rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"])
@@ -47,11 +65,7 @@ pub fn write_sag(
             written.map_err(|error| not_written(error.into()))?;
         }
     }
-    let draft = rows
-        .into_inner()
-        .map_err(|error| not_written(error.into_error()))?;
-    draft.complete()?;
-    Ok(())
+    rows.flush().map_err(|error| not_written(error).into())
 }
 
 /// A square grid around the axis, its edges included.

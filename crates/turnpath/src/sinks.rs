@@ -3,8 +3,9 @@
 use std::convert::Infallible;
 
 use turnpath_core::toolpath::SectionBlock;
+use turnpath_files::FileError;
 use turnpath_pipeline::{RunError, Sink};
-use turnpath_post::{FileError, PmacError};
+use turnpath_post::PmacError;
 use turnpath_recipe::Recipe;
 
 use crate::diagnosis::{not_carried, of_pipeline};

@@ -16,6 +16,8 @@ use std::collections::VecDeque;
 
 use turnpath_core::toolpath::{ControlPoint, Cubic, PathBlock, Segment, SegmentShape};
 
+use crate::worst_first::WorstFirst;
+
 /// Points on each side that a point is compared with.
 const AROUND: usize = 16;
 /// Points on each side that are left out of the comparison, since a wrong row shows at its
@@ -36,8 +38,6 @@ const GAP: f64 = 1.6;
 /// Steps are even if all of them are as long as their median within this part of it. In a refined
 /// path, one long step among short ones is no anomaly.
 const EVEN: f64 = 0.25;
-/// Largest number of anomalies that are kept. All are counted.
-const KEPT: usize = 10;
 /// Points no further apart than this belong to one anomaly.
 const TOGETHER: u64 = 4;
 
@@ -103,7 +103,8 @@ struct PointRecord {
 }
 
 /// Looks for anomalies along a path. It needs all blocks of the path in order, those of leads too,
-/// and keeps a few points only.
+/// and keeps a few points and
+/// the most prominent anomalies.
 #[derive(Debug, Clone)]
 pub struct AnomalyDetector {
     floor: f64,
@@ -116,8 +117,7 @@ pub struct AnomalyDetector {
     last: Option<(ControlPoint, f64)>,
     before: Option<Segment>,
     pending: Option<Anomaly>,
-    found: u64,
-    kept: Vec<Anomaly>,
+    found: WorstFirst<Anomaly>,
 }
 
 impl AnomalyDetector {
@@ -132,8 +132,7 @@ impl AnomalyDetector {
             last: None,
             before: None,
             pending: None,
-            found: 0,
-            kept: Vec::new(),
+            found: WorstFirst::default(),
         }
     }
 
@@ -280,14 +279,12 @@ impl AnomalyDetector {
 
     fn settle(&mut self) {
         if let Some(anomaly) = self.pending.take() {
-            self.found += 1;
-            if self.kept.len() < KEPT {
-                self.kept.push(anomaly);
-            }
+            self.found.add(anomaly.prominence(self.floor), anomaly);
         }
     }
 
-    /// Ends the path. Returns the number of anomalies, and the first few of them.
+    /// Ends the path. Returns the number of anomalies, and the most prominent of them, in the order
+    /// of prominence.
     pub fn finish(mut self) -> (u64, Vec<Anomaly>) {
         if let Some((last, height)) = self.last {
             self.enter(self.count, &last, height, [0.0; 3], f64::NAN);
@@ -296,7 +293,7 @@ impl AnomalyDetector {
             self.judge();
         }
         self.settle();
-        (self.found, self.kept)
+        (self.found.count(), self.found.into_items())
     }
 }
 
@@ -494,14 +491,13 @@ mod tests {
     }
 
     #[test]
-    fn all_anomalies_are_counted_and_some_are_kept() {
+    fn the_most_prominent_anomaly_comes_first() {
         let mut points = path();
-        for row in (5..300).step_by(20) {
-            points.vz[row] += 0.01;
+        for (row, by) in [(50, 0.01), (150, 0.03), (250, 0.02)] {
+            points.vz[row] += by;
         }
-        let mut detector = AnomalyDetector::new(TOLERANCE, 3.0);
-        detector.append(&points, &[]);
-        let (found, kept) = detector.finish();
-        assert_eq!((found, kept.len()), (15, KEPT));
+        let found = anomalies(&points, &[]);
+        let rows: Vec<u64> = found.iter().map(|anomaly| anomaly.point).collect();
+        assert_eq!(rows, [151, 251, 51]);
     }
 }

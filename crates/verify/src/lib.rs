@@ -9,6 +9,7 @@ mod anomalies;
 mod axes;
 mod bracket;
 mod closing;
+mod comparison;
 mod contact_bounds;
 mod corners;
 mod coverage;
@@ -30,9 +31,13 @@ mod subject;
 mod touch;
 mod unreached;
 mod worst;
+mod worst_first;
 
 pub use anomalies::{Anomaly, AnomalyDetector, AnomalyKind};
 pub use axes::{AxesMotion, AxisMotion, Peak};
+pub use comparison::{
+    Column, ComparisonFigures, HalfDigits, PathRow, RowAnomaly, RowComparison, RowFault,
+};
 pub use coverage::{CoverageFigures, UncutHeight};
 pub use instants::INSTANTS;
 pub use lead::{Jumps, LeadBlockFigures, LeadFigures, LeadMeter};
@@ -46,3 +51,4 @@ pub use spectrum::{AxesLine, AxesSpectrum};
 pub use subject::Subject;
 pub use touch::{FirstTouch, Touch};
 pub use unreached::{Ride, UnreachedFigures, rides, unreached};
+pub use worst_first::MOST_KEPT;

@@ -1,6 +1,6 @@
 //! The feed that the law follows: the one that keeps the residual, or the paper's.
 
-use turnpath_plugin::locus::{LARGEST_FEED, Profile, profile_at};
+use turnpath_plugin::locus::{CuspFeed, Profile, profile_at};
 use turnpath_plugin::prelude::*;
 use turnpath_plugin::ring::{FeedTable, least_over_angles};
 
@@ -28,7 +28,8 @@ impl Residual {
     }
 }
 
-/// Eq. 1–4: f = sqrt(8Rε/(1 − R·min κ))/sqrt(1 + max g_ρ²).
+/// Eq. 1–4: f = sqrt(8Rε/(1 − R·min κ))/sqrt(1 + max g_ρ²), as far as neighbouring noses meet within
+/// their edges.
 fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
     let surface = setup.locus.surface();
     let curvature = |profile: &Profile| profile.curvature();
@@ -36,7 +37,10 @@ fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
     let curvature = least_over_angles(&sections(surface, &curvature), rho)?;
     let slope = least_over_angles(&sections(surface, &flatness), rho)?;
     let radius = setup.task.tool.nose_radius;
-    let (gap, cap) = (1.0 - radius * curvature, LARGEST_FEED * radius);
+    let gap = 1.0 - radius * curvature;
+    let tool = &setup.task.tool;
+    let law = CuspFeed::new(setup.task.tolerance.residual, Radial::Contact, tool);
+    let cap = law.cap(slope, gap);
     if gap <= 0.0 {
         return Ok(cap);
     }

@@ -1,15 +1,14 @@
 //! The feed strategy `ats`.
 
-use turnpath_plugin::locus::LARGEST_FEED;
 use turnpath_plugin::prelude::*;
 
-use crate::turn::{Orientation, Turn, Turns, backwards};
+use crate::turn::{Findings, Orientation, Turn, Turns, backwards};
 
 /// Number of parts of a piece. ρ is compared with the end of the range at the points between them.
 const PARTS: usize = 32;
-/// How far every angle must pass the end of the range, in feeds of the largest size, R/10. Between
-/// the points that are checked, ρ may fall short by less than this.
-const BEYOND: f64 = 2.5e-4;
+/// How far every angle must pass the end of the range, as a part of the nose radius. Between the
+/// points that are checked, ρ may fall short by less than this.
+const BEYOND: f64 = 2.5e-5;
 /// A remaining part of a turn below this is rounding.
 const SHORTEST: f64 = 1e-9;
 /// Number of turns in each answer.
@@ -70,7 +69,7 @@ impl FeedStrategy for AtsFeed {
             inward: self.inward,
             planned: 0,
             last: None,
-            count: None,
+            findings: Findings::default(),
             short: None,
         }))
     }
@@ -82,8 +81,7 @@ struct AtsPlan {
     /// Number of turns planned so far.
     planned: usize,
     last: Option<Turn>,
-    /// Number of pieces that the next turn tries first.
-    count: Option<usize>,
+    findings: Findings,
     /// The last part of the last turn at which ρ fell short of the range's end.
     short: Option<f64>,
 }
@@ -116,7 +114,7 @@ impl AtsPlan {
         goal: &Goal,
         pieces: &mut Vec<FeedPiece>,
     ) -> Result<Continuation> {
-        let mut turns = Turns::new(setup, goal.orientation, self.count);
+        let mut turns = Turns::new(setup, goal.orientation, self.findings);
         for _ in 0..BATCH {
             let turn = turns.turn(self.planned, goal.start, self.last.as_ref())?;
             self.planned += 1;
@@ -132,7 +130,7 @@ impl AtsPlan {
             }
             (self.last, self.short) = (Some(turn), short);
         }
-        self.count = Some(turns.count());
+        self.findings = turns.findings();
         Ok(Continuation::More)
     }
 }
@@ -201,7 +199,7 @@ impl Goal {
 
 /// How far every angle must pass the range's end, mm.
 fn beyond(task: &Task) -> f64 {
-    BEYOND * LARGEST_FEED * task.tool.nose_radius
+    BEYOND * task.tool.nose_radius
 }
 
 /// Appends the pieces of a turn up to a part of it.

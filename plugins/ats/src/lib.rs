@@ -20,7 +20,8 @@
 //! - f is evaluated in the middle of the step, at ρ ± ½f, where the cusp stands. With f at the
 //!   start of the step, the cusps would exceed the tolerance by f_ρ wherever the feed falls along
 //!   the cut.
-//! - The cap at R/10 is smooth. f stays 0.15 % below the feed that keeps the residual, which leaves
+//! - Feeds above R/25 follow the exact cusp between noses, as far as these meet within their edges.
+//!   The cap there is smooth. f stays 0.15 % below the feed that keeps the residual, which leaves
 //!   room for X's own interpolation.
 //! - The law is returned as pieces of degree 5 that have the recursion's exact ρ and two
 //!   derivatives at both ends (from the surface's mixed derivatives up to the 4th, by five Taylor

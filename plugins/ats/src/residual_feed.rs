@@ -1,9 +1,11 @@
 //! The residual feed with its derivatives. It is smooth where it is capped.
 //!
-//! It is the host's residual feed f with two differences. It keeps a margin, and it takes (f⁻⁸ +
+//! It is the host's residual feed f with three differences. It keeps a margin. It takes (f⁻⁸ +
 //! cap⁻⁸)^(−1/8) in place of min(f, cap), so that it has derivatives wherever the surface has them.
+//! And a large feed is that of the circle of curvature, times one factor for the whole part: the
+//! least ratio of the host's feed, which knows how the curvature changes within a feed.
 
-use turnpath_plugin::locus::{LARGEST_FEED, LEAST_GAP};
+use turnpath_plugin::locus::{CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO, Profile};
 use turnpath_plugin::prelude::*;
 
 use crate::jet::Jet;
@@ -14,6 +16,13 @@ use crate::sections::{Section, Sections};
 /// passes. It costs as much in revolutions.
 pub const MARGIN: f64 = 1.5e-3;
 
+/// The cap on the parabola's feed, as a part of the nose radius. Where the feed comes near to it,
+/// the circles count and not the parabola.
+const PARABOLA_CAP: f64 = 0.1;
+/// The least 1 − Rκ in the feed of circles, and the least square of (cap/f). Below these the feed is
+/// its cap.
+const LEAST: f64 = 1e-6;
+
 /// The constants of the formula.
 #[derive(Debug, Clone, Copy)]
 struct Law {
@@ -21,13 +30,16 @@ struct Law {
     nose_radius: f64,
     residual: f64,
     misfit: Misfit,
+    circles: CuspFeed,
+    /// The factor of the feed of circles; 1 until the first feed needs it.
+    factor: f64,
 }
 
 impl Law {
     /// The feed from the slope and the second derivative of the radial section at the contact. With
     /// y = (cap/f)² it is cap/(1 + y⁴)^(1/8). Where the nose does not fit, it is the cap.
     fn feed<S: Scalar>(&self, slope: S, second: S) -> S {
-        let cap = LARGEST_FEED * self.nose_radius;
+        let cap = PARABOLA_CAP * self.nose_radius;
         let squared = slope.squared() + 1.0;
         let gap = -(second / (squared * squared.sqrt()) * self.nose_radius) + 1.0;
         let gap = match self.misfit {
@@ -45,7 +57,41 @@ impl Law {
         let none = S::constant(0.0);
         let y = S::select(y.less(none), none, y);
         let eighth = (y.squared().squared() + 1.0).sqrt().sqrt().sqrt();
-        eighth.recip() * (cap * (1.0 - MARGIN))
+        let feed = eighth.recip() * (cap * (1.0 - MARGIN));
+        // The square of cap/f at which circles begin to count.
+        let border = (PARABOLA_CAP / PARABOLA_TO) * (PARABOLA_CAP / PARABOLA_TO);
+        match y.less(S::constant(border)).any() {
+            true => self.with_circles(feed, slope, gap, y),
+            false => feed,
+        }
+    }
+
+    /// Whether circles count at some of these slopes and second derivatives.
+    fn needs_circles(&self, mut sections: impl Iterator<Item = (f64, f64)>) -> bool {
+        sections.any(|(slope, second)| {
+            let profile = Profile {
+                height: 0.0,
+                slope,
+                second,
+            };
+            self.circles.needs_circles(self.circles.parabola(&profile))
+        })
+    }
+
+    /// The feed that passes from the parabola's to that of circles.
+    fn with_circles<S: Scalar>(&self, parabola: S, slope: S, gap: S, y: S) -> S {
+        let at_least = |value: S| {
+            let least = S::constant(LEAST);
+            S::select(value.less(least), least, value)
+        };
+        let (gap, y) = (at_least(gap), at_least(y));
+        let free = y.sqrt().recip() * (PARABOLA_CAP * self.nose_radius);
+        let share = self.circles.share(free);
+        let cap = self.circles.cap(slope, gap);
+        let ratio = cap.squared() / (free.squared() * self.circles.correction(gap));
+        let eighth = (ratio.squared().squared() + 1.0).sqrt().sqrt().sqrt();
+        let circles = cap / eighth * (self.factor * (1.0 - MARGIN));
+        parabola + share * (circles - parabola)
     }
 
     /// The feed as a function of (θ, ρ), from the section at the contact, whose radius is a.
@@ -67,6 +113,7 @@ impl Law {
 pub struct ResidualFeed<'a> {
     setup: Setup<'a>,
     law: Law,
+    factor: Option<f64>,
     centres: CentreBuffers,
     sections: Sections,
     evaluated: Vec<Section>,
@@ -75,20 +122,32 @@ pub struct ResidualFeed<'a> {
 
 impl<'a> ResidualFeed<'a> {
     /// The residual feed of one task and locus.
-    pub fn new(setup: Setup<'a>) -> Self {
+    ///
+    /// `factor` is that of the feed of circles; `None` until a feed has needed it.
+    pub fn new(setup: Setup<'a>, factor: Option<f64>) -> Self {
+        let (radial, tool) = (setup.locus.radial(), &setup.task.tool);
+        let residual = setup.task.tolerance.residual;
         Self {
             setup,
             law: Law {
-                radial: setup.locus.radial(),
-                nose_radius: setup.task.tool.nose_radius,
-                residual: setup.task.tolerance.residual,
-                misfit: setup.task.tool.misfit,
+                radial,
+                nose_radius: tool.nose_radius,
+                residual,
+                misfit: tool.misfit,
+                circles: CuspFeed::new(residual, radial, tool),
+                factor: factor.unwrap_or(1.0),
             },
+            factor,
             centres: CentreBuffers::default(),
             sections: Sections::default(),
             evaluated: Vec::new(),
             pairs: Vec::new(),
         }
+    }
+
+    /// The factor of the feed of circles; `None` as long as no feed needed it.
+    pub fn factor(&self) -> Option<f64> {
+        self.factor
     }
 
     /// The feed at each (θ, ρ), as a function of both.
@@ -98,12 +157,17 @@ impl<'a> ResidualFeed<'a> {
         let feet = &self.centres.foot;
         self.sections
             .evaluate(surface, theta, feet, &mut self.evaluated)?;
+        let section = |section: &Section| (section.slope.value, section.second.value);
+        let sections = self.evaluated.iter().map(section);
+        if self.factor.is_none() && self.law.needs_circles(sections) {
+            self.find_factor()?;
+        }
         out.clear();
         let law = self.law;
         out.extend(
             self.evaluated
                 .iter()
-                .zip(feet)
+                .zip(&self.centres.foot)
                 .map(|(section, foot)| law.jet(section, *foot)),
         );
         check(theta, rho, out.iter().map(|jet| jet.value))
@@ -115,6 +179,9 @@ impl<'a> ResidualFeed<'a> {
         let surface = self.setup.locus.surface();
         self.sections
             .values(surface, theta, &self.centres.foot, &mut self.pairs)?;
+        if self.factor.is_none() && self.law.needs_circles(self.pairs.iter().copied()) {
+            self.find_factor()?;
+        }
         out.clear();
         let law = self.law;
         out.extend(
@@ -123,6 +190,32 @@ impl<'a> ResidualFeed<'a> {
                 .map(|(slope, second)| law.feed(*slope, *second)),
         );
         check(theta, rho, out.iter().copied())
+    }
+
+    /// Finds the factor, from all places of the range whose feed is that of circles.
+    fn find_factor(&mut self) -> Result<()> {
+        let Setup { task, locus } = self.setup;
+        let (residual, radial) = (task.tolerance.residual, locus.radial());
+        // The factor of this one is known, so it does not look for it again.
+        let mut local = ResidualFeed::new(self.setup, Some(1.0));
+        let (mut host, mut own) = (Vec::new(), Vec::new());
+        let [least] = extreme::largest(task.range, &mut |theta, rho, out| {
+            host.resize(theta.len(), f64::NAN);
+            locus.residual_feed(residual, radial, theta, rho, &mut host)?;
+            local.values(theta, rho, &mut own)?;
+            for ((out, host), own) in out.iter_mut().zip(&host).zip(&own) {
+                let large = *own > CIRCLES_FROM * task.tool.nose_radius;
+                *out = [if large {
+                    -host * (1.0 - MARGIN) / own
+                } else {
+                    -1.0
+                }];
+            }
+            Ok(())
+        })?;
+        self.law.factor = (-least.value).min(1.0);
+        self.factor = Some(self.law.factor);
+        Ok(())
     }
 
     fn touch(&mut self, theta: &[f64], rho: &[f64]) -> Result<()> {

@@ -118,6 +118,15 @@ pub struct Orientation {
     pub sense: f64,
 }
 
+/// What the turns of a law have found, for the turns that follow.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Findings {
+    /// Number of pieces that the next turn tries first.
+    count: Option<usize>,
+    /// The factor of the feed of circles.
+    factor: Option<f64>,
+}
+
 /// Computes turns.
 pub struct Turns<'a> {
     feed: ResidualFeed<'a>,
@@ -131,13 +140,12 @@ pub struct Turns<'a> {
 }
 
 impl<'a> Turns<'a> {
-    /// The turns of one task. `count` is the number of pieces to try first; `None` for a law that
-    /// begins.
-    pub fn new(setup: Setup<'a>, orientation: Orientation, count: Option<usize>) -> Self {
+    /// The turns of one task, with what the turns before have found.
+    pub fn new(setup: Setup<'a>, orientation: Orientation, found: Findings) -> Self {
         Self {
-            feed: ResidualFeed::new(setup),
+            feed: ResidualFeed::new(setup, found.factor),
             orientation,
-            count: count.unwrap_or(FEWEST),
+            count: found.count.unwrap_or(FEWEST),
             theta: Vec::new(),
             rho: Vec::new(),
             jets: Default::default(),
@@ -145,9 +153,12 @@ impl<'a> Turns<'a> {
         }
     }
 
-    /// The number of pieces that the next turn should try first.
-    pub fn count(&self) -> usize {
-        self.count
+    /// What the turns have found.
+    pub fn findings(&self) -> Findings {
+        Findings {
+            count: Some(self.count),
+            factor: self.feed.factor(),
+        }
     }
 
     /// Turn number `number` of a law that begins at the radius `circle`, after the turn before it.

@@ -18,7 +18,8 @@ pub struct Constant {
 
 const FEED: Param<Option<Feed>> = Param::feed(
     "feed",
-    "feed per revolution; left out: the largest that holds tolerance.residual everywhere",
+    "feed per revolution; left out: the largest that holds tolerance.residual everywhere, as far as \
+     neighbouring noses meet within their edges",
 )
 .positive()
 .optional();
@@ -47,9 +48,6 @@ impl FeedStrategy for Constant {
             Some(feed) => feed,
             None => smallest_residual_feed(setup)? * (1.0 - MARGIN),
         };
-        if feed < least {
-            return Err(derived_too_small(feed));
-        }
         Ok(Box::new(OnePiece { feed }))
     }
 }
@@ -80,14 +78,5 @@ fn given_too_small(least: f64) -> StrategyError {
         "it takes more than {MOST_REVOLUTIONS:.0e} revolutions; \
              give at least {:.1e} um/rev",
         least / UM
-    ))
-}
-
-fn derived_too_small(feed: f64) -> StrategyError {
-    StrategyError::failed(format!(
-        "tolerance.residual with this nose radius takes a feed of {:.1e} nm/rev, which is more \
-         than {MOST_REVOLUTIONS:.0e} revolutions; allow a larger residual, or choose a larger \
-         nose radius",
-        feed / NM
     ))
 }

@@ -142,15 +142,11 @@ fn a_given_feed_of_too_many_revolutions_is_an_error_on_feed() {
 }
 
 #[test]
-fn a_derived_feed_of_too_many_revolutions_names_its_causes() {
+fn a_derived_feed_of_too_many_revolutions_is_left_to_the_host() {
     let mut task = task(0.0, Direction::Inward);
     task.tolerance.residual = 1e-18;
-    let error = law(&Params::new(), &task, &saddle(Arc::new(ZDirection))).unwrap_err();
-    let said = error.to_string();
-    assert!(matches!(error, StrategyError::Failed(_)), "{said}");
-    for word in ["tolerance.residual", "nose radius", "1e7 revolutions"] {
-        assert!(said.contains(word), "{said}");
-    }
+    let law = law(&Params::new(), &task, &saddle(Arc::new(ZDirection))).unwrap();
+    assert!(law.end() > 2e7, "{}", law.end());
 }
 
 #[test]

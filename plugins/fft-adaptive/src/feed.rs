@@ -11,13 +11,17 @@ use crate::chord::Chord;
 const FEWEST_ANGLES: u64 = 72;
 /// Most radial profiles of a revolution: one every 36 arc seconds.
 const MOST_ANGLES: u64 = 36_000;
-/// The largest feed, as a part of the range. The chord has no limit where nothing is curved.
+/// The largest feed of a chord alone, as a part of the range. The chord has no limit where nothing
+/// is curved.
 const LARGEST_PART: f64 = 0.1;
 /// The part by which a capped feed stays below the one that keeps the residual. It covers what lies
 /// between the floors of the table, and the passes where two feeds meet.
 const MARGIN: f64 = 2e-4;
 /// The least sagitta, mm: a thousandth of a nanometre, like the recipe's own tolerances.
 const LEAST_SAGITTA: f64 = 1e-9;
+/// The last revolution takes a rest of the range that is shorter than this part of its feed. Rounding
+/// leaves such a rest where the feed divides the range.
+const LEAST_REST: f64 = 1e-9;
 /// Number of revolutions in each answer.
 const BATCH: usize = 64;
 /// Most revolutions: two weeks at 500 rpm.
@@ -125,8 +129,12 @@ impl FeedPlan for FftAdaptivePlan {
         let RadialRange { inner, outer } = setup.task.range;
         let end = if self.outward > 0.0 { outer } else { inner };
         for _ in 0..BATCH {
-            let feed = self.feed(setup.locus.surface())?;
+            let mut feed = self.feed(setup.locus.surface())?;
             let left = self.outward * (end - self.rho);
+            let last = left <= feed * (1.0 + LEAST_REST);
+            if last {
+                feed = feed.max(left);
+            }
             let length = (left / feed).min(1.0);
             pieces.push(FeedPiece {
                 length,
@@ -134,7 +142,7 @@ impl FeedPlan for FftAdaptivePlan {
             });
             self.rho += self.outward * feed;
             self.revolutions += 1;
-            if left <= feed {
+            if last {
                 return Ok(Continuation::End);
             }
         }
@@ -152,10 +160,9 @@ impl FftAdaptivePlan {
         let chord = self.rays.largest_feed(surface, self.rho, |profile| {
             self.chord.length(profile.curvature(), self.tolerance) / profile.slant()
         })?;
-        let feed = chord.min(self.largest);
         Ok(match &self.residual_feed {
-            None => feed,
-            Some(residual_feed) => feed.min(self.least_residual_feed(residual_feed)),
+            None => chord.min(self.largest),
+            Some(residual_feed) => chord.min(self.least_residual_feed(residual_feed)),
         })
     }
 

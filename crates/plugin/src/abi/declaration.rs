@@ -32,6 +32,8 @@
 //!   without one gives the value after `=`.
 //! - `fn extend[mut](&self)` takes `&mut self`, and `path[&]: Path<'_>` is `&Path<'_>` in the core.
 //! - `owned by` lets boxed objects be the values of answers.
+//! - The caller's side marks each call of an object that it owns, and what a call gives belongs to
+//!   the same strategy.
 //! - `kept { … } own { … }` adds a field to the caller's side, and methods that read it.
 
 /// The names that the expansion of [`declare`] uses.
@@ -44,6 +46,7 @@ pub mod prelude {
     pub use abi_stable::std_types::{RBox, RString};
     pub use serde_json::{Value as Json, json};
 
+    pub use super::super::called::Called;
     pub use super::super::loan::{Crossing, Lengths, Wire};
     pub use super::super::reply::{Answer, Reply, Returned, answer, property, result};
     pub(crate) use super::super::text;
@@ -106,7 +109,7 @@ macro_rules! declare {
 
         /// The object of the other side, wrapped as one of the core.
         pub struct $incoming<$b, P: AsPtr<PtrTarget = ()>> {
-            object: $object<$b, P>,
+            object: Called<$object<$b, P>>,
             $($($property: $kind,)*)?
             $($field: $field_type,)?
         }
@@ -128,7 +131,7 @@ macro_rules! declare {
                         None$(.or(Some($default)))?,
                     )?,)*)?
                     $($field,)?
-                    object,
+                    object: Called::lent(object),
                 })
             }
         }
@@ -161,7 +164,9 @@ macro_rules! declare {
                 }
 
                 fn receive(object: $owned) -> Result<Self> {
-                    Ok(Box::new($incoming::new(object)?))
+                    let mut incoming = $incoming::new(object)?;
+                    incoming.object.belongs_to_the_call();
+                    Ok(Box::new(incoming))
                 }
             }
         )?
@@ -196,6 +201,7 @@ macro_rules! incoming {
         fn $method:ident $([$mut:tt])? ($($arg:ident $([$by:tt])?: $type:ty),*) -> $reply:ty;
     )*) => {$(
         fn $method(& $($mut)? self $(, $arg: $($by)? $type)*) -> $reply {
+            let _mark = self.object.enter();
             Reply::receive((|| {
                 let mut _lengths = Lengths::default();
                 $(let mut $arg = Crossing::lender(by_value!($arg $($by)?), &mut _lengths)?;)*

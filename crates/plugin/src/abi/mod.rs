@@ -1,7 +1,7 @@
 //! Everything that crosses the plugin boundary. This is the only module with abi_stable in it.
 //!
 //! - [`declaration`] has the macro that makes both sides of a trait from one declaration.
-//! - [`loan`] and [`reply`] carry arguments and answers across; [`text`] writes and reads what is
+//! - [`called`] marks the calls of objects; [`loan`] and [`reply`] carry arguments and answers across; [`text`] writes and reads what is
 //!   small, and [`task`], [`laws`] and [`request`] have the arguments of several slots.
 //! - [`surface`], [`locus`], [`feed`], [`sampler`], [`compensator`], [`velocity`] and [`spindle`]
 //!   have the declarations.
@@ -9,7 +9,7 @@
 //!   decides whether it fits.
 //!
 //! A batch crosses as slices. Laws, nodes, texts and the bytes of files are copied. The macros of abi_stable write all the
-//! `unsafe` code except for that in [`entry`].
+//! `unsafe` code except for that in [`entry`] and [`called`].
 //!
 //! What crosses can grow without a new number of the boundary: traits by methods with a default,
 //! texts by fields and words, lists of numbers at their ends, and the root by constructors.
@@ -17,6 +17,7 @@
 #![allow(non_local_definitions)] // the expansion of #[sabi_trait] raises it
 #![allow(missing_docs)] // private, and #[sabi_trait] generates public items without docs
 
+pub(crate) mod called;
 pub(crate) mod catalogue;
 pub(crate) mod compensator;
 pub(crate) mod declaration;

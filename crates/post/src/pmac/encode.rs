@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use turnpath_core::DEG;
-use turnpath_core::toolpath::{ControlPoint, SectionBlock, Segment};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Segment};
 
 use super::decimal::{push, push_ms};
 use super::error::PmacError;
@@ -48,6 +48,34 @@ pub(super) fn lines(format: &PmacFormat, stretch: &SectionBlock<'_>) -> Result<V
         trail.digits = Some(digits);
     }
     Ok(text)
+}
+
+/// The points of a stretch as a program carries them: on the controller's times, in the program's
+/// digits, C unwrapped.
+pub(super) fn carried(
+    format: &PmacFormat,
+    stretch: &SectionBlock<'_>,
+) -> Result<PathBlock, PmacError> {
+    let mut before = stretch.before.last().copied();
+    let mut carried = PathBlock {
+        shape: stretch.points.shape,
+        ..PathBlock::default()
+    };
+    for point in stretch.points.points() {
+        carried.push(Digits::of(format, &point, before.as_ref())?.point(format));
+        before = Some(point);
+    }
+    Ok(carried)
+}
+
+/// Whole turns of C that a program leaves out because it begins within 0 to 360 deg, rad.
+pub(super) fn turns_left_out(format: &PmacFormat, first: &ControlPoint) -> Result<f64, PmacError> {
+    let digits = Digits::of(format, first, None)?;
+    let left_out = match format.c_wrapped {
+        true => digits.position[0].div_euclid(turn(format)),
+        false => 0,
+    };
+    Ok(format.c_sign() * std::f64::consts::TAU * left_out as f64)
 }
 
 /// What the last line left.
@@ -107,6 +135,26 @@ impl Digits {
             position,
             velocity,
         })
+    }
+
+    /// The control point that has these digits.
+    fn point(&self, format: &PmacFormat) -> ControlPoint {
+        let one = |decimals: u32| 10u64.pow(decimals) as f64;
+        let [c, x, z] = self
+            .position
+            .map(|p| p as f64 / one(format.position_decimals));
+        let velocity = one(format.velocity_decimals) * format.velocity_time();
+        let [vc, vx, vz] = self.velocity.map(|v| v as f64 / velocity);
+        let to_angle = format.c_sign() * DEG;
+        ControlPoint {
+            t: self.quanta as f64 / QUANTA_PER_S,
+            c: to_angle * c,
+            x,
+            z: z + format.z_above,
+            vc: to_angle * vc,
+            vx,
+            vz,
+        }
     }
 }
 

@@ -28,6 +28,7 @@
 //!
 //! Facts on the language: Turbo PMAC Software Reference and User Manual, "PVT-Mode Moves".
 
+mod commands;
 mod decimal;
 mod encode;
 mod error;
@@ -39,6 +40,7 @@ mod template;
 #[cfg(test)]
 mod tests;
 
+pub use commands::{Command, commands};
 pub use error::PmacError;
 pub use format::{ENTRY_MS, PmacFormat, QUANTA_PER_S};
 pub use program::{FOOTER, HEADER, PmacFileBody, PmacWriter};

@@ -1,15 +1,13 @@
 //! Writes a program: first the path, then the header and the footer around it.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Seek, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
+use turnpath_files::{Draft, FileError, Scratch};
 
 use super::encode;
 use super::error::PmacError;
 use super::format::{END_MARK, PmacFormat};
-use crate::draft::{Draft, FileError};
 
 /// The default header.
 pub const HEADER: &str = "\
@@ -25,9 +23,6 @@ OPEN PROG 1 CLEAR
 ";
 /// The default footer.
 pub const FOOTER: &str = "CLOSE\n";
-
-/// Size of the buffer, bytes.
-const BUFFER: usize = 1 << 18;
 
 /// Writes a program to a file or to memory. The header reports what is known only at the end, so the
 /// body waits until then: in a file without a name, or in memory.
@@ -50,35 +45,24 @@ pub struct PmacWriter<B = PmacFileBody> {
 /// The body of a program that will become a file.
 #[derive(Debug)]
 pub struct PmacFileBody {
-    file: BufWriter<File>,
-    /// The path that the program will have.
-    path: PathBuf,
+    lines: Scratch,
+    /// The program, still empty.
+    draft: Draft,
 }
 
 impl PmacWriter {
-    /// Begins the program that will be the file `path`. Its folder must exist.
+    /// Begins the program that the draft will be.
     ///
     /// # Errors
-    /// When no file can be created in the folder.
-    pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
-        let path = path.into();
-        let folder = match path.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        match tempfile::tempfile_in(folder) {
-            Ok(file) => {
-                let file = BufWriter::with_capacity(BUFFER, file);
-                let body = PmacFileBody { file, path };
+    /// When no file can be created in the draft's folder.
+    pub fn begin(draft: Draft) -> Result<Self, FileError> {
+        match Scratch::in_folder(draft.folder()) {
+            Ok(lines) => {
+                let body = PmacFileBody { lines, draft };
                 Ok(Self { body, points: 0 })
             }
-            Err(error) => Err(FileError { path, error }),
+            Err(error) => Err(FileError::of(draft.path())(error)),
         }
-    }
-
-    /// The path that the program will have.
-    pub fn path(&self) -> &Path {
-        &self.body.path
     }
 
     /// A part of the path as program lines. This needs no file, so several parts can be formatted in
@@ -90,24 +74,43 @@ impl PmacWriter {
         encode::lines(format, stretch)
     }
 
+    /// A part of the path as a reader finds it in the program: on the controller's times, and in the
+    /// program's digits. C is unwrapped, and begins [`PmacWriter::turns_left_out`] later.
+    ///
+    /// # Errors
+    /// When a program cannot carry the path.
+    pub fn carried(
+        format: &PmacFormat,
+        stretch: &SectionBlock<'_>,
+    ) -> Result<PathBlock, PmacError> {
+        encode::carried(format, stretch)
+    }
+
+    /// Whole turns of C, rad, that a program leaves out before the path's first point: not zero only
+    /// if its C is wrapped.
+    ///
+    /// # Errors
+    /// When a program cannot carry the point.
+    pub fn turns_left_out(format: &PmacFormat, first: &ControlPoint) -> Result<f64, PmacError> {
+        encode::turns_left_out(format, first)
+    }
+
     /// The complete program as a file that still lacks its name.
     ///
     /// # Errors
     /// When the file cannot be written.
     pub fn assemble(self, header: &str, footer: &str) -> Result<Draft, FileError> {
         let end = self.end(footer);
-        let PmacFileBody { file, path } = self.body;
-        let mut draft = Draft::begin(&path)?;
+        let PmacFileBody { lines, mut draft } = self.body;
         let write = || -> io::Result<()> {
-            let mut body = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-            body.rewind()?;
+            let mut body = lines.into_reader()?;
             draft.write_all(header.as_bytes())?;
             io::copy(&mut body, &mut draft)?;
             draft.write_all(end.as_bytes())
         };
         match write() {
             Ok(()) => Ok(draft),
-            Err(error) => Err(FileError { path, error }),
+            Err(error) => Err(FileError::of(draft.path())(error)),
         }
     }
 
@@ -177,10 +180,10 @@ impl<B> PmacWriter<B> {
 
 impl Write for PmacFileBody {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
+        self.lines.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+        self.lines.flush()
     }
 }

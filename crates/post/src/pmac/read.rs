@@ -9,6 +9,7 @@ use turnpath_core::toolpath::{ControlPoint, Section};
 
 use super::format::{END_MARK, LONGEST, PmacFormat, QUANTA_PER_MS, QUANTA_PER_S, TURN_DEG, mark};
 use super::scan::{Axis, PLACES, Word, split_comment, words};
+use crate::ordinary_file;
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::read_error::ReadError;
 use crate::turn::check_turn;
@@ -69,7 +70,7 @@ impl PmacReader {
     /// When the file cannot be opened.
     pub fn open(path: impl Into<PathBuf>, format: PmacFormat) -> Result<Self, ReadError> {
         let path = path.into();
-        match File::open(&path) {
+        match ordinary_file::open(&path) {
             Ok(file) => Ok(Self::from_reader(file, path, format)),
             Err(error) => Err(ReadError::File { path, error }),
         }

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Cubic, PathBlock, Section, SectionBlock, Segment};
+use turnpath_files::Draft;
 
 use super::format::{QUANTA_PER_S, TURN_DEG};
 use super::{PmacFormat, PmacReader, PmacWriter};
@@ -93,7 +94,7 @@ fn program(format: &PmacFormat, points: &[ControlPoint]) -> String {
 fn assembled(points: usize, lines: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.pmc");
-    let mut writer = PmacWriter::begin(&path).unwrap();
+    let mut writer = PmacWriter::begin(Draft::begin(&path).unwrap()).unwrap();
     writer.append(points, lines).unwrap();
     let draft = writer.assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n").unwrap();
     draft.complete().unwrap();

@@ -11,6 +11,9 @@ use crate::table_info::TableInfo;
 
 /// The smallest length of a part or a tool that can be made, 0.1 um in mm.
 const LEAST_LENGTH: f64 = 1e-4;
+/// The largest nose, 1 m in mm. A tool that turns a part has a far smaller one, and beside a nose of
+/// a kilometre the part has too few digits left.
+const LARGEST_NOSE: f64 = 1000.0;
 
 const APERTURE: Param<Length> = Param::length("aperture", "diameter of the part")
     .min(LEAST_LENGTH)
@@ -21,6 +24,7 @@ const INNER: Param<Length> = Param::length("inner", "diameter of the hole, below
 
 const NOSE_RADIUS: Param<Length> = Param::length("nose_radius", "radius of the nose")
     .min(LEAST_LENGTH)
+    .max(LARGEST_NOSE)
     .example("1 mm");
 const INCLUDED_ANGLE: Param<Option<Angle>> = Param::angle(
     "included_angle",

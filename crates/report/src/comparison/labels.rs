@@ -2,10 +2,12 @@
 
 use unicode_width::UnicodeWidthStr;
 
+use turnpath_core::printable_line;
+
 use crate::ablation::AblationRun;
 
 use super::cells::FigureColumn;
-use super::wording::{cut, padded, printable, wrapped};
+use super::wording::{cut, padded, wrapped};
 
 /// How far the rows of a group stand to the right.
 const INDENT: &str = " ";
@@ -58,7 +60,10 @@ impl Labels {
     /// The labels of all runs.
     pub fn of(runs: &[AblationRun], widest: usize) -> Self {
         let texts = |run: &AblationRun, of: fn(&(String, String)) -> &String| {
-            let texts = run.varied.iter().map(|pair| printable(of(pair)));
+            let texts = run
+                .varied
+                .iter()
+                .map(|pair| printable_line(of(pair)).into_owned());
             texts.collect::<Vec<_>>()
         };
         let keys = runs.first().map(|first| texts(first, |pair| &pair.0));
@@ -126,7 +131,7 @@ fn beside_label(
     width: usize,
 ) -> Vec<String> {
     if let Some(reason) = run.error() {
-        return sentence(&format!("failed: {}", printable(reason)), width);
+        return sentence(&format!("failed: {}", printable_line(reason)), width);
     }
     let mut lines: Vec<String> = vec![
         columns.iter().map(|column| column.figure(row)).collect(),

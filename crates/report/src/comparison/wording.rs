@@ -97,12 +97,6 @@ pub fn cut(text: &str, width: usize) -> String {
     start
 }
 
-/// The text without control characters, which a recipe could use to repaint the terminal.
-pub fn printable(text: &str) -> String {
-    let shown = |c: char| if c.is_control() { '\u{FFFD}' } else { c };
-    text.chars().map(shown).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,6 +134,5 @@ mod tests {
         assert_eq!(cut("equal-arc", 6), "equal…");
         assert_eq!(cut("度度度", 4), "度…");
         assert_eq!(padded("度度度", 4), "度… ");
-        assert_eq!(printable("a\u{1b}[2J"), "a\u{FFFD}[2J");
     }
 }

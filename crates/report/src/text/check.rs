@@ -1,16 +1,20 @@
 //! A check for a person.
 
+use turnpath_core::printable_line;
+
 use crate::check::CheckReport;
 
+use super::commands::commands;
 use super::form::first_split;
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
+use super::remark::{feed_cap, remarks};
 use super::tool_fit::tool_fit;
 use super::unreached::unreached;
 
 /// The text on a check.
 pub fn check(report: &CheckReport) -> String {
-    let mut text = format!("{}\n", report.name);
+    let mut text = format!("{}\n", printable_line(&report.name));
     text += &tool_fit(&report.tool_fit);
     text += &unreached(report.unreached.as_ref());
     if let Some(machine) = &report.machine {
@@ -22,6 +26,7 @@ pub fn check(report: &CheckReport) -> String {
     text += &line("points", format!("about {points}, before refinement"));
     text += &line("revolutions", format!("{:.2}", expected.revolutions));
     text += &line("cutting time", duration(expected.cutting_time));
+    text += &feed_cap(&report.feed_cap);
     let size = bytes(expected.toolpath_bytes as f64);
     text += &line("toolpath.csv", format!("about {size}, before refinement"));
     for program in &expected.programs {
@@ -31,5 +36,6 @@ pub fn check(report: &CheckReport) -> String {
             format!("about {size}, before refinement: {file}"),
         );
     }
-    text
+    text += &commands(&report.controller_commands);
+    text + &remarks(&report.remarks)
 }

@@ -1,40 +1,53 @@
 //! A file of a tool path for a person.
 
-use crate::anomalies::{Anomalies, Anomaly, AnomalyKind};
+use turnpath_core::printable_line;
+
 use crate::file::FileReport;
 use crate::reach::{Radial, Radii, Reach};
+use crate::result_check::ResultCheck;
+use crate::wholeness::Wholeness;
 
+use super::anomalies::anomalies;
 use super::lead::lead;
-use super::numbers::{grouped, line, millimetres, path_place, small_length};
+use super::numbers::{grouped, line, millimetres};
 use super::path::path;
 use super::servo::servo;
 use super::unreached::unreached;
 
-/// Anomalies that a person is shown.
-const SHOWN: usize = 3;
-
 /// The text on a file.
 pub fn file(report: &FileReport) -> String {
     let verdict = report.verdict();
-    let mut text = format!("{}\n", report.name);
-    text += &line("file", &report.file);
+    let mut text = format!("{}\n", printable_line(&report.name));
+    text += &line("file", printable_line(&report.file));
+    text += &report.result.as_ref().map(result).unwrap_or_default();
     text += &line("surface", &report.surface);
     let (cutting, rows) = (grouped(report.control_points), grouped(report.rows));
     text += &line("points", format!("{cutting} that cut, of {rows} rows"));
     text += &reach(&report.reach);
+    text += &wholeness(report.wholeness.as_ref());
     text += &path(&report.path, verdict);
     if let Some(report) = &report.path.lead {
         text += &lead(report, verdict.lead);
     }
-    text += &anomalies(&report.anomalies);
+    text += &anomalies(&report.anomalies, report.rows);
     if let Some(servos) = &report.path.servo {
         text += &servo(servos, report.path.tolerance.servo, verdict.servo);
     }
     text += &unreached(report.unreached.as_ref());
     for file in &report.files {
-        text += &line("file", file);
+        text += &line("file", printable_line(file));
     }
     text
+}
+
+/// What the summary beside the file says of it.
+fn result(result: &ResultCheck) -> String {
+    let verdict = match result.holds {
+        true => format!("as {} lists it", result.summary),
+        false => format!("NOT AS {} lists it", result.summary),
+    };
+    let notes = result.notes.iter().map(|note| line("", note));
+    line("result", verdict) + &notes.collect::<String>()
 }
 
 fn reach(reach: &Reach) -> String {
@@ -49,42 +62,25 @@ fn reach(reach: &Reach) -> String {
     line("reach", format!("{of} {}; {verdict}", from_to(&reach.path)))
 }
 
-fn from_to(radii: &Radii) -> String {
-    let (inner, outer) = (millimetres(radii.inner, 3), millimetres(radii.outer, 3));
-    format!("from {inner} to {outer}")
-}
-
-/// The lines on anomalies; empty where there is none.
-fn anomalies(anomalies: &Anomalies) -> String {
-    let mut text = String::new();
-    let shown = anomalies.places.iter().take(SHOWN);
-    for (i, place) in shown.clone().enumerate() {
-        let label = if i == 0 { "anomalies" } else { "" };
-        text += &line(label, place_of(place));
-        text += &line("", difference(place));
+/// Whether the path is whole; empty if the file does not show it.
+fn wholeness(wholeness: Option<&Wholeness>) -> String {
+    let Some(wholeness) = wholeness else {
+        return String::new();
+    };
+    if wholeness.is_whole() {
+        return line("whole", "from lead-in to lead-out; holds");
     }
-    let more = anomalies.count.saturating_sub(shown.len() as u64);
-    if more > 0 {
-        text += &line("", format!("and {} places more", grouped(more)));
+    let mut text = String::new();
+    for (i, fault) in wholeness.faults.iter().enumerate() {
+        let label = if i == 0 { "whole" } else { "" };
+        text += &line(label, format!("NOT WHOLE: {}", fault.words()));
     }
     text
 }
 
-fn place_of(anomaly: &Anomaly) -> String {
-    let point = grouped(anomaly.point);
-    format!("point {point}, {}", path_place(&anomaly.at))
-}
-
-fn difference(anomaly: &Anomaly) -> String {
-    let what = match anomaly.kind {
-        AnomalyKind::ZPosition => "Z is off the first touch by",
-        AnomalyKind::CMotion => "C is not smooth: as if off by",
-        AnomalyKind::XMotion => "X is not smooth: as if off by",
-        AnomalyKind::ZMotion => "Z is not smooth: as if off by",
-        AnomalyKind::Gap => "a row is missing: the step along the rim is",
-    };
-    let (by, neighbours) = (small_length(anomaly.by), small_length(anomaly.neighbours));
-    format!("{what} {by}; its neighbours have {neighbours}")
+fn from_to(radii: &Radii) -> String {
+    let (inner, outer) = (millimetres(radii.inner, 3), millimetres(radii.outer, 3));
+    format!("from {inner} to {outer}")
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Reports as text for a terminal.
 
+mod anomalies;
 mod check;
+mod commands;
 mod coverage;
 mod file;
 mod form;
@@ -8,6 +10,7 @@ mod lead;
 mod machine;
 mod numbers;
 mod path;
+mod remark;
 mod run;
 mod servo;
 mod tool_fit;
@@ -15,5 +18,5 @@ mod unreached;
 
 pub use check::check;
 pub use file::file;
-pub use numbers::{grouped, millimetres, nose_radius};
+pub use numbers::{bytes, grouped, millimetres, nose_radius};
 pub use run::run;

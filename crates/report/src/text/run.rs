@@ -2,13 +2,17 @@
 
 use std::path::PathBuf;
 
+use turnpath_core::printable_line;
+
 use crate::errors::Tolerances;
 use crate::program::ProgramReport;
 use crate::run::RunReport;
 
+use super::commands::commands;
 use super::lead::lead;
 use super::numbers::{against_any, duration, grouped, line, small_length};
 use super::path::path;
+use super::remark::{feed_cap, remarks};
 use super::servo::servo;
 use super::unreached::unreached;
 
@@ -25,11 +29,12 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     ];
     // A constant speed is what everybody expects.
     names.extend(Some(chain.spindle.as_str()).filter(|name| *name != "constant"));
-    let mut text = format!("{}\n", report.name);
+    let mut text = format!("{}\n", printable_line(&report.name));
     text += &line("chain", names.join(" > "));
     text += &line("points", points(report));
     text += &line("revolutions", format!("{:.2}", report.revolutions));
     text += &line("cutting time", duration(report.cutting_time));
+    text += &feed_cap(&report.feed_cap);
     text += &path(&report.path, verdict);
     if let Some(report) = &report.path.lead {
         text += &lead(report, verdict.lead);
@@ -41,8 +46,10 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     for one in &report.programs {
         text += &program(one, tolerance);
     }
+    text += &commands(&report.controller_commands);
+    text += &remarks(&report.remarks);
     for file in files {
-        text += &line("file", file.display());
+        text += &line("file", printable_line(&file.display().to_string()));
     }
     text
 }

@@ -1,10 +1,9 @@
 //! `ablation.json` and `ablation.csv`.
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use turnpath_post::{Draft, FileError};
+use turnpath_files::{FileError, FolderError, ResultFolder, WholeFile};
 use turnpath_report::comparison::csv_table;
 use turnpath_report::{AblationReport, to_json};
 
@@ -15,40 +14,42 @@ const CSV: &str = "ablation.csv";
 
 /// The files of an ablation.
 pub struct AblationFiles {
-    folder: PathBuf,
+    folder: ResultFolder,
 }
 
 impl AblationFiles {
-    /// Makes the folder, and begins the files, so that a folder that takes none is refused before
+    /// Makes the folder and takes its lock, so that a folder that takes no files is refused before
     /// the work.
-    pub fn new(folder: &Path) -> Result<Self, FileError> {
-        fs::create_dir_all(folder).map_err(|error| FileError {
-            path: folder.to_owned(),
-            error,
-        })?;
+    pub fn new(folder: &Path) -> Result<Self, FolderError> {
         for name in [JSON, CSV] {
-            drop(Draft::begin(folder.join(name))?);
+            ResultFolder::can_have(folder, name)?;
         }
-        let folder = folder.to_owned();
+        let folder = ResultFolder::open(folder)?;
         Ok(Self { folder })
     }
 
-    /// Writes both files; gives their paths.
-    pub fn write(&self, report: &AblationReport) -> Result<Vec<PathBuf>, Error> {
+    /// The folder.
+    pub fn folder(&self) -> &ResultFolder {
+        &self.folder
+    }
+
+    /// Writes both files, which get their names together; gives their paths.
+    pub fn write(self, report: &AblationReport) -> Result<Vec<PathBuf>, Error> {
         let table = csv_table(&report.runs).map_err(|error| Error::Report {
             form: CSV,
             source: error.into(),
         })?;
-        let csv = write(self.folder.join(CSV), &table)?;
-        let json = write(self.folder.join(JSON), to_json(report).as_bytes())?;
-        Ok(vec![json, csv])
+        let csv = self.whole(CSV, &table)?;
+        let json = self.whole(JSON, to_json(report).as_bytes())?;
+        let paths = vec![json.path().to_owned(), csv.path().to_owned()];
+        self.folder.commit(vec![csv], json)?;
+        Ok(paths)
     }
-}
 
-fn write(path: PathBuf, bytes: &[u8]) -> Result<PathBuf, FileError> {
-    let mut draft = Draft::begin(&path)?;
-    match draft.write_all(bytes) {
-        Ok(()) => draft.complete(),
-        Err(error) => Err(FileError { path, error }),
+    fn whole(&self, name: &str, bytes: &[u8]) -> Result<WholeFile, FileError> {
+        let mut draft = self.folder.draft(&self.folder.path().join(name))?;
+        let written = draft.write_all(bytes);
+        written.map_err(FileError::of(draft.path()))?;
+        draft.finish()
     }
 }

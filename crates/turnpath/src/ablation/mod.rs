@@ -71,7 +71,7 @@ pub fn ablate(
     let data = DataFiles::default();
     let keys = Keys::new(catalogue, &data).of_all(&variants)?;
     let files = AblationFiles::new(&options.folder)?;
-    let records = Records::new(&options.folder)?;
+    let records = Records::new(files.folder())?;
     let recorded = recorded(options, &records, &keys, observer);
     let reused = recorded.iter().flatten().count();
     let outcomes = runs::complete(
@@ -84,7 +84,7 @@ pub fn ablate(
         options.threads,
         observer,
         |index, run| match keys.get(index) {
-            Some(key) => records.keep(key, run),
+            Some(key) => records.keep(files.folder(), key, run),
             None => Err(Error::RunLost),
         },
     )?;

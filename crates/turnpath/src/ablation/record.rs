@@ -2,12 +2,12 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use turnpath_files::{Draft, FileError, ResultFolder};
 use turnpath_host::sha256_hex;
-use turnpath_post::{Draft, FileError};
 use turnpath_report::{MeasuredRun, to_json};
 
 use crate::error::Error;
@@ -17,7 +17,7 @@ use super::observer::AblationObserver;
 
 /// The folder of records in the output folder.
 const RUNS: &str = "runs";
-/// A record that is begun and given up, to see whether the folder takes one.
+/// A record that is made and removed, to see whether the folder takes one.
 const PROBE: &str = "probe";
 
 /// The records of an output folder.
@@ -38,12 +38,15 @@ struct Record {
 
 impl Records {
     /// Makes the folder, if it is not there, and tries whether it takes a record.
-    pub fn new(output: &Path) -> Result<Self, FileError> {
-        let folder = output.join(RUNS);
+    pub fn new(output: &ResultFolder) -> Result<Self, FileError> {
+        let folder = output.path().join(RUNS);
         let usable = fs::create_dir_all(&folder);
-        let usable = usable.and_then(|()| match Draft::begin(folder.join(PROBE)) {
-            Ok(_) => Ok(()),
-            Err(refused) => Err(refused.error),
+        let probe = folder.join(PROBE);
+        let usable = usable.and_then(|()| {
+            let draft = output.draft_alone(&probe);
+            let named = draft.and_then(Draft::complete);
+            named.map_err(|refused| refused.error)?;
+            fs::remove_file(&probe)
         });
         match usable {
             Ok(()) => Ok(Self { folder }),
@@ -75,7 +78,7 @@ impl Records {
     }
 
     /// Keeps a finished run.
-    pub fn keep(&self, key: &Key, run: &MeasuredRun) -> Result<(), Error> {
+    pub fn keep(&self, output: &ResultFolder, key: &Key, run: &MeasuredRun) -> Result<(), Error> {
         let path = self.path(key);
         let record = Record {
             key: key.hash.clone(),
@@ -83,7 +86,7 @@ impl Records {
             sha256: checksum(run),
             run: run.clone(),
         };
-        let mut draft = Draft::begin(&path)?;
+        let mut draft = output.draft_alone(&path)?;
         let written = draft.write_all(to_json(&record).as_bytes());
         written.map_err(|error| FileError { path, error })?;
         draft.complete()?;

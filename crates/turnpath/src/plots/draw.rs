@@ -5,14 +5,15 @@ use std::path::Path;
 
 use turnpath_core::Result as Evaluated;
 use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
+use turnpath_files::{Draft, FileError};
 use turnpath_pipeline::{Observer, Stage};
-use turnpath_post::{Draft, FileError, GsfWriter, ReadPath, XyzWriter};
+use turnpath_post::{GsfWriter, ReadPath, XyzWriter};
 use turnpath_recipe::Recipe;
 use turnpath_report::unit;
 use turnpath_verify::machined::{Grid, Map, Nose, ProfileLine, power_spectrum};
 use turnpath_verify::{AxesSpectrum, FirstTouch};
 
-use super::files::{MapForm, MapPlot, Plots};
+use super::files::{MapForm, MapPlot, Plots, ProfilePlot};
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 
@@ -38,11 +39,15 @@ struct Meters {
     spectrum: Option<AxesSpectrum>,
 }
 
+/// Begins the draft of the file with this name.
+pub type BeginDraft<'a> = dyn Fn(&Path) -> Result<Draft, FileError> + 'a;
+
 /// Draws the plots: files that are whole, and still without their names.
 pub fn draw(
     plots: &Plots,
     played: &PlayedPath<'_>,
     reader: &mut dyn ReadPath,
+    begin: &BeginDraft<'_>,
     observer: &dyn Observer,
 ) -> Result<Vec<Draft>, Error> {
     let failed = |error| of_measure(played.recipe, error);
@@ -61,7 +66,7 @@ pub fn draw(
             .map_err(failed)?;
         observer.advance(1);
     }
-    meters.write(plots, played)
+    meters.write(plots, played, begin)
 }
 
 impl Meters {
@@ -94,36 +99,46 @@ impl Meters {
         Ok(())
     }
 
-    fn write(self, plots: &Plots, played: &PlayedPath<'_>) -> Result<Vec<Draft>, Error> {
+    fn write(
+        self,
+        plots: &Plots,
+        played: &PlayedPath<'_>,
+        begin: &BeginDraft<'_>,
+    ) -> Result<Vec<Draft>, Error> {
         let mut written = Vec::new();
         let mut maps = self.maps.iter();
         for (plot, map) in plots.map.iter().zip(&mut maps) {
-            written.push(write_map(plot, map, &played.recipe.name)?);
+            written.push(write_map(
+                begin(&plot.file)?,
+                plot,
+                map,
+                &played.recipe.name,
+            )?);
         }
         for (plot, profile) in plots.profiles.iter().zip(&self.profiles) {
-            written.extend(write_profile(&plot.file, &plot.spectrum, profile, played)?);
+            written.extend(write_profile(plot, profile, played, begin)?);
         }
         for (plot, map) in plots.circles.iter().zip(&mut maps) {
-            written.push(write_circle(&plot.file, map, played)?);
+            written.push(write_circle(begin(&plot.file)?, map, played)?);
         }
         for (file, spectrum) in plots.spectrum.iter().zip(&self.spectrum) {
-            written.push(write_spectrum(file, spectrum)?);
+            written.push(write_spectrum(begin(file)?, spectrum)?);
         }
         Ok(written)
     }
 }
 
-fn write_map(plot: &MapPlot, map: &Map, name: &str) -> Result<Draft, FileError> {
+fn write_map(draft: Draft, plot: &MapPlot, map: &Map, name: &str) -> Result<Draft, FileError> {
     let rows = 0..plot.grid.rows();
     if let (MapForm::Gsf, Grid::Cartesian { count, half }) = (plot.form, plot.grid) {
         let title = format!("{name}: surface error");
-        let mut writer = GsfWriter::begin(&plot.file, &title, count, half)?;
+        let mut writer = GsfWriter::begin(draft, &title, count, half)?;
         for row in rows {
             writer.row(map.row(row))?;
         }
         return Ok(writer.whole());
     }
-    let mut writer = XyzWriter::begin(&plot.file)?;
+    let mut writer = XyzWriter::new(draft);
     for row in rows {
         for (column, error) in map
             .row(row)
@@ -138,22 +153,22 @@ fn write_map(plot: &MapPlot, map: &Map, name: &str) -> Result<Draft, FileError> 
 }
 
 fn write_profile(
-    file: &Path,
-    spectrum: &Path,
+    plot: &ProfilePlot,
     profile: &ProfileLine,
     played: &PlayedPath<'_>,
+    begin: &BeginDraft<'_>,
 ) -> Result<[Draft; 2], Error> {
     let failed = |error| of_measure(played.recipe, error);
     let places = profile.points(played.touch).map_err(failed)?;
     let cut = places.iter().filter(|place| !place.error.is_nan());
     let rows = cut.map(|place| [place.s, place.error, place.wanted]);
-    let table = write_errors(file, "s_mm", rows)?;
+    let table = write_errors(begin(&plot.file)?, "s_mm", rows)?;
     let step = match places.as_slice() {
         [first, second, ..] => second.s - first.s,
         _ => 1.0,
     };
     let errors: Vec<f64> = places.iter().map(|place| place.error).collect();
-    let mut draft = Draft::begin(spectrum)?;
+    let mut draft = begin(&plot.spectrum)?;
     let mut text = "frequency_per_mm,psd_nm2_mm\n".to_owned();
     for line in power_spectrum(&errors, step) {
         let density = line.density * unit::nm::PER * unit::nm::PER;
@@ -163,7 +178,7 @@ fn write_profile(
     Ok([table, draft])
 }
 
-fn write_circle(file: &Path, map: &Map, played: &PlayedPath<'_>) -> Result<Draft, Error> {
+fn write_circle(draft: Draft, map: &Map, played: &PlayedPath<'_>) -> Result<Draft, Error> {
     let grid = map.grid();
     let places = (0..grid.columns()).map(|column| grid.point(0, column));
     let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
@@ -176,11 +191,10 @@ fn write_circle(file: &Path, map: &Map, played: &PlayedPath<'_>) -> Result<Draft
     let rows = rows.filter(|(_, (error, _))| !error.is_nan());
     let degrees = |column: usize| 360.0 * column as f64 / grid.columns() as f64;
     let rows = rows.map(|(column, (error, wanted))| [degrees(column), f64::from(error), *wanted]);
-    Ok(write_errors(file, "c_deg", rows)?)
+    Ok(write_errors(draft, "c_deg", rows)?)
 }
 
-fn write_spectrum(file: &Path, spectrum: &AxesSpectrum) -> Result<Draft, FileError> {
-    let mut draft = Draft::begin(file)?;
+fn write_spectrum(mut draft: Draft, spectrum: &AxesSpectrum) -> Result<Draft, FileError> {
     let mut text = "frequency_hz,x_um2_per_hz,z_um2_per_hz\n".to_owned();
     for line in spectrum.lines() {
         let [x, z] = [line.x, line.z].map(|density| density * unit::um::PER * unit::um::PER);
@@ -192,11 +206,10 @@ fn write_spectrum(file: &Path, spectrum: &AxesSpectrum) -> Result<Draft, FileErr
 
 /// A table of (place, error in mm, wanted z): places without an error are left out.
 fn write_errors(
-    file: &Path,
+    mut draft: Draft,
     place: &str,
     rows: impl Iterator<Item = [f64; 3]>,
 ) -> Result<Draft, FileError> {
-    let mut draft = Draft::begin(file)?;
     let mut text = format!("{place},error_nm,wanted_mm,machined_mm\n");
     for [at, error, wanted] in rows {
         let (nm, machined) = (error * unit::nm::PER, wanted + error);

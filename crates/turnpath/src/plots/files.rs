@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::{DEG, Part};
-use turnpath_post::{Draft, FileError};
+use turnpath_files::{Draft, FileError, FolderError, ResultFolder};
 use turnpath_recipe::Recipe;
 use turnpath_verify::machined::Grid;
 
@@ -105,6 +105,17 @@ impl Plots {
             true => Err(PlotError::NoToolPath),
             false => Ok(()),
         }
+    }
+
+    /// Refuses files of a result that could not be part of it.
+    pub fn can_be_in_result(&self, folder: &Path) -> Result<(), FolderError> {
+        let members = self
+            .files()
+            .filter_map(|file| ResultFolder::member(folder, file));
+        for name in members {
+            ResultFolder::can_have(folder, &name)?;
+        }
+        Ok(())
     }
 
     /// Whether there is none.

@@ -10,6 +10,14 @@ fn run(outputs: Outputs) -> RunResult {
     job(&[]).run(outputs, &SilentObserver).unwrap()
 }
 
+/// A report without the list of its files, which a folder alone has.
+fn without_files(report: &RunReport) -> RunReport {
+    RunReport {
+        files: None,
+        ..report.clone()
+    }
+}
+
 /// A report without its programs, which nowhere does not make.
 fn without_programs(report: &RunReport) -> RunReport {
     let mut report = report.clone();
@@ -23,7 +31,8 @@ fn memory_has_the_rows_of_the_table_and_the_bytes_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let in_folder = run(Outputs::in_folder(folder.path()));
     let in_memory = run(Outputs::in_memory());
-    assert_eq!(in_folder.report, in_memory.report);
+    assert_eq!(without_files(&in_folder.report), in_memory.report);
+    assert!(in_folder.report.files.is_some() && in_memory.report.files.is_none());
     let path = in_memory.toolpath.unwrap();
     assert_eq!(path.len() as u64, in_memory.report.rows);
     let table = std::fs::read_to_string(folder.path().join("toolpath.csv")).unwrap();
@@ -105,4 +114,77 @@ fn a_path_for_a_form_is_made_again_from_its_split() {
     assert_eq!(again.programs, first.programs);
     let nowhere = job.run(Outputs::nowhere(), &SilentObserver).unwrap().report;
     assert_eq!(nowhere.path.form, first.report.path.form);
+}
+
+/// The names of the files that a summary lists.
+fn listed(report: &RunReport) -> Vec<&str> {
+    let files = report.files.as_ref().unwrap().iter();
+    files.map(|file| file.file.as_str()).collect()
+}
+
+#[test]
+fn the_summary_lists_the_files_of_its_folder_and_the_recipe() {
+    let folder = tempfile::tempdir().unwrap();
+    let elsewhere = tempfile::tempdir().unwrap();
+    let map = turnpath::MapRequest {
+        file: elsewhere.path().join("map.xyz"),
+        cells: 8,
+        grid: turnpath::MapGrid::Cartesian,
+    };
+    let plots = PlotRequest {
+        profiles: vec![0.0],
+        map: Some(map),
+        ..PlotRequest::default()
+    };
+    let result = run(Outputs::in_folder(folder.path()).with_plots(plots));
+    assert_eq!(result.files.len(), 6);
+    assert!(elsewhere.path().join("map.xyz").is_file());
+    let report = turnpath::read_result(folder.path()).unwrap();
+    assert_eq!(report, result.report);
+    let names = [
+        "saddle.pmc",
+        "profile-0deg.csv",
+        "profile-0deg-spectrum.csv",
+        "toolpath.csv",
+    ];
+    assert_eq!(listed(&report), names);
+    for file in report.files.iter().flatten() {
+        let bytes = std::fs::read(folder.path().join(&file.file)).unwrap();
+        assert_eq!(file.bytes, bytes.len() as u64);
+        assert_eq!(file.sha256, turnpath_host::sha256_hex(&bytes));
+    }
+    let recipe = report.recipe.unwrap();
+    assert_eq!(recipe.file, "saddle.toml");
+    assert_eq!(recipe.sets, Vec::<String>::new());
+    assert_eq!(recipe.sha256.len(), 64);
+}
+
+#[test]
+fn a_summary_without_its_files_or_with_other_bytes_is_no_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let error = || {
+        turnpath::read_result(folder.path())
+            .unwrap_err()
+            .to_string()
+    };
+    assert!(error().starts_with("cannot read"), "{}", error());
+    run(Outputs::in_folder(folder.path()));
+    let table = std::fs::read(path("toolpath.csv")).unwrap();
+    std::fs::write(path("toolpath.csv"), &table[1..]).unwrap();
+    assert!(
+        error().contains("is not as summary.json lists it"),
+        "{}",
+        error()
+    );
+    std::fs::remove_file(path("toolpath.csv")).unwrap();
+    assert!(
+        error().contains("is not as summary.json lists it"),
+        "{}",
+        error()
+    );
+    std::fs::write(path("toolpath.csv"), &table).unwrap();
+    turnpath::read_result(folder.path()).unwrap();
+    std::fs::write(path("summary.json"), "{}").unwrap();
+    assert!(error().contains("no summary"), "{}", error());
 }

@@ -5,6 +5,7 @@ mod common;
 mod reference;
 
 mod blocks;
+mod comparison;
 mod coverage;
 mod cusps;
 mod drop_cutter;

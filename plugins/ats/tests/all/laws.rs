@@ -69,40 +69,6 @@ fn check_shape(case: &Case, law: &SpiralLaw) {
     assert!(slowest <= 0.2 * feed, "{slowest} mm too far");
 }
 
-/// The height of the crossing of two noses above the surface, by a search of the nearest point on
-/// finer and finer grids.
-fn cusp(case: &Case, theta: f64, one: [f64; 2], two: [f64; 2]) -> f64 {
-    let radius = case.task.tool.nose_radius;
-    let (dx, dz) = (two[0] - one[0], two[1] - one[1]);
-    let half = 0.5 * (dx * dx + dz * dz).sqrt();
-    let down = (radius * radius - half * half).sqrt() / (2.0 * half);
-    let sign = dx.signum();
-    let tip = [
-        0.5 * (one[0] + two[0]) + sign * dz * down,
-        0.5 * (one[1] + two[1]) - sign * dx * down,
-    ];
-    let (sin, cos) = Scalar::sin_cos(theta);
-    let (mut foot, mut width, mut nearest) = (tip[0], 2.0 * half, f64::INFINITY);
-    for _ in 0..30 {
-        let feet: Vec<f64> = (-8..=8)
-            .map(|i| foot + width * f64::from(i) / 8.0)
-            .collect();
-        let x: Vec<f64> = feet.iter().map(|foot| foot * cos).collect();
-        let y: Vec<f64> = feet.iter().map(|foot| foot * sin).collect();
-        let mut z = vec![f64::NAN; feet.len()];
-        case.surface.heights(&x, &y, &mut z).unwrap();
-        for (here, z) in feet.iter().zip(&z) {
-            let off = [tip[0] - here, tip[1] - z];
-            let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();
-            if distance < nearest {
-                (nearest, foot) = (distance, *here);
-            }
-        }
-        width *= 0.5;
-    }
-    nearest
-}
-
 /// Checks that at random points the cusp to the next pass is within the tolerance, and near it
 /// unless the feed is near its cap.
 fn check_cusps(case: &Case, law: &SpiralLaw, offset: f64) {
@@ -120,7 +86,7 @@ fn check_cusps_between(case: &Case, law: &SpiralLaw, offset: f64, [from, to]: [f
         let (rho, next) = (law.value(n), law.value(n + 1.0));
         let gap = outward(case) * (next - rho);
         let (one, two) = (case.centre(theta, rho), case.centre(theta, next));
-        let share = cusp(case, theta, one, two) / tolerance;
+        let share = case.cusp(theta, one, two) / tolerance;
         assert!(share <= 1.0, "{share} of the tolerance at {theta}, {rho}");
         assert!(
             share >= 0.98 || gap > 0.4 * cap,

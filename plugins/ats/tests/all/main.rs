@@ -5,5 +5,6 @@ mod common;
 #[path = "../../../../tests/support/random.rs"]
 mod random;
 
+mod large_feeds;
 mod laws;
 mod sampler;

@@ -132,6 +132,30 @@ fn on_a_flat_the_nose_alone_decides_or_a_tenth_of_the_range() {
     assert!((law.end() - 10.0).abs() < 1e-9, "{}", law.end());
 }
 
+/// On a flat the feed is a tenth of the range. For many ranges ten of these, added up, stop a rounding
+/// short of the end or go beyond it: what is left is no revolution of its own.
+#[test]
+fn a_feed_that_divides_the_range_leaves_no_revolution_of_roundings() {
+    struct Flat;
+    impl Surface for Flat {
+        fn sag<S: turnpath_core::Scalar>(&self, _: S, _: S) -> S {
+            S::constant(0.0)
+        }
+    }
+    for i in 0..200 {
+        let aperture = 0.3 + 0.011 * f64::from(i);
+        let case = || {
+            let (surface, compensator) = (Arc::new(Flat), Arc::new(Uncompensated));
+            Case::new(surface, compensator, aperture, 1.0, 100.0)
+        };
+        for case in [case(), case().inward()] {
+            let law = case.law(&feed("half", false, 72.0, 20.0)).unwrap();
+            check_shape(&case, &law);
+            assert_eq!(law.pieces().len(), 10, "aperture {aperture} mm");
+        }
+    }
+}
+
 #[test]
 fn a_part_without_surface_or_without_width_is_an_error() {
     let params = Params::new().with("radius", 2.0).with("conic", 0.0);

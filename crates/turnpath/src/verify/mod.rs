@@ -1,19 +1,25 @@
 //! Any tool path in a file, measured against a recipe's surface, tool and tolerances.
 //!
 //! Control points do not say what is played between them. The recipe's velocity solver says it:
-//! cubics or straight lines.
+//! cubics or straight lines. Figures and verdicts come from the file's own rows. Whether these rows are
+//! the recipe's is found by making the recipe's path again ([`remake`]).
+
+mod anomalies;
+mod remake;
+mod source;
+mod whole;
 
 use std::path::Path;
 
 use turnpath_core::RadialRange;
 use turnpath_core::toolpath::SegmentShape;
+use turnpath_files::Draft;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Stage};
-use turnpath_post::{PathReader, PmacReader, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
 use turnpath_report as report;
 use turnpath_report::FileReport;
-use turnpath_verify::{Anomaly, AnomalyKind, FirstTouch, ServoMeter, Subject, unreached};
+use turnpath_verify::{AnomalyDetector, FirstTouch, ServoMeter, Subject, unreached};
 
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
@@ -21,9 +27,13 @@ use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
-use crate::posts::{PMAC_EXTENSION, pmac_format};
+use crate::result_check::result_check;
 use crate::strategies;
 use crate::surface::surface;
+
+use remake::{Comparison, compare};
+use source::SourceFile;
+use whole::{EndRow, wholeness};
 
 /// Measures the tool path in a file: a `toolpath.csv`, or a program of the post `pmac-pvt`. Plots go
 /// to `folder`.
@@ -41,12 +51,15 @@ pub fn verify(
 ) -> Result<FileReport, Error> {
     let target = Target::new(recipe, catalogue)?;
     let plots = Plots::new(request, &recipe.part, folder)?;
-    target.verify(file, (&plots, folder), observer)
+    let file = SourceFile::new(file, recipe, target.subject.compensates_nose);
+    target.verify(&file, (&plots, folder), observer)
 }
 
 /// What a file is measured against, and how it is played.
 struct Target<'a> {
     recipe: &'a Recipe,
+    catalogue: &'a Catalogue,
+    data_files: DataFiles,
     subject: Subject,
     shape: SegmentShape,
     /// What the compensator's ρ stands for.
@@ -54,7 +67,7 @@ struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    fn new(recipe: &'a Recipe, catalogue: &Catalogue) -> Result<Self, Error> {
+    fn new(recipe: &'a Recipe, catalogue: &'a Catalogue) -> Result<Self, Error> {
         let files = DataFiles::default();
         let surface = surface(recipe, catalogue, &files)?.strategy;
         let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
@@ -67,33 +80,23 @@ impl<'a> Target<'a> {
         };
         Ok(Self {
             recipe,
+            catalogue,
+            data_files: files,
             subject,
             shape: velocity.segments(),
             radial: compensator.radial(),
         })
     }
 
-    fn open(&self, file: &Path) -> Result<Box<dyn ReadPath>, ReadError> {
-        let is_program = file
-            .extension()
-            .is_some_and(|extension| extension.eq_ignore_ascii_case(PMAC_EXTENSION));
-        Ok(if is_program {
-            let format = pmac_format(self.recipe, self.subject.compensates_nose);
-            Box::new(PmacReader::open(file, format)?)
-        } else {
-            Box::new(PathReader::open(file)?)
-        })
-    }
-
     fn verify(
         &self,
-        file: &Path,
+        file: &SourceFile,
         plots: (&Plots, &Path),
         observer: &dyn Observer,
     ) -> Result<FileReport, Error> {
         let recipe = self.recipe;
         let failed = |error| of_measure(recipe, error);
-        let mut reader = self.open(file)?;
+        let mut reader = file.open()?;
         let touch = FirstTouch::new(self.subject.clone()).map_err(failed)?;
         let meters = PathMeters::new(recipe, touch).with_servo(recipe);
         observer.begin(Stage::Measure, 0);
@@ -101,7 +104,7 @@ impl<'a> Target<'a> {
         let (meter, read) = (&meters.cut, reader.read_count());
         let range = meter.reach(self.radial).map_err(failed)?;
         let Some(range) = range.filter(|_| read.cutting_points() >= 2) else {
-            let file = file.to_owned();
+            let file = file.path.clone();
             return Err(Error::NothingCut { file });
         };
         let machined = meter.machined().map_err(failed)?;
@@ -124,22 +127,57 @@ impl<'a> Target<'a> {
             largest_error: figures.playback.max(),
             points: read.points(),
         };
+        let anomalies = self.anomalies(file, &played, meters.anomalies, observer)?;
         let (reach, unreached) = (self.reach(range), self.unreached(meter.touch())?);
         let report = FileReport {
             format: report::FORMAT,
             name: recipe.name.clone(),
-            file: file.display().to_string(),
+            file: file.path.display().to_string(),
             surface: recipe.surface_name(),
             control_points: read.cutting_points(),
             rows: read.points(),
             within: path.verdict(Some(&reach)),
             reach,
+            wholeness: self.wholeness(file, read.last())?,
             path,
             files: self.draw(file, plots, &played, observer)?,
-            anomalies: anomalies(meters.anomalies.finish()),
+            anomalies,
             unreached,
+            result: result_check(&file.path, recipe),
         };
         Ok(report.with_verdict())
+    }
+
+    /// Whether the file's path goes from its beginning to its end, by the file itself.
+    fn wholeness(
+        &self,
+        file: &SourceFile,
+        last: Option<&EndRow>,
+    ) -> Result<Option<report::Wholeness>, Error> {
+        let ends = file.first_row()?.zip(last.copied());
+        let digit = file.velocity_digit();
+        Ok(ends.and_then(|ends| wholeness(self.recipe, self.shape, digit, ends)))
+    }
+
+    /// The rows that are not as the recipe gives them; else those that stand out among their
+    /// neighbours.
+    fn anomalies(
+        &self,
+        file: &SourceFile,
+        played: &PlayedPath<'_>,
+        neighbours: AnomalyDetector,
+        observer: &dyn Observer,
+    ) -> Result<report::Anomalies, Error> {
+        let made_by = (self.recipe, self.catalogue, &self.data_files);
+        let compared = compare(made_by, file, played.points, played.touch, observer)?;
+        Ok(match compared {
+            Comparison::Compared(figures) => anomalies::of_rows(figures),
+            Comparison::OtherMaker => {
+                let reason = "more than 1 % of them differ, so the file is another maker's";
+                anomalies::of_neighbours(neighbours, reason.to_owned())
+            }
+            Comparison::NotRemade(reason) => anomalies::of_neighbours(neighbours, reason),
+        })
     }
 
     fn reach(&self, range: RadialRange) -> report::Reach {
@@ -170,7 +208,7 @@ impl<'a> Target<'a> {
     /// Draws the plots into their folder from a second reading; gives the names of their files.
     fn draw(
         &self,
-        file: &Path,
+        file: &SourceFile,
         (plots, folder): (&Plots, &Path),
         played: &PlayedPath<'_>,
         observer: &dyn Observer,
@@ -178,35 +216,18 @@ impl<'a> Target<'a> {
         if plots.is_empty() {
             return Ok(Vec::new());
         }
-        let mut reader = self.open(file)?;
+        let mut reader = file.open()?;
         make_folder(folder)?;
         let mut files = Vec::new();
-        for draft in draw(plots, played, reader.as_mut(), observer)? {
+        for draft in draw(
+            plots,
+            played,
+            reader.as_mut(),
+            &|file| Draft::begin(file),
+            observer,
+        )? {
             files.push(draft.complete()?.display().to_string());
         }
         Ok(files)
-    }
-}
-
-fn anomalies((count, found): (u64, Vec<Anomaly>)) -> report::Anomalies {
-    let place = |anomaly: Anomaly| report::Anomaly {
-        point: anomaly.point,
-        at: report::PathPlace {
-            c: anomaly.c,
-            x: anomaly.x,
-        },
-        kind: match anomaly.kind {
-            AnomalyKind::Height => report::AnomalyKind::ZPosition,
-            AnomalyKind::MotionOfC => report::AnomalyKind::CMotion,
-            AnomalyKind::MotionOfX => report::AnomalyKind::XMotion,
-            AnomalyKind::MotionOfZ => report::AnomalyKind::ZMotion,
-            AnomalyKind::Gap => report::AnomalyKind::Gap,
-        },
-        by: anomaly.amount,
-        neighbours: anomaly.usual,
-    };
-    report::Anomalies {
-        count,
-        places: found.into_iter().map(place).collect(),
     }
 }

@@ -1,35 +1,46 @@
-//! A file that has a temporary name until it is complete.
+//! A file that has a temporary name until it is whole.
 
-use std::fs;
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::Builder;
+
+use crate::file_error::FileError;
+use crate::gate;
+use crate::hashed_file::{Contents, HashedFile};
+use crate::operation::{Operation, perform};
+use crate::temporary::Temporary;
 
 /// Size of the buffer, bytes.
 const BUFFER: usize = 1 << 18;
 
-/// A file that could not be written.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot write {}", path.display())]
-pub struct FileError {
-    /// The file or its folder.
-    pub path: PathBuf,
-    /// Why.
-    #[source]
-    pub error: io::Error,
-}
-
-/// An unfinished file. It is removed when it is dropped, and gets its name when it is complete.
-///
-/// A link is followed: the file behind the link is replaced, and the link stays.
+/// An unfinished file. It is removed when it is dropped, and when a signal ends the process.
 #[derive(Debug)]
 pub struct Draft {
-    file: BufWriter<NamedTempFile>,
-    /// The path as the caller gave it.
+    file: BufWriter<HashedFile>,
+    name: WholeName,
+}
+
+/// A file that is whole and on the disk, and still without its name. It is removed when it is
+/// dropped, and when a signal ends the process.
+#[derive(Debug)]
+pub struct WholeFile {
+    contents: Contents,
+    name: WholeName,
+}
+
+/// The names of a file.
+#[derive(Debug)]
+struct WholeName {
+    /// The present one.
+    temporary: Temporary,
+    /// The one to come, as the caller gave it.
     path: PathBuf,
-    /// The path with links followed.
+    /// The same with links followed.
     target: PathBuf,
+    /// The name in a folder of results, for a file that gets it together with others.
+    member: Option<String>,
 }
 
 impl Draft {
@@ -38,32 +49,68 @@ impl Draft {
     /// # Errors
     /// When the name belongs to a folder, a device or a link to nothing.
     pub fn can_be(path: &Path) -> Result<(), FileError> {
-        target(path).map(|_| ()).map_err(|error| FileError {
-            path: path.to_owned(),
-            error,
-        })
+        target(path).map(|_| ()).map_err(FileError::of(path))
     }
 
-    /// Begins the file `path`. Its folder must exist.
+    /// Begins the file `path` beside it. Its folder must exist. A link is followed: the file behind
+    /// the link is replaced, and the link stays.
     ///
     /// # Errors
     /// When no file can be created in the folder, or `path` is something else than a file.
     pub fn begin(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
-        let draft = target(&path).and_then(|target| Ok((begin_beside(&target)?, target)));
-        match draft {
-            Ok((file, target)) => Ok(Self {
-                file: BufWriter::with_capacity(BUFFER, file),
-                path,
-                target,
-            }),
+        let begun = target(&path).and_then(|target| Ok((begin_beside(&target)?, target)));
+        match begun {
+            Ok(((file, temporary), target)) => Ok(Self::new(
+                file,
+                WholeName {
+                    temporary,
+                    path,
+                    target,
+                    member: None,
+                },
+            )),
             Err(error) => Err(FileError { path, error }),
         }
     }
 
-    /// The path that the complete file will have.
+    /// Begins the file `path` as the new file `temporary`, on the same file system.
+    pub(crate) fn begin_as(
+        temporary: PathBuf,
+        path: PathBuf,
+        member: Option<String>,
+    ) -> Result<Self, FileError> {
+        let _gate = gate::enter();
+        match create(&temporary) {
+            Ok(file) => Ok(Self::new(
+                file,
+                WholeName {
+                    temporary: Temporary::new(temporary),
+                    target: path.clone(),
+                    path,
+                    member,
+                },
+            )),
+            Err(error) => Err(FileError { path, error }),
+        }
+    }
+
+    fn new(file: File, name: WholeName) -> Self {
+        let file = HashedFile::new(file, name.temporary.path().to_owned());
+        Self {
+            file: BufWriter::with_capacity(BUFFER, file),
+            name,
+        }
+    }
+
+    /// The path that the whole file will have.
     pub fn path(&self) -> &Path {
-        &self.path
+        &self.name.path
+    }
+
+    /// The folder in which the draft lies.
+    pub fn folder(&self) -> &Path {
+        parent(self.name.temporary.path())
     }
 
     /// Everything written so far, as a file that can be read under a temporary name.
@@ -71,41 +118,88 @@ impl Draft {
     /// # Errors
     /// When the file cannot be written.
     pub fn readable(&mut self) -> Result<&Path, FileError> {
-        match self.flush() {
-            Ok(()) => Ok(self.file.get_ref().path()),
+        match self.file.flush() {
+            Ok(()) => Ok(self.name.temporary.path()),
+            Err(error) => Err(FileError::of(&self.name.path)(error)),
+        }
+    }
+
+    /// Brings all of the file to the disk and reads it back.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or does not read back as it was written.
+    pub fn finish(self) -> Result<WholeFile, FileError> {
+        let Self { file, name } = self;
+        let file = file.into_inner().map_err(io::IntoInnerError::into_error);
+        match file.and_then(HashedFile::finish) {
+            Ok(contents) => Ok(WholeFile { contents, name }),
+            Err(error) => Err(FileError::of(&name.path)(error)),
+        }
+    }
+
+    /// Gives the whole file its name, and replaces a file that had it before.
+    ///
+    /// # Errors
+    /// When the file cannot be written or renamed.
+    pub fn complete(self) -> Result<PathBuf, FileError> {
+        self.finish()?.give_name()
+    }
+}
+
+impl WholeFile {
+    /// Its bytes.
+    pub fn contents(&self) -> &Contents {
+        &self.contents
+    }
+
+    /// The path that it will have.
+    pub fn path(&self) -> &Path {
+        &self.name.path
+    }
+
+    /// Its name in a folder of results, where it gets it together with others.
+    pub fn member(&self) -> Option<&str> {
+        self.name.member.as_deref()
+    }
+
+    /// Gives the file its name, and replaces a file that had it before.
+    ///
+    /// # Errors
+    /// When the file cannot be renamed.
+    pub fn give_name(self) -> Result<PathBuf, FileError> {
+        let _gate = gate::enter();
+        let name = self.name;
+        let from = name.temporary.path();
+        let renamed = perform(Operation::Rename, &name.target, || {
+            fs::rename(from, &name.target)
+        });
+        match renamed {
+            // The temporary name is free again, whether or not a signal asks for it.
+            Ok(()) => {
+                let _ = name.temporary.release();
+                Ok(name.path)
+            }
             Err(error) => Err(FileError {
-                path: self.path.clone(),
+                path: name.path,
                 error,
             }),
         }
     }
 
-    /// Gives the complete file its name, and replaces a file that had it before.
-    ///
-    /// # Errors
-    /// When the file cannot be written or renamed.
-    pub fn complete(self) -> Result<PathBuf, FileError> {
-        let Self { file, path, target } = self;
-        let finish = || -> io::Result<()> {
-            let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-            file.as_file().sync_all()?;
-            file.persist(&target)?;
-            Ok(())
-        };
-        match finish().map_err(without_name) {
-            Ok(()) => Ok(path),
-            Err(error) => Err(FileError { path, error }),
-        }
+    /// Lets the file stay under its temporary name. False if a signal has removed it.
+    #[must_use]
+    pub(crate) fn release(self) -> bool {
+        self.name.temporary.release()
     }
 }
 
 impl Write for Draft {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes).map_err(without_name)
+        self.file.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush().map_err(without_name)
+        self.file.flush()
     }
 }
 
@@ -130,17 +224,29 @@ fn target(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-fn begin_beside(target: &Path) -> io::Result<NamedTempFile> {
-    let folder = match target.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
+/// A new file in the folder of this one.
+fn begin_beside(target: &Path) -> io::Result<(File, Temporary)> {
     let mut builder = Builder::new();
     builder.prefix(".turnpath-").suffix(".part");
-    // Only the owner may read a temporary file; the permissions of a result follow the umask.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder).map_err(without_name)
+    let _gate = gate::enter();
+    let made = builder.make_in(parent(target), create);
+    let (file, path) = made.map_err(without_name)?.into_parts();
+    let path = path.keep().map_err(|error| error.error)?;
+    Ok((file, Temporary::new(path)))
+}
+
+/// Creates a file that must be new; its permissions follow the umask.
+fn create(path: &Path) -> io::Result<File> {
+    perform(Operation::Create, path, || {
+        OpenOptions::new().write(true).create_new(true).open(path)
+    })
+}
+
+fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
 }
 
 /// The words that tempfile puts between an error and the name of the file.

@@ -1,0 +1,180 @@
+//! Two neighbouring passes at one angle, half a feed to either side of a radius, and the feed with
+//! which their cusp has a given height.
+//!
+//! A large feed spans so much of the profile that the curvature at one place does not describe it.
+//! So the noses are placed as the compensator places them, and the tip between them is compared
+//! with the nearest place of the profile.
+
+use crate::profile::{Profile, profile_at};
+use crate::{Centres, Compensator, Cut, Result};
+
+/// Rounds of the search for a feed. Cusps grow nearly with the square of the feed, so each round
+/// leaves some hundredths of the error.
+const ROUNDS: usize = 16;
+/// A feed that changes by less than this part of itself is found.
+const SETTLED: f64 = 1e-8;
+/// The largest factor by which one round changes a feed. Where the nose fills a hollow, cusps say
+/// little about it.
+const LARGEST_STEP: f64 = 2.0;
+/// Evaluations of the profile on the way to the place nearest to a tip. The tip is so near that the
+/// first step leaves a thousandth of the way.
+const FOOT_ROUNDS: usize = 3;
+
+/// A surface, a tool and the compensator that places it.
+#[derive(Clone, Copy)]
+pub struct Neighbours<'a> {
+    /// Surface and tool.
+    pub cut: Cut<'a>,
+    /// Places the tool.
+    pub compensator: &'a dyn Compensator,
+}
+
+/// A feed that is searched for at one (θ, ρ).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedSearch {
+    /// C angle, rad.
+    pub theta: f64,
+    /// The radius in the middle of both passes, mm.
+    pub rho: f64,
+    /// The largest feed, mm.
+    pub cap: f64,
+    /// The feed, mm: a first value, and then the one that was found.
+    pub feed: f64,
+}
+
+impl Neighbours<'_> {
+    /// Finds the feeds whose cusps are `residual` high, mm. Where a pass has no place, or where the
+    /// passes do not meet, the first value stays.
+    pub fn search(&self, residual: f64, searches: &mut [FeedSearch]) {
+        let mut open: Vec<usize> = (0..searches.len()).collect();
+        for _ in 0..ROUNDS {
+            if open.is_empty() {
+                break;
+            }
+            let passes: Vec<FeedSearch> = open
+                .iter()
+                .filter_map(|at| searches.get(*at).copied())
+                .collect();
+            let cusps = self.cusps_of_any(&passes);
+            let mut next = Vec::new();
+            for ((at, pass), cusp) in open.iter().zip(&passes).zip(&cusps) {
+                let Some(feed) = improved(pass, *cusp, residual) else {
+                    continue;
+                };
+                if let Some(search) = searches.get_mut(*at) {
+                    search.feed = feed;
+                }
+                if (feed - pass.feed).abs() > SETTLED * pass.feed {
+                    next.push(*at);
+                }
+            }
+            open = next;
+        }
+    }
+
+    /// The heights of the cusps, mm; NaN where there is none. A place that the surface refuses does
+    /// not spoil the others.
+    fn cusps_of_any(&self, passes: &[FeedSearch]) -> Vec<f64> {
+        if let Ok(cusps) = self.cusps(passes) {
+            return cusps;
+        }
+        let alone = |pass: &FeedSearch| {
+            let cusp = self.cusps(std::slice::from_ref(pass));
+            cusp.map_or(f64::NAN, |cusp| cusp.first().copied().unwrap_or(f64::NAN))
+        };
+        passes.iter().map(alone).collect()
+    }
+
+    fn cusps(&self, passes: &[FeedSearch]) -> Result<Vec<f64>> {
+        let theta: Vec<f64> = passes.iter().map(|pass| pass.theta).collect();
+        let aside = |side: f64| passes.iter().map(move |pass| pass.rho + side * pass.feed);
+        let first = self.noses(&theta, &aside(-0.5).collect::<Vec<_>>())?;
+        let second = self.noses(&theta, &aside(0.5).collect::<Vec<_>>())?;
+        let radius = self.cut.tool.nose_radius;
+        let tips: Vec<[f64; 2]> = first
+            .iter()
+            .zip(&second)
+            .map(|(one, two)| tip(one.centre, two.centre, radius))
+            .collect();
+        let between = first.iter().zip(&second);
+        let feet = between.map(|(one, two)| 0.5 * (one.foot + two.foot));
+        self.heights(&theta, &tips, feet.collect())
+    }
+
+    /// The noses at each (θ, ρ).
+    fn noses(&self, theta: &[f64], rho: &[f64]) -> Result<Vec<Nose>> {
+        let blank = || vec![f64::NAN; theta.len()];
+        let (mut x, mut z, mut foot) = (blank(), blank(), blank());
+        let places = Centres {
+            x: &mut x,
+            z: &mut z,
+            foot: &mut foot,
+        };
+        self.compensator.centre(self.cut, theta, rho, places)?;
+        let nose = |((x, z), foot): ((f64, f64), f64)| Nose {
+            centre: [x, z],
+            foot,
+        };
+        let places = x.into_iter().zip(z).zip(foot);
+        let mut noses: Vec<Nose> = places.map(nose).collect();
+        if !self.compensator.compensates_nose() {
+            let mut profiles = vec![Profile::default(); theta.len()];
+            profile_at(self.cut.surface, theta, rho, &mut profiles)?;
+            for (nose, profile) in noses.iter_mut().zip(&profiles) {
+                let along = self.cut.tool.nose_radius / profile.slant();
+                nose.centre[0] -= along * profile.slope;
+                nose.centre[1] += along;
+            }
+        }
+        Ok(noses)
+    }
+
+    /// The distances of the tips from the profile, mm; positive above it. `feet` are first values
+    /// of the nearest places.
+    fn heights(&self, theta: &[f64], tips: &[[f64; 2]], mut feet: Vec<f64>) -> Result<Vec<f64>> {
+        let mut profiles = vec![Profile::default(); tips.len()];
+        let mut heights = vec![f64::NAN; tips.len()];
+        for _ in 0..FOOT_ROUNDS {
+            profile_at(self.cut.surface, theta, &feet, &mut profiles)?;
+            let places = profiles.iter().zip(tips);
+            for ((profile, tip), (foot, height)) in places.zip(feet.iter_mut().zip(&mut heights)) {
+                let (aside, above) = (tip[0] - *foot, tip[1] - profile.height);
+                let distance = (aside * aside + above * above).sqrt();
+                *height = if above < 0.0 { -distance } else { distance };
+                let slope = profile.slope;
+                *foot += (aside + above * slope) / (1.0 + slope * slope - above * profile.second);
+            }
+        }
+        Ok(heights)
+    }
+}
+
+/// A nose at its place.
+struct Nose {
+    centre: [f64; 2],
+    foot: f64,
+}
+
+/// The lower crossing of two circles; NaN where they do not meet.
+fn tip(one: [f64; 2], two: [f64; 2], radius: f64) -> [f64; 2] {
+    let (dx, dz) = (two[0] - one[0], two[1] - one[1]);
+    let squared = 0.25 * (dx * dx + dz * dz);
+    let part = ((radius * radius - squared) / squared).sqrt() * 0.5;
+    let side = if dx < 0.0 { -part } else { part };
+    [
+        0.5 * (one[0] + two[0]) + side * dz,
+        0.5 * (one[1] + two[1]) - side * dx,
+    ]
+}
+
+/// A better feed after a cusp of this height; `None` where the cusp says nothing.
+fn improved(pass: &FeedSearch, cusp: f64, residual: f64) -> Option<f64> {
+    if cusp.is_nan() {
+        return None;
+    }
+    let factor = match cusp > residual / (LARGEST_STEP * LARGEST_STEP) {
+        true => (residual / cusp).sqrt().max(1.0 / LARGEST_STEP),
+        false => LARGEST_STEP,
+    };
+    Some((pass.feed * factor).min(pass.cap))
+}

@@ -1,0 +1,146 @@
+//! Bytes and their hash: as a file is written, and as it reads back.
+
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use crate::operation::{Operation, announce, perform};
+
+/// Bytes of a file that are read at once.
+const BUFFER: usize = 1 << 16;
+
+/// How many bytes a file has, and their hash.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Contents {
+    /// The number of bytes.
+    pub bytes: u64,
+    /// Their SHA-256, in lower-case hexadecimal.
+    pub sha256: String,
+}
+
+impl Contents {
+    /// Those of a file, which is read piece by piece.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn of_file(path: &Path) -> io::Result<Self> {
+        let mut file = perform(Operation::Read, path, || File::open(path))?;
+        let (mut sum, mut buffer) = (Sum::default(), vec![0; BUFFER]);
+        loop {
+            match file.read(&mut buffer) {
+                Ok(0) => return Ok(sum.contents()),
+                Ok(read) => sum.add(buffer.get(..read).unwrap_or_default()),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+/// Bytes so far.
+#[derive(Debug, Default)]
+struct Sum {
+    hasher: Sha256,
+    bytes: u64,
+}
+
+impl Sum {
+    fn add(&mut self, bytes: &[u8]) {
+        self.hasher.update(bytes);
+        self.bytes += bytes.len() as u64;
+    }
+
+    fn contents(self) -> Contents {
+        let hash = self.hasher.finalize();
+        Contents {
+            bytes: self.bytes,
+            sha256: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
+        }
+    }
+}
+
+/// A file that hashes what is written.
+#[derive(Debug)]
+pub struct HashedFile {
+    file: File,
+    path: PathBuf,
+    sum: Sum,
+}
+
+impl HashedFile {
+    /// An empty file.
+    pub fn new(file: File, path: PathBuf) -> Self {
+        Self {
+            file,
+            path,
+            sum: Sum::default(),
+        }
+    }
+
+    /// Brings the file to the disk, closes it, and compares what it has with what was written.
+    pub fn finish(self) -> io::Result<Contents> {
+        let Self { file, path, sum } = self;
+        perform(Operation::Sync, &path, || file.sync_all())?;
+        drop(file);
+        let (written, found) = (sum.contents(), Contents::of_file(&path)?);
+        match written == found {
+            true => Ok(found),
+            false => Err(io::Error::other("it does not read back as it was written")),
+        }
+    }
+}
+
+impl Write for HashedFile {
+    /// An interrupted call is the caller's to repeat, as everywhere in `std`.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        announce(Operation::Write, &self.path)?;
+        let written = self.file.write(bytes)?;
+        self.sum.add(bytes.get(..written).unwrap_or_default());
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// FIPS 180-2, appendices B.1 and B.3.
+    #[test]
+    fn the_standards_examples_have_these_hashes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        for (bytes, sha256) in [
+            (
+                b"abc".to_vec(),
+                "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
+            ),
+            (
+                vec![b'a'; 1_000_000],
+                "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0",
+            ),
+        ] {
+            let mut file = HashedFile::new(File::create(&path).unwrap(), path.clone());
+            file.write_all(&bytes).unwrap();
+            let contents = file.finish().unwrap();
+            assert_eq!(contents.sha256, sha256);
+            assert_eq!(contents.bytes, bytes.len() as u64);
+        }
+    }
+
+    #[test]
+    fn a_file_that_another_changes_meanwhile_is_not_finished() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        let mut file = HashedFile::new(File::create(&path).unwrap(), path.clone());
+        file.write_all(b"written").unwrap();
+        std::fs::write(&path, "changed").unwrap();
+        let error = file.finish().unwrap_err();
+        assert!(error.to_string().contains("read back"), "{error}");
+    }
+}

@@ -1,0 +1,65 @@
+//! Why a folder takes no result.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::file_error::FileError;
+
+/// Why a folder takes no result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// A file could not be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Another process writes into the folder, or another part of this one.
+    #[error("another run is writing into {}", folder.display())]
+    Taken {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The folder cannot be locked.
+    #[error("cannot lock {}", folder.display())]
+    Lock {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        #[source]
+        error: io::Error,
+    },
+    /// The name of a file of the result belongs to a link.
+    #[error("cannot write {}: it is a link, and a result has its files in its own folder", path.display())]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
+    /// A whole result did not get all its names.
+    #[error("the result is whole, but {} did not get all its files", folder.display())]
+    Unfinished {
+        /// The folder.
+        folder: PathBuf,
+        /// What stopped it.
+        #[source]
+        source: FileError,
+    },
+}
+
+impl FolderError {
+    /// What the user may do about it.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::File(_) => None,
+            Self::Taken { .. } => Some("wait until it ends, or choose another folder with `-o`"),
+            Self::Lock { .. } => {
+                Some("results need a file system with locks: choose another folder with `-o`")
+            }
+            Self::Link { .. } => {
+                Some("remove the link, or give the folder that it leads into with `-o`")
+            }
+            Self::Unfinished { .. } => Some(
+                "close the file if a program has it open; the next call with this folder gives the \
+                 files their names",
+            ),
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! What a folder has at each point of a commit, and what the next writer makes of it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use super::*;
+
+/// The names and texts of all that is in a folder.
+fn found(folder: &Path) -> BTreeMap<String, String> {
+    let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
+    entries
+        .map(|entry| {
+            let text = fs::read_to_string(entry.path()).unwrap_or_else(|_| "a folder".to_owned());
+            (entry.file_name().into_string().unwrap(), text)
+        })
+        .collect()
+}
+
+fn draft(result: &ResultFolder, name: &str, text: &str) -> WholeFile {
+    let mut draft = result.draft(&result.path().join(name)).unwrap();
+    draft.write_all(text.as_bytes()).unwrap();
+    draft.finish().unwrap()
+}
+
+/// Makes a result of these files and an index that lists them.
+fn make(folder: &Path, files: &[(&str, &str)]) -> Result<(), FolderError> {
+    let result = ResultFolder::open(folder)?;
+    let files: Vec<WholeFile> = files
+        .iter()
+        .map(|(name, text)| draft(&result, name, text))
+        .collect();
+    let listed: Vec<ListedFile> = files
+        .iter()
+        .map(|file| ListedFile::new(file.member().unwrap(), file.contents()))
+        .collect();
+    let text = format!("{{\"files\":{}}}", serde_json::to_string(&listed).unwrap());
+    let index = draft(&result, "index.json", &text);
+    result.commit(files, index)
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    found(folder).into_keys().collect()
+}
+
+#[test]
+fn a_second_result_removes_what_only_the_first_has_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = &folder.path().join("a/b");
+    make(folder, &[("table", "1"), ("old", "2"), ("edited", "3")]).unwrap();
+    fs::write(folder.join("edited"), "4").unwrap();
+    fs::write(folder.join("foreign"), "5").unwrap();
+    make(folder, &[("table", "6"), ("new", "7")]).unwrap();
+    assert_eq!(
+        names(folder),
+        ["edited", "foreign", "index.json", "new", "table"]
+    );
+    assert_eq!(found(folder)["table"], "6");
+}
+
+#[test]
+fn a_result_that_is_given_up_leaves_nothing_not_even_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let deep = folder.path().join("a/b");
+    let result = ResultFolder::open(&deep).unwrap();
+    let draft = result.draft(&deep.join("table")).unwrap();
+    assert!(deep.join(".turnpath").is_dir() && draft.path().ends_with("table"));
+    drop((draft, result));
+    assert_eq!(names(folder.path()), Vec::<String>::new());
+}
+
+#[test]
+fn a_folder_takes_one_writer_at_a_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = ResultFolder::open(folder.path()).unwrap();
+    let second = ResultFolder::open(folder.path());
+    assert!(
+        matches!(second, Err(FolderError::Taken { .. })),
+        "{second:?}"
+    );
+    drop(first);
+    make(folder.path(), &[]).unwrap();
+    assert_eq!(names(folder.path()), ["index.json"]);
+}
+
+#[test]
+fn what_a_killed_writer_left_goes_with_the_next() {
+    let folder = tempfile::tempdir().unwrap();
+    make(folder.path(), &[("table", "1")]).unwrap();
+    let left = folder.path().join(".turnpath/next-0");
+    fs::create_dir_all(&left).unwrap();
+    fs::write(left.join("table"), "half").unwrap();
+    fs::write(folder.path().join(".turnpath.lock"), "").unwrap();
+    drop(ResultFolder::open(folder.path()).unwrap());
+    assert_eq!(names(folder.path()), ["index.json", "table"]);
+    assert_eq!(found(folder.path())["table"], "1");
+}
+
+/// A commit is interrupted after each of its steps by doing them by hand, in their order.
+#[test]
+fn a_commit_that_was_interrupted_anywhere_is_completed_by_the_next_writer() {
+    let steps: [fn(&Path, &Path); 7] = [
+        |_, _| {},
+        |folder, _| fs::remove_file(folder.join("index.json")).unwrap(),
+        |folder, commit| fs::rename(commit.join("table"), folder.join("table")).unwrap(),
+        |folder, _| fs::remove_file(folder.join("old")).unwrap(),
+        |folder, commit| fs::rename(commit.join("index.json"), folder.join("index.json")).unwrap(),
+        |_, commit| fs::remove_file(commit.join(PLAN)).unwrap(),
+        |_, commit| fs::remove_dir(commit).unwrap(),
+    ];
+    for last in 0..steps.len() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        make(folder, &[("table", "1"), ("old", "2")]).unwrap();
+        let commit = folder.join(".turnpath/commit");
+        fs::create_dir_all(&commit).unwrap();
+        let plan = Plan::new(folder, "index.json", &["table"]);
+        fs::write(commit.join(PLAN), plan.text().unwrap()).unwrap();
+        fs::write(commit.join("table"), "3").unwrap();
+        fs::write(commit.join("index.json"), "{}").unwrap();
+        for step in steps.iter().take(last + 1) {
+            step(folder, &commit);
+        }
+        drop(ResultFolder::open(folder).unwrap());
+        assert_eq!(names(folder), ["index.json", "table"], "step {last}");
+        assert_eq!(found(folder)["table"], "3", "step {last}");
+        assert_eq!(found(folder)["index.json"], "{}", "step {last}");
+    }
+}
+
+#[test]
+fn a_name_that_something_else_has_stops_a_commit_which_then_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    make(folder, &[("table", "1")]).unwrap();
+    fs::create_dir(folder.join("new")).unwrap();
+    let error = make(folder, &[("table", "2"), ("new", "3")]).unwrap_err();
+    assert!(matches!(error, FolderError::Unfinished { .. }), "{error}");
+    assert!(error.help().unwrap().contains("next call"), "{error}");
+    assert!(!folder.join("index.json").exists());
+    let again = ResultFolder::open(folder).unwrap_err();
+    assert!(matches!(again, FolderError::Unfinished { .. }), "{again}");
+    fs::remove_dir(folder.join("new")).unwrap();
+    drop(ResultFolder::open(folder).unwrap());
+    assert_eq!(names(folder), ["index.json", "new", "table"]);
+    assert_eq!(found(folder)["table"], "2");
+}
+
+#[test]
+fn a_file_elsewhere_gets_its_name_with_the_result_and_is_no_part_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let elsewhere = tempfile::tempdir().unwrap();
+    let map = elsewhere.path().join("map");
+    let result = ResultFolder::open(folder.path()).unwrap();
+    let mut file = result.draft(&map).unwrap();
+    file.write_all(b"1").unwrap();
+    let file = file.finish().unwrap();
+    assert!(file.member().is_none() && !map.exists());
+    let index = draft(&result, "index.json", "{}");
+    result.commit(vec![file], index).unwrap();
+    assert_eq!(names(elsewhere.path()), ["map"]);
+    assert_eq!(names(folder.path()), ["index.json"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_no_file_of_a_result_but_the_folder_may_be_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let (real, link) = (folder.path().join("real"), folder.path().join("link"));
+    fs::create_dir(&real).unwrap();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    make(&link, &[("table", "1")]).unwrap();
+    assert_eq!(names(&real), ["index.json", "table"]);
+    assert_eq!(ResultFolder::member(&link, &real.join("x")).unwrap(), "x");
+    std::os::unix::fs::symlink("table", real.join("other")).unwrap();
+    let error = ResultFolder::can_have(&real, "other").unwrap_err();
+    assert!(matches!(error, FolderError::Link { .. }), "{error}");
+    ResultFolder::can_have(&real, "table").unwrap();
+}

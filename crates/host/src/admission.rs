@@ -1,0 +1,15 @@
+//! Who decides about libraries before any of their code runs.
+
+use std::fmt::Debug;
+
+use crate::{LibraryFile, LoadError};
+
+/// Decides whether libraries may be loaded. A [`Catalogue`](crate::Catalogue) asks all of its
+/// admissions, in the order in which they were given, before it loads the first of these libraries.
+pub trait Admission: Debug + Send + Sync {
+    /// Admits the libraries, which have been read and nothing else: all of a folder, or a file alone.
+    ///
+    /// # Errors
+    /// When one of them must not be loaded. Then none is.
+    fn admit(&self, libraries: &[LibraryFile]) -> Result<(), LoadError>;
+}

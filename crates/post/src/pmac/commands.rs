@@ -1,0 +1,168 @@
+//! What a header or a footer tells the controller besides the path.
+
+use super::scan::split_comment;
+
+/// The first of the programs 1000 to 1003, which the controller runs as G, M, T and D codes. To fill
+/// one of them changes what other programs do.
+const FIRST_OF_CODES: u32 = 1000;
+
+/// A line of a header or a footer that is more than a comment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Command {
+    /// The line in its template, from 1.
+    pub line: usize,
+    /// The line without its comment; placeholders stand as the template has them.
+    pub text: String,
+    /// Whether all of its words are known to move nothing, set nothing and start nothing.
+    pub harmless: bool,
+}
+
+/// The commands of a template, line by line. Comments and empty lines are none.
+///
+/// These words are harmless: `OPEN PROG` with a number below 1000, `OPEN ROT`, `CLEAR` and `CLOSE`,
+/// which say where the program goes; `ABS` and `INC`, which say what numbers mean; labels; `DWELL` and
+/// `DELAY` with a number, which wait; `RETURN` and `STOP`, which end. Any other word may move an axis,
+/// set a variable, or start what does.
+pub fn commands(template: &str) -> Vec<Command> {
+    let lines = template.lines().zip(1..);
+    let commands = lines.filter_map(|(text, line)| {
+        let (code, _) = split_comment(text.as_bytes());
+        let text = String::from_utf8_lossy(code).trim().to_owned();
+        let harmless = is_harmless(&text);
+        (!text.is_empty()).then_some(Command {
+            line,
+            text,
+            harmless,
+        })
+    });
+    commands.collect()
+}
+
+fn is_harmless(code: &str) -> bool {
+    let code = code.to_uppercase();
+    let mut rest = code.as_str();
+    while !rest.trim_start().is_empty() {
+        match after_statement(rest.trim_start()) {
+            Some(after) => rest = after,
+            None => return false,
+        }
+    }
+    true
+}
+
+/// The code after a harmless statement at its start.
+fn after_statement(code: &str) -> Option<&str> {
+    let (word, rest) = word(code);
+    match word {
+        "CLOSE" | "CLS" | "CLEAR" | "CLR" | "RETURN" | "RET" | "STOP" => Some(rest),
+        "ABS" | "INC" => after_axes(rest),
+        "N" | "DWELL" | "DELAY" => number(rest).map(|(_, rest)| rest),
+        "OPEN" => match self::word(rest.trim_start()) {
+            ("ROT" | "ROTARY", rest) => Some(rest),
+            ("PROG" | "PROGRAM", rest) => {
+                let (program, rest) = number(rest)?;
+                let program: u32 = program.parse().ok()?;
+                (program < FIRST_OF_CODES).then_some(rest)
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn word(code: &str) -> (&str, &str) {
+    let end = code.find(|c: char| !c.is_ascii_alphabetic());
+    code.split_at(end.unwrap_or(code.len()))
+}
+
+/// Digits, and what follows them.
+fn number(code: &str) -> Option<(&str, &str)> {
+    let code = code.trim_start();
+    let end = code.find(|c: char| !c.is_ascii_digit());
+    let (digits, rest) = code.split_at(end.unwrap_or(code.len()));
+    (!digits.is_empty()).then_some((digits, rest))
+}
+
+/// What follows the axes in parentheses, which need not be there.
+fn after_axes(code: &str) -> Option<&str> {
+    let Some(inside) = code.trim_start().strip_prefix('(') else {
+        return Some(code);
+    };
+    let (axes, rest) = inside.split_once(')')?;
+    let is_axis = |axis: &str| matches!(axis.trim().as_bytes(), [b'A'..=b'C' | b'R' | b'U'..=b'Z']);
+    axes.split(',').all(is_axis).then_some(rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pmac::{FOOTER, HEADER};
+
+    fn all_harmless(text: &str) -> bool {
+        commands(text).iter().all(|command| command.harmless)
+    }
+
+    #[test]
+    fn the_posts_own_templates_are_harmless() {
+        for text in [HEADER, FOOTER] {
+            assert!(!commands(text).is_empty() && all_harmless(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn words_that_only_open_read_wait_or_end_are_harmless() {
+        for text in [
+            "OPEN ROT",
+            "close open prog 12 clear",
+            "OPENPROG999CLEAR",
+            "N10 ABS (X, Z) INC",
+            "DWELL 100",
+            "CLOSE ; M1=1 in a comment",
+            "// M1=1",
+            "",
+        ] {
+            assert!(all_harmless(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn any_other_word_needs_trust() {
+        for text in [
+            "M1=1",
+            "I5=2",
+            "P1 = 2",
+            "OPEN PLC 1 CLEAR",
+            "OPEN PROG 1000 CLEAR",
+            "OPEN PROG {points} CLEAR",
+            "CLOSE &1 B1 R",
+            "ENABLE PLC 1",
+            "CMD\"#1J+\"",
+            "X10",
+            "HOME1",
+            "CALL 500",
+            "DELETE GATHER",
+            "$$$***",
+            "ABS (X, P1)",
+            "CLOSEALL",
+            "{{",
+            "DWELL P1",
+            "CLOSE\u{b5}",
+        ] {
+            assert!(!all_harmless(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_command_is_told_with_its_line_and_without_its_comment() {
+        let found = commands("; {name}\n\n  M1=1 ; coolant\nCLOSE\n");
+        let command = |line, text: &str, harmless| Command {
+            line,
+            text: text.to_owned(),
+            harmless,
+        };
+        assert_eq!(
+            found,
+            [command(3, "M1=1", false), command(4, "CLOSE", true)]
+        );
+    }
+}

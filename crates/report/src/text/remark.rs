@@ -1,0 +1,62 @@
+//! The lines on what is allowed but seldom meant, and on the cap of the feed.
+
+use crate::feed_cap::FeedCap;
+use crate::remark::Remark;
+use crate::unit;
+
+use super::numbers::{duration, line, millimetres, significant, small_length};
+
+/// A line for each remark.
+pub fn remarks(remarks: &[Remark]) -> String {
+    remarks
+        .iter()
+        .map(|remark| line("remark", sentence(remark)))
+        .collect()
+}
+
+fn sentence(remark: &Remark) -> String {
+    match *remark {
+        Remark::RoughResidual { residual } => {
+            let residual = small_length(residual);
+            format!("a residual of {residual} is far above that of an optical surface")
+        }
+        Remark::SmallAperture { aperture } => {
+            format!(
+                "an aperture of {} is that of a grain",
+                small_length(aperture)
+            )
+        }
+        Remark::FastZ { acceleration } => {
+            let acceleration = significant(acceleration / 1e3);
+            format!("Z accelerates by {acceleration} m/s², and [machine] has no limit for it")
+        }
+        Remark::LongCut { cutting_time } => {
+            format!(
+                "the cut takes {}, longer than a working day",
+                duration(cutting_time)
+            )
+        }
+        Remark::CoarseDigits {
+            position_decimals,
+            rounding,
+            tolerance,
+        } => {
+            let (rounding, tolerance) = (small_length(rounding), small_length(tolerance));
+            format!(
+                "position_decimals = {position_decimals} rounds by up to {rounding}, and the \
+                 interpolation tolerance is {tolerance}"
+            )
+        }
+    }
+}
+
+/// The lines on the cap of the feed; empty where it binds nowhere.
+pub fn feed_cap(cap: &FeedCap) -> String {
+    let (Some(from), Some(to), Some(feed)) = (cap.from, cap.to, cap.feed) else {
+        return String::new();
+    };
+    let feed = significant(feed * unit::um::PER);
+    let (from, to) = (millimetres(from, 3), millimetres(to, 3));
+    let what = format!("the reach of the nose sets the feed, not the residual: {feed} um/rev");
+    line("feed cap", what) + &line("", format!("from ρ = {from} to {to}"))
+}

@@ -1,0 +1,48 @@
+//! The controller's commands in a recipe's own header and footer.
+
+use turnpath_recipe::{Recipe, Span, Spanned};
+use turnpath_report::ControllerCommand;
+
+/// A command with the span of its template.
+struct Found<'a> {
+    command: ControllerCommand,
+    span: &'a Span,
+}
+
+/// What the recipe's own header and footer tell the controller besides the path. The post's own
+/// templates are not named, and none are where no program is asked for.
+pub fn controller_commands(recipe: &Recipe) -> Vec<ControllerCommand> {
+    found(recipe).map(|found| found.command).collect()
+}
+
+/// The commands of the recipe's file that may move, set or start something, each with the span of
+/// its template. Those that were given with `--set` are the caller's own and need no trust.
+pub fn commands_to_trust(recipe: &Recipe) -> Vec<(ControllerCommand, Span)> {
+    found(recipe)
+        .filter(|found| !found.command.harmless && found.span.source().rank == 0)
+        .map(|found| (found.command, found.span.clone()))
+        .collect()
+}
+
+fn found(recipe: &Recipe) -> impl Iterator<Item = Found<'_>> {
+    let settings = &recipe.pmac_pvt;
+    let written = !recipe.output.posts.is_empty();
+    let templates = [("header", &settings.header), ("footer", &settings.footer)];
+    let own = templates.into_iter().filter(move |_| written);
+    own.filter_map(|(name, own)| Some((name, own.as_ref()?)))
+        .flat_map(|(name, own)| of_template(name, own))
+}
+
+fn of_template<'a>(name: &str, own: &'a Spanned<String>) -> Vec<Found<'a>> {
+    let commands = turnpath_post::commands(&own.value).into_iter();
+    let found = commands.map(|command| Found {
+        command: ControllerCommand {
+            template: name.to_owned(),
+            line: command.line as u64,
+            command: command.text,
+            harmless: command.harmless,
+        },
+        span: &own.span,
+    });
+    found.collect()
+}

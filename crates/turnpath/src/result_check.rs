@@ -1,0 +1,167 @@
+//! Whether a folder has a result: a summary, and all files that it lists, with their hashes.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use turnpath_files::ListedFile;
+use turnpath_host::sha256_hex;
+use turnpath_recipe::Recipe;
+use turnpath_report::{FormatError, ResultCheck, ResultFile, RunReport, from_json};
+
+/// The report of a run, which lists its files.
+pub const SUMMARY: &str = "summary.json";
+
+/// Why a folder has no result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResultError {
+    /// There is no summary that can be read.
+    #[error("cannot read {}", path.display())]
+    Summary {
+        /// The summary.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: io::Error,
+    },
+    /// The summary is none, or not of this form.
+    #[error("{} is no summary of this version", path.display())]
+    Form {
+        /// The summary.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: FormatError,
+    },
+    /// The summary is older than lists of files, or was not written into a folder.
+    #[error("{} does not list its files", path.display())]
+    NoList {
+        /// The summary.
+        path: PathBuf,
+    },
+    /// A file is not there, or has other bytes than the summary lists.
+    #[error("{} is not as {SUMMARY} lists it", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file cannot be read.
+    #[error("cannot read {}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: io::Error,
+    },
+}
+
+/// The report of the result in a folder. All files that its summary lists are there, with the bytes
+/// that it lists.
+///
+/// # Errors
+/// When the folder has no result, or only a part of one.
+pub fn read_result(folder: impl AsRef<Path>) -> Result<RunReport, ResultError> {
+    let folder = folder.as_ref();
+    let path = folder.join(SUMMARY);
+    let text = match fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) => return Err(ResultError::Summary { path, error }),
+    };
+    let report: RunReport = match from_json(&text) {
+        Ok(report) => report,
+        Err(error) => return Err(ResultError::Form { path, error }),
+    };
+    let Some(files) = &report.files else {
+        return Err(ResultError::NoList { path });
+    };
+    for file in files {
+        let path = folder.join(&file.file);
+        match is_whole(folder, file) {
+            Ok(true) => {}
+            Ok(false) => return Err(ResultError::File { path }),
+            Err(error) => return Err(ResultError::Unreadable { path, error }),
+        }
+    }
+    Ok(report)
+}
+
+/// What the summary beside a file says of it; `None` where there is none that lists it.
+pub fn result_check(file: &Path, recipe: &Recipe) -> Option<ResultCheck> {
+    let folder = match file.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let summary = folder.join(SUMMARY);
+    let report: RunReport = from_json(&fs::read_to_string(&summary).ok()?).ok()?;
+    let name = file.file_name()?.to_str()?;
+    let files = report.files.as_ref()?;
+    let own = files.iter().find(|listed| listed.file == name)?;
+    let holds = is_whole(folder, own).unwrap_or(false);
+    let mut notes: Vec<String> = files
+        .iter()
+        .filter(|listed| listed.file != name)
+        .filter_map(|listed| note_on(folder, listed))
+        .collect();
+    if !holds {
+        let other =
+            "its bytes are not those that the run wrote: the file is not whole, or was changed";
+        notes.insert(0, other.to_owned());
+    }
+    notes.extend(note_on_recipe(&report, recipe));
+    Some(ResultCheck {
+        summary: file.with_file_name(SUMMARY).display().to_string(),
+        holds,
+        notes,
+    })
+}
+
+/// What is wrong with another file of the result.
+fn note_on(folder: &Path, listed: &ResultFile) -> Option<String> {
+    let name = &listed.file;
+    match is_whole(folder, listed) {
+        Ok(true) => None,
+        Ok(false) if !folder.join(name).exists() => {
+            Some(format!("note: {name} of the same result is not there"))
+        }
+        Ok(false) => Some(format!(
+            "note: {name} of the same result has other bytes than listed"
+        )),
+        Err(error) => Some(format!(
+            "note: {name} of the same result cannot be read: {error}"
+        )),
+    }
+}
+
+/// Whether the result was made from another recipe than the file is measured against.
+fn note_on_recipe(report: &RunReport, recipe: &Recipe) -> Option<String> {
+    let source = report.recipe.as_ref()?;
+    let same =
+        source.sha256 == sha256_hex(recipe.text().as_bytes()) && source.sets == recipe.sets();
+    (!same).then(|| {
+        let sets: String = source
+            .sets
+            .iter()
+            .map(|set| format!(" --set {set:?}"))
+            .collect();
+        format!(
+            "note: it was made from another recipe, or with other changes: {}{sets}",
+            source.file
+        )
+    })
+}
+
+fn is_whole(folder: &Path, file: &ResultFile) -> io::Result<bool> {
+    let ResultFile {
+        file,
+        bytes,
+        sha256,
+    } = file.clone();
+    ListedFile {
+        file,
+        bytes,
+        sha256,
+    }
+    .is_in(folder)
+}

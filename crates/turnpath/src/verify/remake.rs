@@ -1,0 +1,248 @@
+//! The path of a recipe made again, and the rows of a file compared with it.
+//!
+//! The pipeline makes the path as a run does, and gives it to a sink block by block. The sink reads
+//! as many rows of the file, so neither path is ever whole in memory. No figure and no verdict asks
+//! the path that is made here.
+
+use std::path::Path;
+
+use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
+use turnpath_core::{StrategyError, Tolerance};
+use turnpath_host::Catalogue;
+use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
+use turnpath_post::{PmacError, PmacWriter, ReadError, ReadPath};
+use turnpath_recipe::Recipe;
+use turnpath_report::FormSplit;
+use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
+
+use crate::data_files::DataFiles;
+use crate::diagnosis::{not_carried, of_measure, of_pipeline};
+use crate::error::Error;
+use crate::job::Job;
+use crate::outputs::Outputs;
+use crate::result_check::read_result;
+
+use super::source::SourceFile;
+
+/// What came of comparing a file with the path of its recipe.
+pub enum Comparison {
+    /// The rows that differ.
+    Compared(ComparisonFigures),
+    /// More rows differ than in a spoiled file.
+    OtherMaker,
+    /// The recipe's path could not be made: why.
+    NotRemade(String),
+}
+
+/// Makes the path of a recipe again and compares the rows of `file` with it. `rows` is how many it
+/// has.
+///
+/// # Errors
+/// When the file can no longer be read, or when the observer cancels.
+pub fn compare(
+    (recipe, catalogue, files): (&Recipe, &Catalogue, &DataFiles),
+    file: &SourceFile,
+    rows: u64,
+    touch: &FirstTouch,
+    observer: &dyn Observer,
+) -> Result<Comparison, Error> {
+    let compared = remake(recipe, catalogue, files).and_then(|job| {
+        let job = with_split(job, &file.path, &RemakeObserver(observer))?;
+        let mut sink = ComparisonSink {
+            reader: file.open()?,
+            file,
+            rows,
+            turns: None,
+            comparison: RowComparison::new(touch.clone(), job.shape(), file.half_digits()),
+        };
+        let made = make_unmeasured(
+            &job.chain,
+            &job.preparation,
+            job.options(),
+            &mut sink,
+            &RemakeObserver(observer),
+        );
+        match made.map_err(Stop::from).and_then(|()| sink.finish()) {
+            Ok(()) => Ok(Comparison::Compared(sink.comparison.into_figures())),
+            Err(Stop::OtherMaker) => Ok(Comparison::OtherMaker),
+            Err(stop) => Err(stop.into_error(recipe)),
+        }
+    });
+    match compared {
+        Err(Error::Cancelled) => Err(Error::Cancelled),
+        Err(Error::Read(error)) => Err(error.into()),
+        Err(error) => Ok(Comparison::NotRemade(error.title())),
+        Ok(compared) => Ok(compared),
+    }
+}
+
+/// The job whose path is made again.
+fn remake(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<Job, Error> {
+    Job::with_files(recipe.clone(), catalogue, files)
+}
+
+/// The job for the split of its tolerance of form, if it has one: the split of the summary beside
+/// the file, or else the one that a run finds.
+fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Error> {
+    let Some(form) = job.recipe.asked.form else {
+        return Ok(job);
+    };
+    let split = match split_beside(file, form) {
+        Some(split) => split,
+        None => found_split(&job, observer)?,
+    };
+    Ok(job.with_tolerance(Tolerance {
+        interpolation: split.interpolation,
+        residual: split.residual,
+    }))
+}
+
+/// The split in the summary beside a file, if it is that of the same form.
+fn split_beside(file: &Path, form: f64) -> Option<FormSplit> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let summary = read_result(folder).ok()?.path.form?;
+    let is_same = (summary.tolerance - form).abs() <= f64::EPSILON.sqrt() * form;
+    summary.split.filter(|_| is_same)
+}
+
+/// The split that a run finds.
+fn found_split(job: &Job, observer: &dyn Observer) -> Result<FormSplit, Error> {
+    let report = job.run(Outputs::nowhere(), observer)?.report;
+    let split = report.path.form.and_then(|form| form.split);
+    Ok(split.unwrap_or(FormSplit {
+        residual: job.recipe.tolerance.residual,
+        interpolation: job.recipe.tolerance.interpolation,
+        rounds: 0,
+    }))
+}
+
+/// Why a comparison ended before the paths did.
+enum Stop {
+    /// The file is another maker's.
+    OtherMaker,
+    /// The file could not be read.
+    Read(ReadError),
+    /// A program could not carry the path.
+    Program(PmacError),
+    /// The surface failed where a row differs.
+    Measure(StrategyError),
+    /// There is no path.
+    Pipeline(PipelineError),
+}
+
+impl Stop {
+    fn into_error(self, recipe: &Recipe) -> Error {
+        match self {
+            Self::OtherMaker | Self::Pipeline(PipelineError::Cancelled) => Error::Cancelled,
+            Self::Read(error) => error.into(),
+            Self::Program(error) => not_carried(recipe, error),
+            Self::Measure(error) => of_measure(recipe, error),
+            Self::Pipeline(error) => of_pipeline(recipe, error),
+        }
+    }
+}
+
+impl From<RunError<Self>> for Stop {
+    fn from(error: RunError<Self>) -> Self {
+        match error {
+            RunError::Pipeline(error) => Self::Pipeline(error),
+            RunError::Sink(stop) => stop,
+        }
+    }
+}
+
+impl From<StrategyError> for Stop {
+    fn from(error: StrategyError) -> Self {
+        Self::Measure(error)
+    }
+}
+
+/// Compares the path with a file while the path is made.
+struct ComparisonSink<'a> {
+    file: &'a SourceFile,
+    reader: Box<dyn ReadPath + Send + Sync>,
+    rows: u64,
+    /// C that the file leaves out before its first row, rad; `None` before the path's first point.
+    turns: Option<f64>,
+    comparison: RowComparison,
+}
+
+impl ComparisonSink<'_> {
+    /// Ends both paths.
+    fn finish(&mut self) -> Result<(), Stop> {
+        let reader = &mut self.reader;
+        self.comparison.finish(&mut || next_row(reader.as_mut()))?;
+        self.stop_at_other_maker()
+    }
+
+    fn stop_at_other_maker(&self) -> Result<(), Stop> {
+        match self.comparison.is_of_other_maker(self.rows) {
+            true => Err(Stop::OtherMaker),
+            false => Ok(()),
+        }
+    }
+
+    /// Whole turns that a program leaves out at its beginning.
+    fn turns_before(&self, points: &PathBlock) -> Result<f64, PmacError> {
+        match self.file.program.zip(points.get(0)) {
+            Some((format, first)) => PmacWriter::turns_left_out(&format, &first),
+            None => Ok(0.0),
+        }
+    }
+}
+
+/// The file's next row.
+fn next_row(reader: &mut dyn ReadPath) -> Result<Option<PathRow>, Stop> {
+    let row = reader.next_point().map_err(Stop::Read)?;
+    Ok(row.map(|(point, section)| PathRow { point, section }))
+}
+
+impl Sink for ComparisonSink<'_> {
+    type Block = (Section, PathBlock);
+    type Error = Stop;
+
+    /// The points in the digits of the file.
+    fn encode(&self, block: &SectionBlock<'_>) -> Result<Self::Block, Stop> {
+        let points = match self.file.program {
+            Some(format) => PmacWriter::carried(&format, block).map_err(Stop::Program)?,
+            None => block.points.clone(),
+        };
+        Ok((block.section, points))
+    }
+
+    fn take(&mut self, _: usize, (section, points): Self::Block) -> Result<(), Stop> {
+        let turns = match self.turns {
+            Some(turns) => turns,
+            None => self.turns_before(&points).map_err(Stop::Program)?,
+        };
+        self.turns = Some(turns);
+        for mut point in points.points() {
+            point.c -= turns;
+            let (row, reader) = (PathRow { point, section }, &mut self.reader);
+            self.comparison
+                .push(row, &mut || next_row(reader.as_mut()))?;
+        }
+        self.stop_at_other_maker()
+    }
+}
+
+/// Tells of the making of a path that nobody measures or writes.
+struct RemakeObserver<'a>(&'a dyn Observer);
+
+impl Observer for RemakeObserver<'_> {
+    fn begin(&self, stage: Stage, blocks: u64) {
+        let stage = match stage {
+            Stage::Write => Stage::Compare,
+            other => other,
+        };
+        self.0.begin(stage, blocks);
+    }
+
+    fn advance(&self, blocks: u64) {
+        self.0.advance(blocks);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}

@@ -1,0 +1,398 @@
+//! The rows of a file against the rows that its recipe gives.
+//!
+//! Both paths are read in order and merged by C, which grows along a path. A row of the file belongs
+//! to the row of the recipe's path whose C is nearest. So a row that is lost or added moves no other
+//! row out of its place. Times are compared from row to row: if the time of one segment is wrong, all
+//! rows after it come late, and only one of them is at fault.
+//!
+//! What a row that differs is worth is how far it moves the played path: the largest change of the
+//! height above the first touch between the rows on both sides that have a partner.
+
+mod cell;
+mod row;
+
+use turnpath_core::toolpath::{ControlPoint, SegmentShape};
+use turnpath_core::{Result, StrategyError};
+
+use crate::touch::FirstTouch;
+use crate::worst_first::WorstFirst;
+
+use cell::{Stretch, distance};
+pub use row::{Column, HalfDigits, PathRow};
+
+/// If more than this part of a file's rows are not those of the recipe's path, then the file is
+/// another maker's, and its rows say nothing about faults. A spoiled file has few wrong rows.
+const OTHER_MAKER: f64 = 0.01;
+/// So few wrong rows do not make a file another maker's, unless they are [`MOST`] of its rows.
+const FEW: u64 = 16;
+/// The part of the rows that is most of them.
+const MOST: f64 = 0.5;
+/// Most rows between two rows with a partner that are kept to be played: more than a revolution has.
+const MOST_UNPAIRED: usize = 100_000;
+
+/// What is wrong with a row.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RowFault {
+    /// The recipe's path has it, and the file has not.
+    Lost,
+    /// The file has it, and the recipe's path has not.
+    Added,
+    /// It differs in these columns.
+    Differs(Vec<Column>),
+}
+
+/// A row of a file that is not as the recipe gives it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowAnomaly {
+    /// Number of the row in the file, counted from 1. For a row that is lost, it is the number that
+    /// the row would have.
+    pub row: u64,
+    /// C of the row, unwrapped, rad.
+    pub c: f64,
+    /// X of the row, mm.
+    pub x: f64,
+    /// What is wrong with it.
+    pub fault: RowFault,
+    /// How far it moves the played path along z, mm. NaN if nothing is played there to compare with:
+    /// at an end of the path that is lost, or where the surface has no height.
+    pub worth: f64,
+}
+
+/// What a comparison found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparisonFigures {
+    /// Rows that are not as the recipe gives them.
+    pub count: u64,
+    /// Rows of the recipe's path before the file's first row with a partner.
+    pub lost_before: u64,
+    /// Rows of the recipe's path after the file's last row with a partner.
+    pub lost_after: u64,
+    /// The worst rows, the worst one first.
+    pub worst: Vec<RowAnomaly>,
+}
+
+/// Two rows that belong together.
+#[derive(Debug, Clone, Copy)]
+struct RowPair {
+    file: PathRow,
+    remade: PathRow,
+    differs: bool,
+}
+
+/// What is known about times.
+#[derive(Debug, Clone, Copy)]
+struct TimeShift {
+    /// Time in the file − time in the recipe's path, of the last row whose time was right, s.
+    right: f64,
+    /// The same of the last row; `None` after a row without a partner, whose own time may be lost.
+    last: Option<f64>,
+}
+
+/// Rows between two pairs, those of the file or those of the recipe's path.
+#[derive(Debug, Clone, Default)]
+struct Unpaired {
+    points: Vec<ControlPoint>,
+    anomalies: Vec<RowAnomaly>,
+    /// Whether there were more than are kept.
+    overflows: bool,
+}
+
+/// Compares two paths row by row. It keeps a few rows and the worst anomalies.
+pub struct RowComparison {
+    touch: FirstTouch,
+    shape: SegmentShape,
+    digits: HalfDigits,
+    /// The row of the recipe's path that is compared next.
+    waiting: Option<PathRow>,
+    /// The next rows of the file, two at the most.
+    ahead: Vec<PathRow>,
+    ended: bool,
+    /// Number of the file's row that is compared next.
+    row: u64,
+    last: Option<RowPair>,
+    lost: Unpaired,
+    added: Unpaired,
+    shift: Option<TimeShift>,
+    /// The anomaly of the last pair, whose segment after it is not known yet.
+    open: Option<RowAnomaly>,
+    wrong: u64,
+    lost_before: u64,
+    found: WorstFirst<RowAnomaly>,
+}
+
+impl RowComparison {
+    /// A comparison of paths that are played in this `shape`. Worths are measured by `touch`.
+    pub fn new(touch: FirstTouch, shape: SegmentShape, digits: HalfDigits) -> Self {
+        Self {
+            touch,
+            shape,
+            digits,
+            waiting: None,
+            ahead: Vec::new(),
+            ended: false,
+            row: 1,
+            last: None,
+            lost: Unpaired::default(),
+            added: Unpaired::default(),
+            shift: None,
+            open: None,
+            wrong: 0,
+            lost_before: 0,
+            found: WorstFirst::default(),
+        }
+    }
+
+    /// Takes the next row of the recipe's path, and as many rows of the file as belong before it.
+    /// `next` gives the file's next row.
+    ///
+    /// # Errors
+    /// When the file's next row cannot be read, or the surface fails.
+    pub fn push<E: From<StrategyError>>(
+        &mut self,
+        remade: PathRow,
+        next: &mut dyn FnMut() -> std::result::Result<Option<PathRow>, E>,
+    ) -> std::result::Result<(), E> {
+        match self.waiting.replace(remade) {
+            Some(waiting) => self.place(waiting, Some(&remade), next),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether a file with so many rows is another maker's, by the rows that were compared so far.
+    /// Rows that are lost do not count: a file that was cut short is still the program's own.
+    pub fn is_of_other_maker(&self, rows: u64) -> bool {
+        let (wrong, rows) = (self.wrong as f64, rows as f64);
+        wrong > MOST * rows || (self.wrong > FEW && wrong > OTHER_MAKER * rows)
+    }
+
+    /// Ends both paths.
+    ///
+    /// # Errors
+    /// As [`Self::push`].
+    pub fn finish<E: From<StrategyError>>(
+        &mut self,
+        next: &mut dyn FnMut() -> std::result::Result<Option<PathRow>, E>,
+    ) -> std::result::Result<(), E> {
+        if let Some(waiting) = self.waiting.take() {
+            self.place(waiting, None, next)?;
+        }
+        loop {
+            self.look_ahead(next)?;
+            if self.ahead.is_empty() {
+                return Ok(());
+            }
+            self.add_row();
+        }
+    }
+
+    /// What was found.
+    pub fn into_figures(mut self) -> ComparisonFigures {
+        self.found_all(self.open.clone());
+        let lost_after = match self.last {
+            Some(_) => self.lost.anomalies.len() as u64,
+            None => 0,
+        };
+        self.settle_unpaired(f64::NAN);
+        ComparisonFigures {
+            count: self.found.count(),
+            lost_before: self.lost_before,
+            lost_after,
+            worst: self.found.into_items(),
+        }
+    }
+
+    fn found_all(&mut self, anomalies: impl IntoIterator<Item = RowAnomaly>) {
+        for anomaly in anomalies {
+            self.found.add(anomaly.worth, anomaly);
+        }
+    }
+
+    /// Reads the file until its next two rows are known.
+    fn look_ahead<E>(
+        &mut self,
+        next: &mut dyn FnMut() -> std::result::Result<Option<PathRow>, E>,
+    ) -> std::result::Result<(), E> {
+        while self.ahead.len() < 2 && !self.ended {
+            match next()? {
+                Some(row) => self.ahead.push(row),
+                None => self.ended = true,
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the partner of a row of the recipe's path; `after` is the row that follows it.
+    fn place<E: From<StrategyError>>(
+        &mut self,
+        remade: PathRow,
+        after: Option<&PathRow>,
+        next: &mut dyn FnMut() -> std::result::Result<Option<PathRow>, E>,
+    ) -> std::result::Result<(), E> {
+        loop {
+            self.look_ahead(next)?;
+            let Some(file) = self.ahead.first().copied() else {
+                self.lose_row(&remade);
+                return Ok(());
+            };
+            let off = |row: &PathRow| row.point.c - remade.point.c;
+            let is_next_ones = after.is_some_and(|after| 2.0 * off(&file) > off(after));
+            if is_next_ones {
+                self.lose_row(&remade);
+                return Ok(());
+            }
+            let second_is_nearer = |second: &PathRow| off(second).abs() < off(&file).abs();
+            if self.ahead.get(1).is_some_and(second_is_nearer) {
+                self.add_row();
+                continue;
+            }
+            self.ahead.remove(0);
+            return Ok(self.pair(file, remade)?);
+        }
+    }
+
+    fn anomaly(&self, row: &PathRow, fault: RowFault) -> RowAnomaly {
+        RowAnomaly {
+            row: self.row,
+            c: row.point.c,
+            x: row.point.x,
+            fault,
+            worth: f64::NAN,
+        }
+    }
+
+    fn lose_row(&mut self, row: &PathRow) {
+        let anomaly = self.anomaly(row, RowFault::Lost);
+        self.lost_before += u64::from(self.last.is_none());
+        self.lost.push(row.point, anomaly, &mut self.found);
+        self.forget_time();
+    }
+
+    /// Counts the file's next row as added.
+    fn add_row(&mut self) {
+        let row = self.ahead.remove(0);
+        let anomaly = self.anomaly(&row, RowFault::Added);
+        self.added.push(row.point, anomaly, &mut self.found);
+        self.forget_time();
+        self.row += 1;
+        self.wrong += 1;
+    }
+
+    /// The time of a row that follows one without a partner says nothing.
+    fn forget_time(&mut self) {
+        if let Some(shift) = &mut self.shift {
+            shift.last = None;
+        }
+    }
+
+    fn pair(&mut self, file: PathRow, remade: PathRow) -> Result<()> {
+        let mut columns = self.digits.differing(&file, &remade);
+        if !self.time_is_right(&file, &remade) {
+            columns.insert(0, Column::Time);
+        }
+        let differs = !columns.is_empty();
+        self.wrong += u64::from(differs);
+        let anomaly = differs.then(|| self.anomaly(&file, RowFault::Differs(columns)));
+        self.row += 1;
+        let pair = RowPair {
+            file,
+            remade,
+            differs,
+        };
+        let worth = self.close_cell(&pair)?;
+        let follow = |open: RowAnomaly| RowAnomaly {
+            worth: larger(open.worth, worth),
+            ..open
+        };
+        let before = self.open.take().map(follow);
+        self.found_all(before);
+        // The path's first row has no segment before it.
+        let worth = if self.last.is_some() { worth } else { 0.0 };
+        self.open = anomaly.map(|anomaly| RowAnomaly { worth, ..anomaly });
+        self.last = Some(pair);
+        Ok(())
+    }
+
+    /// Whether a row comes as long after the row before it as in the recipe's path.
+    fn time_is_right(&mut self, file: &PathRow, remade: &PathRow) -> bool {
+        let shift = file.point.t - remade.point.t;
+        let at = file.point.t.abs().max(remade.point.t.abs());
+        let Some(known) = &mut self.shift else {
+            self.shift = Some(TimeShift {
+                right: shift,
+                last: Some(shift),
+            });
+            return true;
+        };
+        let same = |other: f64| self.digits.same_shift(shift, other, at);
+        let is_right = same(known.right) || known.last.is_none_or(same);
+        if is_right {
+            known.right = shift;
+        }
+        known.last = Some(shift);
+        is_right
+    }
+
+    /// Measures what is played from the last pair to this one, if it differs, and settles the rows
+    /// between both.
+    fn close_cell(&mut self, pair: &RowPair) -> Result<f64> {
+        let Some(last) = self.last else {
+            self.settle_unpaired(f64::NAN);
+            return Ok(f64::NAN);
+        };
+        let unpaired = !(self.lost.anomalies.is_empty() && self.added.anomalies.is_empty());
+        if !(unpaired || last.differs || pair.differs) {
+            return Ok(0.0);
+        }
+        let worth = match self.lost.overflows || self.added.overflows {
+            true => f64::NAN,
+            false => {
+                let file = self.added.between(&last.file, &pair.file);
+                let remade = self.lost.between(&last.remade, &pair.remade);
+                let stretch = |points: Vec<ControlPoint>| Stretch::new(&points, self.shape);
+                distance(&self.touch, &stretch(file), &stretch(remade))?
+            }
+        };
+        self.settle_unpaired(worth);
+        Ok(worth)
+    }
+
+    /// Gives the rows without a partner their worth.
+    fn settle_unpaired(&mut self, worth: f64) {
+        let lost = std::mem::take(&mut self.lost);
+        let added = std::mem::take(&mut self.added);
+        let all = lost.anomalies.into_iter().chain(added.anomalies);
+        self.found_all(all.map(|anomaly| RowAnomaly { worth, ..anomaly }));
+    }
+}
+
+/// The larger worth; NaN if one of them is not known.
+fn larger(one: f64, other: f64) -> f64 {
+    match one.is_nan() || other.is_nan() {
+        true => f64::NAN,
+        false => one.max(other),
+    }
+}
+
+impl Unpaired {
+    /// Keeps a row, or counts its anomaly at once if there are too many.
+    fn push(
+        &mut self,
+        point: ControlPoint,
+        anomaly: RowAnomaly,
+        found: &mut WorstFirst<RowAnomaly>,
+    ) {
+        if self.points.len() < MOST_UNPAIRED {
+            self.points.push(point);
+            self.anomalies.push(anomaly);
+        } else {
+            self.overflows = true;
+            found.add(anomaly.worth, anomaly);
+        }
+    }
+
+    /// The points with those of the pairs before and after.
+    fn between(&self, before: &PathRow, after: &PathRow) -> Vec<ControlPoint> {
+        let ends = [before.point, after.point];
+        [&ends[..1], &self.points, &ends[1..]].concat()
+    }
+}

@@ -1,0 +1,80 @@
+//! What a recipe's own header and footer tell the controller: named, and trusted or refused.
+
+use crate::support::bench::Bench;
+use crate::support::recipe::SADDLE;
+
+/// The saddle with a program, and with these lines in the program's table.
+fn bench(lines: &str) -> Bench {
+    let output = "[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\n";
+    Bench::with(&format!("{SADDLE}\n{output}{lines}\n"))
+}
+
+const HARMLESS: &str = "header = \"; {name}\\nCLOSE OPEN ROT\\n\"\nfooter = \"CLOSE\"";
+const COOLANT: &str =
+    "header = \"OPEN PROG 1 CLEAR\\nM1=1 ; coolant\\n\"\nfooter = \"M1=0\\nCLOSE\"";
+
+#[test]
+fn harmless_commands_are_named_and_need_no_trust() {
+    let bench = bench(HARMLESS);
+    for command in ["check recipe.toml", "run recipe.toml -o out"] {
+        let said = bench.line(command).ends(0);
+        assert!(said.stdout.contains("line 2: CLOSE OPEN ROT\n"), "{said}");
+        assert!(!said.stdout.contains("may move"), "{said}");
+        let said = bench.line(&format!("{command} --format json")).ends(0);
+        let named = &said.json()["controller_commands"];
+        assert_eq!(named[0]["template"], "header");
+        assert_eq!(named[1]["command"], "CLOSE");
+        assert_eq!(named[1]["harmless"], true);
+    }
+}
+
+#[test]
+fn other_commands_are_refused_by_their_lines_and_no_file_is_written() {
+    let bench = bench(COOLANT);
+    for command in ["check recipe.toml", "run recipe.toml -o out"] {
+        let said = bench.line(command).ends(2);
+        for says in [
+            "line 2 of the header takes --trust-recipe: it tells the controller `M1=1`",
+            "line 1 of the footer takes --trust-recipe: it tells the controller `M1=0`",
+        ] {
+            assert!(said.stderr.contains(says), "{said}");
+        }
+        assert!(!said.stderr.contains("OPEN PROG 1 CLEAR`"), "{said}");
+    }
+    assert_eq!(bench.files(), ["recipe.toml"]);
+}
+
+#[test]
+fn trusted_commands_are_named_and_written() {
+    let bench = bench(COOLANT);
+    let said = bench.line("run recipe.toml -o out --trust-recipe").ends(0);
+    assert!(
+        said.stdout.contains("line 2: M1=1 (may move, set or start"),
+        "{said}"
+    );
+    assert!(bench.read("out/recipe.pmc").contains("M1=1 ; coolant\n"));
+    let report: serde_json::Value =
+        serde_json::from_str(&bench.read("out/summary.json")).unwrap_or_default();
+    assert_eq!(report["controller_commands"][1]["command"], "M1=1");
+    assert_eq!(report["controller_commands"][1]["harmless"], false);
+}
+
+/// Who calls has written it, and not whoever wrote the recipe.
+#[test]
+fn what_the_caller_sets_needs_no_trust() {
+    let bench = bench("");
+    let set = "output.pmac-pvt.header=\"OPEN PROG 1 CLEAR\\nM1=1\"";
+    let said = bench
+        .call(["run", "recipe.toml", "-o", "out", "--set", set])
+        .ends(0);
+    assert!(said.stdout.contains("line 2: M1=1"), "{said}");
+}
+
+#[test]
+fn the_posts_own_templates_and_unused_ones_are_not_named() {
+    let said = bench("").line("run recipe.toml -o out").ends(0);
+    assert!(!said.stdout.contains("line 1:"), "{said}");
+    let unused = Bench::with(&format!("{SADDLE}\n[output.pmac-pvt]\n{COOLANT}\n"));
+    let said = unused.line("run recipe.toml -o out").ends(0);
+    assert!(!said.stdout.contains("M1=1"), "{said}");
+}

@@ -1,0 +1,64 @@
+//! Remarks on what is allowed but seldom meant: one line each, and no other status.
+
+use crate::support::bench::Bench;
+use crate::support::recipe::SADDLE;
+
+/// The remarks of a call in JSON, and the number of their lines in text.
+#[track_caller]
+fn remarks(words: &str) -> (Vec<String>, usize) {
+    let bench = Bench::with(SADDLE);
+    let text = bench.line(words).ends(0);
+    let json = bench.line(&format!("{words} --format json")).ends(0).json();
+    let kinds = json["remarks"].as_array().cloned().unwrap_or_default();
+    let kinds = kinds.iter().map(|remark| remark["kind"].to_string());
+    let lines = text.stdout.lines();
+    let lines = lines.filter(|line| line.trim_start().starts_with("remark "));
+    (kinds.collect(), lines.count())
+}
+
+#[track_caller]
+fn has(words: &str, kind: &str) {
+    let (kinds, lines) = remarks(words);
+    assert_eq!(kinds.len(), lines, "{words}: {kinds:?}");
+    assert!(kinds.contains(&format!("\"{kind}\"")), "{words}: {kinds:?}");
+}
+
+#[test]
+fn a_usual_recipe_has_none() {
+    assert_eq!(remarks("check recipe.toml"), (Vec::new(), 0));
+}
+
+#[test]
+fn a_residual_and_an_aperture_of_ten_micrometres_have_one_each() {
+    has(
+        "check recipe.toml --set tolerance.residual=10um",
+        "rough_residual",
+    );
+    has(
+        "check recipe.toml --set part.aperture=10um",
+        "small_aperture",
+    );
+}
+
+#[test]
+fn a_cut_of_a_night_has_one() {
+    has("check recipe.toml --set spindle.speed=0.1rpm", "long_cut");
+}
+
+#[test]
+fn digits_that_cannot_hold_the_tolerance_have_one() {
+    let words = "check recipe.toml --set output.posts=[\"pmac-pvt\"] \
+                 --set output.pmac-pvt.position_decimals=4";
+    has(words, "coarse_digits");
+}
+
+/// The saddle at 2000 rpm takes far more than g of Z; a machine with a limit has a verdict instead.
+#[test]
+fn a_fast_z_has_one_unless_the_machine_has_a_limit() {
+    let fast = "run recipe.toml -o out --set spindle.speed=2000rpm";
+    has(fast, "fast_z");
+    let bench = Bench::with(SADDLE);
+    let limited = format!("{fast} --format json --set machine.z_acceleration=100g");
+    let json = bench.line(&limited).ends(0).json();
+    assert_eq!(json["remarks"], serde_json::json!([]));
+}
