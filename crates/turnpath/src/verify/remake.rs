@@ -4,6 +4,7 @@
 //! as many rows of the file, so neither path is ever whole in memory. No figure and no verdict asks
 //! the path that is made here.
 
+use std::fs;
 use std::path::Path;
 
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
@@ -12,7 +13,7 @@ use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
 use turnpath_post::{PmacError, PmacWriter, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
-use turnpath_report::FormSplit;
+use turnpath_report::{FormSplit, RunReport, from_json};
 use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
 
 use crate::data_files::DataFiles;
@@ -20,7 +21,7 @@ use crate::diagnosis::{not_carried, of_measure, of_pipeline};
 use crate::error::Error;
 use crate::job::Job;
 use crate::outputs::Outputs;
-use crate::result_check::read_result;
+use crate::result_check::SUMMARY;
 
 use super::source::SourceFile;
 
@@ -99,8 +100,9 @@ fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Err
 
 /// The split in the summary beside a file, if it is that of the same form.
 fn split_beside(file: &Path, form: f64) -> Option<FormSplit> {
-    let folder = file.parent().unwrap_or(Path::new(""));
-    let summary = read_result(folder).ok()?.path.form?;
+    // The file may be spoiled; the split is then still that of the path that it was.
+    let text = fs::read_to_string(file.with_file_name(SUMMARY)).ok()?;
+    let summary = from_json::<RunReport>(&text).ok()?.path.form?;
     let is_same = (summary.tolerance - form).abs() <= f64::EPSILON.sqrt() * form;
     summary.split.filter(|_| is_same)
 }
