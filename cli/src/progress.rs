@@ -3,6 +3,7 @@
 use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -12,19 +13,26 @@ use turnpath_core::printable_line;
 use crate::message::note;
 
 /// How the bar looks.
-const STYLE: &str = "{msg:<24} {bar:30} {percent:>3} %, {eta} left";
+const STYLE: &str = "{msg:<32} {bar:30} {percent:>3} %, {eta} left";
 /// The same where nobody knows how long it takes.
-const OPEN_STYLE: &str = "{msg:<24} {spinner} {elapsed}";
+const OPEN_STYLE: &str = "{msg:<32} {spinner} {elapsed}";
 /// How often the bar is drawn while nothing advances.
 const TICK: Duration = Duration::from_millis(250);
 
 /// A bar on standard error, or nothing where that is no terminal.
-pub struct Bar(Mutex<ProgressBar>);
+pub struct Bar {
+    bar: Mutex<ProgressBar>,
+    /// The number of the path, where several may be made for a form.
+    path: AtomicU32,
+}
 
 impl Bar {
     /// No stage yet.
     pub fn new() -> Self {
-        Self(Mutex::new(ProgressBar::hidden()))
+        Self {
+            bar: Mutex::new(ProgressBar::hidden()),
+            path: AtomicU32::new(0),
+        }
     }
 
     /// Takes the bar off the screen.
@@ -33,14 +41,25 @@ impl Bar {
     }
 
     fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
-        if let Ok(mut bar) = self.0.lock() {
+        if let Ok(mut bar) = self.bar.lock() {
             act(&mut bar);
+        }
+    }
+
+    /// "path 2: " where a path is made again for a form.
+    fn of_path(&self) -> String {
+        match self.path.load(Ordering::Relaxed) {
+            0 | 1 => String::new(),
+            path => format!("path {path}: "),
         }
     }
 }
 
 impl Observer for Bar {
     fn begin(&self, stage: Stage, blocks: u64) {
+        if let Stage::Form(path) = stage {
+            self.path.store(path, Ordering::Relaxed);
+        }
         if !std::io::stderr().is_terminal() {
             return;
         }
@@ -52,7 +71,8 @@ impl Observer for Bar {
             if let Ok(style) = ProgressStyle::with_template(style) {
                 bar.set_style(style);
             }
-            bar.set_message(match stage {
+            let message = match stage {
+                Stage::Form(_) => "preparing".to_owned(),
                 Stage::Law => "planning the feed".to_owned(),
                 Stage::Refine(round) => format!("playing back, round {round}"),
                 Stage::Write => "measuring and writing".to_owned(),
@@ -60,7 +80,8 @@ impl Observer for Bar {
                 Stage::Measure => "measuring the file".to_owned(),
                 Stage::Compare => "comparing with the recipe's path".to_owned(),
                 Stage::Map => "mapping what is cut".to_owned(),
-            });
+            };
+            bar.set_message(self.of_path() + &message);
             bar.enable_steady_tick(TICK);
         });
     }

@@ -5,6 +5,7 @@ mod support;
 
 mod cut_what_fits;
 mod every_chain;
+mod form;
 mod gouges;
 mod large_feeds;
 mod leads;

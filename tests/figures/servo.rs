@@ -56,6 +56,25 @@ fn run_and_verify_report_the_same_and_hold_it_against_no_tolerance() {
     }
 }
 
+/// A tolerance a little above the figure holds, one a little below does not, in run and verify.
+#[test]
+fn a_tolerance_of_the_servo_is_judged_by_the_predicted_error() {
+    let sets = "--set servo.bandwidth=70Hz --set servo.velocity_feed_forward=1";
+    let (bench, summary) = run(sets);
+    assert_eq!(summary["within"]["servo"], Value::Null);
+    let predicted = number(&summary, "/servo/predicted_error/max_nm");
+    for (part, holds) in [(1.01, true), (0.99, false)] {
+        let sets = format!("{sets} --set tolerance.servo={}nm", part * predicted);
+        let (_, summary) = run(&sets);
+        let verify = format!("verify recipe.toml out/toolpath.csv --format json {sets}");
+        let said = bench.line(&verify).ends(i32::from(!holds));
+        for of in [&summary, &said.json()] {
+            assert_eq!(of["within"]["servo"], holds);
+            assert!((number(of, "/tolerance/servo_nm") / (part * predicted) - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
 #[test]
 fn axes_that_follow_wholly_leave_the_played_path() {
     let whole = "--set servo.bandwidth=70Hz --set servo.velocity_feed_forward=1 \

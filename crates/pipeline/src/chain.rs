@@ -60,7 +60,19 @@ impl<T: ?Sized> Link<T> {
     }
 }
 
+impl<T: ?Sized> Clone for Link<T> {
+    fn clone(&self) -> Self {
+        Self {
+            slot: self.slot,
+            name: self.name.clone(),
+            plugin: self.plugin.clone(),
+            strategy: Arc::clone(&self.strategy),
+        }
+    }
+}
+
 /// The strategies of a task, one in each slot.
+#[derive(Clone)]
 pub struct Chain {
     /// The surface to cut.
     pub surface: Link<dyn SurfaceModel>,

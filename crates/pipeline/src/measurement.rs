@@ -1,7 +1,7 @@
 //! What a run measures on the cutting section, and the result that it gives.
 
 use turnpath_core::toolpath::PathBlock;
-use turnpath_verify::machined::MachinedFigures;
+use turnpath_verify::machined::{MachinedFigures, SurfaceExtremes};
 use turnpath_verify::{
     AxesMotion, BlockFigures, Meter, PathFigures, ServoBlockFigures, ServoFigures, ServoMeter,
     ServoStart,
@@ -33,6 +33,8 @@ pub struct Outcome {
     pub own_axes: Option<AxesMotion>,
     /// The surface that the path would leave; `None` where it cuts nothing of the part.
     pub machined: Option<MachinedFigures>,
+    /// The form of that surface, where [`PathOptions::form`](crate::PathOptions::form) asks for it.
+    pub form: Option<SurfaceExtremes>,
     /// Where the reach of the nose sets the feed; `None` where it does so nowhere.
     pub feed_cap: Option<FeedCap>,
     /// The leads, where the path has some.
@@ -66,7 +68,9 @@ impl Measurement {
     pub fn new(preparation: &Preparation, options: &PathOptions) -> Self {
         let meter = Meter::new(preparation.touch.clone());
         Self {
-            meter: meter.counting_centre(options.covers_centre),
+            meter: meter
+                .counting_centre(options.covers_centre)
+                .with_form(options.form),
             servo: options.servo.as_ref().map(ServoMeter::new),
             points: 0,
             sampled: 0,
@@ -102,6 +106,7 @@ impl Measurement {
             cutting_time: plan.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
+            form: self.meter.form().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
             feed_cap: feed_cap(plan.preparation, &plan.law)?,
             lead,

@@ -5,6 +5,9 @@ use crate::{PipelineError, Result};
 /// A stage of a run, in the order in which the stages come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
+    /// A path made for a tolerance of form; the count of paths is from 1. The stages of the path
+    /// follow.
+    Form(u32),
     /// Planning the spiral law; it counts as one block.
     Law,
     /// Playing the path back and refining it; the round counts from 1. Its blocks are those that

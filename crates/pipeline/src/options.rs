@@ -1,6 +1,7 @@
 //! How a path is made, besides its chain and its task.
 
 use turnpath_core::Servo;
+use turnpath_verify::machined::FormScope;
 
 use crate::lead::LeadSettings;
 
@@ -17,6 +18,8 @@ pub struct PathOptions {
     pub lead: Option<LeadSettings>,
     /// Whether the path covers the axis on purpose. The cusps at the axis then count as residual.
     pub covers_centre: bool,
+    /// Which part of the machined surface counts for its form. With it the run measures the form.
+    pub form: Option<FormScope>,
     /// How the axes follow the path. With it the run predicts their following error.
     pub servo: Option<Servo>,
 }

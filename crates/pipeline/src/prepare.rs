@@ -16,6 +16,7 @@ use crate::{Chain, PipelineError, Result};
 const RING_POINTS: usize = 8;
 
 /// A task whose tool fits its part.
+#[derive(Clone)]
 pub struct Preparation {
     /// Part, tool, tolerances, range of ρ, direction, largest spindle speed, machine.
     pub task: Task,

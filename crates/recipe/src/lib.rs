@@ -73,4 +73,4 @@ pub use recipe::{FileProblem, Recipe, RecipeError};
 pub use span::{Source, Span, Spanned};
 pub use surface_entry::SurfaceEntry;
 pub use table_info::TableInfo;
-pub use tables::{DataFormat, Output, PmacPvt, ZReference, slot_keys, tables};
+pub use tables::{AskedTolerances, DataFormat, Output, PmacPvt, ZReference, slot_keys, tables};

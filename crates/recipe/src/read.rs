@@ -175,15 +175,23 @@ impl<'a> Section<'a> {
 
     fn value(&mut self, key: &ParamInfo) -> Option<ParamValue> {
         let Some(node) = self.node(key.name) else {
-            let misspelt = self.table.is_none_or(|table| table.has_like(key.name));
-            if key.default == ParamDefault::Required && !misspelt {
-                self.missing(key.name, &example(key));
+            if key.default == ParamDefault::Required {
+                self.require(key);
             }
             return default_of(key);
         };
         match self.ok_or_report(key_value(key, node))? {
             KeyValue::Value(value) => Some(value),
             KeyValue::File(path) => Some(ParamValue::Text(path.value)),
+        }
+    }
+
+    /// Reports a key that the table lacks, unless the table has a misspelling of it, which has a
+    /// message of its own.
+    pub(crate) fn require(&mut self, key: &ParamInfo) {
+        let has_like = |table: &Table| table.get(key.name).is_some() || table.has_like(key.name);
+        if !self.table.is_none_or(has_like) {
+            self.missing(key.name, &example(key));
         }
     }
 
@@ -226,8 +234,8 @@ impl<'a> Section<'a> {
     /// Whether the recipe has the table. A table that it must have is reported.
     pub(crate) fn is_there(&mut self, info: &TableInfo) -> bool {
         let there = self.table.is_some();
-        let mut keys = info.keys.iter();
-        let first = keys.find(|key| key.default == ParamDefault::Required);
+        let required = |key: &&ParamInfo| key.default == ParamDefault::Required;
+        let first = info.keys.iter().find(required).or(info.keys.first());
         if let (false, true, Some(first)) = (there, info.required, first) {
             self.missing_table(&format!("{} = {}", first.name, example(first)));
         }

@@ -16,7 +16,7 @@ use crate::read::Sections;
 use crate::set;
 use crate::span::{Source, Span, Spanned};
 use crate::surface_entry::{SurfaceEntry, surface_entries};
-use crate::tables::{self, DEFAULT_SPINDLE, Output, PmacPvt};
+use crate::tables::{self, AskedTolerances, DEFAULT_SPINDLE, Output, PmacPvt};
 
 /// Largest recipe, in bytes: a hundred times as much as a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -34,8 +34,11 @@ pub struct Recipe {
     pub surfaces: Vec<SurfaceEntry>,
     /// The tool.
     pub tool: Tool,
-    /// The tolerances.
+    /// The tolerances that the path is made for: those that the recipe gives, and where `form`
+    /// stands for one, the first share of it.
     pub tolerance: Tolerance,
+    /// The tolerances that the recipe gives.
+    pub asked: AskedTolerances,
     /// The largest speed of the spindle, rad/s.
     pub spindle_speed: f64,
     /// The limits of the machine; there are none unless the recipe gives them.
@@ -405,6 +408,8 @@ pub(crate) fn build(
     if let Some(speed) = speed {
         tables::check_spindle(&mut sections.open("spindle"), speed, &machine.machine);
     }
+    let has_servo = document.get("servo").is_some() || document.has_like("servo");
+    tables::check_servo_tolerance(&mut sections.open("tolerance"), has_servo);
     let servo = tables::servo(&mut sections.open("servo"), machine.preset);
     let path_table = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
@@ -419,7 +424,7 @@ pub(crate) fn build(
         Slot::Spindle,
     ]
     .map(&mut choose);
-    let (tool, path_table, surfaces) = (tool?, path_table?, surfaces?);
+    let (tool, path_table, surfaces, tolerance) = (tool?, path_table?, surfaces?, tolerance?);
     let surface = surfaces.first().map(|entry| entry.choice.clone());
     Some(Recipe {
         name: top.name.unwrap_or_else(|| stem(path)),
@@ -427,7 +432,8 @@ pub(crate) fn build(
         pose: pose?,
         surfaces,
         tool,
-        tolerance: tolerance?,
+        tolerance: tolerance.path,
+        asked: tolerance.asked,
         spindle_speed: speed?,
         machine: machine.machine,
         preset: machine.preset,

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::feed_cap::FeedCap;
+use crate::form::FormReport;
 use crate::format::FORMAT;
 use crate::machine::MachineLimits;
 use crate::program::ControllerCommand;
@@ -25,6 +26,10 @@ pub struct CheckReport {
     pub machine: Option<MachineLimits>,
     /// What the nose leaves standing where it does not fit; `None` where the recipe refuses that.
     pub unreached: Option<Unreached>,
+    /// The tolerance of form, with the tolerances that the first path is made for; `None` without
+    /// such a tolerance.
+    #[serde(default)]
+    pub form: Option<FormReport>,
     /// What the path will be, before refinement.
     pub expected: Estimate,
     /// Whether the reach of the nose sets the feed, and where.

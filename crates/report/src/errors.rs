@@ -5,15 +5,34 @@ use serde::{Deserialize, Serialize};
 use crate::place::PathPlace;
 use crate::unit;
 
-/// The tolerances of a recipe.
+/// The tolerances of a recipe; `None` for one that it does not ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tolerances {
     /// Largest interpolation error, mm.
     #[serde(rename = "interpolation_nm", with = "unit::nm")]
-    pub interpolation: f64,
+    pub interpolation: Option<f64>,
     /// Highest cusp, mm.
     #[serde(rename = "residual_nm", with = "unit::nm")]
-    pub residual: f64,
+    pub residual: Option<f64>,
+    /// Peak to valley of the machined surface, mm. There is one, or both of the others.
+    #[serde(default, rename = "form_nm", with = "unit::nm")]
+    pub form: Option<f64>,
+    /// Largest predicted error of the servos, mm.
+    #[serde(default, rename = "servo_nm", with = "unit::nm")]
+    pub servo: Option<f64>,
+}
+
+impl Tolerances {
+    /// How much material may stay uncut, mm: the residual, or the form in its place.
+    pub fn most_material(&self) -> Option<f64> {
+        self.residual.or(self.form)
+    }
+
+    /// How deep the tool may go on its leads, mm: the interpolation tolerance, or the form in its
+    /// place.
+    pub fn deepest(&self) -> Option<f64> {
+        self.interpolation.or(self.form)
+    }
 }
 
 /// Played − true tool centre along z.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::axes::Axes;
 use crate::coverage::{AxisCrossing, Coverage, Overrun};
 use crate::errors::{ControlPointError, InterpolationError, PlayedCusp, Residual, Tolerances};
+use crate::form::FormReport;
 use crate::lead::LeadReport;
 use crate::machine::{HighestSpindle, MachineReport, all_hold};
 use crate::reach::Reach;
@@ -42,6 +43,9 @@ pub struct PathReport {
     /// What the real nose leaves where the path takes its radius as 0; `None` elsewhere.
     #[serde(default)]
     pub real_nose: Option<RealNose>,
+    /// The machined surface against the tolerance of its form; `None` without such a tolerance.
+    #[serde(default)]
+    pub form: Option<FormReport>,
     /// Motion of the axes over the cut.
     pub axes: Axes,
     /// The machine's limits; `None` without any.
@@ -56,34 +60,32 @@ pub struct PathReport {
 }
 
 impl PathReport {
-    /// The peak to valley that counts as the error of form, mm: that of the machined surface, or of
-    /// the real nose where the path takes its radius as 0. `None` where nothing of the part is cut.
-    pub fn form_error(&self) -> Option<f64> {
-        let of_path = self.surface_error.as_ref().map(|error| error.pv);
-        self.real_nose.as_ref().map(|nose| nose.pv).or(of_path)
-    }
-
     /// Which tolerances and limits hold; `reach` is that of a file.
     pub fn verdict(&self, reach: Option<&Reach>) -> Verdict {
-        let Tolerances {
-            interpolation,
-            residual,
-        } = self.tolerance;
+        let tolerance = &self.tolerance;
         let uncut = self.coverage.largest();
+        let is_within = |figure: Option<f64>, limit: f64| figure.is_some_and(|f| within(f, limit));
+        let held = |figure: Option<f64>, limit: Option<f64>| limit.map(|l| is_within(figure, l));
         let of_cut = self.machine.as_ref().map(|machine| &machine.limits[..]);
         let of_lead = self.lead.as_ref().map(|lead| &lead.limits[..]);
         let limits = [of_cut, of_lead].into_iter().flatten();
         Verdict {
-            interpolation: within(self.interpolation_error.max, interpolation),
-            residual: self.residual.max.is_some_and(|max| within(max, residual)),
-            coverage: self.overrun.covers_part().then(|| within(uncut, residual)),
+            interpolation: held(Some(self.interpolation_error.max), tolerance.interpolation),
+            residual: held(self.residual.max, tolerance.residual),
+            form: self.form.map(|form| is_within(form.pv, form.tolerance)),
+            coverage: held(Some(uncut), tolerance.most_material())
+                .filter(|_| self.overrun.covers_part()),
             machine: limits
                 .filter_map(all_hold)
                 .reduce(|one, other| one && other),
+            servo: held(
+                self.servo.map(|servo| servo.predicted_error.max),
+                tolerance.servo,
+            ),
             lead: self
                 .lead
                 .as_ref()
-                .map(|lead| within(-lead.smallest_clearance, interpolation)),
+                .and_then(|lead| held(Some(-lead.smallest_clearance), tolerance.deepest())),
             reach: reach.map(Reach::covers_part),
             result: None,
             whole: None,

@@ -29,39 +29,63 @@ pub struct ProgramReport {
     /// Largest interpolation error, mm.
     #[serde(rename = "interpolation_error_nm", with = "unit::nm")]
     pub interpolation_error: f64,
-    /// Whether that holds the interpolation tolerance.
-    pub within_interpolation: bool,
+    /// Whether that holds the interpolation tolerance; `None` without one.
+    pub within_interpolation: Option<bool>,
+    /// Peak to valley of the machined surface, mm; `None` without a tolerance of form, or where
+    /// nothing is cut.
+    #[serde(default, rename = "form_error_nm", with = "unit::nm")]
+    pub form_error: Option<f64>,
+    /// Whether that holds the tolerance of form; `None` without one.
+    #[serde(default)]
+    pub within_form: Option<bool>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
     #[serde(rename = "lead_clearance_nm", with = "unit::nm")]
     pub lead_clearance: Option<f64>,
-    /// Whether the leads stay above the first touch, to the interpolation tolerance; `None` without
-    /// leads.
+    /// Whether the leads stay above the first touch, to the interpolation tolerance or to the form
+    /// in its place; `None` without leads.
     pub within_lead: Option<bool>,
 }
 
+/// What was measured on a program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramFigures {
+    /// Largest interpolation error, mm.
+    pub interpolation_error: f64,
+    /// Peak to valley of the machined surface, mm, where it was measured.
+    pub form_error: Option<f64>,
+    /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
+    pub lead_clearance: Option<f64>,
+}
+
 impl ProgramReport {
-    /// Judges a program by its largest interpolation error and the smallest clearance of its
-    /// leads, mm.
-    pub fn new(
-        file: String,
-        post: &str,
-        interpolation_error: f64,
-        lead_clearance: Option<f64>,
-        tolerance: &Tolerances,
-    ) -> Self {
-        let allowed = tolerance.interpolation;
+    /// Judges a program by its figures.
+    pub fn new(file: String, post: &str, figures: &ProgramFigures, tolerance: &Tolerances) -> Self {
+        let ProgramFigures {
+            interpolation_error,
+            form_error,
+            lead_clearance,
+        } = *figures;
+        let holds = |figure: f64, limit: Option<f64>| limit.map(|limit| within(figure, limit));
         Self {
             file,
             post: post.to_owned(),
             interpolation_error,
-            within_interpolation: within(interpolation_error, allowed),
+            within_interpolation: holds(interpolation_error, tolerance.interpolation),
+            form_error,
+            within_form: holds(form_error.unwrap_or(f64::INFINITY), tolerance.form),
             lead_clearance,
-            within_lead: lead_clearance.map(|clearance| within(-clearance, allowed)),
+            within_lead: lead_clearance
+                .and_then(|clearance| holds(-clearance, tolerance.deepest())),
         }
     }
 
     /// Whether the program holds its tolerances.
     pub fn holds(&self) -> bool {
-        self.within_interpolation && self.within_lead.unwrap_or(true)
+        let verdicts = [
+            self.within_interpolation,
+            self.within_form,
+            self.within_lead,
+        ];
+        !verdicts.contains(&Some(false))
     }
 }

@@ -1,4 +1,4 @@
-//! What the axes' servos make of the path. It is a model, so no tolerance is held against it.
+//! What the axes' servos make of the path, by a model of them.
 
 use serde::{Deserialize, Serialize};
 

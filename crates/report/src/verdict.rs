@@ -14,17 +14,24 @@ pub fn within(figure: f64, limit: f64) -> bool {
 /// Which tolerances and limits hold. `None` stands for one that a path is not held to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// The interpolation error.
-    pub interpolation: bool,
-    /// The highest cusp.
-    pub residual: bool,
-    /// What stays uncut at the part's edges and around the axis, held to the residual tolerance.
+    /// The interpolation error; `None` where the recipe gives a form in place of its tolerance.
+    pub interpolation: Option<bool>,
+    /// The highest cusp; `None` where the recipe gives a form in place of its tolerance.
+    pub residual: Option<bool>,
+    /// The form of the machined surface; `None` without a tolerance of it.
+    #[serde(default)]
+    pub form: Option<bool>,
+    /// What stays uncut at the part's edges and around the axis, held to the residual tolerance or
+    /// to the form in its place.
     /// `None` where the path is not meant to cover the part.
     pub coverage: Option<bool>,
     /// The machine's limits, over cut and leads; `None` without limits that were measured.
     pub machine: Option<bool>,
-    /// Whether the leads stay above the first touch, to the interpolation tolerance; `None` without
-    /// leads.
+    /// The error that the model of the servos predicts; `None` without a tolerance of it.
+    #[serde(default)]
+    pub servo: Option<bool>,
+    /// Whether the leads stay above the first touch, to the interpolation tolerance or to the form
+    /// in its place; `None` without leads.
     pub lead: Option<bool>,
     /// Whether the path covers the part; of a file alone, since the law of a run is held to that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -53,8 +60,10 @@ impl Verdict {
         let Self {
             interpolation,
             residual,
+            form,
             coverage,
             machine,
+            servo,
             lead,
             reach,
             result,
@@ -62,10 +71,12 @@ impl Verdict {
             programs,
         } = *self;
         [
-            ("interpolation", Some(interpolation)),
-            ("residual", Some(residual)),
+            ("interpolation", interpolation),
+            ("residual", residual),
+            ("form", form),
             ("coverage", coverage),
             ("machine", machine),
+            ("servo", servo),
             ("lead", lead),
             ("reach", reach),
             ("result", result),
@@ -87,10 +98,12 @@ mod tests {
     use super::*;
 
     const ALL_HOLD: Verdict = Verdict {
-        interpolation: true,
-        residual: true,
+        interpolation: Some(true),
+        residual: None,
+        form: Some(true),
         coverage: Some(true),
         machine: None,
+        servo: None,
         lead: None,
         reach: None,
         result: None,
@@ -108,13 +121,13 @@ mod tests {
     fn one_that_fails_is_enough_and_is_named() {
         let verdict = Verdict {
             programs: Some(false),
-            residual: false,
+            servo: Some(false),
             ..ALL_HOLD
         };
         assert!(!verdict.holds());
         assert_eq!(
             verdict.failures().collect::<Vec<_>>(),
-            ["residual", "programs"]
+            ["servo", "programs"]
         );
     }
 

@@ -2,7 +2,7 @@
 
 use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
-use turnpath_core::{DEG, Part, Tool};
+use turnpath_core::{DEG, Part, Tolerance, Tool};
 use turnpath_pipeline::{estimate, largest_nose};
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
@@ -39,6 +39,7 @@ impl Job {
             tool_fit: self.tool_fit(&nose),
             machine: self.machine_limits(),
             unreached: self.unreached()?,
+            form: self.first_form(),
             expected: report::Estimate {
                 revolutions: expected.revolutions,
                 cutting_time: expected.cutting_time,
@@ -51,6 +52,23 @@ impl Job {
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
+    }
+
+    /// The tolerance of form, with what the first path is made for.
+    fn first_form(&self) -> Option<report::FormReport> {
+        let Tolerance {
+            interpolation,
+            residual,
+        } = self.preparation.task.tolerance;
+        self.recipe.asked.form.map(|tolerance| report::FormReport {
+            tolerance,
+            pv: None,
+            split: Some(report::FormSplit {
+                residual,
+                interpolation,
+                rounds: 0,
+            }),
+        })
     }
 
     fn machine_limits(&self) -> Option<report::MachineLimits> {

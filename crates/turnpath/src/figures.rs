@@ -4,17 +4,19 @@ use turnpath_pipeline::{FeedCap, Leads};
 use turnpath_recipe::Recipe;
 use turnpath_report as report;
 use turnpath_report::{LimitFigure, PathPlace};
-use turnpath_verify::machined::{MachinedFigures, PartPoint};
+use turnpath_verify::machined::{FormScope, MachinedFigures, PartPoint, SurfaceExtremes};
 use turnpath_verify::{
     AxesMotion, AxisMotion, CoverageFigures, FollowingError, HighestSpeed, LeadFigures,
     PathFigures, Peak, ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
 };
 
-/// The tolerances of a recipe.
+/// The tolerances that a recipe asks for.
 pub fn tolerances(recipe: &Recipe) -> report::Tolerances {
     report::Tolerances {
-        interpolation: recipe.tolerance.interpolation,
-        residual: recipe.tolerance.residual,
+        interpolation: recipe.asked.interpolation,
+        residual: recipe.asked.residual,
+        form: recipe.asked.form,
+        servo: recipe.asked.servo,
     }
 }
 
@@ -28,16 +30,52 @@ pub fn feed_cap(cap: Option<&FeedCap>) -> report::FeedCap {
     }
 }
 
+/// The height from which on material counts as unreached, mm.
+pub fn material_threshold(recipe: &Recipe) -> f64 {
+    let asked = recipe.asked.most_material();
+    asked.unwrap_or(recipe.tolerance.residual)
+}
+
+/// Which part of the machined surface counts for its form; `None` without a tolerance of it.
+pub fn form_scope(recipe: &Recipe) -> Option<FormScope> {
+    let overrun = report::Overrun::from(recipe.overrun);
+    recipe.asked.form.map(|_| FormScope {
+        covers_part: overrun.covers_part(),
+        covers_centre: overrun.covers_centre(),
+    })
+}
+
+/// What counts as the error of form, mm: peak to valley of the cut, and where a lead plunges below
+/// the first touch by `-lead_clearance`, down to there.
+pub fn form_error(form: Option<&SurfaceExtremes>, lead_clearance: Option<f64>) -> Option<f64> {
+    let form = form?;
+    let plunge = lead_clearance.filter(|clearance| *clearance < 0.0);
+    let lowest = plunge.map_or(form.lowest.error, |z| z.min(form.lowest.error));
+    Some(form.highest.error - lowest)
+}
+
+/// What was measured on the cut of a path.
+pub struct CutFigures<'a> {
+    /// The path as played.
+    pub path: &'a PathFigures,
+    /// The surface that it leaves.
+    pub machined: Option<&'a MachinedFigures>,
+    /// The form of that surface, where the recipe has a tolerance of it.
+    pub form: Option<&'a SurfaceExtremes>,
+    /// What the servos make of it, where that is asked.
+    pub servo: Option<&'a ServoFigures>,
+}
+
 /// The figures of a path with what its recipe holds them to.
 pub fn path(
     recipe: &Recipe,
-    figures: &PathFigures,
-    machined: Option<&MachinedFigures>,
+    cut: &CutFigures<'_>,
     lead: Option<report::LeadReport>,
-    servo: Option<&ServoFigures>,
 ) -> report::PathReport {
+    let figures = cut.path;
     let (playback, points) = (&figures.playback, &figures.points);
     let overrun = report::Overrun::from(recipe.overrun);
+    let clearance = lead.as_ref().map(|lead| lead.smallest_clearance);
     let highest = figures.axes.highest_speed(&recipe.machine);
     report::PathReport {
         tolerance: tolerances(recipe),
@@ -53,25 +91,31 @@ pub fn path(
         },
         control_point_offset: points.offset,
         residual: residual(&figures.residual, overrun),
-        played_cusp: machined
-            .and_then(|machined| machined.cusp)
-            .map(|cusp| report::PlayedCusp {
+        played_cusp: cut.machined.and_then(|machined| machined.cusp).map(|cusp| {
+            report::PlayedCusp {
                 max: cusp.height,
                 at: place(cusp.at_theta, cusp.at_rho),
-            }),
+            }
+        }),
         coverage: coverage(&figures.coverage),
         axis_crossing: report::AxisCrossing {
             x: figures.coverage.x_beyond_axis,
             contact: figures.coverage.contact_beyond_axis,
         },
-        surface_error: machined.map(surface_error),
-        real_nose: machined
+        surface_error: cut.machined.map(surface_error),
+        real_nose: cut
+            .machined
             .and_then(|machined| machined.real_nose)
             .map(|nose| report::RealNose {
                 pv: nose.pv(),
                 highest: surface_point(&nose.highest),
                 lowest: surface_point(&nose.lowest),
             }),
+        form: recipe.asked.form.map(|tolerance| report::FormReport {
+            tolerance,
+            pv: form_error(cut.form, clearance),
+            split: None,
+        }),
         axes: axes(&figures.axes),
         machine: machine_source(recipe).map(|machine| report::MachineReport {
             machine,
@@ -82,7 +126,7 @@ pub fn path(
             bound_by: (highest.bound_by.axis, highest.bound_by.derivative),
         }),
         lead,
-        servo: servo.map(servo_report),
+        servo: cut.servo.map(servo_report),
     }
 }
 

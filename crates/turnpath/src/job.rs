@@ -1,5 +1,6 @@
 //! A recipe with its strategies: everything that can be refused is refused when it is made.
 
+use turnpath_core::Tolerance;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{
@@ -13,11 +14,13 @@ use crate::chain::chain;
 use crate::data_files::DataFiles;
 use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
 use crate::error::Error;
+use crate::figures::form_scope;
 use crate::named_files::UsedFile;
 use crate::program::{Program, programs};
 use crate::strategies::used_files;
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
+#[derive(Clone)]
 pub struct Job {
     pub(crate) recipe: Recipe,
     pub(crate) catalogue: Catalogue,
@@ -25,6 +28,8 @@ pub struct Job {
     pub(crate) chain: Chain,
     pub(crate) preparation: Preparation,
     pub(crate) programs: Vec<Program>,
+    /// The tolerances of the path, where they are settled.
+    pub(crate) settled: Option<Tolerance>,
 }
 
 impl Job {
@@ -65,6 +70,7 @@ impl Job {
             chain,
             preparation,
             programs,
+            settled: None,
         };
         job.refuse_straight_lines()?;
         Ok(job)
@@ -73,6 +79,17 @@ impl Job {
     /// The recipe.
     pub fn recipe(&self) -> &Recipe {
         &self.recipe
+    }
+
+    /// The same job with its path made for these tolerances, and made once: such as those into which
+    /// a run has divided a tolerance of form. What the recipe asks for, and what is judged, stays as
+    /// it is.
+    #[must_use]
+    pub fn with_tolerance(&self, tolerance: Tolerance) -> Self {
+        let mut job = self.clone();
+        job.preparation.task.tolerance = tolerance;
+        job.settled = Some(tolerance);
+        job
     }
 
     /// A program in PVT mode plays cubics; a path of straight lines is another one.
@@ -107,6 +124,7 @@ impl Job {
                 clearance: recipe.clearance,
                 limits: LeadLimits::within(recipe.machine),
             }),
+            form: form_scope(recipe),
             servo: recipe.servo,
             covers_centre: Overrun::from(recipe.overrun).covers_centre(),
         }

@@ -26,6 +26,7 @@ mod diagnosis;
 mod error;
 mod figures;
 mod folder;
+mod form;
 mod job;
 mod memory;
 mod meters;
@@ -61,7 +62,7 @@ pub use run::RunResult;
 pub use sag::{write_sag, write_sag_to};
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
-pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot};
+pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
 pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,

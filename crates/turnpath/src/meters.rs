@@ -14,6 +14,7 @@ use turnpath_verify::{
 
 use crate::diagnosis::of_measure;
 use crate::error::Error;
+use crate::figures::form_scope;
 
 /// Rows that are measured in one go.
 pub const BLOCK_ROWS: usize = 20_000;
@@ -38,7 +39,9 @@ impl PathMeters {
         let counts_centre = Overrun::from(recipe.overrun).covers_centre();
         let (tolerance, rim) = (recipe.tolerance.interpolation, recipe.part.aperture_radius);
         Self {
-            cut: Meter::new(touch).counting_centre(counts_centre),
+            cut: Meter::new(touch)
+                .counting_centre(counts_centre)
+                .with_form(form_scope(recipe)),
             lead: LeadMeter::default(),
             servo: None,
             anomalies: AnomalyDetector::new(tolerance, rim),

@@ -9,16 +9,17 @@ use turnpath_post::{
     PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacWriter, ReadPath, Template,
 };
 use turnpath_recipe::{Recipe, Spanned, ZReference};
-use turnpath_report::ProgramReport;
+use turnpath_report::{ProgramFigures, ProgramReport};
 use turnpath_verify::FirstTouch;
 
 use crate::diagnosis::of_measure;
 use crate::error::Error;
-use crate::figures::tolerances;
+use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, PathMeters, measure};
 use crate::posts::{PMAC_EXTENSION, PMAC_PVT, pmac_format};
 
 /// A program that a recipe asks for.
+#[derive(Clone)]
 pub struct Program {
     /// How it is laid out.
     pub format: PmacFormat,
@@ -139,14 +140,21 @@ impl Program {
                 expected: points,
             });
         }
-        let figures = measured.cut.figures();
-        let figures = figures.map_err(|error| of_measure(recipe, error))?;
+        let failed = |error| of_measure(recipe, error);
+        let figures = measured.cut.figures().map_err(failed)?;
+        let form = measured.cut.form().map_err(failed)?;
+        let lead_clearance = measured.lead.figures().map(|lead| lead.clearance);
+        let figures = ProgramFigures {
+            interpolation_error: figures.playback.max(),
+            form_error: form_error(form.as_ref(), lead_clearance),
+            lead_clearance,
+        };
+        let tolerances = tolerances(recipe);
         Ok(ProgramReport::new(
             self.file.clone(),
             PMAC_PVT,
-            figures.playback.max(),
-            measured.lead.figures().map(|lead| lead.clearance),
-            &tolerances(recipe),
+            &figures,
+            &tolerances,
         ))
     }
 }

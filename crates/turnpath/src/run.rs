@@ -8,14 +8,15 @@ use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
 use turnpath_post::PmacReader;
 use turnpath_report as report;
-use turnpath_report::{ProgramReport, RunReport};
+use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::unreached;
 
 use crate::commands::controller_commands;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
-use crate::figures;
+use crate::figures::{self, CutFigures, material_threshold};
 use crate::folder::FolderSink;
+use crate::form::{SettledPath, settle};
 use crate::job::Job;
 use crate::memory::MemorySink;
 use crate::named_files::UsedFile;
@@ -94,15 +95,26 @@ impl Job {
     }
 
     fn run_nowhere(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
-        let mut sink = RowCount::default();
-        let outcome = self.run_into(&mut sink, observer)?;
-        let report = self.report(sink.rows, &outcome, Vec::new())?;
+        let path = settle(self, observer, |job| {
+            let mut sink = RowCount::default();
+            let outcome = job.run_into(&mut sink, observer)?;
+            Ok((sink, outcome))
+        })?;
+        let report = self.report(path.sink.rows, &path.outcome, path.split, Vec::new())?;
         Ok(RunResult::of(self.with_recipe(report)))
     }
 
     fn run_in_memory(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
-        let mut sink = MemorySink::new(&self.programs);
-        let outcome = self.run_into(&mut sink, observer)?;
+        let path = settle(self, observer, |job| {
+            let mut sink = MemorySink::new(&self.programs);
+            let outcome = job.run_into(&mut sink, observer)?;
+            Ok((sink, outcome))
+        })?;
+        let SettledPath {
+            sink,
+            outcome,
+            split,
+        } = path;
         let rows = sink.toolpath.len() as u64;
         let (mut reports, mut programs) = (Vec::new(), Vec::new());
         for (program, writer) in self.programs.iter().zip(sink.writers) {
@@ -119,7 +131,7 @@ impl Job {
         Ok(RunResult {
             toolpath: Some(sink.toolpath),
             programs,
-            ..RunResult::of(self.with_recipe(self.report(rows, &outcome, reports)?))
+            ..RunResult::of(self.with_recipe(self.report(rows, &outcome, split, reports)?))
         })
     }
 
@@ -131,11 +143,19 @@ impl Job {
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
         plots.can_be_in_result(folder)?;
-        let mut sink = FolderSink::new(folder, self)?;
-        let outcome = self.run_into(&mut sink, observer)?;
+        let path = settle(self, observer, |job| {
+            let mut sink = FolderSink::new(folder, self)?;
+            let outcome = job.run_into(&mut sink, observer)?;
+            Ok((sink, outcome))
+        })?;
+        let SettledPath {
+            mut sink,
+            outcome,
+            split,
+        } = path;
         let reports = sink.read_back(self, &outcome, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
-        let report = self.with_recipe(self.report(sink.rows(), &outcome, reports)?);
+        let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
         let whole = sink.finish()?;
         let report = RunReport {
             files: Some(whole.listed()),
@@ -148,24 +168,27 @@ impl Job {
         })
     }
 
-    /// What a path gave.
+    /// What a path gave; `split` is how a tolerance of form was divided for it.
     pub(crate) fn report(
         &self,
         rows: u64,
         outcome: &Outcome,
+        split: Option<FormSplit>,
         programs: Vec<ProgramReport>,
     ) -> Result<RunReport, Error> {
         let recipe = &self.recipe;
         let leads = outcome.lead.as_ref();
         let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), recipe));
-        let machined = outcome.machined.as_ref();
-        let path = figures::path(
-            recipe,
-            &outcome.figures,
-            machined,
-            lead,
-            outcome.servo.as_ref(),
-        );
+        let cut = CutFigures {
+            path: &outcome.figures,
+            machined: outcome.machined.as_ref(),
+            form: outcome.form.as_ref(),
+            servo: outcome.servo.as_ref(),
+        };
+        let mut path = figures::path(recipe, &cut, lead);
+        if let Some(form) = &mut path.form {
+            form.split = split;
+        }
         let z_acceleration = path.axes.z.acceleration.max;
         let report = RunReport {
             format: report::FORMAT,
@@ -219,7 +242,7 @@ impl Job {
             let asked = self.recipe.tool.misfit == Misfit::CutWhatFits && self.compensates_nose();
             return Ok(asked.then(report::Unreached::default));
         }
-        let figures = unreached(touch, self.recipe.tolerance.residual);
+        let figures = unreached(touch, material_threshold(&self.recipe));
         let figures = figures.map_err(|error| of_measure(&self.recipe, error))?;
         Ok(Some(figures::unreached(&figures)))
     }

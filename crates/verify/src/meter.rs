@@ -5,7 +5,7 @@ use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
 use crate::coverage::{Coverage, CoverageFigures};
-use crate::machined::{Fan, Lines, MachinedFigures, SectionPasses};
+use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, SurfaceExtremes};
 use crate::playback::{PlaybackFigures, play_back};
 use crate::points::{PointFigures, point_errors};
 use crate::residual::{Passes, ResidualFigures};
@@ -59,6 +59,7 @@ pub struct Meter {
     real_nose: Option<Lines>,
     coverage: Coverage,
     counts_centre: bool,
+    form: Option<FormScope>,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -74,6 +75,7 @@ impl Meter {
             lines: Lines::new(Fan::WHOLE),
             coverage: Coverage::default(),
             counts_centre: false,
+            form: None,
             ends: None,
         }
     }
@@ -83,6 +85,14 @@ impl Meter {
     #[must_use]
     pub fn counting_centre(mut self, counts: bool) -> Self {
         self.counts_centre = counts;
+        self
+    }
+
+    /// Sets which part of the machined surface counts for its form; without it the form is not
+    /// measured.
+    #[must_use]
+    pub fn with_form(mut self, scope: Option<FormScope>) -> Self {
+        self.form = scope;
         self
     }
 
@@ -190,6 +200,19 @@ impl Meter {
             real_nose: real_nose.flatten(),
             ..figures
         }))
+    }
+
+    /// The form of the machined surface, of the real nose where the path takes its radius as 0;
+    /// `None` if it is not asked for, or if the path cuts nothing of the part.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn form(&self) -> Result<Option<SurfaceExtremes>> {
+        let lines = self.real_nose.as_ref().unwrap_or(&self.lines);
+        match self.form {
+            Some(scope) => lines.form(&self.touch, scope),
+            None => Ok(None),
+        }
     }
 
     /// The figures so far.

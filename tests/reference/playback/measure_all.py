@@ -3,9 +3,9 @@
 
     measure_all.py TURNPATH [--plugins DIR] [RECIPE.toml …]
 
-TURNPATH is the program. Without a recipe these are all of docs/recipes, hard/ and sums/, and
-all of slots/ if DIR has the libraries of tests/fixtures. Each recipe's figures go to `<recipe>.json` in
-the folder of its references: this one for docs/recipes, hard/, sums/ and slots/ for their own. They
+TURNPATH is the program. Without a recipe these are all of docs/recipes, hard/, sums/ and form/,
+and all of slots/ if DIR has the libraries of tests/fixtures. Each recipe's figures go to `<recipe>.json` in
+the folder of its references: this one for docs/recipes, hard/, sums/, form/ and slots/ for their own. They
 change only when a path does.
 """
 
@@ -23,13 +23,14 @@ HERE = Path(__file__).resolve().parent
 RECIPES = HERE.parents[2] / "docs" / "recipes"
 HARD = HERE / "hard"
 SUMS = HERE / "sums"
+FORM = HERE / "form"
 SLOTS = HERE / "slots"  # recipes that need the fixture `two-speeds`
 TOLERANCE_EXCEEDED = 1  # turnpath's exit status when a path is made but holds no tolerance
 
 
 def reference_file(recipe):
     """Where the figures of a recipe are kept."""
-    folder = recipe.parent if recipe.parent in (HARD, SUMS, SLOTS) else HERE
+    folder = recipe.parent if recipe.parent in (HARD, SUMS, FORM, SLOTS) else HERE
     return folder / f"{recipe.stem}.json"
 
 
@@ -55,7 +56,7 @@ def main():
     program = str(Path(given.program).resolve())
     recipes = [Path(name).resolve() for name in given.recipes]
     if not recipes:
-        folders = [RECIPES, HARD, SUMS] + ([SLOTS] if given.plugins else [])
+        folders = [RECIPES, HARD, SUMS, FORM] + ([SLOTS] if given.plugins else [])
         recipes = [recipe for folder in folders for recipe in sorted(folder.glob("*.toml"))]
     with ProcessPoolExecutor() as pool:
         for recipe, figures in zip(recipes, pool.map(partial(measure_recipe, program, given.plugins), recipes)):

@@ -14,7 +14,8 @@ prints JSON: the error of interpolation (played minus true Z, along z), the resi
 height along the profile's normal in the XZ plane, tool centres at their true Z), the highest cusp
 as played, what stays
 uncut at the part's edges and around the axis (null: not reached, or no such place), the error of
-the machined surface (what the played nose leaves, along z), the rows of the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
+the machined surface (what the played nose leaves, along z), its form where the recipe has a
+tolerance of it, the rows of the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
 cut what fits, cusps count from the closing of the profile by the nose, and what stays between
 closing and surface is a figure of its own.
 """
@@ -49,6 +50,8 @@ class Recipe:
         self.nose_half_angle = min(included / 2, math.pi / 2)
         self.covers_axis = table.get("path", {}).get("overrun", "contact") != "none"
         self.cuts_what_fits = tool.get("interference", "refuse") == "cut-what-fits"
+        self.asks_form = "form" in table["tolerance"]
+        self.covers_part = table.get("path", {}).get("overrun", "contact") == "contact"
         self.compensator = table["compensator"]["use"]
         if self.compensator not in COMPENSATORS:
             raise SystemExit(f"no reference for the compensator `{self.compensator}`")
@@ -710,6 +713,50 @@ def zoom(recipe, path, angle, s, step, pitch, extreme):
     return float(extreme(np.where(np.isfinite(errors), errors, np.nan)))
 
 
+FORM_SECTIONS = 24
+FORM_CLOSING_STEP = 1e-4  # mm: finer than for what stays, since cusps beside a seam are lower
+
+
+def form_error(recipe, path, surface):
+    """PV of the machined surface as its tolerance counts it, None unless the recipe asks.
+
+    It is that of `surface`, the figures of the machined surface. Where the nose leaves seams it
+    counts from the closing of each section by the nose; where the path does not cover the part,
+    between the contacts of the outermost and of the innermost passes of either side.
+    """
+    if not recipe.asks_form:
+        return None
+    if recipe.covers_part and not recipe.leaves_seams:
+        return surface["pv"]
+    highest, lowest = -np.inf, np.inf
+    for i in range(FORM_SECTIONS):
+        angle = (i + 0.41) * 180 / FORM_SECTIONS
+        if recipe.leaves_seams:
+            s, closing = section_closing(recipe, math.radians(angle), FORM_CLOSING_STEP)
+        else:
+            s = line_places(recipe, int(4 * PLACES_A_PASS * path.revolutions), (0.618 * i) % 1.0)
+            closing = 0.0
+        error = line_error(recipe, path, angle, s) - closing
+        counts = (np.abs(s) <= recipe.part_radius) & (np.abs(s) >= recipe.hole_radius)
+        if not recipe.covers_part:
+            x, _ = played_circles(recipe, path, angle)
+            left, right = x[x < 0], x[x >= 0]
+            counts &= between_contacts(recipe, angle, left, s) | between_contacts(recipe, angle, right, s)
+        counts &= np.isfinite(error)
+        highest, lowest = max(highest, error[counts].max()), min(lowest, error[counts].min())
+    return float((highest - lowest) * NM_PER_MM)
+
+
+def between_contacts(recipe, section_deg, x, s):
+    """Which places lie between the contacts of the passes at the smallest and at the largest X."""
+    profile, radius = recipe.profile(math.radians(section_deg)), recipe.nose_radius
+    ends = []
+    for centre in (x.min(), x.max()):
+        off = radius * np.sin(np.linspace(-recipe.nose_half_angle, recipe.nose_half_angle, 400_001))
+        ends.append(centre + off[np.argmax(profile(centre + off) + np.sqrt(radius**2 - off**2))])
+    return (s >= ends[0]) & (s <= ends[1])
+
+
 def control_points(recipe, path, scan=129):
     """How far the control points lie off the true tool centre, nm: the largest amount."""
     off = path.nodes[:, 3] - true_z(recipe, radians(path.nodes[:, 1]), path.nodes[:, 2], scan)
@@ -740,14 +787,17 @@ def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
     """All figures of a path, as printed."""
     if recipe.cuts_what_fits:  # hills of nearly one height are told apart on a finer scan
         scan = max(scan, SEAM_SCAN)
-    return {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
-            "residual_nm": residual(recipe, path, sections, scan),
-            "played_cusp_nm": played_cusp(recipe, path, scan=scan),
-            "surface_error_nm": surface_error(recipe, path),
-            "coverage_nm": coverage(recipe, path, scan),
-            "unreached": unreached(recipe),
-            "rows": path.rows, "control_points": path.segments + 1,
-            "revolutions": float(path.revolutions)}
+    surface = surface_error(recipe, path)
+    figures = {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
+               "residual_nm": residual(recipe, path, sections, scan),
+               "played_cusp_nm": played_cusp(recipe, path, scan=scan),
+               "surface_error_nm": surface,
+               "coverage_nm": coverage(recipe, path, scan),
+               "unreached": unreached(recipe),
+               "rows": path.rows, "control_points": path.segments + 1,
+               "revolutions": float(path.revolutions)}
+    form = form_error(recipe, path, surface)
+    return figures if form is None else figures | {"form_error_nm": form}
 
 
 def main():

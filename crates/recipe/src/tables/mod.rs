@@ -17,12 +17,13 @@ mod tests;
 mod top;
 mod work;
 
+pub use cutting::AskedTolerances;
 pub use output::{DataFormat, Output, ZReference};
 pub use pmac_pvt::PmacPvt;
 pub use slot::slot_keys;
 
 pub(crate) use ablation::is_one_at_a_time;
-pub(crate) use cutting::{DEFAULT_SPINDLE, spindle, tolerance};
+pub(crate) use cutting::{DEFAULT_SPINDLE, check_servo_tolerance, spindle, tolerance};
 pub(crate) use machine::{check_spindle, machine};
 pub(crate) use output::output;
 pub(crate) use path::path;

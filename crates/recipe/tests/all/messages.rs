@@ -42,6 +42,9 @@ says! {
     slot_missing: "[compensator]\nuse = \"z-direction\"\n" => "";
     table_unknown: "[tolerance]" => "[tolerances]";
     key_missing: "residual = \"100 nm\"\n" => "";
+    tolerances_missing: "interpolation = \"100 nm\"\nresidual = \"100 nm\"\n" => "";
+    tolerance_of_the_servo_without_servo: "residual = \"100 nm\"\n" => "residual = \"100 nm\"\nservo = \"50 nm\"\n";
+    form_of_nothing: "residual = \"100 nm\"\n" => "form = \"0 nm\"\n";
     key_unknown: "nose_radius" => "nose_raduis";
     key_of_another_table: "inner = \"0 mm\"" => "overrun = \"none\"";
     key_of_a_table_above_the_first: "format = 1" => "format = 1\naperture = \"5 mm\"";

@@ -61,6 +61,31 @@ fn a_machine_is_a_preset_its_own_limits_or_both() {
     assert_eq!(both.preset, preset.preset);
 }
 
+/// 2/3 of a form for cusps and 1/6 for the interpolation error; a bound beside the form cuts its
+/// share, and the other one takes the rest.
+#[test]
+fn a_form_stands_for_the_tolerances_that_it_leaves_out() {
+    let split = |tolerance: &str| {
+        let recipe = parse(FULL, &[&format!("tolerance={{ {tolerance} }}")]);
+        let nm = |mm: f64| (mm * 1e6 * 1e3).round() / 1e3;
+        (
+            nm(recipe.tolerance.residual),
+            nm(recipe.tolerance.interpolation),
+            recipe.asked.residual.map(nm),
+            recipe.asked.form.map(nm),
+        )
+    };
+    let form = "form = \"150 nm\"";
+    let asked = Some(150.0);
+    assert_eq!(split(form), (100.0, 25.0, None, asked));
+    let fine = format!("{form}, residual = \"50 nm\"");
+    assert_eq!(split(&fine), (50.0, 50.0, Some(50.0), asked));
+    let smooth = format!("{form}, interpolation = \"10 nm\"");
+    assert_eq!(split(&smooth), (130.0, 10.0, None, asked));
+    let idle = format!("{form}, residual = \"1 um\"");
+    assert_eq!(split(&idle), (100.0, 25.0, Some(1000.0), asked));
+}
+
 #[test]
 fn the_full_example_is_read() {
     let recipe = parse(FULL, &[]);

@@ -314,7 +314,8 @@ const ALL: &[Column] = &[
         "servo_error_max_nm",
         Form::Real,
         |run| nm(path(run).servo?.predicted_error.max),
-    ),
+    )
+    .held(|verdict| verdict.servo),
     column(
         "servo-rms",
         &["servo", "RMS", "nm"],
@@ -322,6 +323,38 @@ const ALL: &[Column] = &[
         Form::Real,
         |run| nm(path(run).servo?.predicted_error.rms),
     ),
+    column(
+        "form",
+        &["form", "judged", "nm"],
+        "form_error_nm",
+        Form::Real,
+        |run| nm(path(run).form?.pv?),
+    )
+    .held(|verdict| verdict.form),
+    column(
+        "form-residual",
+        &["split", "resi-", "dual", "nm"],
+        "form_residual_nm",
+        Form::Real,
+        |run| nm(path(run).form?.split?.residual),
+    )
+    .best(Best::None),
+    column(
+        "form-interpolation",
+        &["split", "inter-", "pol.", "nm"],
+        "form_interpolation_nm",
+        Form::Real,
+        |run| nm(path(run).form?.split?.interpolation),
+    )
+    .best(Best::None),
+    column(
+        "form-rounds",
+        &["paths", "made"],
+        "form_rounds",
+        Form::Count,
+        |run| count(path(run).form?.split?.rounds.into()),
+    )
+    .best(Best::None),
 ];
 
 /// All columns.
@@ -364,7 +397,7 @@ const fn column(
 }
 
 impl Column {
-    const fn held(self, holds: fn(&Verdict) -> bool) -> Self {
+    const fn held(self, holds: fn(&Verdict) -> Option<bool>) -> Self {
         Self {
             holds: Some(holds),
             ..self

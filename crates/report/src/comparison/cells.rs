@@ -47,7 +47,8 @@ impl FigureColumn {
             let exceeds = column
                 .holds
                 .zip(run.verdict())
-                .map(|(holds, verdict)| !holds(verdict));
+                .and_then(|(holds, verdict)| holds(verdict))
+                .map(|holds| !holds);
             let ratio = number.zip(first).filter(|_| row > 0);
             let text = number.map(|number| written(number, column.form));
             Cell {

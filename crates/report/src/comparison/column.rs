@@ -16,8 +16,8 @@ pub struct Column {
     pub figure: fn(&MeasuredRun) -> Option<f64>,
     /// How it is written.
     pub form: Form,
-    /// Whether the figure's own tolerance holds, where it has one.
-    pub holds: Option<fn(&Verdict) -> bool>,
+    /// Whether the figure's own tolerance holds, where it can have one and the recipe gives it.
+    pub holds: Option<fn(&Verdict) -> Option<bool>>,
     /// Which of its figures is marked.
     pub best: Best,
     /// Whether it covers only where the law is the feed strategy's own.

@@ -24,7 +24,7 @@ fn entry(label: &str, points: u64, error_nm: f64) -> AblationRun {
         if let Some(axes) = &mut report.axes_of_law {
             axes.x.acceleration.rms = 0.0123;
         }
-        report.within.interpolation = error_nm < 100.0;
+        report.within.interpolation = Some(error_nm < 100.0);
         report.within.machine = Some(error_nm < 100.0);
         run.program_bytes = Some(1_234_567);
         run.planning_time = Some(0.0042);

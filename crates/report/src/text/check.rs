@@ -5,6 +5,7 @@ use turnpath_core::printable_line;
 use crate::check::CheckReport;
 
 use super::commands::commands;
+use super::form::first_split;
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
 use super::remark::{feed_cap, remarks};
@@ -19,6 +20,7 @@ pub fn check(report: &CheckReport) -> String {
     if let Some(machine) = &report.machine {
         text += &limits(machine);
     }
+    text += &report.form.as_ref().map(first_split).unwrap_or_default();
     let expected = &report.expected;
     let points = grouped(expected.control_points);
     text += &line("points", format!("about {points}, before refinement"));

@@ -15,7 +15,7 @@ pub fn coverage(
     verdict: Option<bool>,
 ) -> String {
     let mut texts = Vec::new();
-    let allowed = tolerance.residual;
+    let allowed = tolerance.most_material().unwrap_or(f64::INFINITY);
     if let Some(holds) = verdict {
         texts.push(against(coverage.largest(), allowed, holds));
     }
@@ -25,7 +25,14 @@ pub fn coverage(
         }
     }
     if texts.is_empty() {
-        texts.push("nowhere more than the residual stays uncut".to_owned());
+        texts.push(format!(
+            "nowhere more than the {name} stays uncut",
+            name = if tolerance.residual.is_some() {
+                "residual"
+            } else {
+                "form"
+            }
+        ));
     }
     let labels = std::iter::once("coverage").chain(std::iter::repeat(""));
     let lines = labels.zip(&texts).map(|(label, text)| line(label, text));

@@ -30,8 +30,8 @@ pub fn file(report: &FileReport) -> String {
         text += &lead(report, verdict.lead);
     }
     text += &anomalies(&report.anomalies, report.rows);
-    if let Some(report) = &report.path.servo {
-        text += &servo(report);
+    if let Some(servos) = &report.path.servo {
+        text += &servo(servos, report.path.tolerance.servo, verdict.servo);
     }
     text += &unreached(report.unreached.as_ref());
     for file in &report.files {

@@ -5,6 +5,7 @@ mod check;
 mod commands;
 mod coverage;
 mod file;
+mod form;
 mod lead;
 mod machine;
 mod numbers;

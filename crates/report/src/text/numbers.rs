@@ -93,6 +93,14 @@ pub fn against(value: f64, tolerance: f64, holds: bool) -> String {
     format!("{value:>12} of {limit:<11} {verdict}")
 }
 
+/// The same where there may be no tolerance, and then no verdict.
+pub fn against_any(value: f64, tolerance: Option<f64>, holds: Option<bool>) -> String {
+    match tolerance.zip(holds) {
+        Some((tolerance, holds)) => against(value, tolerance, holds),
+        None => format!("{:>12}", small_length(value)),
+    }
+}
+
 /// "C = 4253.65 deg, X = 2.8198 mm".
 pub fn path_place(place: &PathPlace) -> String {
     let c = place.c * unit::deg::PER;

@@ -8,14 +8,15 @@ use crate::unit;
 use crate::verdict::Verdict;
 
 use super::coverage::{axis_crossing, coverage};
+use super::form::form;
 use super::machine::{highest_spindle, machine};
-use super::numbers::{against, line, millimetres, path_place, small_length};
+use super::numbers::{against_any, line, millimetres, path_place, small_length};
 
 /// The lines on the cut.
 pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     let tolerance = &path.tolerance;
     let error = &path.interpolation_error;
-    let limit = against(error.max, tolerance.interpolation, verdict.interpolation);
+    let limit = against_any(error.max, tolerance.interpolation, verdict.interpolation);
     let (rms, at) = (small_length(error.rms), path_place(&error.at));
     let mut text = line("interpolation", limit);
     text += &line("", format!("{rms:>12} rms; the largest at {at}"));
@@ -23,6 +24,9 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     text += &played_cusp(path.played_cusp.as_ref());
     text += &surface_error(path.surface_error.as_ref());
     text += &real_nose(path.real_nose.as_ref());
+    if let Some(report) = &path.form {
+        text += &form(report, verdict.form);
+    }
     text += &coverage(&path.coverage, tolerance, path.overrun, verdict.coverage);
     text += &axis_crossing(&path.axis_crossing);
     if let Some(report) = &path.machine {
@@ -33,7 +37,7 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
 
 fn residual(path: &PathReport, verdict: &Verdict) -> String {
     match path.residual.max {
-        Some(max) => against(max, path.tolerance.residual, verdict.residual),
+        Some(max) => against_any(max, path.tolerance.residual, verdict.residual),
         None => "not measured: no turn has a neighbour".to_owned(),
     }
 }
@@ -114,16 +118,5 @@ mod tests {
         assert!(never.contains("the real nose gouges nowhere\n"), "{never}");
         let always = real_nose(Some(&nose(-1e-4, -1e-6)));
         assert!(!always.contains("leaves"), "{always}");
-    }
-
-    #[test]
-    fn the_real_nose_counts_as_the_error_of_form() {
-        let mut report = crate::sample::run_report().path;
-        let of_path = report.surface_error.map(|error| error.pv);
-        assert!(of_path.is_some_and(|pv| pv > 0.0));
-        assert_eq!(report.form_error(), of_path);
-        let nose = nose(-7.7e-3, 1e-4);
-        report.real_nose = Some(nose);
-        assert_eq!(report.form_error(), Some(nose.pv));
     }
 }

@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use turnpath_core::printable_line;
 
+use crate::errors::Tolerances;
+use crate::program::ProgramReport;
 use crate::run::RunReport;
 
 use super::commands::commands;
 use super::lead::lead;
-use super::numbers::{against, duration, grouped, line, small_length};
+use super::numbers::{against_any, duration, grouped, line, small_length};
 use super::path::path;
 use super::remark::{feed_cap, remarks};
 use super::servo::servo;
@@ -17,7 +19,7 @@ use super::unreached::unreached;
 /// The text on a run, with the files that it wrote.
 pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     let verdict = report.verdict();
-    let chain = &report.chain;
+    let (chain, tolerance) = (&report.chain, &report.path.tolerance);
     let mut names = vec![
         chain.surface.as_str(),
         &chain.feed,
@@ -37,26 +39,40 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     if let Some(report) = &report.path.lead {
         text += &lead(report, verdict.lead);
     }
-    if let Some(report) = &report.path.servo {
-        text += &servo(report);
+    if let Some(servos) = &report.path.servo {
+        text += &servo(servos, tolerance.servo, verdict.servo);
     }
     text += &unreached(report.unreached.as_ref());
-    let tolerance = report.path.tolerance.interpolation;
-    for program in &report.programs {
-        let (error, holds) = (program.interpolation_error, program.within_interpolation);
-        text += &line(&program.post, against(error, tolerance, holds));
-        if let (Some(clearance), Some(false)) = (program.lead_clearance, program.within_lead) {
-            let depth = small_length(-clearance);
-            text += &line(
-                "",
-                format!("EXCEEDED: a lead plunges {depth} below first touch"),
-            );
-        }
+    for one in &report.programs {
+        text += &program(one, tolerance);
     }
     text += &commands(&report.controller_commands);
     text += &remarks(&report.remarks);
     for file in files {
         text += &line("file", printable_line(&file.display().to_string()));
+    }
+    text
+}
+
+/// The lines on a program: its errors against their tolerances.
+fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
+    let (error, holds) = (program.interpolation_error, program.within_interpolation);
+    let limit = against_any(error, tolerance.interpolation, holds);
+    let mut text = line(&program.post, limit);
+    if let Some(holds) = program.within_form {
+        let limit = against_any(
+            program.form_error.unwrap_or(f64::NAN),
+            tolerance.form,
+            Some(holds),
+        );
+        text += &line("", format!("{limit} form"));
+    }
+    if let (Some(clearance), Some(false)) = (program.lead_clearance, program.within_lead) {
+        let depth = small_length(-clearance);
+        text += &line(
+            "",
+            format!("EXCEEDED: a lead plunges {depth} below first touch"),
+        );
     }
     text
 }

@@ -16,7 +16,7 @@ pub fn unreached(unreached: Option<&Unreached>) -> String {
     let (height, at) = (small_length(unreached.height), path_place(&unreached.at));
     let percent = unreached.area_fraction * unit::percent::PER;
     let rest = format!(
-        "{:.3e} mm3; higher than the residual tolerance on {percent:.2} % of the part",
+        "{:.3e} mm3; higher than the tolerance on {percent:.2} % of the part",
         unreached.volume
     );
     line("unreached", format!("up to {height} along z, at {at}")) + &line("", rest)

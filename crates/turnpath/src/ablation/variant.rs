@@ -9,6 +9,7 @@ use turnpath_report::MeasuredRun;
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
+use crate::form::settle;
 use crate::job::Job;
 use crate::posts::pmac_format;
 
@@ -33,11 +34,15 @@ pub fn run(
 ) -> Result<MeasuredRun, Error> {
     let begun = clock::now();
     let job = Job::with_files(recipe.clone(), sources.catalogue, sources.data)?;
-    let mut sizes = SizeSink::new(&job);
-    let outcome = job.run_into(&mut sizes, &Cancellation(observer))?;
+    let observer = Cancellation(observer);
+    let path = settle(&job, &observer, |job| {
+        let mut sizes = SizeSink::new(job);
+        let outcome = job.run_into(&mut sizes, &observer)?;
+        Ok((sizes, outcome))
+    })?;
     Ok(MeasuredRun {
-        report: job.report(sizes.rows, &outcome, Vec::new())?,
-        program_bytes: sizes.program_bytes,
+        report: job.report(path.sink.rows, &path.outcome, path.split, Vec::new())?,
+        program_bytes: path.sink.program_bytes,
         planning_time: Some(clock::now() - begun),
     })
 }

@@ -24,7 +24,7 @@ use turnpath_verify::{AnomalyDetector, FirstTouch, ServoMeter, Subject, unreache
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
-use crate::figures;
+use crate::figures::{self, CutFigures, material_threshold};
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::result_check::result_check;
@@ -113,7 +113,14 @@ impl<'a> Target<'a> {
         let lead = meters.lead.figures();
         let lead = lead.map(|lead| figures::lead(lead, None, recipe));
         let servo = meters.servo.as_ref().map(ServoMeter::figures);
-        let path = figures::path(recipe, &figures, machined.as_ref(), lead, servo);
+        let form = meter.form().map_err(failed)?;
+        let cut = CutFigures {
+            path: &figures,
+            machined: machined.as_ref(),
+            form: form.as_ref(),
+            servo,
+        };
+        let path = figures::path(recipe, &cut, lead);
         let played = PlayedPath {
             recipe,
             touch: meter.touch(),
@@ -194,7 +201,7 @@ impl<'a> Target<'a> {
         if !touch.leaves_seams() {
             return Ok(None);
         }
-        let figures = unreached(touch, self.recipe.tolerance.residual);
+        let figures = unreached(touch, material_threshold(self.recipe));
         let figures = figures.map_err(|error| of_measure(self.recipe, error))?;
         Ok(Some(figures::unreached(&figures)))
     }

@@ -4,18 +4,24 @@
 //! as many rows of the file, so neither path is ever whole in memory. No figure and no verdict asks
 //! the path that is made here.
 
-use turnpath_core::StrategyError;
+use std::fs;
+use std::path::Path;
+
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
+use turnpath_core::{StrategyError, Tolerance};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
 use turnpath_post::{PmacError, PmacWriter, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
+use turnpath_report::{FormSplit, RunReport, from_json};
 use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
 
 use crate::data_files::DataFiles;
 use crate::diagnosis::{not_carried, of_measure, of_pipeline};
 use crate::error::Error;
 use crate::job::Job;
+use crate::outputs::Outputs;
+use crate::result_check::SUMMARY;
 
 use super::source::SourceFile;
 
@@ -42,6 +48,7 @@ pub fn compare(
     observer: &dyn Observer,
 ) -> Result<Comparison, Error> {
     let compared = remake(recipe, catalogue, files).and_then(|job| {
+        let job = with_split(job, &file.path, &RemakeObserver(observer))?;
         let mut sink = ComparisonSink {
             reader: file.open()?,
             file,
@@ -73,6 +80,42 @@ pub fn compare(
 /// The job whose path is made again.
 fn remake(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<Job, Error> {
     Job::with_files(recipe.clone(), catalogue, files)
+}
+
+/// The job for the split of its tolerance of form, if it has one: the split of the summary beside
+/// the file, or else the one that a run finds.
+fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Error> {
+    let Some(form) = job.recipe.asked.form else {
+        return Ok(job);
+    };
+    let split = match split_beside(file, form) {
+        Some(split) => split,
+        None => found_split(&job, observer)?,
+    };
+    Ok(job.with_tolerance(Tolerance {
+        interpolation: split.interpolation,
+        residual: split.residual,
+    }))
+}
+
+/// The split in the summary beside a file, if it is that of the same form.
+fn split_beside(file: &Path, form: f64) -> Option<FormSplit> {
+    // The file may be spoiled; the split is then still that of the path that it was.
+    let text = fs::read_to_string(file.with_file_name(SUMMARY)).ok()?;
+    let summary = from_json::<RunReport>(&text).ok()?.path.form?;
+    let is_same = (summary.tolerance - form).abs() <= f64::EPSILON.sqrt() * form;
+    summary.split.filter(|_| is_same)
+}
+
+/// The split that a run finds.
+fn found_split(job: &Job, observer: &dyn Observer) -> Result<FormSplit, Error> {
+    let report = job.run(Outputs::nowhere(), observer)?.report;
+    let split = report.path.form.and_then(|form| form.split);
+    Ok(split.unwrap_or(FormSplit {
+        residual: job.recipe.tolerance.residual,
+        interpolation: job.recipe.tolerance.interpolation,
+        rounds: 0,
+    }))
 }
 
 /// Why a comparison ended before the paths did.

@@ -34,6 +34,18 @@ impl Observer for CancelAt {
     }
 }
 
+/// The second path for a form can be cancelled too: nothing of the first one stays.
+#[test]
+fn a_run_can_be_cancelled_while_a_path_is_made_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let observer = CancelAt::new(|stage| stage == Stage::Form(2));
+    let outputs = Outputs::in_folder(folder.path().join("a/b"));
+    let job = job(&["tolerance={ form = \"5 um\" }"]);
+    let error = job.run(outputs, &observer).unwrap_err();
+    assert!(matches!(error, Error::Cancelled), "{error}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
 #[test]
 fn a_run_can_be_cancelled_in_every_stage_and_leaves_no_file_and_no_folder() {
     let stages: [fn(Stage) -> bool; 4] = [

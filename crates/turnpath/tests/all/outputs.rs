@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use turnpath::report::RunReport;
-use turnpath::{Outputs, PlotRequest, RunResult, SilentObserver};
+use turnpath::{Outputs, PlotRequest, RunResult, SilentObserver, Tolerance};
 
 use crate::support::job;
 
@@ -92,6 +92,28 @@ fn a_folder_lists_its_files_with_the_summary_last() {
     let read: RunReport = turnpath::report::from_json(&summary).unwrap();
     assert_eq!(read, result.report);
     assert!(read.verdict().holds());
+}
+
+/// The path of a form is that of its split, as the report or a file of it has the split. A form
+/// looks at no program, so nowhere finds the same split.
+#[test]
+fn a_path_for_a_form_is_made_again_from_its_split() {
+    let job = job(&["tolerance={ form = \"5 um\" }"]);
+    let first = job.run(Outputs::in_memory(), &SilentObserver).unwrap();
+    let text = turnpath::report::to_json(&first.report);
+    let read: RunReport = turnpath::report::from_json(&text).unwrap();
+    let split = read.path.form.unwrap().split.unwrap();
+    assert!(split.rounds > 1);
+    let tolerance = Tolerance {
+        interpolation: split.interpolation,
+        residual: split.residual,
+    };
+    let again = job.with_tolerance(tolerance);
+    let again = again.run(Outputs::in_memory(), &SilentObserver).unwrap();
+    assert_eq!(again.toolpath, first.toolpath);
+    assert_eq!(again.programs, first.programs);
+    let nowhere = job.run(Outputs::nowhere(), &SilentObserver).unwrap().report;
+    assert_eq!(nowhere.path.form, first.report.path.form);
 }
 
 /// The names of the files that a summary lists.

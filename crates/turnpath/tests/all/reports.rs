@@ -29,6 +29,11 @@ const VARIANTS: &[&[&str]] = &[
     ],
     &["part.inner=1 mm", "compensator.use=normal"],
     &[
+        "tolerance={ form = \"5 um\", servo = \"1 um\" }",
+        "servo.bandwidth=60 Hz",
+        "refine=true",
+    ],
+    &[
         "tool.interference=cut-what-fits",
         "tool.nose_radius=8 mm",
         "part.aperture=1 mm",
@@ -51,6 +56,7 @@ const PURE: &[&str] = &[
     "area_fraction",
     "point",
     "count",
+    "rounds",
 ];
 /// What a unit in a key ends in.
 const UNITS: &[&str] = &[

@@ -10,6 +10,7 @@
 mod cusps;
 mod envelope;
 mod figures;
+mod form;
 mod grid;
 mod map;
 mod profile;
@@ -21,6 +22,7 @@ mod turns;
 pub use cusps::HighestCusp;
 pub use envelope::{Arc, lower_envelope};
 pub use figures::{MachinedFigures, PartPoint, SurfaceExtremes};
+pub use form::FormScope;
 pub use grid::{Grid, GridPoint};
 pub use map::{Map, Nose};
 pub use profile::{ProfileLine, ProfilePoint};

@@ -17,6 +17,9 @@ const WEIGHTS: [f64; 4] = [1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0];
 /// Steps of a piece in the integral of the mean amount. Kinks between them cost 1e-3 of it.
 const AMOUNT_STEPS: usize = 32;
 
+/// All signed positions on a line.
+pub(super) const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
 /// A piece of an arc on the part.
 #[derive(Debug, Clone, Copy)]
 struct ArcPiece {
@@ -59,6 +62,17 @@ impl Strip {
     /// Sets the line at `angle`, rad, with its passes: divides its envelope over the part into
     /// pieces.
     pub fn set_line(&mut self, subject: &Subject, angle: f64, passes: &[Point]) {
+        self.set_line_within(subject, angle, passes, &[EVERYWHERE]);
+    }
+
+    /// The same where only some intervals of signed positions count, mm.
+    pub fn set_line_within(
+        &mut self,
+        subject: &Subject,
+        angle: f64,
+        passes: &[Point],
+        spans: &[(f64, f64)],
+    ) {
         let (tool, part) = (&subject.tool, &subject.part);
         self.radius = tool.nose_radius;
         self.turned = Scalar::sin_cos(angle);
@@ -69,7 +83,7 @@ impl Strip {
         self.pieces.clear();
         self.nodes.clear();
         for arc in std::mem::take(&mut self.arcs) {
-            for (from, to) in on_part(&arc, part) {
+            for (from, to) in on_part(&arc, part, spans) {
                 self.divide(arc.centre, from, to);
             }
         }
@@ -156,12 +170,22 @@ impl Strip {
     }
 }
 
-/// The intervals of an arc that lie on the part, on either side of the hole or of the axis.
-fn on_part(arc: &Arc, part: &Part) -> impl Iterator<Item = (f64, f64)> + use<> {
+/// The intervals of an arc that lie on the part, on either side of the hole or of the axis, and
+/// within `spans`.
+pub(super) fn on_part<'a>(
+    arc: &Arc,
+    part: &Part,
+    spans: &'a [(f64, f64)],
+) -> impl Iterator<Item = (f64, f64)> + use<'a> {
     let (rim, hole) = (part.aperture_radius, part.inner_radius);
     let (from, to) = (arc.from, arc.to);
-    [(-rim, -hole), (hole, rim)]
-        .into_iter()
+    let sides = [(-rim, -hole), (hole, rim)].into_iter();
+    let within = move |(left, right): (f64, f64)| {
+        let spans = spans.iter();
+        spans.map(move |span| (left.max(span.0), right.min(span.1)))
+    };
+    sides
+        .flat_map(within)
         .map(move |(left, right)| (from.max(left), to.min(right)))
         .filter(|(from, to)| from < to)
 }

@@ -360,6 +360,7 @@ impl Task {
             time_steps: self.time_steps,
             lead: self.lead,
             covers_centre: false,
+            form: None,
             servo: None,
         };
         run(&chain, &preparation, options, sink, observer)

@@ -1,0 +1,319 @@
+//! The search for the division of a tolerance of form that a path makes good use of.
+//!
+//! No formula says what a path leaves of its tolerances: steps and turns rarely use them up at the
+//! same place. So the path is made and measured, and made again with tolerances that are scaled by
+//! what is missing. The search looks at the path alone, and not at programs, so that the path does
+//! not depend on where a run puts it.
+
+use turnpath_core::{FormBudget, Tolerance};
+use turnpath_pipeline::{Observer, Outcome, Stage};
+use turnpath_report::{FormSplit, unit};
+
+use crate::error::{Error, Fault};
+use crate::figures::form_error;
+use crate::job::Job;
+
+/// Most paths that are made for one form: the first and four more.
+const MOST_PATHS: usize = 5;
+/// The part of the form that a path is scaled to. The rest covers what does not scale.
+const AIM: f64 = 0.95;
+/// A path that leaves this part of the form, or more, is not made again: at the aim it would have a
+/// fortieth fewer turns, for as much work as before.
+const ENOUGH: f64 = 0.9;
+/// Largest factor from one path's tolerances to the next one's, either way. The first path may be
+/// far off where a bound or the recipe's own feed decides; and a path for tolerances that are too
+/// fine by far takes hours.
+const FURTHEST: f64 = 4.0;
+/// Where the form changes by less than this part of itself, it does not depend on the tolerances.
+const RESPONSE: f64 = 0.01;
+
+/// A path that was made for a form.
+#[derive(Debug, Clone, Copy)]
+struct Trial {
+    /// The sum of the shares that it was made for, mm.
+    sum: f64,
+    /// The error of its form, mm; not a number where nothing was cut.
+    error: f64,
+    points: u64,
+}
+
+/// The paths that were made for a form.
+struct Search {
+    budget: FormBudget,
+    trials: Vec<Trial>,
+}
+
+/// A path with what it was made for.
+pub struct SettledPath<T> {
+    /// Where the path was put.
+    pub sink: T,
+    /// What was measured on it.
+    pub outcome: Outcome,
+    /// How the form was divided; `None` without a tolerance of form.
+    pub split: Option<FormSplit>,
+}
+
+/// Makes the path of a job; with a tolerance of form as often as the search asks for. Without
+/// refinement the path is made once: its steps do not depend on a measured error then. Only the
+/// last path is kept, so `make` begins each time afresh.
+pub fn settle<T>(
+    job: &Job,
+    observer: &dyn Observer,
+    make: impl Fn(&Job) -> Result<(T, Outcome), Error>,
+) -> Result<SettledPath<T>, Error> {
+    let budget = job.recipe.asked.budget();
+    let Some(budget) = budget.filter(|_| job.settled.is_none()) else {
+        let (sink, outcome) = make(job)?;
+        let settled = budget.and(job.settled);
+        return Ok(SettledPath {
+            sink,
+            outcome,
+            split: settled.map(|tolerance| split_of(tolerance, 1)),
+        });
+    };
+    let mut search = Search::new(budget);
+    let mut sum = budget.form();
+    loop {
+        let tolerance = shares(&budget, sum);
+        observer.begin(Stage::Form(search.trials.len() as u32 + 1), 0);
+        let made = make(&job.with_tolerance(tolerance));
+        let (sink, outcome) = match made {
+            Err(error) if search.goes_without(&error) => break,
+            made => made?,
+        };
+        search.include(sum, &outcome);
+        let next = search.next().filter(|_| job.recipe.refine);
+        if next.is_none() && search.best().is_some_and(|best| best.sum == sum) {
+            let split = Some(search.split(sum));
+            return Ok(SettledPath {
+                sink,
+                outcome,
+                split,
+            });
+        }
+        match next {
+            Some(next) => sum = next,
+            None => break,
+        }
+    }
+    let best = search.best().map_or(sum, |best| best.sum);
+    let (sink, outcome) = make(&job.with_tolerance(shares(&budget, best)))?;
+    search.include(best, &outcome);
+    let split = Some(search.split(best));
+    Ok(SettledPath {
+        sink,
+        outcome,
+        split,
+    })
+}
+
+/// The shares of a sum as `summary.json` holds them, so that a path is made again from there with
+/// the same bytes.
+fn shares(budget: &FormBudget, sum: f64) -> Tolerance {
+    let as_in_files = |mm: f64| unit::rounded(mm * unit::nm::PER) / unit::nm::PER;
+    let Tolerance {
+        interpolation,
+        residual,
+    } = budget.shares(sum);
+    Tolerance {
+        interpolation: as_in_files(interpolation),
+        residual: as_in_files(residual),
+    }
+}
+
+fn split_of(tolerance: Tolerance, rounds: u32) -> FormSplit {
+    FormSplit {
+        residual: tolerance.residual,
+        interpolation: tolerance.interpolation,
+        rounds,
+    }
+}
+
+impl Search {
+    fn new(budget: FormBudget) -> Self {
+        Self {
+            budget,
+            trials: Vec::new(),
+        }
+    }
+
+    fn include(&mut self, sum: f64, outcome: &Outcome) {
+        let clearance = outcome.lead.as_ref().map(|lead| lead.figures.clearance);
+        self.trials.push(Trial {
+            sum,
+            error: form_error(outcome.form.as_ref(), clearance).unwrap_or(f64::NAN),
+            points: outcome.control_points,
+        });
+    }
+
+    /// Whether a path that could not be made ends the search, and not the run: a strategy may refuse
+    /// tolerances that are finer, or coarser, than those of the paths before.
+    fn goes_without(&self, error: &Error) -> bool {
+        !self.trials.is_empty() && matches!(error.fault(), Fault::Request | Fault::Plugin)
+    }
+
+    fn holds(&self, trial: &Trial) -> bool {
+        trial.error <= self.budget.form()
+    }
+
+    /// Of the paths that hold the form the one with the fewest points, else the one that comes
+    /// nearest.
+    fn best(&self) -> Option<Trial> {
+        let trials = || self.trials.iter().copied();
+        let holding = trials().filter(|trial| self.holds(trial));
+        let fewest = holding.min_by(|a, b| a.points.cmp(&b.points));
+        fewest.or_else(|| trials().min_by(|a, b| a.error.total_cmp(&b.error)))
+    }
+
+    fn split(&self, sum: f64) -> FormSplit {
+        split_of(shares(&self.budget, sum), self.trials.len() as u32)
+    }
+
+    /// The sum of the shares for the next path; `None` where the last path will do, or where no
+    /// other would be better.
+    fn next(&self) -> Option<f64> {
+        let last = self.trials.last()?;
+        let form = self.budget.form();
+        let will_do = self.holds(last) && last.error >= ENOUGH * form;
+        let scales = last.error > 0.0;
+        if will_do || self.trials.len() == MOST_PATHS || !scales {
+            return None;
+        }
+        let wanted = match self.trials.len().checked_sub(2) {
+            None => last.sum * AIM * form / last.error,
+            Some(before) => self.along_line(self.trials.get(before)?, last)?,
+        };
+        let wanted = wanted.clamp(last.sum / FURTHEST, last.sum * FURTHEST);
+        let next = self.between_known(wanted);
+        let changes = shares(&self.budget, next) != shares(&self.budget, last.sum);
+        changes.then_some(next)
+    }
+
+    /// Where the line through the errors of two paths meets the aim. A part of the error may depend
+    /// on no tolerance: the cusps of the recipe's own feed, the digits of a surface. Where this part
+    /// exceeds the aim, half of what is left up to the form is aimed at; where it exceeds the form,
+    /// no path will hold.
+    fn along_line(&self, before: &Trial, last: &Trial) -> Option<f64> {
+        let (rise, run) = (last.error - before.error, last.sum - before.sum);
+        let form = self.budget.form();
+        if rise.abs() <= RESPONSE * last.error {
+            return None;
+        }
+        let slope = rise / run;
+        if slope <= 0.0 {
+            return Some(last.sum * AIM * form / last.error);
+        }
+        let rest = last.error - slope * last.sum;
+        let aim = match rest < AIM * form {
+            true => AIM * form,
+            false => 0.5 * (rest + form),
+        };
+        (rest < form).then(|| (aim - rest) / slope)
+    }
+
+    /// The sum, or the middle between the largest sum that held and the smallest that did not, where
+    /// it is not between the two.
+    fn between_known(&self, sum: f64) -> f64 {
+        let sums = |held: bool| {
+            let trials = self.trials.iter();
+            let of_kind = trials.filter(move |trial| self.holds(trial) == held);
+            of_kind.map(|trial| trial.sum)
+        };
+        let low = sums(true).fold(0.0, f64::max);
+        let high = sums(false).fold(f64::INFINITY, f64::min);
+        match low < high && !(low < sum && sum < high) {
+            true if low > 0.0 && high.is_finite() => (low * high).sqrt(),
+            _ => sum,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The paths of a search whose errors are `error` of the shares. Gives the errors and the split
+    /// of the best.
+    fn search(budget: FormBudget, error: impl Fn(Tolerance) -> f64) -> (Vec<f64>, Option<Trial>) {
+        let mut search = Search::new(budget);
+        let mut next = Some(budget.form());
+        while let Some(sum) = next {
+            let shares = shares(&budget, sum);
+            let points = 1e9 / shares.residual.sqrt() / shares.interpolation.sqrt().sqrt();
+            search.trials.push(Trial {
+                sum,
+                error: error(shares),
+                points: points as u64,
+            });
+            next = search.next();
+        }
+        let errors = search.trials.iter().map(|trial| trial.error).collect();
+        (errors, search.best())
+    }
+
+    const FORM: FormBudget = FormBudget::new(150.0, None, None);
+
+    #[track_caller]
+    fn assert_good_use(found: &(Vec<f64>, Option<Trial>), paths: usize) {
+        let best = found.1.unwrap().error;
+        assert!((ENOUGH * 150.0..=150.0).contains(&best), "{found:?}");
+        assert!(found.0.len() <= paths, "{found:?}");
+    }
+
+    #[test]
+    fn a_path_that_leaves_a_part_of_its_tolerances_is_made_twice() {
+        for part in [0.3, 0.6, 0.85, 1.2, 2.5] {
+            let found = search(FORM, |shares| {
+                part * (shares.residual + 2.0 * shares.interpolation)
+            });
+            assert_good_use(&found, 2);
+        }
+        let at_once = search(FORM, |_| 140.0);
+        assert_eq!(at_once.0.len(), 1);
+    }
+
+    #[test]
+    fn where_the_feed_is_given_the_steps_alone_take_what_is_left() {
+        for cusps in [30.0, 90.0, 120.0, 140.0] {
+            let found = search(FORM, |shares| cusps + 2.0 * shares.interpolation);
+            assert_good_use(&found, 4);
+        }
+    }
+
+    #[test]
+    fn a_bound_is_kept_and_the_other_share_grows() {
+        let budget = FormBudget::new(150.0, None, Some(20.0));
+        let found = search(budget, |shares| {
+            assert!(shares.residual <= 20.0);
+            0.7 * shares.residual + 1.2 * shares.interpolation
+        });
+        assert_good_use(&found, 3);
+    }
+
+    /// Neither share matters, too much is left whatever they are, or both have bounds.
+    #[test]
+    fn where_no_path_can_be_better_the_search_ends_at_once() {
+        assert_eq!(search(FORM, |_| 1e4).0.len(), 2);
+        let stubborn = search(FORM, |shares| 170.0 + shares.interpolation);
+        assert_eq!(stubborn.0.len(), 2);
+        let bounds = FormBudget::new(150.0, Some(5.0), Some(5.0));
+        assert_eq!(search(bounds, |shares| shares.residual).0.len(), 1);
+        let nothing_cut = search(FORM, |_| f64::NAN);
+        assert_eq!(nothing_cut.0.len(), 1);
+    }
+
+    /// An error in steps: the aim lies on neither.
+    #[test]
+    fn the_best_that_holds_is_kept() {
+        let stairs = |shares: Tolerance| if shares.residual > 61.0 { 190.0 } else { 100.0 };
+        let (errors, best) = search(FORM, stairs);
+        assert!(errors.len() <= MOST_PATHS);
+        let best = best.unwrap();
+        assert_eq!(best.error, 100.0);
+        let none = search(FORM, |shares| 200.0 + shares.residual);
+        assert_eq!(
+            none.1.unwrap().error,
+            none.0.into_iter().fold(1e9, f64::min)
+        );
+    }
+}

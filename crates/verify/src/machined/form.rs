@@ -1,0 +1,269 @@
+//! The form of the machined surface: how far it lies above and below what the tool can cut.
+//!
+//! The form is machined − wanted along z, with two exceptions. Where the nose does not fit, the
+//! closing takes the place of the wanted surface. Where the path does not cover the part, only what
+//! lies between the contacts of its outermost passes counts: beyond them stands the flank of the
+//! last pass.
+//!
+//! Over the closing the extremes follow from the passes alone. Let pass k leave an arc of the
+//! machined profile, and let e be the height of its nose above its first touch. The closing is the
+//! lower envelope of all noses at their first touch. So the arc lies e above the closing where the
+//! nose touches, and the distance grows to both sides, since noses further away are steeper there.
+//! The highest points are therefore the ends of the arcs, and the lowest are the errors of the
+//! passes.
+
+use rayon::prelude::*;
+use turnpath_core::{Result, Scalar};
+
+use super::envelope::{Arc, lower_arc, lower_envelope};
+use super::figures::{PartPoint, SurfaceExtremes};
+use super::sections::{Lines, sort};
+use super::strip::{EVERYWHERE, Strip, on_part};
+use crate::closing;
+use crate::cusp::Point;
+use crate::touch::FirstTouch;
+
+/// Ends of arcs that are held against the closing in one batch.
+const BATCH: usize = 64;
+/// Batches in one go: enough for every thread. The highest point so far ends the search between two
+/// goes.
+const GO: usize = 16;
+
+/// Which part of the machined surface counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FormScope {
+    /// Whether the path covers the part up to its edges.
+    pub covers_part: bool,
+    /// Whether the path covers the axis.
+    pub covers_centre: bool,
+}
+
+/// The extreme errors of one line, with their signed positions, mm.
+#[derive(Debug, Clone, Copy)]
+struct Extremes {
+    highest: (f64, f64),
+    lowest: (f64, f64),
+}
+
+impl Extremes {
+    const NONE: Self = Self {
+        highest: (f64::NEG_INFINITY, 0.0),
+        lowest: (f64::INFINITY, 0.0),
+    };
+
+    fn include(&mut self, error: f64, s: f64) {
+        if error > self.highest.0 {
+            self.highest = (error, s);
+        }
+        if error < self.lowest.0 {
+            self.lowest = (error, s);
+        }
+    }
+}
+
+/// An end of an arc.
+#[derive(Debug, Clone, Copy)]
+struct ArcEnd {
+    angle: f64,
+    s: f64,
+    z: f64,
+    /// Height above the wanted surface, mm. It is at least that above the closing.
+    above: f64,
+}
+
+impl Lines {
+    /// The form of the part; `None` if nothing of the part was cut.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn form(&self, touch: &FirstTouch, scope: FormScope) -> Result<Option<SurfaceExtremes>> {
+        // A nose that no compensator fits to the surface is held to the surface itself.
+        match touch.leaves_seams() && touch.subject().compensates_nose {
+            false => self.over_surface(touch, scope),
+            true => self.over_closing(touch, scope),
+        }
+    }
+
+    fn over_surface(
+        &self,
+        touch: &FirstTouch,
+        scope: FormScope,
+    ) -> Result<Option<SurfaceExtremes>> {
+        let subject = touch.subject();
+        let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[Point])| {
+            let spans = spans(touch, scope, *angle, passes)?;
+            strip.set_line_within(subject, *angle, passes, &spans);
+            strip.look_up_heights(subject.surface.as_ref())?;
+            let mut found = Extremes::NONE;
+            for sample in strip.samples() {
+                for (s, error) in sample.extremes() {
+                    found.include(error, s);
+                }
+            }
+            Ok((*angle, found))
+        };
+        let lines = self.all();
+        let each: Vec<(f64, Extremes)> = lines
+            .par_iter()
+            .map_init(Strip::default, of_line)
+            .collect::<Result<_>>()?;
+        Ok(figures(&each))
+    }
+
+    fn over_closing(
+        &self,
+        touch: &FirstTouch,
+        scope: FormScope,
+    ) -> Result<Option<SurfaceExtremes>> {
+        let lines = self.all();
+        let of_line =
+            |(angle, passes): &(f64, &[Point])| ends_and_errors(touch, scope, *angle, passes);
+        let each: Vec<(Vec<ArcEnd>, Extremes)> =
+            lines.par_iter().map(of_line).collect::<Result<_>>()?;
+        let angles = lines.iter().map(|line| line.0);
+        let errors: Vec<(f64, Extremes)> = angles.zip(each.iter().map(|one| one.1)).collect();
+        let ends = each.into_iter().flat_map(|one| one.0).collect();
+        let Some(form) = figures(&errors) else {
+            return Ok(None);
+        };
+        let highest = highest_over_closing(touch, ends, form.highest)?;
+        Ok(Some(SurfaceExtremes { highest, ..form }))
+    }
+}
+
+/// The ends of a line's arcs, and the errors of the passes that leave them.
+fn ends_and_errors(
+    touch: &FirstTouch,
+    scope: FormScope,
+    angle: f64,
+    passes: &[Point],
+) -> Result<(Vec<ArcEnd>, Extremes)> {
+    let subject = touch.subject();
+    let (tool, part) = (&subject.tool, &subject.part);
+    let spans = spans(touch, scope, angle, passes)?;
+    let (mut sorted, mut arcs) = (passes.to_vec(), Vec::new());
+    sort(&mut sorted);
+    lower_envelope(&sorted, tool.nose_radius, tool.reach(), &mut arcs);
+    let counts = |s: f64| {
+        let on_part = (part.inner_radius..=part.aperture_radius).contains(&s.abs());
+        on_part && spans.iter().any(|(from, to)| (*from..=*to).contains(&s))
+    };
+    let (at, x): (Vec<f64>, Vec<f64>) = arcs.iter().map(|arc| (angle, arc.centre.x)).unzip();
+    let mut touches = Vec::new();
+    touch.find(&at, &x, &mut touches)?;
+    let mut errors = Extremes::NONE;
+    for (arc, touch) in arcs.iter().zip(&touches) {
+        if counts(touch.foot) {
+            errors.include(arc.centre.y - touch.z, touch.foot);
+        }
+    }
+    Ok((ends(touch, angle, &arcs, &spans)?, errors))
+}
+
+/// The ends of a line's arcs on the part and within the spans.
+fn ends(touch: &FirstTouch, angle: f64, arcs: &[Arc], spans: &[(f64, f64)]) -> Result<Vec<ArcEnd>> {
+    let subject = touch.subject();
+    let radius = subject.tool.nose_radius;
+    let mut ends: Vec<ArcEnd> = Vec::new();
+    for arc in arcs {
+        for (from, to) in on_part(arc, &subject.part, spans) {
+            ends.extend([from, to].map(|s| ArcEnd {
+                angle,
+                s,
+                z: lower_arc(arc.centre, radius, s),
+                above: f64::NAN,
+            }));
+        }
+    }
+    let (sin, cos) = Scalar::sin_cos(angle);
+    let x: Vec<f64> = ends.iter().map(|end| end.s * cos).collect();
+    let y: Vec<f64> = ends.iter().map(|end| end.s * sin).collect();
+    let mut wanted = vec![f64::NAN; ends.len()];
+    subject.surface.heights(&x, &y, &mut wanted)?;
+    for (end, wanted) in ends.iter_mut().zip(wanted) {
+        end.above = end.z - wanted;
+    }
+    Ok(ends)
+}
+
+/// The highest end over the closing, or `known` where that is higher. Ends are looked at from the
+/// highest above the surface on; none of the rest can be higher over the closing.
+fn highest_over_closing(
+    touch: &FirstTouch,
+    mut ends: Vec<ArcEnd>,
+    known: PartPoint,
+) -> Result<PartPoint> {
+    ends.retain(|end| end.above.is_finite());
+    ends.sort_by(|a, b| b.above.total_cmp(&a.above));
+    let mut highest = known;
+    for go in ends.chunks(GO * BATCH) {
+        if go.first().is_none_or(|first| first.above <= highest.error) {
+            break;
+        }
+        let heights: Vec<Vec<f64>> = go
+            .par_chunks(BATCH)
+            .map(|batch| {
+                let angles: Vec<f64> = batch.iter().map(|end| end.angle).collect();
+                let places: Vec<f64> = batch.iter().map(|end| end.s).collect();
+                closing::at(touch, &angles, &places)
+            })
+            .collect::<Result<_>>()?;
+        for (end, closing) in go.iter().zip(heights.iter().flatten()) {
+            if end.z - closing > highest.error {
+                highest = point(end.angle, (end.z - closing, end.s));
+            }
+        }
+    }
+    Ok(highest)
+}
+
+/// Between which signed positions a line counts, mm: everywhere if the path covers the part, else
+/// between the contacts of its outermost passes. If the path does not cover the axis, what lies
+/// between the innermost contacts of both sides does not count either.
+fn spans(
+    touch: &FirstTouch,
+    scope: FormScope,
+    angle: f64,
+    passes: &[Point],
+) -> Result<Vec<(f64, f64)>> {
+    if scope.covers_part {
+        return Ok(vec![EVERYWHERE]);
+    }
+    let in_two = !scope.covers_centre || touch.subject().part.inner_radius > 0.0;
+    let is_left = |s: &f64| *s < 0.0;
+    let (left, right): (Vec<f64>, Vec<f64>) = passes.iter().map(|pass| pass.x).partition(is_left);
+    let sides = match in_two {
+        true => vec![left, right],
+        false => vec![[left, right].concat()],
+    };
+    let mut spans = Vec::new();
+    for side in sides.iter().filter(|side| !side.is_empty()) {
+        let first = side.iter().copied().fold(f64::INFINITY, f64::min);
+        let last = side.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut touches = Vec::new();
+        touch.find(&[angle; 2], &[first, last], &mut touches)?;
+        if let [first, last] = touches[..] {
+            spans.push((first.foot, last.foot));
+        }
+    }
+    Ok(spans)
+}
+
+/// The extremes over all lines; `None` if no line has any.
+fn figures(lines: &[(f64, Extremes)]) -> Option<SurfaceExtremes> {
+    let higher =
+        |a: &&(f64, Extremes), b: &&(f64, Extremes)| a.1.highest.0.total_cmp(&b.1.highest.0);
+    let lower = |a: &&(f64, Extremes), b: &&(f64, Extremes)| a.1.lowest.0.total_cmp(&b.1.lowest.0);
+    let (highest, lowest) = (lines.iter().max_by(higher)?, lines.iter().min_by(lower)?);
+    let form = SurfaceExtremes {
+        highest: point(highest.0, highest.1.highest),
+        lowest: point(lowest.0, lowest.1.lowest),
+    };
+    form.pv().is_finite().then_some(form)
+}
+
+fn point(angle: f64, (error, s): (f64, f64)) -> PartPoint {
+    let (sin, cos) = Scalar::sin_cos(angle);
+    let (x, y) = (s * cos, s * sin);
+    PartPoint { error, x, y }
+}
