@@ -713,7 +713,7 @@ def zoom(recipe, path, angle, s, step, pitch, extreme):
     return float(extreme(np.where(np.isfinite(errors), errors, np.nan)))
 
 
-FORM_SECTIONS = 24
+FORM_SECTIONS, SEAM_SECTIONS = 240, 24  # a closing of a section takes long
 FORM_CLOSING_STEP = 1e-4  # mm: finer than for what stays, since cusps beside a seam are lower
 
 
@@ -729,8 +729,9 @@ def form_error(recipe, path, surface):
     if recipe.covers_part and not recipe.leaves_seams:
         return surface["pv"]
     highest, lowest = -np.inf, np.inf
-    for i in range(FORM_SECTIONS):
-        angle = (i + 0.41) * 180 / FORM_SECTIONS
+    sections = SEAM_SECTIONS if recipe.leaves_seams else FORM_SECTIONS
+    for i in range(sections):
+        angle = (i + 0.41) * 180 / sections
         if recipe.leaves_seams:
             s, closing = section_closing(recipe, math.radians(angle), FORM_CLOSING_STEP)
         else:
