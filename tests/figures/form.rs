@@ -199,7 +199,7 @@ fn long_whole_parts_make_good_use_of_their_form() {
 fn long_beside_seams_a_path_makes_good_use_of_its_form() {
     let file = repository().join("tests/reference/playback/hard/seams.toml");
     let bench = Bench::with(&fs::read_to_string(file).unwrap());
-    for (aperture, overrun) in [("1.6", "contact"), ("1.2", "none")] {
+    for (aperture, overrun) in [("2", "contact"), ("1.2", "none")] {
         let sets = [
             format!("part.aperture={aperture} mm"),
             format!("path.overrun={overrun}"),
