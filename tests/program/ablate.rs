@@ -518,8 +518,14 @@ fn every_figure_of_a_run_has_its_column() {
         "unreached_height_um",
         "uncut_at_hole_nm",
         "highest_spindle_rpm",
+        "form_error_nm",
+        "form_residual_nm",
+        "form_interpolation_nm",
+        "form_rounds",
+        "within_form",
         "within_coverage",
         "within_machine",
+        "within_servo",
         "reason",
     ];
     assert_eq!(empty, expected);
