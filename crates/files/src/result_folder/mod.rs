@@ -10,6 +10,7 @@ mod error;
 mod listing;
 mod lock;
 mod made_folders;
+mod own;
 mod staging;
 
 use std::fs;
@@ -59,6 +60,9 @@ impl ResultFolder {
         let mut made = MadeFolders::default();
         let lock = FolderLock::take(folder, &mut made)?;
         let hidden_path = folder.join(HIDDEN);
+        if own::folder_is_there(&hidden_path)? {
+            own::folder_is_there(&hidden_path.join(COMMIT))?;
+        }
         commit::complete(folder, &hidden_path).map_err(unfinished(folder))?;
         let mut hidden = MadeFolders::default();
         let begun = hidden.make_or_adopt(&hidden_path);
@@ -172,7 +176,11 @@ impl ResultFolder {
 
 fn unfinished(folder: &Path) -> impl FnOnce(FileError) -> FolderError {
     let folder = folder.to_owned();
-    |source| FolderError::Unfinished { folder, source }
+    |source| match source.path.ends_with(PLAN) && source.error.kind() == io::ErrorKind::InvalidData
+    {
+        true => FolderError::Plan { source },
+        false => FolderError::Unfinished { folder, source },
+    }
 }
 
 #[cfg(test)]
