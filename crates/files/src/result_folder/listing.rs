@@ -35,6 +35,12 @@ impl ListedFile {
         }
     }
 
+    /// Whether a file of a result may have this name: it lies directly in the folder, and is not one of
+    /// the writer's own.
+    pub fn may_be(name: &str) -> bool {
+        is_member(name)
+    }
+
     /// Whether the file of this name in a folder has these bytes. False if it is not there.
     ///
     /// # Errors

@@ -77,6 +77,13 @@ impl ResultFolder {
         })
     }
 
+    /// Whether a folder has a whole result whose files did not get their names: the next call of
+    /// [`open`](Self::open) gives them.
+    pub fn is_unfinished(folder: &Path) -> bool {
+        let commit = folder.join(HIDDEN).join(COMMIT);
+        fs::symlink_metadata(commit).is_ok_and(|found| found.is_dir())
+    }
+
     /// The folder.
     pub fn path(&self) -> &Path {
         &self.folder
@@ -121,12 +128,16 @@ impl ResultFolder {
         }
     }
 
-    /// Begins a file that gets its name alone, and lies here until then. Its folder must be on the
-    /// same file system.
+    /// Begins a file that gets its name alone. It lies here until then, or beside its place where that
+    /// is on another file system: no rename leads there.
     ///
     /// # Errors
     /// When it cannot be created.
     pub fn draft_alone(&self, path: &Path) -> Result<Draft, FileError> {
+        let above = path.parent().unwrap_or(Path::new("."));
+        if !own::same_file_system(self.staging.path(), above) {
+            return Draft::begin(path);
+        }
         let number = self.parts.fetch_add(1, Ordering::Relaxed);
         let temporary = self.staging.path().join(format!("{PART}{number}"));
         Draft::begin_as(temporary, path.to_owned(), None)

@@ -23,6 +23,20 @@ pub fn file_is_there(path: &Path) -> Result<bool, FolderError> {
     is_there(path, Metadata::is_file)
 }
 
+/// Whether a rename may lead from one folder to the other. False where nobody can say.
+#[cfg(unix)]
+pub fn same_file_system(one: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let device = |path: &Path| fs::metadata(path).map(|found| found.dev()).ok();
+    device(one).is_some() && device(one) == device(other)
+}
+
+/// Whether a rename may lead from one folder to the other. False where nobody can say.
+#[cfg(not(unix))]
+pub fn same_file_system(_: &Path, _: &Path) -> bool {
+    false
+}
+
 fn is_there(path: &Path, is_kind: impl Fn(&Metadata) -> bool) -> Result<bool, FolderError> {
     match fs::symlink_metadata(path) {
         Ok(found) if is_kind(&found) => Ok(true),

@@ -187,6 +187,35 @@ fn a_plan_that_names_other_folders_removes_nothing_and_says_what_to_do() {
     assert_eq!(found(&folder)["table"], "3");
 }
 
+/// Most systems have the memory as a file system of its own here.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_alone_gets_its_name_on_another_file_system_too() {
+    use std::os::unix::fs::MetadataExt;
+    let folder = tempfile::tempdir().unwrap();
+    let Ok(memory) = tempfile::tempdir_in("/dev/shm") else {
+        return;
+    };
+    let device = |path: &Path| fs::metadata(path).unwrap().dev();
+    let result = ResultFolder::open(folder.path()).unwrap();
+    for (place, lies_here) in [
+        (
+            memory.path(),
+            device(memory.path()) == device(folder.path()),
+        ),
+        (folder.path(), true),
+    ] {
+        let file = place.join("record");
+        let mut draft = result.draft_alone(&file).unwrap();
+        draft.write_all(b"1").unwrap();
+        assert_eq!(draft.folder() == result.staging.path(), lies_here);
+        draft.complete().unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), "1");
+    }
+    drop(result);
+    assert_eq!(names(memory.path()), ["record"]);
+}
+
 #[cfg(unix)]
 #[test]
 fn what_lies_behind_a_link_is_not_the_writers_own() {
@@ -228,7 +257,7 @@ fn a_file_before_that_nobody_may_read_stays() {
     let folder = folder.path();
     make(folder, &[("table", "1"), ("old", "2")]).unwrap();
     let old = folder.join("old");
-    fs::set_permissions(&old, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&old, fs::Permissions::from_mode(0o000)).unwrap();
     let is_root = fs::read(&old).is_ok();
     make(folder, &[("table", "3")]).unwrap();
     assert_eq!(found(folder)["table"], "3");
