@@ -496,8 +496,8 @@ fn a_narrow_terminal_gets_narrow_tables() {
     }
 }
 
-/// Every column but those of what this recipe does not ask for: a hole, limits, a servo, a nose
-/// that does not fit.
+/// Every column but those of what this recipe does not ask for: a hole, limits, a nose that does
+/// not fit, tolerances of form and servo.
 #[test]
 fn every_figure_of_a_run_has_its_column() {
     let recipe = changed(SADDLE, "lead = false", "lead = true");

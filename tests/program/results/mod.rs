@@ -18,7 +18,7 @@ use crate::support::bench::Bench;
 use crate::support::recipe::{SADDLE, changed};
 use serde_json::Value;
 use turnpath_files::ResultFolder;
-use whole::{Found, entries, found, left_behind};
+use whole::{FolderState, entries, left_behind, state_of};
 
 /// A part of 2 mm in 20 turns of 12 points, with all tolerances held: milliseconds of work.
 fn tiny() -> String {
@@ -47,7 +47,7 @@ fn the_summary_lists_the_files_with_their_hashes_and_says_what_was_run() {
     ];
     assert_eq!(entries(&out), names);
     let sets = "[\"spindle.speed=\\\"400rpm\\\"\"]";
-    assert_eq!(found(&out), Found::Result(sets.to_owned()));
+    assert_eq!(state_of(&out), FolderState::Result(sets.to_owned()));
     let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
     assert_eq!(summary["files"].as_array().unwrap().len(), 4);
     assert_eq!(summary["recipe"]["file"], "recipe.toml");
@@ -95,7 +95,7 @@ fn a_folder_that_another_run_has_is_refused_at_once() {
     let bench = Bench::with(&tiny());
     let out = bench.path("out");
     bench.line("run recipe.toml -o out").ends(0);
-    let before = found(&out);
+    let before = state_of(&out);
     let held = ResultFolder::open(&out).unwrap();
     for command in ["run recipe.toml -o out", "ablate ablation.toml -o out"] {
         bench.write(
@@ -107,7 +107,7 @@ fn a_folder_that_another_run_has_is_refused_at_once() {
         assert!(said.stderr.starts_with(title), "{said}");
         let help = "help: wait until it ends, or choose another folder with `-o`";
         assert!(said.stderr.contains(help), "{said}");
-        assert_eq!(found(&out), before);
+        assert_eq!(state_of(&out), before);
     }
     drop(held);
     assert_eq!(left_behind(&out), Vec::<String>::new());
@@ -131,7 +131,10 @@ fn a_link_in_the_place_of_a_file_is_refused_before_the_work() {
     std::os::unix::fs::symlink("out", bench.path("link")).unwrap();
     fs::remove_file(bench.path("out/toolpath.csv")).unwrap();
     bench.line("run recipe.toml -o link").ends(0);
-    assert!(matches!(found(&bench.path("out")), Found::Result(_)));
+    assert!(matches!(
+        state_of(&bench.path("out")),
+        FolderState::Result(_)
+    ));
 }
 
 /// A shell with a limit of 300 blocks on files: the table of the saddle is larger.
@@ -143,14 +146,14 @@ fn a_run_that_exceeds_the_limit_on_files_leaves_the_result_before() {
         bench
             .line("run recipe.toml -o out --set sampler.step=20deg --set refine=false")
             .ends(1);
-        let before = found(&bench.path("out"));
-        assert!(matches!(before, Found::Result(_)), "{before:?}");
+        let before = state_of(&bench.path("out"));
+        assert!(matches!(before, FolderState::Result(_)), "{before:?}");
         let program = crate::support::bench::TURNPATH;
         let script = format!("{trap}ulimit -f 300; {program:?} run recipe.toml -o out");
         let mut shell = bench.command_of("sh".as_ref(), ["-c", &script]);
         let said = crate::support::bench::answer(&mut shell).ends(4);
         assert!(said.stderr.contains("cannot write"), "{said}");
-        assert_eq!(found(&bench.path("out")), before);
+        assert_eq!(state_of(&bench.path("out")), before);
         assert_eq!(left_behind(&bench.path("out")), Vec::<String>::new());
     }
 }

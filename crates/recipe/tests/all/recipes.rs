@@ -240,7 +240,7 @@ fn the_name_is_safe_as_a_folder() {
         parse(FULL, &["name=../../etc"]).folder_name(),
         "%2E.%2F..%2Fetc"
     );
-    assert_eq!(parse(FULL, &["name=.."]).folder_name(), "%2E.");
+    assert_eq!(parse(FULL, &["name=.."]).folder_name(), "%2E%2E");
 }
 
 #[test]
