@@ -19,10 +19,15 @@ pub const MARGIN: f64 = 1.5e-3;
 /// The cap on the parabola's feed, as a part of the nose radius. Where the feed comes near to it,
 /// the circles count and not the parabola.
 const PARABOLA_CAP: f64 = 0.1;
-/// The 1 − Rκ below which the feed is no longer that of the curvature. It goes over smoothly to the
-/// feed at half of this 1 − Rκ, and keeps that where the nose does not fit at all. Beyond the part
-/// the nose need not fit; whether the path goes there is the host's question.
-const FIT: f64 = 0.02;
+/// The 1 − Rκ below which the feed is no longer that of the curvature, where ρ is the centre's X.
+/// It goes over smoothly to the feed at half of this 1 − Rκ, and keeps that where the nose does not
+/// fit at all. Beyond the part the nose need not fit; whether the path goes there is the host's
+/// question. The cusps on the way are too high, so the part is small.
+const CENTRES_FIT: f64 = 0.02;
+/// The same where ρ is the contact's radius. There the feed of the curvature grows beyond all bounds
+/// in such hollows, and no law follows it along the angle. This one is smaller, so it holds the
+/// residual and costs revolutions.
+const CONTACTS_FIT: f64 = 0.2;
 
 /// The constants of the formula.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +46,7 @@ impl Law {
     fn feed<S: Scalar>(&self, slope: S, second: S) -> S {
         let cap = PARABOLA_CAP * self.nose_radius;
         let squared = slope.squared() + 1.0;
-        let gap = fitting(self.circles.gap(second / (squared * squared.sqrt())));
+        let gap = fitting(self.gap(slope, second), self.fit());
         let scale = cap * cap / (8.0 * self.nose_radius * self.residual);
         let y = match self.radial {
             Radial::Contact => squared * gap * scale,
@@ -55,20 +60,29 @@ impl Law {
         }
     }
 
+    /// The least 1 − Rκ at which the feed is that of the curvature.
+    fn fit(&self) -> f64 {
+        match self.radial {
+            Radial::Centre => CENTRES_FIT,
+            Radial::Contact => CONTACTS_FIT,
+        }
+    }
+
+    /// 1 − Rκ of the radial section.
+    fn gap<S: Scalar>(&self, slope: S, second: S) -> S {
+        let squared = slope.squared() + 1.0;
+        self.circles.gap(second / (squared * squared.sqrt()))
+    }
+
     /// Whether circles count at some of these slopes and second derivatives.
     fn needs_circles(&self, mut sections: impl Iterator<Item = (f64, f64)>) -> bool {
-        sections.any(|(slope, second)| {
-            let squared = slope.squared() + 1.0;
-            let gap = self.circles.gap(second / (squared * squared.sqrt()));
-            self.circles.needs_circles(gap)
-        })
+        sections.any(|(slope, second)| self.circles.needs_circles(self.gap(slope, second)))
     }
 
     /// Whether the feed is that of circles alone, where the nose fits.
     fn is_of_circles(&self, slope: f64, second: f64) -> bool {
-        let squared = slope.squared() + 1.0;
-        let gap = self.circles.gap(second / (squared * squared.sqrt()));
-        gap >= FIT && self.circles.flat_spacing(gap) >= CIRCLES_FROM * self.nose_radius
+        let gap = self.gap(slope, second);
+        gap >= self.fit() && self.circles.flat_spacing(gap) >= CIRCLES_FROM * self.nose_radius
     }
 
     /// The feed that passes from the parabola's to that of circles.
@@ -97,18 +111,18 @@ impl Law {
     }
 }
 
-/// 1 − Rκ, but not below half of [`FIT`], with three continuous derivatives. From [`FIT`] on it is
-/// `gap` to the last bit.
-fn fitting<S: Scalar>(gap: S) -> S {
-    let (none, whole) = (S::constant(0.0), S::constant(FIT));
+/// 1 − Rκ, but not below half of `fit`, with three continuous derivatives. From `fit` on it is `gap`
+/// to the last bit.
+fn fitting<S: Scalar>(gap: S, fit: f64) -> S {
+    let (none, whole) = (S::constant(0.0), S::constant(fit));
     let fits = !gap.less(whole);
     if !(!fits).any() {
         return gap;
     }
-    let way = S::select(gap.less(none), none, gap) / FIT;
+    let way = S::select(gap.less(none), none, gap) / fit;
     // The integral of a step of two continuous derivatives, which is a half at the end.
     let rise = way * way * way * way * ((way - 3.0) * way + 2.5);
-    S::select(fits, gap, (rise + 0.5) * FIT)
+    S::select(fits, gap, (rise + 0.5) * fit)
 }
 
 /// Computes feeds in batches.
