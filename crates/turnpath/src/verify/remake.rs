@@ -8,22 +8,27 @@ use std::fs;
 use std::path::Path;
 
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
-use turnpath_core::{StrategyError, Tolerance};
-use turnpath_host::Catalogue;
+use turnpath_core::{FormBudget, StrategyError, Tolerance};
+use turnpath_host::{Catalogue, sha256_hex};
 use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
 use turnpath_post::{PmacError, PmacWriter, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
-use turnpath_report::{FormSplit, RunReport, from_json};
+use turnpath_report::{RunReport, from_json};
 use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
 
 use crate::data_files::DataFiles;
 use crate::diagnosis::{not_carried, of_measure, of_pipeline};
 use crate::error::Error;
+use crate::form::FARTHEST_SUM;
 use crate::job::Job;
 use crate::outputs::Outputs;
 use crate::result_check::SUMMARY;
 
 use super::source::SourceFile;
+
+/// How far shares in a summary may lie from those of their sum, as a part of themselves: they have
+/// the digits of a file.
+const LARGEST_ROUNDING: f64 = 1e-3;
 
 /// What came of comparing a file with the path of its recipe.
 pub enum Comparison {
@@ -85,36 +90,52 @@ fn remake(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<J
 /// The job for the split of its tolerance of form, if it has one: the split of the summary beside
 /// the file, or else the one that a run finds.
 fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Error> {
-    let Some(form) = job.recipe.asked.form else {
+    if job.recipe.tolerances.form.is_none() {
         return Ok(job);
-    };
-    let split = match split_beside(file, form) {
+    }
+    let split = match split_beside(&job.recipe, file) {
         Some(split) => split,
         None => found_split(&job, observer)?,
     };
-    Ok(job.with_tolerance(Tolerance {
-        interpolation: split.interpolation,
-        residual: split.residual,
-    }))
+    Ok(job.with_tolerance(split))
 }
 
-/// The split in the summary beside a file, if it is that of the same form.
-fn split_beside(file: &Path, form: f64) -> Option<FormSplit> {
+/// The split in the summary beside a file, if the summary is that of this recipe with these changes,
+/// and if it says a split that a run may find.
+fn split_beside(recipe: &Recipe, file: &Path) -> Option<Tolerance> {
     // The file may be spoiled; the split is then still that of the path that it was.
     let text = fs::read_to_string(file.with_file_name(SUMMARY)).ok()?;
-    let summary = from_json::<RunReport>(&text).ok()?.path.form?;
-    let is_same = (summary.tolerance - form).abs() <= f64::EPSILON.sqrt() * form;
-    summary.split.filter(|_| is_same)
+    let summary = from_json::<RunReport>(&text).ok()?;
+    let source = summary.recipe.as_ref()?;
+    let is_own =
+        source.sha256 == sha256_hex(recipe.text().as_bytes()) && source.sets == recipe.sets();
+    let split = summary.path.form?.split.filter(|_| is_own)?;
+    let tolerance = Tolerance {
+        interpolation: split.interpolation,
+        residual: split.residual,
+    };
+    let budget = recipe.tolerances.budget()?;
+    may_be_found(&budget, tolerance).then_some(tolerance)
+}
+
+/// Whether a search may end with these shares. Far finer ones would make a path of any length.
+fn may_be_found(budget: &FormBudget, tolerance: Tolerance) -> bool {
+    let sum = tolerance.residual + 2.0 * tolerance.interpolation;
+    let furthest = sum / budget.form();
+    let shares = budget.shares(sum);
+    let is_near = |found: f64, share: f64| (found - share).abs() <= LARGEST_ROUNDING * share;
+    (1.0 / FARTHEST_SUM..=FARTHEST_SUM).contains(&furthest)
+        && is_near(tolerance.residual, shares.residual)
+        && is_near(tolerance.interpolation, shares.interpolation)
 }
 
 /// The split that a run finds.
-fn found_split(job: &Job, observer: &dyn Observer) -> Result<FormSplit, Error> {
+fn found_split(job: &Job, observer: &dyn Observer) -> Result<Tolerance, Error> {
     let report = job.run(Outputs::nowhere(), observer)?.report;
     let split = report.path.form.and_then(|form| form.split);
-    Ok(split.unwrap_or(FormSplit {
-        residual: job.recipe.tolerance.residual,
-        interpolation: job.recipe.tolerance.interpolation,
-        rounds: 0,
+    Ok(split.map_or(job.recipe.tolerance, |split| Tolerance {
+        interpolation: split.interpolation,
+        residual: split.residual,
     }))
 }
 
