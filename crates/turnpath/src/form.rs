@@ -176,12 +176,18 @@ impl Search {
     }
 
     /// Of the paths that hold the form the one with the fewest points, else the one that comes
-    /// nearest.
+    /// nearest. Where the last one comes as near, it is not worth another path.
     fn best(&self) -> Option<Attempt> {
         let attempts = || self.attempts.iter().copied();
         let holding = attempts().filter(|attempt| self.holds(attempt));
         let fewest = holding.min_by(|a, b| a.points.cmp(&b.points));
-        fewest.or_else(|| attempts().min_by(|a, b| a.error.total_cmp(&b.error)))
+        let nearest = || {
+            let nearest = attempts().min_by(|a, b| a.error.total_cmp(&b.error))?;
+            let last = attempts().last()?;
+            let is_alike = last.error - nearest.error <= RESPONSE * nearest.error;
+            Some(if is_alike { last } else { nearest })
+        };
+        fewest.or_else(nearest)
     }
 
     fn split(&self, sum: f64) -> FormSplit {
