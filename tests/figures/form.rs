@@ -137,6 +137,28 @@ fn a_form_that_no_path_can_hold_ends_soon_and_honestly() {
     assert!(number(&found, "/form/rounds") <= 5.0);
 }
 
+/// The path of a form is made again by the split of its summary, or by the search that a run makes.
+/// A summary of another recipe says nothing.
+#[test]
+fn a_file_of_a_form_is_as_its_recipe_gives_it_with_and_without_its_summary() {
+    let bench = Bench::with(&saddle("150 nm"));
+    summary(&bench, HOLDS, &[]);
+    let anomalies = |file: &str| {
+        let verify = format!("verify recipe.toml {file} --format json");
+        let found = bench.line(&verify).ends(HOLDS).json();
+        assert_eq!(found["anomalies"]["compared_with"], "recipe", "{found}");
+        number(&found, "/anomalies/count")
+    };
+    assert_eq!(anomalies("out/toolpath.csv"), 0.0);
+    bench.write("toolpath.csv", bench.read("out/toolpath.csv"));
+    assert_eq!(anomalies("toolpath.csv"), 0.0);
+    let mut other: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    other["form"]["residual_nm"] = 1.0.into();
+    other["recipe"]["sha256"] = "0".repeat(64).into();
+    bench.write("summary.json", other.to_string());
+    assert_eq!(anomalies("toolpath.csv"), 0.0);
+}
+
 /// Each variant of an ablation has a split of its own; `check` shows the first one.
 #[test]
 fn ablate_and_check_know_the_form() {

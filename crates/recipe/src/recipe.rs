@@ -38,7 +38,7 @@ pub struct Recipe {
     /// stands for one, the first share of it.
     pub tolerance: Tolerance,
     /// The tolerances that the recipe gives.
-    pub asked: AskedTolerances,
+    pub tolerances: AskedTolerances,
     /// The largest speed of the spindle, rad/s.
     pub spindle_speed: f64,
     /// The limits of the machine; there are none unless the recipe gives them.
@@ -433,7 +433,7 @@ pub(crate) fn build(
         surfaces,
         tool,
         tolerance: tolerance.path,
-        asked: tolerance.asked,
+        tolerances: tolerance.asked,
         spindle_speed: speed?,
         machine: machine.machine,
         preset: machine.preset,

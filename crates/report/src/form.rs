@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::unit;
 
 /// Peak to valley of the machined surface against its tolerance.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FormReport {
     /// The tolerance, mm.
     #[serde(rename = "tolerance_nm", with = "unit::nm")]
@@ -21,7 +21,7 @@ pub struct FormReport {
 }
 
 /// How a run divided a tolerance of form.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FormSplit {
     /// The residual that the path was made for, mm.
     #[serde(rename = "residual_nm", with = "unit::nm")]
@@ -31,4 +31,7 @@ pub struct FormSplit {
     pub interpolation: f64,
     /// How often the path was made.
     pub rounds: u32,
+    /// Why a path for a better division could not be made; `None` where nothing stood in the way.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub search_ended_because: Option<String>,
 }

@@ -72,7 +72,10 @@ impl PathReport {
         Verdict {
             interpolation: held(Some(self.interpolation_error.max), tolerance.interpolation),
             residual: held(self.residual.max, tolerance.residual),
-            form: self.form.map(|form| is_within(form.pv, form.tolerance)),
+            form: self
+                .form
+                .as_ref()
+                .map(|form| is_within(form.pv, form.tolerance)),
             coverage: held(Some(uncut), tolerance.most_material())
                 .filter(|_| self.overrun.covers_part()),
             machine: limits

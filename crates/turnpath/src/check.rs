@@ -60,15 +60,19 @@ impl Job {
             interpolation,
             residual,
         } = self.preparation.task.tolerance;
-        self.recipe.asked.form.map(|tolerance| report::FormReport {
-            tolerance,
-            pv: None,
-            split: Some(report::FormSplit {
-                residual,
-                interpolation,
-                rounds: 0,
-            }),
-        })
+        self.recipe
+            .tolerances
+            .form
+            .map(|tolerance| report::FormReport {
+                tolerance,
+                pv: None,
+                split: Some(report::FormSplit {
+                    residual,
+                    interpolation,
+                    rounds: 0,
+                    search_ended_because: None,
+                }),
+            })
     }
 
     fn machine_limits(&self) -> Option<report::MachineLimits> {

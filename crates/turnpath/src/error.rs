@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use turnpath_core::StrategyError;
 use turnpath_files::{FileError, FolderError};
 use turnpath_host::LoadError;
+use turnpath_pipeline::PipelineError;
 use turnpath_post::ReadError;
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
@@ -140,6 +142,29 @@ impl Error {
         }
     }
 
+    /// Whether the recipe asks here for what cannot be done, or a strategy gave up on it. Neither a
+    /// panic nor a bad answer is a refusal, nor the failure of an inner strategy, whose kind is not
+    /// known.
+    pub(crate) fn is_refusal(&self) -> bool {
+        let gave_up = |source: &Source| {
+            let error = source.downcast_ref::<PipelineError>();
+            error.is_some_and(|error| {
+                matches!(
+                    error,
+                    PipelineError::Strategy {
+                        error: StrategyError::Failed(_) | StrategyError::Parameter { .. },
+                        ..
+                    }
+                )
+            })
+        };
+        match self {
+            Self::Refused { .. } => true,
+            Self::Strategy { source, .. } => source.as_ref().is_some_and(gave_up),
+            _ => false,
+        }
+    }
+
     /// The messages that have a place in the recipe; empty where the error's text is all.
     pub fn diagnostics(&self) -> Vec<&Diagnostic> {
         match self {
@@ -239,6 +264,32 @@ mod tests {
         };
         let faults = [missing, unreadable, not_a_plugin].map(|error| Error::from(error).fault());
         assert_eq!(faults, [Fault::Request, Fault::Files, Fault::Plugin]);
+    }
+
+    #[test]
+    fn a_strategy_that_gives_up_refuses_and_one_that_breaks_does_not() {
+        let diagnostic = || Diagnostic::from_error(&Error::RunLost);
+        let strategy = |error| {
+            let source = PipelineError::Strategy {
+                slot: turnpath_core::Slot::Feed,
+                name: "constant".into(),
+                plugin: "one".into(),
+                context: "for the path".into(),
+                error,
+            };
+            Error::strategy(diagnostic(), source)
+        };
+        assert!(strategy(StrategyError::failed("too fine")).is_refusal());
+        assert!(!strategy(StrategyError::Panicked("at line 3".into())).is_refusal());
+        let bad = PipelineError::BadAnswer {
+            slot: turnpath_core::Slot::Feed,
+            name: "constant".into(),
+            plugin: "one".into(),
+            what: "not a number".to_owned(),
+        };
+        assert!(!Error::strategy(diagnostic(), bad).is_refusal());
+        assert!(Error::refused(diagnostic()).is_refusal());
+        assert!(!Error::Cancelled.is_refusal());
     }
 
     #[test]

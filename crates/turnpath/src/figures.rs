@@ -13,10 +13,10 @@ use turnpath_verify::{
 /// The tolerances that a recipe asks for.
 pub fn tolerances(recipe: &Recipe) -> report::Tolerances {
     report::Tolerances {
-        interpolation: recipe.asked.interpolation,
-        residual: recipe.asked.residual,
-        form: recipe.asked.form,
-        servo: recipe.asked.servo,
+        interpolation: recipe.tolerances.interpolation,
+        residual: recipe.tolerances.residual,
+        form: recipe.tolerances.form,
+        servo: recipe.tolerances.servo,
     }
 }
 
@@ -32,14 +32,14 @@ pub fn feed_cap(cap: Option<&FeedCap>) -> report::FeedCap {
 
 /// The height from which on material counts as unreached, mm.
 pub fn material_threshold(recipe: &Recipe) -> f64 {
-    let asked = recipe.asked.most_material();
-    asked.unwrap_or(recipe.tolerance.residual)
+    let residual = recipe.tolerance.residual;
+    tolerances(recipe).most_material().unwrap_or(residual)
 }
 
 /// Which part of the machined surface counts for its form; `None` without a tolerance of it.
 pub fn form_scope(recipe: &Recipe) -> Option<FormScope> {
     let overrun = report::Overrun::from(recipe.overrun);
-    recipe.asked.form.map(|_| FormScope {
+    recipe.tolerances.form.map(|_| FormScope {
         covers_part: overrun.covers_part(),
         covers_centre: overrun.covers_centre(),
     })
@@ -111,7 +111,7 @@ pub fn path(
                 highest: surface_point(&nose.highest),
                 lowest: surface_point(&nose.lowest),
             }),
-        form: recipe.asked.form.map(|tolerance| report::FormReport {
+        form: recipe.tolerances.form.map(|tolerance| report::FormReport {
             tolerance,
             pv: form_error(cut.form, clearance),
             split: None,

@@ -21,12 +21,20 @@ use crate::summary::SUMMARY;
 /// The table of the path.
 const TOOLPATH: &str = "toolpath.csv";
 
-/// The files of a run, in the making. A run that fails leaves none of them, nor the folders that
-/// were made for them.
+/// Takes a folder for one run alone, however often the run makes its path.
+///
+/// # Errors
+/// When another run has it, or something is in the way that would stop this one only at its end.
+pub fn open_folder(folder: &Path, job: &Job) -> Result<ResultFolder, FolderError> {
+    let names = job.programs.iter().map(|program| program.file.as_str());
+    nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
+    ResultFolder::open(folder)
+}
+
+/// The files of a path, in the making. A path that fails leaves none of them.
 pub struct FolderSink<'a> {
-    // Dropped before the folder in which they lie.
     files: Option<Files>,
-    folder: ResultFolder,
+    folder: &'a ResultFolder,
     writes_toolpath: bool,
     programs: &'a [Program],
     /// The outer end of the range of ρ, mm.
@@ -57,22 +65,16 @@ pub struct FileBlock {
 }
 
 impl<'a> FolderSink<'a> {
-    /// Takes the folder for this run alone.
-    ///
-    /// # Errors
-    /// When another run has it, or something is in the way that would stop this one only at its end.
-    pub fn new(folder: &Path, job: &'a Job) -> Result<Self, FolderError> {
-        let programs = &job.programs;
-        let names = programs.iter().map(|program| program.file.as_str());
-        nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
-        Ok(Self {
-            folder: ResultFolder::open(folder)?,
+    /// Files in a folder that a run has taken.
+    pub fn new(folder: &'a ResultFolder, job: &'a Job) -> Self {
+        Self {
+            folder,
             writes_toolpath: !job.recipe.output.data.is_empty(),
-            programs,
+            programs: &job.programs,
             radius: job.preparation.task.range.outer,
             files: None,
             rows: 0,
-        })
+        }
     }
 
     /// Control points so far.
@@ -151,21 +153,23 @@ impl<'a> FolderSink<'a> {
     }
 
     /// Brings all files to the disk, and reads them back by their hashes.
-    pub fn finish(self) -> Result<WholeResult, FileError> {
+    pub fn finish(self) -> Result<Vec<WholeFile>, FileError> {
         let Files {
             toolpath,
             programs: _,
             drafts,
         } = self.files.unwrap_or_default();
         let drafts = drafts.into_iter().chain(toolpath.map(PathWriter::whole));
-        Ok(WholeResult {
-            files: drafts.map(Draft::finish).collect::<Result<_, _>>()?,
-            folder: self.folder,
-        })
+        drafts.map(Draft::finish).collect()
     }
 }
 
 impl WholeResult {
+    /// All files of a path, and the folder in which they lie.
+    pub fn new(files: Vec<WholeFile>, folder: ResultFolder) -> Self {
+        Self { files, folder }
+    }
+
     /// The files that lie in the folder, for the summary.
     pub fn listed(&self) -> Vec<ResultFile> {
         let member = |file: &WholeFile| {

@@ -28,8 +28,8 @@ pub struct Job {
     pub(crate) chain: Chain,
     pub(crate) preparation: Preparation,
     pub(crate) programs: Vec<Program>,
-    /// The tolerances of the path, where they are settled.
-    pub(crate) settled: Option<Tolerance>,
+    /// How a tolerance of form is divided for the path, where that is known already.
+    pub(crate) split: Option<Tolerance>,
 }
 
 impl Job {
@@ -70,7 +70,7 @@ impl Job {
             chain,
             preparation,
             programs,
-            settled: None,
+            split: None,
         };
         job.refuse_straight_lines()?;
         Ok(job)
@@ -88,7 +88,7 @@ impl Job {
     pub fn with_tolerance(&self, tolerance: Tolerance) -> Self {
         let mut job = self.clone();
         job.preparation.task.tolerance = tolerance;
-        job.settled = Some(tolerance);
+        job.split = Some(tolerance);
         job
     }
 

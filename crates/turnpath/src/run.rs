@@ -15,8 +15,8 @@ use crate::commands::controller_commands;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
-use crate::folder::FolderSink;
-use crate::form::{SettledPath, settle};
+use crate::folder::{FolderSink, WholeResult, open_folder};
+use crate::form::{FormPath, search_split};
 use crate::job::Job;
 use crate::memory::MemorySink;
 use crate::named_files::UsedFile;
@@ -95,7 +95,7 @@ impl Job {
     }
 
     fn run_nowhere(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
-        let path = settle(self, observer, |job| {
+        let path = search_split(self, observer, |job| {
             let mut sink = RowCount::default();
             let outcome = job.run_into(&mut sink, observer)?;
             Ok((sink, outcome))
@@ -105,12 +105,12 @@ impl Job {
     }
 
     fn run_in_memory(&self, observer: &dyn Observer) -> Result<RunResult, Error> {
-        let path = settle(self, observer, |job| {
+        let path = search_split(self, observer, |job| {
             let mut sink = MemorySink::new(&self.programs);
             let outcome = job.run_into(&mut sink, observer)?;
             Ok((sink, outcome))
         })?;
-        let SettledPath {
+        let FormPath {
             sink,
             outcome,
             split,
@@ -143,12 +143,13 @@ impl Job {
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
         plots.can_be_in_result(folder)?;
-        let path = settle(self, observer, |job| {
-            let mut sink = FolderSink::new(folder, self)?;
+        let result = open_folder(folder, self)?;
+        let path = search_split(self, observer, |job| {
+            let mut sink = FolderSink::new(&result, self);
             let outcome = job.run_into(&mut sink, observer)?;
             Ok((sink, outcome))
         })?;
-        let SettledPath {
+        let FormPath {
             mut sink,
             outcome,
             split,
@@ -156,7 +157,7 @@ impl Job {
         let reports = sink.read_back(self, &outcome, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
         let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
-        let whole = sink.finish()?;
+        let whole = WholeResult::new(sink.finish()?, result);
         let report = RunReport {
             files: Some(whole.listed()),
             ..report

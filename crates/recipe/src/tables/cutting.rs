@@ -104,11 +104,6 @@ impl AskedTolerances {
         self.form.map(budget)
     }
 
-    /// How much material may stay anywhere, mm: the residual, or the form in its place.
-    pub fn most_material(&self) -> Option<f64> {
-        self.residual.or(self.form)
-    }
-
     /// What a path is made for at first; `None` if a tolerance is missing.
     fn of_path(&self) -> Option<Tolerance> {
         match self.budget() {

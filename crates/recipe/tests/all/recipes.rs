@@ -71,8 +71,8 @@ fn a_form_stands_for_the_tolerances_that_it_leaves_out() {
         (
             nm(recipe.tolerance.residual),
             nm(recipe.tolerance.interpolation),
-            recipe.asked.residual.map(nm),
-            recipe.asked.form.map(nm),
+            recipe.tolerances.residual.map(nm),
+            recipe.tolerances.form.map(nm),
         )
     };
     let form = "form = \"150 nm\"";

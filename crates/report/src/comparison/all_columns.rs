@@ -328,7 +328,7 @@ const ALL: &[Column] = &[
         &["form", "judged", "nm"],
         "form_error_nm",
         Form::Real,
-        |run| nm(path(run).form?.pv?),
+        |run| nm(path(run).form.as_ref()?.pv?),
     )
     .held(|verdict| verdict.form),
     column(
@@ -336,7 +336,7 @@ const ALL: &[Column] = &[
         &["split", "resi-", "dual", "nm"],
         "form_residual_nm",
         Form::Real,
-        |run| nm(path(run).form?.split?.residual),
+        |run| nm(path(run).form.as_ref()?.split.as_ref()?.residual),
     )
     .best(Best::None),
     column(
@@ -344,7 +344,7 @@ const ALL: &[Column] = &[
         &["split", "inter-", "pol.", "nm"],
         "form_interpolation_nm",
         Form::Real,
-        |run| nm(path(run).form?.split?.interpolation),
+        |run| nm(path(run).form.as_ref()?.split.as_ref()?.interpolation),
     )
     .best(Best::None),
     column(
@@ -352,7 +352,7 @@ const ALL: &[Column] = &[
         &["paths", "made"],
         "form_rounds",
         Form::Count,
-        |run| count(path(run).form?.split?.rounds.into()),
+        |run| count(path(run).form.as_ref()?.split.as_ref()?.rounds.into()),
     )
     .best(Best::None),
 ];

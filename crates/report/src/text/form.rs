@@ -29,10 +29,12 @@ fn split(split: &FormSplit) -> String {
         1 => "; the path was made once".to_owned(),
         rounds => format!("; the path was made {rounds} times"),
     };
+    let ended = split.search_ended_because.as_ref();
+    let ended = ended.map(|why| line("", format!("no other path could be made: {why}")));
     line(
         "",
         format!("with residual {residual}, interpolation {interpolation}{made}"),
-    )
+    ) + &ended.unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -47,6 +49,7 @@ mod tests {
                 residual: 100e-6,
                 interpolation: 25e-6,
                 rounds,
+                search_ended_because: None,
             }),
         }
     }
@@ -69,6 +72,13 @@ mod tests {
         );
         assert!(
             form(&report(None, 1), Some(false)).contains("nothing of the part is cut; EXCEEDED")
+        );
+        let mut refused = report(Some(141.2e-6), 1);
+        refused.split.as_mut().unwrap().search_ended_because = Some("too fine".to_owned());
+        let text = form(&refused, Some(true));
+        assert!(
+            text.ends_with("no other path could be made: too fine\n"),
+            "{text}"
         );
         let text = first_split(&report(None, 0));
         assert!(text.ends_with("interpolation 25.00 nm\n"), "{text}");

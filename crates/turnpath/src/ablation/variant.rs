@@ -9,7 +9,7 @@ use turnpath_report::MeasuredRun;
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
-use crate::form::settle;
+use crate::form::search_split;
 use crate::job::Job;
 use crate::posts::pmac_format;
 
@@ -35,7 +35,7 @@ pub fn run(
     let begun = clock::now();
     let job = Job::with_files(recipe.clone(), sources.catalogue, sources.data)?;
     let observer = Cancellation(observer);
-    let path = settle(&job, &observer, |job| {
+    let path = search_split(&job, &observer, |job| {
         let mut sizes = SizeSink::new(job);
         let outcome = job.run_into(&mut sizes, &observer)?;
         Ok((sizes, outcome))

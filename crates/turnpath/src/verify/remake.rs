@@ -8,26 +8,25 @@ use std::path::Path;
 
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_core::{FormBudget, StrategyError, Tolerance};
-use turnpath_host::Catalogue;
+use turnpath_host::{Catalogue, sha256_hex};
 use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
 use turnpath_post::{PmacError, PmacWriter, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
-use turnpath_report::{FormSplit, RunReport};
 use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
 
 use crate::data_files::DataFiles;
 use crate::diagnosis::{not_carried, of_measure, of_pipeline};
 use crate::error::Error;
+use crate::form::FARTHEST_SUM;
 use crate::job::Job;
 use crate::outputs::Outputs;
 use crate::summary::{FolderSummary, folder_of};
 
 use super::source::SourceFile;
 
-/// Furthest from the form that a run's shares sum up to: four steps of four times, either way.
-const FURTHEST: f64 = 256.0;
-/// What the digits of a file may change of a share, as a part of it.
-const DIGITS: f64 = 1e-9;
+/// How far shares in a summary may lie from those of their sum, as a part of themselves: they have
+/// the digits of a file.
+const LARGEST_ROUNDING: f64 = 1e-9;
 
 /// What came of comparing a file with the path of its recipe.
 pub enum Comparison {
@@ -89,58 +88,53 @@ fn remake(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<J
 /// The job for the split of its tolerance of form, if it has one: the split of the summary beside
 /// the file, or else the one that a run finds.
 fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Error> {
-    let Some(budget) = job.recipe.asked.budget() else {
+    if job.recipe.tolerances.form.is_none() {
         return Ok(job);
-    };
-    let split = match split_beside(file, &budget) {
+    }
+    let split = match split_beside(&job.recipe, file) {
         Some(split) => split,
         None => found_split(&job, observer)?,
     };
-    Ok(job.with_tolerance(Tolerance {
-        interpolation: split.interpolation,
-        residual: split.residual,
-    }))
+    Ok(job.with_tolerance(split))
 }
 
-/// The split in the summary beside a file, if the summary lists the file and a run with this budget may
-/// have found the split.
-fn split_beside(file: &Path, budget: &FormBudget) -> Option<FormSplit> {
-    let FolderSummary::Read(report) = FolderSummary::of(&folder_of(file)) else {
+/// The split in the summary beside a file, if the summary is that of this recipe with these changes,
+/// and if it says a split that a run may find.
+fn split_beside(recipe: &Recipe, file: &Path) -> Option<Tolerance> {
+    // The file may be spoiled; the split is then still that of the path that it was.
+    let FolderSummary::Read(summary) = FolderSummary::of(&folder_of(file)) else {
         return None;
     };
-    // The file may be spoiled; the split is then still that of the path that it was.
-    let name = file.file_name()?.to_str()?;
-    split_in(&report, name).filter(|split| may_be_found(split, budget))
+    let source = summary.recipe.as_ref()?;
+    let is_own =
+        source.sha256 == sha256_hex(recipe.text().as_bytes()) && source.sets == recipe.sets();
+    let split = summary.path.form?.split.filter(|_| is_own)?;
+    let tolerance = Tolerance {
+        interpolation: split.interpolation,
+        residual: split.residual,
+    };
+    let budget = recipe.tolerances.budget()?;
+    may_be_found(&budget, tolerance).then_some(tolerance)
 }
 
-/// The split of the form in a summary that lists this file.
-fn split_in(report: &RunReport, name: &str) -> Option<FormSplit> {
-    let is_listed = report.files.iter().flatten().any(|file| file.file == name);
-    report.path.form.filter(|_| is_listed)?.split
-}
-
-/// Whether a search for this budget may give the split: it is what the budget gives for the sum of its
-/// shares. The sum may exceed the form, where a path leaves less than its tolerances.
-fn may_be_found(split: &FormSplit, budget: &FormBudget) -> bool {
-    let sum = split.residual + 2.0 * split.interpolation;
-    let range = budget.form() / FURTHEST..=budget.form() * FURTHEST;
-    let own = budget.shares(sum);
-    let same = |one: f64, other: f64| (one - other).abs() <= DIGITS * other.abs();
-    range.contains(&sum)
-        && split.residual > 0.0
-        && split.interpolation > 0.0
-        && same(split.residual, own.residual)
-        && same(split.interpolation, own.interpolation)
+/// Whether a search may end with these shares. Far finer ones would make a path of any length.
+fn may_be_found(budget: &FormBudget, tolerance: Tolerance) -> bool {
+    let sum = tolerance.residual + 2.0 * tolerance.interpolation;
+    let furthest = sum / budget.form();
+    let shares = budget.shares(sum);
+    let is_near = |found: f64, share: f64| (found - share).abs() <= LARGEST_ROUNDING * share;
+    (1.0 / FARTHEST_SUM..=FARTHEST_SUM).contains(&furthest)
+        && is_near(tolerance.residual, shares.residual)
+        && is_near(tolerance.interpolation, shares.interpolation)
 }
 
 /// The split that a run finds.
-fn found_split(job: &Job, observer: &dyn Observer) -> Result<FormSplit, Error> {
+fn found_split(job: &Job, observer: &dyn Observer) -> Result<Tolerance, Error> {
     let report = job.run(Outputs::nowhere(), observer)?.report;
     let split = report.path.form.and_then(|form| form.split);
-    Ok(split.unwrap_or(FormSplit {
-        residual: job.recipe.tolerance.residual,
-        interpolation: job.recipe.tolerance.interpolation,
-        rounds: 0,
+    Ok(split.map_or(job.recipe.tolerance, |split| Tolerance {
+        interpolation: split.interpolation,
+        residual: split.residual,
     }))
 }
 
@@ -281,10 +275,9 @@ mod tests {
 
     #[test]
     fn a_split_that_no_search_finds_is_not_believed() {
-        let split = |residual, interpolation| FormSplit {
+        let split = |residual, interpolation| Tolerance {
             residual,
             interpolation,
-            rounds: 1,
         };
         let form = 1.5e-4;
         let budget = FormBudget::new(form, None, None);
@@ -294,22 +287,22 @@ mod tests {
                 interpolation,
             } = budget.shares(sum);
             let found = split(residual, interpolation);
-            assert!(may_be_found(&found, &budget), "{sum}");
+            assert!(may_be_found(&budget, found), "{sum}");
             // Another division of the same form.
             let other = split(1.01 * residual, interpolation);
-            assert!(!may_be_found(&other, &budget), "{sum}");
+            assert!(!may_be_found(&budget, other), "{sum}");
         }
         let Tolerance {
             residual,
             interpolation,
         } = budget.first();
         let bounded = FormBudget::new(form, None, Some(0.5 * residual));
-        assert!(!may_be_found(&split(residual, interpolation), &bounded));
+        assert!(!may_be_found(&bounded, split(residual, interpolation)));
         for wrong in [0.0, -1e-5, f64::NAN, f64::INFINITY, 1e-12, 1e300] {
-            assert!(!may_be_found(&split(wrong, wrong), &budget), "{wrong}");
-            assert!(!may_be_found(&split(residual, wrong), &budget), "{wrong}");
+            assert!(!may_be_found(&budget, split(wrong, wrong)), "{wrong}");
+            assert!(!may_be_found(&budget, split(residual, wrong)), "{wrong}");
             assert!(
-                !may_be_found(&split(wrong, interpolation), &budget),
+                !may_be_found(&budget, split(wrong, interpolation)),
                 "{wrong}"
             );
         }

@@ -231,22 +231,39 @@ fn spans(
     }
     let in_two = !scope.covers_centre || touch.subject().part.inner_radius > 0.0;
     let is_left = |s: &f64| *s < 0.0;
-    let (left, right): (Vec<f64>, Vec<f64>) = passes.iter().map(|pass| pass.x).partition(is_left);
+    let (mut left, mut right): (Vec<f64>, Vec<f64>) =
+        passes.iter().map(|pass| pass.x).partition(is_left);
+    left.sort_by(f64::total_cmp);
+    right.sort_by(f64::total_cmp);
     let sides = match in_two {
         true => vec![left, right],
         false => vec![[left, right].concat()],
     };
     let mut spans = Vec::new();
-    for side in sides.iter().filter(|side| !side.is_empty()) {
-        let first = side.iter().copied().fold(f64::INFINITY, f64::min);
-        let last = side.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mut touches = Vec::new();
-        touch.find(&[angle; 2], &[first, last], &mut touches)?;
-        if let [first, last] = touches[..] {
-            spans.push((first.foot, last.foot));
-        }
+    for side in &sides {
+        let from = first_contact(touch, angle, side.iter())?;
+        let to = first_contact(touch, angle, side.iter().rev())?;
+        spans.extend(from.zip(to));
     }
     Ok(spans)
+}
+
+/// The contact of the first of these passes that has one, mm; `None` where none has. Beyond the
+/// surface a nose may touch nothing.
+fn first_contact<'a>(
+    touch: &FirstTouch,
+    angle: f64,
+    passes: impl Iterator<Item = &'a f64>,
+) -> Result<Option<f64>> {
+    for pass in passes {
+        let mut touches = Vec::new();
+        touch.find(&[angle], &[*pass], &mut touches)?;
+        let foot = touches.first().map(|touch| touch.foot);
+        if let Some(foot) = foot.filter(|foot| foot.is_finite()) {
+            return Ok(Some(foot));
+        }
+    }
+    Ok(None)
 }
 
 /// The extremes over all lines; `None` if no line has any.
