@@ -189,6 +189,67 @@ fn verify_compares_a_file_with_the_summary_beside_it() {
     // Elsewhere there is no summary that says anything.
     bench.write("toolpath.csv", &spoilt);
     assert_eq!(verify("toolpath.csv").ends(0).json()["result"], Value::Null);
+    let text = bench.line("verify recipe.toml toolpath.csv").ends(0);
+    assert!(
+        text.stdout.contains("no summary beside it lists it"),
+        "{text}"
+    );
+}
+
+/// The result check of the table, which holds not.
+#[track_caller]
+fn not_as_listed(bench: &Bench) -> Value {
+    let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+    let said = said.ends(1).json();
+    assert_eq!(said["within"]["result"], false);
+    said["result"].clone()
+}
+
+#[test]
+fn verify_takes_no_damaged_summary_and_no_unfinished_result() {
+    let bench = Bench::with(&tiny());
+    bench.line("run recipe.toml -o out").ends(0);
+    let whole = bench.read("out/summary.json");
+    let outside = whole.replacen("\"recipe.pmc\"", "\"../\\u001brecipe.toml\"", 1);
+    assert_ne!(outside, whole);
+    for (text, why) in [
+        (&whole[..whole.len() / 2], "it is not the JSON"),
+        ("", "it is not the JSON"),
+        (&outside, "names files of other folders"),
+    ] {
+        bench.write("out/summary.json", text);
+        let check = not_as_listed(&bench);
+        assert!(check["notes"][0].as_str().unwrap().contains(why), "{check}");
+        let error = turnpath::read_result(bench.path("out"));
+        assert!(error.is_err(), "{text}");
+    }
+    // An older version's summary, or another program's, says nothing.
+    bench.write("out/summary.json", "{\"title\": \"mine\"}");
+    let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+    assert_eq!(said.ends(0).json()["result"], Value::Null);
+    fs::remove_file(bench.path("out/summary.json")).unwrap();
+    fs::create_dir_all(bench.path("out/.turnpath/commit")).unwrap();
+    let check = not_as_listed(&bench);
+    let note = check["notes"][0].as_str().unwrap();
+    assert!(
+        note.starts_with("the result here is not finished"),
+        "{note}"
+    );
+}
+
+#[test]
+fn a_summary_acts_on_no_terminal() {
+    let bench = Bench::with(&tiny());
+    bench.line("run recipe.toml -o out").ends(0);
+    let whole = bench.read("out/summary.json");
+    let odd = whole.replacen("\"recipe.pmc\"", "\"a\\u001b[2J\\nb\"", 1);
+    let odd = odd.replacen("\"recipe.toml\"", "\"c\\u009b2Jd\"", 1);
+    bench.write("out/summary.json", odd);
+    let said = bench.line("verify recipe.toml out/toolpath.csv --set spindle.speed=499rpm");
+    let obeyed = |c: char| c.is_control() && c != '\n';
+    assert!(!said.stdout.contains(obeyed), "{said}");
+    let note = "note: a\\u{1b}[2J\\nb of the same result is not there";
+    assert!(said.stdout.contains(note), "{said}");
 }
 
 #[test]
