@@ -10,4 +10,4 @@ mod samples;
 mod steps;
 
 pub use bound::{Bound, Jumps};
-pub use steps::{MAX_STEP, SHORTEST, Steps};
+pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER, largest_step};
