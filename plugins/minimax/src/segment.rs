@@ -77,7 +77,7 @@ impl Played {
 /// Whether a segment keeps to the limits at every place of the table within it.
 pub fn holds(table: &Table<'_>, from: &Node, to: &Node) -> bool {
     let played = Played::new(table, from, to);
-    let places = from.place.next..to.place.next;
+    let mut places = from.place.next..to.place.next;
     if places.len() < FEWEST {
         return holds_between(table, &played, from, to);
     }

@@ -68,8 +68,8 @@ pub const WANDER: Param<Flag> = Param::flag(
 .default(true);
 
 /// With `wander`, a step takes this part less than the largest step. Steps of 45 deg fall on the
-/// same angles only every 83 turns, at 0.15 % more points where the largest step decides.
-const WANDERING: f64 = 1.5e-3;
+/// same angles only every 125 turns, at 0.1 % more points where the largest step decides.
+const WANDERING: f64 = 1e-3;
 
 /// The largest step of a strategy that declares [`MAX_STEP`] and [`WANDER`], rad.
 pub fn largest_step(max_step: f64, wander: bool) -> f64 {
