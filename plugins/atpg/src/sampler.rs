@@ -3,6 +3,10 @@
 use turnpath_plugin::hermite::{self, FEED_PART, MAX_STEP, Steps};
 use turnpath_plugin::prelude::*;
 
+/// The part of the feed that X's own interpolation error may take where X does not move within the
+/// turn. It costs nothing there, and the cusp grows by 4e-4 of itself at the most.
+const STILL_PART: f64 = 1e-4;
+
 /// Off by default: the paper's steps do not wander.
 const WANDER: Param<Flag> = hermite::WANDER.default(false);
 
@@ -24,14 +28,21 @@ impl Strategy for AtpgSampler {
         let max_step = hermite::largest_step(params.get(MAX_STEP), params.get(WANDER));
         let steps = Steps {
             max_step,
-            feed_part: FEED_PART,
+            feed_part: STILL_PART,
         };
         Ok(Self { steps })
     }
 }
 
 impl Sampler for AtpgSampler {
-    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-        Ok(Box::new(self.steps))
+    fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        let feed_part = match hermite::x_swings(path)? {
+            true => FEED_PART,
+            false => STILL_PART,
+        };
+        Ok(Box::new(Steps {
+            feed_part,
+            ..self.steps
+        }))
     }
 }
