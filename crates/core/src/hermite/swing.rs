@@ -20,7 +20,7 @@ const ONE_OF: usize = 4;
 /// If the locus has no value on the path.
 pub fn x_swings(path: &Path<'_>) -> Result<bool> {
     let last = path.law.end() - 1.0;
-    if !(last > 0.0) {
+    if last <= 0.0 {
         return Ok(false);
     }
     let start = |k: usize| last * (k as f64 + 0.5) / TURNS as f64;
