@@ -8,5 +8,6 @@ mod atpg;
 mod ats;
 mod fft_adaptive;
 mod integrated;
+mod minimax;
 mod reproduction;
 mod velocities;

@@ -26,6 +26,7 @@ const BUILT_INS: [(&str, &[&str]); 6] = [
             "equal-arc",
             "fft-adaptive",
             "integrated",
+            "minimax",
         ],
     ),
     ("compensator", &["none", "normal", "z-direction"]),

@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use turnpath_core::hermite::FEED_PART;
 use turnpath_core::toolpath::Segment;
 use turnpath_core::{CentreBuffers, Locus, Radial, angle};
 use turnpath_verify::cusp_heights;
@@ -22,9 +23,10 @@ use crate::{PipelineError, Result};
 const FIRST_INSTANTS: [f64; 3] = [0.25, 0.5, 0.75];
 /// How many instants of a segment whose error matters are compared with the cusps there.
 const INSTANTS: usize = 16;
-/// Part of the distance between passes by which X may always err: what the sampler `atpg` aims at.
-/// Two passes may err in opposite ways, so that a cusp grows by four times this part at the most.
-const ALWAYS: f64 = 1e-4;
+/// Part of the distance between passes by which X may always err. Two passes may err in opposite
+/// ways, so that a cusp grows by four times this part at the most: by a thousandth, which still
+/// counts as held. Samplers aim at four times as much, since most cusps leave room for it.
+const ALWAYS: f64 = 0.25 * FEED_PART;
 /// Cusps are kept within this part of the residual: halfway to what still counts as held.
 const CUSP_AIM: f64 = 1.0005;
 /// A cusp that exceeds this part of the residual on the true path comes from the law, and no halving

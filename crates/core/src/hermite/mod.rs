@@ -8,6 +8,8 @@
 mod bound;
 mod samples;
 mod steps;
+mod swing;
 
 pub use bound::{Bound, Jumps};
-pub use steps::{MAX_STEP, SHORTEST, Steps};
+pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER, largest_step};
+pub use swing::x_swings;

@@ -22,7 +22,9 @@ const BLOCK: f64 = 64.0;
 const INSTANTS: usize = 32;
 
 fn sampler(max_step: f64) -> AtpgSampler {
-    AtpgSampler::new(&Params::new().with("max_step", max_step * DEG)).unwrap()
+    let mut params = Params::new().with("max_step", max_step * DEG);
+    params.set("wander", ParamValue::Flag(false));
+    AtpgSampler::new(&params).unwrap()
 }
 
 fn nodes_of_block(case: &Case, law: &SpiralLaw, max_step: f64, start: f64) -> Result<Vec<f64>> {

@@ -1,0 +1,7 @@
+//! What `turnpath-minimax` does from outside, each subject a module.
+
+mod common;
+
+mod borders;
+mod held;
+mod points;

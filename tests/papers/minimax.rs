@@ -1,0 +1,122 @@
+//! Whole runs of the sampler `minimax` on the papers' parts, against `atpg` and against the points
+//! that a prototype takes.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use crate::support::bench::Bench;
+use crate::support::repository;
+use serde_json::Value;
+
+const AST_5: &str = "astigmatic-5mm.toml";
+const MLA_5: &str = "sinusoidal-array-10mm.toml";
+const AST_50: &str = "astigmatic-50mm.toml";
+const OAP_213: &str = "off-axis-paraboloid-213mm.toml";
+
+/// Cut over the aperture exactly, with exact rates.
+const AS_PUBLISHED: [&str; 3] = [
+    "path.overrun=none",
+    "path.lead=false",
+    "velocity={ use = \"analytic\" }",
+];
+
+/// Runs a recipe of docs/ with a sampler; gives the summary of a run that holds everything.
+fn run(name: &str, sampler: &str, set: &[&str]) -> Value {
+    let recipe = repository().join("docs/recipes").join(name);
+    let sampler = format!("sampler={{ {sampler} }}");
+    let set = AS_PUBLISHED
+        .iter()
+        .chain(set)
+        .copied()
+        .chain([sampler.as_str()])
+        .flat_map(|set| ["--set", set]);
+    let fixed = ["run", recipe.to_str().unwrap(), "--format", "json"];
+    let none = ["--set", "output.posts=[]", "--set", "output.data=[]"];
+    let said = Bench::empty().call(fixed.into_iter().chain(none).chain(set));
+    said.ends(0).json()
+}
+
+fn minimax(states: u32, max_step_deg: u32) -> String {
+    format!("use = \"minimax\", states = {states}, max_step = \"{max_step_deg} deg\"")
+}
+
+fn atpg(max_step_deg: u32) -> String {
+    format!("use = \"atpg\", max_step = \"{max_step_deg} deg\"")
+}
+
+fn number(summary: &Value, pointer: &str) -> f64 {
+    let found = summary.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("no number at {pointer}"))
+}
+
+fn points(summary: &Value) -> f64 {
+    number(summary, "/control_points")
+}
+
+/// Checks what stays as it is with `atpg`, and what may change by how much.
+fn compare(found: &Value, with_atpg: &Value, what: &str) {
+    let tolerance = number(found, "/tolerance/interpolation_nm");
+    let error = number(found, "/interpolation_error/max_nm");
+    assert!(error <= tolerance, "{what}: {error} of {tolerance} nm");
+    let added = number(found, "/points_added_by_refine");
+    assert!(
+        added <= 1e-3 * points(found),
+        "{what}: {added} points added"
+    );
+    let ratio = |pointer: &str| number(found, pointer) / number(with_atpg, pointer);
+    assert_eq!(ratio("/revolutions"), 1.0, "{what}");
+    let residual = ratio("/residual/max_nm");
+    assert!((residual - 1.0).abs() <= 1e-4, "{what}: {residual}");
+    let acceleration = ratio("/axes/z/max_acceleration_mm_per_s2");
+    assert!(
+        acceleration <= 1.05,
+        "{what}: Z acceleration {acceleration}"
+    );
+    let jerk = ratio("/axes/z/max_jerk_mm_per_s3");
+    assert!(jerk <= 1.0, "{what}: Z jerk {jerk}");
+}
+
+/// Recipe, largest step, points at most with one state and with seven.
+const AT_MOST: &[(&str, u32, f64, Option<f64>)] = &[
+    (AST_5, 45, 1510.0, Some(1272.0)),
+    (MLA_5, 45, 4990.0, Some(4250.0)),
+    (AST_50, 45, 22_990.0, None),
+    (AST_50, 90, 16_950.0, Some(14_780.0)),
+];
+
+#[test]
+fn fewer_points_than_the_bound_at_the_same_tolerance() {
+    for (name, max_step, one, seven) in AT_MOST {
+        let bound = run(name, &atpg(*max_step), &[]);
+        let states = [(1, Some(*one)), (7, *seven)];
+        for (states, most) in states {
+            let Some(most) = most else { continue };
+            let what = format!("{name}, {max_step} deg, {states} states");
+            let found = run(name, &minimax(states, *max_step), &[]);
+            compare(&found, &bound, &what);
+            assert!(points(&found) <= most, "{what}: {} points", points(&found));
+        }
+    }
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_fewer_points_on_the_large_paraboloid() {
+    let bound = run(OAP_213, &atpg(45), &[]);
+    for (states, most) in [(1, 0.945), (7, 0.80)] {
+        let found = run(OAP_213, &minimax(states, 45), &[]);
+        compare(&found, &bound, &format!("{states} states"));
+        let part = points(&found) / points(&bound);
+        assert!(part <= most, "{states} states: {part} of the points");
+    }
+}
+
+/// A tenth of the feed's thousandth for X's own error took 4,238 points, at a residual of 99.967 nm.
+#[test]
+fn with_normal_compensation_x_may_err_by_a_thousandth_of_the_feed() {
+    let normal = ["compensator={ use = \"normal\" }"];
+    for sampler in [atpg(45), minimax(7, 45)] {
+        let found = run(AST_5, &sampler, &normal);
+        assert!(points(&found) <= 0.60 * 4238.0, "{}", points(&found));
+        let residual = number(&found, "/residual/max_nm");
+        assert!(residual <= 99.967 + 0.2, "{residual}");
+    }
+}
