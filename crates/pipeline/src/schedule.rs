@@ -15,6 +15,10 @@ const ROUNDS: usize = 3;
 /// A half turn counts as slow enough if its limits ask for no less than this part of its speed: a
 /// tenth of the one factor with which limits are judged.
 const ENOUGH: f64 = 0.9999;
+/// The whole schedule is not slowed down by more than this.
+const LITTLE: f64 = 0.98;
+/// By so much more it is slowed down: for the rounding of points.
+const ROUNDING: f64 = 1e-9;
 /// The smallest factor that the host asks for. A jump between two points asks for next to nothing,
 /// and a strategy divides by factors.
 const LEAST: f64 = 1e-3;
@@ -39,10 +43,11 @@ fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
         return Ok(());
     }
     let mut factors = vec![1.0; half_turns(plan.law.end())];
-    for _ in 0..ROUNDS {
+    for round in 0..=ROUNDS {
         let headroom = headroom(plan, observer)?;
-        if headroom.iter().all(|headroom| *headroom >= ENOUGH) {
-            break;
+        let least = headroom.iter().copied().fold(1.0, f64::min);
+        if least >= ENOUGH || round == ROUNDS {
+            return slow_down(plan, least, observer);
         }
         let speed = plan.preparation.task.spindle_speed;
         for (half, (factor, headroom)) in factors.iter_mut().zip(headroom).enumerate() {
@@ -55,6 +60,17 @@ fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
         plan.take_spindle(law, observer)?;
     }
     Ok(())
+}
+
+/// Slows the whole schedule down by the little that is left of an excess. The motion of all axes
+/// scales with it, so that it then holds the limits. An excess that is not little stays, and the
+/// verdict shows it.
+fn slow_down(plan: &mut Plan<'_>, least: f64, observer: &dyn Observer) -> Result<()> {
+    if least >= 1.0 || least < LITTLE {
+        return Ok(());
+    }
+    let slower = plan.spindle.scaled(least * (1.0 - ROUNDING));
+    plan.take_spindle(slower, observer)
 }
 
 fn half_turns(end: f64) -> usize {
