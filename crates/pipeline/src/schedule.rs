@@ -15,6 +15,9 @@ const ROUNDS: usize = 3;
 /// A half turn counts as slow enough if its limits ask for no less than this part of its speed: a
 /// tenth of the one factor with which limits are judged.
 const ENOUGH: f64 = 0.9999;
+/// A schedule is not planned again if the whole of it need not be slower than by this part: a longer
+/// cut by a thousandth, against another round of planning.
+const CLOSE: f64 = 0.999;
 /// The whole schedule is not slowed down by more than this.
 const LITTLE: f64 = 0.98;
 /// By so much more it is slowed down: for the rounding of points.
@@ -33,21 +36,22 @@ pub fn plan<'a>(
     observer: &dyn Observer,
 ) -> Result<Plan<'a>> {
     let mut plan = Plan::new(chain, preparation, observer)?;
-    follow(&mut plan, observer)?;
+    let strategy = &chain.spindle.strategy;
+    if strategy.follows_factors() && preparation.task.machine.has_limits() {
+        plan.hold_nodes();
+        follow(&mut plan, observer)?;
+    }
     Ok(plan)
 }
 
 fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
-    let strategy = &plan.chain.spindle.strategy;
-    if !(strategy.follows_factors() && plan.preparation.task.machine.has_limits()) {
-        return Ok(());
-    }
     let mut factors = vec![1.0; half_turns(plan.law.end())];
     for round in 0..=ROUNDS {
         let headroom = headroom(plan, observer)?;
         let least = headroom.iter().copied().fold(1.0, f64::min);
-        if least >= ENOUGH || round == ROUNDS {
-            return slow_down(plan, least, observer);
+        if least >= CLOSE || round == ROUNDS {
+            slow_down(plan, least);
+            break;
         }
         let speed = plan.preparation.task.spindle_speed;
         for (half, (factor, headroom)) in factors.iter_mut().zip(headroom).enumerate() {
@@ -57,7 +61,7 @@ fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
             }
         }
         let law = spindle::plan(plan.chain, plan.preparation, &plan.law, &factors)?;
-        plan.take_spindle(law, observer)?;
+        plan.take_spindle(law);
     }
     Ok(())
 }
@@ -65,12 +69,10 @@ fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
 /// Slows the whole schedule down by the little that is left of an excess. The motion of all axes
 /// scales with it, so that it then holds the limits. An excess that is not little stays, and the
 /// verdict shows it.
-fn slow_down(plan: &mut Plan<'_>, least: f64, observer: &dyn Observer) -> Result<()> {
-    if least >= 1.0 || least < LITTLE {
-        return Ok(());
+fn slow_down(plan: &mut Plan<'_>, least: f64) {
+    if (LITTLE..1.0).contains(&least) {
+        plan.take_spindle(plan.spindle.scaled(least * (1.0 - ROUNDING)));
     }
-    let slower = plan.spindle.scaled(least * (1.0 - ROUNDING));
-    plan.take_spindle(slower, observer)
 }
 
 fn half_turns(end: f64) -> usize {

@@ -35,6 +35,8 @@ pub struct Law {
     /// The coefficients of each piece against N since its start. t begins at 0 in each.
     pieces: Vec<[f64; 6]>,
     length: f64,
+    /// The path's end, in revolutions.
+    end: f64,
 }
 
 impl Law {
@@ -52,6 +54,7 @@ impl Law {
         Self {
             pieces: pieces.collect(),
             length,
+            end: grid.end,
         }
     }
 
@@ -78,14 +81,18 @@ impl Law {
         if let Some(rate) = self.constant_rate() {
             return SpindleLaw::constant(factor * TAU / rate);
         }
-        let (mut time, mut t) = (PiecewisePolynomial::new(), 0.0);
-        for piece in &self.pieces {
+        let (mut t, count) = (0.0, self.pieces.len() as f64);
+        let pieces = self.pieces.iter().enumerate().map(|(i, piece)| {
             let mut coefficients = piece.map(|c| c / factor);
             coefficients[0] = t;
             t += value(piece, self.length) / factor;
-            time.push(self.length, coefficients);
-        }
-        SpindleLaw::from_time(time)
+            Piece {
+                start: self.end * (i as f64 / count),
+                coefficients,
+            }
+        });
+        let pieces = pieces.collect();
+        SpindleLaw::from_time(PiecewisePolynomial::from_pieces(pieces, self.end))
     }
 
     /// The time of a turn, if it is the same everywhere, s.
