@@ -61,8 +61,8 @@ fn sums_in_poses_hold_and_measure_like_the_reference() {
     check_all(&folder, &folder, Requirement::Holds, |_| true);
 }
 
-/// Recipes with nothing but a form of 150 nm or more as their tolerance, on parts of all kinds, over
-/// a seam, and on a path that does not cover its part.
+/// Recipes with nothing but a form of 150 nm as their tolerance, on parts of all kinds
+/// and on a path that does not cover its part.
 #[test]
 fn parts_by_their_form_hold_and_measure_like_the_reference() {
     let folder = repository().join("tests/reference/playback/form");

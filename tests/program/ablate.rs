@@ -496,8 +496,8 @@ fn a_narrow_terminal_gets_narrow_tables() {
     }
 }
 
-/// Every column but those of what this recipe does not ask for: a hole, limits, a servo, a nose
-/// that does not fit.
+/// Every column but those of what this recipe does not ask for: a hole, limits, a nose that does
+/// not fit, tolerances of form and servo.
 #[test]
 fn every_figure_of_a_run_has_its_column() {
     let recipe = changed(SADDLE, "lead = false", "lead = true");
@@ -518,8 +518,14 @@ fn every_figure_of_a_run_has_its_column() {
         "unreached_height_um",
         "uncut_at_hole_nm",
         "highest_spindle_rpm",
+        "form_error_nm",
+        "form_residual_nm",
+        "form_interpolation_nm",
+        "form_rounds",
+        "within_form",
         "within_coverage",
         "within_machine",
+        "within_servo",
         "reason",
     ];
     assert_eq!(empty, expected);

@@ -118,10 +118,7 @@ impl CuspFeed {
     pub fn share<S: Scalar>(&self, parabola: S) -> S {
         let way = parabola / self.nose_radius - PARABOLA_TO;
         let way = way / (CIRCLES_FROM - PARABOLA_TO);
-        let (none, whole) = (S::constant(0.0), S::constant(1.0));
-        let way = S::select(way.less(whole), way, whole);
-        let way = S::select(way.less(none), none, way);
-        way * way * way * ((way * 6.0 - 15.0) * way + 10.0)
+        smooth_step(way)
     }
 
     /// The square of the feed of circles as a multiple of the parabola's:
@@ -165,6 +162,14 @@ impl CuspFeed {
     pub fn needs_circles<S: Scalar>(&self, parabola: S) -> bool {
         (!parabola.less(S::constant(PARABOLA_TO * self.nose_radius))).any()
     }
+}
+
+/// A step from 0 at 0 to 1 at 1 with two continuous derivatives.
+pub fn smooth_step<S: Scalar>(way: S) -> S {
+    let (none, whole) = (S::constant(0.0), S::constant(1.0));
+    let way = S::select(way.less(whole), way, whole);
+    let way = S::select(way.less(none), none, way);
+    way * way * way * ((way * 6.0 - 15.0) * way + 10.0)
 }
 
 #[cfg(test)]

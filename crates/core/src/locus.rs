@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-pub use crate::cusp::{CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO};
+pub use crate::cusp::{CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO, smooth_step};
 use crate::neighbours::{FeedSearch, Neighbours};
 pub use crate::profile::{Profile, profile_at};
 use crate::{

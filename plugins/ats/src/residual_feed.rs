@@ -5,7 +5,9 @@
 //! And a large feed is that of the circle of curvature, times one factor for the whole part: the
 //! least ratio of the host's feed, which knows how the curvature changes within a feed.
 
-use turnpath_plugin::locus::{CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO, Profile};
+use turnpath_plugin::locus::{
+    CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO, Profile, smooth_step,
+};
 use turnpath_plugin::prelude::*;
 
 use crate::jet::Jet;
@@ -22,6 +24,10 @@ const PARABOLA_CAP: f64 = 0.1;
 /// The least 1 − Rκ in the feed of circles, and the least square of (cap/f). Below these the feed is
 /// its cap.
 const LEAST: f64 = 1e-6;
+/// The 1 − Rκ up to which the feed of circles does not count, and from which it counts whole. In
+/// hollows of nearly the nose's own radius it grows so fast along the angle that no law follows it.
+/// Beyond the part the nose need not fit at all; whether the path goes there is the host's question.
+const FIT: [f64; 2] = [0.05, 0.3];
 
 /// The constants of the formula.
 #[derive(Debug, Clone, Copy)]
@@ -84,9 +90,10 @@ impl Law {
             let least = S::constant(LEAST);
             S::select(value.less(least), least, value)
         };
+        let fit = smooth_step((gap - FIT[0]) / (FIT[1] - FIT[0]));
         let (gap, y) = (at_least(gap), at_least(y));
         let free = y.sqrt().recip() * (PARABOLA_CAP * self.nose_radius);
-        let share = self.circles.share(free);
+        let share = self.circles.share(free) * fit;
         let cap = self.circles.cap(slope, gap);
         let ratio = cap.squared() / (free.squared() * self.circles.correction(gap));
         let eighth = (ratio.squared().squared() + 1.0).sqrt().sqrt().sqrt();

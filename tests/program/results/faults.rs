@@ -64,9 +64,8 @@ impl Fault {
         }
     }
 
-    fn of_name(name: &str) -> Self {
-        let found = FAULTS.into_iter().find(|fault| fault.name() == name);
-        found.expect("a fault")
+    fn of_name(name: &str) -> Option<Self> {
+        FAULTS.into_iter().find(|fault| fault.name() == name)
     }
 
     /// Does it. A signal that is handled lets the operation go on, as it does elsewhere.
@@ -95,7 +94,7 @@ fn child_of_the_faults() {
     let log = std::env::var_os(LOG).unwrap();
     let spoil = spoil.split_once(' ').map(|(at, fault)| {
         let at: usize = at.parse().unwrap();
-        (at, Fault::of_name(fault))
+        (at, Fault::of_name(fault).unwrap())
     });
     let log_of_watcher = log.clone();
     assert!(watch_operations(move |operation, _| {
@@ -172,7 +171,7 @@ fn spoilt(before: &Before, new: &Found, at: usize, operation: &str, fault: Fault
         assert_eq!(at_once, *new, "{case}");
     }
     let after = before.settle(&out, new, &case);
-    if fault != Fault::of_name("SIGKILL") {
+    if fault != Fault::Signal("SIGKILL", SIGKILL) {
         let elsewhere = entries(&bench.path("elsewhere"));
         assert!(
             elsewhere.iter().all(|name| name == "map.xyz"),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::DraftKind;
+use super::kind::DraftKind;
 
 /// The number of an entry, its kind and its path.
 type Line = (u64, DraftKind, PathBuf);

@@ -4,6 +4,7 @@
 //! its name. Whoever withdraws an entry owns it: either the work that registered it, or
 //! [`remove_drafts`]. So a file that has got its name is never removed.
 
+mod kind;
 #[cfg(not(unix))]
 mod list;
 #[cfg(unix)]
@@ -16,16 +17,7 @@ use list as entries;
 #[cfg(unix)]
 use slots as entries;
 
-/// What an entry stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DraftKind {
-    /// A file without its name.
-    File,
-    /// A folder that goes when it is empty.
-    Folder,
-    /// The file that keeps other writers out of a folder. It goes after what it protects.
-    Lock,
-}
+pub use kind::DraftKind;
 
 /// A path that [`remove_drafts`] removes as long as this lives.
 #[derive(Debug)]

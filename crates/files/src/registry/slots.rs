@@ -13,7 +13,7 @@ use std::path::Path;
 use std::ptr;
 use std::sync::atomic::{AtomicPtr, Ordering};
 
-use super::DraftKind;
+use super::kind::DraftKind;
 
 type Slot = AtomicPtr<c_char>;
 

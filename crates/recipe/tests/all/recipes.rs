@@ -236,8 +236,11 @@ fn files_are_relative_to_the_recipe() {
 #[test]
 fn the_name_is_safe_as_a_folder() {
     assert_eq!(parse(FULL, &[]).folder_name(), "Astigmatic mirror, 5 mm");
-    assert_eq!(parse(FULL, &["name=../../etc"]).folder_name(), "-.-..-etc");
-    assert_eq!(parse(FULL, &["name=.."]).folder_name(), "-.");
+    assert_eq!(
+        parse(FULL, &["name=../../etc"]).folder_name(),
+        "%2E.%2F..%2Fetc"
+    );
+    assert_eq!(parse(FULL, &["name=.."]).folder_name(), "%2E%2E");
 }
 
 #[test]
