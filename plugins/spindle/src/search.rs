@@ -50,6 +50,9 @@ struct Schedule {
 impl Conditions<'_> {
     /// The fastest schedule that is nowhere faster than `speeds`, rad/s.
     pub fn fastest(&self, speeds: Vec<f64>) -> SpindleLaw {
+        if speeds.iter().all(|speed| *speed >= self.speed) {
+            return SpindleLaw::constant(self.speed);
+        }
         let mut first: Vec<Schedule> = self
             .smoothings()
             .map(|smoothing| self.schedule(smoothing, speeds.clone()).0)
