@@ -1,4 +1,4 @@
-//! What stays at the rims of steep caps, against a measurement apart.
+//! What stays at the rims of steep caps, and the residual there, against a measurement apart.
 //!
 //! `tests/reference/rims/rims.py` plays the path of each cap and looks for the machined point at the
 //! rim. It knows the caps as spheres, and shares no code with turnpath.
@@ -12,6 +12,8 @@ use serde_json::Value;
 
 /// Largest difference of a figure from the one apart, as a part of it.
 const TOLERANCE: f64 = 0.02;
+/// Likewise of a residual: both are taken at every degree.
+const RESIDUAL_TOLERANCE: f64 = 1e-3;
 /// A tolerance holds when measured ≤ this × tolerance.
 const ALLOWED: f64 = 1.001;
 /// The residual tolerance of the caps, nm.
@@ -57,6 +59,15 @@ fn the_rims_of_steep_caps_measure_like_the_reference() {
             &summary["within"]["coverage"],
             &Value::from(status == Some(0)),
         ];
+        let cusp = &summary["residual"]["max_nm"];
+        let ratio =
+            cusp.as_f64().expect("a residual") / cap["residual_nm"].as_f64().expect("a residual");
+        if (ratio - 1.0).abs() > RESIDUAL_TOLERANCE {
+            let name = &cap["name"];
+            complaints.push(format!(
+                "{name}: residual {cusp} nm, {ratio} of the reference"
+            ));
+        }
         if (found / known - 1.0).abs() > TOLERANCE || said != [&Value::from(holds); 2] {
             let name = &cap["name"];
             complaints.push(format!("{name}: {rim}, {said:?}, not {known} nm"));

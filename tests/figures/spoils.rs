@@ -125,8 +125,8 @@ impl Axis {
     }
 }
 
-/// The chain's own file as lines, and which of them are rows.
-struct Made {
+/// The file that a chain itself makes, as lines, and which of them are rows.
+struct OwnFile {
     bench: Bench,
     plugins: TempDir,
     lines: Vec<String>,
@@ -134,31 +134,31 @@ struct Made {
     is_program: bool,
 }
 
-impl Made {
+impl OwnFile {
     fn new(chain: &Chain) -> Self {
         let has_spindle = chain.tables.contains("[spindle]");
         let speed = "speed = \"300 rpm\"\n";
         let spindle = if has_spindle { "" } else { "[spindle]\n" };
         let bench = Bench::with(&format!("{HEAD}{}{spindle}{speed}", chain.tables));
         let plugins = plugin_folder(if has_spindle { &["two-speeds"] } else { &[] });
-        let mut made = Self {
+        let mut file = Self {
             bench,
             plugins,
             lines: Vec::new(),
             rows: Vec::new(),
             is_program: chain.file.ends_with("pmc"),
         };
-        let ran = made.call("run recipe.toml -o out");
+        let ran = file.call("run recipe.toml -o out");
         assert!(
             matches!(ran.status, Some(0 | 1)),
             "{}: {ran}",
             chain.heading
         );
-        let text = made.bench.read(format!("out/{}", chain.file));
-        made.lines = text.lines().map(String::from).collect();
-        let all = 0..made.lines.len();
-        made.rows = all.filter(|line| made.is_row(*line)).collect();
-        made
+        let text = file.bench.read(format!("out/{}", chain.file));
+        file.lines = text.lines().map(String::from).collect();
+        let all = 0..file.lines.len();
+        file.rows = all.filter(|line| file.is_row(*line)).collect();
+        file
     }
 
     fn is_row(&self, line: usize) -> bool {
@@ -287,8 +287,8 @@ impl Made {
     }
 }
 
-/// What `verify` made of one spoil.
-struct Found {
+/// What `verify` says of one spoil.
+struct SpoilResult {
     places: usize,
     /// In how many of them the file was refused, with the number of the line.
     refused: usize,
@@ -298,7 +298,7 @@ struct Found {
     holds: bool,
 }
 
-impl Found {
+impl SpoilResult {
     /// A cell of the table.
     fn cell(&self) -> String {
         let all = format!("{} of {0}", self.places);
@@ -350,26 +350,26 @@ fn exactly(said: &Answer, rows: &BTreeSet<u64>, what: &str) -> Vec<f64> {
 }
 
 /// Spoils the file in many places at once and looks for exactly these.
-fn spoil(made: &Made, spoil: Spoil, what: &str) -> Found {
+fn spoil(file: &OwnFile, spoil: Spoil, what: &str) -> SpoilResult {
     match spoil {
-        Spoil::Lost => lose(made, what),
-        Spoil::Swapped => swap(made, what),
-        Spoil::Time(part) if made.is_program => retime(made, part, what),
+        Spoil::Lost => lose(file, what),
+        Spoil::Swapped => swap(file, what),
+        Spoil::Time(part) if file.is_program => retime(file, part, what),
         _ => {
-            let places = made.places(|row| made.spoiled_row(row, spoil).is_some());
-            let mut lines = made.lines.clone();
+            let places = file.places(|row| file.spoiled_row(row, spoil).is_some());
+            let mut lines = file.lines.clone();
             for row in &places {
-                lines[made.rows[*row]] = made.spoiled_row(*row, spoil).unwrap();
+                lines[file.rows[*row]] = file.spoiled_row(*row, spoil).unwrap();
             }
-            let said = made.verify(&lines);
+            let said = file.verify(&lines);
             let rows = places.iter().map(|row| *row as u64 + 1).collect();
-            found(&said, &rows, what)
+            result_of(&said, &rows, what)
         }
     }
 }
 
-fn found(said: &Answer, rows: &BTreeSet<u64>, what: &str) -> Found {
-    Found {
+fn result_of(said: &Answer, rows: &BTreeSet<u64>, what: &str) -> SpoilResult {
+    SpoilResult {
         places: rows.len(),
         refused: 0,
         worths: exactly(said, rows, what),
@@ -377,38 +377,38 @@ fn found(said: &Answer, rows: &BTreeSet<u64>, what: &str) -> Found {
     }
 }
 
-fn lose(made: &Made, what: &str) -> Found {
-    let places = made.places(|_| true);
-    let mut lines = made.lines.clone();
+fn lose(file: &OwnFile, what: &str) -> SpoilResult {
+    let places = file.places(|_| true);
+    let mut lines = file.lines.clone();
     for row in places.iter().rev() {
-        lines.remove(made.rows[*row]);
+        lines.remove(file.rows[*row]);
     }
-    if made.is_program {
+    if file.is_program {
         // The end mark has the count; somebody who edits a program by hand edits it too.
-        let all = made.rows.len();
+        let all = file.rows.len();
         let mark = lines
             .iter_mut()
             .find(|line| line.contains("end of path"))
             .unwrap();
         *mark = mark.replace(&all.to_string(), &(all - places.len()).to_string());
     }
-    let said = made.verify(&lines);
+    let said = file.verify(&lines);
     // Every row that is lost before it makes the number of a row smaller by one.
     let numbers = places.iter().enumerate();
     let rows = numbers.map(|(lost, row)| (row + 1 - lost) as u64).collect();
-    found(&said, &rows, what)
+    result_of(&said, &rows, what)
 }
 
 /// Rows that are swapped where C must grow are refused; elsewhere one row seems lost and one added.
-fn swap(made: &Made, what: &str) -> Found {
-    let places = made.places(|_| true);
+fn swap(file: &OwnFile, what: &str) -> SpoilResult {
+    let places = file.places(|_| true);
     let mut refused = 0;
     let mut worths = Vec::new();
     let mut holds = true;
     for row in &places {
-        let mut lines = made.lines.clone();
-        lines.swap(made.rows[*row], made.rows[*row + 1]);
-        let said = made.verify(&lines);
+        let mut lines = file.lines.clone();
+        lines.swap(file.rows[*row], file.rows[*row + 1]);
+        let said = file.verify(&lines);
         if said.status == Some(4) {
             assert!(said.stderr.contains(", line "), "{what}: {said}");
             refused += 1;
@@ -429,7 +429,7 @@ fn swap(made: &Made, what: &str) -> Found {
         );
     }
     worths.sort_by(f64::total_cmp);
-    Found {
+    SpoilResult {
         places: places.len(),
         refused,
         worths,
@@ -438,16 +438,16 @@ fn swap(made: &Made, what: &str) -> Found {
 }
 
 /// A segment of a program takes another time; all that follows comes as much later.
-fn retime(made: &Made, part: f64, what: &str) -> Found {
+fn retime(file: &OwnFile, part: f64, what: &str) -> SpoilResult {
     let stands = |line: usize| {
-        let times = made.lines[..line].iter().rev();
+        let times = file.lines[..line].iter().rev();
         let mut times = times.filter_map(|line| line.strip_prefix("PVT"));
         times.next().unwrap().parse::<f64>().unwrap()
     };
-    let places = made.places(|_| true);
-    let mut lines = made.lines.clone();
+    let places = file.places(|_| true);
+    let mut lines = file.lines.clone();
     for row in places.iter().rev() {
-        let line = made.rows[*row];
+        let line = file.rows[*row];
         let own = stands(line);
         // The controller's steps of time are 1/4096 ms.
         let wrong = (own * (1.0 + part) * 4096.0).round() / 4096.0;
@@ -464,16 +464,16 @@ fn retime(made: &Made, part: f64, what: &str) -> Found {
         }
         lines.insert(line, format!("PVT{wrong}"));
     }
-    let said = made.verify(&lines);
+    let said = file.verify(&lines);
     let rows = places.iter().map(|row| *row as u64 + 1).collect();
-    found(&said, &rows, what)
+    result_of(&said, &rows, what)
 }
 
 /// The rows of the table, of all chains.
 fn table() -> &'static str {
     static TABLE: OnceLock<String> = OnceLock::new();
     TABLE.get_or_init(|| {
-        let columns: Vec<Vec<Found>> = std::thread::scope(|scope| {
+        let columns: Vec<Vec<SpoilResult>> = std::thread::scope(|scope| {
             let work = |chain: &'static Chain| scope.spawn(move || column(chain));
             let workers: Vec<_> = CHAINS.iter().map(work).collect();
             workers
@@ -496,13 +496,13 @@ fn table() -> &'static str {
 }
 
 /// All spoils of one chain.
-fn column(chain: &Chain) -> Vec<Found> {
-    let made = Made::new(chain);
-    let own = made.verify(&made.lines);
+fn column(chain: &Chain) -> Vec<SpoilResult> {
+    let file = OwnFile::new(chain);
+    let own = file.verify(&file.lines);
     exactly(&own, &BTreeSet::new(), chain.heading);
     let all = SPOILS.iter();
-    let found = all.map(|(name, one)| spoil(&made, *one, &format!("{}, {name}", chain.heading)));
-    let found: Vec<Found> = found.collect();
+    let found = all.map(|(name, one)| spoil(&file, *one, &format!("{}, {name}", chain.heading)));
+    let found: Vec<SpoilResult> = found.collect();
     for ((name, spoil), found) in SPOILS.iter().zip(&found) {
         assert!(
             found.places >= 4,
@@ -545,21 +545,21 @@ fn every_spoil_is_found_with_its_worth_as_the_page_says() {
 /// 4/27 of δv · h is the largest displacement that a velocity wrong by δv makes in a segment of h.
 #[test]
 fn a_velocity_that_is_wrong_by_5_percent_and_moves_the_path_by_23_nm_of_60_is_found() {
-    let made = Made::new(&CHAINS[0]);
+    let file = OwnFile::new(&CHAINS[0]);
     let worth = |row: usize| {
-        let [before, here, after] = [row - 1, row, row + 1].map(|row| made.numbers(row));
+        let [before, here, after] = [row - 1, row, row + 1].map(|row| file.numbers(row));
         let step = (after[0] - here[0]).max(here[0] - before[0]);
         0.05 * here[6].abs() * step * 4.0 / 27.0 * 1e6
     };
-    let [cut, out, _] = made.borders();
+    let [cut, out, _] = file.borders();
     let off = |row: &usize| (worth(*row) - 23.0).abs();
     let row = (cut + 2..out - 2).min_by(|one, other| off(one).total_cmp(&off(other)));
     let row = row.unwrap();
     assert!((worth(row) - 23.0).abs() < 1.0, "{} nm", worth(row));
-    let mut lines = made.lines.clone();
-    let line = made.spoiled_row(row, Spoil::Wrong(Axis::Z, 0.05)).unwrap();
-    lines[made.rows[row]] = line;
-    let said = made.verify(&lines);
+    let mut lines = file.lines.clone();
+    let line = file.spoiled_row(row, Spoil::Wrong(Axis::Z, 0.05)).unwrap();
+    lines[file.rows[row]] = line;
+    let said = file.verify(&lines);
     let found = exactly(&said, &BTreeSet::from([row as u64 + 1]), "5 % of vZ");
     assert!(
         (found[0] / worth(row) - 1.0).abs() < 0.03,

@@ -161,6 +161,53 @@ fn pipes_and_devices_are_refused_and_not_waited_for() {
     }
 }
 
+/// A pipe, and a file that is larger than the memory that the program may have.
+#[test]
+fn summaries_and_records_are_not_waited_for_and_not_read_beyond_reason() {
+    let tiny = changed(SADDLE, "\"5 mm\"", "\"2 mm\"");
+    let tiny = changed(&tiny, "\"100 nm\"", "\"20 um\"");
+    let tiny = changed(&tiny, "\"100 nm\"", "\"20 um\"");
+    let bench = Bench::with(&tiny);
+    bench.line("run recipe.toml -o out").ends(0);
+    let ablation = format!("{tiny}\n[ablation]\ntolerance.residual = [\"20 um\"]\n");
+    bench.write("ablation.toml", ablation);
+    bench.line("ablate ablation.toml -o abl").ends(0);
+    let record = std::fs::read_dir(bench.path("abl/runs")).unwrap().next();
+    let record = record.unwrap().unwrap().path();
+    let record = record.strip_prefix(bench.path("")).unwrap().to_owned();
+    for is_pipe in [true, false] {
+        for name in [record.to_str().unwrap(), "out/summary.json"] {
+            std::fs::remove_file(bench.path(name)).unwrap();
+            match is_pipe {
+                true => pipe(&bench, name),
+                false => File::create(bench.path(name))
+                    .and_then(|file| file.set_len(3 << 30))
+                    .unwrap(),
+            }
+        }
+        for (words, status) in [
+            ("verify recipe.toml out/toolpath.csv", 1),
+            ("ablate ablation.toml -o abl", 0),
+        ] {
+            let begun = Instant::now();
+            let script = format!("ulimit -v 1500000; exec \"$0\" {words}");
+            let mut shell = bench.command_of("sh".as_ref(), ["-c", &script]);
+            let output = shell.arg(crate::support::bench::TURNPATH).output().unwrap();
+            assert!(begun.elapsed() < LONGEST, "{words}");
+            crate::support::bench::Answer::from(output).ends(status);
+        }
+        // What is no record cannot be replaced either; the next round begins with a new one.
+        if bench
+            .path(&record)
+            .metadata()
+            .is_ok_and(|found| !found.is_file())
+        {
+            std::fs::remove_file(bench.path(&record)).unwrap();
+            bench.line("ablate ablation.toml -o abl").ends(0);
+        }
+    }
+}
+
 #[test]
 fn a_huge_library_is_refused_by_its_size_before_it_is_read() {
     let bench = bench_with_plugins::bench(SADDLE, &[]);

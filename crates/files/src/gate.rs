@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::registry::remove_drafts;
+use crate::registry::{remove_drafts, remove_drafts_under_lock};
 
 static GATE: Mutex<()> = Mutex::new(());
 
@@ -32,9 +32,12 @@ pub fn wait_if_ending() {
     drop(enter());
 }
 
-/// Removes all drafts, for a process that ends next. Names that are being given are waited for, at
-/// most for `patience`; after that no draft is made and no name is given any more: whoever tries
-/// waits for the end of the process. So a result is the old or the new.
+/// Removes all drafts, for a process that ends next. Names that are being given are waited for; then
+/// no draft is made and no name is given any more: whoever tries waits for the end of the process. So
+/// a result is the old or the new.
+///
+/// The wait is at most `patience`. After that names may still be given until the process ends, so the
+/// files of the locks stay, and no other writer comes between. The next one completes the result.
 ///
 /// This waits and sleeps: a signal handler calls [`remove_drafts`] instead.
 pub fn end_writing(patience: Duration) {
@@ -43,7 +46,9 @@ pub fn end_writing(patience: Duration) {
         match GATE.try_lock() {
             Ok(guard) => break std::mem::forget(guard),
             Err(TryLockError::Poisoned(error)) => break std::mem::forget(error.into_inner()),
-            Err(TryLockError::WouldBlock) if start.elapsed() >= patience => break,
+            Err(TryLockError::WouldBlock) if start.elapsed() >= patience => {
+                return remove_drafts_under_lock();
+            }
             Err(TryLockError::WouldBlock) => thread::sleep(LOOK),
         }
     }

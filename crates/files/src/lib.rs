@@ -24,6 +24,7 @@
 //! # Ok::<(), FolderError>(())
 //! ```
 
+mod bounded;
 mod draft;
 mod file_error;
 mod gate;
@@ -34,6 +35,7 @@ mod result_folder;
 mod scratch;
 mod temporary;
 
+pub use bounded::{read_bounded, read_bounded_text};
 pub use draft::{Draft, WholeFile};
 pub use file_error::FileError;
 pub use gate::{end_writing, wait_if_ending};

@@ -35,6 +35,7 @@ static WATCHER: OnceLock<Box<Watcher>> = OnceLock::new();
 /// Calls `watcher` before each operation of this process; an error of it takes the place of the
 /// operation's own. For tests of what happens when an operation fails. False if there is a watcher
 /// already.
+#[doc(hidden)]
 pub fn watch_operations(
     watcher: impl Fn(Operation, &Path) -> io::Result<()> + Send + Sync + 'static,
 ) -> bool {

@@ -13,9 +13,10 @@ use crate::error::Error;
 use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
 use crate::program::Program;
-use crate::result_check::SUMMARY;
+
 use crate::sinks::SinkError;
 use crate::sizes::{check_room, toolpath_bytes};
+use crate::summary::SUMMARY;
 
 /// The table of the path.
 const TOOLPATH: &str = "toolpath.csv";

@@ -44,6 +44,7 @@ mod sag;
 mod sinks;
 mod sizes;
 mod strategies;
+mod summary;
 mod surface;
 mod toolpath;
 mod verify;

@@ -1,16 +1,14 @@
 //! Whether a folder has a result: a summary, and all files that it lists, with their hashes.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use turnpath_files::ListedFile;
+use turnpath_files::{ListedFile, read_bounded_text};
 use turnpath_host::sha256_hex;
 use turnpath_recipe::Recipe;
 use turnpath_report::{FormatError, ResultCheck, ResultFile, RunReport, from_json};
 
-/// The report of a run, which lists its files.
-pub const SUMMARY: &str = "summary.json";
+use crate::summary::{FolderSummary, MOST_BYTES, SUMMARY, folder_of, names_other_folders};
 
 /// Why a folder has no result.
 #[derive(Debug, thiserror::Error)]
@@ -40,6 +38,12 @@ pub enum ResultError {
         /// The summary.
         path: PathBuf,
     },
+    /// The summary lists files of other folders.
+    #[error("{} names files of other folders", path.display())]
+    OtherFolders {
+        /// The summary.
+        path: PathBuf,
+    },
     /// A file is not there, or has other bytes than the summary lists.
     #[error("{} is not as {SUMMARY} lists it", path.display())]
     File {
@@ -65,7 +69,7 @@ pub enum ResultError {
 pub fn read_result(folder: impl AsRef<Path>) -> Result<RunReport, ResultError> {
     let folder = folder.as_ref();
     let path = folder.join(SUMMARY);
-    let text = match fs::read_to_string(&path) {
+    let text = match read_bounded_text(&path, MOST_BYTES) {
         Ok(text) => text,
         Err(error) => return Err(ResultError::Summary { path, error }),
     };
@@ -76,6 +80,9 @@ pub fn read_result(folder: impl AsRef<Path>) -> Result<RunReport, ResultError> {
     let Some(files) = &report.files else {
         return Err(ResultError::NoList { path });
     };
+    if names_other_folders(&report) {
+        return Err(ResultError::OtherFolders { path });
+    }
     for file in files {
         let path = folder.join(&file.file);
         match is_whole(folder, file) {
@@ -87,14 +94,35 @@ pub fn read_result(folder: impl AsRef<Path>) -> Result<RunReport, ResultError> {
     Ok(report)
 }
 
-/// What the summary beside a file says of it; `None` where there is none that lists it.
+/// What the summary beside a file says of it; `None` where there is none that lists it. A summary that
+/// cannot be read, or a result that is not finished, holds for no file.
 pub fn result_check(file: &Path, recipe: &Recipe) -> Option<ResultCheck> {
-    let folder = match file.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
+    let folder = folder_of(file);
+    let unknown = |note: String| ResultCheck {
+        summary: file.with_file_name(SUMMARY).display().to_string(),
+        holds: false,
+        notes: vec![note],
     };
-    let summary = folder.join(SUMMARY);
-    let report: RunReport = from_json(&fs::read_to_string(&summary).ok()?).ok()?;
+    match FolderSummary::of(&folder) {
+        FolderSummary::None => None,
+        FolderSummary::Unfinished => Some(unknown(
+            "the result here is not finished: some of its files lack their names, and there is no \
+             summary; the next run into the folder gives them"
+                .to_owned(),
+        )),
+        FolderSummary::Damaged(why) => Some(unknown(format!(
+            "the summary is damaged, so nobody can say whether the file is whole: {why}"
+        ))),
+        FolderSummary::Read(report) => check_with(&report, &folder, file, recipe),
+    }
+}
+
+fn check_with(
+    report: &RunReport,
+    folder: &Path,
+    file: &Path,
+    recipe: &Recipe,
+) -> Option<ResultCheck> {
     let name = file.file_name()?.to_str()?;
     let files = report.files.as_ref()?;
     let own = files.iter().find(|listed| listed.file == name)?;
@@ -109,7 +137,7 @@ pub fn result_check(file: &Path, recipe: &Recipe) -> Option<ResultCheck> {
             "its bytes are not those that the run wrote: the file is not whole, or was changed";
         notes.insert(0, other.to_owned());
     }
-    notes.extend(note_on_recipe(&report, recipe));
+    notes.extend(note_on_recipe(report, recipe));
     Some(ResultCheck {
         summary: file.with_file_name(SUMMARY).display().to_string(),
         holds,

@@ -1,14 +1,17 @@
 //! Damaged recipes through the whole program: keys dropped, doubled and misspelt, values of other
 //! kinds, sizes and units, text that never ends, and bytes as disks and editors spoil them.
 
+use std::path::Path;
+
 use serde_json::Value;
 
-use super::call::{Call, End, Outcome, try_all, words};
+use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::damage::damaged;
 use super::seeded::Seeded;
-use super::valid_recipes::valid_recipe;
+use super::valid_recipes::{SPINDLE_PLUGIN, valid_recipe, with_plugins};
 use crate::fuzz::recipe::WORDS;
 use crate::support::bench::Bench;
+use crate::support::fixtures::plugin_folder;
 
 const SEED: u64 = 2_000_003;
 /// Recipes of every run of the tests, and of `cargo xtask long`.
@@ -101,9 +104,10 @@ fn endless(random: &mut Seeded) -> String {
 }
 
 /// Calls a command with a damaged recipe.
-fn outcome(bench: &Bench, case: u64) -> Outcome {
+fn outcome(plugins: &Path, bench: &Bench, case: u64) -> Outcome {
     let mut random = Seeded::of_case(SEED, case);
-    bench.write("recipe.toml", damaged_recipe(&mut random));
+    let recipe = damaged_recipe(&mut random);
+    bench.write("recipe.toml", &recipe);
     let line = *random.pick(&[
         "run recipe.toml -o out --threads 2 --format json",
         "run recipe.toml -o out --threads 2 --format json",
@@ -111,7 +115,8 @@ fn outcome(bench: &Bench, case: u64) -> Outcome {
         "sag recipe.toml --grid 3 -o sag.csv",
         "ablate recipe.toml -o out --threads 2 --format json",
     ]);
-    let mut args = words(line);
+    let text = String::from_utf8_lossy(&recipe);
+    let mut args = with_plugins(&text, plugins, words(line));
     if random.one_in(5) {
         let key = random.pick(&["part.aperture", "surface", "feed.feed", "a.b", "", "tool.0"]);
         args.extend([
@@ -127,12 +132,10 @@ fn outcome(bench: &Bench, case: u64) -> Outcome {
     if matches!(call.end, End::Status(2)) && bench.files() != ["recipe.toml"] {
         complaint = Some(format!("files are left: {:?}: {call}", bench.files()));
     }
-    let recipe = bench.path("recipe.toml");
     Outcome {
         end: call.end,
         complaint: complaint.map(|wrong| {
-            let text = std::fs::read(recipe).unwrap_or_default();
-            let text: String = String::from_utf8_lossy(&text).chars().take(3000).collect();
+            let text: String = text.chars().take(3000).collect();
             format!("{args:?}: {wrong}\n{text}")
         }),
     }
@@ -144,7 +147,8 @@ fn is_long_work(bench: &Bench, args: &[String]) -> bool {
         return false;
     }
     let mut check = words("check recipe.toml --format json");
-    if let Some(at) = args.iter().position(|arg| arg == "--set") {
+    let is_option = |arg: &String| matches!(arg.as_str(), "--plugin-dir" | "--set");
+    if let Some(at) = args.iter().position(is_option) {
         check.extend_from_slice(&args[at..]);
     }
     let check = Call::new(bench, &check);
@@ -153,9 +157,16 @@ fn is_long_work(bench: &Bench, args: &[String]) -> bool {
     points.is_some_and(|points| points > LONG_WORK)
 }
 
+fn try_recipes(cases: u64) -> Tally {
+    let plugins = plugin_folder(&[SPINDLE_PLUGIN]);
+    try_all("damaged recipe", 0..cases, |bench, case| {
+        outcome(plugins.path(), bench, case)
+    })
+}
+
 #[test]
 fn damaged_recipes_are_refused_or_run() {
-    let tally = try_all("damaged recipe", 0..CASES, outcome);
+    let tally = try_recipes(CASES);
     let refused = tally.count(End::Status(2));
     assert!(refused > 0, "no recipe is refused: {tally}");
 }
@@ -163,7 +174,7 @@ fn damaged_recipes_are_refused_or_run() {
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_a_thousand_damaged_recipes_are_refused_or_run() {
-    let tally = try_all("damaged recipe", 0..MANY_CASES, outcome);
+    let tally = try_recipes(MANY_CASES);
     let refused = tally.count(End::Status(2));
     assert!(refused > 100, "few recipes are refused: {tally}");
 }

@@ -1,17 +1,24 @@
 //! Random valid recipes through the whole program: run, read back, checked.
 
-use super::call::{Call, End, Outcome, try_all, words};
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::seeded::Seeded;
-use super::valid_recipes::valid_recipe;
+use super::valid_recipes::{SPINDLE_PLUGIN, valid_recipe, with_plugins};
 use crate::support::bench::Bench;
+use crate::support::fixtures::plugin_folder;
 
 const SEED: u64 = 1_000_003;
 /// Recipes of every run of the tests, and of `cargo xtask long`.
 const CASES: u64 = 8;
 const MANY_CASES: u64 = 1000;
+/// Verdicts on the path itself, which its table has too.
+const OF_THE_PATH: [&str; 5] = ["interpolation", "residual", "form", "servo", "coverage"];
 
-/// Runs one recipe, and then another command on what it gave.
-fn outcome(bench: &Bench, case: u64) -> Outcome {
+/// Runs one recipe, and then other commands on what it gave.
+fn outcome(plugins: &Path, bench: &Bench, case: u64) -> Outcome {
     let mut random = Seeded::of_case(SEED, case);
     let recipe = valid_recipe(&mut random);
     bench.write("recipe.toml", &recipe.text);
@@ -23,10 +30,20 @@ fn outcome(bench: &Bench, case: u64) -> Outcome {
         "--map a.xyz --map-size 16 --map-grid polar --spectrum",
         &circle,
     ]);
-    let run = format!("run recipe.toml -o out --threads 2 --format json {plots}");
-    let run = Call::new(bench, &words(&run));
+    let call = |line: &str| Call::new(bench, &with_plugins(&recipe.text, plugins, words(line)));
+    let run = call(&format!(
+        "run recipe.toml -o out --threads 2 --format json {plots}"
+    ));
     let complaint = run.complaint().or_else(|| match run.end {
-        End::Status(0 | 1) => of_next(bench, &run, &mut random),
+        End::Status(0 | 1) => of_files(bench, &run, call).or_else(|| {
+            let line = *random.pick(&[
+                "check recipe.toml --format json",
+                "sag recipe.toml --grid 5 -o sag.csv",
+            ]);
+            let next = call(line);
+            let refused = || (next.end != End::Status(0)).then(|| format!("{line}: {next}"));
+            next.complaint().or_else(refused)
+        }),
         _ => Some(format!("a valid recipe is refused: {run}")),
     });
     Outcome {
@@ -35,36 +52,52 @@ fn outcome(bench: &Bench, case: u64) -> Outcome {
     }
 }
 
-/// What is wrong with another command after the run.
-fn of_next(bench: &Bench, run: &Call, random: &mut Seeded) -> Option<String> {
-    let line = *random.pick(&[
-        "verify recipe.toml out/toolpath.csv --format json",
-        "check recipe.toml --format json",
-        "sag recipe.toml --grid 5 -o sag.csv",
-    ]);
-    let next = Call::new(bench, &words(line));
-    let fits = match next.end {
-        // What was measured on the path itself holds on its file too.
-        End::Status(0 | 1) if line.starts_with("verify") => {
-            let within = |call: &Call, what: &str| {
-                let report: serde_json::Value = serde_json::from_str(&call.stdout).ok()?;
-                Some(report["within"][what].clone())
-            };
-            let same = |what| within(run, what) == within(&next, what);
-            ["interpolation", "residual", "coverage"]
-                .into_iter()
-                .all(same)
-        }
-        End::Status(0) => true,
-        _ => false,
-    };
-    let wrong = || format!("{line} after {:?}: {next}", run.end);
-    next.complaint().or_else(|| (!fits).then(wrong))
+/// What is wrong with the run's table or with its program, read back.
+fn of_files(bench: &Bench, run: &Call, call: impl Fn(&str) -> Call) -> Option<String> {
+    let files = bench.files();
+    let named = ["toolpath.csv", "recipe.pmc"].map(|name| format!("out/{name}"));
+    let written = named.iter().filter(|name| files.contains(name));
+    let mut wrong = written.filter_map(|file| {
+        let said = call(&format!(
+            "verify recipe.toml {file} --threads 2 --format json"
+        ));
+        let fault = said.complaint().or_else(|| of_file(file, run, &said));
+        fault.map(|fault| format!("{file} after {:?}: {fault}: {said}", run.end))
+    });
+    wrong.next()
+}
+
+/// What `verify` says of a run's own file and should not: rows of others, parts that lack, bytes that
+/// the summary does not list, and of the table verdicts that are not those of the path.
+fn of_file(file: &str, run: &Call, said: &Call) -> Option<String> {
+    if !matches!(said.end, End::Status(0 | 1)) {
+        return Some("not measured".to_owned());
+    }
+    let report = |call: &Call| serde_json::from_str::<Value>(&call.stdout).unwrap_or_default();
+    let (ran, verified) = (report(run), report(said));
+    let (anomalies, within) = (&verified["anomalies"], &verified["within"]);
+    let is_table = file.ends_with("csv");
+    let differs = |what: &&str| is_table && ran["within"][what] != within[what];
+    if anomalies["compared_with"] != "recipe" || anomalies["count"] != 0 {
+        return Some(format!("anomalies: {anomalies}"));
+    }
+    if within["whole"] == false || within["result"] != true {
+        return Some(format!("within: {within}"));
+    }
+    let verdict = OF_THE_PATH.into_iter().find(differs)?;
+    Some(format!("{verdict} is {} in the run", ran["within"]))
+}
+
+fn try_recipes(cases: u64) -> Tally {
+    let plugins = plugin_folder(&[SPINDLE_PLUGIN]);
+    try_all("valid recipe", 0..cases, |bench, case| {
+        outcome(plugins.path(), bench, case)
+    })
 }
 
 #[test]
 fn random_valid_recipes_are_run() {
-    let tally = try_all("valid recipe", 0..CASES, outcome);
+    let tally = try_recipes(CASES);
     let held = tally.count(End::Status(0));
     assert!(held > 0, "no recipe holds: {tally}");
 }
@@ -72,7 +105,7 @@ fn random_valid_recipes_are_run() {
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_a_thousand_random_valid_recipes_are_run() {
-    let tally = try_all("valid recipe", 0..MANY_CASES, outcome);
+    let tally = try_recipes(MANY_CASES);
     let (held, exceeded) = (tally.count(End::Status(0)), tally.count(End::Status(1)));
     assert!(held > 100 && exceeded > 100, "one-sided: {tally}");
 }

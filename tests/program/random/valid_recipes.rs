@@ -1,6 +1,8 @@
 //! Random recipes that hold what docs/recipe.md asks for: all surfaces, sums and poses, feeds,
 //! samplers, compensators, solvers, machines and servos, on parts so small that a run is short.
 
+use std::path::Path;
+
 use super::seeded::Seeded;
 
 /// Feeds, each with parameters that it may have. The fit `cubic` of `atpg` is left out: on parts where
@@ -60,6 +62,8 @@ const LAYOUT: [&str; 7] = [
     "positioning = \"incremental\"",
     "header = \"; {name}\\nCLOSE\\nOPEN PROG 7 CLEAR\"",
 ];
+/// The fixture that changes the spindle's speed along the path. The recipes need its library.
+pub const SPINDLE_PLUGIN: &str = "two-speeds";
 /// Largest angle of a slope that a surface adds, as its tangent.
 const STEEPEST: f64 = 0.12;
 
@@ -69,6 +73,14 @@ pub struct ValidRecipe {
     pub text: String,
     /// The part's diameter, mm. A hole is less than a third of it.
     pub aperture: f64,
+}
+
+/// The arguments of a call on a recipe, with the folder of the plugins if it needs one.
+pub fn with_plugins(text: &str, plugins: &Path, mut args: Vec<String>) -> Vec<String> {
+    if text.contains(SPINDLE_PLUGIN) {
+        args.extend(["--plugin-dir".to_owned(), plugins.display().to_string()]);
+    }
+    args
 }
 
 /// Makes one.
@@ -85,19 +97,16 @@ pub fn valid_recipe(random: &mut Seeded) -> ValidRecipe {
     );
     text += &surfaces(0.6 * aperture, random);
     text += &tool(random);
-    text += &format!(
-        "[tolerance]\ninterpolation = {}\nresidual = {}\n\n",
-        length(random.of_any_size(3e-5, 3e-3), random),
-        length(random.of_any_size(1e-4, 3e-3), random),
-    );
-    let speed = random.of_any_size(5.0, 2500.0);
-    text += &format!("[spindle]\nspeed = \"{speed:.3} rpm\"\n\n{}", path(random));
     let (feed, solver) = (*random.pick(FEEDS), *random.pick(SOLVERS));
     let straight = solver == ["linear"];
+    let around = around(straight, random);
+    text += &tolerance(around.contains("[servo]"), random);
+    text += &spindle(random);
+    text += &path(random);
     text += &strategy("feed", feed, "", random);
     text += &sampler(random);
     text += &strategy("velocity", solver, "", random);
-    text += &around(straight, random);
+    text += &around;
     ValidRecipe { text, aperture }
 }
 
@@ -227,6 +236,36 @@ fn tool(random: &mut Seeded) -> String {
     )
 }
 
+/// Interpolation and residual, or a form with none, one or both of them. A model of the servos may
+/// have its own.
+fn tolerance(has_servo: bool, random: &mut Seeded) -> String {
+    let mut text = "[tolerance]\n".to_owned();
+    let has_form = random.one_in(4);
+    if has_form {
+        let form = length(random.of_any_size(3e-4, 5e-3), random);
+        text += &format!("form = {form}\n");
+    }
+    for (key, least) in [("interpolation", 3e-5), ("residual", 1e-4)] {
+        if !has_form || random.one_in(3) {
+            let most = length(random.of_any_size(least, 3e-3), random);
+            text += &format!("{key} = {most}\n");
+        }
+    }
+    if has_servo && random.one_in(2) {
+        let servo = length(random.of_any_size(1e-5, 1e-1), random);
+        text += &format!("servo = {servo}\n");
+    }
+    text + "\n"
+}
+
+/// The spindle, sometimes with its strategy's name, and sometimes with that of [`SPINDLE_PLUGIN`].
+fn spindle(random: &mut Seeded) -> String {
+    let speed = random.of_any_size(5.0, 2500.0);
+    let plugin = format!("use = \"{SPINDLE_PLUGIN}\"\n");
+    let chosen = *random.pick(&["", "", "use = \"constant\"\n", &plugin]);
+    format!("[spindle]\n{chosen}speed = \"{speed:.3} rpm\"\n\n")
+}
+
 fn path(random: &mut Seeded) -> String {
     let keys = [
         *random.pick(&["", "direction = \"outward\"\n", "direction = \"inward\"\n"]),
@@ -275,7 +314,7 @@ fn around(straight: bool, random: &mut Seeded) -> String {
         ]);
         text += &some_of(&LIMITS, 4, random);
     }
-    if random.one_in(3) {
+    if random.one_in(2) {
         text += "[servo]\nbandwidth = \"60 Hz\"\n";
         text += *random.pick(&[
             "",

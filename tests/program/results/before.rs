@@ -5,7 +5,7 @@ use std::path::Path;
 
 use turnpath_files::ResultFolder;
 
-use super::whole::{Found, entries, found, left_behind};
+use super::whole::{FolderState, entries, left_behind, state_of};
 use super::{Bench, tiny};
 
 /// The arguments of the new run. It has a profile and a map in another folder.
@@ -22,7 +22,7 @@ pub enum After {
 /// The result before: it has a circle, which the new one has not.
 pub struct Before {
     bench: Bench,
-    pub result: Found,
+    pub result: FolderState,
 }
 
 impl Before {
@@ -31,8 +31,8 @@ impl Before {
         let bench = Bench::with(&tiny());
         let words = "run recipe.toml -o out --circle 0.5mm --set spindle.speed=300rpm";
         bench.line(words).ends(0);
-        let result = found(&bench.path("out"));
-        assert!(matches!(result, Found::Result(_)), "{result:?}");
+        let result = state_of(&bench.path("out"));
+        assert!(matches!(result, FolderState::Result(_)), "{result:?}");
         Self { bench, result }
     }
 
@@ -54,16 +54,16 @@ impl Before {
     /// the result before or the new one, and nothing is left over. A summary always fits its files.
     /// Only where a commit is not complete there may be none, or still the one before: then the next
     /// writer gives the new one, and nowhere else anything but what was there.
-    pub fn settle(&self, out: &Path, new: &Found, case: &str) -> After {
-        let at_once = found(out);
+    pub fn settle(&self, out: &Path, new: &FolderState, case: &str) -> After {
+        let at_once = state_of(out);
         let has_commit = out.join(".turnpath/commit/summary.json").exists();
         let whole = at_once == self.result || at_once == *new;
         assert!(
-            whole || (has_commit && at_once == Found::Nothing),
+            whole || (has_commit && at_once == FolderState::Nothing),
             "{case}: {at_once:?}"
         );
         drop(ResultFolder::open(out).unwrap());
-        let after = found(out);
+        let after = state_of(out);
         let expected = if has_commit { new } else { &at_once };
         assert_eq!(after, *expected, "{case}: {at_once:?} before");
         assert_eq!(left_behind(out), Vec::<String>::new(), "{case}");

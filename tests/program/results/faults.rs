@@ -23,7 +23,7 @@ use turnpath_files::{Operation, watch_operations};
 
 use super::Bench;
 use super::before::{After, Before, RUN};
-use super::whole::{Found, entries, found};
+use super::whole::{FolderState, entries, state_of};
 
 /// The number of the operation that a child spoils, from 0 on, and how.
 const SPOIL: &str = "TURNPATH_TEST_SPOIL";
@@ -137,24 +137,30 @@ fn run_child(bench: &Bench, spoil: &str) -> (ExitStatus, String) {
 }
 
 /// The operations of a run that nothing disturbs, and its result.
-fn clean(before: &Before) -> (Vec<String>, Found) {
+fn clean(before: &Before) -> (Vec<String>, FolderState) {
     let bench = before.copy();
     let (status, logged) = run_child(&bench, "nothing");
     assert_eq!(status.code(), Some(0), "{status}");
     assert_eq!(entries(&bench.path("elsewhere")), ["map.xyz"]);
     let list = logged.trim_matches(['[', ']']);
     let operations = list.split(", ").map(str::to_owned).collect();
-    (operations, found(&bench.path("out")))
+    (operations, state_of(&bench.path("out")))
 }
 
 /// Spoils one operation of a run, and checks the folder at once and after the next writer.
-fn spoilt(before: &Before, new: &Found, at: usize, operation: &str, fault: Fault) -> After {
+fn spoil_operation(
+    before: &Before,
+    new: &FolderState,
+    at: usize,
+    operation: &str,
+    fault: Fault,
+) -> After {
     let case = format!("{} before operation {at}, {operation}", fault.name());
     let bench = before.copy();
     let (status, logged) = run_child(&bench, &format!("{at} {}", fault.name()));
     assert_eq!(logged, operation, "{case}: it was not tried");
     let out = bench.path("out");
-    let at_once = found(&out);
+    let at_once = state_of(&out);
     match fault {
         Fault::Error(errno::EINTR) => {
             assert_eq!(status.code(), Some(0), "{case}");
@@ -189,14 +195,14 @@ fn spoil_all(takes: impl Fn(usize, usize) -> bool) -> (Table, usize) {
     let before = Before::make();
     let (operations, new) = clean(&before);
     assert!(
-        matches!(new, Found::Result(_)) && new != before.result,
+        matches!(new, FolderState::Result(_)) && new != before.result,
         "{new:?}"
     );
     let (mut table, mut tried) = (Table::new(), 0);
     for (at, operation) in operations.iter().enumerate() {
         let faults = FAULTS.into_iter().enumerate();
         for (_, fault) in faults.filter(|(index, _)| takes(at, *index)) {
-            let after = spoilt(&before, &new, at, operation, fault);
+            let after = spoil_operation(&before, &new, at, operation, fault);
             let cell = table.entry((operation.clone(), fault)).or_default();
             *cell.entry(after).or_default() += 1;
             tried += 1;

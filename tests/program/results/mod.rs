@@ -18,7 +18,7 @@ use crate::support::bench::Bench;
 use crate::support::recipe::{SADDLE, changed};
 use serde_json::Value;
 use turnpath_files::ResultFolder;
-use whole::{Found, entries, found, left_behind};
+use whole::{FolderState, entries, left_behind, state_of};
 
 /// A part of 2 mm in 20 turns of 12 points, with all tolerances held: milliseconds of work.
 fn tiny() -> String {
@@ -47,7 +47,7 @@ fn the_summary_lists_the_files_with_their_hashes_and_says_what_was_run() {
     ];
     assert_eq!(entries(&out), names);
     let sets = "[\"spindle.speed=\\\"400rpm\\\"\"]";
-    assert_eq!(found(&out), Found::Result(sets.to_owned()));
+    assert_eq!(state_of(&out), FolderState::Result(sets.to_owned()));
     let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
     assert_eq!(summary["files"].as_array().unwrap().len(), 4);
     assert_eq!(summary["recipe"]["file"], "recipe.toml");
@@ -95,7 +95,7 @@ fn a_folder_that_another_run_has_is_refused_at_once() {
     let bench = Bench::with(&tiny());
     let out = bench.path("out");
     bench.line("run recipe.toml -o out").ends(0);
-    let before = found(&out);
+    let before = state_of(&out);
     let held = ResultFolder::open(&out).unwrap();
     for command in ["run recipe.toml -o out", "ablate ablation.toml -o out"] {
         bench.write(
@@ -107,7 +107,7 @@ fn a_folder_that_another_run_has_is_refused_at_once() {
         assert!(said.stderr.starts_with(title), "{said}");
         let help = "help: wait until it ends, or choose another folder with `-o`";
         assert!(said.stderr.contains(help), "{said}");
-        assert_eq!(found(&out), before);
+        assert_eq!(state_of(&out), before);
     }
     drop(held);
     assert_eq!(left_behind(&out), Vec::<String>::new());
@@ -131,7 +131,10 @@ fn a_link_in_the_place_of_a_file_is_refused_before_the_work() {
     std::os::unix::fs::symlink("out", bench.path("link")).unwrap();
     fs::remove_file(bench.path("out/toolpath.csv")).unwrap();
     bench.line("run recipe.toml -o link").ends(0);
-    assert!(matches!(found(&bench.path("out")), Found::Result(_)));
+    assert!(matches!(
+        state_of(&bench.path("out")),
+        FolderState::Result(_)
+    ));
 }
 
 /// A shell with a limit of 300 blocks on files: the table of the saddle is larger.
@@ -143,14 +146,14 @@ fn a_run_that_exceeds_the_limit_on_files_leaves_the_result_before() {
         bench
             .line("run recipe.toml -o out --set sampler.step=20deg --set refine=false")
             .ends(1);
-        let before = found(&bench.path("out"));
-        assert!(matches!(before, Found::Result(_)), "{before:?}");
+        let before = state_of(&bench.path("out"));
+        assert!(matches!(before, FolderState::Result(_)), "{before:?}");
         let program = crate::support::bench::TURNPATH;
         let script = format!("{trap}ulimit -f 300; {program:?} run recipe.toml -o out");
         let mut shell = bench.command_of("sh".as_ref(), ["-c", &script]);
         let said = crate::support::bench::answer(&mut shell).ends(4);
         assert!(said.stderr.contains("cannot write"), "{said}");
-        assert_eq!(found(&bench.path("out")), before);
+        assert_eq!(state_of(&bench.path("out")), before);
         assert_eq!(left_behind(&bench.path("out")), Vec::<String>::new());
     }
 }
@@ -186,6 +189,67 @@ fn verify_compares_a_file_with_the_summary_beside_it() {
     // Elsewhere there is no summary that says anything.
     bench.write("toolpath.csv", &spoilt);
     assert_eq!(verify("toolpath.csv").ends(0).json()["result"], Value::Null);
+    let text = bench.line("verify recipe.toml toolpath.csv").ends(0);
+    assert!(
+        text.stdout.contains("no summary beside it lists it"),
+        "{text}"
+    );
+}
+
+/// The result check of the table, which holds not.
+#[track_caller]
+fn not_as_listed(bench: &Bench) -> Value {
+    let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+    let said = said.ends(1).json();
+    assert_eq!(said["within"]["result"], false);
+    said["result"].clone()
+}
+
+#[test]
+fn verify_takes_no_damaged_summary_and_no_unfinished_result() {
+    let bench = Bench::with(&tiny());
+    bench.line("run recipe.toml -o out").ends(0);
+    let whole = bench.read("out/summary.json");
+    let outside = whole.replacen("\"recipe.pmc\"", "\"../\\u001brecipe.toml\"", 1);
+    assert_ne!(outside, whole);
+    for (text, why) in [
+        (&whole[..whole.len() / 2], "it is not the JSON"),
+        ("", "it is not the JSON"),
+        (&outside, "names files of other folders"),
+    ] {
+        bench.write("out/summary.json", text);
+        let check = not_as_listed(&bench);
+        assert!(check["notes"][0].as_str().unwrap().contains(why), "{check}");
+        let error = turnpath::read_result(bench.path("out"));
+        assert!(error.is_err(), "{text}");
+    }
+    // An older version's summary, or another program's, says nothing.
+    bench.write("out/summary.json", "{\"title\": \"mine\"}");
+    let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+    assert_eq!(said.ends(0).json()["result"], Value::Null);
+    fs::remove_file(bench.path("out/summary.json")).unwrap();
+    fs::create_dir_all(bench.path("out/.turnpath/commit")).unwrap();
+    let check = not_as_listed(&bench);
+    let note = check["notes"][0].as_str().unwrap();
+    assert!(
+        note.starts_with("the result here is not finished"),
+        "{note}"
+    );
+}
+
+#[test]
+fn a_summary_acts_on_no_terminal() {
+    let bench = Bench::with(&tiny());
+    bench.line("run recipe.toml -o out").ends(0);
+    let whole = bench.read("out/summary.json");
+    let odd = whole.replacen("\"recipe.pmc\"", "\"a\\u001b[2J\\nb\"", 1);
+    let odd = odd.replacen("\"recipe.toml\"", "\"c\\u009b2Jd\"", 1);
+    bench.write("out/summary.json", odd);
+    let said = bench.line("verify recipe.toml out/toolpath.csv --set spindle.speed=499rpm");
+    let obeyed = |c: char| c.is_control() && c != '\n';
+    assert!(!said.stdout.contains(obeyed), "{said}");
+    let note = "note: a\\u{1b}[2J\\nb of the same result is not there";
+    assert!(said.stdout.contains(note), "{said}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::process::{Child, Command, Stdio};
 
-use super::whole::{Found, found, left_behind};
+use super::whole::{FolderState, left_behind, state_of};
 use super::{Bench, tiny};
 
 /// Begins a run with this speed into `out`.
@@ -39,8 +39,11 @@ fn run_pairs(count: usize) -> usize {
         assert!(statuses.contains(&Some(0)), "pair {pair}");
         refused += usize::from(statuses.contains(&Some(4)));
         let out = bench.path("out");
-        let found = found(&out);
-        assert!(matches!(found, Found::Result(_)), "pair {pair}: {found:?}");
+        let found = state_of(&out);
+        assert!(
+            matches!(found, FolderState::Result(_)),
+            "pair {pair}: {found:?}"
+        );
         assert_eq!(left_behind(&out), Vec::<String>::new(), "pair {pair}");
     }
     refused

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 
-use super::whole::{Found, entries, found, left_behind};
+use super::whole::{FolderState, entries, left_behind, state_of};
 use super::{Bench, tiny};
 use crate::support::bench_with_plugins;
 use crate::support::recipe::{SADDLE, with_table};
@@ -38,7 +38,7 @@ fn a_run_that_a_signal_ends_leaves_the_result_before_and_ends_by_that_signal() {
         let bench = Bench::with(&tiny());
         bench.line("run recipe.toml -o out").ends(0);
         bench.write("long.toml", SADDLE);
-        let before = found(&bench.path("out"));
+        let before = state_of(&bench.path("out"));
         let mut command = bench.command(["run", "long.toml", "-o", "out", "--map", "../map.xyz"]);
         command.args(["--set", "sampler.step=0.5deg", "--set", "refine=false"]);
         command.stdout(Stdio::null()).stderr(Stdio::null());
@@ -53,7 +53,7 @@ fn a_run_that_a_signal_ends_leaves_the_result_before_and_ends_by_that_signal() {
         send(signal, run.id());
         let status = run.wait().unwrap();
         assert_eq!(status.signal(), Some(signal), "{status}");
-        assert_eq!(found(&bench.path("out")), before, "{signal}");
+        assert_eq!(state_of(&bench.path("out")), before, "{signal}");
         assert_eq!(left_behind(&bench.path("out")), Vec::<String>::new());
         assert_eq!(
             entries(&bench.path("")),
@@ -80,8 +80,8 @@ fn runs_that_a_signal_ends_at_any_time_leave_no_draft() {
             status.signal() == Some(SIGTERM) || status.code() == Some(0),
             "{status}"
         );
-        let found = found(&bench.path("out"));
-        assert!(matches!(found, Found::Result(_)), "{part}: {found:?}");
+        let found = state_of(&bench.path("out"));
+        assert!(matches!(found, FolderState::Result(_)), "{part}: {found:?}");
         assert_eq!(
             left_behind(&bench.path("out")),
             Vec::<String>::new(),
@@ -98,7 +98,10 @@ fn a_signal_that_is_ignored_when_the_program_starts_does_not_end_it() {
     let script = format!("trap '' HUP; {program:?} run recipe.toml -o out & kill -HUP $!; wait $!");
     let mut shell = bench.command_of("sh".as_ref(), ["-c", &script]);
     crate::support::bench::answer(&mut shell).ends(0);
-    assert!(matches!(found(&bench.path("out")), Found::Result(_)));
+    assert!(matches!(
+        state_of(&bench.path("out")),
+        FolderState::Result(_)
+    ));
 }
 
 #[test]

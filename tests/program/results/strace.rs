@@ -6,7 +6,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 use super::before::{After, Before, RUN};
-use super::whole::{Found, found};
+use super::whole::{FolderState, state_of};
 use crate::support::bench::TURNPATH;
 
 /// The calls that change files, and those that a result depends on.
@@ -37,7 +37,13 @@ fn has_strace() -> bool {
 }
 
 /// Spoils the n-th call of this name. `None` if no thread of the run makes so many.
-fn spoilt(before: &Before, new: &Found, call: &str, fault: &str, n: usize) -> Option<After> {
+fn spoil_call(
+    before: &Before,
+    new: &FolderState,
+    call: &str,
+    fault: &str,
+    n: usize,
+) -> Option<After> {
     let bench = before.copy();
     let inject = format!("inject={call}:{fault}:when={n}");
     let trace = format!("trace={call}");
@@ -59,7 +65,7 @@ fn spoilt(before: &Before, new: &Found, call: &str, fault: &str, n: usize) -> Op
     }
     let out = bench.path("out");
     if status.code() == Some(0) {
-        assert_eq!(found(&out), *new, "{inject}");
+        assert_eq!(state_of(&out), *new, "{inject}");
     }
     Some(before.settle(&out, new, &inject))
 }
@@ -74,11 +80,11 @@ fn long_calls_of_the_system_that_fail_leave_a_whole_result() {
     let before = Before::make();
     let clean = before.copy();
     clean.line(RUN).ends(0);
-    let new = found(&clean.path("out"));
+    let new = state_of(&clean.path("out"));
     let mut table: BTreeMap<(&str, &str), BTreeMap<After, usize>> = BTreeMap::new();
     for call in CALLS {
         for fault in FAULTS {
-            let after = (1..MOST).map_while(|n| spoilt(&before, &new, call, fault, n));
+            let after = (1..MOST).map_while(|n| spoil_call(&before, &new, call, fault, n));
             for after in after {
                 *table
                     .entry((call, fault))

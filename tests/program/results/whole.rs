@@ -8,7 +8,7 @@ use turnpath_host::sha256_hex;
 
 /// What a folder has.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Found {
+pub enum FolderState {
     /// A whole result; the changes of its recipe say which.
     Result(String),
     /// No summary: nobody takes the files for a result.
@@ -18,28 +18,28 @@ pub enum Found {
 }
 
 /// What the folder has. Files that no summary lists make a result a mixed one.
-pub fn found(folder: &Path) -> Found {
+pub fn state_of(folder: &Path) -> FolderState {
     let Ok(summary) = fs::read_to_string(folder.join("summary.json")) else {
-        return Found::Nothing;
+        return FolderState::Nothing;
     };
     let summary: Value = match serde_json::from_str(&summary) {
         Ok(summary) => summary,
-        Err(error) => return Found::Mixed(format!("the summary is damaged: {error}")),
+        Err(error) => return FolderState::Mixed(format!("the summary is damaged: {error}")),
     };
     let mut names = vec!["summary.json".to_owned()];
     for listed in summary["files"].as_array().into_iter().flatten() {
         let name = listed["file"].as_str().unwrap_or_default();
         let bytes = fs::read(folder.join(name)).unwrap_or_default();
         if listed["bytes"] != bytes.len() || listed["sha256"] != sha256_hex(&bytes) {
-            return Found::Mixed(format!("{name} has other bytes than listed"));
+            return FolderState::Mixed(format!("{name} has other bytes than listed"));
         }
         names.push(name.to_owned());
     }
     let foreign = entries(folder).into_iter();
     let foreign = foreign.filter(|name| !names.contains(name) && !name.starts_with(".turnpath"));
     match foreign.collect::<Vec<_>>() {
-        none if none.is_empty() => Found::Result(summary["recipe"]["sets"].to_string()),
-        foreign => Found::Mixed(format!("{foreign:?} are not listed")),
+        none if none.is_empty() => FolderState::Result(summary["recipe"]["sets"].to_string()),
+        foreign => FolderState::Mixed(format!("{foreign:?} are not listed")),
     }
 }
 

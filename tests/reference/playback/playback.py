@@ -68,6 +68,10 @@ class Recipe:
         with open(path, "rb") as file:
             return cls(tomllib.load(file))
 
+    def has_radius(self, rho):
+        """Whether the part reaches over the radius rho, of either sign."""
+        return (np.abs(rho) <= self.part_radius) & (np.abs(rho) >= self.hole_radius)
+
     def profile(self, theta):
         """The radial profile at theta: a function of rho, scalar, array or complex."""
         cos, sin = np.cos(theta), np.sin(theta)
@@ -325,7 +329,8 @@ def section_residual(recipe, path, section_deg, scan):
     """The highest cusp at one section angle and its place; (-inf, None) where there is none.
 
     Left out: pairs of passes on both sides of the axis (the innermost turn), passes that
-    repeat one X, and cusps off the part.
+    repeat one X, and cusps off the part. A cusp is on the part if its tip or its foot is: on a steep
+    wall the foot of a tip over the part may lie beyond the rim.
     """
     first = math.ceil((path.nodes[0, 1] - section_deg) / 360)
     last = math.floor((path.nodes[-1, 1] - section_deg) / 360)
@@ -343,7 +348,7 @@ def section_residual(recipe, path, section_deg, scan):
             height, foot = height_above(recipe.profile(theta), cusp_x[index], cusp_z[index])
     if np.any(np.isnan(height) & (np.abs(cusp_x[index]) <= recipe.part_radius)):
         raise SystemExit(f"a pass or its cusp at C = {section_deg} deg leaves the surface's domain")
-    on_part = (np.abs(foot) <= recipe.part_radius) & (np.abs(foot) >= recipe.hole_radius)
+    on_part = recipe.has_radius(foot) | (recipe.has_radius(cusp_x[index]) & np.isfinite(height))
     if not np.any(on_part):
         return -math.inf, None
     height, foot = height[on_part], foot[on_part]

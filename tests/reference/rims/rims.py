@@ -16,6 +16,8 @@ with C = theta, in the plane (rho, z). Of the lower halves of these circles,
 
 The figure of a rim is the larger of both, over 120 angles, the angles at the path's ends, and a
 finer search around the largest.
+
+The residual is the highest place where the circles of neighbouring passes cross, over 360 angles.
 """
 
 import json
@@ -31,6 +33,7 @@ HERE = Path(__file__).resolve().parent
 SPHERE, NOSE = 5.0, 0.5
 CAPS_DEG = {True: (45, 68, 77, 80, 82), False: (45, 52)}  # hollow caps, and domes on which the nose finds the sphere
 ANGLES = 120
+DEGREES = 360  # angles of the residual, just behind each degree: there the path's ends decide nothing
 BESIDE_DEG = 1e-7
 TOLERANCE_EXCEEDED = 1  # turnpath's exit status when a path is made but holds no tolerance
 
@@ -67,21 +70,42 @@ def hermite(path, axis, k, s):
             + s * s * (3 - 2 * s) * p1 + s * s * (s - 1) * m1)
 
 
+def passes(path, theta_deg):
+    """X and Z as played of every pass at an angle, in the order of time."""
+    first = math.ceil((path[0, 1] - theta_deg) / 360)
+    last = math.floor((path[-1, 1] - theta_deg) / 360)
+    c = theta_deg + 360 * np.arange(first, last + 1)
+    k = np.clip(np.searchsorted(path[:, 1], c, side="right") - 1, 0, len(path) - 2)
+    low, high = np.zeros(len(c)), np.ones(len(c))
+    for _ in range(60):
+        s = (low + high) / 2
+        early = hermite(path, 1, k, s) < c
+        low, high = np.where(early, s, low), np.where(early, high, s)
+    return hermite(path, 2, k, s), hermite(path, 3, k, s)
+
+
 def circles(path, theta_deg):
     """Centres (X, Z) of the nose at an angle, as played, X negative on the opposite half."""
-    found = []
-    for turned, sign in ((0, 1), (180, -1)):
-        first = math.ceil((path[0, 1] - theta_deg - turned) / 360)
-        last = math.floor((path[-1, 1] - theta_deg - turned) / 360)
-        c = theta_deg + turned + 360 * np.arange(first, last + 1)
-        k = np.clip(np.searchsorted(path[:, 1], c, side="right") - 1, 0, len(path) - 2)
-        low, high = np.zeros(len(c)), np.ones(len(c))
-        for _ in range(60):
-            s = (low + high) / 2
-            early = hermite(path, 1, k, s) < c
-            low, high = np.where(early, s, low), np.where(early, high, s)
-        found.append(np.stack([sign * hermite(path, 2, k, s), hermite(path, 3, k, s)]))
-    return np.concatenate(found, axis=1)
+    (x, z), (opposite_x, opposite_z) = passes(path, theta_deg), passes(path, theta_deg + 180)
+    return np.concatenate([x, -opposite_x]), np.concatenate([z, opposite_z])
+
+
+def residual(path, rim, radius, theta_deg):
+    """The highest cusp between passes at an angle. Z is that of a nose that touches the sphere: its
+    centre is then on a sphere too. A cusp is on the part if its tip or the foot of its normal is."""
+    x, _ = passes(path, theta_deg)
+    sphere = math.copysign(1, radius)
+    z = -sphere * np.sqrt((SPHERE - sphere * NOSE)**2 - x**2)  # from the sphere's centre
+    dx, dz = np.diff(x), np.diff(z)
+    apart = np.hypot(dx, dz)
+    drop = np.sqrt(NOSE**2 - apart**2 / 4) / apart
+    tip_x = (x[1:] + x[:-1]) / 2 + np.sign(dx) * dz * drop
+    tip_z = (z[1:] + z[:-1]) / 2 - np.sign(dx) * dx * drop
+    distance = np.hypot(tip_x, tip_z)
+    foot_x = tip_x * SPHERE / distance
+    on_part = (np.minimum(np.abs(tip_x), np.abs(foot_x)) <= rim) & (x[1:] * x[:-1] >= 0)
+    height = np.where(on_part, sphere * (SPHERE - distance), -math.inf)
+    return float(np.max(height))
 
 
 def rim_height(path, rim, radius, theta_deg):
@@ -122,12 +146,14 @@ def main():
         path = rows(program, case)
         path = path[path[:, 7] == 1]
         height, theta, (machined, nearest) = figure(path, aperture / 2, radius)
+        cusps = [residual(path, aperture / 2, radius, i + BESIDE_DEG) for i in range(DEGREES)]
         found.append({"name": name, "aperture_mm": aperture, "radius_mm": radius,
                       "interpolation_nm": interpolation,
                       "rim_nm": None if math.isinf(height) else height * 1e6,
-                      "at_deg": theta, "machined_nm": machined * 1e6, "nearest_nm": nearest * 1e6})
+                      "at_deg": theta, "machined_nm": machined * 1e6, "nearest_nm": nearest * 1e6,
+                      "residual_nm": max(cusps) * 1e6})
         print(f"{name}: {height * 1e6:.1f} nm at {theta:.3f} deg, "
-              f"machined {machined * 1e6:.1f}, nearest {nearest * 1e6:.1f}", flush=True)
+              f"machined {machined * 1e6:.1f}, nearest {nearest * 1e6:.1f}, residual {max(cusps) * 1e6:.1f}", flush=True)
     text = json.dumps(found, indent=2, allow_nan=False) + "\n"
     (HERE / "rims.json").write_text(text, encoding="utf-8")
 

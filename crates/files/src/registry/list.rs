@@ -34,12 +34,13 @@ impl Entry {
     }
 }
 
-/// Removes all paths: files, folders, locks, and folders that only a lock kept. Folders were added
-/// from the outside in.
-pub fn remove_all() {
+/// Removes all paths: files, folders, and, if asked for, locks and the folders that only a lock kept.
+/// Folders were added from the outside in.
+pub fn remove_all(locks: bool) {
     let taken = std::mem::take(&mut *lines());
     let of_kind = |kind| taken.iter().rev().filter(move |line| line.1 == kind);
-    for kind in [DraftKind::File, DraftKind::Lock] {
+    let kinds = [DraftKind::File, DraftKind::Lock].into_iter();
+    for kind in kinds.filter(|kind| locks || *kind == DraftKind::File) {
         for (.., path) in of_kind(kind) {
             let _ = fs::remove_file(path);
         }

@@ -51,7 +51,13 @@ impl Drop for Registration {
 /// that is about to end: each draft is then lost for the work that made it.
 ///
 /// On Unix this may be called from a signal handler. It takes no lock, allocates nothing, and calls
-/// `unlink` and `rmdir` alone; its frame takes less than 1 KiB of the stack.
+/// `unlink` and `rmdir` alone; its frames take less than 2 KiB of the stack.
 pub fn remove_drafts() {
-    entries::remove_all();
+    entries::remove_all(true);
+}
+
+/// The same without the locks, where a name may still be given: other writers stay away until the
+/// process has ended.
+pub fn remove_drafts_under_lock() {
+    entries::remove_all(false);
 }

@@ -87,8 +87,8 @@ fn take(slot: &Slot) -> Option<&'static CStr> {
     (!path.is_null()).then(|| unsafe { CStr::from_ptr(path) })
 }
 
-/// Removes all paths: files, folders, locks, and folders that only a lock kept.
-pub fn remove_all() {
+/// Removes all paths: files, folders, and, if asked for, locks and the folders that only a lock kept.
+pub fn remove_all(locks: bool) {
     for path in FILE_SLOTS.iter().filter_map(take) {
         let _ = rustix::fs::unlink(path);
     }
@@ -97,6 +97,9 @@ pub fn remove_all() {
         *folder = take(slot);
     }
     remove_empty(&mut folders);
+    if !locks {
+        return;
+    }
     for path in LOCK_SLOTS.iter().filter_map(take) {
         let _ = rustix::fs::unlink(path);
     }

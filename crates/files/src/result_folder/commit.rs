@@ -50,8 +50,12 @@ fn give_names(folder: &Path, commit: &Path, plan: &Plan) -> Result<(), FileError
     }
     for old in &plan.remove {
         let path = folder.join(&old.file);
-        // Bytes that the old result did not have are not its own.
-        if old.is_in(folder).map_err(FileError::of(&path))? {
+        // Bytes that the old result did not have are not its own, nor are those that nobody may read.
+        let is_own = match old.is_in(folder) {
+            Err(error) if error.kind() == io::ErrorKind::PermissionDenied => false,
+            asked => asked.map_err(FileError::of(&path))?,
+        };
+        if is_own {
             remove_file(&path)?;
         }
     }

@@ -27,6 +27,19 @@ pub enum FolderError {
         #[source]
         error: io::Error,
     },
+    /// Something else has the name of a file or folder of the writer's own.
+    #[error("cannot use {}: it is a link, or something else that turnpath did not make", path.display())]
+    Foreign {
+        /// What has the name.
+        path: PathBuf,
+    },
+    /// The plan of a whole result is damaged.
+    #[error("the plan of an unfinished result is damaged")]
+    Plan {
+        /// What is wrong with it.
+        #[source]
+        source: FileError,
+    },
     /// The name of a file of the result belongs to a link.
     #[error("cannot write {}: it is a link, and a result has its files in its own folder", path.display())]
     Link {
@@ -56,9 +69,15 @@ impl FolderError {
             Self::Link { .. } => {
                 Some("remove the link, or give the folder that it leads into with `-o`")
             }
+            Self::Foreign { .. } => {
+                Some("remove it or give it another name, or choose another folder with `-o`")
+            }
+            Self::Plan { .. } => Some(
+                "remove the folder `.turnpath/commit` in the folder of the result, and run again",
+            ),
             Self::Unfinished { .. } => Some(
-                "close the file if a program has it open; the next call with this folder gives the \
-                 files their names",
+                "see to this cause: close the file if a program has it open, or remove what has its \
+                 name; the next call with this folder gives the files their names",
             ),
         }
     }

@@ -1,12 +1,12 @@
 //! The files of a result, as its index lists them, and the plan of what a commit does.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Component, Path};
 
 use serde::{Deserialize, Serialize};
 
+use crate::bounded::read_bounded;
 use crate::hashed_file::Contents;
 
 /// The most bytes of an index or of a plan that are read.
@@ -33,6 +33,12 @@ impl ListedFile {
             bytes: contents.bytes,
             sha256: contents.sha256.clone(),
         }
+    }
+
+    /// Whether a file of a result may have this name: it lies directly in the folder, and is not one of
+    /// the writer's own.
+    pub fn may_be(name: &str) -> bool {
+        is_member(name)
     }
 
     /// Whether the file of this name in a folder has these bytes. False if it is not there.
@@ -84,14 +90,24 @@ impl Plan {
         }
     }
 
-    /// The plan in a file; an error if it is none.
+    /// The plan in a file. The error is `InvalidData` if it is none, or names files of other folders.
     pub fn read(path: &Path) -> io::Result<Self> {
-        let plan: Self = serde_json::from_slice(&read(path)?)?;
-        let fits = is_member(&plan.index) && plan.files.iter().all(|name| is_member(name));
+        let invalid = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
+        let bytes = read_bounded(path, MOST_BYTES)?;
+        let plan: Self =
+            serde_json::from_slice(&bytes).map_err(|error| invalid(error.to_string()))?;
+        let fits = plan.names().all(is_member);
         match fits {
             true => Ok(plan),
-            false => Err(io::Error::other("it names files of other folders")),
+            false => Err(invalid("it names files of other folders".to_owned())),
         }
+    }
+
+    /// All names in it.
+    fn names(&self) -> impl Iterator<Item = &str> {
+        let removed = self.remove.iter().map(|old| old.file.as_str());
+        let files = self.files.iter().map(String::as_str);
+        files.chain(removed).chain([self.index.as_str()])
     }
 
     /// The text of the plan's file.
@@ -110,15 +126,9 @@ pub fn is_member(name: &str) -> bool {
 
 /// The files that an index lists; none if it is not there, is damaged, or is older than lists.
 fn listed(index: &Path) -> Vec<ListedFile> {
-    let read = read(index).ok();
+    let read = read_bounded(index, MOST_BYTES).ok();
     let index = read.and_then(|bytes| serde_json::from_slice::<Index>(&bytes).ok());
     index.unwrap_or_default().files
-}
-
-fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MOST_BYTES).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 #[cfg(test)]
@@ -142,6 +152,35 @@ mod tests {
             ".turnpath.lock",
         ] {
             assert!(!is_member(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_plan_names_files_of_its_folder_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plan");
+        let read = |index: &str, file: &str, remove: &str| {
+            let plan = Plan {
+                index: index.to_owned(),
+                files: vec![file.to_owned()],
+                remove: vec![ListedFile {
+                    file: remove.to_owned(),
+                    bytes: 0,
+                    sha256: String::new(),
+                }],
+            };
+            std::fs::write(&path, plan.text().unwrap()).unwrap();
+            Plan::read(&path).map_err(|error| error.kind())
+        };
+        assert!(read("a", "b", "c").is_ok());
+        let other = "../../x";
+        for (index, file, remove) in [(other, "b", "c"), ("a", other, "c"), ("a", "b", other)] {
+            let refused = read(index, file, remove);
+            assert_eq!(
+                refused,
+                Err(io::ErrorKind::InvalidData),
+                "{index} {file} {remove}"
+            );
         }
     }
 

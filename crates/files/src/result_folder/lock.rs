@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::FolderError;
 use super::made_folders::MadeFolders;
+use super::own;
 use crate::file_error::FileError;
 use crate::gate;
 use crate::operation::{Operation, perform};
@@ -37,6 +38,7 @@ impl FolderLock {
         };
         for _ in 0..TRIES {
             made.make(folder).map_err(FileError::of(folder))?;
+            own::file_is_there(&path)?;
             let file = match open(&path) {
                 // A writer that failed has removed the folder that it had made.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
@@ -67,9 +69,20 @@ fn open(path: &Path) -> io::Result<File> {
     perform(Operation::Create, path, || {
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
+        follow_no_link(&mut options);
         options.open(path)
     })
 }
+
+/// A link that came after the check is not followed.
+#[cfg(unix)]
+fn follow_no_link(options: &mut OpenOptions) {
+    use std::os::unix::fs::OpenOptionsExt;
+    options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits() as i32);
+}
+
+#[cfg(not(unix))]
+fn follow_no_link(_: &mut OpenOptions) {}
 
 /// False if another has the lock.
 fn try_lock(file: &File) -> io::Result<bool> {
@@ -86,7 +99,7 @@ fn try_lock(file: &File) -> io::Result<bool> {
 fn is_file(file: &File, path: &Path) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt;
     let identity = |found: std::fs::Metadata| (found.dev(), found.ino());
-    match std::fs::metadata(path) {
+    match std::fs::symlink_metadata(path) {
         Ok(named) => Ok(identity(named) == identity(file.metadata()?)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
         Err(error) => Err(error),

@@ -32,8 +32,10 @@ impl MadeFolders {
     }
 
     /// The same for a folder of the writer's own: one that a writer left which was killed goes too.
+    /// A link is no such folder.
     pub fn make_or_adopt(&mut self, folder: &Path) -> io::Result<()> {
-        match folder.is_dir() {
+        let real = fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir());
+        match real {
             true => {
                 self.push(folder);
                 Ok(())

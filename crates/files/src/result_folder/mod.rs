@@ -10,6 +10,7 @@ mod error;
 mod listing;
 mod lock;
 mod made_folders;
+mod own;
 mod staging;
 
 use std::fs;
@@ -59,6 +60,9 @@ impl ResultFolder {
         let mut made = MadeFolders::default();
         let lock = FolderLock::take(folder, &mut made)?;
         let hidden_path = folder.join(HIDDEN);
+        if own::folder_is_there(&hidden_path)? {
+            own::folder_is_there(&hidden_path.join(COMMIT))?;
+        }
         commit::complete(folder, &hidden_path).map_err(unfinished(folder))?;
         let mut hidden = MadeFolders::default();
         let begun = hidden.make_or_adopt(&hidden_path);
@@ -71,6 +75,13 @@ impl ResultFolder {
             _lock: lock,
             _made: made,
         })
+    }
+
+    /// Whether a folder has a whole result whose files did not get their names: the next call of
+    /// [`open`](Self::open) gives them.
+    pub fn is_unfinished(folder: &Path) -> bool {
+        let commit = folder.join(HIDDEN).join(COMMIT);
+        fs::symlink_metadata(commit).is_ok_and(|found| found.is_dir())
     }
 
     /// The folder.
@@ -117,12 +128,16 @@ impl ResultFolder {
         }
     }
 
-    /// Begins a file that gets its name alone, and lies here until then. Its folder must be on the
-    /// same file system.
+    /// Begins a file that gets its name alone. It lies here until then, or beside its place where that
+    /// is on another file system: no rename leads there.
     ///
     /// # Errors
     /// When it cannot be created.
     pub fn draft_alone(&self, path: &Path) -> Result<Draft, FileError> {
+        let above = path.parent().unwrap_or(Path::new("."));
+        if !own::same_file_system(self.staging.path(), above) {
+            return Draft::begin(path);
+        }
         let number = self.parts.fetch_add(1, Ordering::Relaxed);
         let temporary = self.staging.path().join(format!("{PART}{number}"));
         Draft::begin_as(temporary, path.to_owned(), None)
@@ -172,7 +187,11 @@ impl ResultFolder {
 
 fn unfinished(folder: &Path) -> impl FnOnce(FileError) -> FolderError {
     let folder = folder.to_owned();
-    |source| FolderError::Unfinished { folder, source }
+    |source| match source.path.ends_with(PLAN) && source.error.kind() == io::ErrorKind::InvalidData
+    {
+        true => FolderError::Plan { source },
+        false => FolderError::Unfinished { folder, source },
+    }
 }
 
 #[cfg(test)]

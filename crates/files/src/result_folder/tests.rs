@@ -162,6 +162,108 @@ fn a_file_elsewhere_gets_its_name_with_the_result_and_is_no_part_of_it() {
     assert_eq!(names(folder.path()), ["index.json"]);
 }
 
+/// The plan of somebody else names a file outside of the folder.
+#[test]
+fn a_plan_that_names_other_folders_removes_nothing_and_says_what_to_do() {
+    let above = tempfile::tempdir().unwrap();
+    let (folder, outside) = (above.path().join("out"), above.path().join("x"));
+    make(&folder, &[("table", "1")]).unwrap();
+    fs::write(&outside, "2").unwrap();
+    let commit = folder.join(".turnpath/commit");
+    fs::create_dir_all(&commit).unwrap();
+    fs::write(commit.join("index.json"), "{}").unwrap();
+    let mut plan = Plan::new(&folder, "index.json", &[]);
+    plan.remove = vec![ListedFile::new(
+        "../x",
+        &crate::Contents::of_file(&outside).unwrap(),
+    )];
+    fs::write(commit.join(PLAN), plan.text().unwrap()).unwrap();
+    let error = ResultFolder::open(&folder).unwrap_err();
+    assert!(matches!(error, FolderError::Plan { .. }), "{error}");
+    assert!(error.help().unwrap().contains("`.turnpath/commit`"));
+    assert_eq!(fs::read_to_string(&outside).unwrap(), "2");
+    fs::remove_dir_all(&commit).unwrap();
+    make(&folder, &[("table", "3")]).unwrap();
+    assert_eq!(found(&folder)["table"], "3");
+}
+
+/// Most systems have the memory as a file system of its own here.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_alone_gets_its_name_on_another_file_system_too() {
+    use std::os::unix::fs::MetadataExt;
+    let folder = tempfile::tempdir().unwrap();
+    let Ok(memory) = tempfile::tempdir_in("/dev/shm") else {
+        return;
+    };
+    let device = |path: &Path| fs::metadata(path).unwrap().dev();
+    let result = ResultFolder::open(folder.path()).unwrap();
+    for (place, lies_here) in [
+        (
+            memory.path(),
+            device(memory.path()) == device(folder.path()),
+        ),
+        (folder.path(), true),
+    ] {
+        let file = place.join("record");
+        let mut draft = result.draft_alone(&file).unwrap();
+        draft.write_all(b"1").unwrap();
+        assert_eq!(draft.folder() == result.staging.path(), lies_here);
+        draft.complete().unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), "1");
+    }
+    drop(result);
+    assert_eq!(names(memory.path()), ["record"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_lies_behind_a_link_is_not_the_writers_own() {
+    use std::os::unix::fs::symlink;
+    let above = tempfile::tempdir().unwrap();
+    let (folder, other) = (above.path().join("out"), above.path().join("other"));
+    for name in [".turnpath", ".turnpath.lock", ".turnpath/commit"] {
+        fs::create_dir_all(other.join("next-1")).unwrap();
+        fs::create_dir_all(folder.join(name).parent().unwrap()).unwrap();
+        fs::write(other.join("file"), "1").unwrap();
+        let behind = match name {
+            ".turnpath.lock" => other.join("file"),
+            _ => other.clone(),
+        };
+        symlink(behind, folder.join(name)).unwrap();
+        let error = ResultFolder::open(&folder).unwrap_err();
+        let FolderError::Foreign { path } = &error else {
+            panic!("{name}: {error}");
+        };
+        assert_eq!(path, &folder.join(name));
+        assert!(error.help().is_some());
+        assert_eq!(names(&other), ["file", "next-1"], "{name}");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+    // A link that leads nowhere is one too.
+    fs::create_dir(&folder).unwrap();
+    symlink(above.path().join("none"), folder.join(".turnpath.lock")).unwrap();
+    let error = ResultFolder::open(&folder).unwrap_err();
+    assert!(matches!(error, FolderError::Foreign { .. }), "{error}");
+    assert!(!above.path().join("none").exists());
+}
+
+/// Everybody may read everything as root: then there is nothing to try.
+#[cfg(unix)]
+#[test]
+fn a_file_before_that_nobody_may_read_stays() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    make(folder, &[("table", "1"), ("old", "2")]).unwrap();
+    let old = folder.join("old");
+    fs::set_permissions(&old, fs::Permissions::from_mode(0o000)).unwrap();
+    let is_root = fs::read(&old).is_ok();
+    make(folder, &[("table", "3")]).unwrap();
+    assert_eq!(found(folder)["table"], "3");
+    assert_eq!(old.exists(), !is_root);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_is_no_file_of_a_result_but_the_folder_may_be_one() {

@@ -19,7 +19,7 @@ pub fn file(report: &FileReport) -> String {
     let verdict = report.verdict();
     let mut text = format!("{}\n", printable_line(&report.name));
     text += &line("file", printable_line(&report.file));
-    text += &report.result.as_ref().map(result).unwrap_or_default();
+    text += &result(report.result.as_ref());
     text += &line("surface", &report.surface);
     let (cutting, rows) = (grouped(report.control_points), grouped(report.rows));
     text += &line("points", format!("{cutting} that cut, of {rows} rows"));
@@ -41,12 +41,19 @@ pub fn file(report: &FileReport) -> String {
 }
 
 /// What the summary beside the file says of it.
-fn result(result: &ResultCheck) -> String {
-    let verdict = match result.holds {
-        true => format!("as {} lists it", result.summary),
-        false => format!("NOT AS {} lists it", result.summary),
+fn result(result: Option<&ResultCheck>) -> String {
+    let Some(result) = result else {
+        return line("result", "no summary beside it lists it");
     };
-    let notes = result.notes.iter().map(|note| line("", note));
+    let summary = printable_line(&result.summary);
+    let verdict = match result.holds {
+        true => format!("as {summary} lists it"),
+        false => format!("NOT AS {summary} lists it"),
+    };
+    let notes = result
+        .notes
+        .iter()
+        .map(|note| line("", printable_line(note)));
     line("result", verdict) + &notes.collect::<String>()
 }
 

@@ -6,18 +6,19 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use turnpath_files::{Draft, FileError, ResultFolder};
+use turnpath_files::{Draft, FileError, ResultFolder, read_bounded_text};
 use turnpath_host::sha256_hex;
 use turnpath_report::{MeasuredRun, to_json};
 
 use crate::error::Error;
+use crate::summary::MOST_BYTES;
 
 use super::key::Key;
 use super::observer::AblationObserver;
 
 /// The folder of records in the output folder.
 const RUNS: &str = "runs";
-/// A record that is made and removed, to see whether the folder takes one.
+/// A record that is begun and given up, to see whether the folder takes one.
 const PROBE: &str = "probe";
 
 /// The records of an output folder.
@@ -41,12 +42,9 @@ impl Records {
     pub fn new(output: &ResultFolder) -> Result<Self, FileError> {
         let folder = output.path().join(RUNS);
         let usable = fs::create_dir_all(&folder);
-        let probe = folder.join(PROBE);
         let usable = usable.and_then(|()| {
-            let draft = output.draft_alone(&probe);
-            let named = draft.and_then(Draft::complete);
-            named.map_err(|refused| refused.error)?;
-            fs::remove_file(&probe)
+            let draft = Draft::begin(folder.join(PROBE));
+            draft.map(drop).map_err(|refused| refused.error)
         });
         match usable {
             Ok(()) => Ok(Self { folder }),
@@ -64,7 +62,7 @@ impl Records {
     /// The run of this key, if its record is there and whole. The observer hears of a damaged one.
     pub fn read(&self, key: &Key, observer: &dyn AblationObserver) -> Option<MeasuredRun> {
         let path = self.path(key);
-        let text = match fs::read_to_string(&path) {
+        let text = match read_bounded_text(&path, MOST_BYTES) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return None,
             text => text.map_err(|error| error.to_string()),
         };

@@ -4,16 +4,15 @@
 //! as many rows of the file, so neither path is ever whole in memory. No figure and no verdict asks
 //! the path that is made here.
 
-use std::fs;
 use std::path::Path;
 
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
-use turnpath_core::{StrategyError, Tolerance};
+use turnpath_core::{FormBudget, StrategyError, Tolerance};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
 use turnpath_post::{PmacError, PmacWriter, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
-use turnpath_report::{FormSplit, RunReport, from_json};
+use turnpath_report::{FormSplit, RunReport};
 use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
 
 use crate::data_files::DataFiles;
@@ -21,9 +20,14 @@ use crate::diagnosis::{not_carried, of_measure, of_pipeline};
 use crate::error::Error;
 use crate::job::Job;
 use crate::outputs::Outputs;
-use crate::result_check::SUMMARY;
+use crate::summary::{FolderSummary, folder_of};
 
 use super::source::SourceFile;
+
+/// Furthest from the form that a run's shares sum up to: four steps of four times, either way.
+const FURTHEST: f64 = 256.0;
+/// What the digits of a file may change of a share, as a part of it.
+const DIGITS: f64 = 1e-9;
 
 /// What came of comparing a file with the path of its recipe.
 pub enum Comparison {
@@ -85,10 +89,10 @@ fn remake(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<J
 /// The job for the split of its tolerance of form, if it has one: the split of the summary beside
 /// the file, or else the one that a run finds.
 fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Error> {
-    let Some(form) = job.recipe.asked.form else {
+    let Some(budget) = job.recipe.asked.budget() else {
         return Ok(job);
     };
-    let split = match split_beside(file, form) {
+    let split = match split_beside(file, &budget) {
         Some(split) => split,
         None => found_split(&job, observer)?,
     };
@@ -98,13 +102,35 @@ fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Err
     }))
 }
 
-/// The split in the summary beside a file, if it is that of the same form.
-fn split_beside(file: &Path, form: f64) -> Option<FormSplit> {
+/// The split in the summary beside a file, if the summary lists the file and a run with this budget may
+/// have found the split.
+fn split_beside(file: &Path, budget: &FormBudget) -> Option<FormSplit> {
+    let FolderSummary::Read(report) = FolderSummary::of(&folder_of(file)) else {
+        return None;
+    };
     // The file may be spoiled; the split is then still that of the path that it was.
-    let text = fs::read_to_string(file.with_file_name(SUMMARY)).ok()?;
-    let summary = from_json::<RunReport>(&text).ok()?.path.form?;
-    let is_same = (summary.tolerance - form).abs() <= f64::EPSILON.sqrt() * form;
-    summary.split.filter(|_| is_same)
+    let name = file.file_name()?.to_str()?;
+    split_in(&report, name).filter(|split| may_be_found(split, budget))
+}
+
+/// The split of the form in a summary that lists this file.
+fn split_in(report: &RunReport, name: &str) -> Option<FormSplit> {
+    let is_listed = report.files.iter().flatten().any(|file| file.file == name);
+    report.path.form.filter(|_| is_listed)?.split
+}
+
+/// Whether a search for this budget may give the split: it is what the budget gives for the sum of its
+/// shares. The sum may exceed the form, where a path leaves less than its tolerances.
+fn may_be_found(split: &FormSplit, budget: &FormBudget) -> bool {
+    let sum = split.residual + 2.0 * split.interpolation;
+    let range = budget.form() / FURTHEST..=budget.form() * FURTHEST;
+    let own = budget.shares(sum);
+    let same = |one: f64, other: f64| (one - other).abs() <= DIGITS * other.abs();
+    range.contains(&sum)
+        && split.residual > 0.0
+        && split.interpolation > 0.0
+        && same(split.residual, own.residual)
+        && same(split.interpolation, own.interpolation)
 }
 
 /// The split that a run finds.
@@ -246,5 +272,46 @@ impl Observer for RemakeObserver<'_> {
 
     fn is_cancelled(&self) -> bool {
         self.0.is_cancelled()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_split_that_no_search_finds_is_not_believed() {
+        let split = |residual, interpolation| FormSplit {
+            residual,
+            interpolation,
+            rounds: 1,
+        };
+        let form = 1.5e-4;
+        let budget = FormBudget::new(form, None, None);
+        for sum in [form, 0.3 * form, 2.5 * form] {
+            let Tolerance {
+                residual,
+                interpolation,
+            } = budget.shares(sum);
+            let found = split(residual, interpolation);
+            assert!(may_be_found(&found, &budget), "{sum}");
+            // Another division of the same form.
+            let other = split(1.01 * residual, interpolation);
+            assert!(!may_be_found(&other, &budget), "{sum}");
+        }
+        let Tolerance {
+            residual,
+            interpolation,
+        } = budget.first();
+        let bounded = FormBudget::new(form, None, Some(0.5 * residual));
+        assert!(!may_be_found(&split(residual, interpolation), &bounded));
+        for wrong in [0.0, -1e-5, f64::NAN, f64::INFINITY, 1e-12, 1e300] {
+            assert!(!may_be_found(&split(wrong, wrong), &budget), "{wrong}");
+            assert!(!may_be_found(&split(residual, wrong), &budget), "{wrong}");
+            assert!(
+                !may_be_found(&split(wrong, interpolation), &budget),
+                "{wrong}"
+            );
+        }
     }
 }

@@ -133,11 +133,11 @@ fn nodes_hold_the_tolerance_under_a_speed_that_changes_much() {
         let even = nodes(&case, &law, &SpindleLaw::constant(50.0));
         let without = largest_error(&case, &law, &spindle, &even);
         assert!(without > error, "{} nm at {swing}", without / NM);
-        eprintln!(
-            "{swing}: {} {} nm, {} {} nm",
-            own.len(),
-            error / NM,
-            even.len(),
+        // Nodes for a constant speed lose their margin where the speed changes little, and more
+        // where it changes much.
+        assert!(
+            (without > tolerance) == (swing > 0.1),
+            "{} nm at {swing}",
             without / NM
         );
     }

@@ -1,0 +1,61 @@
+//! The summary in a folder, which may be anything: it is read up to a limit, and judged.
+
+use std::path::{Path, PathBuf};
+
+use turnpath_files::{ListedFile, ResultFolder, read_bounded_text};
+use turnpath_report::{FormatError, RunReport, from_json};
+
+/// The report of a run, which lists its files.
+pub const SUMMARY: &str = "summary.json";
+/// The most bytes of a summary or a record that are read: far more than any has.
+pub const MOST_BYTES: u64 = 1 << 26;
+
+/// What a folder has for a summary.
+pub enum FolderSummary {
+    /// None, or that of another version.
+    None,
+    /// None, since a whole result did not get its names.
+    Unfinished,
+    /// One that cannot be read, or is no summary: why.
+    Damaged(String),
+    /// That of a run.
+    Read(Box<RunReport>),
+}
+
+impl FolderSummary {
+    /// The summary in a folder.
+    pub fn of(folder: &Path) -> Self {
+        let text = match read_bounded_text(&folder.join(SUMMARY), MOST_BYTES) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return match ResultFolder::is_unfinished(folder) {
+                    true => Self::Unfinished,
+                    false => Self::None,
+                };
+            }
+            Err(error) => return Self::Damaged(error.to_string()),
+        };
+        match from_json::<RunReport>(&text) {
+            Ok(report) if names_other_folders(&report) => {
+                Self::Damaged("it names files of other folders".to_owned())
+            }
+            Ok(report) => Self::Read(Box::new(report)),
+            Err(FormatError::OtherForm { .. }) => Self::None,
+            Err(error) => Self::Damaged(error.to_string()),
+        }
+    }
+}
+
+/// Whether a summary lists what is no file directly in its folder.
+pub fn names_other_folders(report: &RunReport) -> bool {
+    let mut files = report.files.iter().flatten();
+    !files.all(|file| ListedFile::may_be(&file.file))
+}
+
+/// The folder of a file.
+pub fn folder_of(file: &Path) -> PathBuf {
+    match file.parent() {
+        Some(folder) if folder != Path::new("") => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
