@@ -233,6 +233,55 @@ fn leads_and_programs_follow_a_changing_speed() {
     }
 }
 
+/// An independent playback of the file in Python finds the same motion of all axes, and the limits of
+/// the recipe hold in it.
+#[test]
+fn a_schedule_measures_like_the_reference() {
+    let folder = repository().join("tests/reference/playback/schedules");
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let reference: Value = serde_json::from_str(&read("saddle.json")).unwrap();
+    let bench = Bench::with(&read("saddle.toml"));
+    let made = bench
+        .line("run recipe.toml -o out --format json")
+        .ends(0)
+        .json();
+    let limits = [
+        ("x", "mm", [50.0, 500.0, 5e4]),
+        ("z", "mm", [50.0, 500.0, 2e5]),
+        (
+            "c",
+            "deg",
+            [6000.0, 100.0 * 57.295_779_513_1, 1000.0 * 57.295_779_513_1],
+        ),
+    ];
+    let orders = [("velocity", "s"), ("acceleration", "s2"), ("jerk", "s3")];
+    for (axis, unit, limits) in limits {
+        for ((order, seconds), limit) in orders.into_iter().zip(limits) {
+            let found = number(
+                &made,
+                &format!("/axes/{axis}/max_{order}_{unit}_per_{seconds}"),
+            );
+            let expected = number(&reference, &format!("/axes/{axis}/{order}"));
+            let close = (found - expected).abs() <= 1e-6 * limit;
+            assert!(close, "{axis} {order}: {found}, {expected}");
+            assert!(
+                expected <= (1.0 + 1e-6) * limit,
+                "{axis} {order}: {expected} of {limit}"
+            );
+        }
+    }
+    for (pointer, of_reference) in [
+        ("/interpolation_error/max_nm", "/interpolation_error_nm/max"),
+        ("/residual/max_nm", "/residual_nm/max"),
+    ] {
+        let [found, expected] = [number(&made, pointer), number(&reference, of_reference)];
+        assert!(
+            (found / expected - 1.0).abs() < 0.02,
+            "{pointer}: {found}, {expected}"
+        );
+    }
+}
+
 /// `highest_spindle` is a speed at which the same schedule holds all limits, and it cannot be faster.
 #[test]
 fn a_schedule_reaches_its_limits() {
