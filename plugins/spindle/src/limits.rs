@@ -32,7 +32,7 @@ impl Limits {
     pub fn steady_speed(&self, cell: &CellMotion) -> f64 {
         let of_axis = |limits: &[f64; 3], motion: &Derivatives| {
             let speeds = (0..3).map(|k| root(limits[k] / motion[k], k));
-            speeds.fold(f64::INFINITY, largest_number)
+            speeds.fold(f64::INFINITY, smaller)
         };
         let (x, z) = (of_axis(&self.x, &cell.x), of_axis(&self.z, &cell.z));
         x.min(z).min(self.c[0])
@@ -70,7 +70,7 @@ impl Limits {
 }
 
 /// The least factor by which a whole motion with these amounts could be faster. The n-th derivative
-/// grows with the n-th power. Of limits that are not reached only the nearest counts roughly.
+/// grows with the n-th power. Where no limit is reached it is above 1, and says no more than that.
 fn factor(limits: &[f64; 3], amounts: &[f64; 3]) -> f64 {
     let factors = (0..3).map(|k| {
         let ratio = limits[k] / amounts[k];
@@ -80,7 +80,7 @@ fn factor(limits: &[f64; 3], amounts: &[f64; 3]) -> f64 {
             ratio.min(2.0)
         }
     });
-    factors.fold(f64::INFINITY, largest_number)
+    factors.fold(f64::INFINITY, smaller)
 }
 
 /// The root of order k + 1.
@@ -93,6 +93,6 @@ fn root(value: f64, k: usize) -> f64 {
 }
 
 /// The smaller of both; a quotient of two zeros or two infinities does not count.
-fn largest_number(least: f64, other: f64) -> f64 {
+fn smaller(least: f64, other: f64) -> f64 {
     if other < least { other } else { least }
 }

@@ -6,7 +6,7 @@ use crate::grid::Grid;
 use crate::law::{Law, Motion};
 use crate::limits::Limits;
 use crate::motion::CellMotion;
-use crate::smooth::Smoothing;
+use crate::smooth::Smoother;
 
 /// Parts of C's largest acceleration with which a schedule changes its speed. The jerk that the mean
 /// leaves decides which is best.
@@ -42,7 +42,7 @@ struct Schedule {
     factor: f64,
     /// How long the path takes at that factor, s.
     time: f64,
-    smoothing: Smoothing,
+    smoother: Smoother,
     /// The largest speeds from which the schedule is made, rad/s.
     speeds: Vec<f64>,
 }
@@ -54,8 +54,8 @@ impl Conditions<'_> {
             return SpindleLaw::constant(self.speed);
         }
         let mut first: Vec<Schedule> = self
-            .smoothings()
-            .map(|smoothing| self.schedule(smoothing, speeds.clone()).0)
+            .smoothers()
+            .map(|smoother| self.schedule(smoother, speeds.clone()).0)
             .collect();
         first.sort_by(|one, other| one.time.total_cmp(&other.time));
         first.truncate(FINALISTS);
@@ -67,7 +67,7 @@ impl Conditions<'_> {
         )
     }
 
-    fn smoothings(&self) -> impl Iterator<Item = Smoothing> {
+    fn smoothers(&self) -> impl Iterator<Item = Smoother> {
         let largest = self.limits.c[1];
         let accelerations = ACCELERATIONS.map(|part| part * largest);
         // Without a limit all of them are the same.
@@ -78,7 +78,7 @@ impl Conditions<'_> {
         };
         let accelerations = accelerations.into_iter().take(count);
         accelerations.flat_map(|acceleration| {
-            REACHES.map(|reach| Smoothing {
+            REACHES.map(|reach| Smoother {
                 acceleration,
                 reach,
             })
@@ -87,8 +87,8 @@ impl Conditions<'_> {
 
     /// The schedule of these speeds, and for each cell the speed that it should have had; infinite
     /// where the cell is within its limits.
-    fn schedule(&self, smoothing: Smoothing, speeds: Vec<f64>) -> (Schedule, Vec<f64>) {
-        let law = Law::new(&self.grid, &smoothing.apply(&self.grid, &speeds));
+    fn schedule(&self, smoother: Smoother, speeds: Vec<f64>) -> (Schedule, Vec<f64>) {
+        let law = Law::new(&self.grid, &smoother.apply(&self.grid, &speeds));
         let mut factor: f64 = 1.0;
         let mut asked = Vec::with_capacity(speeds.len());
         let cells = self.cells.iter().zip(&self.played);
@@ -106,7 +106,7 @@ impl Conditions<'_> {
             time: law.time() / factor,
             law,
             factor,
-            smoothing,
+            smoother,
             speeds,
         };
         (schedule, asked)
@@ -125,9 +125,9 @@ impl Conditions<'_> {
     /// everywhere.
     fn lowered(&self, schedule: Schedule) -> Schedule {
         let mut best = schedule;
-        let (smoothing, mut speeds) = (best.smoothing, best.speeds.clone());
+        let (smoother, mut speeds) = (best.smoother, best.speeds.clone());
         for _ in 0..ROUNDS {
-            let (now, asked) = self.schedule(smoothing, speeds.clone());
+            let (now, asked) = self.schedule(smoother, speeds.clone());
             if now.time < best.time {
                 best = now;
             }

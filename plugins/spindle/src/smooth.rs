@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::grid::Grid;
 
-/// How a speed is made smooth.
+/// Makes a speed smooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Smoothing {
+pub struct Smoother {
     /// The largest acceleration of the spindle before the mean is taken, rad/s².
     pub acceleration: f64,
     /// The mean is taken over so many turns on either side.
@@ -22,7 +22,7 @@ pub struct TurnTimes {
     pub second: Vec<f64>,
 }
 
-impl Smoothing {
+impl Smoother {
     /// The smooth time of a turn for the largest speed of each cell, rad/s.
     pub fn apply(&self, grid: &Grid, speeds: &[f64]) -> TurnTimes {
         let reach = grid.cells_in(self.reach);
