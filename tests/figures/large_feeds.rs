@@ -73,14 +73,14 @@ fn each_residual_has_its_own_turns_and_is_used() {
 
 /// Half of the included angle, less the slope, is all that an edge reaches on a cone-like rim.
 #[test]
-fn where_the_reach_of_the_nose_sets_the_feed_the_report_says_so() {
+fn where_the_feed_comes_near_to_the_reach_of_the_nose_the_report_says_so() {
     let narrow = recipe(BOWL, "50 um", "atpg").replace(
         "nose_radius = \"0.2 mm\"",
         "nose_radius = \"0.2 mm\"\nincluded_angle = \"40 deg\"",
     );
     let bench = Bench::with(&narrow);
     let said = bench.line("run recipe.toml -o out").ends(0);
-    let line = "the reach of the nose sets the feed, not the residual";
+    let line = "within a tenth of the largest feed of the nose";
     assert!(said.stdout.contains(line), "{said}");
     let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
     let cap = &summary["feed_cap"];

@@ -9,7 +9,7 @@ fn bench(lines: &str) -> Bench {
     Bench::with(&format!("{SADDLE}\n{output}{lines}\n"))
 }
 
-const HARMLESS: &str = "header = \"; {name}\\nCLOSE OPEN ROT\\n\"\nfooter = \"CLOSE\"";
+const HARMLESS: &str = "header = \"; {name}\\nCLOSE OPEN PROG 7 CLEAR\\n\"\nfooter = \"CLOSE\"";
 const COOLANT: &str =
     "header = \"OPEN PROG 1 CLEAR\\nM1=1 ; coolant\\n\"\nfooter = \"M1=0\\nCLOSE\"";
 
@@ -18,7 +18,10 @@ fn harmless_commands_are_named_and_need_no_trust() {
     let bench = bench(HARMLESS);
     for command in ["check recipe.toml", "run recipe.toml -o out"] {
         let said = bench.line(command).ends(0);
-        assert!(said.stdout.contains("line 2: CLOSE OPEN ROT\n"), "{said}");
+        assert!(
+            said.stdout.contains("line 2: CLOSE OPEN PROG 7 CLEAR\n"),
+            "{said}"
+        );
         assert!(!said.stdout.contains("may move"), "{said}");
         let said = bench.line(&format!("{command} --format json")).ends(0);
         let named = &said.json()["controller_commands"];
@@ -57,6 +60,22 @@ fn trusted_commands_are_named_and_written() {
         serde_json::from_str(&bench.read("out/summary.json")).unwrap_or_default();
     assert_eq!(report["controller_commands"][1]["command"], "M1=1");
     assert_eq!(report["controller_commands"][1]["harmless"], false);
+}
+
+/// The path's lines would be obeyed where they arrive, or go into whatever is open.
+#[test]
+fn a_header_without_an_open_program_and_a_rotary_buffer_need_trust() {
+    for (header, command) in [
+        ("CLOSE", "CLOSE"),
+        ("OPEN PROG 7 CLEAR\\nCLOSE", "CLOSE"),
+        ("CLOSE OPEN ROT", "CLOSE OPEN ROT"),
+    ] {
+        let bench = bench(&format!("header = \"{header}\""));
+        let said = bench.line("check recipe.toml").ends(2);
+        let title = format!("it tells the controller `{command}`");
+        assert!(said.stderr.contains(&title), "{said}");
+        bench.line("check recipe.toml --trust-recipe").ends(0);
+    }
 }
 
 /// Who calls has written it, and not whoever wrote the recipe.

@@ -37,7 +37,7 @@ fn one_that_calls_exit() {
 fn one_that_calls_exit_on_a_thread_of_its_own() {
     ends(
         "exits-elsewhere",
-        ", on a thread of its own, ended the program: it called exit",
+        " may have, on a thread of its own, ended the program: it called exit",
     );
 }
 
@@ -200,6 +200,61 @@ fn a_library_that_ends_the_process_while_it_is_loaded_is_named_and_no_other() {
             "{said}"
         );
         assert!(!said.stderr.contains(&file_name("constant-arc")), "{said}");
+    }
+}
+
+#[test]
+fn a_library_that_ends_the_process_badly_at_its_end_is_named_before_any_work() {
+    let said = with_initialiser("abort-at-end", &[]).ends(3);
+    let message = "a process that has loaded it does not end well (SIGABRT)";
+    assert!(said.stderr.contains(message), "{said}");
+    assert!(
+        said.stderr.contains(&file_name("acts-when-loaded")),
+        "{said}"
+    );
+    assert!(!said.stderr.contains(&file_name("constant-arc")), "{said}");
+}
+
+/// As if somebody, or a system without memory, had ended the child.
+#[test]
+fn a_signal_to_the_child_accuses_no_library() {
+    for act in ["term-in-trial", "kill-in-trial"] {
+        let said = with_initialiser(act, &[]).ends(0);
+        assert!(said.stdout.contains("flat-when-loaded"), "{said}");
+        let note = "the plugins are not tried before (somebody ended the process";
+        assert!(said.stderr.contains(note), "{said}");
+    }
+}
+
+/// The child waits in the library's initialiser when its parent is killed.
+#[test]
+fn a_child_whose_parent_is_gone_ends_and_leaves_nothing() {
+    for signal in ["-KILL", "-TERM"] {
+        let bench = bench(SADDLE, &["acts-when-loaded"]);
+        let started = bench.path("started");
+        let mut command = bench.command(["list", "surface", "--plugin-dir", "plugins"]);
+        command.env("TURNPATH_TEST_INITIALISER", "wait");
+        command.env("TURNPATH_TEST_STARTED", &started);
+        let mut parent = command.spawn().unwrap();
+        let until = |done: &dyn Fn() -> bool| {
+            let begun = std::time::Instant::now();
+            while !done() {
+                assert!(
+                    begun.elapsed().as_secs() < 20,
+                    "{signal}: {:?}",
+                    bench.files()
+                );
+                std::thread::sleep(std::time::Duration::from_millis(10));
+            }
+        };
+        until(&|| started.exists());
+        assert!(!bench.scratch_is_empty());
+        let kill = std::process::Command::new("kill")
+            .args([signal, &parent.id().to_string()])
+            .status();
+        assert!(kill.unwrap().success());
+        parent.wait().unwrap();
+        until(&|| bench.scratch_is_empty());
     }
 }
 

@@ -19,10 +19,11 @@ impl Blame {
         Some(Self { callee, own_thread })
     }
 
-    /// The message in pieces, so that nothing allocates; `what` follows the strategy's name.
+    /// The message in pieces. Where another thread than the caller's ended the process, it may be one of
+    /// the program's own, so the strategy is not accused but named. The pieces are there already, so that nothing allocates; `what` follows the strategy's name.
     pub fn message(&self, what: &'static str) -> [&'static str; 5] {
         let thread = match self.own_thread {
-            true => ", on a thread of its own,",
+            true => " may have, on a thread of its own,",
             false => "",
         };
         ["error: ", self.callee.text(), thread, what, "\n"]

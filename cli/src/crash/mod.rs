@@ -12,5 +12,7 @@ mod system;
 mod system;
 mod watchdog;
 
-pub use system::{answer_to, guard, leave_no_core, output_is_terminal, take_output};
+pub use system::{
+    answer_to, end_unheard, guard, leave_no_core, output_is_terminal, take_input, take_output,
+};
 pub use watchdog::{TimeLimit, watch};

@@ -1,4 +1,4 @@
-//! Signals, `exit` and standard output on Unix. Only this file of the program has `unsafe` code.
+//! Signals, `exit`, standard input and output on Unix.
 //!
 //! The handlers run on the stacks that Rust gives its threads for this, because a stack overflow
 //! leaves no other. In a handler nothing allocates and nothing waits: it reads the marks of this
@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{self, IsTerminal, Write};
 use std::os::fd::AsFd;
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use libc::{c_int, c_void, sigaction, siginfo_t};
 use turnpath_files::remove_drafts;
@@ -20,7 +20,7 @@ use super::blame::Blame;
 const PLUGIN_FAILED: c_int = 3;
 
 /// What a plugin that fails sends its own process, and what that means.
-const SIGNALS: [(c_int, &str); 5] = [
+const SIGNALS: [(c_int, &str); 6] = [
     (
         libc::SIGABRT,
         " ended the program: it called abort (SIGABRT)",
@@ -41,12 +41,16 @@ const SIGNALS: [(c_int, &str); 5] = [
         libc::SIGFPE,
         " ended the program: it divided a whole number by zero (SIGFPE)",
     ),
+    (
+        libc::SIGTRAP,
+        " ended the program: it ran into a trap, as an abort is on some machines (SIGTRAP)",
+    ),
 ];
 
 /// Standard output as it was, once [`take_output`] has taken it.
 static OUTPUT: OnceLock<File> = OnceLock::new();
-/// Whether the process is being ended already.
-static ENDING: AtomicBool = AtomicBool::new(false);
+/// The thread that ends the process already; zero for none.
+static ENDING: AtomicUsize = AtomicUsize::new(0);
 /// What handled the signals before, for those that no plugin sent.
 static BEFORE: OnceLock<[sigaction; SIGNALS.len()]> = OnceLock::new();
 
@@ -90,13 +94,23 @@ pub fn output_is_terminal() -> Option<impl AsFd> {
     output.ok().filter(IsTerminal::is_terminal)
 }
 
-/// Lets the system keep no picture of this process's memory when it dies.
+/// Takes standard input away from whatever else reads it, plugins above all: for them it is at its end.
+///
+/// # Errors
+/// When the system has no descriptor left.
+pub fn take_input() -> io::Result<File> {
+    let kept = io::stdin().as_fd().try_clone_to_owned()?;
+    rustix::stdio::dup2_stdin(File::open("/dev/null")?)?;
+    Ok(kept.into())
+}
+
+/// Lets the system keep no core dump of this process when it dies.
 pub fn leave_no_core() {
     let none = rustix::process::Rlimit {
         current: Some(0),
         maximum: Some(0),
     };
-    // Where the limit cannot be set, a picture is kept.
+    // Where the limit cannot be set, a dump is kept.
     let _ = rustix::process::setrlimit(rustix::process::Resource::Core, none);
 }
 
@@ -146,15 +160,25 @@ extern "C" fn on_signal(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
             libc::signal(signal, libc::SIG_DFL);
         },
     }
-    // SAFETY: the signal is blocked until this returns, so `raise` only leaves it pending.
-    unsafe { libc::raise(signal) };
+    // A fault comes again by itself once this returns, with its place, which the handler before asks
+    // for. A signal that was sent does not.
+    if was_sent(info) {
+        // SAFETY: the signal is blocked until this returns, so `raise` only leaves it pending.
+        unsafe { libc::raise(signal) };
+    }
+}
+
+/// Whether the signal was sent, by whomever, and is no fault of an instruction.
+fn was_sent(info: *mut siginfo_t) -> bool {
+    // SAFETY: the system gives a whole `siginfo_t` to a handler with `SA_SIGINFO`.
+    unsafe { (*info).si_code <= 0 }
 }
 
 /// Whether somebody sent the signal from outside, with `kill`.
 fn sent_by_another_process(info: *mut siginfo_t) -> bool {
     // SAFETY: the system gives a whole `siginfo_t` to a handler with `SA_SIGINFO`; a signal that
     // was sent, which has a code of zero or below, has the sender in it.
-    unsafe { (*info).si_code <= 0 && (*info).si_pid() != libc::getpid() }
+    was_sent(info) && unsafe { (*info).si_pid() != libc::getpid() }
 }
 
 /// `exit`, from wherever it is called. The program itself calls it when nothing is in progress.
@@ -167,7 +191,15 @@ extern "C" fn at_exit() {
 /// Ends the process with the status of a plugin that failed, after this message. It may be called in
 /// a handler.
 pub fn end<const N: usize>(message: [&str; N]) -> ! {
-    if ENDING.swap(true, Ordering::SeqCst) {
+    // SAFETY: it only asks; no thread has the number zero.
+    let this = unsafe { libc::pthread_self() } as usize;
+    let ending = ENDING.compare_exchange(0, this, Ordering::SeqCst, Ordering::SeqCst);
+    if ending == Err(this) {
+        // Ending has failed on its way: another fault, or `exit` within.
+        // SAFETY: it ends the process at once, without the handlers of `exit`.
+        unsafe { libc::_exit(PLUGIN_FAILED) };
+    }
+    if ending.is_err() {
         // Another thread says why and ends the process.
         loop {
             // SAFETY: it only waits.
@@ -178,6 +210,13 @@ pub fn end<const N: usize>(message: [&str; N]) -> ! {
         // SAFETY: the piece is that long. Nobody can be told that standard error takes nothing.
         unsafe { libc::write(libc::STDERR_FILENO, piece.as_ptr().cast(), piece.len()) };
     }
+    remove_drafts();
+    // SAFETY: it ends the process at once, without the handlers of `exit`.
+    unsafe { libc::_exit(PLUGIN_FAILED) }
+}
+
+/// Ends the process at once without a message, for one whose end nobody hears of; drafts go.
+pub fn end_unheard() -> ! {
     remove_drafts();
     // SAFETY: it ends the process at once, without the handlers of `exit`.
     unsafe { libc::_exit(PLUGIN_FAILED) }

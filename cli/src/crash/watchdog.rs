@@ -87,10 +87,10 @@ pub fn watch(limit: TimeLimit) {
 fn look_on(limit: Duration) {
     let step = (limit / LOOKS).min(LONGEST_STEP);
     let most = limit.as_nanos().div_ceil(step.as_nanos().max(1));
-    let mut seen = Seen::default();
+    let mut counts = LookCounts::default();
     loop {
         thread::sleep(step);
-        if let Some(callee) = seen.look(&calls::on_all_threads(), most) {
+        if let Some(callee) = counts.look(&calls::on_all_threads(), most) {
             end_writing(PATIENCE);
             system::end([
                 "error: ",
@@ -106,9 +106,9 @@ fn look_on(limit: Duration) {
 /// At how many looks each call was in progress. Looks are counted instead of the clock, so that a
 /// process that was stopped for a while blames nobody.
 #[derive(Default)]
-struct Seen(HashMap<(usize, usize, u64), u128>);
+struct LookCounts(HashMap<(usize, usize, u64), u128>);
 
-impl Seen {
+impl LookCounts {
     /// Counts a look. If a call was seen more than `most` times, the callee to blame: that of the
     /// innermost call on that thread that was seen at half of these looks, for which those outside
     /// only wait.
@@ -161,16 +161,16 @@ mod tests {
     fn the_call_that_does_not_end_is_blamed_and_not_one_that_comes_again() {
         let feed = Callee::new("a patient feed".into(), true);
         let surface = Callee::new("an endless surface".into(), true);
-        let mut seen = Seen::default();
+        let mut counts = LookCounts::default();
         let mut ends = None;
         for look in 0..10 {
             // The surface is asked anew at each of the first looks; then it does not come back.
             let asked = call(surface, 1, look.min(5));
-            ends = ends.or(seen.look(&[call(feed, 0, 1), asked], 20));
+            ends = ends.or(counts.look(&[call(feed, 0, 1), asked], 20));
         }
         assert!(ends.is_none());
         for _ in 0..16 {
-            ends = ends.or(seen.look(&[call(feed, 0, 1), call(surface, 1, 5)], 20));
+            ends = ends.or(counts.look(&[call(feed, 0, 1), call(surface, 1, 5)], 20));
         }
         assert!(ends.is_some_and(|callee| std::ptr::eq(callee, surface)));
     }
@@ -178,8 +178,8 @@ mod tests {
     #[test]
     fn what_is_built_in_has_no_limit() {
         let callee = Callee::new("a long plan".into(), false);
-        let mut seen = Seen::default();
-        let late = (0..50).find_map(|_| seen.look(&[call(callee, 0, 1)], 2));
+        let mut counts = LookCounts::default();
+        let late = (0..50).find_map(|_| counts.look(&[call(callee, 0, 1)], 2));
         assert!(late.is_none());
     }
 }

@@ -2,8 +2,8 @@
 
 use std::ffi::c_int;
 use std::io;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, mpsc};
 use std::{mem, ptr, thread};
 
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
@@ -18,18 +18,29 @@ pub fn install(act: impl FnOnce() + Send + 'static) -> io::Result<()> {
     if !is_ignored(SIGXFSZ) {
         flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
     }
-    let ending = [SIGINT, SIGTERM, SIGHUP].into_iter();
-    let mut signals = Signals::new(ending.filter(|signal| !is_ignored(*signal)))?;
+    let (tell, told) = mpsc::channel();
+    // The thread is there before the handlers are: a signal that has one always ends the program.
     let wait = move || {
-        if let Some(signal) = signals.forever().next() {
+        let ending = [SIGINT, SIGTERM, SIGHUP].into_iter();
+        let handled = Signals::new(ending.filter(|signal| !is_ignored(*signal)));
+        let (mut signals, done) = match handled {
+            Ok(signals) => (Some(signals), Ok(())),
+            Err(error) => (None, Err(error)),
+        };
+        // The caller waits for it.
+        let _ = tell.send(done);
+        if let Some(signal) = signals
+            .as_mut()
+            .and_then(|signals| signals.forever().next())
+        {
             act();
             let _ = emulate_default_handler(signal);
         }
     };
-    thread::Builder::new()
-        .name("signals".to_owned())
-        .spawn(wait)?;
-    Ok(())
+    let name = "signals".to_owned();
+    thread::Builder::new().name(name).spawn(wait)?;
+    told.recv()
+        .unwrap_or_else(|gone| Err(io::Error::other(gone)))
 }
 
 /// Whether whoever started the program wants it to go on, as `nohup` does.

@@ -10,18 +10,22 @@
 //! way there. The papers' parabola is its limit for small ε, and c² is the parabola's square times
 //! [`CuspFeed::correction`].
 //!
-//! Small feeds follow the parabola, and large feeds the circles. Between them the feed passes from
-//! one to the other with two continuous derivatives.
+//! On a flat of the spacing s the parabola's cusps are s²/16R² of their height too high. Elsewhere
+//! they err as on a flat of another spacing, [`CuspFeed::flat_spacing`]. Up to a certain flat
+//! spacing the feed is the parabola's, and from a larger one on it is that of circles. Between them
+//! it passes from one to the other with two continuous derivatives. So the cusps err alike in
+//! hollows, where the contacts are far apart although the centres are not, and on domes.
 
 use crate::profile::Profile;
 use crate::{Mask, Misfit, Radial, Scalar, Tool};
 
-/// Up to this part of the nose radius a feed is the parabola's. Its cusps are up to 1e-4 of their
-/// height too high there, which the margins of the feed strategies cover.
+/// Up to this flat spacing, as a part of the nose radius, a feed is the parabola's. On circles of
+/// any curvature its cusps are up to 1e-4 of their height too high there. The margins of the feed
+/// strategies cover twice as much.
 pub const PARABOLA_TO: f64 = 1.0 / 25.0;
 
-/// From this part of the nose radius on, a feed is that of the circles. On the way to it the cusps
-/// are less than 1.2e-4 of their height too high.
+/// From this flat spacing on, as a part of the nose radius, a feed is that of circles. On the way
+/// to it the cusps are less than 1.23e-4 of their height too high.
 pub const CIRCLES_FROM: f64 = 1.0 / 15.0;
 
 /// The part of the nose's reach that a feed may use. Neighbouring passes of a spiral are no exact
@@ -37,6 +41,9 @@ pub const LEAST_GAP: f64 = 0.02;
 /// The least value of 1 − Rκ in the cap on a contact's feed. In a hollow of nearly the nose's own
 /// radius the contact runs over much of the profile while the nose hardly moves.
 const LEAST_GAP_OF_CAP: f64 = 0.1;
+
+/// The least value of 1 − Rκ in the flat spacing. The spacing there is so large that circles count.
+const LEAST_GAP_OF_SPACING: f64 = 1e-9;
 
 /// The feed dρ/dN that leaves cusps of one height.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,14 +69,23 @@ impl CuspFeed {
         }
     }
 
+    /// 1 − Rκ at a curvature κ, 1/mm. A nose that cuts what fits has [`LEAST_GAP`] at least.
+    pub fn gap<S: Scalar>(&self, curvature: S) -> S {
+        let gap = -(curvature * self.nose_radius) + 1.0;
+        match self.misfit {
+            Misfit::Refuse => gap,
+            Misfit::CutWhatFits => {
+                let least = S::constant(LEAST_GAP);
+                S::select(gap.less(least), least, gap)
+            }
+        }
+    }
+
     /// The parabola's feed, mm: sqrt(8Rε/(1 − Rκ))/w for the contact's radius, and
     /// sqrt(8Rε(1 − Rκ))/w for the centre's X. Infinite where the nose does not fit.
     pub fn parabola(&self, profile: &Profile) -> f64 {
         let (nose_radius, residual) = (self.nose_radius, self.residual);
-        let gap = match (1.0 - nose_radius * profile.curvature(), self.misfit) {
-            (gap, Misfit::CutWhatFits) if gap < LEAST_GAP => LEAST_GAP,
-            (gap, _) => gap,
-        };
+        let gap = self.gap(profile.curvature());
         if gap <= 0.0 {
             return f64::INFINITY;
         }
@@ -82,11 +98,7 @@ impl CuspFeed {
 
     /// The feed of circles, at most the cap, mm. The profile counts as its circle of curvature.
     pub fn circles(&self, profile: &Profile) -> f64 {
-        let gap = 1.0 - self.nose_radius * profile.curvature();
-        let gap = match self.misfit {
-            Misfit::CutWhatFits => gap.max(LEAST_GAP),
-            Misfit::Refuse => gap,
-        };
+        let gap = self.gap(profile.curvature());
         let cap = self.cap(profile.slope, gap);
         if gap <= 0.0 {
             return cap;
@@ -98,25 +110,39 @@ impl CuspFeed {
     /// The feed from the curvature and the slope at the contact alone, mm.
     pub fn feed(&self, profile: &Profile) -> f64 {
         let parabola = self.parabola(profile);
-        match self.share(parabola) {
-            0.0 => parabola,
-            _ => self.joined(parabola, self.circles(profile)),
+        let gap = self.gap(profile.curvature());
+        match self.needs_circles(gap) {
+            false => parabola,
+            true => self.joined(gap, parabola, self.circles(profile)),
         }
     }
 
-    /// Joins the parabola's feed and that of circles, mm.
-    pub fn joined(&self, parabola: f64, circles: f64) -> f64 {
-        match self.share(parabola) {
+    /// Joins the parabola's feed and that of circles, mm, at a place of this 1 − Rκ.
+    pub fn joined(&self, gap: f64, parabola: f64, circles: f64) -> f64 {
+        match self.share(self.flat_spacing(gap)) {
             0.0 => parabola,
             1.0 => circles,
             share => parabola + share * (circles - parabola),
         }
     }
 
-    /// The part that the feed of circles has where the parabola's feed is `parabola`, mm: 0 for
-    /// small feeds, 1 for large ones.
-    pub fn share<S: Scalar>(&self, parabola: S) -> S {
-        let way = parabola / self.nose_radius - PARABOLA_TO;
+    /// The spacing of passes on a flat on which the parabola errs as it does at this 1 − Rκ, mm.
+    ///
+    /// By the first order of [`CuspFeed::correction`] the cusps of the parabola are
+    /// ε(1/g − 3 + 3g)/2R of their height too high, g = 1 − Rκ, and on a flat of the spacing s they
+    /// are s²/16R². So s² = 8Rε(1/g − 3 + 3g). In a hollow that the nose nearly fills, s is the
+    /// spacing of the contacts.
+    pub fn flat_spacing<S: Scalar>(&self, gap: S) -> S {
+        let least = S::constant(LEAST_GAP_OF_SPACING);
+        let gap = S::select(gap.less(least), least, gap);
+        let squared = gap.recip() + (gap * 3.0 - 3.0);
+        (squared * (8.0 * self.nose_radius * self.residual)).sqrt()
+    }
+
+    /// The part that the feed of circles has at a flat spacing, mm: 0 at small ones, 1 at large
+    /// ones.
+    pub fn share<S: Scalar>(&self, flat_spacing: S) -> S {
+        let way = flat_spacing / self.nose_radius - PARABOLA_TO;
         let way = way / (CIRCLES_FROM - PARABOLA_TO);
         smooth_step(way)
     }
@@ -139,8 +165,8 @@ impl CuspFeed {
 
     /// The largest feed of which neighbouring noses meet within their edges, mm, at a place of this
     /// slope and this 1 − Rκ: 2R(sin A − |slope| cos A)/w², with half the included angle A. It does
-    /// not fall below the largest part of the nose radius at which the parabola counts: where the
-    /// contact comes so near to the end of the edge, the interference check decides.
+    /// not fall below [`CIRCLES_FROM`] of the nose radius: where the contact comes so near to the
+    /// end of the edge, the interference check decides.
     pub fn cap<S: Scalar>(&self, slope: S, gap: S) -> S {
         let [sine, cosine] = self.edge;
         let falls = slope.less(S::constant(0.0));
@@ -158,9 +184,10 @@ impl CuspFeed {
         S::select(cap.less(least), least, cap)
     }
 
-    /// Whether some of these feeds of the parabola, mm, are so large that circles count.
-    pub fn needs_circles<S: Scalar>(&self, parabola: S) -> bool {
-        (!parabola.less(S::constant(PARABOLA_TO * self.nose_radius))).any()
+    /// Whether circles count at some of these 1 − Rκ.
+    pub fn needs_circles<S: Scalar>(&self, gap: S) -> bool {
+        let spacing = self.flat_spacing(gap);
+        (!spacing.less(S::constant(PARABOLA_TO * self.nose_radius))).any()
     }
 }
 
@@ -252,15 +279,17 @@ mod tests {
             };
             let gap = 1.0 - curvature;
             let residual_of = |part: f64| part * part / (8.0 * gap);
+            // The flat spacing as a multiple of the centres' spacing.
+            let flat = (1.0 / gap - 3.0 + 3.0 * gap).sqrt() / gap.sqrt();
             let step = 1e-3;
             let feed = |way: f64| at(residual_of(way));
             let second = |way: f64| {
                 (feed(way + step * 0.04) - 2.0 * feed(way) + feed(way - step * 0.04))
                     / (step * 0.04 * step * 0.04)
             };
-            let mut last = feed(0.03);
+            let mut last = feed(0.03 / flat);
             for i in 1..=5000 {
-                let way = 0.03 + 0.05 * f64::from(i) / 5000.0;
+                let way = (0.03 + 0.05 * f64::from(i) / 5000.0) / flat;
                 let next = feed(way);
                 assert!(next > last, "{curvature}: {way}");
                 // Within the parabola's own error of it.
@@ -268,6 +297,7 @@ mod tests {
                 last = next;
             }
             for border in [PARABOLA_TO, CIRCLES_FROM] {
+                let border = border / flat;
                 let jump = second(border - step * 0.1) - second(border + step * 0.1);
                 assert!(jump.abs() < 0.1, "{curvature}: {jump} at {border}");
             }
@@ -276,15 +306,57 @@ mod tests {
 
     #[test]
     fn below_the_passage_the_feed_is_the_parabolas_to_the_last_bit() {
-        for curvature in [-2.0, 0.0, 0.7] {
+        for curvature in [-2.0, 0.0, 0.7, 0.95] {
             for part in [1e-4, 1e-2, 0.0399] {
-                let gap = 1.0 - curvature;
-                let residual = part * part / (8.0 * gap);
+                let gap: f64 = 1.0 - curvature;
+                let residual = part * part / (8.0 * (1.0 / gap - 3.0 + 3.0 * gap));
                 let feed = CuspFeed::new(residual, Radial::Centre, &tool(1.0)).feed(&of(curvature));
                 let parabola = (8.0 * residual * gap).sqrt();
                 assert_eq!(feed.to_bits(), parabola.to_bits());
             }
         }
+    }
+
+    /// The feed itself, over all curvatures from a sharp dome to a hollow that the nose all but
+    /// fills, on a flat and on a slope, and over residuals on both sides of the passage. At the cap
+    /// and at half a circle cusps are smaller, and there the feed may only be too small.
+    #[test]
+    fn on_all_circles_the_cusp_of_the_feed_is_the_residual_within_the_stated_error() {
+        let curvatures = [
+            -30.0, -4.0, -1.0, -0.3, 0.0, 0.2, 0.33, 0.5, 0.7, 0.8, 0.9, 0.95, 0.97, 0.99,
+        ];
+        let mut largest: f64 = 0.0;
+        for curvature in curvatures {
+            for step in 0..400 {
+                let residual = 1e-7 * Scalar::exp(f64::from(step) * 0.03);
+                for slope in [0.0, 0.8f64] {
+                    let w = (1.0 + slope * slope).sqrt();
+                    let profile = Profile {
+                        height: 0.0,
+                        slope,
+                        second: curvature * w * w * w,
+                    };
+                    for radial in [Radial::Centre, Radial::Contact] {
+                        let law = CuspFeed::new(residual, radial, &tool(1.0));
+                        let gap = 1.0 - curvature;
+                        let feed = law.feed(&profile);
+                        let centres = match radial {
+                            Radial::Centre => feed * w,
+                            Radial::Contact => feed * w * gap,
+                        };
+                        let over = height(curvature, 1.0, centres) / residual - 1.0;
+                        let what = format!("{curvature}, {residual}, {slope}: {over}");
+                        assert!(over < 1.23e-4, "{what}");
+                        let bend = curvature * curvature * residual / (2.0 * gap);
+                        let capped = feed >= 0.99 * law.cap(slope, gap);
+                        // The triangles cancel where the residual is small.
+                        assert!(capped || bend > 0.4 || over > -1e-6, "{what}");
+                        largest = largest.max(over);
+                    }
+                }
+            }
+        }
+        assert!(largest > 1e-4, "{largest}");
     }
 
     /// The tip between two noses on a slope of 30 degrees, under an edge of 100 degrees: at the cap

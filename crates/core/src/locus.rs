@@ -31,10 +31,11 @@ pub trait Locus: Send + Sync {
     /// The feed dρ/dN, mm, that leaves cusps of height `residual` (mm) at each (θ, ρ).
     ///
     /// A small feed is sqrt(8Rε/(1 − Rκ))/w if ρ is the contact's radius, and sqrt(8Rε(1 − Rκ))/w
-    /// if ρ is the centre's X. κ and w are those of the contact. From R/15 on, the feed is that of
-    /// passes half a feed to either side of ρ whose cusp is `residual` high, as far as the noses
-    /// meet within their edges ([`CuspFeed::cap`]). Between R/25 and R/15 it passes smoothly from
-    /// one to the other. The feed is NaN where the surface has no curvature. With a tool that cuts
+    /// if ρ is the centre's X. κ and w are those of the contact. From a flat spacing of R/15 on
+    /// ([`CuspFeed::flat_spacing`]), the feed is that of passes half a feed to either side of ρ
+    /// whose cusp is `residual` high, as far as the noses meet within their edges
+    /// ([`CuspFeed::cap`]). Between R/25 and R/15 it passes smoothly from one to the other. The feed
+    /// is NaN where the surface has no curvature. With a tool that cuts
     /// what fits, 1 − Rκ counts as at least [`LEAST_GAP`], and the profile as its circle of
     /// curvature.
     ///
@@ -131,10 +132,6 @@ impl ToolLocus {
         radial == self.compensator.radial() && self.tool.misfit == Misfit::Refuse
     }
 
-    fn gap(&self, profile: &Profile) -> f64 {
-        1.0 - self.tool.nose_radius * profile.curvature()
-    }
-
     /// Computes the rates from the series along θ and along ρ.
     fn rates_from_series(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
         let along = |values: &[f64], rate: f64| -> Vec<Series> {
@@ -226,12 +223,13 @@ impl Locus for ToolLocus {
         for (i, profile) in profile.iter().enumerate() {
             let (parabola, whole) = (law.parabola(profile), law.feed(profile));
             feed[i] = whole;
-            if law.needs_circles(parabola) && parabola.is_finite() && self.places(radial) {
-                large.push((i, parabola));
+            let gap = law.gap(profile.curvature());
+            if law.needs_circles(gap) && parabola.is_finite() && self.places(radial) {
+                large.push((i, gap, parabola));
                 searches.push(FeedSearch {
                     theta: theta[i],
                     rho: rho[i],
-                    cap: law.cap(profile.slope, self.gap(profile)),
+                    cap: law.cap(profile.slope, gap),
                     feed: law.circles(profile),
                 });
             }
@@ -241,8 +239,8 @@ impl Locus for ToolLocus {
             compensator: self.compensator.as_ref(),
         };
         neighbours.search(residual, &mut searches);
-        for ((i, parabola), search) in large.into_iter().zip(&searches) {
-            feed[i] = law.joined(parabola, search.feed);
+        for ((i, gap, parabola), search) in large.into_iter().zip(&searches) {
+            feed[i] = law.joined(gap, parabola, search.feed);
         }
         Ok(())
     }

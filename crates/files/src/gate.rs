@@ -16,6 +16,13 @@ pub fn enter() -> MutexGuard<'static, ()> {
     GATE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Does a step that begins a draft elsewhere and registers it: a process that is to end waits for the
+/// step, and nobody begins one once it does. The step is short.
+pub fn begin_draft<T>(step: impl FnOnce() -> T) -> T {
+    let _gate = enter();
+    step()
+}
+
 /// Holds the gate, unless it is held already: by this thread, which then has it anyway, or by
 /// another, which is rare.
 pub fn enter_if_free() -> Option<MutexGuard<'static, ()>> {

@@ -38,7 +38,7 @@ mod temporary;
 pub use bounded::{read_bounded, read_bounded_text};
 pub use draft::{Draft, WholeFile};
 pub use file_error::FileError;
-pub use gate::{end_writing, wait_if_ending};
+pub use gate::{begin_draft, end_writing, wait_if_ending};
 pub use hashed_file::Contents;
 pub use operation::{Operation, watch_operations};
 pub use registry::{DraftKind, Registration, remove_drafts};

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use turnpath_core::printable_line;
-use turnpath_files::{DraftKind, Registration};
+use turnpath_files::{DraftKind, Registration, begin_draft};
 use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
 use turnpath_plugin::loading::SYMBOL_PREFIX;
@@ -221,25 +221,27 @@ fn too_large(path: PathBuf) -> LoadError {
 /// loader needs it.
 struct PrivateCopy {
     file: PathBuf,
-    /// A library that ends the process while it is loaded leaves neither file nor folder.
-    _drafts: [Registration; 2],
+    // Dropped in this order: whenever a signal comes, somebody removes folder and file.
     /// The folder removes itself and the file when it is dropped.
     _folder: tempfile::TempDir,
+    /// A library that ends the process while it is loaded leaves neither file nor folder.
+    _drafts: [Registration; 2],
 }
 
 impl PrivateCopy {
     fn of(bytes: &[u8]) -> io::Result<Self> {
-        let mut folder = tempfile::Builder::new().prefix("turnpath-").tempdir()?;
+        let (mut folder, of_folder) = begin_draft(|| {
+            let folder = tempfile::Builder::new().prefix("turnpath-").tempdir()?;
+            let registration = Registration::new(DraftKind::Folder, folder.path());
+            Ok::<_, io::Error>((folder, registration))
+        })?;
         // Windows keeps the file of a loaded library; its folder for temporary files belongs to the
         // user alone.
         folder.disable_cleanup(cfg!(windows));
         // Windows reads a name without an extension as one that ends in .dll.
         let name = format!("plugin{}", std::env::consts::DLL_SUFFIX);
         let file = fs::canonicalize(folder.path())?.join(name);
-        let drafts = [
-            Registration::new(DraftKind::Folder, folder.path()),
-            Registration::new(DraftKind::File, &file),
-        ];
+        let drafts = [of_folder, Registration::new(DraftKind::File, &file)];
         let mut options = OpenOptions::new();
         options.write(true).create_new(true);
         #[cfg(unix)]
@@ -247,8 +249,8 @@ impl PrivateCopy {
         options.open(&file)?.write_all(bytes)?;
         Ok(Self {
             file,
-            _drafts: drafts,
             _folder: folder,
+            _drafts: drafts,
         })
     }
 }

@@ -1,7 +1,8 @@
-//! Where the reach of the nose sets the feed, and not the residual.
+//! Where the feed comes near to the largest one of the nose.
 //!
-//! Neighbouring passes must meet within the edges of the nose. A law whose feed comes near to the
-//! largest such feed could not use a larger residual.
+//! Neighbouring passes must meet within the edges of the nose. However large the residual is, the
+//! feed does not exceed that. What the feed follows near there is not asked: it may be the residual,
+//! and the recipe may give it.
 
 use turnpath_core::locus::{CIRCLES_FROM, CuspFeed, Profile, profile_at};
 use turnpath_core::{CentreBuffers, Locus, SpiralLaw, StrategyError, angle};
@@ -10,11 +11,11 @@ use crate::{PipelineError, Preparation, Result};
 
 /// Places along the law that are looked at.
 const PLACES: u32 = 20_000;
-/// The part of the largest feed from which on it counts as reached. Laws stay below the feed of all
-/// radii around.
-const REACHED: f64 = 0.9;
+/// The part of the largest feed from which on a feed is near to it. Laws stay below the feed of all
+/// radii around, so they do not come nearer than this where they are capped.
+const NEAR: f64 = 0.9;
 
-/// Where the law's feed reaches the largest one of the nose.
+/// Where the law's feed comes within a tenth of the largest one of the nose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedCap {
     /// The least radius, mm.
@@ -25,7 +26,8 @@ pub struct FeedCap {
     pub feed: f64,
 }
 
-/// Where the law's feed reaches the largest one of the nose; `None` where it does so nowhere.
+/// Where the law's feed comes within a tenth of the largest one of the nose; `None` where it does
+/// so nowhere.
 pub(crate) fn feed_cap(preparation: &Preparation, law: &SpiralLaw) -> Result<Option<FeedCap>> {
     let large = large_feeds(preparation, law);
     if large.is_empty() {
@@ -34,7 +36,7 @@ pub(crate) fn feed_cap(preparation: &Preparation, law: &SpiralLaw) -> Result<Opt
     let caps = caps(preparation, &large).map_err(PipelineError::Measure)?;
     let mut found: Option<FeedCap> = None;
     for (turn, cap) in large.iter().zip(caps) {
-        if turn.feed < REACHED * cap {
+        if turn.feed < NEAR * cap {
             continue;
         }
         let known = found.unwrap_or(FeedCap {
@@ -62,7 +64,7 @@ struct TurnFeed {
 
 /// The turns whose feed is so large that a cap may be near.
 fn large_feeds(preparation: &Preparation, law: &SpiralLaw) -> Vec<TurnFeed> {
-    let least = CIRCLES_FROM * REACHED * preparation.task.tool.nose_radius;
+    let least = CIRCLES_FROM * NEAR * preparation.task.tool.nose_radius;
     let turns = law.end() - 1.0;
     let places = if turns > 0.0 { PLACES } else { 0 };
     let turn = |i: u32| {
@@ -92,9 +94,6 @@ fn caps(
     let mut profiles = vec![Profile::default(); turns.len()];
     profile_at(locus.surface(), &theta, &centres.foot, &mut profiles)?;
     let law = CuspFeed::new(task.tolerance.residual, locus.radial(), &task.tool);
-    let cap = |profile: &Profile| {
-        let gap = 1.0 - task.tool.nose_radius * profile.curvature();
-        law.cap(profile.slope, gap)
-    };
+    let cap = |profile: &Profile| law.cap(profile.slope, law.gap(profile.curvature()));
     Ok(profiles.iter().map(cap).collect())
 }

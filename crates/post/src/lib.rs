@@ -23,7 +23,7 @@ pub use path_reader::{ReadCount, ReadPath};
 pub use pmac::{
     Command, ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError,
     PmacFileBody, PmacFormat, PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template,
-    TemplateError, commands,
+    TemplateError, commands, leaves_program_open,
 };
 pub use read_csv::PathReader;
 pub use read_error::ReadError;

@@ -1,11 +1,11 @@
-//! Whether the reach of the nose sets the feed, and where.
+//! Whether the feed comes near to the largest one of the nose, and where.
 
 use serde::{Deserialize, Serialize};
 
 use crate::unit;
 
-/// Where the feed is the largest one of which neighbouring noses meet within their edges. A larger
-/// residual tolerance would not make it larger there.
+/// Where the feed comes within a tenth of the largest one of which neighbouring noses meet within
+/// their edges. No residual tolerance makes it larger than that.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct FeedCap {
     /// Whether there is such a place.

@@ -3,8 +3,11 @@
 use turnpath_recipe::{Recipe, Span, Spanned};
 use turnpath_report::ControllerCommand;
 
+/// The template before the path's lines.
+const HEADER: &str = "header";
+
 /// A command with the span of its template.
-struct Found<'a> {
+struct TemplateCommand<'a> {
     command: ControllerCommand,
     span: &'a Span,
 }
@@ -24,18 +27,24 @@ pub fn commands_to_trust(recipe: &Recipe) -> Vec<(ControllerCommand, Span)> {
         .collect()
 }
 
-fn found(recipe: &Recipe) -> impl Iterator<Item = Found<'_>> {
+fn found(recipe: &Recipe) -> impl Iterator<Item = TemplateCommand<'_>> {
     let settings = &recipe.pmac_pvt;
     let written = !recipe.output.posts.is_empty();
-    let templates = [("header", &settings.header), ("footer", &settings.footer)];
+    let templates = [(HEADER, &settings.header), ("footer", &settings.footer)];
     let own = templates.into_iter().filter(move |_| written);
     own.filter_map(|(name, own)| Some((name, own.as_ref()?)))
         .flat_map(|(name, own)| of_template(name, own))
 }
 
-fn of_template<'a>(name: &str, own: &'a Spanned<String>) -> Vec<Found<'a>> {
-    let commands = turnpath_post::commands(&own.value).into_iter();
-    let found = commands.map(|command| Found {
+fn of_template<'a>(name: &str, own: &'a Spanned<String>) -> Vec<TemplateCommand<'a>> {
+    let mut commands = turnpath_post::commands(&own.value);
+    if name == HEADER && !turnpath_post::leaves_program_open(&own.value) {
+        // The path's lines follow, and go wherever this one leaves the controller.
+        if let Some(last) = commands.last_mut() {
+            last.harmless = false;
+        }
+    }
+    let found = commands.into_iter().map(|command| TemplateCommand {
         command: ControllerCommand {
             template: name.to_owned(),
             line: command.line as u64,

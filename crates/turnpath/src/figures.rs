@@ -20,7 +20,7 @@ pub fn tolerances(recipe: &Recipe) -> report::Tolerances {
     }
 }
 
-/// Where the reach of the nose sets the feed.
+/// Where the feed comes near to the largest one of the nose.
 pub fn feed_cap(cap: Option<&FeedCap>) -> report::FeedCap {
     report::FeedCap {
         binds: cap.is_some(),

@@ -15,7 +15,7 @@ use crate::plots::{PlayedPath, Plots, draw};
 use crate::program::Program;
 
 use crate::sinks::SinkError;
-use crate::sizes::{check_room, toolpath_bytes};
+use crate::sizes::{bytes_while_assembled, check_room, toolpath_bytes};
 use crate::summary::SUMMARY;
 
 /// The table of the path.
@@ -220,12 +220,13 @@ impl Sink for FolderSink<'_> {
     fn expect(&mut self, expected: &Estimate) -> Result<(), SinkError> {
         let programs = self.programs.iter();
         let programs = programs.map(|program| program.expected_bytes(self.radius, expected));
+        let programs = bytes_while_assembled(programs);
         let toolpath = if self.writes_toolpath {
             toolpath_bytes(expected)
         } else {
             0.0
         };
-        check_room(self.folder.path(), toolpath + programs.sum::<f64>())?;
+        check_room(self.folder.path(), toolpath + programs)?;
         Ok(())
     }
 

@@ -14,6 +14,15 @@ pub fn toolpath_bytes(expected: &Estimate) -> f64 {
     expected.control_points * ROW_BYTES
 }
 
+/// Bytes that programs of these sizes take at most while they are put together: one after the other is
+/// copied from its scratch file, which is there until the copy is whole.
+pub fn bytes_while_assembled(programs: impl Iterator<Item = f64>) -> f64 {
+    let (sum, largest) = programs.fold((0.0, 0.0_f64), |(sum, largest), bytes| {
+        (sum + bytes, largest.max(bytes))
+    });
+    sum + largest
+}
+
 /// Refuses files that the disk of a folder has no room for. The folder need not be there yet. Where
 /// the system does not say how much is free, the files are begun.
 ///
@@ -55,6 +64,12 @@ mod tests {
             said.contains("125.00 GB") && said.contains("20.00 GB"),
             "{said}"
         );
+    }
+
+    #[test]
+    fn the_largest_program_counts_twice() {
+        assert_eq!(bytes_while_assembled([1.0, 5.0, 2.0].into_iter()), 13.0);
+        assert_eq!(bytes_while_assembled(std::iter::empty()), 0.0);
     }
 
     /// No disk has room for 10²⁵ bytes, and every disk of a test has room for one.

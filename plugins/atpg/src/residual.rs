@@ -29,7 +29,7 @@ impl Residual {
 }
 
 /// Eq. 1–4: f = sqrt(8Rε/(1 − R·min κ))/sqrt(1 + max g_ρ²), as far as neighbouring noses meet within
-/// their edges.
+/// their edges. The cap is that of what ρ really is.
 fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
     let surface = setup.locus.surface();
     let curvature = |profile: &Profile| profile.curvature();
@@ -37,9 +37,9 @@ fn paper_feed(setup: Setup<'_>, rho: f64) -> Result<f64> {
     let curvature = least_over_angles(&sections(surface, &curvature), rho)?;
     let slope = least_over_angles(&sections(surface, &flatness), rho)?;
     let radius = setup.task.tool.nose_radius;
-    let gap = 1.0 - radius * curvature;
     let tool = &setup.task.tool;
-    let law = CuspFeed::new(setup.task.tolerance.residual, Radial::Contact, tool);
+    let gap = 1.0 - radius * curvature;
+    let law = CuspFeed::new(setup.task.tolerance.residual, setup.locus.radial(), tool);
     let cap = law.cap(slope, gap);
     if gap <= 0.0 {
         return Ok(cap);

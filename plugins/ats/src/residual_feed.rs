@@ -5,9 +5,7 @@
 //! And a large feed is that of the circle of curvature, times one factor for the whole part: the
 //! least ratio of the host's feed, which knows how the curvature changes within a feed.
 
-use turnpath_plugin::locus::{
-    CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO, Profile, smooth_step,
-};
+use turnpath_plugin::locus::{CIRCLES_FROM, CuspFeed};
 use turnpath_plugin::prelude::*;
 
 use crate::jet::Jet;
@@ -21,13 +19,15 @@ pub const MARGIN: f64 = 1.5e-3;
 /// The cap on the parabola's feed, as a part of the nose radius. Where the feed comes near to it,
 /// the circles count and not the parabola.
 const PARABOLA_CAP: f64 = 0.1;
-/// The least 1 − Rκ in the feed of circles, and the least square of (cap/f). Below these the feed is
-/// its cap.
-const LEAST: f64 = 1e-6;
-/// The 1 − Rκ up to which the feed of circles does not count, and from which it counts whole. In
-/// hollows of nearly the nose's own radius it grows so fast along the angle that no law follows it.
-/// Beyond the part the nose need not fit at all; whether the path goes there is the host's question.
-const FIT: [f64; 2] = [0.05, 0.3];
+/// The 1 − Rκ below which the feed is no longer that of the curvature, where ρ is the centre's X.
+/// It goes over smoothly to the feed at half of this 1 − Rκ, and keeps that where the nose does not
+/// fit at all. Beyond the part the nose need not fit; whether the path goes there is the host's
+/// question. The cusps on the way are too high, so the part is small.
+const CENTRES_FIT: f64 = 0.02;
+/// The same where ρ is the contact's radius. There the feed of the curvature grows beyond all bounds
+/// in such hollows, and no law follows it along the angle. This one is smaller, so it holds the
+/// residual and costs revolutions.
+const CONTACTS_FIT: f64 = 0.2;
 
 /// The constants of the formula.
 #[derive(Debug, Clone, Copy)]
@@ -35,7 +35,6 @@ struct Law {
     radial: Radial,
     nose_radius: f64,
     residual: f64,
-    misfit: Misfit,
     circles: CuspFeed,
     /// The factor of the feed of circles; 1 until the first feed needs it.
     factor: f64,
@@ -43,57 +42,53 @@ struct Law {
 
 impl Law {
     /// The feed from the slope and the second derivative of the radial section at the contact. With
-    /// y = (cap/f)² it is cap/(1 + y⁴)^(1/8). Where the nose does not fit, it is the cap.
+    /// y = (cap/f)² it is cap/(1 + y⁴)^(1/8).
     fn feed<S: Scalar>(&self, slope: S, second: S) -> S {
         let cap = PARABOLA_CAP * self.nose_radius;
         let squared = slope.squared() + 1.0;
-        let gap = -(second / (squared * squared.sqrt()) * self.nose_radius) + 1.0;
-        let gap = match self.misfit {
-            Misfit::Refuse => gap,
-            Misfit::CutWhatFits => {
-                let least = S::constant(LEAST_GAP);
-                S::select(gap.less(least), least, gap)
-            }
-        };
+        let gap = fitting(self.gap(slope, second), self.fit());
         let scale = cap * cap / (8.0 * self.nose_radius * self.residual);
         let y = match self.radial {
             Radial::Contact => squared * gap * scale,
             Radial::Centre => squared / gap * scale,
         };
-        let none = S::constant(0.0);
-        let y = S::select(y.less(none), none, y);
         let eighth = (y.squared().squared() + 1.0).sqrt().sqrt().sqrt();
         let feed = eighth.recip() * (cap * (1.0 - MARGIN));
-        // The square of cap/f at which circles begin to count.
-        let border = (PARABOLA_CAP / PARABOLA_TO) * (PARABOLA_CAP / PARABOLA_TO);
-        match y.less(S::constant(border)).any() {
+        match self.circles.needs_circles(gap) {
             true => self.with_circles(feed, slope, gap, y),
             false => feed,
         }
     }
 
+    /// The least 1 − Rκ at which the feed is that of the curvature.
+    fn fit(&self) -> f64 {
+        match self.radial {
+            Radial::Centre => CENTRES_FIT,
+            Radial::Contact => CONTACTS_FIT,
+        }
+    }
+
+    /// 1 − Rκ of the radial section.
+    fn gap<S: Scalar>(&self, slope: S, second: S) -> S {
+        let squared = slope.squared() + 1.0;
+        self.circles.gap(second / (squared * squared.sqrt()))
+    }
+
     /// Whether circles count at some of these slopes and second derivatives.
     fn needs_circles(&self, mut sections: impl Iterator<Item = (f64, f64)>) -> bool {
-        sections.any(|(slope, second)| {
-            let profile = Profile {
-                height: 0.0,
-                slope,
-                second,
-            };
-            self.circles.needs_circles(self.circles.parabola(&profile))
-        })
+        sections.any(|(slope, second)| self.circles.needs_circles(self.gap(slope, second)))
+    }
+
+    /// Whether the feed is that of circles alone, where the nose fits.
+    fn is_of_circles(&self, slope: f64, second: f64) -> bool {
+        let gap = self.gap(slope, second);
+        gap >= self.fit() && self.circles.flat_spacing(gap) >= CIRCLES_FROM * self.nose_radius
     }
 
     /// The feed that passes from the parabola's to that of circles.
     fn with_circles<S: Scalar>(&self, parabola: S, slope: S, gap: S, y: S) -> S {
-        let at_least = |value: S| {
-            let least = S::constant(LEAST);
-            S::select(value.less(least), least, value)
-        };
-        let fit = smooth_step((gap - FIT[0]) / (FIT[1] - FIT[0]));
-        let (gap, y) = (at_least(gap), at_least(y));
         let free = y.sqrt().recip() * (PARABOLA_CAP * self.nose_radius);
-        let share = self.circles.share(free) * fit;
+        let share = self.circles.share(self.circles.flat_spacing(gap));
         let cap = self.circles.cap(slope, gap);
         let ratio = cap.squared() / (free.squared() * self.circles.correction(gap));
         let eighth = (ratio.squared().squared() + 1.0).sqrt().sqrt().sqrt();
@@ -114,6 +109,20 @@ impl Law {
             }
         }
     }
+}
+
+/// 1 − Rκ, but not below half of `fit`, with three continuous derivatives. From `fit` on it is `gap`
+/// to the last bit.
+fn fitting<S: Scalar>(gap: S, fit: f64) -> S {
+    let (none, whole) = (S::constant(0.0), S::constant(fit));
+    let fits = !gap.less(whole);
+    if !(!fits).any() {
+        return gap;
+    }
+    let way = S::select(gap.less(none), none, gap) / fit;
+    // The integral of a step of two continuous derivatives, which is a half at the end.
+    let rise = way * way * way * way * ((way - 3.0) * way + 2.5);
+    S::select(fits, gap, (rise + 0.5) * fit)
 }
 
 /// Computes feeds in batches.
@@ -140,7 +149,6 @@ impl<'a> ResidualFeed<'a> {
                 radial,
                 nose_radius: tool.nose_radius,
                 residual,
-                misfit: tool.misfit,
                 circles: CuspFeed::new(residual, radial, tool),
                 factor: factor.unwrap_or(1.0),
             },
@@ -210,9 +218,9 @@ impl<'a> ResidualFeed<'a> {
             host.resize(theta.len(), f64::NAN);
             locus.residual_feed(residual, radial, theta, rho, &mut host)?;
             local.values(theta, rho, &mut own)?;
-            for ((out, host), own) in out.iter_mut().zip(&host).zip(&own) {
-                let large = *own > CIRCLES_FROM * task.tool.nose_radius;
-                *out = [if large {
+            let feeds = host.iter().zip(&own).zip(&local.pairs);
+            for (out, ((host, own), (slope, second))) in out.iter_mut().zip(feeds) {
+                *out = [if local.law.is_of_circles(*slope, *second) {
                     -host * (1.0 - MARGIN) / own
                 } else {
                     -1.0

@@ -5,8 +5,9 @@
 //! without a formula. Zhong et al. give 10 µm, and the integrated discretization paper 50 µm. The
 //! decision here is: if the recipe gives `feed`, the strategy uses it as it is. Without `feed` it
 //! takes the smallest feed on the part that keeps the residual, with nose and slope computed as for
-//! `atpg`: large feeds from the exact cusp between noses, in the middle of two passes. On AST-5 this makes 101.1 revolutions along the contact, which agrees with the 101 whole
-//! ones behind that paper's 6061 points of 6°.
+//! `atpg`. A large feed is that of the exact cusp at the radius halfway between two passes. On AST-5
+//! this makes 101.1 revolutions along the contact, which agrees with the 101 whole ones behind that
+//! paper's 6061 points of 6°.
 
 mod constant;
 mod smallest;

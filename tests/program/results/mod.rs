@@ -210,7 +210,7 @@ fn verify_takes_no_damaged_summary_and_no_unfinished_result() {
     let bench = Bench::with(&tiny());
     bench.line("run recipe.toml -o out").ends(0);
     let whole = bench.read("out/summary.json");
-    let outside = whole.replacen("\"recipe.pmc\"", "\"../\\u001brecipe.toml\"", 1);
+    let outside = whole.replace("\"recipe.pmc\"", "\"../\\u001brecipe.toml\"");
     assert_ne!(outside, whole);
     for (text, why) in [
         (&whole[..whole.len() / 2], "it is not the JSON"),
@@ -242,7 +242,7 @@ fn a_summary_acts_on_no_terminal() {
     let bench = Bench::with(&tiny());
     bench.line("run recipe.toml -o out").ends(0);
     let whole = bench.read("out/summary.json");
-    let odd = whole.replacen("\"recipe.pmc\"", "\"a\\u001b[2J\\nb\"", 1);
+    let odd = whole.replace("\"recipe.pmc\"", "\"a\\u001b[2J\\nb\"");
     let odd = odd.replacen("\"recipe.toml\"", "\"c\\u009b2Jd\"", 1);
     bench.write("out/summary.json", odd);
     let said = bench.line("verify recipe.toml out/toolpath.csv --set spindle.speed=499rpm");

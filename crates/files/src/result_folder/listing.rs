@@ -78,16 +78,19 @@ pub struct Plan {
 
 impl Plan {
     /// The plan for these files in a folder that may have a result.
-    pub fn new(folder: &Path, index: &str, files: &[&str]) -> Self {
+    ///
+    /// # Errors
+    /// When the index of that result cannot be read now: its files would stay for ever.
+    pub fn new(folder: &Path, index: &str, files: &[&str]) -> io::Result<Self> {
         let kept: BTreeSet<&str> = files.iter().copied().chain([index]).collect();
-        let remove = listed(&folder.join(index)).into_iter();
-        Self {
+        let remove = listed(&folder.join(index))?.into_iter();
+        Ok(Self {
             index: index.to_owned(),
             files: files.iter().map(|file| (*file).to_owned()).collect(),
             remove: remove
                 .filter(|old| is_member(&old.file) && !kept.contains(old.file.as_str()))
                 .collect(),
-        }
+        })
     }
 
     /// The plan in a file. The error is `InvalidData` if it is none, or names files of other folders.
@@ -124,11 +127,18 @@ pub fn is_member(name: &str) -> bool {
     is_one && parts.next().is_none() && !name.starts_with(OWN)
 }
 
-/// The files that an index lists; none if it is not there, is damaged, or is older than lists.
-fn listed(index: &Path) -> Vec<ListedFile> {
-    let read = read_bounded(index, MOST_BYTES).ok();
-    let index = read.and_then(|bytes| serde_json::from_slice::<Index>(&bytes).ok());
-    index.unwrap_or_default().files
+/// The files that an index lists; none if it is not there, is no file that may be read, is damaged, or
+/// is older than lists.
+fn listed(index: &Path) -> io::Result<Vec<ListedFile>> {
+    use io::ErrorKind::{InvalidData, IsADirectory, NotFound, PermissionDenied};
+    let no_list = [InvalidData, IsADirectory, NotFound, PermissionDenied];
+    match read_bounded(index, MOST_BYTES) {
+        Ok(bytes) => Ok(serde_json::from_slice::<Index>(&bytes)
+            .unwrap_or_default()
+            .files),
+        Err(error) if no_list.contains(&error.kind()) => Ok(Vec::new()),
+        Err(error) => Err(error),
+    }
 }
 
 #[cfg(test)]
@@ -190,7 +200,8 @@ mod tests {
         let index = folder.path().join("index.json");
         let removed = |text: &str| {
             std::fs::write(&index, text).unwrap();
-            Plan::new(folder.path(), "index.json", &["kept"]).remove
+            let plan = Plan::new(folder.path(), "index.json", &["kept"]);
+            plan.unwrap().remove
         };
         assert_eq!(removed("{"), []);
         assert_eq!(removed("{}"), []);
@@ -207,5 +218,16 @@ mod tests {
         let found = removed(&format!("{{\"files\":[{files}]}}"));
         let names: Vec<&str> = found.iter().map(|old| old.file.as_str()).collect();
         assert_eq!(names, ["old"]);
+    }
+
+    /// A link to itself stands for a disk that fails: the file is there, and reading it fails.
+    #[cfg(unix)]
+    #[test]
+    fn an_index_that_cannot_be_read_now_stops_the_plan() {
+        let folder = tempfile::tempdir().unwrap();
+        let plan = || Plan::new(folder.path(), "index.json", &["kept"]);
+        assert!(plan().is_ok());
+        std::os::unix::fs::symlink("index.json", folder.path().join("index.json")).unwrap();
+        assert!(plan().is_err());
     }
 }

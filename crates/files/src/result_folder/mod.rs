@@ -177,7 +177,9 @@ impl ResultFolder {
     fn plan(&self, members: &[WholeFile], index: &WholeFile) -> Result<WholeFile, FileError> {
         let path = self.staging.path().join(PLAN);
         let names: Vec<&str> = members.iter().filter_map(WholeFile::member).collect();
-        let plan = Plan::new(&self.folder, index.member().unwrap_or_default(), &names);
+        let index = index.member().unwrap_or_default();
+        let plan = Plan::new(&self.folder, index, &names);
+        let plan = plan.map_err(FileError::of(&self.folder.join(index)))?;
         let mut draft = Draft::begin_as(path.clone(), path.clone(), Some(PLAN.to_owned()))?;
         let written = plan.text().and_then(|text| draft.write_all(&text));
         written.map_err(FileError::of(&path))?;

@@ -114,7 +114,7 @@ fn a_commit_that_was_interrupted_anywhere_is_completed_by_the_next_writer() {
         make(folder, &[("table", "1"), ("old", "2")]).unwrap();
         let commit = folder.join(".turnpath/commit");
         fs::create_dir_all(&commit).unwrap();
-        let plan = Plan::new(folder, "index.json", &["table"]);
+        let plan = Plan::new(folder, "index.json", &["table"]).unwrap();
         fs::write(commit.join(PLAN), plan.text().unwrap()).unwrap();
         fs::write(commit.join("table"), "3").unwrap();
         fs::write(commit.join("index.json"), "{}").unwrap();
@@ -172,7 +172,7 @@ fn a_plan_that_names_other_folders_removes_nothing_and_says_what_to_do() {
     let commit = folder.join(".turnpath/commit");
     fs::create_dir_all(&commit).unwrap();
     fs::write(commit.join("index.json"), "{}").unwrap();
-    let mut plan = Plan::new(&folder, "index.json", &[]);
+    let mut plan = Plan::new(&folder, "index.json", &[]).unwrap();
     plan.remove = vec![ListedFile::new(
         "../x",
         &crate::Contents::of_file(&outside).unwrap(),

@@ -19,8 +19,8 @@ pub struct Command {
 
 /// The commands of a template, line by line. Comments and empty lines are none.
 ///
-/// These words are harmless: `OPEN PROG` with a number below 1000, `OPEN ROT`, `CLEAR` and `CLOSE`,
-/// which say where the program goes; `ABS` and `INC`, which say what numbers mean; labels; `DWELL` and
+/// These words are harmless: `OPEN PROG` with a number below 1000, `CLEAR` and `CLOSE`, which
+/// say where the program goes; `ABS` and `INC`, which say what numbers mean; labels; `DWELL` and
 /// `DELAY` with a number, which wait; `RETURN` and `STOP`, which end. Any other word may move an axis,
 /// set a variable, or start what does.
 pub fn commands(template: &str) -> Vec<Command> {
@@ -36,6 +36,23 @@ pub fn commands(template: &str) -> Vec<Command> {
         })
     });
     commands.collect()
+}
+
+/// Whether a program is open after a header, so that the path's lines go into it. A header of comments
+/// alone opens and closes nothing.
+pub fn leaves_program_open(header: &str) -> bool {
+    let mut open = false;
+    for command in commands(header) {
+        let code = command.text.to_uppercase();
+        for word in code.split(|c: char| !c.is_ascii_alphabetic()) {
+            match word {
+                "OPEN" => open = true,
+                "CLOSE" | "CLS" => open = false,
+                _ => {}
+            }
+        }
+    }
+    open
 }
 
 fn is_harmless(code: &str) -> bool {
@@ -58,7 +75,6 @@ fn after_statement(code: &str) -> Option<&str> {
         "ABS" | "INC" => after_axes(rest),
         "N" | "DWELL" | "DELAY" => number(rest).map(|(_, rest)| rest),
         "OPEN" => match self::word(rest.trim_start()) {
-            ("ROT" | "ROTARY", rest) => Some(rest),
             ("PROG" | "PROGRAM", rest) => {
                 let (program, rest) = number(rest)?;
                 let program: u32 = program.parse().ok()?;
@@ -112,7 +128,6 @@ mod tests {
     #[test]
     fn words_that_only_open_read_wait_or_end_are_harmless() {
         for text in [
-            "OPEN ROT",
             "close open prog 12 clear",
             "N10 ABS (X, Z) INC",
             "DWELL 100",
@@ -127,6 +142,7 @@ mod tests {
     #[test]
     fn any_other_word_needs_trust() {
         for text in [
+            "OPEN ROT",
             "M1=1",
             "I5=2",
             "P1 = 2",
@@ -148,6 +164,19 @@ mod tests {
             "CLOSE\u{b5}",
         ] {
             assert!(!all_harmless(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_header_leaves_a_program_open_or_not() {
+        for (header, open) in [
+            (HEADER, true),
+            ("CLOSE\nOPEN PROG 2 CLEAR\nABS", true),
+            ("CLOSE", false),
+            ("OPEN PROG 2 CLEAR\nCLOSE", false),
+            ("; OPEN PROG 2", false),
+        ] {
+            assert_eq!(leaves_program_open(header), open, "{header}");
         }
     }
 

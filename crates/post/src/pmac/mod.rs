@@ -40,7 +40,7 @@ mod template;
 #[cfg(test)]
 mod tests;
 
-pub use commands::{Command, commands};
+pub use commands::{Command, commands, leaves_program_open};
 pub use error::PmacError;
 pub use format::{ENTRY_MS, PmacFormat, QUANTA_PER_S};
 pub use program::{FOOTER, HEADER, PmacFileBody, PmacWriter};

@@ -57,6 +57,7 @@ pub fn feed_cap(cap: &FeedCap) -> String {
     };
     let feed = significant(feed * unit::um::PER);
     let (from, to) = (millimetres(from, 3), millimetres(to, 3));
-    let what = format!("the reach of the nose sets the feed, not the residual: {feed} um/rev");
-    line("feed cap", what) + &line("", format!("from ρ = {from} to {to}"))
+    let what = format!("within a tenth of the largest feed of the nose, {feed} um/rev,");
+    let whatever = format!("from ρ = {from} to {to}, whatever the residual");
+    line("feed cap", what) + &line("", whatever)
 }
