@@ -20,7 +20,7 @@ const ENOUGH: f64 = 0.9999;
 const CLOSE: f64 = 0.999;
 /// The whole schedule is not slowed down by more than this.
 const LITTLE: f64 = 0.98;
-/// By so much more it is slowed down: for the rounding of points.
+/// An excess below this part is the rounding of points. By so much more a schedule is slowed down.
 const ROUNDING: f64 = 1e-9;
 /// The smallest factor that the host asks for. A jump between two points asks for next to nothing,
 /// and a strategy divides by factors.
@@ -70,7 +70,7 @@ fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
 /// scales with it, so that it then holds the limits. An excess that is not little stays, and the
 /// verdict shows it.
 fn slow_down(plan: &mut Plan<'_>, least: f64) {
-    if (LITTLE..1.0).contains(&least) {
+    if (LITTLE..1.0 - ROUNDING).contains(&least) {
         plan.take_spindle(plan.spindle.scaled(least * (1.0 - ROUNDING)));
     }
 }
