@@ -17,6 +17,7 @@ mod real_nose;
 mod recipes;
 mod rims;
 mod servo;
+mod spindle;
 mod spoiled_paths;
 mod spoils;
 mod whole_part;

@@ -40,7 +40,7 @@ const BUILT_INS: [(&str, &[&str]); 6] = [
             "triangle-rotary",
         ],
     ),
-    ("spindle", &["constant"]),
+    ("spindle", &["constant", "per-revolution", "surface-speed"]),
 ];
 
 /// Slot and name of each line of a list.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::{PiecewisePolynomial, Series};
+use crate::{Piece, PiecewisePolynomial, Series};
 
 /// The spiral law ρ = ℓ(N): the compensator's radial parameter, mm, against revolutions.
 ///
@@ -31,9 +31,31 @@ impl SpindleLaw {
         Self { time }
     }
 
+    /// Whether the speed is the same all along.
+    pub fn is_constant(&self) -> bool {
+        let pieces = self.time.pieces();
+        pieces.iter().all(|piece| {
+            let [_, rate, change @ ..] = piece.coefficients;
+            Some(rate) == pieces.first().map(|first| first.coefficients[1])
+                && change.iter().all(|c| *c == 0.0)
+        })
+    }
+
     /// The time t(N) in s as a piecewise polynomial.
     pub fn as_time(&self) -> &PiecewisePolynomial {
         &self.time
+    }
+
+    /// The same schedule with every speed multiplied by `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let slower = |piece: &Piece| Piece {
+            start: piece.start,
+            coefficients: piece.coefficients.map(|c| c / factor),
+        };
+        let pieces = self.time.pieces().iter().map(slower);
+        Self {
+            time: PiecewisePolynomial::from_pieces(pieces.collect(), self.time.end()),
+        }
     }
 
     /// The law between `from` and `to` revolutions: what one block needs.

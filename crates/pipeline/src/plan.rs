@@ -2,6 +2,7 @@
 //! blocks.
 
 use std::f64::consts::TAU;
+use std::sync::OnceLock;
 
 use turnpath_core::{
     Dependence, NodeList, Overrun, Path, Revolutions, SamplerPlan, SpindleLaw, SpiralLaw,
@@ -20,6 +21,8 @@ pub const BLOCK: f64 = 64.0;
 /// bounded on the finest paths. The choice depends on the task alone, so the bytes do not depend on
 /// the machine.
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
+/// Most nodes of a path that are held in memory while its spindle is planned: 100 MB.
+const MOST_HELD: f64 = 4e6;
 /// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
 /// thousands is sequential.
 const MOST_OVERLAP: usize = 10_000;
@@ -42,6 +45,8 @@ pub struct Plan<'a> {
     pub law: SpiralLaw,
     /// t(N).
     pub spindle: SpindleLaw,
+    /// The spindle law that the sampler sees: the first one, if the strategy was asked again.
+    sampled: SpindleLaw,
     /// Between which revolutions the law is the feed strategy's own; `None` if no part is.
     pub own: Option<[f64; 2]>,
     /// Steps of time a second on which control points must lie, if the controller has such steps.
@@ -50,10 +55,14 @@ pub struct Plan<'a> {
     pub start: Start,
     /// Revolutions of a block: [`BLOCK`], or fewer where there are very many nodes.
     block: f64,
+    /// Nodes of a revolution where they are densest.
+    density: f64,
     /// The sampler's plan of the whole path.
     sampler: Box<dyn SamplerPlan>,
     /// The state that a sequential sampler carries into each block; empty for others.
     sampler_states: Vec<Vec<f64>>,
+    /// The nodes of each block while they are held; empty while they are not.
+    held: Vec<OnceLock<NodeList>>,
 }
 
 impl<'a> Plan<'a> {
@@ -80,23 +89,33 @@ impl<'a> Plan<'a> {
             chain,
             preparation,
             law,
+            sampled: spindle.clone(),
             spindle,
             own,
             time_steps: None,
             start: Start::default(),
             block: BLOCK,
+            density: 0.0,
             sampler,
             sampler_states: Vec::new(),
+            held: Vec::new(),
         };
         plan.divide(observer)?;
         Ok(plan)
     }
 
-    /// Takes another spindle law, and plans the nodes anew: a sampler may look at the speed.
-    pub fn take_spindle(&mut self, spindle: SpindleLaw, observer: &dyn Observer) -> Result<()> {
+    /// Takes another spindle law. The nodes stay where they are: with other nodes the played axes
+    /// would have other peaks.
+    pub fn take_spindle(&mut self, spindle: SpindleLaw) {
         self.spindle = spindle;
-        self.sampler = plan_nodes(self.chain, self.preparation, &self.law, &self.spindle)?;
-        self.divide(observer)
+    }
+
+    /// Holds the nodes of each block as the sampler places them, so that it is not asked again. A
+    /// path with more than [`MOST_HELD`] nodes holds none.
+    pub fn hold_nodes(&mut self) {
+        if self.density * self.law.end() <= MOST_HELD {
+            self.held = (0..self.blocks()).map(|_| OnceLock::new()).collect();
+        }
     }
 
     /// Divides the path into blocks, and learns the states of a sequential sampler.
@@ -117,7 +136,7 @@ impl<'a> Plan<'a> {
 
     /// Revolutions of a block, from the nodes of one revolution each at the path's start, middle
     /// and end. A sequential sampler can begin at the start only.
-    fn comfortable_block(&self) -> Result<f64> {
+    fn comfortable_block(&mut self) -> Result<f64> {
         let last = (self.law.end() - 1.0).max(0.0).floor();
         let sequential = self.sampler.dependence() == Dependence::Sequential;
         let count = if sequential { 1 } else { 3 };
@@ -128,6 +147,7 @@ impl<'a> Plan<'a> {
             densest = densest.max(nodes.len());
             sparsest = sparsest.min(nodes.len());
         }
+        self.density = densest as f64;
         let range = self.preparation.task.range;
         check_points(range.outer - range.inner, self.law.end(), sparsest as f64)?;
         let mut block = BLOCK;
@@ -186,6 +206,19 @@ impl<'a> Plan<'a> {
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<NodeList> {
+        let held = self.held.get(index);
+        if let Some(nodes) = held.and_then(OnceLock::get) {
+            return Ok(nodes.clone());
+        }
+        let nodes = self.place(index)?;
+        if let Some(held) = held {
+            // Another thread may have been faster, with the same nodes.
+            let _ = held.set(nodes.clone());
+        }
+        Ok(nodes)
+    }
+
+    fn place(&self, index: usize) -> Result<NodeList> {
         let mut state = self.sampler_states.get(index).cloned().unwrap_or_default();
         self.sample_from(index, &mut state)
     }
@@ -217,7 +250,7 @@ impl<'a> Plan<'a> {
             task,
             locus,
             law: &self.law.window(from, to),
-            spindle: &self.spindle.window(from, to),
+            spindle: &self.sampled.window(from, to),
         };
         let mut nodes = NodeList::default();
         let answer = match self.sampler.dependence() {

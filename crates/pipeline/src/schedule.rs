@@ -15,6 +15,13 @@ const ROUNDS: usize = 3;
 /// A half turn counts as slow enough if its limits ask for no less than this part of its speed: a
 /// tenth of the one factor with which limits are judged.
 const ENOUGH: f64 = 0.9999;
+/// A schedule is not planned again if the whole of it need not be slower than by this part: a longer
+/// cut by a thousandth, against another round of planning.
+const CLOSE: f64 = 0.999;
+/// The whole schedule is not slowed down by more than this.
+const LITTLE: f64 = 0.98;
+/// An excess below this part is the rounding of points. By so much more a schedule is slowed down.
+const ROUNDING: f64 = 1e-9;
 /// The smallest factor that the host asks for. A jump between two points asks for next to nothing,
 /// and a strategy divides by factors.
 const LEAST: f64 = 1e-3;
@@ -29,19 +36,21 @@ pub fn plan<'a>(
     observer: &dyn Observer,
 ) -> Result<Plan<'a>> {
     let mut plan = Plan::new(chain, preparation, observer)?;
-    follow(&mut plan, observer)?;
+    let strategy = &chain.spindle.strategy;
+    if strategy.follows_factors() && preparation.task.machine.has_limits() {
+        plan.hold_nodes();
+        follow(&mut plan, observer)?;
+    }
     Ok(plan)
 }
 
 fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
-    let strategy = &plan.chain.spindle.strategy;
-    if !(strategy.follows_factors() && plan.preparation.task.machine.has_limits()) {
-        return Ok(());
-    }
     let mut factors = vec![1.0; half_turns(plan.law.end())];
-    for _ in 0..ROUNDS {
+    for round in 0..=ROUNDS {
         let headroom = headroom(plan, observer)?;
-        if headroom.iter().all(|headroom| *headroom >= ENOUGH) {
+        let least = headroom.iter().copied().fold(1.0, f64::min);
+        if least >= CLOSE || round == ROUNDS {
+            slow_down(plan, least);
             break;
         }
         let speed = plan.preparation.task.spindle_speed;
@@ -52,9 +61,18 @@ fn follow(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<()> {
             }
         }
         let law = spindle::plan(plan.chain, plan.preparation, &plan.law, &factors)?;
-        plan.take_spindle(law, observer)?;
+        plan.take_spindle(law);
     }
     Ok(())
+}
+
+/// Slows the whole schedule down by the little that is left of an excess. The motion of all axes
+/// scales with it, so that it then holds the limits. An excess that is not little stays, and the
+/// verdict shows it.
+fn slow_down(plan: &mut Plan<'_>, least: f64) {
+    if (LITTLE..1.0 - ROUNDING).contains(&least) {
+        plan.take_spindle(plan.spindle.scaled(least * (1.0 - ROUNDING)));
+    }
 }
 
 fn half_turns(end: f64) -> usize {

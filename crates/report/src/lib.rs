@@ -20,6 +20,7 @@ mod axes;
 mod check;
 pub mod comparison;
 mod coverage;
+mod cutting_speed;
 mod errors;
 mod feed_cap;
 mod file;
@@ -50,6 +51,7 @@ pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
 pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
+pub use cutting_speed::CuttingSpeed;
 pub use errors::{
     ControlPointError, InterpolationError, LeftOut, PlayedCusp, Residual, Tolerances,
 };

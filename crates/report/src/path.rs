@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::axes::Axes;
 use crate::coverage::{AxisCrossing, Coverage, Overrun};
+use crate::cutting_speed::CuttingSpeed;
 use crate::errors::{ControlPointError, InterpolationError, PlayedCusp, Residual, Tolerances};
 use crate::form::FormReport;
 use crate::lead::LeadReport;
@@ -48,6 +49,9 @@ pub struct PathReport {
     pub form: Option<FormReport>,
     /// Motion of the axes over the cut.
     pub axes: Axes,
+    /// Cutting speed; `None` in a report that was written before there was such a figure.
+    #[serde(default)]
+    pub cutting_speed: Option<CuttingSpeed>,
     /// The machine's limits; `None` without any.
     pub machine: Option<MachineReport>,
     /// The highest speed of the spindle at which the cut holds all limits; `None` without a limit

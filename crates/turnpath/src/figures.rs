@@ -6,8 +6,8 @@ use turnpath_report as report;
 use turnpath_report::{LimitFigure, PathPlace};
 use turnpath_verify::machined::{FormScope, MachinedFigures, PartPoint, SurfaceExtremes};
 use turnpath_verify::{
-    AxesMotion, AxisMotion, CoverageFigures, FollowingError, HighestSpeed, LeadFigures,
-    PathFigures, Peak, ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
+    AxesMotion, AxisMotion, CoverageFigures, CuttingSpeed, FollowingError, HighestSpeed,
+    LeadFigures, PathFigures, Peak, ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
 };
 
 /// The tolerances that a recipe asks for.
@@ -117,6 +117,7 @@ pub fn path(
             split: None,
         }),
         axes: axes(&figures.axes),
+        cutting_speed: Some(cutting_speed(&figures.cutting_speed)),
         machine: machine_source(recipe).map(|machine| report::MachineReport {
             machine,
             limits: limits(&figures.axes, recipe),
@@ -136,6 +137,16 @@ fn highest_spindle(recipe: &Recipe, highest: &HighestSpeed, axes: &AxesMotion) -
     match recipe.has_constant_spindle() {
         true => highest.speed,
         false => highest.factor * axes.c.velocity.amount,
+    }
+}
+
+fn cutting_speed(figures: &CuttingSpeed) -> report::CuttingSpeed {
+    report::CuttingSpeed {
+        least: figures.least,
+        mean: figures.mean(),
+        most: figures.most,
+        spindle_least: figures.spindle_least,
+        spindle_most: figures.spindle_most,
     }
 }
 

@@ -14,6 +14,7 @@ mod contact_bounds;
 mod corners;
 mod coverage;
 mod cusp;
+mod cutting_speed;
 mod edge;
 mod instants;
 mod lead;
@@ -40,6 +41,7 @@ pub use comparison::{
     Column, ComparisonFigures, HalfDigits, PathRow, RowAnomaly, RowComparison, RowFault,
 };
 pub use coverage::CoverageFigures;
+pub use cutting_speed::CuttingSpeed;
 pub use edge::UncutHeight;
 pub use instants::INSTANTS;
 pub use lead::{Jumps, LeadBlockFigures, LeadFigures, LeadMeter};

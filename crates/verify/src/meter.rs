@@ -5,6 +5,7 @@ use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
 use crate::coverage::{Coverage, CoverageFigures};
+use crate::cutting_speed::CuttingSpeed;
 use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, SurfaceExtremes};
 use crate::playback::{PlaybackFigures, play_back};
 use crate::points::{PointFigures, point_errors};
@@ -26,6 +27,8 @@ pub struct BlockFigures {
     pub residual: ResidualFigures,
     /// Motion of the axes.
     pub axes: AxesMotion,
+    /// Cutting speed.
+    pub cutting_speed: CuttingSpeed,
     passes: Passes,
     sections: SectionPasses,
     /// The passes of the real nose, where the path takes its radius as 0.
@@ -47,6 +50,8 @@ pub struct PathFigures {
     pub coverage: CoverageFigures,
     /// Motion of the axes.
     pub axes: AxesMotion,
+    /// Cutting speed.
+    pub cutting_speed: CuttingSpeed,
 }
 
 /// Measures a path against its subject.
@@ -115,6 +120,7 @@ impl Meter {
     ) -> Result<BlockFigures> {
         let mut block = BlockFigures {
             axes: AxesMotion::of(points),
+            cutting_speed: CuttingSpeed::of(points),
             ends: ends(points),
             ..BlockFigures::default()
         };
@@ -146,6 +152,7 @@ impl Meter {
         self.figures.playback.append(&next.playback);
         self.figures.points.include(&next.points);
         self.figures.axes.append(&next.axes);
+        self.figures.cutting_speed.append(&next.cutting_speed);
         self.figures.residual.append(&next.residual);
         let joint = self.passes.follow(&self.touch, &next.passes)?;
         self.figures.residual.append(&joint);

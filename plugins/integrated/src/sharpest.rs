@@ -3,7 +3,8 @@
 //! The search evaluates points along the spiral and then refines the sharpest of them. The played
 //! coordinate φ is Z of the tool centre along the true spiral. Where X bends too, its own error
 //! moves the position at which Z is compared, by the slope: φ⁗ = Z⁗ − ∂Z/∂X·X⁗ (after Wang et al.
-//! 2019, §3.4, for the tool centre instead of the contact).
+//! 2019, §3.4, for the tool centre instead of the contact). Where the speed of the spindle changes, the
+//! cubics run in time, and the search takes the derivative in time.
 
 use turnpath_plugin::prelude::*;
 
@@ -18,6 +19,8 @@ const MOST_POINTS: f64 = 2e6;
 const BATCH: usize = 4096;
 /// How many of the sharpest points the search refines. Waves have many crests that look alike.
 const CANDIDATES: usize = 16;
+/// The longest step that a sampler may take, rad.
+const LONGEST: f64 = 0.5 * PI;
 /// Rounds of refinement. A round that finds nothing sharper halves the distance. After ten such
 /// rounds a crest is known to a thousandth of a degree, where it is flat to 1e-6.
 const ROUNDS: usize = 24;
@@ -136,13 +139,18 @@ impl Scan {
 /// |φ⁗| at points of the path.
 fn measure(path: &Path<'_>, places: &[f64]) -> Result<Vec<Spot>> {
     let mut spots = Vec::with_capacity(places.len());
+    let steady = path.spindle.is_constant();
     for batch in places.chunks(BATCH) {
         let blank = vec![[f64::NAN; 5]; batch.len()];
         let (mut x, mut z) = (blank.clone(), blank);
         path.series_at(batch, &mut x, &mut z)?;
         let slopes = slopes(path, batch, &x)?;
         for (i, n) in batch.iter().enumerate() {
-            let sharpness = 24.0 * (z[i][4] - slopes[i] * x[i][4]).abs();
+            let phi: Series = std::array::from_fn(|k| z[i][k] - slopes[i] * x[i][k]);
+            let sharpness = match steady {
+                true => 24.0 * phi[4].abs(),
+                false => in_time(path, *n, &phi),
+            };
             if !sharpness.is_finite() {
                 return Err(no_derivative(path, *n));
             }
@@ -150,6 +158,19 @@ fn measure(path: &Path<'_>, places: &[f64]) -> Result<Vec<Spot>> {
         }
     }
     Ok(spots)
+}
+
+/// |φ⁗| where the speed of the spindle changes: in the time of a radian, without what C's own error
+/// makes of it. A step is an angle, and its fastest radian counts.
+fn in_time(path: &Path<'_>, n: f64, phi: &Series) -> f64 {
+    let pace = Pace::after(path.spindle, n);
+    let fourth = 24.0 * pace.beside_c(phi)[4].abs();
+    let natural = (384.0 * path.task.tolerance.interpolation / fourth)
+        .sqrt()
+        .sqrt();
+    let faster = 1.0 + 0.5 * pace.change() * natural.min(LONGEST);
+    let square = faster * faster;
+    fourth * square * square
 }
 
 /// ∂Z/∂X at the points; 0 everywhere if X has no fourth derivative.

@@ -5,7 +5,7 @@
 
 TURNPATH is the program. Without a recipe these are all of docs/recipes, hard/, sums/ and form/,
 and all of slots/ if DIR has the libraries of tests/fixtures. Each recipe's figures go to `<recipe>.json` in
-the folder of its references: this one for docs/recipes, hard/, sums/, form/ and slots/ for their own. They
+the folder of its references: this one for docs/recipes, hard/, sums/, form/, schedules/ and slots/ for their own. They
 change only when a path does.
 """
 
@@ -17,20 +17,21 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 
-from playback import Recipe, ToolPath, measure, measure_slots
+from playback import Recipe, ToolPath, measure, measure_schedule, measure_slots
 
 HERE = Path(__file__).resolve().parent
 RECIPES = HERE.parents[2] / "docs" / "recipes"
 HARD = HERE / "hard"
 SUMS = HERE / "sums"
 FORM = HERE / "form"
+SCHEDULES = HERE / "schedules"
 SLOTS = HERE / "slots"  # recipes that need the fixture `two-speeds`
 TOLERANCE_EXCEEDED = 1  # turnpath's exit status when a path is made but holds no tolerance
 
 
 def reference_file(recipe):
     """Where the figures of a recipe are kept."""
-    folder = recipe.parent if recipe.parent in (HARD, SUMS, FORM, SLOTS) else HERE
+    folder = recipe.parent if recipe.parent in (HARD, SUMS, FORM, SCHEDULES, SLOTS) else HERE
     return folder / f"{recipe.stem}.json"
 
 
@@ -42,7 +43,7 @@ def measure_recipe(program, plugins, recipe):
         run = subprocess.run(command, capture_output=True, text=True)
         if run.returncode not in (0, TOLERANCE_EXCEEDED):
             raise SystemExit(f"{recipe.name}: exit {run.returncode}\n{run.stderr}")
-        figures = measure_slots if recipe.parent == SLOTS else measure
+        figures = {SLOTS: measure_slots, SCHEDULES: measure_schedule}.get(recipe.parent, measure)
         return figures(Recipe.read(recipe), ToolPath.read(Path(folder) / "toolpath.csv"))
 
 
@@ -56,7 +57,7 @@ def main():
     program = str(Path(given.program).resolve())
     recipes = [Path(name).resolve() for name in given.recipes]
     if not recipes:
-        folders = [RECIPES, HARD, SUMS, FORM] + ([SLOTS] if given.plugins else [])
+        folders = [RECIPES, HARD, SUMS, FORM, SCHEDULES] + ([SLOTS] if given.plugins else [])
         recipes = [recipe for folder in folders for recipe in sorted(folder.glob("*.toml"))]
     with ProcessPoolExecutor() as pool:
         for recipe, figures in zip(recipes, pool.map(partial(measure_recipe, program, given.plugins), recipes)):

@@ -783,6 +783,34 @@ def spindle(path, instants=64):
             "acceleration_deg_per_s2": float(np.abs(acceleration).max())}
 
 
+def axes(path):
+    """The largest velocity, acceleration and jerk of each axis over the cut, in deg or mm, and s.
+
+    A cubic's acceleration is largest at an end of its segment, its jerk is constant on it, and its
+    velocity is largest at an end or where the acceleration is zero."""
+    h = path.durations
+    figures = {}
+    for axis, (p, v) in path.AXES.items():
+        start, end = path.nodes[:-1, p], path.nodes[1:, p]
+        first, last = path.nodes[:-1, v] * h, path.nodes[1:, v] * h
+        square = 3 * (end - start) - 2 * first - last
+        cube = first + last - 2 * (end - start)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            turn = np.nan_to_num(-square / (3 * cube), nan=0.0, posinf=0.0, neginf=0.0)
+        turn = np.clip(turn, 0, 1)
+        between = first + 2 * square * turn + 3 * cube * turn**2
+        velocity = np.abs(np.concatenate([first / h, last / h, between / h]))
+        acceleration = np.abs(np.concatenate([2 * square / h**2, (2 * square + 6 * cube) / h**2]))
+        figures[axis] = {"velocity": float(velocity.max()), "acceleration": float(acceleration.max()),
+                         "jerk": float(np.abs(6 * cube / h**3).max())}
+    return figures
+
+
+def measure_schedule(recipe, path):
+    """All figures, and those of a spindle that keeps the axes within limits."""
+    return measure(recipe, path) | {"spindle": spindle(path), "axes": axes(path)}
+
+
 def measure_slots(recipe, path):
     """All figures, and those of nodes off the locus and of a spindle that changes its speed."""
     return measure(recipe, path) | {"control_point_nm": control_points(recipe, path),

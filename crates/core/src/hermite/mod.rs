@@ -3,9 +3,11 @@
 //!
 //! φ, mm, is the height of the tool centre along the true spiral as the bound takes it, over the C
 //! angle in rad. φ⁗ = Z⁗ − ∂Z/∂X·X⁗: where X bends, the error of X itself moves the position at
-//! which Z is compared.
+//! which Z is compared. Where the speed of the spindle changes, the cubics run in time, and the bound
+//! takes the derivatives in time, without what C's own error makes of them.
 
 mod bound;
+mod clock;
 mod samples;
 mod steps;
 mod swing;

@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::bound::Jumps;
+use super::bound::{Bound, Jumps};
+use super::clock::Clock;
 use crate::{
-    CentreSeries, DEG, Misfit, Path, Rates, Result, Revolutions, Series, StrategyError, angle,
-    per_radian,
+    CentreSeries, DEG, Misfit, Pace, Path, Rates, Result, Revolutions, Series, SpindleLaw,
+    StrategyError, angle, per_radian,
 };
 
 /// Samples on a revolution of the coarsest grid. The number is a prime, so that no ring of equal
@@ -54,6 +55,12 @@ struct PhiEvaluator<'a> {
     z: Vec<Series>,
     spare: [Vec<f64>; 3],
     slope: Vec<f64>,
+    clock: Clock<'a>,
+    /// The largest step, rad.
+    max_step: f64,
+    /// The pace at each place of the last evaluation, and the speed over that at the clock's
+    /// reference; empty where the speed is constant.
+    paces: Vec<(Pace, f64)>,
 }
 
 impl PhiEvaluator<'_> {
@@ -62,10 +69,9 @@ impl PhiEvaluator<'_> {
     fn evaluate(&mut self, n: &[f64]) -> Result<()> {
         self.resize(n.len());
         self.path.series_at(n, &mut self.x, &mut self.z)?;
-        let moves = self
-            .x
-            .iter()
-            .any(|x| 24.0 * x[4].abs() > self.negligible_fourth);
+        self.find_paces(n, Pace::after);
+        let moves = (0..n.len())
+            .any(|i| 24.0 * self.in_time(i, self.x[i])[4].abs() > self.negligible_fourth);
         if moves {
             self.find_slopes(n)?;
         }
@@ -87,6 +93,47 @@ impl PhiEvaluator<'_> {
         }
     }
 
+    fn find_paces(&mut self, n: &[f64], pace: fn(&SpindleLaw, f64) -> Pace) {
+        self.paces.clear();
+        if let Some(spindle) = self.clock.spindle() {
+            let clock = self.clock;
+            let paces = n.iter().map(|n| (pace(spindle, *n), clock.speed(*n)));
+            self.paces.extend(paces);
+        }
+    }
+
+    /// The series in the clock's time of an axis at element `i`, beside C's own.
+    fn in_time(&self, i: usize, series: Series) -> Series {
+        let Some((pace, speed)) = self.paces.get(i) else {
+            return series;
+        };
+        let mut scale = 1.0;
+        pace.beside_c(&series).map(|c| {
+            let scaled = c * scale;
+            scale *= speed;
+            scaled
+        })
+    }
+
+    /// What C's own error can add to φ⁗ at element `i`: Z_θ is not the same all over the step.
+    fn of_c(&self, i: usize, phi: f64) -> f64 {
+        let Some((pace, speed)) = self.paces.get(i) else {
+            return 0.0;
+        };
+        let square = speed * speed;
+        self.turn_of_slope(i, phi) * pace.fourth_of_c() * square * square
+    }
+
+    /// By how much Z_θ changes over the longest step at element `i`, mm/rad. `phi` is |φ⁗| there.
+    fn turn_of_slope(&self, i: usize, phi: f64) -> f64 {
+        let bound = Bound {
+            fourth: phi,
+            ..Bound::default()
+        };
+        let longest = bound.natural_length(self.allowed).min(self.max_step);
+        2.0 * (self.z[i][2] - self.slope[i] * self.x[i][2]).abs() * longest
+    }
+
     fn find_slopes(&mut self, n: &[f64]) -> Result<()> {
         self.theta.clear();
         self.theta.extend(n.iter().map(|n| angle(*n)));
@@ -105,11 +152,13 @@ impl PhiEvaluator<'_> {
     /// |φ⁗| at element `i` of the last evaluation, where N = `n`; or |X⁗| in the measure of
     /// [`x_weight`](Self::x_weight), if that is larger.
     fn fourth(&self, i: usize, n: f64) -> f64 {
-        let (phi, x) = (self.phi(i)[4].abs(), self.x[i][4].abs());
+        let of_x = self.in_time(i, self.x[i])[4].abs();
+        let (phi, x) = (self.phi(i)[4].abs(), of_x);
+        let of_c = self.of_c(i, 24.0 * phi);
         if x == 0.0 {
-            return (24.0 * phi).min(self.sharpest);
+            return (24.0 * phi + of_c).min(self.sharpest);
         }
-        (24.0 * phi.max(x * self.x_weight(n))).min(self.sharpest)
+        (24.0 * phi.max(x * self.x_weight(n)) + of_c).min(self.sharpest)
     }
 
     /// The weight of X's own error against φ's at `n` revolutions. With this weight X's error may
@@ -118,10 +167,10 @@ impl PhiEvaluator<'_> {
         self.allowed / (self.feed_part * pitch(&self.path, n))
     }
 
-    /// The series of φ at element `i` of the last evaluation.
+    /// The series of φ in the clock's time at element `i` of the last evaluation.
     fn phi(&self, i: usize) -> Series {
         let (x, z, slope) = (&self.x[i], &self.z[i], self.slope[i]);
-        std::array::from_fn(|k| z[k] - slope * x[k])
+        self.in_time(i, std::array::from_fn(|k| z[k] - slope * x[k]))
     }
 }
 
@@ -174,6 +223,9 @@ impl<'a> Samples<'a> {
             z: Vec::new(),
             spare: Default::default(),
             slope: Vec::new(),
+            clock: Clock::new(path, block.start),
+            max_step,
+            paces: Vec::new(),
         };
         Self {
             phi,
@@ -183,6 +235,11 @@ impl<'a> Samples<'a> {
             fourth: Vec::new(),
             n: Vec::new(),
         }
+    }
+
+    /// How the lengths of steps are measured.
+    pub fn clock(&self) -> Clock<'a> {
+        self.phi.clock
     }
 
     /// The grid's spacing, rad.
@@ -247,18 +304,25 @@ impl<'a> Samples<'a> {
         Ok(())
     }
 
-    /// The knots of the law within the block.
+    /// The knots of both laws within the block.
     pub fn knots(&mut self) -> Result<Vec<Knot>> {
-        let law = self.phi.path.law;
-        let places: Vec<f64> = law.knots(self.block.start, self.block.end).collect();
+        let (law, Revolutions { start, end }) = (self.phi.path.law, self.block);
+        let mut places: Vec<f64> = law.knots(start, end).collect();
+        if let Some(spindle) = self.phi.clock.spindle() {
+            places.extend(spindle.as_time().knots(start, end));
+            places.sort_by(f64::total_cmp);
+            places.dedup();
+        }
         let mut knots = Vec::with_capacity(places.len());
         for batch in places.chunks(BATCH as usize) {
             self.phi.evaluate(batch)?;
-            let after = self.phi.series_of_phi_z_x(batch);
+            let (after, paces) = (self.phi.sides(batch), self.phi.paces.clone());
             self.phi.evaluate_before(batch)?;
-            let before = self.phi.series_of_phi_z_x(batch);
-            for ((n, before), after) in batch.iter().zip(before).zip(after) {
-                knots.push(Knot::between(*n, before, after, self.phi.sharpest));
+            let before = self.phi.sides(batch);
+            for (i, (before, after)) in before.into_iter().zip(after).enumerate() {
+                let mut knot = Knot::between(batch[i], before, after, self.phi.sharpest);
+                knot.jumps.third += self.phi.jump_of_c(i, &paces);
+                knots.push(knot);
             }
         }
         Ok(knots)
@@ -266,16 +330,34 @@ impl<'a> Samples<'a> {
 }
 
 impl PhiEvaluator<'_> {
-    /// The series of φ, of Z, and of X in φ's measure, at every `n` of the last evaluation.
-    fn series_of_phi_z_x(&self, n: &[f64]) -> Vec<[Series; 3]> {
+    /// One side of every knot of the last evaluation.
+    fn sides(&self, n: &[f64]) -> Vec<Side> {
         n.iter()
             .enumerate()
             .map(|(i, n)| {
                 let measure = self.x_weight(*n);
-                let x = self.x[i].map(|c| if c == 0.0 { 0.0 } else { c * measure });
-                [self.phi(i), self.z[i], x]
+                let x = self.in_time(i, self.x[i]);
+                let phi = self.phi(i);
+                Side {
+                    of_c: self.of_c(i, 24.0 * phi[4].abs()),
+                    series: [
+                        phi,
+                        self.in_time(i, self.z[i]),
+                        x.map(|c| if c == 0.0 { 0.0 } else { c * measure }),
+                    ],
+                }
             })
             .collect()
+    }
+
+    /// What the jump of C's third derivative can add to that of φ at knot `i`. `after` are the
+    /// paces after the knots.
+    fn jump_of_c(&self, i: usize, after: &[(Pace, f64)]) -> f64 {
+        let (Some((before, speed)), Some((after, _))) = (self.paces.get(i), after.get(i)) else {
+            return 0.0;
+        };
+        let phi = 24.0 * self.phi(i)[4].abs();
+        self.turn_of_slope(i, phi) * before.jump_of_c(after) * speed * speed * speed
     }
 
     /// Evaluates at knots with the pieces that end there. The slopes are already known.
@@ -293,27 +375,38 @@ impl PhiEvaluator<'_> {
             x: &mut self.x,
             z: &mut self.z,
         };
-        self.path.locus.series(&theta, &rho, out)
+        self.path.locus.series(&theta, &rho, out)?;
+        self.find_paces(knots, Pace::before);
+        Ok(())
     }
+}
+
+/// One side of a knot.
+struct Side {
+    /// The series of φ, of Z, and of X in φ's measure.
+    series: [Series; 3],
+    /// What C's own error can add to |φ⁗|, mm/rad⁴.
+    of_c: f64,
 }
 
 impl Knot {
     /// Builds a knot from φ, Z and X on both sides. A jump counts as the largest jump of the three.
     /// The jumps of Z and X cancel in φ at the knot's own slope, but the slope differs elsewhere on
     /// the step.
-    fn between(n: f64, before: [Series; 3], after: [Series; 3], sharpest: f64) -> Self {
+    fn between(n: f64, before: Side, after: Side, sharpest: f64) -> Self {
         let jump = |k: usize, factorial: f64| {
-            let of = |which: usize| (after[which][k] - before[which][k]).abs();
+            let of = |which: usize| (after.series[which][k] - before.series[which][k]).abs();
             factorial * of(0).max(of(1)).max(of(2))
         };
-        let fourth = |[phi, _, x]: [Series; 3]| {
+        let fourth = |Side { series, of_c }: &Side| {
+            let [phi, _, x] = series;
             let larger = phi[4].abs().max(x[4].abs());
-            (24.0 * larger).min(sharpest)
+            (24.0 * larger + of_c).min(sharpest)
         };
         Self {
             n,
-            before: fourth(before),
-            after: fourth(after),
+            before: fourth(&before),
+            after: fourth(&after),
             jumps: Jumps {
                 first: jump(1, 1.0),
                 second: jump(2, 2.0),

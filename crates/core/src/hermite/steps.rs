@@ -154,7 +154,8 @@ impl<'a> Walk<'a> {
         }
         loop {
             let step = self.longest(n)?;
-            let natural = step.bound.natural_length(self.allowed);
+            let local = self.samples.clock().speed(n);
+            let natural = step.bound.natural_length(self.allowed) * local;
             if natural < SHORTEST {
                 return Err(too_short(n, natural));
             }
@@ -174,7 +175,8 @@ impl<'a> Walk<'a> {
     /// is a sample or a knot, until the error reaches the bound.
     fn longest(&mut self, n: f64) -> Result<Step> {
         let limit = (n + self.max_step / TAU).min(self.end);
-        let length = |to: f64| TAU * (to - n);
+        let clock = self.samples.clock();
+        let length = |to: f64| clock.length(n, to);
         let (mut sample, mut knot) = (self.samples.begin(n), self.next_knot);
         let mut bound = Bound {
             fourth: self.samples.fourth(sample)?,
@@ -192,9 +194,10 @@ impl<'a> Walk<'a> {
             bound.fourth = bound.fourth.max(fourth);
             let to = mark.min(limit);
             if bound.error(length(to)) > self.allowed {
-                let length = bound.length_between(self.allowed, length(reached), length(to));
-                let end = if length > TAU * (reached - n) {
-                    n + length / TAU
+                let shorter = length(reached);
+                let length = bound.length_between(self.allowed, shorter, length(to));
+                let end = if length > shorter {
+                    clock.end(n, length)
                 } else {
                     reached
                 };

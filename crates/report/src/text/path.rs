@@ -1,5 +1,6 @@
 //! The lines on what was measured: each error against its tolerance, motion against limits.
 
+use crate::cutting_speed::CuttingSpeed;
 use crate::errors::PlayedCusp;
 use crate::path::PathReport;
 use crate::place::SurfacePoint;
@@ -10,7 +11,7 @@ use crate::verdict::Verdict;
 use super::coverage::{axis_crossing, coverage};
 use super::form::form;
 use super::machine::{highest_spindle, machine};
-use super::numbers::{against_any, line, millimetres, path_place, small_length};
+use super::numbers::{against_any, line, millimetres, path_place, significant, small_length};
 
 /// The lines on the cut.
 pub fn path(path: &PathReport, verdict: &Verdict) -> String {
@@ -29,6 +30,7 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     }
     text += &coverage(&path.coverage, tolerance, path.overrun, verdict.coverage);
     text += &axis_crossing(&path.axis_crossing);
+    text += &cutting_speed(path.cutting_speed.as_ref());
     if let Some(report) = &path.machine {
         text += &machine(report);
     }
@@ -40,6 +42,29 @@ fn residual(path: &PathReport, verdict: &Verdict) -> String {
         Some(max) => against_any(max, path.tolerance.residual, verdict.residual),
         None => "not measured: no turn has a neighbour".to_owned(),
     }
+}
+
+/// A cutting speed below this, mm/s, is shown as 0.
+const LEAST_SHOWN: f64 = 5e-4;
+
+/// The line on cutting speed. A spindle whose speed changes adds the range of it.
+fn cutting_speed(speed: Option<&CuttingSpeed>) -> String {
+    let Some(speed) = speed else {
+        return String::new();
+    };
+    let [mean, most] = [speed.mean, speed.most].map(significant);
+    let least = match speed.least < LEAST_SHOWN {
+        true => "0".to_owned(),
+        false => significant(speed.least),
+    };
+    let spindle = [speed.spindle_least, speed.spindle_most];
+    let [lowest, highest] = spindle.map(|speed| significant(speed * unit::rpm::PER));
+    let spindle = match lowest == highest {
+        true => format!("at {highest} rpm"),
+        false => format!("at {lowest} to {highest} rpm"),
+    };
+    let text = format!("{least} to {most} mm/s, {mean} mm/s mean, {spindle}");
+    line("cutting speed", text)
 }
 
 /// The second line on cusps: as played.

@@ -4,5 +4,6 @@ mod common;
 #[path = "../../../../tests/support/random.rs"]
 mod random;
 
+mod changing_speed;
 mod laws;
 mod sampler;

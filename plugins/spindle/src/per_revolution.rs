@@ -1,0 +1,91 @@
+//! The spindle strategy `per-revolution`.
+
+use turnpath_plugin::prelude::*;
+
+use crate::grid::Grid;
+use crate::limits::Limits;
+use crate::motion::motion;
+use crate::search::Conditions;
+
+/// As fast as the machine's limits allow, smoothly from turn to turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PerRevolution;
+
+impl Strategy for PerRevolution {
+    const NAME: &'static str = "per-revolution";
+    const SUMMARY: &'static str = "as fast as the machine's limits allow, smoothly from turn to \
+        turn; `speed` is the largest";
+    const SOURCE: &'static str = "own; velocity, acceleration and jerk of X, Z and C along the path, \
+        and of the path as played";
+
+    fn new(_: &Params) -> Result<Self> {
+        Ok(Self)
+    }
+}
+
+impl SpindleStrategy for PerRevolution {
+    fn plan(&self, path: &Path<'_>, ask: &SpindleAsk<'_>) -> Result<SpindleLaw> {
+        let machine = &path.task.machine;
+        check_limits(machine)?;
+        let grid = Grid::new(path.law.end());
+        let cells = motion(path, &grid)?;
+        let limits = Limits::of(machine);
+        let played = played_speeds(ask, &grid);
+        let speeds = cells.iter().zip(&played);
+        let speeds = speeds.map(|(cell, played)| limits.steady_speed(cell).min(*played));
+        let speeds = speeds.collect();
+        let conditions = Conditions {
+            grid,
+            cells: &cells,
+            limits,
+            played,
+            speed: ask.speed,
+        };
+        Ok(conditions.fastest(speeds))
+    }
+
+    fn follows_factors(&self) -> bool {
+        true
+    }
+}
+
+/// The largest speed of each cell at which the axes as played keep to the limits, rad/s.
+pub fn played_speeds(ask: &SpindleAsk<'_>, grid: &Grid) -> Vec<f64> {
+    let speed = |cell: usize| {
+        let factors = grid.halves(cell).filter_map(|half| ask.factors.get(half));
+        ask.speed * factors.copied().fold(1.0, f64::min)
+    };
+    (0..grid.cells).map(speed).collect()
+}
+
+/// Checks that the machine has the limits without which no speed is the largest.
+fn check_limits(machine: &Machine) -> Result<()> {
+    let Machine { x, z, c } = machine;
+    let known = |limits: &AxisLimits| {
+        [limits.velocity, limits.acceleration, limits.jerk]
+            .iter()
+            .any(Option::is_some)
+    };
+    if c.acceleration.is_none() {
+        return Err(missing(
+            "c_acceleration",
+            "how fast the spindle may change its speed",
+        ));
+    }
+    if !known(x) && !known(z) {
+        return Err(missing(
+            "z_acceleration",
+            "what the spindle's speed may ask of the axes",
+        ));
+    }
+    Ok(())
+}
+
+fn missing(key: &str, what: &str) -> StrategyError {
+    StrategyError::parameter(
+        "use",
+        format!(
+            "[machine] has no `{key}`, and so nothing says {what}; give it, or choose another spindle"
+        ),
+    )
+}

@@ -1,0 +1,143 @@
+//! The fastest of several smooth schedules, all within the limits.
+
+use turnpath_plugin::prelude::*;
+
+use crate::grid::Grid;
+use crate::law::{Law, Motion};
+use crate::limits::Limits;
+use crate::motion::CellMotion;
+use crate::smooth::Smoother;
+
+/// Parts of C's largest acceleration with which a schedule changes its speed. The jerk that the mean
+/// leaves decides which is best.
+const ACCELERATIONS: [f64; 7] = [0.1, 0.15, 0.22, 0.32, 0.46, 0.68, 1.0];
+/// Turns on either side over which the time of a turn is averaged.
+const REACHES: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
+/// How often a schedule is lowered where it is beyond a limit.
+const ROUNDS: usize = 4;
+/// How many of the first schedules are lowered in this way: the fastest ones.
+const FINALISTS: usize = 4;
+/// The spindle stays below its largest speed by this part, for rounding.
+const ROUNDING: f64 = 1e-11;
+/// A cell counts as within its limits up to this part of its speed.
+const WITHIN: f64 = 1e-5;
+
+/// What a schedule must keep to.
+pub struct Conditions<'a> {
+    /// The cells of the path.
+    pub grid: Grid,
+    /// What each cell asks of X and Z.
+    pub cells: &'a [CellMotion],
+    /// What the machine allows.
+    pub limits: Limits,
+    /// The largest speed of each cell at which the axes as played keep to the limits, rad/s.
+    pub played: Vec<f64>,
+    /// The largest speed of all, rad/s.
+    pub speed: f64,
+}
+
+/// A schedule, and the factor by which it must be faster (above 1: or may be) to reach the limits.
+struct Schedule {
+    law: Law,
+    factor: f64,
+    /// How long the path takes at that factor, s.
+    time: f64,
+    smoother: Smoother,
+    /// The largest speeds from which the schedule is made, rad/s.
+    speeds: Vec<f64>,
+}
+
+impl Conditions<'_> {
+    /// The fastest schedule that is nowhere faster than `speeds`, rad/s.
+    pub fn fastest(&self, speeds: Vec<f64>) -> SpindleLaw {
+        if speeds.iter().all(|speed| *speed >= self.speed) {
+            return SpindleLaw::constant(self.speed);
+        }
+        let mut first: Vec<Schedule> = self
+            .smoothers()
+            .map(|smoother| self.schedule(smoother, speeds.clone()).0)
+            .collect();
+        first.sort_by(|one, other| one.time.total_cmp(&other.time));
+        first.truncate(FINALISTS);
+        let finished = first.into_iter().map(|schedule| self.lowered(schedule));
+        let fastest = finished.min_by(|one, other| one.time.total_cmp(&other.time));
+        fastest.map_or_else(
+            || SpindleLaw::constant(self.speed),
+            |schedule| schedule.law.into_spindle(schedule.factor),
+        )
+    }
+
+    fn smoothers(&self) -> impl Iterator<Item = Smoother> {
+        let largest = self.limits.c[1];
+        let accelerations = ACCELERATIONS.map(|part| part * largest);
+        // Without a limit all of them are the same.
+        let count = if largest.is_finite() {
+            accelerations.len()
+        } else {
+            1
+        };
+        let accelerations = accelerations.into_iter().take(count);
+        accelerations.flat_map(|acceleration| {
+            REACHES.map(|reach| Smoother {
+                acceleration,
+                reach,
+            })
+        })
+    }
+
+    /// The schedule of these speeds, and for each cell the speed that it should have had; infinite
+    /// where the cell is within its limits.
+    fn schedule(&self, smoother: Smoother, speeds: Vec<f64>) -> (Schedule, Vec<f64>) {
+        let law = Law::new(&self.grid, &smoother.apply(&self.grid, &speeds));
+        let mut factor: f64 = 1.0;
+        let mut asked = Vec::with_capacity(speeds.len());
+        let cells = self.cells.iter().zip(&self.played);
+        for ((cell, played), motion) in cells.zip(law.motions()) {
+            let of_path = self.limits.factor_of_axes(cell, &motion);
+            let of_axes = of_path.min(played / motion.speed);
+            let of_c = self.limits.factor_of_c(&motion).min(self.of_speed(&motion));
+            factor = factor.min(of_axes).min(of_c);
+            asked.push(match of_axes < 1.0 - WITHIN {
+                true => of_axes * motion.speed,
+                false => f64::INFINITY,
+            });
+        }
+        let schedule = Schedule {
+            time: law.time() / factor,
+            law,
+            factor,
+            smoother,
+            speeds,
+        };
+        (schedule, asked)
+    }
+
+    fn of_speed(&self, motion: &Motion) -> f64 {
+        let factor = self.speed / motion.speed;
+        if factor < 1.0 + ROUNDING {
+            factor - ROUNDING
+        } else {
+            factor
+        }
+    }
+
+    /// The best that a schedule becomes if it is lowered where it is beyond a limit, and not
+    /// everywhere.
+    fn lowered(&self, schedule: Schedule) -> Schedule {
+        let mut best = schedule;
+        let (smoother, mut speeds) = (best.smoother, best.speeds.clone());
+        for _ in 0..ROUNDS {
+            let (now, asked) = self.schedule(smoother, speeds.clone());
+            if now.time < best.time {
+                best = now;
+            }
+            if asked.iter().all(|asked| asked.is_infinite()) {
+                break;
+            }
+            for (speed, asked) in speeds.iter_mut().zip(asked) {
+                *speed = speed.min(asked);
+            }
+        }
+        best
+    }
+}
