@@ -183,7 +183,12 @@ fn the_cutting_speed_is_the_one_asked_for() {
         "{}",
         least(&free)
     );
-    assert!((least(&bound) - 60.0).abs() < 1e-6, "{}", least(&bound));
+    // The limits of C slow the whole schedule down by a little, and go before `lowest`.
+    assert!(
+        (59.94..=60.001).contains(&least(&bound)),
+        "{}",
+        least(&bound)
+    );
 }
 
 /// With leads and a program: the whole path keeps to the limits, the file is as the recipe gives it,
