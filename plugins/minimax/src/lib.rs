@@ -6,15 +6,15 @@
 //! the path, with exact rates. A cubic without any continuity would have 3072ε.
 //!
 //! - **Played error.** A step is judged by the error of its own cubic and not by a bound. The exact
-//!   path is tabulated once in each block ([`table`]), and the error of a trial step is compared with
-//!   the tolerance at all places of the table ([`segment`]). Cubics are played in time. So where the
+//!   path is tabulated once in each block (`table`), and the error of a trial step is compared with
+//!   the tolerance at all places of the table (`segment`). Cubics are played in time. So where the
 //!   spindle changes its speed or X moves, the error is e_Z − Z_θ·e_C − Z_X·e_X.
 //! - **Shortest path.** A node is in one of a few states (α, β): it lies αε above the locus, and its
 //!   rate is βε/h larger, with h the natural step there. The states of one node are tried against
 //!   those of the next, and the chain that gets furthest with each number of nodes is kept
-//!   ([`search`]). With one state all nodes lie on the locus.
+//!   (`search`). With one state all nodes lie on the locus.
 //! - **Blocks.** A block begins and ends on the locus, so blocks do not depend on each other. A knot
-//!   of the law across which no step can be long is a border too ([`spans`]).
+//!   of the law across which no step can be long is a border too (`spans`).
 //! - **Aim.** Steps aim at 0.98 of the tolerance. Refinement stays behind them.
 
 mod grid;
