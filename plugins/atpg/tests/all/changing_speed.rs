@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use crate::common::{AtpgCase, Case, ast_5};
 use turnpath_atpg::AtpgSampler;
 use turnpath_core::{
-    CentreSeries, Locus, NM, NodeList, Params, Path, Piece, PiecewisePolynomial, Revolutions,
-    Sampler, Series, SpindleLaw, SpiralLaw, Strategy, angle, per_radian, quintic,
+    CentreSeries, Locus, NM, NodeList, ParamValue, Params, Path, Piece, PiecewisePolynomial,
+    Revolutions, Sampler, Series, SpindleLaw, SpiralLaw, Strategy, angle, per_radian, quintic,
 };
 use turnpath_nose_radius::ZDirection;
 
@@ -58,7 +58,10 @@ fn nodes(case: &Case, law: &SpiralLaw, spindle: &SpindleLaw) -> Vec<f64> {
         law,
         spindle,
     };
-    let sampler = AtpgSampler::new(&Params::new().with("max_step", 0.8)).unwrap();
+    let params = Params::new()
+        .with("max_step", 0.8)
+        .with("wander", ParamValue::Flag(false));
+    let sampler = AtpgSampler::new(&params).unwrap();
     let block = Revolutions {
         start: 0.0,
         end: PART,
