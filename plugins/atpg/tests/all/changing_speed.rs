@@ -58,9 +58,8 @@ fn nodes(case: &Case, law: &SpiralLaw, spindle: &SpindleLaw) -> Vec<f64> {
         law,
         spindle,
     };
-    let params = Params::new()
-        .with("max_step", 0.8)
-        .with("wander", ParamValue::Flag(false));
+    let mut params = Params::new().with("max_step", 0.8);
+    params.set("wander", ParamValue::Flag(false));
     let sampler = AtpgSampler::new(&params).unwrap();
     let block = Revolutions {
         start: 0.0,
