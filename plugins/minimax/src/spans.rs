@@ -1,9 +1,9 @@
 //! The parts of a block between which no step may pass.
 
-use turnpath_plugin::hermite::Bound;
+use turnpath_plugin::hermite::{Bound, pitch};
 use turnpath_plugin::prelude::*;
 
-use crate::table::{Limits, jumps, pitch, sides};
+use crate::table::{Limits, jumps, sides};
 
 /// A knot of the law is a border if its jumps alone could take this part of the tolerance on a
 /// natural step across it. Steps pass all others: they are judged by their played error.

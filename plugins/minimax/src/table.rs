@@ -1,6 +1,6 @@
 //! The exact path of one span as columns: what trial steps are compared with.
 
-use turnpath_plugin::hermite::{Bound, Jumps};
+use turnpath_plugin::hermite::{Bound, Jumps, pitch};
 use turnpath_plugin::prelude::*;
 
 use crate::grid::{Sample, sample_before};
@@ -258,20 +258,5 @@ pub fn jumps(before: &Series, after: &Series) -> Jumps {
         first: jump(1, 1.0),
         second: jump(2, 2.0),
         third: jump(3, 6.0),
-    }
-}
-
-/// The distance to the next turn, mm; on the path's last turn, the distance to the turn before. The
-/// rate is no measure of this distance: a law may come to rest at its ends, and a law that follows
-/// the angle moves back and forth.
-pub fn pitch(path: &Path<'_>, n: f64) -> f64 {
-    let law = path.law;
-    let to = |other: f64| (law.value(other) - law.value(n)).abs();
-    if n + 1.0 <= law.end() {
-        to(n + 1.0)
-    } else if n >= 1.0 {
-        to(n - 1.0)
-    } else {
-        law.rate(n).abs()
     }
 }

@@ -177,7 +177,7 @@ impl PhiEvaluator<'_> {
 /// The distance to the next turn, mm; on the path's last turn, the distance to the turn before. The
 /// rate is no measure of this distance: a law may come to rest at its ends, and a law that follows
 /// the angle moves back and forth.
-fn pitch(path: &Path<'_>, n: f64) -> f64 {
+pub fn pitch(path: &Path<'_>, n: f64) -> f64 {
     let law = path.law;
     let to = |other: f64| (law.value(other) - law.value(n)).abs();
     if n + 1.0 <= law.end() {
