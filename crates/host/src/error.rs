@@ -218,7 +218,7 @@ pub enum Refusal {
     },
     /// The lock does not have it.
     #[error("it is not in {} (its SHA-256 is {})", lock.display(), short(found))]
-    NotLocked {
+    NotInLock {
         /// The lock.
         lock: PathBuf,
         /// SHA-256 of the file.
@@ -302,7 +302,7 @@ impl LoadError {
             }
             Self::NotTogether { .. } => Some("leave one of them out"),
             Self::Refused {
-                refusal: Refusal::OtherThanLocked { .. } | Refusal::NotLocked { .. },
+                refusal: Refusal::OtherThanLocked { .. } | Refusal::NotInLock { .. },
                 ..
             } => Some(
                 "if you trust the file, write the lock anew with `turnpath list --lock`; if you do \

@@ -146,7 +146,7 @@ impl PluginsLock {
                 found,
                 locked: entry.sha256.clone(),
             },
-            None => Refusal::NotLocked { lock, found },
+            None => Refusal::NotInLock { lock, found },
         })
     }
 }
@@ -229,7 +229,7 @@ mod tests {
             Err(Refusal::OtherThanLocked { .. })
         ));
         for entries in [&[("libb.so", "00")][..], &[]] {
-            assert!(matches!(refusal(entries), Err(Refusal::NotLocked { .. })));
+            assert!(matches!(refusal(entries), Err(Refusal::NotInLock { .. })));
         }
     }
 

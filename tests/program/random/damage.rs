@@ -1,6 +1,6 @@
 //! Damage to the bytes of a file, as disks, editors and transfers do it, and as a fuzzer does.
 
-use super::seeded::Seeded;
+use super::seeded::SeededNumbers;
 
 /// Largest file that damage makes, bytes.
 const LARGEST: usize = 1 << 20;
@@ -13,7 +13,7 @@ const SPECIAL: [u8; 12] = [
 
 /// The bytes with one to four damages. `words` are inserted or put in place of others; `other` is
 /// another file of the kind, whose end may take the place of this one's.
-pub fn damaged(bytes: &[u8], other: &[u8], words: &[&str], random: &mut Seeded) -> Vec<u8> {
+pub fn damaged(bytes: &[u8], other: &[u8], words: &[&str], random: &mut SeededNumbers) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..=random.below(4) {
         damage(&mut bytes, other, words, random);
@@ -22,7 +22,7 @@ pub fn damaged(bytes: &[u8], other: &[u8], words: &[&str], random: &mut Seeded) 
     bytes
 }
 
-fn damage(bytes: &mut Vec<u8>, other: &[u8], words: &[&str], random: &mut Seeded) {
+fn damage(bytes: &mut Vec<u8>, other: &[u8], words: &[&str], random: &mut SeededNumbers) {
     let at = random.below(bytes.len() + 1);
     let end = (at + random.below(LONGEST_PIECE)).min(bytes.len());
     match random.below(9) {
@@ -58,7 +58,7 @@ fn damage(bytes: &mut Vec<u8>, other: &[u8], words: &[&str], random: &mut Seeded
 }
 
 /// Two words, numbers or lines change places.
-fn swap_words(bytes: &mut Vec<u8>, random: &mut Seeded) {
+fn swap_words(bytes: &mut Vec<u8>, random: &mut SeededNumbers) {
     let parts = |byte: &u8| *byte == *b"\n,: ".get(usize::from(byte & 3)).unwrap_or(&b'\n');
     let mut words: Vec<Vec<u8>> = bytes.split_inclusive(parts).map(<[u8]>::to_vec).collect();
     let (one, other) = (random.below(words.len()), random.below(words.len()));

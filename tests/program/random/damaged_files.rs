@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::damage::damaged;
-use super::seeded::Seeded;
+use super::seeded::SeededNumbers;
 use crate::fuzz;
 use crate::support::bench::Bench;
 use crate::support::fixtures::plugin_folder;
@@ -110,7 +110,7 @@ fn copy(from: &Path, to: &Path) {
 }
 
 fn outcome(kind: &Kind, bench: &Bench, case: u64) -> Outcome {
-    let mut random = Seeded::of_case(SEED, case);
+    let mut random = SeededNumbers::of_case(SEED, case);
     copy(originals(), &bench.path(""));
     let file = file_of(kind, &bench.path(""));
     let bytes = fs::read(&file).expect("the original");
@@ -156,7 +156,7 @@ fn long_five_hundred_damaged_files_of_each_kind_are_measured_or_refused() {
 
 /// The strategy's own data file: the host hands its bytes over, whatever they are.
 fn data_file_outcome(plugins: &Path, bench: &Bench, case: u64) -> Outcome {
-    let mut random = Seeded::of_case(SEED, case);
+    let mut random = SeededNumbers::of_case(SEED, case);
     let recipe = saddle_with("surface", "use = \"bowl-file\"\nfile = \"bowl.txt\"");
     bench.write("recipe.toml", recipe.replace("\"5 mm\"", "\"0.6 mm\""));
     let numbers = ["nan", "inf", "-1e300", "0", "1e-300", "\u{b5}", "1"];

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::damage::damaged;
-use super::seeded::Seeded;
+use super::seeded::SeededNumbers;
 use super::valid_recipes::{SPINDLE_PLUGIN, valid_recipe, with_plugins};
 use crate::fuzz::recipe::WORDS;
 use crate::support::bench::Bench;
@@ -59,7 +59,7 @@ const VALUES: [&str; 34] = [
 ];
 
 /// A recipe that was valid before.
-fn damaged_recipe(random: &mut Seeded) -> Vec<u8> {
+fn damaged_recipe(random: &mut SeededNumbers) -> Vec<u8> {
     let recipe = valid_recipe(random).text;
     if random.one_in(4) {
         let other = valid_recipe(random).text;
@@ -72,7 +72,7 @@ fn damaged_recipe(random: &mut Seeded) -> Vec<u8> {
     lines.join("\n").into_bytes()
 }
 
-fn damage_line(lines: &mut Vec<String>, random: &mut Seeded) {
+fn damage_line(lines: &mut Vec<String>, random: &mut SeededNumbers) {
     let at = random.below(lines.len());
     let Some(line) = lines.get(at).cloned() else {
         return;
@@ -92,7 +92,7 @@ fn damage_line(lines: &mut Vec<String>, random: &mut Seeded) {
 }
 
 /// Values that are long, or deep.
-fn endless(random: &mut Seeded) -> String {
+fn endless(random: &mut SeededNumbers) -> String {
     let count = *random.pick(&[50, 100, 10_000, 100_000]);
     match random.below(5) {
         0 => format!("\"{}\"", "a".repeat(10 * count)),
@@ -105,7 +105,7 @@ fn endless(random: &mut Seeded) -> String {
 
 /// Calls a command with a damaged recipe.
 fn outcome(plugins: &Path, bench: &Bench, case: u64) -> Outcome {
-    let mut random = Seeded::of_case(SEED, case);
+    let mut random = SeededNumbers::of_case(SEED, case);
     let recipe = damaged_recipe(&mut random);
     bench.write("recipe.toml", &recipe);
     let line = *random.pick(&[

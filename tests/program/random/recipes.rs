@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::call::{Call, End, Outcome, Tally, try_all, words};
-use super::seeded::Seeded;
+use super::seeded::SeededNumbers;
 use super::valid_recipes::{SPINDLE_PLUGIN, valid_recipe, with_plugins};
 use crate::support::bench::Bench;
 use crate::support::fixtures::plugin_folder;
@@ -19,7 +19,7 @@ const OF_THE_PATH: [&str; 5] = ["interpolation", "residual", "form", "servo", "c
 
 /// Runs one recipe, and then other commands on what it gave.
 fn outcome(plugins: &Path, bench: &Bench, case: u64) -> Outcome {
-    let mut random = Seeded::of_case(SEED, case);
+    let mut random = SeededNumbers::of_case(SEED, case);
     let recipe = valid_recipe(&mut random);
     bench.write("recipe.toml", &recipe.text);
     let circle = format!("--profile 10deg --circle {}mm", 0.4 * recipe.aperture);

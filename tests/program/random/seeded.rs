@@ -2,9 +2,9 @@
 
 /// Splitmix64, whose numbers pass the usual tests and whose state is one number.
 #[derive(Debug, Clone)]
-pub struct Seeded(u64);
+pub struct SeededNumbers(u64);
 
-impl Seeded {
+impl SeededNumbers {
     /// The numbers of one case of a test: each case has its own, so that it can be tried alone.
     pub fn of_case(seed: u64, case: u64) -> Self {
         let mut numbers = Self(seed.wrapping_add(case.wrapping_mul(0xD1B5_4A32_D192_ED03)));

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use super::damage::damaged;
-use super::seeded::Seeded;
+use super::seeded::SeededNumbers;
 use crate::fuzz::{TARGETS, Target};
 use crate::support::repository;
 
@@ -48,7 +48,7 @@ fn try_damage(cases: u64) {
     for target in &TARGETS {
         let corpus = corpus(target);
         for case in 0..cases {
-            let mut random = Seeded::of_case(SEED, case);
+            let mut random = SeededNumbers::of_case(SEED, case);
             let (_, first) = random.pick(&corpus).clone();
             let (_, other) = random.pick(&corpus);
             let bytes = damaged(&first, other, target.words, &mut random);

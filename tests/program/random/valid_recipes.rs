@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::seeded::Seeded;
+use super::seeded::SeededNumbers;
 
 /// Feeds, each with parameters that it may have. The fit `cubic` of `atpg` is left out: on parts where
 /// the feed varies much there is no such law.
@@ -84,7 +84,7 @@ pub fn with_plugins(text: &str, plugins: &Path, mut args: Vec<String>) -> Vec<St
 }
 
 /// Makes one.
-pub fn valid_recipe(random: &mut Seeded) -> ValidRecipe {
+pub fn valid_recipe(random: &mut SeededNumbers) -> ValidRecipe {
     let aperture = random.of_any_size(0.3, 1.6);
     let mut text = format!("format = 1\nname = \"Random\"\n{}", refine(random));
     let hole = match random.one_in(4) {
@@ -110,13 +110,13 @@ pub fn valid_recipe(random: &mut Seeded) -> ValidRecipe {
     ValidRecipe { text, aperture }
 }
 
-fn refine(random: &mut Seeded) -> &'static str {
+fn refine(random: &mut SeededNumbers) -> &'static str {
     let lines: [&'static str; 3] = ["", "refine = true\n", "refine = false\n"];
     lines[random.below(lines.len())]
 }
 
 /// A length in one of the units, with digits enough for any of them.
-fn length(mm: f64, random: &mut Seeded) -> String {
+fn length(mm: f64, random: &mut SeededNumbers) -> String {
     let units = [
         (1.0, "mm"),
         (1e3, "um"),
@@ -129,13 +129,13 @@ fn length(mm: f64, random: &mut Seeded) -> String {
 }
 
 /// A number of either sign and any size.
-fn signed(low: f64, high: f64, random: &mut Seeded) -> f64 {
+fn signed(low: f64, high: f64, random: &mut SeededNumbers) -> f64 {
     let size = random.of_any_size(low, high);
     if random.one_in(2) { size } else { -size }
 }
 
 /// One to three surfaces, and perhaps a pose. `reach` is a radius within which the path stays, mm.
-fn surfaces(reach: f64, random: &mut Seeded) -> String {
+fn surfaces(reach: f64, random: &mut SeededNumbers) -> String {
     let mut text = String::new();
     if random.one_in(3) {
         text += "[part.pose]\n";
@@ -155,9 +155,9 @@ fn surfaces(reach: f64, random: &mut Seeded) -> String {
 }
 
 /// A surface whose slope stays small wherever it is placed.
-fn surface(reach: f64, random: &mut Seeded) -> String {
+fn surface(reach: f64, random: &mut SeededNumbers) -> String {
     let reach = reach + 0.5;
-    let radius = |random: &mut Seeded| {
+    let radius = |random: &mut SeededNumbers| {
         let mm = signed(reach / STEEPEST, 100.0, random);
         length(mm, random)
     };
@@ -207,7 +207,7 @@ fn surface(reach: f64, random: &mut Seeded) -> String {
     text
 }
 
-fn placement(random: &mut Seeded) -> String {
+fn placement(random: &mut SeededNumbers) -> String {
     let scale = *random.pick(&["scale = -1\n", "scale = 0.5\n"]);
     let keys = [
         scale,
@@ -220,7 +220,7 @@ fn placement(random: &mut Seeded) -> String {
     kept.copied().collect()
 }
 
-fn tool(random: &mut Seeded) -> String {
+fn tool(random: &mut SeededNumbers) -> String {
     let nose = length(random.of_any_size(0.05, 1.0), random);
     let edge = *random.pick(&["", "included_angle = \"120 deg\"\n"]);
     let flank = *random.pick(&["", "clearance_angle = \"0.5 rad\"\n"]);
@@ -238,7 +238,7 @@ fn tool(random: &mut Seeded) -> String {
 
 /// Interpolation and residual, or a form with none, one or both of them. A model of the servos may
 /// have its own.
-fn tolerance(has_servo: bool, random: &mut Seeded) -> String {
+fn tolerance(has_servo: bool, random: &mut SeededNumbers) -> String {
     let mut text = "[tolerance]\n".to_owned();
     let has_form = random.one_in(4);
     if has_form {
@@ -259,14 +259,14 @@ fn tolerance(has_servo: bool, random: &mut Seeded) -> String {
 }
 
 /// The spindle, sometimes with its strategy's name, and sometimes with that of [`SPINDLE_PLUGIN`].
-fn spindle(random: &mut Seeded) -> String {
+fn spindle(random: &mut SeededNumbers) -> String {
     let speed = random.of_any_size(5.0, 2500.0);
     let plugin = format!("use = \"{SPINDLE_PLUGIN}\"\n");
     let chosen = *random.pick(&["", "", "use = \"constant\"\n", &plugin]);
     format!("[spindle]\n{chosen}speed = \"{speed:.3} rpm\"\n\n")
 }
 
-fn path(random: &mut Seeded) -> String {
+fn path(random: &mut SeededNumbers) -> String {
     let keys = [
         *random.pick(&["", "direction = \"outward\"\n", "direction = \"inward\"\n"]),
         *random.pick(&[
@@ -281,7 +281,7 @@ fn path(random: &mut Seeded) -> String {
 }
 
 /// A strategy's table, with one of the parameters that it may have.
-fn strategy(slot: &str, parts: &[&str], more: &str, random: &mut Seeded) -> String {
+fn strategy(slot: &str, parts: &[&str], more: &str, random: &mut SeededNumbers) -> String {
     let name = parts.first().copied().unwrap_or_default();
     let param = match random.below(parts.len()) {
         0 => String::new(),
@@ -290,7 +290,7 @@ fn strategy(slot: &str, parts: &[&str], more: &str, random: &mut Seeded) -> Stri
     format!("[{slot}]\nuse = \"{name}\"\n{param}{more}\n")
 }
 
-fn sampler(random: &mut Seeded) -> String {
+fn sampler(random: &mut SeededNumbers) -> String {
     let parts = *random.pick(SAMPLERS);
     let spacing = match parts.first() {
         Some(&("equal-arc" | "integrated")) => {
@@ -302,7 +302,7 @@ fn sampler(random: &mut Seeded) -> String {
 }
 
 /// Machine, servo and output.
-fn around(straight: bool, random: &mut Seeded) -> String {
+fn around(straight: bool, random: &mut SeededNumbers) -> String {
     let mut text = String::new();
     if random.one_in(3) {
         text += "[machine]\n";
@@ -332,7 +332,7 @@ fn around(straight: bool, random: &mut Seeded) -> String {
 }
 
 /// Some of the lines.
-fn some_of(lines: &[&str], one_in: usize, random: &mut Seeded) -> String {
+fn some_of(lines: &[&str], one_in: usize, random: &mut SeededNumbers) -> String {
     let kept = lines.iter().filter(|_| random.one_in(one_in));
     kept.map(|line| format!("{line}\n")).collect::<String>() + "\n"
 }

@@ -14,7 +14,7 @@ pub enum FolderError {
     File(#[from] FileError),
     /// Another process writes into the folder, or another part of this one.
     #[error("another run is writing into {}", folder.display())]
-    Taken {
+    OtherWriter {
         /// The folder.
         folder: PathBuf,
     },
@@ -62,7 +62,9 @@ impl FolderError {
     pub fn help(&self) -> Option<&'static str> {
         match self {
             Self::File(_) => None,
-            Self::Taken { .. } => Some("wait until it ends, or choose another folder with `-o`"),
+            Self::OtherWriter { .. } => {
+                Some("wait until it ends, or choose another folder with `-o`")
+            }
             Self::Lock { .. } => {
                 Some("results need a file system with locks: choose another folder with `-o`")
             }

@@ -59,7 +59,7 @@ impl FolderLock {
                 Err(error) => return Err(failed(error)),
             }
         }
-        Err(FolderError::Taken {
+        Err(FolderError::OtherWriter {
             folder: folder.to_owned(),
         })
     }

@@ -75,7 +75,7 @@ fn a_folder_takes_one_writer_at_a_time() {
     let first = ResultFolder::open(folder.path()).unwrap();
     let second = ResultFolder::open(folder.path());
     assert!(
-        matches!(second, Err(FolderError::Taken { .. })),
+        matches!(second, Err(FolderError::OtherWriter { .. })),
         "{second:?}"
     );
     drop(first);

@@ -46,8 +46,8 @@ pub mod prelude {
     pub use abi_stable::std_types::{RBox, RString};
     pub use serde_json::{Value as Json, json};
 
-    pub use super::super::called::Called;
     pub use super::super::loan::{Crossing, Lengths, Wire};
+    pub use super::super::marked_object::MarkedObject;
     pub use super::super::reply::{Answer, Reply, Returned, answer, property, result};
     pub(crate) use super::super::text;
     pub use super::AuthorObject;
@@ -109,7 +109,7 @@ macro_rules! declare {
 
         /// The object of the other side, wrapped as one of the core.
         pub struct $incoming<$b, P: AsPtr<PtrTarget = ()>> {
-            object: Called<$object<$b, P>>,
+            object: MarkedObject<$object<$b, P>>,
             $($($property: $kind,)*)?
             $($field: $field_type,)?
         }
@@ -131,7 +131,7 @@ macro_rules! declare {
                         None$(.or(Some($default)))?,
                     )?,)*)?
                     $($field,)?
-                    object: Called::lent(object),
+                    object: MarkedObject::lent(object),
                 })
             }
         }

@@ -6,12 +6,12 @@ use std::ops::{Deref, DerefMut};
 use crate::calls::{Callee, Mark};
 
 /// An object, and the strategy that it belongs to. Its drop is a call too.
-pub struct Called<T> {
+pub struct MarkedObject<T> {
     object: ManuallyDrop<T>,
     callee: Option<&'static Callee>,
 }
 
-impl<T> Called<T> {
+impl<T> MarkedObject<T> {
     /// An object that is lent: what lends it marks its own calls.
     pub fn lent(object: T) -> Self {
         Self {
@@ -31,7 +31,7 @@ impl<T> Called<T> {
     }
 }
 
-impl<T> Deref for Called<T> {
+impl<T> Deref for MarkedObject<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
@@ -39,13 +39,13 @@ impl<T> Deref for Called<T> {
     }
 }
 
-impl<T> DerefMut for Called<T> {
+impl<T> DerefMut for MarkedObject<T> {
     fn deref_mut(&mut self) -> &mut T {
         &mut self.object
     }
 }
 
-impl<T> Drop for Called<T> {
+impl<T> Drop for MarkedObject<T> {
     fn drop(&mut self) {
         let _mark = self.enter();
         // SAFETY: nothing else drops the object, and nobody can use it after this.

@@ -17,7 +17,6 @@
 #![allow(non_local_definitions)] // the expansion of #[sabi_trait] raises it
 #![allow(missing_docs)] // private, and #[sabi_trait] generates public items without docs
 
-pub(crate) mod called;
 pub(crate) mod catalogue;
 pub(crate) mod compensator;
 pub(crate) mod declaration;
@@ -27,6 +26,7 @@ pub(crate) mod laws;
 pub(crate) mod layout;
 pub(crate) mod loan;
 pub(crate) mod locus;
+pub(crate) mod marked_object;
 #[cfg(test)]
 mod newer_host;
 pub(crate) mod reply;
