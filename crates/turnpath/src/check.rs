@@ -71,6 +71,7 @@ impl Job {
                     interpolation,
                     rounds: 0,
                     search_ended_because: None,
+                    decided_by_recipe: false,
                 }),
             })
     }
