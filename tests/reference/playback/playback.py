@@ -365,7 +365,8 @@ def section_residual(recipe, path, section_deg, scan):
 
 
 def residual(recipe, path, sections=90, scan=129):
-    """The highest cusp over `sections` angles, then over 20 finer ones around the worst.
+    """The highest cusp over `sections` angles, then over 20 finer ones around the worst. Beside a seam
+    cusps change fast with the angle, so finer ones are put around the worst few.
 
     "at" is the section angle (within one turn) and the cusp's foot on the profile.
     """
@@ -374,8 +375,10 @@ def residual(recipe, path, sections=90, scan=129):
     worst = max(coarse, key=lambda found: found[0])
     if worst[1] is None:
         return {"max": None, "at": None}
-    around = worst[1]["c_deg"] + step * np.arange(-10, 11) / 10
-    fine = [section_residual(recipe, path, float(c), scan) for c in around]
+    found = sorted((one for one in coarse if one[1]), key=lambda one: -one[0])
+    around = [one[1]["c_deg"] + step * np.arange(-10, 11) / 10
+              for one in found[:ZOOMED if recipe.leaves_seams else 1]]
+    fine = [section_residual(recipe, path, float(c), scan) for c in np.concatenate(around)]
     worst = max([worst, *fine], key=lambda found: found[0])
     return {"max": worst[0] * NM_PER_MM, "at": worst[1]}
 
