@@ -9,6 +9,7 @@
 
 mod cusps;
 mod envelope;
+mod extremes;
 mod figures;
 mod form;
 mod grid;
@@ -21,7 +22,8 @@ mod turns;
 
 pub use cusps::HighestCusp;
 pub use envelope::{Arc, lower_envelope};
-pub use figures::{MachinedFigures, PartPoint, SurfaceExtremes};
+pub use extremes::{PartPoint, SurfaceExtremes};
+pub use figures::MachinedFigures;
 pub use form::FormScope;
 pub use grid::{Grid, GridPoint};
 pub use map::{Map, Nose};

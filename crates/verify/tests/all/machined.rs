@@ -3,11 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{AST5, Astigmatic, Ball, Paraboloid, Plane, SPEED, astigmatic_path, touch_on};
+use crate::common::{
+    AST5, Astigmatic, Ball, Paraboloid, Plane, Pocket, SPEED, astigmatic_path, touch_of, touch_on,
+};
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Segment};
-use turnpath_core::{DEG, NM, Scalar};
+use turnpath_core::{DEG, Misfit, NM, Scalar, Tool};
 use turnpath_verify::machined::{
-    Grid, MachinedFigures, Map, Nose, ProfileLine, SpectrumLine, power_spectrum,
+    FormScope, Grid, MachinedFigures, Map, Nose, ProfileLine, SpectrumLine, power_spectrum,
 };
 use turnpath_verify::{FirstTouch, Meter};
 
@@ -380,4 +382,59 @@ fn a_profile_has_the_feed_as_its_period() {
     let higher = |a: &&SpectrumLine, b: &&SpectrumLine| a.density.total_cmp(&b.density);
     let top = spectrum.iter().max_by(higher).expect("a line");
     assert!((top.frequency * feed - 1.0).abs() < 0.01, "{top:?}");
+}
+
+/// A pocket as wide as a feed lies on one of the lines. No extreme is measured without it, whatever
+/// the nose, and whether or not seams are left.
+#[test]
+fn a_place_of_the_part_without_a_height_is_an_error_that_names_it() {
+    let (rim, feed) = (2.0, 0.05);
+    // The first line of the fan through the axis: 0.37 of a section of 736.
+    let (sin, cos) = Scalar::sin_cos(0.37 * TAU / 736.0);
+    let pocket = |radius| Pocket {
+        x: 1.2 * cos,
+        y: 1.2 * sin,
+        radius,
+    };
+    let measured = |radius, misfit, compensates: bool| {
+        let tool = Tool {
+            nose_radius: 1.0,
+            included_angle: None,
+            clearance_angle: None,
+            misfit,
+        };
+        let touch = touch_of(pocket(radius), rim, tool, compensates);
+        let height = if compensates { 1.0 } else { 0.0 };
+        let path = spiral(feed, rim, 2.0, |_| (height, 0.0));
+        let mut meter = Meter::new(touch.clone()).with_form(Some(FormScope {
+            covers_part: true,
+            covers_centre: true,
+        }));
+        meter
+            .append(&Meter::measure(&touch, &path).expect("figures"))
+            .expect("figures");
+        let pv = meter.form().map(|form| form.map(|form| form.pv()));
+        [
+            pv,
+            meter.machined().map(|found| found.map(|found| found.pv())),
+        ]
+    };
+    let cases = [
+        (Misfit::Refuse, true),
+        (Misfit::Refuse, false),
+        (Misfit::CutWhatFits, true),
+    ];
+    for (misfit, compensates) in cases {
+        for found in measured(0.0, misfit, compensates) {
+            let scallop = feed * feed / 8.0;
+            let pv = found.expect("a height everywhere").expect("a cut");
+            assert!((pv / scallop - 1.0).abs() < 0.02, "{pv:e}");
+        }
+        for found in measured(0.5 * feed, misfit, compensates) {
+            let message = found.expect_err("a pocket").to_string();
+            // The first of the places on the line that lie in the pocket.
+            assert!(message.contains("at x = 1.1"), "{message}");
+            assert!(message.contains(" mm, y = 0.003"), "{message}");
+        }
+    }
 }
