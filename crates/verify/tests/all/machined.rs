@@ -43,6 +43,30 @@ fn spiral(feed: f64, rim: f64, beyond: f64, z: impl Fn(f64) -> (f64, f64)) -> Pa
     points
 }
 
+/// The path of the contact over z = k ρ² sin 2θ at these angles, with exact rates. `law` gives X and
+/// dX/dθ at θ.
+fn contact_path(
+    surface: Astigmatic,
+    angles: impl Iterator<Item = f64>,
+    law: impl Fn(f64) -> (f64, f64),
+) -> PathBlock {
+    let mut points = PathBlock::default();
+    for theta in angles {
+        let (x, rate) = law(theta);
+        let (sin, cos) = Scalar::sin_cos(2.0 * theta);
+        points.push(ControlPoint {
+            t: theta / SPEED,
+            c: theta,
+            x,
+            z: surface.k * x * x * sin,
+            vc: SPEED,
+            vx: rate * SPEED,
+            vz: surface.k * (2.0 * x * rate * sin + 2.0 * x * x * cos) * SPEED,
+        });
+    }
+    points
+}
+
 #[test]
 fn a_flat_part_is_left_with_the_scallop_of_the_closed_form() {
     let (radius, feed, rim) = (1.0, 0.02, 5.0);
@@ -174,22 +198,10 @@ fn a_coarse_path_leaves_the_bound_of_its_fourth_derivative() {
     let touch = touch_on(surface, rim, 1.0, false);
     let step = TAU / steps as f64;
     let turns = rim / feed + 2.0;
-    let mut points = PathBlock::default();
-    for i in 0..=(turns * steps as f64) as usize {
-        let theta = step * (i as f64 + 0.5);
-        let x = feed * (theta / TAU - 1.0);
-        let (sin, cos) = Scalar::sin_cos(2.0 * theta);
-        let rate = feed / TAU;
-        points.push(ControlPoint {
-            t: theta / SPEED,
-            c: theta,
-            x,
-            z: surface.k * x * x * sin,
-            vc: SPEED,
-            vx: rate * SPEED,
-            vz: surface.k * (2.0 * x * rate * sin + 2.0 * x * x * cos) * SPEED,
-        });
-    }
+    let count = (turns * steps as f64) as usize;
+    let angles = (0..=count).map(|i| step * (i as f64 + 0.5));
+    let law = |theta: f64| (feed * (theta / TAU - 1.0), feed / TAU);
+    let points = contact_path(surface, angles, law);
     let found = machined(&touch, &points);
     let bound = 16.0 * surface.k * rim * rim * Scalar::powi(step, 4) / 384.0;
     for point in [found.highest, found.lowest] {
@@ -329,21 +341,8 @@ fn maps_of_contact_paths_agree_with_figures() {
     let surface = Astigmatic { k: 0.02 };
     let touch = touch_on(surface, 2.5, 1.0, false);
     let law = |theta: f64| (2.6 - 0.03 * theta / TAU, -0.03 / TAU);
-    let mut points = PathBlock::default();
-    for i in 0..=88 * 40 {
-        let theta = 9.0 * DEG * f64::from(i);
-        let (x, rate) = law(theta);
-        let (sin, cos) = Scalar::sin_cos(2.0 * theta);
-        points.push(ControlPoint {
-            t: theta / SPEED,
-            c: theta,
-            x,
-            z: surface.k * x * x * sin,
-            vc: SPEED,
-            vx: rate * SPEED,
-            vz: surface.k * (2.0 * x * rate * sin + 2.0 * x * x * cos) * SPEED,
-        });
-    }
+    let angles = (0..=88 * 40).map(|i| 9.0 * DEG * f64::from(i));
+    let points = contact_path(surface, angles, law);
     let figures = machined(&touch, &points);
     let grid = Grid::polar(&touch.subject().part, 200, 97);
     let near = map_of(&touch, grid, std::slice::from_ref(&points), 100.0 * NM);
