@@ -1,6 +1,6 @@
 //! The highest and the lowest point of a machined surface.
 
-use turnpath_core::{Result, Scalar, StrategyError};
+use turnpath_core::Scalar;
 
 use super::strip::Sample;
 
@@ -24,7 +24,7 @@ impl PartPoint {
     }
 }
 
-/// The extremes of a machined surface. Their errors are finite.
+/// The extremes of a machined surface. Where its height is no number they are infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceExtremes {
     /// The point where most material is left.
@@ -40,18 +40,10 @@ impl SurfaceExtremes {
     }
 
     /// The extremes over lines, each given with its angle, rad; `None` if no line has any.
-    ///
-    /// # Errors
-    /// Where an error is not finite. The message names the place.
-    pub(super) fn over<'a>(
-        lines: impl Iterator<Item = (f64, &'a LineExtremes)>,
-    ) -> Result<Option<Self>> {
+    pub(super) fn over<'a>(lines: impl Iterator<Item = (f64, &'a LineExtremes)>) -> Option<Self> {
         let mut over: Option<Self> = None;
         for (angle, line) in lines {
-            if let Some(s) = line.unknown {
-                return Err(no_height(angle, s));
-            }
-            let Some([highest, lowest]) = line.known else {
+            let Some([highest, lowest]) = line.0 else {
                 continue;
             };
             let at = |(error, s): (f64, f64)| PartPoint::on_line(angle, s, error);
@@ -66,55 +58,42 @@ impl SurfaceExtremes {
                 found.lowest = at(lowest);
             }
         }
-        Ok(over)
+        over
     }
 }
 
-/// The extreme errors of one line. An error that is not finite is kept as well: nothing is known
-/// about the surface there, so it holds no tolerance.
+/// The highest and the lowest error of one line, mm, each with its signed position, mm.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct LineExtremes {
-    /// The highest and the lowest error, mm, each with its signed position, mm.
-    known: Option<[(f64, f64); 2]>,
-    /// The first signed position whose error is not finite, mm.
-    unknown: Option<f64>,
-}
+pub(super) struct LineExtremes(Option<[(f64, f64); 2]>);
 
 impl LineExtremes {
-    /// Includes the error at a signed position, both in mm.
+    /// Includes the error at a signed position, both in mm. An error that is no number counts as
+    /// infinite both ways: nothing is known about the surface there, so it holds no tolerance.
     pub fn include(&mut self, error: f64, s: f64) {
-        if !error.is_finite() {
-            self.unknown.get_or_insert(s);
-            return;
+        let (above, below) = match error.is_nan() {
+            true => (f64::INFINITY, f64::NEG_INFINITY),
+            false => (error, error),
+        };
+        let [highest, lowest] = self.0.get_or_insert([(above, s), (below, s)]);
+        if above > highest.0 {
+            *highest = (above, s);
         }
-        let [highest, lowest] = self.known.get_or_insert([(error, s); 2]);
-        if error > highest.0 {
-            *highest = (error, s);
-        }
-        if error < lowest.0 {
-            *lowest = (error, s);
+        if below < lowest.0 {
+            *lowest = (below, s);
         }
     }
 
-    /// Includes a piece of the machined profile. Its extremes may be finite where an error at a
-    /// node is not.
+    /// Includes a piece of the machined profile. Its extremes may be numbers where the error at a node
+    /// is none.
     pub fn include_sample(&mut self, sample: &Sample) {
         let nodes = sample.s.iter().zip(&sample.error);
-        let unknown = nodes.filter(|(_, error)| !error.is_finite());
-        for (s, error) in unknown {
+        for (s, error) in nodes.filter(|(_, error)| error.is_nan()) {
             self.include(*error, *s);
         }
         for (s, error) in sample.extremes() {
             self.include(error, s);
         }
     }
-}
-
-fn no_height(angle: f64, s: f64) -> StrategyError {
-    let PartPoint { x, y, .. } = PartPoint::on_line(angle, s, f64::NAN);
-    StrategyError::failed(format!(
-        "the machined surface has no height over the wanted one at x = {x:.4} mm, y = {y:.4} mm"
-    ))
 }
 
 #[cfg(test)]
@@ -131,28 +110,27 @@ mod tests {
         line
     }
 
-    fn over(lines: &[LineExtremes]) -> Result<Option<SurfaceExtremes>> {
+    fn over(lines: &[LineExtremes]) -> Option<SurfaceExtremes> {
         SurfaceExtremes::over([0.0, FRAC_PI_2].into_iter().zip(lines))
     }
 
     #[test]
     fn the_extremes_are_those_of_all_lines_that_have_any() {
         let lines = [line(&[(2.0, 1.0), (-1.0, 3.0)]), line(&[(5.0, -4.0)])];
-        let found = over(&lines).unwrap().unwrap();
+        let found = over(&lines).unwrap();
         assert_eq!((found.highest.error, found.lowest.error), (5.0, -1.0));
         assert_eq!((found.highest.y, found.lowest.x), (-4.0, 3.0));
-        let alone = over(&[line(&[]), line(&[(7.0, 2.0)])]).unwrap().unwrap();
+        let alone = over(&[line(&[]), line(&[(7.0, 2.0)])]).unwrap();
         assert_eq!((alone.pv(), alone.lowest.y), (0.0, 2.0));
-        assert_eq!(over(&[line(&[]), line(&[])]).unwrap(), None);
+        assert_eq!(over(&[line(&[]), line(&[])]), None);
     }
 
     #[test]
-    fn an_error_that_is_no_number_is_an_error_that_names_its_place() {
-        for unknown in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let lines = [line(&[(2.0, 1.0)]), line(&[(1.0, 1.0), (unknown, -2.5)])];
-            let message = over(&lines).unwrap_err().to_string();
-            assert!(message.ends_with("y = -2.5000 mm"), "{message}");
-        }
+    fn an_error_that_is_no_number_is_infinite_at_its_place() {
+        let lines = [line(&[(2.0, 1.0)]), line(&[(1.0, 1.0), (f64::NAN, -2.5)])];
+        let found = over(&lines).unwrap();
+        assert_eq!(found.pv(), f64::INFINITY);
+        assert_eq!((found.highest.y, found.lowest.y), (-2.5, -2.5));
     }
 
     /// An inner node does not reach the ends of a piece, nor the level places of its cubic.
@@ -168,7 +146,7 @@ mod tests {
             sample.error[node] = f64::NAN;
             let mut line = LineExtremes::default();
             line.include_sample(&sample);
-            assert_eq!(line.unknown, Some(sample.s[node]));
+            assert_eq!(over(&[line]).unwrap().pv(), f64::INFINITY);
         }
     }
 }

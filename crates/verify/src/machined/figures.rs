@@ -74,7 +74,7 @@ impl Lines {
     /// two sides of the axis count.
     ///
     /// # Errors
-    /// When the surface fails, or where the machined surface has no height over it.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn figures(
         &self,
         touch: &FirstTouch,
@@ -88,7 +88,7 @@ impl Lines {
         if area <= 0.0 {
             return Ok(None);
         }
-        let Some(SurfaceExtremes { highest, lowest }) = extremes(&lines, &sums)? else {
+        let Some(SurfaceExtremes { highest, lowest }) = extremes(&lines, &sums) else {
             return Ok(None);
         };
         let mean = total(|line| line.error) / area;
@@ -98,8 +98,8 @@ impl Lines {
             lowest,
             mean,
             rms: mean_square.sqrt(),
-            // Rounding may make it negative.
-            sq: (mean_square - mean * mean).max(0.0).sqrt(),
+            // Rounding may make it negative. NaN stays NaN.
+            sq: (mean_square - mean * mean).clamp(0.0, f64::INFINITY).sqrt(),
             sa: self.amount_about(subject, mean)? / area,
             rms_slope: (total(|line| line.slope_square) / area).sqrt(),
             uncut: uncut(&subject.part, &sums),
@@ -112,11 +112,11 @@ impl Lines {
     /// The extremes over the part; `None` if nothing of the part was cut.
     ///
     /// # Errors
-    /// When the surface fails, or where the machined surface has no height over it.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn extremes(&self, subject: &Subject) -> Result<Option<SurfaceExtremes>> {
         let lines = self.all();
         let sums = sums(subject, &lines)?;
-        extremes(&lines, &sums)
+        Ok(extremes(&lines, &sums))
     }
 
     /// The integral of |error − mean|.
@@ -152,7 +152,7 @@ fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
 }
 
 /// The highest and the lowest point over all lines.
-fn extremes(lines: &[(f64, &[Point])], sums: &[Sums]) -> Result<Option<SurfaceExtremes>> {
+fn extremes(lines: &[(f64, &[Point])], sums: &[Sums]) -> Option<SurfaceExtremes> {
     let each = lines.iter().zip(sums);
     SurfaceExtremes::over(each.map(|((angle, _), sums)| (*angle, &sums.extremes)))
 }

@@ -17,6 +17,7 @@ use turnpath_core::{Result, Scalar};
 
 use super::envelope::{Arc, lower_arc, lower_envelope};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
+use super::no_height::no_height;
 use super::sections::{Lines, sort};
 use super::strip::{EVERYWHERE, Strip, on_part};
 use crate::closing;
@@ -49,16 +50,17 @@ struct ArcEnd {
 }
 
 impl Lines {
-    /// The form of the part; `None` if nothing of the part was cut.
+    /// The form of the part; `None` if nothing of the part was cut, or where it is no number.
     ///
     /// # Errors
-    /// When the surface fails, or where the machined surface has no height over it.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn form(&self, touch: &FirstTouch, scope: FormScope) -> Result<Option<SurfaceExtremes>> {
         // A nose that no compensator fits to the surface is held to the surface itself.
-        match touch.leaves_seams() && touch.subject().compensates_nose {
+        let form = match touch.leaves_seams() && touch.subject().compensates_nose {
             false => self.over_surface(touch, scope),
             true => self.over_closing(touch, scope),
-        }
+        };
+        Ok(form?.filter(|form| form.pv().is_finite()))
     }
 
     fn over_surface(
@@ -83,7 +85,7 @@ impl Lines {
             .map_init(Strip::default, of_line)
             .collect::<Result<_>>()?;
         let angles = lines.iter().map(|line| line.0);
-        SurfaceExtremes::over(angles.zip(&each))
+        Ok(SurfaceExtremes::over(angles.zip(&each)))
     }
 
     fn over_closing(
@@ -98,7 +100,7 @@ impl Lines {
             lines.par_iter().map(of_line).collect::<Result<_>>()?;
         let angles = lines.iter().map(|line| line.0);
         let errors = each.iter().map(|(_, errors)| errors);
-        let Some(form) = SurfaceExtremes::over(angles.zip(errors))? else {
+        let Some(form) = SurfaceExtremes::over(angles.zip(errors)) else {
             return Ok(None);
         };
         let ends = each.into_iter().flat_map(|(ends, _)| ends).collect();
@@ -137,10 +139,7 @@ fn ends_and_errors(
             None => {}
         }
     }
-    let ends = ends(touch, angle, &arcs, &spans)?;
-    let unknown = ends.iter().filter(|end| !end.above.is_finite());
-    unknown.for_each(|end| errors.include(end.above, end.s));
-    Ok((ends, errors))
+    Ok((ends(touch, angle, &arcs, &spans)?, errors))
 }
 
 /// The ends of a line's arcs on the part and within the spans.
@@ -163,7 +162,10 @@ fn ends(touch: &FirstTouch, angle: f64, arcs: &[Arc], spans: &[(f64, f64)]) -> R
     let y: Vec<f64> = ends.iter().map(|end| end.s * sin).collect();
     let mut wanted = vec![f64::NAN; ends.len()];
     subject.surface.heights(&x, &y, &mut wanted)?;
-    for (end, wanted) in ends.iter_mut().zip(wanted) {
+    for (i, (end, wanted)) in ends.iter_mut().zip(wanted).enumerate() {
+        if !wanted.is_finite() {
+            return Err(no_height(x[i], y[i]));
+        }
         end.above = end.z - wanted;
     }
     Ok(ends)

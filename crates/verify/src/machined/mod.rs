@@ -14,6 +14,7 @@ mod figures;
 mod form;
 mod grid;
 mod map;
+mod no_height;
 mod profile;
 mod sections;
 mod spectrum;
