@@ -1,6 +1,7 @@
 //! The machined surface against the tolerance of its form.
 
 use serde::{Deserialize, Serialize};
+use turnpath_core::Tolerance;
 
 use crate::unit;
 
@@ -38,4 +39,14 @@ pub struct FormSplit {
     /// apart left the same. Left out where it is false.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub decided_by_recipe: bool,
+}
+
+impl FormSplit {
+    /// The tolerances that the path was made for.
+    pub fn tolerance(&self) -> Tolerance {
+        Tolerance {
+            interpolation: self.interpolation,
+            residual: self.residual,
+        }
+    }
 }
