@@ -30,15 +30,15 @@ impl SpindleStrategy for PerRevolution {
         let grid = Grid::new(path.law.end());
         let cells = motion(path, &grid)?;
         let limits = Limits::of(machine);
-        let played = played_speeds(ask, &grid);
-        let speeds = cells.iter().zip(&played);
-        let speeds = speeds.map(|(cell, played)| limits.steady_speed(cell).min(*played));
+        let bounds = played_speeds(ask, &grid);
+        let speeds = cells.iter().zip(&bounds);
+        let speeds = speeds.map(|(cell, bound)| limits.steady_speed(cell).min(*bound));
         let speeds = speeds.collect();
         let conditions = Conditions {
             grid,
             cells: &cells,
             limits,
-            played,
+            bounds,
             speed: ask.speed,
         };
         Ok(conditions.fastest(speeds))

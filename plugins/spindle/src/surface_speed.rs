@@ -4,7 +4,7 @@ use turnpath_plugin::prelude::*;
 
 use crate::grid::Grid;
 use crate::limits::Limits;
-use crate::motion::motion;
+use crate::motion::{CellMotion, motion};
 use crate::per_revolution::played_speeds;
 use crate::search::Conditions;
 
@@ -52,17 +52,20 @@ impl SpindleStrategy for SurfaceSpeed {
         let grid = Grid::new(path.law.end());
         let cells = motion(path, &grid)?;
         let limits = Limits::of(&path.task.machine);
+        let wanted = |cell: &CellMotion| (self.cutting_speed / cell.radius).max(self.lowest);
         let played = played_speeds(ask, &grid);
-        let speeds = cells.iter().zip(&played).map(|(cell, played)| {
-            let wanted = (self.cutting_speed / cell.radius).max(self.lowest);
-            wanted.min(limits.steady_speed(cell)).min(*played)
-        });
+        let bounds = cells.iter().zip(played);
+        let bounds: Vec<f64> = bounds
+            .map(|(cell, played)| wanted(cell).min(played))
+            .collect();
+        let speeds = cells.iter().zip(&bounds);
+        let speeds = speeds.map(|(cell, bound)| limits.steady_speed(cell).min(*bound));
         let speeds = speeds.collect();
         let conditions = Conditions {
             grid,
             cells: &cells,
             limits,
-            played,
+            bounds,
             speed: ask.speed,
         };
         Ok(conditions.fastest(speeds))
