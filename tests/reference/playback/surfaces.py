@@ -72,9 +72,10 @@ def sinusoidal_array(table):
     """
     amplitude_x = quantity(table, "amplitude_x", LENGTH_MM)
     amplitude_y = quantity(table, "amplitude_y", LENGTH_MM, amplitude_x)
-    k_x = 2 * math.pi * quantity(table, "frequency_x", PER_LENGTH)
-    k_y = 2 * math.pi * quantity(table, "frequency_y", PER_LENGTH)
-    if table["form"] == "sum":
+    frequency_x = quantity(table, "frequency_x", PER_LENGTH)
+    k_x = 2 * math.pi * frequency_x
+    k_y = 2 * math.pi * quantity(table, "frequency_y", PER_LENGTH, frequency_x)
+    if table.get("form", "sum") == "sum":
         return lambda x, y: amplitude_x * np.cos(k_x * x) + amplitude_y * np.cos(k_y * y)
     if table["form"] != "product" or amplitude_x != amplitude_y:
         raise SystemExit("sinusoidal-array: form is sum or product, the latter of one amplitude")
