@@ -4,6 +4,7 @@
 //!
 //! `tests/reference/playback/measure_random.py` measures the same recipes with the independent
 //! playback.
+#![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
 use std::path::Path;

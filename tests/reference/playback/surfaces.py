@@ -54,13 +54,16 @@ def xy_polynomial(table):
 
 
 def toric(table):
-    """z = R - sqrt((R - a + sqrt(a^2 - y^2))^2 - x^2): base arc a, turned at radius R."""
+    """z = R - sqrt((R - a + sqrt(a^2 - y^2))^2 - x^2): base arc a, turned at radius R.
+
+    Each root has the sign of its radius; a negative radius is convex.
+    """
     rotation = quantity(table, "radius_rotation", LENGTH_MM)
     base = quantity(table, "radius_base", LENGTH_MM)
 
     def sag(x, y):
-        arc = rotation - base + np.sqrt(base**2 - y * y)
-        return rotation - np.sqrt(arc * arc - x * x)
+        arc = rotation - base + math.copysign(1, base) * np.sqrt(base**2 - y * y)
+        return rotation - math.copysign(1, rotation) * np.sqrt(arc * arc - x * x)
 
     return sag
 
