@@ -2,11 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::grid::Grid;
-use crate::limits::Limits;
-use crate::motion::{CellMotion, motion};
-use crate::per_revolution::played_speeds;
-use crate::search::Conditions;
+use crate::plan::fastest_law;
 
 /// One cutting speed for the whole part, between the lowest and the largest speed of the spindle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,26 +45,9 @@ impl SpindleStrategy for SurfaceSpeed {
         if self.lowest > ask.speed {
             return Err(LOWEST.refused("it is more than `speed`, the largest; choose less"));
         }
-        let grid = Grid::new(path.law.end());
-        let cells = motion(path, &grid)?;
-        let limits = Limits::of(&path.task.machine);
-        let wanted = |cell: &CellMotion| (self.cutting_speed / cell.radius).max(self.lowest);
-        let played = played_speeds(ask, &grid);
-        let bounds = cells.iter().zip(played);
-        let bounds: Vec<f64> = bounds
-            .map(|(cell, played)| wanted(cell).min(played))
-            .collect();
-        let speeds = cells.iter().zip(&bounds);
-        let speeds = speeds.map(|(cell, bound)| limits.steady_speed(cell).min(*bound));
-        let speeds = speeds.collect();
-        let conditions = Conditions {
-            grid,
-            cells: &cells,
-            limits,
-            bounds,
-            speed: ask.speed,
-        };
-        Ok(conditions.fastest(speeds))
+        fastest_law(path, ask, |cell| {
+            (self.cutting_speed / cell.radius).max(self.lowest)
+        })
     }
 
     fn follows_factors(&self) -> bool {
