@@ -75,3 +75,34 @@ fn even_steps_on_a_plane_leave_spokes_in_closed_form() {
     assert_eq!(number(&found, "/spokes/per_turn"), 23.0);
     assert!(number(&found, "/spokes/to_mm") > 29.0);
 }
+
+/// Near the axis the largest step decides, here on all of the part: every turn has eight steps, and
+/// the spokes stand on the angles of their middles.
+#[test]
+fn steps_that_wander_leave_a_fifth_of_the_spoke_at_one_percent_more_points() {
+    let run = |sampler: &str| {
+        let found = summary(
+            "tests/reference/spokes/conic.toml",
+            &["surface.decentre_x=1.5 mm", sampler],
+        );
+        let points = number(&found, "/control_points");
+        (points, number(&found, "/spokes/amplitude_nm"))
+    };
+    for sampler in [
+        "use = \"minimax\", states = 1",
+        "use = \"minimax\"",
+        "use = \"atpg\"",
+    ] {
+        let [plain, wandering] = ["false", "true"]
+            .map(|wander| run(&format!("sampler={{ {sampler}, wander = {wander} }}")));
+        assert!(plain.1 > 20.0, "{sampler}: {plain:?}");
+        assert!(
+            wandering.1 < 0.2 * plain.1,
+            "{sampler}: {plain:?} {wandering:?}"
+        );
+        assert!(
+            wandering.0 <= 1.01 * plain.0,
+            "{sampler}: {plain:?} {wandering:?}"
+        );
+    }
+}

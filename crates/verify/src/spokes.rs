@@ -5,11 +5,13 @@
 //! light to where a whole pattern can be seen. Where it lies at other angles on every ring, what
 //! stays of it, averaged over many rings, is next to nothing.
 //!
-//! So the part is divided into bands of [`BAND`] turns. In each band the error as played is averaged
-//! over the turns at each of [`ANGLES`] angles. The largest harmonic of these mean turns is the
-//! figure. The harmonics of a mean turn are the complex means of the harmonics of its turns, so
-//! one Fourier transform for each band gives them.
+//! So the error as played is averaged at each of [`ANGLES`] angles over the turns of a window of
+//! [`WINDOW`] turns. The window moves over the path by [`ADVANCE`] turns at a time, and the last one
+//! ends with the path. The largest harmonic of these mean turns is the figure. The harmonics of a
+//! mean turn are the complex means of the harmonics of its turns, so one Fourier transform for each
+//! window gives them.
 
+use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -27,11 +29,10 @@ const ANGLES: usize = 4 * HIGHEST;
 const LOWEST: usize = 3;
 /// The highest harmonic.
 const HIGHEST: usize = 512;
-/// Turns of a band. Fewer would not show whether a pattern that turns slowly stays.
-const BAND: i64 = 64;
-/// A first or last band with fewer turns than this joins its neighbour. The mean of a few turns
-/// would be that of a ring.
-const FEWEST_TURNS: u64 = 32;
+/// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
+const WINDOW: usize = 64;
+/// Turns from one window to the next: a pattern that stays for as many fills half of a window.
+const ADVANCE: usize = 32;
 /// C follows a straight line if it leaves it by less than this part of the segment.
 const STRAIGHT: f64 = 1e-9;
 /// Newton's method finds an instant to rounding in so many steps from the straight line.
@@ -44,71 +45,47 @@ pub struct Spoke {
     pub amplitude: f64,
     /// Periods on a turn.
     pub per_turn: usize,
-    /// The smallest radius of a contact in its band, mm.
+    /// The smallest radius of a contact in its window, mm.
     pub from: f64,
     /// The largest, mm.
     pub to: f64,
 }
 
-/// The errors of a band, summed over its turns.
+/// The errors of one turn.
 #[derive(Debug, Clone)]
-struct Band {
-    /// C over [`BAND`] turns, rounded down.
+struct Turn {
+    /// C in turns, rounded down.
     number: i64,
-    /// Sum of the errors at each angle, mm, and how many there are.
-    sums: Vec<(f64, u32)>,
+    /// The error at each angle, mm; NaN where no contact lies on the part.
+    errors: Vec<f64>,
     from: f64,
     to: f64,
 }
 
-impl Band {
+impl Turn {
     fn new(number: i64) -> Self {
         Self {
             number,
-            sums: vec![(0.0, 0); ANGLES],
+            errors: vec![f64::NAN; ANGLES],
             from: f64::INFINITY,
             to: 0.0,
         }
     }
 
-    fn include(&mut self, cell: i64, error: f64, foot: f64) {
-        let (sum, count) = &mut self.sums[cell.rem_euclid(ANGLES as i64) as usize];
-        *sum += error;
-        *count += 1;
+    fn include(&mut self, angle: usize, error: f64, foot: f64) {
+        self.errors[angle] = error;
         self.from = self.from.min(foot);
         self.to = self.to.max(foot);
     }
 
-    fn add(&mut self, other: &Self) {
-        for (own, other) in self.sums.iter_mut().zip(&other.sums) {
-            *own = (own.0 + other.0, own.1 + other.1);
+    /// Adds the part of this turn that lies in the next block.
+    fn join(&mut self, rest: &Self) {
+        let known = rest.errors.iter().enumerate().filter(|(_, e)| !e.is_nan());
+        for (angle, error) in known {
+            self.errors[angle] = *error;
         }
-        self.from = self.from.min(other.from);
-        self.to = self.to.max(other.to);
-    }
-
-    fn is_short(&self) -> bool {
-        let count: u64 = self.sums.iter().map(|(_, count)| u64::from(*count)).sum();
-        count < FEWEST_TURNS * ANGLES as u64
-    }
-
-    /// The largest harmonic of the mean turn; `None` if there is an angle without errors.
-    fn spoke(&self, fft: &dyn Fft<f64>) -> Option<Spoke> {
-        if self.sums.iter().any(|(_, count)| *count == 0) {
-            return None;
-        }
-        let mean = |(sum, count): &(f64, u32)| Complex::new(sum / f64::from(*count), 0.0);
-        let mut harmonics: Vec<Complex<f64>> = self.sums.iter().map(mean).collect();
-        fft.process(&mut harmonics);
-        let harmonics = harmonics.iter().enumerate().take(HIGHEST + 1).skip(LOWEST);
-        let amplitudes = harmonics.map(|(k, value)| (k, 2.0 * value.norm() / ANGLES as f64));
-        let (per_turn, amplitude) = amplitudes.max_by(|one, other| one.1.total_cmp(&other.1))?;
-        Some(Spoke {
-            amplitude,
-            per_turn,
-            from: self.from,
-            to: self.to,
-        })
+        self.from = self.from.min(rest.from);
+        self.to = self.to.max(rest.to);
     }
 }
 
@@ -150,11 +127,11 @@ impl SegmentErrors<'_> {
     }
 }
 
-/// The bands of one block of a path.
+/// The turns of one block of a path.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BlockSpokes {
     /// In order.
-    bands: Vec<Band>,
+    turns: Vec<Turn>,
 }
 
 impl BlockSpokes {
@@ -172,29 +149,32 @@ impl BlockSpokes {
             let error = found.error_at(place);
             let counts = (part.inner_radius..=part.aperture_radius).contains(&foot);
             if counts && error.is_finite() {
-                self.band_of(cell).include(cell, error, foot);
+                let angle = cell.rem_euclid(ANGLES as i64) as usize;
+                let turn = cell.div_euclid(ANGLES as i64);
+                self.turn(turn).include(angle, error, foot);
             }
         }
     }
 
-    fn band_of(&mut self, cell: i64) -> &mut Band {
-        let number = cell.div_euclid(BAND * ANGLES as i64);
-        let known = self.bands.iter().rposition(|band| band.number == number);
+    fn turn(&mut self, number: i64) -> &mut Turn {
+        let known = self.turns.iter().rposition(|turn| turn.number == number);
         let index = known.unwrap_or_else(|| {
-            self.bands.push(Band::new(number));
-            self.bands.len() - 1
+            self.turns.push(Turn::new(number));
+            self.turns.len() - 1
         });
-        &mut self.bands[index]
+        &mut self.turns[index]
     }
 }
 
-/// Finds the largest spoke of a path, block by block. It needs memory for a few bands, however long
+/// Finds the largest spoke of a path, block by block. It needs memory for one window, however long
 /// the path is.
 pub(crate) struct Spokes {
     fft: Arc<dyn Fft<f64>>,
-    /// Bands that may still grow or join, in order.
-    open: Vec<Band>,
-    /// The largest spoke of all bands before.
+    /// The last turns, [`WINDOW`] at the most, in order. The last of them may still grow.
+    window: VecDeque<Turn>,
+    /// Turns that end before the next window does.
+    until_next: usize,
+    /// The largest spoke of all windows before.
     largest: Option<Spoke>,
 }
 
@@ -203,7 +183,8 @@ impl Default for Spokes {
         Self {
             // The scalar planner uses no vector instructions, which not every CPU has.
             fft: FftPlannerScalar::new().plan_fft_forward(ANGLES),
-            open: Vec::new(),
+            window: VecDeque::with_capacity(WINDOW),
+            until_next: WINDOW,
             largest: None,
         }
     }
@@ -212,34 +193,67 @@ impl Default for Spokes {
 impl Spokes {
     /// Appends the path's next block.
     pub fn append(&mut self, next: &BlockSpokes) {
-        for band in &next.bands {
-            match self.open.last_mut() {
-                Some(last) if last.number == band.number => last.add(band),
-                _ => self.open.push(band.clone()),
-            }
-        }
-        // The last band may still grow, and the one before it may get a short last band.
-        while self.open.len() > 2 {
-            let first = self.open.remove(0);
-            if first.is_short() {
-                self.open[0].add(&first);
-            } else {
-                self.largest = larger(self.largest, first.spoke(self.fft.as_ref()));
+        for turn in &next.turns {
+            match self.window.back_mut() {
+                Some(last) if last.number == turn.number => last.join(turn),
+                _ => self.push(turn.clone()),
             }
         }
     }
 
-    /// The largest spoke so far; `None` if no band has errors at all angles.
-    pub fn largest(&self) -> Option<Spoke> {
-        let mut open = self.open.clone();
-        if let [first, last] = open.as_mut_slice()
-            && (first.is_short() || last.is_short())
-        {
-            first.add(last);
-            open.truncate(1);
+    /// Begins the path's next turn: the one before is whole.
+    fn push(&mut self, turn: Turn) {
+        if self.until_next == 0 {
+            self.largest = larger(self.largest, self.spoke());
+            self.until_next = ADVANCE;
         }
-        let spokes = open.iter().map(|band| band.spoke(self.fft.as_ref()));
-        spokes.fold(self.largest, larger)
+        if self.window.len() == WINDOW {
+            self.window.pop_front();
+        }
+        self.window.push_back(turn);
+        self.until_next -= 1;
+    }
+
+    /// The largest spoke so far; `None` if no window has errors at all angles.
+    pub fn largest(&self) -> Option<Spoke> {
+        larger(self.largest, self.spoke())
+    }
+
+    /// The largest harmonic of the window's mean turn; `None` if there is an angle without errors.
+    fn spoke(&self) -> Option<Spoke> {
+        let mut harmonics = self.mean_turn()?;
+        self.fft.process(&mut harmonics);
+        let harmonics = harmonics.iter().enumerate().take(HIGHEST + 1).skip(LOWEST);
+        let amplitudes = harmonics.map(|(k, value)| (k, 2.0 * value.norm() / ANGLES as f64));
+        let (per_turn, amplitude) = amplitudes.max_by(|one, other| one.1.total_cmp(&other.1))?;
+        let turns = self.window.iter();
+        Some(Spoke {
+            amplitude,
+            per_turn,
+            from: turns
+                .clone()
+                .fold(f64::INFINITY, |r, turn| r.min(turn.from)),
+            to: turns.fold(0.0, |r, turn| r.max(turn.to)),
+        })
+    }
+
+    fn mean_turn(&self) -> Option<Vec<Complex<f64>>> {
+        let mut sums = vec![(0.0, 0_u32); ANGLES];
+        for turn in &self.window {
+            let known = sums
+                .iter_mut()
+                .zip(&turn.errors)
+                .filter(|(_, e)| !e.is_nan());
+            known.for_each(|((sum, count), error)| {
+                *sum += error;
+                *count += 1;
+            });
+        }
+        let means = sums.iter().map(|(sum, count)| match count {
+            0 => None,
+            _ => Some(Complex::new(sum / f64::from(*count), 0.0)),
+        });
+        means.collect()
     }
 }
 
@@ -314,10 +328,10 @@ mod tests {
     fn a_wave_at_the_same_angles_has_its_amplitude_whatever_the_speed() {
         for swing in [0.0, 0.3] {
             let wave = |_: usize, c: f64| 3.0 + Scalar::cos(c) + 2e-3 * Scalar::sin(17.0 * c);
-            let found = largest(&[block(0..70, swing, wave)]).unwrap();
+            let found = largest(&[block(0..64, swing, wave)]).unwrap();
             assert_eq!(found.per_turn, 17);
             assert!(is_near(found.amplitude, 2e-3), "{found:?}");
-            assert_eq!((found.from, found.to), (0.0, 69.0));
+            assert_eq!((found.from, found.to), (0.0, 63.0));
         }
     }
 
@@ -329,13 +343,13 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_band_counts_with_its_radii() {
+    fn the_largest_window_counts_with_its_radii_however_the_path_is_cut() {
         let wave = |turn: usize, c: f64| match turn {
-            64..128 => 4.0 * Scalar::cos(5.0 * c),
+            96..160 => 4.0 * Scalar::cos(5.0 * c),
             _ => Scalar::cos(9.0 * c),
         };
         let found = largest(&[block(0..100, 0.0, wave), block(100..200, 0.0, wave)]).unwrap();
-        assert_eq!((found.per_turn, found.from, found.to), (5, 64.0, 127.0));
+        assert_eq!((found.per_turn, found.from, found.to), (5, 96.0, 159.0));
         assert!(is_near(found.amplitude, 4.0), "{found:?}");
         let whole = largest(&[block(0..200, 0.0, wave)]).unwrap();
         assert!(is_near(found.amplitude, whole.amplitude));
@@ -343,21 +357,28 @@ mod tests {
     }
 
     #[test]
-    fn a_short_band_at_either_end_joins_its_neighbour() {
+    fn the_last_window_ends_with_the_path() {
         let wave = |turn: usize, c: f64| match turn {
-            54..64 | 128..138 => Scalar::cos(9.0 * c),
+            64..74 => Scalar::cos(9.0 * c),
             _ => 0.0,
         };
-        let found = largest(&[block(54..138, 0.0, wave)]).unwrap();
-        assert!(is_near(found.amplitude, 20.0 / 84.0), "{found:?}");
-        assert_eq!((found.from, found.to), (54.0, 137.0));
+        let found = largest(&[block(0..74, 0.0, wave)]).unwrap();
+        assert!(is_near(found.amplitude, 10.0 / 64.0), "{found:?}");
+        assert_eq!((found.from, found.to), (10.0, 73.0));
+    }
+
+    #[test]
+    fn a_path_of_few_turns_is_one_window() {
+        let wave = |turn: usize, c: f64| turn as f64 * Scalar::cos(9.0 * c);
+        let found = largest(&[block(0..3, 0.0, wave)]).unwrap();
+        assert!(is_near(found.amplitude, 1.0), "{found:?}");
     }
 
     #[test]
     fn a_path_of_less_than_a_turn_has_no_spokes() {
         assert_eq!(largest(&[]), None);
         let mut half = block(0..1, 0.0, |_, c| c);
-        half.bands[0].sums[5] = (0.0, 0);
+        half.turns[0].errors[5] = f64::NAN;
         assert_eq!(largest(&[half]), None);
     }
 }

@@ -6,10 +6,10 @@
 runs the program on each case below and keeps the figures in spokes.json beside this script. The path
 is played, and its true height found, by playback.py, which shares no code with turnpath.
 
-A band has 64 turns, counted in C from 0. At each of 1024 angles of a turn, a little behind the
-angle, the error (played minus true Z) is averaged over the turns of the band whose contact lies on the
-part. The spoke is the largest 2|F_k| of these means, 3 <= k <= 512, over all bands. A first or last band with less
-than 32 turns counts with its neighbour.
+A window has 64 turns (or all of a path with fewer), and begins every 32 turns; the last one ends with
+the path. At each of 1024 angles of a turn, a little behind the angle, the error (played minus true Z) is
+averaged over the turns of the window whose contact lies on the part. The spoke is the largest 2|F_k| of
+these means, 3 <= k <= 512, over all windows.
 """
 
 import json
@@ -33,7 +33,7 @@ CASES = {
     "conic, steps of atpg": (HERE / "conic.toml", ["sampler={ use = \"atpg\" }"]),
     "astigmatic": (RECIPES / "astigmatic-5mm.toml", EXACT),
 }
-ANGLES, BAND, FEWEST = 1024, 64, 32
+ANGLES, WINDOW, ADVANCE = 1024, 64, 32
 LOWEST, HIGHEST = 3, 512
 BESIDE_DEG = 1e-7
 SCAN = 33
@@ -65,26 +65,21 @@ def contact(recipe, theta, x):
     return foot
 
 
-def bands(path):
-    """The turns of each band."""
-    first, last = (int(path.nodes[k, 1] // 360) for k in (0, -1))
-    found = {}
-    for turn in range(first, last + 1):
-        found.setdefault(turn // BAND, []).append(turn)
-    found = list(found.values())
-    if len(found) > 1 and len(found[0]) < FEWEST:
-        found[1:2] = [found[0] + found[1]]
-        found = found[1:]
-    if len(found) > 1 and len(found[-1]) < FEWEST:
-        found[-2:] = [found[-2] + found[-1]]
-    return [np.array(turns) for turns in found]
+def windows(count):
+    """The turns of each window, counted from the first of `count`."""
+    last = max(count - WINDOW, 0)
+    starts = sorted({*range(0, last + 1, ADVANCE), last})
+    return [slice(start, start + WINDOW) for start in starts]
 
 
 def largest_spoke(recipe, path):
     """The largest spoke of a path, nm, and its periods on a turn."""
+    first, last = (int(path.nodes[k, 1] // 360) for k in (0, -1))
+    of_turns = errors(recipe, path, np.arange(first, last + 1))
+    of_turns = of_turns[~np.all(np.isnan(of_turns), axis=1)]
     largest = (0.0, 0)
-    for turns in bands(path):
-        mean = np.nanmean(errors(recipe, path, turns), axis=0)
+    for window in windows(len(of_turns)):
+        mean = np.nanmean(of_turns[window], axis=0)
         amplitudes = 2 * np.abs(np.fft.rfft(mean))[:HIGHEST + 1] / ANGLES
         amplitudes[HIGHEST] /= 1 + (2 * HIGHEST == ANGLES)
         k = LOWEST + int(np.argmax(amplitudes[LOWEST:]))
