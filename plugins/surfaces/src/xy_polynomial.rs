@@ -12,8 +12,8 @@ const LARGEST_POWER: usize = 40;
 /// Beyond the aperture and beyond r the polynomial goes on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct XyPolynomial {
-    /// r, mm; 1 mm without one.
-    normalization_radius: f64,
+    /// 1/r; 1 /mm without a radius.
+    scale: f64,
     /// `rows[i][j]` belongs to xⁱ·yʲ; each row ends with its last term.
     rows: Vec<Vec<f64>>,
 }
@@ -37,6 +37,9 @@ const COEFFICIENTS: Param<Option<Coefficients>> = Param::length_coefficients(
 )
 .example("{ \"2,0\" = \"1.5 um\", \"0,3\" = \"-40 nm\" }")
 .optional();
+
+/// Coefficients of a flat.
+const FLAT: &str = "{ \"0,0\" = \"0 mm\" }";
 
 impl Strategy for XyPolynomial {
     const NAME: &'static str = "xy-polynomial";
@@ -65,12 +68,12 @@ impl Strategy for XyPolynomial {
                 Err(COEFFICIENTS.refused("coefficients need a `normalization_radius`"))
             }
             (Some(terms), None, None) => Ok(Self {
-                normalization_radius: 1.0,
-                rows: rows(terms, TERMS)?,
+                scale: 1.0,
+                rows: rows(terms, TERMS, "[[0, 0, 0]]")?,
             }),
             (None, Some(coefficients), Some(normalization_radius)) => Ok(Self {
-                normalization_radius,
-                rows: rows(coefficients, COEFFICIENTS)?,
+                scale: normalization_radius.recip(),
+                rows: rows(coefficients, COEFFICIENTS, FLAT)?,
             }),
         }
     }
@@ -78,7 +81,7 @@ impl Strategy for XyPolynomial {
 
 impl Surface for XyPolynomial {
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
-        let (x, y) = (x / self.normalization_radius, y / self.normalization_radius);
+        let (x, y) = (x * self.scale, y * self.scale);
         let mut rows = self.rows.iter().rev().map(Vec::as_slice);
         let highest = powers::sum(rows.next().unwrap_or_default(), y);
         rows.fold(highest, |sum, row| match row {
@@ -90,9 +93,9 @@ impl Surface for XyPolynomial {
 }
 
 /// The terms [i, j, c] as dense rows.
-fn rows<K>(terms: &[Vec<f64>], param: Param<K>) -> Result<Vec<Vec<f64>>> {
+fn rows<K>(terms: &[Vec<f64>], param: Param<K>, flat: &str) -> Result<Vec<Vec<f64>>> {
     if terms.is_empty() {
-        return Err(param.refused("no term is given; a flat has one that is zero"));
+        return Err(param.refused(format!("no term is given; a flat is {flat}")));
     }
     let mut given: Vec<Vec<Option<f64>>> = Vec::new();
     for (index, term) in terms.iter().enumerate() {

@@ -1,0 +1,3 @@
+//! What `turnpath-polynomials` does from outside, each subject a module.
+
+mod smoke;
