@@ -6,6 +6,7 @@
 
 mod compensator;
 mod conicoid;
+mod crease;
 mod cusp;
 mod cut;
 mod dual;

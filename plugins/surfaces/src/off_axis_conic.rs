@@ -74,9 +74,11 @@ impl Surface for OffAxisConic {
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let b = -(x * self.shear) + self.lever;
         let q = x.squared() * self.along + y.squared();
-        let below_root = b.squared() - q * self.across;
-        // Beyond its asymptotes a hyperboloid has points of its other sheet only.
-        let other_sheet = (b * self.sign).less(S::constant(0.0));
+        let product = q * self.across;
+        let below_root = b.squared() - product;
+        // Both solutions lie on one side of the segment's plane, the one of the other sheet.
+        let zero = S::constant(0.0);
+        let other_sheet = (b * self.sign).less(zero) & zero.less(product);
         let root = S::select(other_sheet, S::constant(-1.0), below_root).sqrt();
         q / (b + root * self.sign)
     }
