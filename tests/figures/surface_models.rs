@@ -17,6 +17,7 @@ use turnpath_core::{
 };
 use turnpath_pipeline::{PlacedSurface, PosedSurface, SurfaceSum};
 
+use crate::support::bench::Bench;
 use crate::support::repository;
 
 /// Largest difference of a height from another program's, mm.
@@ -220,5 +221,29 @@ fn series_of_a_sum_and_of_its_poses_are_those_of_fifty_digits() {
             Value::Null => agrees(&what, sum.as_ref(), &case),
             of => agrees(&what, &PosedSurface::new(sum, pose(of)).unwrap(), &case),
         }
+    }
+}
+
+/// A tolerance that is coarse enough for a run of every recipe in every run of the tests.
+const COARSE: [&str; 4] = [
+    "--set",
+    "tolerance.interpolation=1 um",
+    "--set",
+    "tolerance.residual=2 um",
+];
+
+/// Every model has a ready recipe. The tool fits its part as the recipe says, and the path holds a
+/// coarse tolerance.
+#[test]
+fn the_recipe_of_each_model_holds_at_a_coarse_setting() {
+    let bench = Bench::empty();
+    for model in MODELS {
+        let recipe = repository().join(format!("docs/recipes/surfaces/{model}.toml"));
+        let text = fs::read_to_string(&recipe).unwrap();
+        assert!(text.contains(&format!("use = \"{model}\"")), "{model}");
+        let recipe = recipe.to_str().unwrap();
+        bench.call(["check", recipe]).ends(0);
+        let run = ["run", recipe, "-o", model];
+        bench.call(run.iter().chain(&COARSE)).ends(0);
     }
 }
