@@ -22,4 +22,5 @@ mod spindle;
 mod spoiled_paths;
 mod spoils;
 mod spokes;
+mod surface_models;
 mod whole_part;

@@ -71,6 +71,8 @@ pub trait Scalar:
     /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// The largest whole number that is not above the value. Its derivatives are zero.
+    fn floor(self) -> Self;
     /// 1 / self.
     fn recip(self) -> Self;
     /// Square root.
@@ -116,6 +118,7 @@ pub trait Scalar:
     }
 
     /// self · self.
+    #[inline(always)]
     fn squared(self) -> Self {
         self * self
     }
@@ -146,16 +149,19 @@ pub trait Scalar:
     }
 
     /// Absolute value. At zero the derivatives are those of `self`.
+    #[inline(always)]
     fn abs(self) -> Self {
         Self::select(self.less(Self::constant(0.0)), -self, self)
     }
 
     /// The smaller one, by value.
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(other.less(self), other, self)
     }
 
     /// The larger one, by value.
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(self.less(other), other, self)
     }
@@ -175,6 +181,11 @@ impl Scalar for f64 {
 
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn floor(self) -> Self {
+        libm::floor(self)
     }
 
     fn recip(self) -> Self {
