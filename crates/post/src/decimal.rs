@@ -3,8 +3,9 @@
 use std::io::Write;
 
 /// Appends `units` · 10^−`decimals` without trailing zeros.
-pub(crate) fn push(text: &mut Vec<u8>, units: i64, decimals: u32) {
-    let (size, one) = (units.unsigned_abs(), 10u64.pow(decimals));
+pub(crate) fn push(text: &mut Vec<u8>, units: impl Into<i128>, decimals: u32) {
+    let units: i128 = units.into();
+    let (size, one) = (units.unsigned_abs(), 10u128.pow(decimals));
     if units < 0 {
         text.push(b'-');
     }
@@ -33,7 +34,7 @@ mod tests {
             (5, 0, "5"),
         ] {
             let mut written = Vec::new();
-            push(&mut written, units, decimals);
+            push(&mut written, i64::from(units), decimals);
             assert_eq!(String::from_utf8(written).unwrap(), text);
         }
     }

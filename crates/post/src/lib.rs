@@ -29,6 +29,7 @@ mod read_error;
 mod row;
 mod settings;
 mod short_lines;
+mod siemens_840d;
 mod template;
 #[cfg(test)]
 mod tests;

@@ -61,11 +61,17 @@ pub trait Grammar: Send + Sync {
     /// The code of a line, before any comment, and the comment, if there is one.
     fn split_comment<'a>(&self, line: &'a [u8]) -> (&'a [u8], Option<&'a [u8]>);
 
-    /// Reads a line's code; the control point that it moves to, if it moves.
+    /// Reads a line's code, and appends the control points that are known with it. A point may wait for
+    /// the line behind it.
     ///
     /// # Errors
     /// When the line is not of the dialect: what is wrong with it.
-    fn read(&mut self, code: &str) -> Result<Option<ControlPoint>, String>;
+    fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String>;
+
+    /// The control point that waits for a line behind it, at the end of the path.
+    fn finish(&mut self) -> Option<ControlPoint> {
+        None
+    }
 }
 
 /// A line of a header or a footer that is more than a comment.

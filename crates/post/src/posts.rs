@@ -4,9 +4,10 @@ use crate::automation1::AUTOMATION1_PVT;
 use crate::pmac::PMAC_PVT;
 use crate::post::Post;
 use crate::power_pmac::POWER_PMAC_PVT;
+use crate::siemens_840d::SIEMENS_840D_POLY;
 
 /// All posts. A new one is a folder of this crate, and a line here.
-pub const POSTS: &[Post] = &[PMAC_PVT, POWER_PMAC_PVT, AUTOMATION1_PVT];
+pub const POSTS: &[Post] = &[PMAC_PVT, POWER_PMAC_PVT, AUTOMATION1_PVT, SIEMENS_840D_POLY];
 
 /// The names of all posts, in their order.
 pub const POST_NAMES: &[&str] = &{

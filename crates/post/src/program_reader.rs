@@ -1,5 +1,6 @@
 //! Reads a motion program back into control points, whatever its dialect. An error names the line.
 
+use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -27,7 +28,10 @@ pub struct ProgramReader<R = File> {
     comment: &'static str,
     line: u64,
     section: Option<Section>,
-    ended: bool,
+    /// The points that the end mark says, after it was read.
+    said_points: Option<u64>,
+    /// Points that were read and not given yet.
+    waiting: VecDeque<(ControlPoint, Section)>,
     read_count: ReadCount,
 }
 
@@ -45,7 +49,8 @@ impl<R: Read> ProgramReader<R> {
             comment,
             line: 0,
             section: None,
-            ended: false,
+            said_points: None,
+            waiting: VecDeque::new(),
             read_count: ReadCount::default(),
         }
     }
@@ -112,53 +117,74 @@ impl<R: Read> ProgramReader<R> {
             }
             self.section = Some(section);
         } else if self.section.is_some() && text.starts_with(END_MARK) {
-            self.ended = true;
             let digits: String = text.chars().filter(char::is_ascii_digit).collect();
             let points: u64 = digits
                 .parse()
                 .map_err(|_| "the end mark must give the number of points".to_owned())?;
-            if points != self.read_count.points() {
-                let count = self.read_count.points();
-                return Err(format!(
-                    "the path has {count} points, but its end mark says {points}"
-                ));
-            }
+            self.said_points = Some(points);
+            let last = self.grammar.finish();
+            self.wait(last);
         }
         Ok(())
     }
 
-    /// The point that a line of the path moves to, if it moves.
-    fn read_code(&mut self, code: &[u8]) -> Result<Option<ControlPoint>, String> {
+    /// Reads a line of the path.
+    fn read_code(&mut self, code: &[u8]) -> Result<(), String> {
         let code = std::str::from_utf8(code).map_err(|_| "this is not text".to_owned())?;
-        self.grammar.read(code)
+        let mut points = Vec::new();
+        self.grammar.read(code, &mut points)?;
+        self.wait(points);
+        Ok(())
+    }
+
+    fn wait(&mut self, points: impl IntoIterator<Item = ControlPoint>) {
+        if let Some(section) = self.section {
+            let points = points.into_iter().map(|point| (point, section));
+            self.waiting.extend(points);
+        }
+    }
+
+    /// Reads the next line; `false` at the end of the path.
+    fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
+        if let Some(said) = self.said_points {
+            let count = self.read_count.points();
+            return match said == count {
+                true => Ok(false),
+                false => Err(self.wrong(format!(
+                    "the path has {count} points, but its end mark says {said}"
+                ))),
+            };
+        }
+        if !self.read_line(text)? {
+            return Err(self.incomplete());
+        }
+        let (code, comment) = self.grammar.split_comment(text);
+        if let Some(comment) = comment {
+            let read = self.read_comment(comment);
+            read.map_err(|what| self.wrong(what))?;
+        }
+        // The lines before the path belong to the header, and those after it to the footer.
+        if self.section.is_some() && self.said_points.is_none() {
+            self.read_code(code).map_err(|what| self.wrong(what))?;
+        }
+        Ok(true)
     }
 }
 
 impl<R: Read> ReadPath for ProgramReader<R> {
     fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
         let mut text = Vec::new();
-        while !self.ended {
-            if !self.read_line(&mut text)? {
-                return Err(self.incomplete());
-            }
-            let (code, comment) = self.grammar.split_comment(&text);
-            if let Some(comment) = comment {
-                self.read_comment(comment)
-                    .map_err(|what| self.wrong(what))?;
-            }
-            // The lines before the path belong to the header.
-            let Some(section) = self.section else {
-                continue;
-            };
-            let point = self.read_code(code).map_err(|what| self.wrong(what))?;
-            if let Some(point) = point {
-                check_turn(self.read_count.last(), &point, section)
-                    .map_err(|what| self.wrong(what))?;
-                self.read_count.add(point, section);
-                return Ok(Some((point, section)));
+        while self.waiting.is_empty() {
+            if !self.read_on(&mut text)? {
+                return Ok(None);
             }
         }
-        Ok(None)
+        let Some((point, section)) = self.waiting.pop_front() else {
+            return Ok(None);
+        };
+        check_turn(self.read_count.last(), &point, section).map_err(|what| self.wrong(what))?;
+        self.read_count.add(point, section);
+        Ok(Some((point, section)))
     }
 
     fn read_count(&self) -> &ReadCount {

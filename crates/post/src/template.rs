@@ -73,7 +73,7 @@ impl Template {
     /// When a placeholder is unknown or its words would be code, a brace is single, or a reader would
     /// take a line for a mark of the path.
     pub fn parse(text: &str, comment: &'static str) -> Result<Self, TemplateError> {
-        if text.lines().any(|line| is_mark(line, comment)) {
+        if text.lines().any(is_mark) {
             return Err(TemplateError::Mark);
         }
         let mut parts = Vec::new();
@@ -132,10 +132,16 @@ fn part(text: &str) -> Result<(Part, &str), TemplateError> {
     }
 }
 
-/// Whether the reader would take the line for a mark.
-fn is_mark(line: &str, comment: &str) -> bool {
-    let said = line.split_once(comment).map(|(_, said)| said.trim_start());
-    said.is_some_and(|said| said.starts_with("--"))
+/// What begins a comment in some dialect; a reader may know more than one.
+const COMMENTS: [&str; 2] = [";", "//"];
+
+/// Whether a reader of any dialect would take a comment of the line for a mark.
+fn is_mark(line: &str) -> bool {
+    let begins = |comment: &str| {
+        let mut said = line.split(comment).skip(1);
+        said.any(|said| said.trim_start().starts_with("--"))
+    };
+    COMMENTS.into_iter().any(begins)
 }
 
 /// A value that is neither a mark of the path nor code nor an endless line.

@@ -48,6 +48,12 @@ pub const WORDS: &[&str] = &[
     "MovePvt([C, X, Z], [9, 2.5, 1.5], [3000, -0.2, 0], 0.003)\n",
     "[",
     "]",
+    "G90 G93 G64 FGROUP(C) UPATH\n",
+    "G1 C0 X2.5 Z1.5 F60\n",
+    "POLY PO[C]=(9) PO[X]=(2.4,0.001) PO[Z]=(1.6,0.001,-0.001) F20000\n",
+    "PO[Z]=(",
+    "F20000",
+    "POLY ",
 ];
 
 /// Reads a program as one of each post, in each layout that changes what its numbers mean.

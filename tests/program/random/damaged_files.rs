@@ -51,8 +51,14 @@ const AUTOMATION1: Kind = Kind {
     words: fuzz::pmac::WORDS,
     line: "verify recipe.toml out/recipe.ascript --format json --threads 2",
 };
+const SIEMENS: Kind = Kind {
+    name: "program for Sinumerik 840D",
+    file: "out/recipe.mpf",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.mpf --format json --threads 2",
+};
 /// A program of each post.
-const PROGRAMS: [&Kind; 3] = [&PROGRAM, &POWER_PMAC, &AUTOMATION1];
+const PROGRAMS: [&Kind; 4] = [&PROGRAM, &POWER_PMAC, &AUTOMATION1, &SIEMENS];
 const SUMMARY: Kind = Kind {
     name: "summary.json",
     file: "out/summary.json",
@@ -84,7 +90,7 @@ fn originals() -> &'static Path {
             .replace("lead = false", "lead = true")
             .replace("\"9 deg\"", "\"30 deg\"");
         let bench = Bench::empty();
-        let posts = r#""pmac-pvt", "power-pmac-pvt", "automation1-pvt""#;
+        let posts = r#""pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly""#;
         bench.write(
             "recipe.toml",
             format!("{recipe}\n[output]\nposts = [{posts}]\n"),

@@ -58,17 +58,17 @@ impl Grammar for AeroScript {
         }
     }
 
-    fn read(&mut self, code: &str) -> Result<Option<ControlPoint>, String> {
+    fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
         let code = code.trim();
         if code.is_empty() {
-            return Ok(None);
+            return Ok(());
         }
         let call = code.split_once('(').and_then(|(name, rest)| {
             let arguments = rest.strip_suffix(')')?;
             Some((name.trim(), arguments.trim()))
         });
         match call {
-            Some(("MovePvt", arguments)) => return self.go_to(arguments).map(Some),
+            Some(("MovePvt", arguments)) => points.push(self.go_to(arguments)?),
             Some(("SetupTaskTargetMode", "TargetMode.Absolute")) => self.absolute = Some(true),
             Some(("SetupTaskTargetMode", "TargetMode.Incremental")) => self.absolute = Some(false),
             Some(("SetupTaskTimeUnits", "TimeUnits.Seconds")) => self.in_seconds = true,
@@ -77,7 +77,7 @@ impl Grammar for AeroScript {
                 return Err(format!("`{shown}` is not a call of a PVT path"));
             }
         }
-        Ok(None)
+        Ok(())
     }
 }
 

@@ -47,7 +47,7 @@ impl Grammar for PvtGrammar {
         split_comment(line)
     }
 
-    fn read(&mut self, code: &str) -> Result<Option<ControlPoint>, String> {
+    fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
         let mut line: AxisWords = [None; 3];
         for word in words(code)? {
             let moved = line.iter().any(Option::is_some);
@@ -65,13 +65,14 @@ impl Grammar for PvtGrammar {
             }
         }
         if line.iter().all(Option::is_none) {
-            return Ok(None);
+            return Ok(());
         }
         let time = self.time.ok_or("a move without a `PVT` time before it")?;
         let [Some(c), Some(x), Some(z)] = self.absolute else {
             return Err("a move before `ABS` or `INC`".to_owned());
         };
-        self.axes.go_to(&line, [c, x, z], time).map(Some)
+        points.push(self.axes.go_to(&line, [c, x, z], time)?);
+        Ok(())
     }
 }
 

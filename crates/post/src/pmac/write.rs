@@ -41,7 +41,7 @@ pub(super) fn push_segment(
 /// Appends a time in milliseconds, exactly.
 fn push_ms(text: &mut Vec<u8>, clock: Clock, steps: i64) {
     let step = 10i64.pow(clock.decimals) / clock.steps_per_ms;
-    push(text, steps * step, clock.decimals);
+    push(text, i128::from(steps) * i128::from(step), clock.decimals);
 }
 
 fn push_axes(
