@@ -57,8 +57,8 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
             "{}: {error} {path}",
             post.name
         );
-        let holds = program["within_interpolation"] == Value::Bool(false);
-        assert!(!holds || status == Some(1), "{program}");
+        let exceeded = program["within_interpolation"] == Value::Bool(false);
+        assert!(!exceeded || status == Some(1), "{program}");
         let file = out.join(program["file"].as_str().unwrap());
         let text = fs::read_to_string(&file).unwrap();
         assert!(text.contains(summary["recipe"]["sha256"].as_str().unwrap()));

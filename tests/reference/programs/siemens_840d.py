@@ -24,6 +24,11 @@ getcontext().prec = 50
 POLYNOMIAL = re.compile(r"PO\[([CXZ])\]=\(([^)]*)\)")
 
 
+def value(cubic, p):
+    a0, a1, a2, a3 = cubic
+    return a0 + a1 * p + a2 * p * p + a3 * p * p * p
+
+
 def main():
     position, time = None, Decimal(0)
     print("t_s,c_deg,x_mm,z_mm")
@@ -43,7 +48,7 @@ def main():
                 ends[axis] = end
             for quarter in range(4):
                 p = Decimal(quarter) / 4
-                values = [sum(a * p**k for k, a in enumerate(cubics[axis])) for axis in "CXZ"]
+                values = [value(cubics[axis], p) for axis in "CXZ"]
                 row = [time + p * minutes * 60, *values]
                 print(",".join(f"{value:.15f}" for value in row))
             position, time = ends, time + minutes * 60
