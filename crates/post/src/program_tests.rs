@@ -549,6 +549,39 @@ fn one_damaged_line_of_a_path_is_refused_with_its_number() {
 }
 
 #[test]
+fn five_hundred_damaged_programs_of_each_post_are_read_or_refused_with_a_line() {
+    let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 20]);
+    for post in POSTS {
+        let layout = plain(post);
+        let good = program(&layout, &points).into_bytes();
+        let (mut numbers, mut refused) = (Numbers(11), 0);
+        for _ in 0..500 {
+            let mut bytes = good.clone();
+            for _ in 0..=numbers.next() % 4 {
+                let at = numbers.next() as usize % bytes.len();
+                let other = good[numbers.next() as usize % good.len()];
+                match numbers.next() % 4 {
+                    0 => bytes[at] = other,
+                    1 => bytes.insert(at, other),
+                    2 => bytes[at] = (numbers.next() % 256) as u8,
+                    _ => {
+                        bytes.remove(at);
+                    }
+                }
+            }
+            let lines = bytes.split(|byte| *byte == b'\n').count();
+            if let Err(said) = read(&layout, &bytes) {
+                let line = said.strip_prefix("p, line ").unwrap_or_default();
+                let line: usize = line.split(':').next().unwrap().parse().unwrap();
+                assert!((1..=lines).contains(&line), "{said}");
+                refused += 1;
+            }
+        }
+        assert!(refused > 200, "{}: only {refused} are refused", post.name);
+    }
+}
+
+#[test]
 fn a_segment_that_is_too_long_for_the_controller_is_divided_and_plays_the_same_cubic() {
     for post in POSTS {
         let layout = plain(post);
