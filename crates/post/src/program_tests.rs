@@ -384,11 +384,14 @@ impl Numbers {
 
     /// A number of any size up to `largest`, one in eight of them zero or the largest itself.
     fn of_any_size(&mut self, largest: f64) -> f64 {
-        let sign = if self.next() % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if self.next() & 1 == 0 { 1.0 } else { -1.0 };
         let size = match self.next() % 16 {
             0 => 0.0,
             1 => largest,
-            _ => largest * 0.1f64.powi((self.next() % 18) as i32) * self.part(),
+            _ => {
+                let smaller = 10u64.pow((self.next() % 18) as u32) as f64;
+                largest / smaller * self.part()
+            }
         };
         sign * size
     }

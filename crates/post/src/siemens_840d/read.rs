@@ -132,7 +132,7 @@ impl State {
         for (k, word) in words.iter_mut().enumerate() {
             let velocity = way[k].checked_mul(i128::from(steps_per_s));
             let velocity = velocity.ok_or("a velocity has too many digits")?;
-            *word = Some((position[k], Some(velocity / i128::from(steps))));
+            *word = Some((position[k], Some(rounded(velocity, steps))));
         }
         self.axes.go_to(&words, [true; 3], steps)
     }
@@ -193,6 +193,12 @@ impl Grammar for PolyGrammar {
         let state = self.state.as_mut().filter(|state| state.last.is_none())?;
         state.go_to(state.position, [0; 3], 1, 1).ok()
     }
+}
+
+/// A quotient, rounded.
+fn rounded(value: i128, by: i64) -> i128 {
+    let by = i128::from(by);
+    (value + by / 2).div_euclid(by)
 }
 
 /// `PO[X]=(1.5,0.1)`: the axis and its polynomial. A coefficient that is left out is zero.
