@@ -20,7 +20,7 @@ const RULES: &[Rule] = &[
     rule("turnpath-files", &[], &[]),
     rule("turnpath-core", &["turnpath-units"], &[]),
     rule("turnpath-plugin", &["turnpath-core"], &[]),
-    rule("turnpath-recipe", &["turnpath-core"], &[]),
+    rule("turnpath-recipe", &["turnpath-core", "turnpath-post"], &[]),
     rule(
         "turnpath-verify",
         &["turnpath-core"],

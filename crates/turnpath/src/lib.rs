@@ -69,7 +69,7 @@ pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
 };
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
-pub use turnpath_post::{PmacError, ReadError};
+pub use turnpath_post::{ProgramError, ReadError};
 pub use turnpath_recipe::{
     Diagnostic, Diagnostics, Recipe, RecipeError, Span, TableInfo, declared, slot_keys, tables,
 };

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use turnpath_core::{Direction, Misfit, Slot};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
-use turnpath_post::PmacReader;
 use turnpath_report as report;
 use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::unreached;
@@ -118,14 +117,14 @@ impl Job {
         let rows = sink.toolpath.len() as u64;
         let (mut reports, mut programs) = (Vec::new(), Vec::new());
         for (program, writer) in self.programs.iter().zip(sink.writers) {
-            let frame = program.frame(&self.recipe, &outcome);
+            let points = writer.points();
+            let frame = program.frame(&self.recipe, &outcome, points);
             let text = writer.assemble_in_memory(&frame.header, &frame.footer);
-            let mut reader =
-                PmacReader::from_reader(Cursor::new(&text), &program.file, program.format);
+            let mut reader = program.layout.read(Cursor::new(&text), &program.file);
             let touch = self.preparation.touch.clone();
             let name = Path::new(&program.file);
             let recipe = &self.recipe;
-            reports.push(program.measure(&mut reader, name, recipe, touch, rows, observer)?);
+            reports.push(program.measure(&mut reader, name, recipe, touch, points, observer)?);
             programs.push((program.file.clone(), text));
         }
         Ok(RunResult {

@@ -2,16 +2,10 @@
 
 use std::io::Write;
 
-use super::format::QUANTA_PER_MS;
-
-/// The most decimals that a time in whole quanta can have.
-const TIME_DECIMALS: u32 = 12;
-/// 10^12 / 4096, a whole number.
-const TIME_STEP: i64 = 10i64.pow(TIME_DECIMALS) / QUANTA_PER_MS as i64;
-
 /// Appends `units` · 10^−`decimals` without trailing zeros.
-pub(super) fn push(text: &mut Vec<u8>, units: i64, decimals: u32) {
-    let (size, one) = (units.unsigned_abs(), 10u64.pow(decimals));
+pub(crate) fn push(text: &mut Vec<u8>, units: impl Into<i128>, decimals: u32) {
+    let units: i128 = units.into();
+    let (size, one) = (units.unsigned_abs(), 10u128.pow(decimals));
     if units < 0 {
         text.push(b'-');
     }
@@ -24,11 +18,6 @@ pub(super) fn push(text: &mut Vec<u8>, units: i64, decimals: u32) {
             text.pop();
         }
     }
-}
-
-/// Appends a time in milliseconds, exactly.
-pub(super) fn push_ms(text: &mut Vec<u8>, quanta: i64) {
-    push(text, quanta * TIME_STEP, TIME_DECIMALS);
 }
 
 #[cfg(test)]
@@ -45,16 +34,7 @@ mod tests {
             (5, 0, "5"),
         ] {
             let mut written = Vec::new();
-            push(&mut written, units, decimals);
-            assert_eq!(String::from_utf8(written).unwrap(), text);
-        }
-        for (quanta, text) in [
-            (1, "0.000244140625"),
-            (12_288, "3"),
-            (6145, "1.500244140625"),
-        ] {
-            let mut written = Vec::new();
-            push_ms(&mut written, quanta);
+            push(&mut written, i64::from(units), decimals);
             assert_eq!(String::from_utf8(written).unwrap(), text);
         }
     }

@@ -40,8 +40,13 @@ pub enum TemplateError {
     #[error("no placeholder named `{{{0}}}`")]
     Unknown(String),
     /// A person's words could be read as code.
-    #[error("`{{{0}}}` is outside a comment: put a `;` before it on its line")]
-    OutsideComment(String),
+    #[error("`{{{name}}}` is outside a comment: put a `{comment}` before it on its line")]
+    OutsideComment {
+        /// The placeholder.
+        name: String,
+        /// What begins a comment.
+        comment: &'static str,
+    },
     /// A reader would take a line for a mark of the path.
     #[error("a comment that begins with `--` would be taken for a mark of the path")]
     Mark,
@@ -51,23 +56,23 @@ pub enum TemplateError {
 }
 
 impl Template {
-    /// Reads a text.
+    /// Reads a text whose comments begin with `comment`.
     ///
     /// ```
     /// # use turnpath_post::Template;
-    /// let template = Template::parse("; {name}, {points} points").unwrap();
+    /// let template = Template::parse("; {name}, {points} points", ";").unwrap();
     /// let filled = template.fill(|placeholder| match placeholder {
     ///     "name" => "Mirror".to_owned(),
     ///     _ => "4160".to_owned(),
     /// });
     /// assert_eq!(filled, "; Mirror, 4160 points\n");
-    /// assert!(Template::parse("{nam}").is_err());
+    /// assert!(Template::parse("{nam}", ";").is_err());
     /// ```
     ///
     /// # Errors
     /// When a placeholder is unknown or its words would be code, a brace is single, or a reader would
     /// take a line for a mark of the path.
-    pub fn parse(text: &str) -> Result<Self, TemplateError> {
+    pub fn parse(text: &str, comment: &'static str) -> Result<Self, TemplateError> {
         if text.lines().any(is_mark) {
             return Err(TemplateError::Mark);
         }
@@ -80,8 +85,9 @@ impl Template {
             if let Part::Placeholder(name) = &part {
                 let read = text.len() - rest.len() + before.len();
                 let line = text[..read].rsplit('\n').next().unwrap_or_default();
-                if FREE_TEXT.contains(&name.as_str()) && !line.contains(';') {
-                    return Err(TemplateError::OutsideComment(name.clone()));
+                if FREE_TEXT.contains(&name.as_str()) && !line.contains(comment) {
+                    let name = name.clone();
+                    return Err(TemplateError::OutsideComment { name, comment });
                 }
             }
             parts.push(part);
@@ -126,12 +132,16 @@ fn part(text: &str) -> Result<(Part, &str), TemplateError> {
     }
 }
 
-/// Whether the reader would take the line for a mark.
+/// What begins a comment in some dialect; a reader may know more than one.
+const COMMENTS: [&str; 2] = [";", "//"];
+
+/// Whether a reader of any dialect would take a comment of the line for a mark.
 fn is_mark(line: &str) -> bool {
-    let comment = line
-        .split_once(';')
-        .map(|(_, comment)| comment.trim_start());
-    comment.is_some_and(|comment| comment.starts_with("--"))
+    let begins = |comment: &str| {
+        let mut said = line.split(comment).skip(1);
+        said.any(|said| said.trim_start().starts_with("--"))
+    };
+    COMMENTS.into_iter().any(begins)
 }
 
 /// A value that is neither a mark of the path nor code nor an endless line.
@@ -153,7 +163,7 @@ mod tests {
     use super::*;
 
     fn filled(text: &str) -> String {
-        Template::parse(text)
+        Template::parse(text, ";")
             .unwrap()
             .fill(|name| format!("<{name}>"))
     }
@@ -167,28 +177,39 @@ mod tests {
 
     #[test]
     fn values_stay_on_their_line_and_in_ascii() {
-        let name = Template::parse("; {name}").unwrap();
+        let name = Template::parse("; {name}", ";").unwrap();
         assert_eq!(name.fill(|_| "a\nX1:2 µ".to_owned()), "; a X1:2 ?\n");
     }
 
     #[test]
     fn unknown_placeholders_and_single_braces_are_refused() {
-        let unknown = Template::parse("{nam}").unwrap_err();
+        let unknown = Template::parse("{nam}", ";").unwrap_err();
         assert_eq!(unknown.to_string(), "no placeholder named `{nam}`");
-        assert_eq!(Template::parse("{name"), Err(TemplateError::SingleBrace));
-        assert_eq!(Template::parse("name}"), Err(TemplateError::SingleBrace));
+        assert_eq!(
+            Template::parse("{name", ";"),
+            Err(TemplateError::SingleBrace)
+        );
+        assert_eq!(
+            Template::parse("name}", ";"),
+            Err(TemplateError::SingleBrace)
+        );
     }
 
     #[test]
     fn words_of_a_person_are_neither_code_nor_marks() {
-        let outside = TemplateError::OutsideComment("name".to_owned());
-        assert_eq!(Template::parse("CLOSE\n{name}"), Err(outside));
-        assert_eq!(Template::parse("; -- cutting --"), Err(TemplateError::Mark));
+        let outside = TemplateError::OutsideComment {
+            name: "name".to_owned(),
+            comment: ";",
+        };
+        assert_eq!(Template::parse("CLOSE\n{name}", ";"), Err(outside));
+        for (text, comment) in [("; -- cutting --", ";"), ("end // -- x", "//")] {
+            assert_eq!(Template::parse(text, comment), Err(TemplateError::Mark));
+        }
         assert_eq!(
-            Template::parse("CLOSE ;-- end of path --"),
+            Template::parse("CLOSE ;-- end of path --", ";"),
             Err(TemplateError::Mark)
         );
-        let filled = Template::parse("; {name}\n")
+        let filled = Template::parse("; {name}\n", ";")
             .unwrap()
             .fill(|_| format!("-- cutting --\nOPEN{}", "x".repeat(1000)));
         assert!(filled.starts_with("; - - cutting - - OPENx"), "{filled}");

@@ -1,24 +1,11 @@
 //! The errors of a path that a program cannot carry.
 
-/// Why a PVT program cannot carry a path, and where.
+/// Why a program cannot carry a path, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PmacError {
-    /// A segment takes longer than the controller can count.
-    #[error(
-        "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes {ms:.4} ms; the controller \
-         allows 4095.9998 ms at the most"
-    )]
-    Long {
-        /// The time of the segment, ms.
-        ms: f64,
-        /// The time of its end, s.
-        t: f64,
-        /// C at its end, deg.
-        c_deg: f64,
-    },
+pub enum ProgramError {
     /// A segment is shorter than the controller's time step.
     #[error(
-        "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes less than 1/4096 ms, the \
+        "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes less than the \
          controller's time step"
     )]
     Short {
@@ -52,17 +39,16 @@ pub enum PmacError {
     },
     /// The path goes straight from point to point.
     #[error(
-        "the path goes straight from point to point, but PVT plays cubics: this program cannot carry \
+        "the path goes straight from point to point, but this program plays cubics: it cannot carry \
          such a path"
     )]
     Straight,
 }
 
-impl PmacError {
+impl ProgramError {
     /// What the user can do.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Long { .. } => "place points closer together, or turn the spindle faster",
             Self::Short { .. } => "place points farther apart, or turn the spindle slower",
             Self::Digits { .. } => "write fewer decimals, or c_wrap = \"0-360\"",
             Self::HalfTurn { .. } => {
