@@ -18,6 +18,7 @@ const PLUGINS: &str = "plugins/*";
 const RULES: &[Rule] = &[
     rule("turnpath-units", &[], &[]),
     rule("turnpath-files", &[], &[]),
+    rule("turnpath-maps", &[], &[]),
     rule("turnpath-core", &["turnpath-units"], &[]),
     rule("turnpath-plugin", &["turnpath-core"], &[]),
     rule("turnpath-recipe", &["turnpath-core"], &[]),
@@ -37,7 +38,11 @@ const RULES: &[Rule] = &[
         &["turnpath-core", "turnpath-files", "turnpath-plugin"],
         &[PLUGINS],
     ),
-    rule(PLUGINS, &["turnpath-plugin"], &["turnpath-core", PLUGINS]),
+    rule(
+        PLUGINS,
+        &["turnpath-maps", "turnpath-plugin"],
+        &["turnpath-core", PLUGINS],
+    ),
     rule("turnpath-report", &["turnpath-core"], &[]),
     rule("turnpath", LIBRARIES, &[]),
     rule(

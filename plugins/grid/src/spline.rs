@@ -1,0 +1,277 @@
+//! The spline: coefficients with a margin around the map, and its values and slopes.
+
+use crate::basis::{self, BEFORE, SPLINES, Weights};
+use crate::bending;
+use crate::interpolation::{BEYOND, coefficients};
+use crate::sheet::Sheet;
+use crate::trend::Trend;
+
+/// Coefficients beyond the map, at least. The spline needs some for its last cells to be smooth.
+const LEAST_MARGIN: usize = 8;
+
+/// Coefficients beyond the map, at most. More would take time for places that no tool reaches.
+const MOST_MARGIN: usize = 64;
+
+/// The margin's share of the shorter side of the map.
+const MARGIN_SHARE: usize = 8;
+
+/// The 36 coefficients that count at a place, row by row.
+pub type Patch = [Weights; SPLINES];
+
+/// A tensor B-spline of degree 5 over knots at all points of a regular grid. It has a value
+/// everywhere and is C⁴ everywhere.
+///
+/// Around the map lies a margin in which the coefficients bend least, as in holes. Beyond it they
+/// go on as the quadratic of best fit, plus a straight line.
+#[derive(Debug, Clone)]
+pub struct Spline {
+    coefficients: Sheet,
+    trend: Trend,
+    /// 1 / pitch, 1/mm.
+    pub per: [f64; 2],
+    /// Number of the column (row) of coefficients at x = 0 (y = 0).
+    origin: [f64; 2],
+}
+
+/// Where a place lies in its cell, and the coefficients there.
+pub struct Local {
+    /// From 0 to 1 along x.
+    pub s: f64,
+    /// From 0 to 1 along y.
+    pub t: f64,
+    pub patch: Patch,
+}
+
+impl Spline {
+    /// The spline through heights without holes. `first` is the place of the first height and
+    /// `pitch` the distance of neighbours, mm.
+    pub fn through(heights: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
+        let shorter = heights.columns.min(heights.rows);
+        let margin = (shorter / MARGIN_SHARE).clamp(LEAST_MARGIN, MOST_MARGIN);
+        let mut coefficients = coefficients(heights).with_margin(margin);
+        let trend = Trend::of(&coefficients);
+        trend.add_to(&mut coefficients, -1.0);
+        bending::fill(&mut coefficients, pitch[0] / pitch[1]);
+        trend.add_to(&mut coefficients, 1.0);
+        let before = (BEYOND + margin) as f64;
+        Self {
+            coefficients,
+            trend,
+            per: pitch.map(f64::recip),
+            origin: [before - first[0] / pitch[0], before - first[1] / pitch[1]],
+        }
+    }
+
+    /// The cell of a place, and its coefficients. `None` where the place is no number.
+    #[inline(always)]
+    pub fn local(&self, x: f64, y: f64) -> Option<Local> {
+        let (u, v) = (
+            x * self.per[0] + self.origin[0],
+            y * self.per[1] + self.origin[1],
+        );
+        let (column, row) = (whole(u), whole(v));
+        let (s, t) = (u - column as f64, v - row as f64);
+        if !(s.is_finite() && t.is_finite()) {
+            return None;
+        }
+        let patch = self.patch(column, row);
+        Some(Local { s, t, patch })
+    }
+
+    #[inline(always)]
+    fn patch(&self, column: i64, row: i64) -> Patch {
+        let before = BEFORE as i64;
+        let inside = |at: i64, count: usize| {
+            let first = usize::try_from(at.wrapping_sub(before)).ok()?;
+            (first < count.wrapping_sub(SPLINES - 1)).then_some(first)
+        };
+        let Sheet {
+            columns,
+            rows,
+            values,
+        } = &self.coefficients;
+        let (Some(left), Some(top)) = (inside(column, *columns), inside(row, *rows)) else {
+            return self.patch_outside(column, row);
+        };
+        let mut patch = [[0.0; SPLINES]; SPLINES];
+        for (line, number) in patch.iter_mut().zip(top..) {
+            let start = number * columns + left;
+            if let Some(six) = values.get(start..).and_then(|rest| rest.first_chunk()) {
+                *line = *six;
+            }
+        }
+        patch
+    }
+
+    #[cold]
+    fn patch_outside(&self, column: i64, row: i64) -> Patch {
+        let mut patch = [[0.0; SPLINES]; SPLINES];
+        for (line, down) in patch.iter_mut().zip(0..) {
+            for (value, right) in line.iter_mut().zip(0..) {
+                let at = |middle: i64, shift: i64| middle as f64 + (shift - BEFORE as i64) as f64;
+                *value = self.beyond(at(column, right), at(row, down));
+            }
+        }
+        patch
+    }
+
+    /// A coefficient beyond the margin, or within it.
+    fn beyond(&self, column: f64, row: f64) -> f64 {
+        let Sheet { columns, rows, .. } = self.coefficients;
+        let (of_columns, of_rows) = (straight(column, columns), straight(row, rows));
+        let mut rest = 0.0;
+        for (row, share) in of_rows {
+            for (column, part) in of_columns {
+                let value = self.coefficients.values[row * columns + column];
+                rest += share * part * (value - self.trend.at(column as f64, row as f64));
+            }
+        }
+        self.trend.at(column, row) + rest
+    }
+
+    /// The height at a place.
+    #[inline(always)]
+    pub fn height(&self, x: f64, y: f64) -> f64 {
+        let Some(Local { s, t, patch }) = self.local(x, y) else {
+            return f64::NAN;
+        };
+        let lines = combine(&patch, &basis::derivative::<0>(t));
+        dot(&lines, &basis::derivative::<0>(s))
+    }
+
+    /// The height and both slopes at a place.
+    #[inline(always)]
+    pub fn gradient(&self, x: f64, y: f64) -> [f64; 3] {
+        let Some(Local { s, t, patch }) = self.local(x, y) else {
+            return [f64::NAN; 3];
+        };
+        let lines = combine(&patch, &basis::derivative::<0>(t));
+        let rates = combine(&patch, &basis::derivative::<1>(t));
+        let weights = basis::derivative::<0>(s);
+        [
+            dot(&lines, &weights),
+            dot(&lines, &basis::derivative::<1>(s)) * self.per[0],
+            dot(&rates, &weights) * self.per[1],
+        ]
+    }
+}
+
+/// The largest whole number that is not above this one. Beyond 2⁶³ it is the last one that there is.
+#[inline(always)]
+fn whole(number: f64) -> i64 {
+    let towards_zero = number as i64;
+    towards_zero.wrapping_sub(i64::from(towards_zero as f64 > number))
+}
+
+/// The two numbers of columns (rows) whose straight line goes through this one, with their shares.
+fn straight(at: f64, count: usize) -> [(usize, f64); 2] {
+    let last = count - 1;
+    if at < 0.0 {
+        [(0, 1.0 - at), (1, at)]
+    } else if at > last as f64 {
+        let beyond = at - last as f64;
+        [(last, 1.0 + beyond), (last - 1, -beyond)]
+    } else {
+        [(at as usize, 1.0), (at as usize, 0.0)]
+    }
+}
+
+/// The sum of the patch's rows, weighted.
+#[inline(always)]
+pub fn combine(patch: &Patch, weights: &Weights) -> Weights {
+    let mut sum = [0.0; SPLINES];
+    for (line, weight) in patch.iter().zip(weights) {
+        for (sum, value) in sum.iter_mut().zip(line) {
+            *sum += weight * value;
+        }
+    }
+    sum
+}
+
+#[inline(always)]
+pub fn dot(values: &Weights, weights: &Weights) -> f64 {
+    let [a, b, c, d, e, f]: Weights = std::array::from_fn(|k| values[k] * weights[k]);
+    (a + b) + (c + d) + (e + f)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wavy(x: f64, y: f64) -> f64 {
+        let fraction = |n: f64| n - n.floor();
+        fraction(12.9898 * x + 78.233 * y) - 0.5 + 0.1 * x * x
+    }
+
+    /// A spline through numbers that jump from point to point, so that nothing is smooth by chance.
+    fn spline() -> Spline {
+        let mut heights = Sheet::of(12, 9, 0.0);
+        for (row, line) in heights.lines_mut().enumerate() {
+            for (column, value) in line.iter_mut().enumerate() {
+                *value = wavy(0.5 * column as f64 - 2.0, 0.3 * row as f64 + 1.0);
+            }
+        }
+        Spline::through(heights, [-2.0, 1.0], [0.5, 0.3])
+    }
+
+    #[test]
+    fn the_spline_goes_through_all_points() {
+        let spline = spline();
+        for row in 0..9 {
+            for column in 0..12 {
+                let (x, y) = (0.5 * f64::from(column) - 2.0, 0.3 * f64::from(row) + 1.0);
+                let (found, wanted) = (spline.height(x, y), wavy(x, y));
+                assert!((found - wanted).abs() < 1e-12, "{x} {y}: {found} {wanted}");
+            }
+        }
+    }
+
+    /// In a cell the spline is a polynomial of degree 5. Over a border, also those beyond the map and
+    /// beyond its margin, only the fifth derivative may jump.
+    #[test]
+    fn value_and_four_derivatives_go_on_over_every_border() {
+        let spline = spline();
+        let orders = |s: f64| {
+            [
+                basis::derivative::<0>(s),
+                basis::derivative::<1>(s),
+                basis::derivative::<2>(s),
+                basis::derivative::<3>(s),
+                basis::derivative::<4>(s),
+            ]
+        };
+        for column in -30..60 {
+            let patches = [column - 1, column].map(|column| spline.patch(column, 3));
+            for down in 0..SPLINES {
+                for order in 0..5 {
+                    let before = dot(&patches[0][down], &orders(1.0)[order]);
+                    let after = dot(&patches[1][down], &orders(0.0)[order]);
+                    let size = before.abs().max(1.0);
+                    assert!((before - after).abs() < 1e-10 * size, "{column} {order}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_quadratic_goes_on_as_itself_and_far_places_have_numbers() {
+        let quadratic = |x: f64, y: f64| 0.02 * x * x - 0.03 * x * y + 0.01 * y + 0.5;
+        let mut heights = Sheet::of(20, 30, 0.0);
+        for (row, line) in heights.lines_mut().enumerate() {
+            for (column, value) in line.iter_mut().enumerate() {
+                *value = quadratic(0.1 * column as f64, 0.2 * row as f64);
+            }
+        }
+        let spline = Spline::through(heights, [0.0, 0.0], [0.1, 0.2]);
+        for (x, y) in [(1.0, 2.0), (-0.5, 3.0), (2.5, 6.5), (-8.0, 40.0)] {
+            let (found, wanted) = (spline.height(x, y), quadratic(x, y));
+            assert!(
+                (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0),
+                "{found} {wanted}"
+            );
+        }
+        assert!(spline.height(1e9, -1e9).is_finite());
+        assert!(spline.height(f64::NAN, 0.0).is_nan());
+        assert!(spline.height(f64::INFINITY, 0.0).is_nan());
+    }
+}
