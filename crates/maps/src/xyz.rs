@@ -22,7 +22,10 @@ const SAME: f64 = 0.02;
 
 /// Most places of a grid for each point of the file: a grid with more of them is none. A disc in its
 /// square needs 1.27.
-const MOST_PLACES: usize = 8;
+const MOST_PLACES: usize = 4;
+
+/// Most columns (rows) of a grid for each one that has a point.
+const MOST_EMPTY: usize = 2;
 
 /// A point, in the file's units.
 struct Point {
@@ -144,8 +147,8 @@ fn axis(name: &'static str, values: impl Iterator<Item = f64>) -> Result<Axis, M
     if places.is_nan() || places < 1.0 {
         return Err(uneven("all points have the same place".to_owned()));
     }
-    // More places than values is possible where whole columns are holes.
-    if places >= (MOST_PLACES * all.len()) as f64 {
+    // Whole columns may be holes, but not most of them.
+    if places + 1.0 > (MOST_EMPTY * all.len()) as f64 {
         return Err(uneven(format!(
             "the distances differ: {least} and {largest}"
         )));

@@ -1,12 +1,12 @@
-//! Holes are filled so that the sheet bends least.
+//! Holes are filled, and sheets are carried on, so that the bend changes least.
 //!
-//! The numbers in the holes are those for which the sum of all squares of second differences, along
-//! x, along y and mixed, is least. That is a thin plate through the known numbers: it goes on with
-//! their slope, and waves along an edge die away from it.
+//! The unknown numbers are those for which the sum of all squares of third differences is least:
+//! along x, along y, and mixed. So a sheet goes on with its slope and its curvature, a quadratic goes
+//! on as itself, and waves along an edge die away from it.
 //!
 //! The equations are solved by conjugate gradients, from a start that the same sheet at half the
-//! resolution gives. It need not be exact: every sheet would do that is smooth to the eye of the
-//! tool. All sums run in one order, so the same map gives the same bytes.
+//! resolution gives. The solution need not be exact: what counts is that the sheet is smooth. All
+//! sums run in one order, so the same map gives the same bytes.
 
 use crate::sheet::Sheet;
 
@@ -14,20 +14,17 @@ use crate::sheet::Sheet;
 /// finer ones, and these need few.
 const STEPS: usize = 60;
 
-/// Sheets with fewer unknown numbers than this are solved to rounding.
-const SMALL: usize = 4096;
+/// Sheets with no more unknown numbers than this take more steps.
+const SMALL: usize = 2048;
 
 /// Most steps for a small sheet.
-const STEPS_OF_SMALL: usize = 4 * SMALL;
+const STEPS_OF_SMALL: usize = 2000;
 
 /// The share of the first residual at which the search ends.
-const SMALLEST_RESIDUAL: f64 = 1e-4;
-
-/// The same for a small sheet.
-const SMALLEST_RESIDUAL_OF_SMALL: f64 = 1e-12;
+const SMALLEST_RESIDUAL: f64 = 1e-9;
 
 /// The shortest side that is halved.
-const SHORTEST: usize = 8;
+const SHORTEST: usize = 12;
 
 /// Fills all numbers that are NaN. `ratio` is the pitch along x over that along y.
 pub fn fill(sheet: &mut Sheet, ratio: f64) {
@@ -50,7 +47,7 @@ pub fn fill(sheet: &mut Sheet, ratio: f64) {
 fn begin(sheet: &mut Sheet, unknown: &[usize], ratio: f64) {
     let mut half = Sheet::of(sheet.columns.div_ceil(2), sheet.rows.div_ceil(2), f64::NAN);
     let every_second = sheet.lines().step_by(2);
-    for (line, of_half) in every_second.zip(half.values.chunks_exact_mut(half.columns)) {
+    for (line, of_half) in every_second.zip(half.lines_mut()) {
         for (value, place) in line.iter().step_by(2).zip(of_half) {
             *place = *value;
         }
@@ -69,74 +66,142 @@ fn begin(sheet: &mut Sheet, unknown: &[usize], ratio: f64) {
     }
 }
 
-/// The number of a finer sheet, from the two or four around it.
+/// The number of a finer sheet: the cubic through four numbers along each axis.
 fn between(half: &Sheet, column: usize, row: usize) -> f64 {
-    let near = |place: usize, last: usize| [(place / 2).min(last), place.div_ceil(2).min(last)];
-    let (columns, rows) = (near(column, half.columns - 1), near(row, half.rows - 1));
+    let (columns, rows) = (around(column, half.columns), around(row, half.rows));
     let mut sum = 0.0;
-    for row in rows {
-        for column in columns {
-            sum += half.values[row * half.columns + column];
+    for (row, share) in rows {
+        for (column, part) in columns {
+            sum += share * part * half.values[row * half.columns + column];
         }
     }
-    0.25 * sum
+    sum
 }
 
-/// The energy of a bent sheet.
+/// The four numbers of the coarse sheet around a place of the fine one, with their shares. At an end
+/// the line through the last two goes on.
+fn around(place: usize, count: usize) -> [(usize, f64); 4] {
+    let (before, last) = (place / 2, count - 1);
+    if place.is_multiple_of(2) {
+        return [(before, 1.0), (before, 0.0), (before, 0.0), (before, 0.0)];
+    }
+    if before == last {
+        let other = before.saturating_sub(1);
+        return [(before, 1.5), (other, -0.5), (before, 0.0), (before, 0.0)];
+    }
+    if before == 0 || before + 1 == last {
+        return [
+            (before, 0.5),
+            (before + 1, 0.5),
+            (before, 0.0),
+            (before, 0.0),
+        ];
+    }
+    [
+        (before - 1, -0.0625),
+        (before, 0.5625),
+        (before + 1, 0.5625),
+        (before + 2, -0.0625),
+    ]
+}
+
+/// Numbers on the side of the largest difference.
+const SIDE: usize = 4;
+
+/// How far a number reaches in the sum of squares.
+const REACH: usize = SIDE - 1;
+
+/// A kind of third differences.
+#[derive(Debug, Clone)]
+struct Difference {
+    /// Factors along x and along y; the difference is the sum over all products.
+    along: [Vec<f64>; 2],
+    /// What its square counts.
+    weight: f64,
+}
+
+/// The sum of squares of third differences over a sheet.
 struct Plate {
     columns: usize,
     rows: usize,
-    /// What the square of a second difference counts: along x, along y, mixed.
-    weights: [f64; 3],
+    differences: [Difference; 4],
+    /// Where all differences lie within the sheet: what each neighbour counts in a force, by rows.
+    inside: [[f64; 2 * REACH + 1]; 2 * REACH + 1],
 }
 
 impl Plate {
     fn new(columns: usize, rows: usize, ratio: f64) -> Self {
-        let square = ratio * ratio;
+        let factors = |order: usize| match order {
+            0 => vec![1.0],
+            1 => vec![-1.0, 1.0],
+            2 => vec![1.0, -2.0, 1.0],
+            _ => vec![-1.0, 3.0, -3.0, 1.0],
+        };
+        // Differences along x are those over longer steps, if the pitch along x is the larger one.
+        let differences = [3, 2, 1, 0].map(|order: usize| Difference {
+            along: [factors(order), factors(3 - order)],
+            weight: [1.0, 3.0, 3.0, 1.0][order] * (0..order).fold(1.0, |w, _| w / (ratio * ratio)),
+        });
+        let mut inside = [[0.0; 2 * REACH + 1]; 2 * REACH + 1];
+        for difference in &differences {
+            let [of_x, of_y] = difference.along.each_ref().map(|along| squared(along));
+            for (line, y) in inside.iter_mut().zip(of_y) {
+                for (factor, x) in line.iter_mut().zip(of_x) {
+                    *factor += difference.weight * x * y;
+                }
+            }
+        }
         Self {
             columns,
             rows,
-            weights: [1.0 / square, square, 2.0],
+            differences,
+            inside,
         }
     }
 
-    /// Half the derivative of the energy by one number.
+    /// Half the derivative of the sum by one number.
     fn force(&self, values: &[f64], place: usize) -> f64 {
         let (row, column) = (place / self.columns, place % self.columns);
-        let inner = |at: usize, count: usize| at >= 2 && at + 2 < count;
+        let inner = |at: usize, count: usize| at >= REACH && at + REACH < count;
         if inner(row, self.rows) && inner(column, self.columns) {
-            return self.force_inside(values, place);
+            let corner = place - REACH * (self.columns + 1);
+            return self.force_inside(values, corner);
         }
-        let [along_x, along_y, mixed] = self.weights;
-        along_x * straight(values, place, 1, column, self.columns)
-            + along_y * straight(values, place, self.columns, row, self.rows)
-            + mixed * self.twist(values, (column, row))
+        let differences = self.differences.iter();
+        differences
+            .map(|one| one.weight * self.at_edge(one, values, (column, row)))
+            .sum()
     }
 
     #[inline(always)]
-    fn force_inside(&self, values: &[f64], place: usize) -> f64 {
-        let at = |offset: usize, back: usize| values[place + offset - back];
-        let line = self.columns;
-        let [along_x, along_y, mixed] = self.weights;
-        let middle = values[place];
-        let near_x = at(0, 1) + at(1, 0);
-        let near_y = at(0, line) + at(line, 0);
-        let corners = at(0, line + 1) + at(1, line) + at(line, 1) + at(line + 1, 0);
-        along_x * (at(0, 2) + at(2, 0) - 4.0 * near_x + 6.0 * middle)
-            + along_y * (at(0, 2 * line) + at(2 * line, 0) - 4.0 * near_y + 6.0 * middle)
-            + mixed * (corners - 2.0 * (near_x + near_y) + 4.0 * middle)
+    fn force_inside(&self, values: &[f64], corner: usize) -> f64 {
+        let mut force = 0.0;
+        for (number, factors) in self.inside.iter().enumerate() {
+            let line = &values[corner + number * self.columns..][..2 * REACH + 1];
+            // Towards the corners the factors are zero.
+            let skip = number.abs_diff(REACH);
+            let used = skip..2 * REACH + 1 - skip;
+            for (factor, value) in factors[used.clone()].iter().zip(&line[used]) {
+                force += factor * value;
+            }
+        }
+        force
     }
 
-    /// The part of the mixed differences: those of the up to four cells around a place.
-    fn twist(&self, values: &[f64], (column, row): (usize, usize)) -> f64 {
+    /// The part of one kind of differences: of all those within the sheet that contain the number.
+    fn at_edge(&self, one: &Difference, values: &[f64], (column, row): (usize, usize)) -> f64 {
+        let [of_x, of_y] = &one.along;
         let mut sum = 0.0;
-        for top in row.saturating_sub(1)..(row + 1).min(self.rows - 1) {
-            for left in column.saturating_sub(1)..(column + 1).min(self.columns - 1) {
-                let at =
-                    |down: usize, right: usize| values[(top + down) * self.columns + left + right];
-                let twist = at(0, 0) - at(0, 1) - at(1, 0) + at(1, 1);
-                let same = (top == row) == (left == column);
-                sum += if same { twist } else { -twist };
+        for (down, factor_y) in starts(row, self.rows, of_y) {
+            for (right, factor_x) in starts(column, self.columns, of_x) {
+                let mut difference = 0.0;
+                for (y, row) in of_y.iter().zip(down..) {
+                    let line = &values[row * self.columns + right..];
+                    for (x, value) in of_x.iter().zip(line) {
+                        difference += x * y * value;
+                    }
+                }
+                sum += factor_x * factor_y * difference;
             }
         }
         sum
@@ -145,27 +210,23 @@ impl Plate {
     /// What a number counts in its own force.
     fn stiffness(&self, place: usize) -> f64 {
         let (row, column) = (place / self.columns, place % self.columns);
-        let straight = |at: usize, count: usize| {
-            let has = |shift: usize, factor: f64| match at >= shift && at + 2 < count + shift {
-                true => factor,
-                false => 0.0,
-            };
-            has(2, 1.0) + has(1, 4.0) + has(0, 1.0)
+        let squares = |at: usize, count: usize, along: &[f64]| -> f64 {
+            starts(at, count, along)
+                .map(|(_, factor)| factor * factor)
+                .sum()
         };
-        let cells = |at: usize, count: usize| {
-            f64::from(u8::from(at > 0)) + f64::from(u8::from(at + 1 < count))
+        let of = |one: &Difference| {
+            let [of_x, of_y] = &one.along;
+            one.weight * squares(column, self.columns, of_x) * squares(row, self.rows, of_y)
         };
-        let [along_x, along_y, mixed] = self.weights;
-        along_x * straight(column, self.columns)
-            + along_y * straight(row, self.rows)
-            + mixed * cells(column, self.columns) * cells(row, self.rows)
+        self.differences.iter().map(of).sum()
     }
 
     /// Conjugate gradients on the unknown numbers, each scaled by its stiffness.
     fn relax(&self, values: &mut [f64], unknown: &[usize]) {
-        let (steps, share) = match unknown.len() <= SMALL {
-            true => (STEPS_OF_SMALL, SMALLEST_RESIDUAL_OF_SMALL),
-            false => (STEPS, SMALLEST_RESIDUAL),
+        let steps = match unknown.len() <= SMALL {
+            true => STEPS_OF_SMALL,
+            false => STEPS,
         };
         let mut force: Vec<f64> = unknown
             .iter()
@@ -178,14 +239,11 @@ impl Plate {
         let mut direction = vec![0.0; values.len()];
         let mut answer = vec![0.0; unknown.len()];
         let square = |force: &[f64]| -> f64 {
-            force
-                .iter()
-                .zip(&over)
-                .map(|(force, over)| force * force * over)
-                .sum()
+            let terms = force.iter().zip(&over);
+            terms.map(|(force, over)| force * force * over).sum()
         };
         let mut now = square(&force);
-        let last = now * share * share;
+        let last = now * SMALLEST_RESIDUAL * SMALLEST_RESIDUAL;
         for ((place, force), over) in unknown.iter().zip(&force).zip(&over) {
             direction[*place] = force * over;
         }
@@ -216,17 +274,29 @@ impl Plate {
     }
 }
 
-/// The part of the second differences along one axis: `step` apart, at number `at` of `count`.
-fn straight(values: &[f64], place: usize, step: usize, at: usize, count: usize) -> f64 {
-    // The difference whose first number is `shift` before the place.
-    let difference = |shift: usize| {
-        if at < shift || at + 2 >= count + shift {
-            return 0.0;
+/// The factors of neighbours, from the farthest one before on, in the derivative of a square.
+fn squared(along: &[f64]) -> [f64; 2 * REACH + 1] {
+    let mut factors = [0.0; 2 * REACH + 1];
+    for (i, one) in along.iter().enumerate() {
+        for (j, other) in along.iter().enumerate() {
+            factors[REACH + j - i] += one * other;
         }
-        let first = place - shift * step;
-        values[first] - 2.0 * values[first + step] + values[first + 2 * step]
-    };
-    difference(0) - 2.0 * difference(1) + difference(2)
+    }
+    factors
+}
+
+/// Where the differences begin that lie within the sheet and contain a number, and the number's
+/// factor in each.
+fn starts(at: usize, count: usize, along: &[f64]) -> impl Iterator<Item = (usize, f64)> {
+    let starts = along
+        .iter()
+        .enumerate()
+        .filter_map(move |(number, factor)| {
+            let start = at.checked_sub(number)?;
+            Some((start, *factor))
+        });
+    let length = along.len();
+    starts.filter(move |(start, _)| start + length <= count)
 }
 
 #[cfg(test)]
@@ -243,36 +313,36 @@ mod tests {
         sheet
     }
 
-    /// The energy by its definition.
+    /// The sum of squares by its definition: first differences, three times.
     fn energy(sheet: &Sheet, ratio: f64) -> f64 {
-        let at = |column: usize, row: usize| sheet.values[row * sheet.columns + column];
-        let weights = Plate::new(3, 3, ratio).weights;
-        let mut sum = 0.0;
-        for row in 0..sheet.rows {
-            for column in 0..sheet.columns {
-                if column + 2 < sheet.columns {
-                    let bend = at(column, row) - 2.0 * at(column + 1, row) + at(column + 2, row);
-                    sum += weights[0] * bend * bend;
-                }
-                if row + 2 < sheet.rows {
-                    let bend = at(column, row) - 2.0 * at(column, row + 1) + at(column, row + 2);
-                    sum += weights[1] * bend * bend;
-                }
-                if column + 1 < sheet.columns && row + 1 < sheet.rows {
-                    let twist = at(column, row) - at(column + 1, row) - at(column, row + 1)
-                        + at(column + 1, row + 1);
-                    sum += weights[2] * twist * twist;
+        let along_x = |sheet: &Sheet| {
+            let mut less = Sheet::of(sheet.columns - 1, sheet.rows, 0.0);
+            for (line, of_less) in sheet.lines().zip(less.lines_mut()) {
+                for (pair, place) in line.windows(2).zip(of_less) {
+                    *place = (pair[1] - pair[0]) / ratio;
                 }
             }
-        }
-        sum
+            less
+        };
+        let along_y = |sheet: &Sheet| {
+            let mut less = Sheet::of(sheet.columns, sheet.rows - 1, 0.0);
+            for (place, difference) in less.values.iter_mut().enumerate() {
+                *difference = sheet.values[place + sheet.columns] - sheet.values[place];
+            }
+            less
+        };
+        let squares = |sheet: Sheet| -> f64 { sheet.values.iter().map(|v| v * v).sum() };
+        squares(along_x(&along_x(&along_x(sheet))))
+            + 3.0 * squares(along_x(&along_x(&along_y(sheet))))
+            + 3.0 * squares(along_x(&along_y(&along_y(sheet))))
+            + squares(along_y(&along_y(&along_y(sheet))))
     }
 
     #[test]
-    fn forces_and_stiffness_are_derivatives_of_the_energy() {
+    fn forces_and_stiffness_are_derivatives_of_the_sum() {
         let ratio = 1.25;
-        let bent = sheet(9, 7, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
-        let plate = Plate::new(9, 7, ratio);
+        let bent = sheet(9, 8, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
+        let plate = Plate::new(9, 8, ratio);
         for place in 0..bent.values.len() {
             let moved = |by: f64| {
                 let mut moved = bent.clone();
@@ -280,55 +350,51 @@ mod tests {
                 energy(&moved, ratio)
             };
             let force = (moved(1.0) - moved(-1.0)) / 4.0;
-            assert!(
-                (plate.force(&bent.values, place) - force).abs() < 1e-10,
-                "{place}"
-            );
+            let found = plate.force(&bent.values, place);
+            assert!((found - force).abs() < 1e-9, "{place}: {found} {force}");
             let stiffness = (moved(1.0) + moved(-1.0) - 2.0 * moved(0.0)) / 2.0;
+            let found = plate.stiffness(place);
             assert!(
-                (plate.stiffness(place) - stiffness).abs() < 1e-10,
-                "{place}"
+                (found - stiffness).abs() < 1e-9,
+                "{place}: {found} {stiffness}"
             );
         }
     }
 
     #[test]
-    fn a_plane_goes_on_through_holes_and_beyond_its_edge() {
-        let plane = |u: f64, v: f64| 2.0 - 0.3 * u + 0.7 * v;
-        let whole = sheet(50, 37, plane);
+    fn a_quadratic_goes_on_through_holes_and_beyond_its_edge() {
+        let quadratic = |u: f64, v: f64| 2.0 - 0.3 * u + 0.7 * v + 0.01 * u * u - 0.02 * u * v;
+        let whole = sheet(50, 37, quadratic);
         let mut holed = sheet(50, 37, |u, v| {
-            let inside = (u - 20.0).abs() < 12.0 && (v - 18.0).abs() < 11.0;
+            let inside = (u - 20.0).abs() < 14.0 && (v - 18.0).abs() < 13.0;
             let hole = (u - 18.0).abs() < 5.0 && (v - 15.0).abs() < 4.0;
             if inside && !hole {
-                plane(u, v)
+                quadratic(u, v)
             } else {
                 f64::NAN
             }
         });
         fill(&mut holed, 1.0);
         for (found, wanted) in holed.values.iter().zip(&whole.values) {
-            assert!((found - wanted).abs() < 1e-8, "{found} {wanted}");
+            // The search ends after so many steps: at a ten-thousandth of the height, which is 40.
+            assert!((found - wanted).abs() < 4e-3, "{found} {wanted}");
         }
     }
 
-    /// Nothing in a hole can be moved so that the sheet bends less.
+    /// Nothing in a hole can be moved so that the sum is less.
     #[test]
-    fn a_small_hole_is_filled_with_the_least_energy() {
-        let wave = |u: f64, v: f64| (0.2 * u * v) % 3.0;
-        let mut holed = sheet(20, 20, wave);
-        for row in 6..12 {
-            for column in 5..13 {
-                holed.values[row * 20 + column] = f64::NAN;
-            }
+    fn a_small_hole_is_filled_with_the_least_sum() {
+        let mut holed = sheet(20, 20, |u, v| (0.2 * u * v) % 3.0);
+        let hole = || (6..12).flat_map(|row| (5..13).map(move |column| row * 20 + column));
+        for place in hole() {
+            holed.values[place] = f64::NAN;
         }
         let ratio = 0.8;
         fill(&mut holed, ratio);
         let plate = Plate::new(20, 20, ratio);
-        for row in 6..12 {
-            for column in 5..13 {
-                let force = plate.force(&holed.values, row * 20 + column);
-                assert!(force.abs() < 1e-8, "{force}");
-            }
+        for place in hole() {
+            let force = plate.force(&holed.values, place);
+            assert!(force.abs() < 1e-4 * plate.stiffness(place), "{force}");
         }
     }
 }

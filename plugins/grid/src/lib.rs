@@ -5,11 +5,12 @@
 //! 1. [`trend`]: the quadratic of best fit is taken away, so that what follows works on what is
 //!    left, and added again at the end.
 //! 2. [`low_pass`]: with `smooth`, what is shorter than the cutoff is removed.
-//! 3. [`bending`]: holes are filled so that the sheet bends least.
+//! 3. [`bending`]: holes, and a margin around the map, are filled so that the bend changes least.
 //! 4. [`interpolation`]: the coefficients of a tensor B-spline of degree 5 through all points.
-//! 5. [`spline`]: a margin of coefficients around the map, filled like holes, and the evaluation:
-//!    values, slopes, and series.
+//! 5. [`spline`] and [`taylor`]: values, slopes, and series.
 
+#[cfg(test)]
+mod against_scipy;
 mod banded;
 mod basis;
 mod bending;

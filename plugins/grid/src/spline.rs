@@ -1,19 +1,9 @@
-//! The spline: coefficients with a margin around the map, and its values and slopes.
+//! The spline: its coefficients, and its values and slopes.
 
 use crate::basis::{self, BEFORE, SPLINES, Weights};
-use crate::bending;
 use crate::interpolation::{BEYOND, coefficients};
 use crate::sheet::Sheet;
 use crate::trend::Trend;
-
-/// Coefficients beyond the map, at least. The spline needs some for its last cells to be smooth.
-const LEAST_MARGIN: usize = 8;
-
-/// Coefficients beyond the map, at most. More would take time for places that no tool reaches.
-const MOST_MARGIN: usize = 64;
-
-/// The margin's share of the shorter side of the map.
-const MARGIN_SHARE: usize = 8;
 
 /// The 36 coefficients that count at a place, row by row.
 pub type Patch = [Weights; SPLINES];
@@ -21,8 +11,7 @@ pub type Patch = [Weights; SPLINES];
 /// A tensor B-spline of degree 5 over knots at all points of a regular grid. It has a value
 /// everywhere and is C⁴ everywhere.
 ///
-/// Around the map lies a margin in which the coefficients bend least, as in holes. Beyond it they
-/// go on as the quadratic of best fit, plus a straight line.
+/// Beyond the points its coefficients go on as the quadratic of best fit, plus a straight line.
 #[derive(Debug, Clone)]
 pub struct Spline {
     coefficients: Sheet,
@@ -46,17 +35,11 @@ impl Spline {
     /// The spline through heights without holes. `first` is the place of the first height and
     /// `pitch` the distance of neighbours, mm.
     pub fn through(heights: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
-        let shorter = heights.columns.min(heights.rows);
-        let margin = (shorter / MARGIN_SHARE).clamp(LEAST_MARGIN, MOST_MARGIN);
-        let mut coefficients = coefficients(heights).with_margin(margin);
-        let trend = Trend::of(&coefficients);
-        trend.add_to(&mut coefficients, -1.0);
-        bending::fill(&mut coefficients, pitch[0] / pitch[1]);
-        trend.add_to(&mut coefficients, 1.0);
-        let before = (BEYOND + margin) as f64;
+        let coefficients = coefficients(heights);
+        let before = BEYOND as f64;
         Self {
+            trend: Trend::of(&coefficients),
             coefficients,
-            trend,
             per: pitch.map(f64::recip),
             origin: [before - first[0] / pitch[0], before - first[1] / pitch[1]],
         }
@@ -115,7 +98,7 @@ impl Spline {
         patch
     }
 
-    /// A coefficient beyond the margin, or within it.
+    /// A coefficient that the spline has, or one beyond.
     fn beyond(&self, column: f64, row: f64) -> f64 {
         let Sheet { columns, rows, .. } = self.coefficients;
         let (of_columns, of_rows) = (straight(column, columns), straight(row, rows));
@@ -226,8 +209,8 @@ mod tests {
         }
     }
 
-    /// In a cell the spline is a polynomial of degree 5. Over a border, also those beyond the map and
-    /// beyond its margin, only the fifth derivative may jump.
+    /// In a cell the spline is a polynomial of degree 5. Over a border, also beyond the points, only the
+    /// fifth derivative may jump.
     #[test]
     fn value_and_four_derivatives_go_on_over_every_border() {
         let spline = spline();
@@ -263,7 +246,7 @@ mod tests {
             }
         }
         let spline = Spline::through(heights, [0.0, 0.0], [0.1, 0.2]);
-        for (x, y) in [(1.0, 2.0), (-0.5, 3.0), (2.5, 6.5), (-8.0, 40.0)] {
+        for (x, y) in [(1.0, 2.0), (-0.5, 3.0), (2.5, 6.5), (-0.8, 8.0)] {
             let (found, wanted) = (spline.height(x, y), quadratic(x, y));
             assert!(
                 (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0),

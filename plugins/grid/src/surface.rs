@@ -12,8 +12,8 @@ use crate::trend::Trend;
 
 /// A surface through the points of a map: a tensor B-spline of degree 5.
 ///
-/// Holes are filled so that the sheet bends least. The spline is C⁴ everywhere, also beyond the map,
-/// and it has a value everywhere.
+/// Holes are filled, and points beyond the edges are added, so that the bend changes least. The spline
+/// is C⁴ everywhere, also beyond the map, and it has a value everywhere.
 #[derive(Debug, Clone)]
 pub struct GridSag {
     spline: Spline,
@@ -75,8 +75,16 @@ const SHORTEST_CUTOFF: f64 = 2.0;
 const CUTOFFS: f64 = 2.0;
 
 /// How the map goes on, for reports.
-const CONTINUATION: &str =
-    "C4: least bending beside the data, then the quadratic of best fit plus a straight line";
+const CONTINUATION: &str = "C4, with its slope and curvature";
+
+/// Points that carry the map on beyond each edge, at least.
+const LEAST_MARGIN: usize = 8;
+
+/// The same, at most. More would take time for places that no tool reaches.
+const MOST_MARGIN: usize = 64;
+
+/// The margin's share of the shorter side of the map.
+const MARGIN_SHARE: usize = 8;
 
 impl Strategy for GridSag {
     const NAME: &'static str = "grid-sag";
@@ -147,47 +155,36 @@ impl GridSag {
             values: map.into_heights(),
         };
         let trend = Trend::of(&sheet);
-        let spline = match smooth {
-            None => {
-                if data.filled > 0 {
-                    trend.add_to(&mut sheet, -1.0);
-                    bending::fill(&mut sheet, pitch[0] / pitch[1]);
-                    trend.add_to(&mut sheet, 1.0);
-                }
-                Spline::through(sheet, first, pitch)
-            }
-            Some(cutoff) => {
-                let cutoff = checked(cutoff, pitch, &sheet)?;
-                trend.add_to(&mut sheet, -1.0);
-                smoothed(&sheet, &trend, cutoff, first, pitch)
-            }
-        };
+        let cutoff = smooth.map(|cutoff| checked(cutoff, pitch, &sheet));
+        let cutoff = cutoff.transpose()?;
+        trend.add_to(&mut sheet, -1.0);
+        // Where the first point lies among those of the file, and how far apart points are there.
+        let (mut start, mut step) = ([0.0; 2], [1.0; 2]);
+        if let Some(cutoff) = cutoff {
+            let [wide, high] = pitch.map(|pitch| low_pass::block(cutoff, pitch));
+            start = [
+                middle_of_block(sheet.columns, wide),
+                middle_of_block(sheet.rows, high),
+            ];
+            step = [wide as f64, high as f64];
+            let blocks = low_pass::in_blocks(&sheet, wide, high);
+            let cutoff = [0, 1].map(|axis| cutoff / (pitch[axis] * step[axis]));
+            sheet = low_pass::filter(&blocks, cutoff);
+        }
+        let shorter = sheet.columns.min(sheet.rows);
+        let margin = (shorter / MARGIN_SHARE).clamp(LEAST_MARGIN, MOST_MARGIN);
+        sheet = sheet.with_margin(margin);
+        let start = [0, 1].map(|axis| start[axis] - margin as f64 * step[axis]);
+        bending::fill(&mut sheet, pitch[0] * step[0] / (pitch[1] * step[1]));
+        trend.add_at(&mut sheet, 1.0, start, step);
+        let first = [0, 1].map(|axis| first[axis] + pitch[axis] * start[axis]);
+        let pitch = [0, 1].map(|axis| pitch[axis] * step[axis]);
         Ok(Self {
-            spline,
+            spline: Spline::through(sheet, first, pitch),
             cells,
             data,
         })
     }
-}
-
-/// The spline through a sheet from which the trend is taken away, after the low-pass.
-fn smoothed(sheet: &Sheet, trend: &Trend, cutoff: f64, first: [f64; 2], pitch: [f64; 2]) -> Spline {
-    let [wide, high] = pitch.map(|pitch| low_pass::block(cutoff, pitch));
-    let step = [wide as f64, high as f64];
-    let middle = [
-        middle_of_block(sheet.columns, wide),
-        middle_of_block(sheet.rows, high),
-    ];
-    let place = |axis: usize| first[axis] + pitch[axis] * middle[axis];
-    let (first, pitch) = (
-        [place(0), place(1)],
-        [pitch[0] * step[0], pitch[1] * step[1]],
-    );
-    let blocks = low_pass::in_blocks(sheet, wide, high);
-    let mut sheet = low_pass::filter(&blocks, pitch.map(|pitch| cutoff / pitch));
-    bending::fill(&mut sheet, pitch[0] / pitch[1]);
-    trend.add_at(&mut sheet, 1.0, middle, step);
-    Spline::through(sheet, first, pitch)
 }
 
 /// How far the middle of the first block lies from the first point, in points.

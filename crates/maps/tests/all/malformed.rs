@@ -26,7 +26,7 @@ fn says(name: &str, bytes: &[u8], conventions: &Conventions, wanted: &str) {
 }
 
 /// A text of Zemax with one thing changed.
-fn zemax(header: &str, point: &str, count: usize) -> Vec<u8> {
+fn sag(header: &str, point: &str, count: usize) -> Vec<u8> {
     let mut text = format!("{header}\n");
     for _ in 1..count {
         text.push_str("0.5 0 0 0 0\n");
@@ -40,59 +40,59 @@ fn zemax() {
     const HEADER: &str = "6 6 1 1 0 0 0";
     let own = Conventions::default();
     let says = |bytes: &[u8], wanted: &str| says("a.DAT", bytes, &own, wanted);
-    assert!(read("a.DAT", &self::zemax(HEADER, "1 0 0 0", 36), &own).is_ok());
+    assert!(read("a.DAT", &self::sag(HEADER, "1 0 0 0", 36), &own).is_ok());
     says(b"", "line 1: the file is empty");
     says(b"! nothing\n\n", "line 1: the file is empty");
     says(
-        &self::zemax("6 6 1 1 4 0 0", "1", 36),
+        &self::sag("6 6 1 1 4 0 0", "1", 36),
         "line 1: the flag of the units is 4",
     );
     says(
-        &self::zemax("6 6 1 1 0.5 0 0", "1", 36),
+        &self::sag("6 6 1 1 0.5 0 0", "1", 36),
         "line 1: the flag of the units is 0.5",
     );
     says(
-        &self::zemax("6 6 1 1", "1", 36),
+        &self::sag("6 6 1 1", "1", 36),
         "line 1: the line has 4 numbers in place of 7",
     );
     says(
-        &self::zemax("6.5 6 1 1 0 0 0", "1", 36),
+        &self::sag("6.5 6 1 1 0 0 0", "1", 36),
         "line 1: `6.5` is no whole number",
     );
     says(
-        &self::zemax("6 5 1 1 0 0 0", "1", 30),
+        &self::sag("6 5 1 1 0 0 0", "1", 30),
         "line 1: the grid has 6 × 5 points",
     );
     says(
-        &self::zemax("6 6 0 1 0 0 0", "1", 36),
+        &self::sag("6 6 0 1 0 0 0", "1", 36),
         "the distance of neighbouring points is 0",
     );
     says(
-        &self::zemax(HEADER, "1 0 0", 35),
+        &self::sag(HEADER, "1 0 0", 35),
         "the file has 35 points, and its grid has 36",
     );
     says(
-        &self::zemax(HEADER, "1 0 0 0", 37),
+        &self::sag(HEADER, "1 0 0 0", 37),
         "line 38: the file goes on after the 36 points",
     );
     says(
-        &self::zemax(HEADER, "NaN 0 0 0", 36),
+        &self::sag(HEADER, "NaN 0 0 0", 36),
         "line 37: `NaN` is no number",
     );
     says(
-        &self::zemax(HEADER, "1e999 0 0 0", 36),
+        &self::sag(HEADER, "1e999 0 0 0", 36),
         "line 37: `1e999` is no number",
     );
     says(
-        &self::zemax(HEADER, "1 0 x 0", 36),
+        &self::sag(HEADER, "1 0 x 0", 36),
         "line 37: `x` is no number",
     );
     says(
-        &self::zemax(HEADER, "1 0 0 0 2", 36),
+        &self::sag(HEADER, "1 0 0 0 2", 36),
         "line 37: `2` is no flag `nodata`",
     );
     says(
-        &self::zemax(HEADER, "1 0 0 0 0 0", 36),
+        &self::sag(HEADER, "1 0 0 0 0 0", 36),
         "line 37: the line has 6 numbers",
     );
     // A header that asks for 8 GB ends before any memory is taken.
@@ -109,7 +109,7 @@ fn zemax() {
         "line 1: the grid has 6 ×",
     );
     says(b"6 6 1 1 0 0 0\n\xff\xfe\n", "line 2: this is not a text");
-    let mut holes = self::zemax(HEADER, "", 1);
+    let mut holes = self::sag(HEADER, "", 1);
     holes.extend("0 0 0 0 1\n".repeat(36).bytes());
     says(&holes, "no point of the map has a height");
 }
@@ -258,7 +258,7 @@ fn gwyddion() {
     );
     says(
         &gsf(HEADER, 37),
-        "byte 248: the file goes on after the 36 points",
+        "byte 240: the file goes on after the 36 points",
     );
     says(&gsf("XRes = 6\n", 36), "line 1: the header has no YRes");
     says(
@@ -370,6 +370,9 @@ fn a_file_of_an_unknown_format() {
         .map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8)
         .collect();
     for name in ["a.DAT", "a.int", "a.xyz", "a.gsf"] {
-        assert!(error(name, &rubbish, &MM).starts_with("line 1: "), "{name}");
+        let own = Conventions { z_unit: None, ..MM };
+        let conventions = if name == "a.int" { own } else { MM };
+        let said = error(name, &rubbish, &conventions);
+        assert!(said.starts_with("line 1: "), "{name}: {said}");
     }
 }
