@@ -12,7 +12,6 @@ use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::figures::{self, machine_source};
 use crate::job::Job;
-use crate::remarks::remarks;
 use crate::sizes::toolpath_bytes;
 
 /// A place is on the part up to this much beyond its edges, mm.
@@ -48,7 +47,7 @@ impl Job {
                 programs: programs.collect(),
             },
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
-            remarks: remarks(&self.recipe, expected.cutting_time, None),
+            remarks: self.remarks(expected.cutting_time, None)?,
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())

@@ -22,6 +22,7 @@ mod chain;
 mod check;
 mod commands;
 mod data_files;
+mod data_remarks;
 mod diagnosis;
 mod error;
 mod figures;

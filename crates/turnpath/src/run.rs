@@ -23,7 +23,6 @@ use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
-use crate::remarks::remarks;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -207,7 +206,7 @@ impl Job {
             revolutions: outcome.revolutions,
             cutting_time: outcome.cutting_time,
             feed_cap: figures::feed_cap(outcome.feed_cap.as_ref()),
-            remarks: remarks(recipe, outcome.cutting_time, Some(z_acceleration)),
+            remarks: self.remarks(outcome.cutting_time, Some(z_acceleration))?,
             within: path.verdict(None),
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),
