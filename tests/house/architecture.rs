@@ -41,7 +41,7 @@ const RULES: &[Rule] = &[
     rule(
         PLUGINS,
         &["turnpath-maps", "turnpath-plugin"],
-        &["turnpath-core", PLUGINS],
+        &["turnpath-core", "turnpath-verify", PLUGINS],
     ),
     rule("turnpath-report", &["turnpath-core"], &[]),
     rule("turnpath", LIBRARIES, &[]),
@@ -58,6 +58,7 @@ const LIBRARIES: &[&str] = &[
     "turnpath-core",
     "turnpath-files",
     "turnpath-host",
+    "turnpath-maps",
     "turnpath-pipeline",
     "turnpath-post",
     "turnpath-recipe",

@@ -61,10 +61,10 @@ fn sentence(remark: &Remark) -> String {
         } => {
             let what = if *on_part { "part" } else { "overrun" };
             let (distance, radius) = (millimetres(*distance, 3), millimetres(*radius, 3));
-            let angle = significant(c / DEG);
+            let angle = c / DEG;
             format!(
                 "the {what} leaves the data of the surface by {distance} at radius {radius}, \
-                 C = {angle} deg; there it goes on {continuation}"
+                 C = {angle:.1} deg; there it goes on {continuation}"
             )
         }
     }
