@@ -20,6 +20,10 @@ const SMALL: usize = 2048;
 /// Most steps for a small sheet.
 const STEPS_OF_SMALL: usize = 2000;
 
+/// How far from known numbers a large sheet is solved, in numbers. Farther away the sheet is so smooth
+/// that half the resolution has all of it.
+const BAND: usize = 24;
+
 /// The share of the first residual at which the search ends.
 const SMALLEST_RESIDUAL: f64 = 1e-9;
 
@@ -40,7 +44,46 @@ pub fn fill(sheet: &mut Sheet, ratio: f64) {
     }
     begin(sheet, &unknown, ratio);
     let plate = Plate::new(sheet.columns, sheet.rows, ratio);
-    plate.relax(&mut sheet.values, &unknown);
+    let near = match unknown.len() <= SMALL {
+        true => unknown,
+        false => within_band(&unknown, sheet.columns, sheet.rows),
+    };
+    plate.relax(&mut sheet.values, &near);
+}
+
+/// Of some places those that others are near: at most [`BAND`] columns and rows away together.
+fn within_band(unknown: &[usize], columns: usize, rows: usize) -> Vec<usize> {
+    const FAR: u8 = BAND as u8 + 1;
+    let mut apart = vec![0; columns * rows];
+    for place in unknown {
+        apart[*place] = FAR;
+    }
+    for line in apart.chunks_exact_mut(columns) {
+        count_on(line.iter_mut());
+        count_on(line.iter_mut().rev());
+    }
+    for column in 0..columns {
+        let down = || (0..rows).map(move |row| row * columns + column);
+        let step = |apart: &mut Vec<u8>, before: u8, place: usize| {
+            apart[place] = apart[place].min(before.saturating_add(1));
+            apart[place]
+        };
+        down().fold(FAR, |before, place| step(&mut apart, before, place));
+        down()
+            .rev()
+            .fold(FAR, |before, place| step(&mut apart, before, place));
+    }
+    let is_near = |place: &usize| apart.get(*place).is_some_and(|apart| *apart < FAR);
+    unknown.iter().copied().filter(is_near).collect()
+}
+
+/// Makes each number at most one more than the one before.
+fn count_on<'a>(numbers: impl Iterator<Item = &'a mut u8>) {
+    let mut before = u8::MAX - 1;
+    for number in numbers {
+        *number = (*number).min(before + 1);
+        before = *number;
+    }
 }
 
 /// Fills the unknown numbers from the sheet at half the resolution.
@@ -378,6 +421,23 @@ mod tests {
         for (found, wanted) in holed.values.iter().zip(&whole.values) {
             // The search ends after so many steps: at a ten-thousandth of the height, which is 40.
             assert!((found - wanted).abs() < 4e-3, "{found} {wanted}");
+        }
+    }
+
+    #[test]
+    fn a_band_has_all_places_that_are_not_too_far_away() {
+        let (columns, rows) = (90, 70);
+        let known = |place: usize| (place % columns == 3 && place / columns < 9) || place == 2000;
+        let unknown: Vec<usize> = (0..columns * rows).filter(|place| !known(*place)).collect();
+        let near = within_band(&unknown, columns, rows);
+        let apart = |one: usize, other: usize| {
+            let across = (one % columns).abs_diff(other % columns);
+            across + (one / columns).abs_diff(other / columns)
+        };
+        let all: Vec<usize> = (0..columns * rows).filter(|place| known(*place)).collect();
+        for place in unknown {
+            let least = all.iter().map(|known| apart(*known, place)).min().unwrap();
+            assert_eq!(near.contains(&place), least <= BAND, "{place}");
         }
     }
 
