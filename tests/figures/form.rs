@@ -70,13 +70,39 @@ fn whatever_the_chain_a_path_makes_good_use_of_its_form() {
             "sampler={ use = \"atpg\" }",
         ],
         &["tolerance.residual=40 nm", "sampler={ use = \"atpg\" }"],
+        &[
+            "feed={ use = \"constant\", feed = \"20 um/rev\" }",
+            "sampler.step=18 deg",
+        ],
+        &["tolerance.residual=40 nm", "sampler.step=18 deg"],
         &["tolerance.interpolation=5 nm"],
     ] {
         let found = summary(&bench, HOLDS, sets);
         assert_good_use(&found, sets[0]);
         let residual = &found["tolerance"]["residual_nm"];
         assert_eq!(found["within"]["residual"].is_null(), residual.is_null());
+        assert!(found["form"]["decided_by_recipe"].is_null(), "{sets:?}");
     }
+}
+
+/// A feed of the recipe and steps that are finer than the form needs: no tolerance makes this path
+/// coarser. It holds, leaves most of the form, and says why.
+#[test]
+fn where_feed_and_steps_are_given_the_report_says_that_they_decide_the_form() {
+    let bench = Bench::with(&saddle("150 nm"));
+    let given = "feed={ use = \"constant\", feed = \"20 um/rev\" }";
+    let found = summary(&bench, HOLDS, &[given]);
+    assert_eq!(found["form"]["decided_by_recipe"], true, "{found}");
+    assert!(used(&found) < *GOOD_USE.start(), "{}", found["form"]);
+    let run = ["run", "recipe.toml", "-o", "out", "--set", given];
+    let said = bench.call(run).ends(HOLDS).stdout;
+    assert!(
+        said.contains("the recipe's own feed and steps decide it"),
+        "{said}"
+    );
+    let too_large = "feed={ use = \"constant\", feed = \"50 um/rev\" }";
+    let found = summary(&bench, EXCEEDED, &[too_large]);
+    assert_eq!(found["form"]["decided_by_recipe"], true, "{found}");
 }
 
 /// A run, its programs and the files on their own: one figure and one verdict.

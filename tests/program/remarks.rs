@@ -1,7 +1,7 @@
 //! Remarks on what is allowed but seldom meant: one line each, and no other status.
 
 use crate::support::bench::Bench;
-use crate::support::recipe::SADDLE;
+use crate::support::recipe::{SADDLE, changed};
 
 /// The remarks of a call in JSON, and the number of their lines in text.
 #[track_caller]
@@ -46,10 +46,40 @@ fn a_cut_of_a_night_has_one() {
 }
 
 #[test]
-fn digits_that_cannot_hold_the_tolerance_have_one() {
-    let words = "check recipe.toml --set output.posts=[\"pmac-pvt\"] \
-                 --set output.pmac-pvt.position_decimals=4";
-    has(words, "coarse_digits");
+fn digits_that_cannot_hold_the_tolerance_have_one_that_names_them() {
+    let program = "check recipe.toml --set output.posts=[\"pmac-pvt\"] --set output.pmac-pvt";
+    let positions =
+        format!("{program}.position_decimals=4 --set output.pmac-pvt.velocity_decimals=7");
+    assert_eq!(remarks(&positions), (vec!["\"coarse_digits\"".into()], 1));
+    let velocities = format!("{program}.velocity_decimals=1");
+    assert_eq!(
+        remarks(&velocities),
+        (vec!["\"coarse_velocity_digits\"".into()], 1)
+    );
+    // Left out, those of velocities follow those of positions, and cost far less.
+    let both = format!("{program}.position_decimals=5");
+    assert_eq!(remarks(&both), (vec!["\"coarse_digits\"".into()], 1));
+}
+
+/// The first division of a form of 1.4 um has a residual below 1 um. The saddle's path leaves a part
+/// of it, so the run ends with a larger one.
+#[test]
+fn remarks_on_a_form_are_on_the_division_that_the_path_was_made_for() {
+    let tolerances = "interpolation = \"100 nm\"\nresidual = \"100 nm\"";
+    let bench = Bench::with(&changed(SADDLE, tolerances, "form = \"1.4 um\""));
+    let residual_of = |words: &str| {
+        let json = bench.line(&format!("{words} --format json")).ends(0).json();
+        let all = json["remarks"].as_array().cloned().unwrap_or_default();
+        let rough = all.iter().find(|one| one["kind"] == "rough_residual");
+        let remarked = rough.map(|one| one["residual_nm"].as_f64());
+        (remarked, json)
+    };
+    let (first, _) = residual_of("check recipe.toml");
+    assert_eq!(first, None);
+    let (last, report) = residual_of("run recipe.toml -o out");
+    let split = report["form"]["residual_nm"].as_f64();
+    assert!(split.is_some_and(|split| split > 1000.0), "{split:?}");
+    assert_eq!(last, Some(split));
 }
 
 /// The saddle at 2000 rpm takes far more than g of Z; a machine with a limit has a verdict instead.

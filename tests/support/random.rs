@@ -4,10 +4,19 @@
 
 use std::sync::Arc;
 
-use proptest::prelude::{Strategy as Generator, prop};
+use proptest::prelude::{ProptestConfig, Strategy as Generator, prop};
 use turnpath_core::{Compensator, ParamValue, Params, Strategy, SurfaceModel};
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{SinusoidalArray, XyPolynomial};
+
+/// The cases of a test whose cases are dear: this part of the usual number, with no file of failures.
+pub fn one_case_in(part: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases: ProptestConfig::default().cases.div_ceil(part),
+        failure_persistence: None,
+        ..Default::default()
+    }
+}
 
 /// A sinusoidal array; its form is `sum` or `product`.
 pub fn array(amplitude: f64, frequency: f64, form: &str) -> Arc<dyn SurfaceModel> {

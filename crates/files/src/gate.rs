@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::registry::{remove_drafts, remove_drafts_under_lock};
+use crate::registry::{remove_drafts, remove_drafts_but_claims};
 
 static GATE: Mutex<()> = Mutex::new(());
 
@@ -44,7 +44,7 @@ pub fn wait_if_ending() {
 /// a result is the old or the new.
 ///
 /// The wait is at most `patience`. After that names may still be given until the process ends, so the
-/// files of the locks stay, and no other writer comes between. The next one completes the result.
+/// files of the claims stay, and no other writer comes between. The next one completes the result.
 ///
 /// This waits and sleeps: a signal handler calls [`remove_drafts`] instead.
 pub fn end_writing(patience: Duration) {
@@ -54,7 +54,7 @@ pub fn end_writing(patience: Duration) {
             Ok(guard) => break std::mem::forget(guard),
             Err(TryLockError::Poisoned(error)) => break std::mem::forget(error.into_inner()),
             Err(TryLockError::WouldBlock) if start.elapsed() >= patience => {
-                return remove_drafts_under_lock();
+                return remove_drafts_but_claims();
             }
             Err(TryLockError::WouldBlock) => thread::sleep(LOOK),
         }

@@ -10,8 +10,8 @@ use std::sync::OnceLock;
 pub enum Operation {
     /// A folder is made.
     MakeFolder,
-    /// The lock of a folder is taken.
-    Lock,
+    /// A folder is claimed.
+    Claim,
     /// A file is created.
     Create,
     /// Bytes are written.

@@ -10,13 +10,13 @@ fn what_is_registered_goes_and_what_was_withdrawn_stays() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     fs::create_dir_all(path("a/b/c")).unwrap();
-    for name in ["a/b/c/draft", "a/lock", "named"] {
+    for name in ["a/b/c/draft", "a/claim", "named"] {
         fs::write(path(name), "").unwrap();
     }
     let named = Registration::new(DraftKind::File, &path("named"));
     let entries = [
         (DraftKind::Folder, "a"),
-        (DraftKind::Lock, "a/lock"),
+        (DraftKind::Claim, "a/claim"),
         (DraftKind::File, "a/b/c/draft"),
         (DraftKind::File, "not there"),
         (DraftKind::Folder, "a/b/c"),

@@ -30,7 +30,7 @@ pub struct Preparation {
     pub touch: FirstTouch,
 }
 
-/// Checks the tool against the part over all radii of contact, and settles the range of ρ.
+/// Checks the tool against the part over all radii of contact, and decides the range of ρ.
 ///
 /// # Errors
 /// When the tool does not fit, when the surface has no height somewhere on the part or on its
@@ -38,18 +38,19 @@ pub struct Preparation {
 pub fn prepare(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     check_part(&spec)?;
     if spec.tool.misfit == Misfit::Refuse {
-        return settle(chain, spec);
+        return prepare_tool(chain, spec);
     }
     // Where the whole tool fits, the misfit setting changes no touch, and the edge needs no scan.
     let mut strict = spec.clone();
     strict.tool.misfit = Misfit::Refuse;
-    match settle(chain, strict) {
-        Err(PipelineError::Gouge { .. }) => settle(chain, spec),
-        settled => settled,
+    match prepare_tool(chain, strict) {
+        Err(PipelineError::Gouge { .. }) => prepare_tool(chain, spec),
+        preparation => preparation,
     }
 }
 
-fn settle(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
+/// The preparation for a tool as it is given.
+fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     let (part, tool, overrun) = (spec.part, spec.tool, spec.overrun);
     let fit = Fit::new(chain, part, tool, overrun);
     let (surface, compensator) = (fit.surface.clone(), fit.compensator.clone());

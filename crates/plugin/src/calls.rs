@@ -150,21 +150,24 @@ pub fn on_all_threads() -> Vec<Call> {
     calls
 }
 
-/// Some call into a loaded library that another thread is in. A signal handler may ask this: it
-/// waits for nothing and allocates nothing.
-pub fn of_a_library_on_any_thread() -> Option<&'static Callee> {
-    let callees = CALLEES.try_lock().ok()?;
-    let threads = THREADS.try_lock().ok()?;
-    let of_thread = |thread: &&'static Thread| {
-        let depth = thread.depth.load(Ordering::Acquire);
-        let calls = thread.calls.iter().take(depth);
-        let callees = calls.filter_map(|entry| {
-            let number = entry.callee.load(Ordering::Relaxed) as usize;
-            callees.get(number).copied()
-        });
-        callees.filter(|callee| callee.loaded).last()
+/// Calls `found` with each callee of a loaded library that any thread is in; one that several threads
+/// are in may come several times. A signal handler may ask this: it waits for nothing and allocates
+/// nothing.
+pub fn each_of_a_library(mut found: impl FnMut(&'static Callee)) {
+    let (Ok(callees), Ok(threads)) = (CALLEES.try_lock(), THREADS.try_lock()) else {
+        return;
     };
-    threads.iter().find_map(of_thread)
+    for thread in threads.iter() {
+        let depth = thread.depth.load(Ordering::Acquire);
+        for entry in thread.calls.iter().take(depth) {
+            let number = entry.callee.load(Ordering::Relaxed) as usize;
+            let callee = callees.get(number).copied();
+            callee
+                .filter(|callee| callee.loaded)
+                .into_iter()
+                .for_each(&mut found);
+        }
+    }
 }
 
 /// The list of this thread's calls, on its first one.
@@ -275,6 +278,31 @@ mod tests {
             drop(mark);
         }
         assert!(on_this_thread().is_none() && seen(&["deep"]).is_empty());
+    }
+
+    #[test]
+    fn calls_into_libraries_are_found_on_all_threads_and_at_all_depths() {
+        let callee = |text: &str, loaded| Callee::new(text.into(), loaded);
+        let outer = callee("a sampler of a library", true);
+        let inner = callee("a built-in surface below it", false);
+        let other = callee("a feed of another library", true);
+        let of_libraries = || {
+            let mut texts = Vec::new();
+            each_of_a_library(|callee| texts.push(callee.text()));
+            texts.retain(|text| [outer.text(), inner.text(), other.text()].contains(text));
+            texts.sort_unstable();
+            texts
+        };
+        let marks = (outer.enter(), inner.enter());
+        std::thread::scope(|scope| {
+            let look = scope.spawn(|| {
+                let _mark = other.enter();
+                of_libraries()
+            });
+            assert_eq!(look.join().unwrap(), [other.text(), outer.text()]);
+        });
+        drop(marks);
+        assert!(of_libraries().is_empty());
     }
 
     #[test]

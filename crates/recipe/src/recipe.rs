@@ -285,8 +285,10 @@ impl Recipe {
         stem(&self.path)
     }
 
-    /// The recipe's name as the name of a folder that every system allows. Other characters stand as
-    /// their bytes, `%2F` for `/`, so that names that differ have folders that differ.
+    /// The recipe's name as the name of a folder, with characters that Linux, macOS and Windows allow.
+    /// Other characters stand as their bytes, `%2F` for `/`, so that names that differ have folders
+    /// that differ. A name of more than 255 bytes, and on Windows a name of a device such as `NUL`,
+    /// stay: the system refuses the folder.
     pub fn folder_name(&self) -> String {
         folder_name(&self.name)
     }

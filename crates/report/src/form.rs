@@ -1,6 +1,7 @@
 //! The machined surface against the tolerance of its form.
 
 use serde::{Deserialize, Serialize};
+use turnpath_core::Tolerance;
 
 use crate::unit;
 
@@ -34,4 +35,18 @@ pub struct FormSplit {
     /// Why a path for a better division could not be made; `None` where nothing stood in the way.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub search_ended_because: Option<String>,
+    /// Whether the recipe's own feed and steps decide the form: paths for tolerances that lay far
+    /// apart left the same. Left out where it is false.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub decided_by_recipe: bool,
+}
+
+impl FormSplit {
+    /// The tolerances that the path was made for.
+    pub fn tolerance(&self) -> Tolerance {
+        Tolerance {
+            interpolation: self.interpolation,
+            residual: self.residual,
+        }
+    }
 }

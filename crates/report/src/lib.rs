@@ -65,7 +65,7 @@ pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
 pub use program::{ControllerCommand, ProgramFigures, ProgramReport};
 pub use reach::{Radial, Radii, Reach};
-pub use remark::{Remark, RemarkSubject};
+pub use remark::{ProgramDigits, Remark, RemarkSubject};
 pub use result_check::ResultCheck;
 pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,

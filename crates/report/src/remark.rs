@@ -21,6 +21,9 @@ const LONGEST_CUT: f64 = 8.0 * 3600.0;
 /// remark. Refinement leaves a hundredth of the tolerance to the program, and rounding seldom adds
 /// to the largest error with its whole size.
 const LARGEST_ROUNDING: f64 = 0.02;
+/// What the rounding of the velocities at both ends moves the middle of a segment by, as a part of the
+/// rounding times the segment's time: a cubic has an eighth of the difference of its end velocities.
+const VELOCITY_SHARE: f64 = 0.25;
 
 /// One remark, with its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -51,13 +54,27 @@ pub enum Remark {
         #[serde(rename = "cutting_time_s", with = "unit::s")]
         cutting_time: f64,
     },
-    /// The decimals of a program take much of the interpolation tolerance.
+    /// The decimals of a program's positions take much of the interpolation tolerance.
     CoarseDigits {
         /// Decimals of positions.
         position_decimals: u32,
         /// The most by which they move a position, mm.
         #[serde(rename = "rounding_nm", with = "unit::nm")]
         rounding: f64,
+        /// The interpolation tolerance, mm.
+        #[serde(rename = "tolerance_nm", with = "unit::nm")]
+        tolerance: f64,
+    },
+    /// The decimals of a program's velocities take much of the interpolation tolerance.
+    CoarseVelocityDigits {
+        /// Decimals of velocities.
+        velocity_decimals: u32,
+        /// The most by which they move the middle of a segment of mean time, mm.
+        #[serde(rename = "rounding_nm", with = "unit::nm")]
+        rounding: f64,
+        /// The mean time of a segment, s.
+        #[serde(rename = "segment_time_s", with = "unit::s")]
+        segment_time: f64,
         /// The interpolation tolerance, mm.
         #[serde(rename = "tolerance_nm", with = "unit::nm")]
         tolerance: f64,
@@ -87,21 +104,36 @@ pub enum Remark {
     },
 }
 
+/// The decimals of a program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramDigits {
+    /// Decimals of positions, mm.
+    pub position_decimals: u32,
+    /// Decimals of velocities, mm per [`velocity_time`](Self::velocity_time).
+    pub velocity_decimals: u32,
+    /// The time that velocities refer to, s.
+    pub velocity_time: f64,
+}
+
 /// What remarks are made on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RemarkSubject {
     /// The aperture's diameter, mm.
     pub aperture: f64,
-    /// The residual tolerance, mm.
+    /// The residual tolerance that the path was made for, mm.
     pub residual: f64,
-    /// The interpolation tolerance, mm.
+    /// The interpolation tolerance that the path was made for, mm.
     pub interpolation: f64,
+    /// The tolerance of form, mm, which bounds the cusps too.
+    pub form: Option<f64>,
     /// Time of the cutting section, s.
     pub cutting_time: f64,
+    /// Mean time from one control point to the next, s.
+    pub segment_time: f64,
     /// The largest acceleration of Z, mm/s², where it is known and the machine has no limit for it.
     pub free_z_acceleration: Option<f64>,
-    /// Decimals of a program's positions, where there is a program.
-    pub position_decimals: Option<u32>,
+    /// The decimals of a program, where there is one.
+    pub digits: Option<ProgramDigits>,
 }
 
 impl RemarkSubject {
@@ -110,24 +142,28 @@ impl RemarkSubject {
         let Self {
             aperture,
             residual,
+            form,
             cutting_time,
             ..
         } = *self;
+        let is_rough = |height: f64| height > LARGEST_RESIDUAL;
         let fast = |acceleration: &f64| *acceleration >= LARGEST_Z_ACCELERATION;
         let acceleration = self.free_z_acceleration.filter(fast);
         let remarks = [
-            (residual > LARGEST_RESIDUAL).then_some(Remark::RoughResidual { residual }),
+            (is_rough(residual) && form.is_none_or(is_rough))
+                .then_some(Remark::RoughResidual { residual }),
             (aperture < SMALLEST_APERTURE).then_some(Remark::SmallAperture { aperture }),
             acceleration.map(|acceleration| Remark::FastZ { acceleration }),
             (cutting_time > LONGEST_CUT).then_some(Remark::LongCut { cutting_time }),
             self.coarse_digits(),
+            self.coarse_velocity_digits(),
         ];
         remarks.into_iter().flatten().collect()
     }
 
     fn coarse_digits(&self) -> Option<Remark> {
-        let position_decimals = self.position_decimals?;
-        let rounding = (0..position_decimals).fold(0.5, |half, _| half / 10.0);
+        let position_decimals = self.digits?.position_decimals;
+        let rounding = half_digit(position_decimals);
         let tolerance = self.interpolation;
         (rounding > LARGEST_ROUNDING * tolerance).then_some(Remark::CoarseDigits {
             position_decimals,
@@ -135,6 +171,28 @@ impl RemarkSubject {
             tolerance,
         })
     }
+
+    fn coarse_velocity_digits(&self) -> Option<Remark> {
+        let ProgramDigits {
+            velocity_decimals,
+            velocity_time,
+            ..
+        } = self.digits?;
+        let (segment_time, tolerance) = (self.segment_time, self.interpolation);
+        let velocity = half_digit(velocity_decimals) / velocity_time;
+        let rounding = VELOCITY_SHARE * velocity * segment_time;
+        (rounding > LARGEST_ROUNDING * tolerance).then_some(Remark::CoarseVelocityDigits {
+            velocity_decimals,
+            rounding,
+            segment_time,
+            tolerance,
+        })
+    }
+}
+
+/// Half a unit of the last of so many decimals.
+fn half_digit(decimals: u32) -> f64 {
+    (0..decimals).fold(0.5, |half, _| half / 10.0)
 }
 
 #[cfg(test)]
@@ -145,9 +203,16 @@ mod tests {
         aperture: 5.0,
         residual: 1e-4,
         interpolation: 1e-4,
+        form: None,
         cutting_time: 600.0,
+        segment_time: 0.01,
         free_z_acceleration: Some(1000.0),
-        position_decimals: Some(7),
+        digits: Some(DIGITS),
+    };
+    const DIGITS: ProgramDigits = ProgramDigits {
+        position_decimals: 7,
+        velocity_decimals: 7,
+        velocity_time: 1.0,
     };
 
     #[test]
@@ -187,7 +252,10 @@ mod tests {
     fn a_remark_on_digits_follows_the_tolerance() {
         let digits = |position_decimals, interpolation| {
             let subject = RemarkSubject {
-                position_decimals: Some(position_decimals),
+                digits: Some(ProgramDigits {
+                    position_decimals,
+                    ..DIGITS
+                }),
                 interpolation,
                 ..USUAL
             };
@@ -198,6 +266,53 @@ mod tests {
             [1, 1, 0]
         );
         assert_eq!([digits(7, 1e-5), digits(7, 1e-6)], [0, 1]);
+    }
+
+    /// Velocities at both ends of a cubic that are off by δ, one up and one down, move its middle by
+    /// δh/4.
+    #[test]
+    fn a_remark_on_the_digits_of_velocities_follows_the_time_of_a_segment() {
+        let rounding = |velocity_decimals, velocity_time, segment_time| {
+            let digits = ProgramDigits {
+                velocity_decimals,
+                velocity_time,
+                ..DIGITS
+            };
+            let subject = RemarkSubject {
+                digits: Some(digits),
+                segment_time,
+                ..USUAL
+            };
+            match subject.remarks().as_slice() {
+                [] => None,
+                [Remark::CoarseVelocityDigits { rounding, .. }] => Some(*rounding),
+                other => panic!("{other:?}"),
+            }
+        };
+        // A fiftieth of the tolerance is 2e-6 mm.
+        assert_eq!(rounding(3, 1.0, 0.01), None);
+        assert_eq!(rounding(3, 1.0, 0.1), Some(0.25 * 0.5e-3 * 0.1));
+        assert_eq!(rounding(2, 1.0, 0.01), Some(0.25 * 0.5e-2 * 0.01));
+        assert_eq!(rounding(2, 60.0, 0.01), None);
+        assert_eq!(rounding(7, 1.0, 4.0), None);
+    }
+
+    /// The path of a form may be made for a larger residual than the form, where the recipe's own feed
+    /// decides. What the form allows is then all that the cusps may have.
+    #[test]
+    fn a_residual_is_not_rough_below_a_form_that_is_not() {
+        let remarks = |form| {
+            let subject = RemarkSubject {
+                residual: 2e-3,
+                form,
+                ..USUAL
+            };
+            subject.remarks().len()
+        };
+        assert_eq!(
+            [remarks(None), remarks(Some(3e-3)), remarks(Some(2e-4))],
+            [1, 1, 0]
+        );
     }
 
     #[test]

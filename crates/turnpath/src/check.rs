@@ -12,6 +12,7 @@ use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::figures::{self, machine_source};
 use crate::job::Job;
+use crate::remarks::PathSubject;
 use crate::sizes::toolpath_bytes;
 
 /// A place is on the part up to this much beyond its edges, mm.
@@ -32,6 +33,12 @@ impl Job {
             file: program.file.clone(),
             bytes: program.expected_bytes(radius, &expected) as u64,
         });
+        let path = PathSubject {
+            tolerance: self.preparation.task.tolerance,
+            cutting_time: expected.cutting_time,
+            control_points: expected.control_points,
+            z_acceleration: None,
+        };
         let report = CheckReport {
             format: report::FORMAT,
             name: self.recipe.name.clone(),
@@ -47,7 +54,7 @@ impl Job {
                 programs: programs.collect(),
             },
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
-            remarks: self.remarks(expected.cutting_time, None)?,
+            remarks: self.remarks(&path)?,
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
@@ -70,6 +77,7 @@ impl Job {
                     interpolation,
                     rounds: 0,
                     search_ended_because: None,
+                    decided_by_recipe: false,
                 }),
             })
     }

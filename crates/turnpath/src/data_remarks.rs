@@ -6,17 +6,12 @@ use turnpath_report::Remark;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::job::Job;
-use crate::remarks::remarks;
+use crate::remarks::{PathSubject, remarks};
 
 impl Job {
-    /// All remarks on the recipe and its path, with the largest acceleration of Z where it is known,
-    /// mm/s².
-    pub(crate) fn remarks(
-        &self,
-        cutting_time: f64,
-        z_acceleration: Option<f64>,
-    ) -> Result<Vec<Remark>, Error> {
-        let mut all = remarks(&self.recipe, cutting_time, z_acceleration);
+    /// All remarks on the recipe and its path.
+    pub(crate) fn remarks(&self, path: &PathSubject) -> Result<Vec<Remark>, Error> {
+        let mut all = remarks(&self.recipe, path);
         all.extend(self.data_remarks()?);
         Ok(all)
     }

@@ -30,10 +30,15 @@ pub fn feed_cap(cap: Option<&FeedCap>) -> report::FeedCap {
     }
 }
 
-/// The height from which on material counts as unreached, mm.
+/// The height from which on material counts as unreached, mm: the residual, or the form where the
+/// recipe gives no residual.
 pub fn material_threshold(recipe: &Recipe) -> f64 {
-    let residual = recipe.tolerance.residual;
-    tolerances(recipe).most_material().unwrap_or(residual)
+    let asked = recipe.tolerances;
+    match asked.form {
+        Some(form) => asked.residual.unwrap_or(form),
+        // Without a form the path is made for the residual that the recipe gives.
+        None => recipe.tolerance.residual,
+    }
 }
 
 /// Which part of the machined surface counts for its form; `None` without a tolerance of it.

@@ -143,6 +143,7 @@ fn split_of(tolerance: Tolerance, rounds: u32) -> FormSplit {
         interpolation: tolerance.interpolation,
         rounds,
         search_ended_because: None,
+        decided_by_recipe: false,
     }
 }
 
@@ -193,6 +194,7 @@ impl Search {
     fn split(&self, sum: f64) -> FormSplit {
         FormSplit {
             search_ended_because: self.refusal.clone(),
+            decided_by_recipe: self.last_is_insensitive(),
             ..split_of(shares(&self.budget, sum), self.attempts.len() as u32)
         }
     }
@@ -242,14 +244,24 @@ impl Search {
     /// The next sum where the last path has the error of others: finer if the form does not hold, and
     /// coarser if it does. `None` where the paths of this error are far enough apart.
     fn step(&self, last: &Attempt) -> Option<f64> {
+        (!self.is_insensitive(last)).then_some(match self.holds(last) {
+            true => last.sum * STEP,
+            false => last.sum / STEP,
+        })
+    }
+
+    /// Whether paths whose sums are far apart have the error of this one.
+    fn is_insensitive(&self, last: &Attempt) -> bool {
         let is_alike = |other: &&Attempt| (other.error - last.error).abs() <= RESPONSE * last.error;
         let alike = || self.attempts.iter().filter(is_alike).map(|other| other.sum);
         let least = alike().fold(f64::INFINITY, f64::min);
         let most = alike().fold(0.0, f64::max);
-        (most < INSENSITIVE * least).then_some(match self.holds(last) {
-            true => last.sum * STEP,
-            false => last.sum / STEP,
-        })
+        most >= INSENSITIVE * least
+    }
+
+    fn last_is_insensitive(&self) -> bool {
+        let last = self.attempts.last();
+        last.is_some_and(|last| self.is_insensitive(last))
     }
 
     /// The sum, or the middle between the largest sum that held and the smallest that did not, where

@@ -29,22 +29,21 @@ pub struct PathMeters {
     pub lead: LeadMeter,
     /// What the servos make of it, where that is asked.
     pub servo: Option<ServoMeter>,
-    /// Control points that stand out.
-    pub anomalies: AnomalyDetector,
+    /// Control points that stand out among their neighbours, where that may be asked.
+    pub anomalies: Option<AnomalyDetector>,
 }
 
 impl PathMeters {
     /// Nothing measured yet.
     pub fn new(recipe: &Recipe, touch: FirstTouch) -> Self {
         let counts_centre = Overrun::from(recipe.overrun).covers_centre();
-        let (tolerance, rim) = (recipe.tolerance.interpolation, recipe.part.aperture_radius);
         Self {
             cut: Meter::new(touch)
                 .counting_centre(counts_centre)
                 .with_form(form_scope(recipe)),
             lead: LeadMeter::default(),
             servo: None,
-            anomalies: AnomalyDetector::new(tolerance, rim),
+            anomalies: None,
         }
     }
 
@@ -52,6 +51,20 @@ impl PathMeters {
     pub fn with_servo(mut self, recipe: &Recipe) -> Self {
         self.servo = recipe.servo.as_ref().map(ServoMeter::new);
         self
+    }
+
+    /// The same with the control points that stand out: a file may have no path of a recipe to be
+    /// compared with, and is not read twice for that.
+    pub fn with_anomalies(mut self, recipe: &Recipe) -> Self {
+        let (tolerance, rim) = (recipe.tolerance.interpolation, recipe.part.aperture_radius);
+        self.anomalies = Some(AnomalyDetector::new(tolerance, rim));
+        self
+    }
+
+    fn look_for_anomalies(&mut self, points: &PathBlock, heights: &[f64]) {
+        if let Some(detector) = &mut self.anomalies {
+            detector.append(points, heights);
+        }
     }
 
     fn append(&mut self, block: &MeasuredBlock) -> Result<(), StrategyError> {
@@ -63,7 +76,7 @@ impl PathMeters {
                     points,
                 } = cut.as_ref();
                 self.lead.append_cut(points);
-                self.anomalies.append(points, &figures.per_point);
+                self.look_for_anomalies(points, &figures.per_point);
                 if let (Some(meter), Some(block)) = (&mut self.servo, servo) {
                     meter.append(block);
                 }
@@ -71,7 +84,7 @@ impl PathMeters {
             }
             MeasuredBlock::Lead(lead) => {
                 let (figures, points) = lead.as_ref();
-                self.anomalies.append(points, &[]);
+                self.look_for_anomalies(points, &[]);
                 self.lead.append(figures);
                 Ok(())
             }

@@ -23,6 +23,7 @@ use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
+use crate::remarks::PathSubject;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -186,10 +187,16 @@ impl Job {
             servo: outcome.servo.as_ref(),
         };
         let mut path = figures::path(recipe, &cut, lead);
+        let made_for = split.as_ref().map(FormSplit::tolerance);
+        let subject = PathSubject {
+            tolerance: made_for.unwrap_or(self.preparation.task.tolerance),
+            cutting_time: outcome.cutting_time,
+            control_points: outcome.control_points as f64,
+            z_acceleration: Some(path.axes.z.acceleration.max),
+        };
         if let Some(form) = &mut path.form {
             form.split = split;
         }
-        let z_acceleration = path.axes.z.acceleration.max;
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),
@@ -206,7 +213,7 @@ impl Job {
             revolutions: outcome.revolutions,
             cutting_time: outcome.cutting_time,
             feed_cap: figures::feed_cap(outcome.feed_cap.as_ref()),
-            remarks: self.remarks(outcome.cutting_time, Some(z_acceleration))?,
+            remarks: self.remarks(&subject)?,
             within: path.verdict(None),
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),

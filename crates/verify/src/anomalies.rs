@@ -1,5 +1,9 @@
 //! Anomalies: control points that differ from their neighbours, whether or not tolerances hold.
 //!
+//! This is the rule for a file whose rows cannot be compared with those of its recipe's path
+//! ([`crate::comparison`]): another maker made it, or the path cannot be made again, for example
+//! because a strategy or a data file of the recipe is not there. It promises nothing.
+//!
 //! One program makes the whole of a path in the same way, so the deviations at one control point
 //! are much like those at the points around it. The detector compares two deviations. The first is
 //! the distance of a cutting point from the first touch: it shows a Z that was moved. The second is
@@ -103,8 +107,7 @@ struct PointRecord {
 }
 
 /// Looks for anomalies along a path. It needs all blocks of the path in order, those of leads too,
-/// and keeps a few points and
-/// the most prominent anomalies.
+/// and keeps a few points and the most prominent anomalies.
 #[derive(Debug, Clone)]
 pub struct AnomalyDetector {
     floor: f64,
@@ -271,13 +274,13 @@ impl AnomalyDetector {
                 }
             }
             _ => {
-                self.settle();
+                self.keep_pending();
                 self.pending = Some(next);
             }
         }
     }
 
-    fn settle(&mut self) {
+    fn keep_pending(&mut self) {
         if let Some(anomaly) = self.pending.take() {
             self.found.add(anomaly.prominence(self.floor), anomaly);
         }
@@ -292,7 +295,7 @@ impl AnomalyDetector {
         while self.next < self.window.len() {
             self.judge();
         }
-        self.settle();
+        self.keep_pending();
         (self.found.count(), self.found.into_items())
     }
 }

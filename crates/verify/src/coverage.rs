@@ -9,7 +9,7 @@
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
 
-use crate::edge::{PartEdge, UncutHeight};
+use crate::part_edge::{PartEdge, UncutHeight};
 use crate::residual::{Pass, Passes, ResidualFigures, SECTIONS, angle_of, highest};
 use crate::touch::FirstTouch;
 

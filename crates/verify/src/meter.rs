@@ -196,7 +196,7 @@ impl Meter {
     /// The figures of the machined surface; `None` if the path cuts nothing of the part.
     ///
     /// # Errors
-    /// When the surface fails.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn machined(&self) -> Result<Option<MachinedFigures>> {
         let Some(figures) = self.lines.figures(&self.touch, self.counts_centre)? else {
             return Ok(None);
@@ -213,7 +213,7 @@ impl Meter {
     /// `None` if it is not asked for, or if the path cuts nothing of the part.
     ///
     /// # Errors
-    /// When the surface fails.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn form(&self) -> Result<Option<SurfaceExtremes>> {
         let lines = self.real_nose.as_ref().unwrap_or(&self.lines);
         match self.form {

@@ -7,7 +7,8 @@
 //! 2. [`low_pass`]: with `smooth`, what is shorter than the cutoff is removed.
 //! 3. [`bending`]: holes, and a margin around the map, are filled so that the bend changes least.
 //! 4. [`interpolation`]: the coefficients of a tensor B-spline of degree 5 through all points.
-//! 5. [`spline`] and [`taylor`]: values, slopes, and series.
+//! 5. [`edges`]: where the map is smooth, its own spline counts up to its edge.
+//! 6. [`spline`] and [`taylor`]: values, slopes, and series.
 
 #[cfg(test)]
 mod against_scipy;
@@ -15,6 +16,7 @@ mod banded;
 mod basis;
 mod bending;
 mod cells;
+mod edges;
 mod interpolation;
 mod low_pass;
 mod sheet;

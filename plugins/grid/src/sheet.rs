@@ -56,6 +56,20 @@ impl Sheet {
         }
         wide
     }
+
+    /// What [`Self::with_margin`] has put a margin around.
+    pub fn without_margin(&self, margin: usize) -> Self {
+        let (columns, rows) = (self.columns - 2 * margin, self.rows - 2 * margin);
+        let lines = self.lines().skip(margin).take(rows);
+        Self {
+            columns,
+            rows,
+            values: lines
+                .flat_map(|line| &line[margin..margin + columns])
+                .copied()
+                .collect(),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -79,6 +93,7 @@ mod tests {
         let wide = Sheet::of(2, 3, 1.0).with_margin(2);
         assert_eq!((wide.columns, wide.rows), (6, 7));
         let numbers = wide.values.iter().filter(|value| **value == 1.0).count();
+        assert_eq!(wide.without_margin(2), Sheet::of(2, 3, 1.0));
         assert_eq!(
             (numbers, wide.values[2 * 6 + 2], wide.values[4 * 6 + 3]),
             (6, 1.0, 1.0)

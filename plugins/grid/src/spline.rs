@@ -1,6 +1,7 @@
 //! The spline: its coefficients, and its values and slopes.
 
 use crate::basis::{self, BEFORE, SPLINES, Weights};
+use crate::edges;
 use crate::interpolation::{BEYOND, coefficients};
 use crate::sheet::Sheet;
 use crate::trend::Trend;
@@ -35,7 +36,25 @@ impl Spline {
     /// The spline through heights without holes. `first` is the place of the first height and
     /// `pitch` the distance of neighbours, mm.
     pub fn through(heights: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
-        let coefficients = coefficients(heights);
+        Self::of(coefficients(heights), first, pitch)
+    }
+
+    /// The same, carried on by `wide`: the heights in the middle of a sheet with `margin` heights more
+    /// on each side. `first` is the place of the first height within the margin.
+    pub fn carried_on(
+        heights: Sheet,
+        wide: Sheet,
+        margin: usize,
+        first: [f64; 2],
+        pitch: [f64; 2],
+    ) -> Self {
+        let mut outer = coefficients(wide);
+        edges::join(&coefficients(heights), &mut outer, margin);
+        let first = [0, 1].map(|axis| first[axis] - pitch[axis] * margin as f64);
+        Self::of(outer, first, pitch)
+    }
+
+    fn of(coefficients: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
         let before = BEYOND as f64;
         Self {
             trend: Trend::of(&coefficients),

@@ -173,14 +173,16 @@ impl GridSag {
         }
         let shorter = sheet.columns.min(sheet.rows);
         let margin = (shorter / MARGIN_SHARE).clamp(LEAST_MARGIN, MOST_MARGIN);
-        sheet = sheet.with_margin(margin);
-        let start = [0, 1].map(|axis| start[axis] - margin as f64 * step[axis]);
-        bending::fill(&mut sheet, pitch[0] * step[0] / (pitch[1] * step[1]));
-        trend.add_at(&mut sheet, 1.0, start, step);
+        let mut wide = sheet.with_margin(margin);
+        bending::fill(&mut wide, pitch[0] * step[0] / (pitch[1] * step[1]));
+        let outer = [0, 1].map(|axis| start[axis] - margin as f64 * step[axis]);
+        trend.add_at(&mut wide, 1.0, outer, step);
         let first = [0, 1].map(|axis| first[axis] + pitch[axis] * start[axis]);
         let pitch = [0, 1].map(|axis| pitch[axis] * step[axis]);
+        let sheet = wide.without_margin(margin);
+        let spline = Spline::carried_on(sheet, wide, margin, first, pitch);
         Ok(Self {
-            spline: Spline::through(sheet, first, pitch),
+            spline,
             cells,
             data,
         })

@@ -99,10 +99,11 @@ fn solve(mut rows: [[f64; TERMS + 1]; TERMS]) -> [f64; TERMS] {
         if size <= SMALLEST_PIVOT * largest || size <= 0.0 {
             break;
         }
+        let of_pivot = rows[pivot];
         for other in &free {
-            let share = rows[*other][pivot] / size;
-            for column in 0..=TERMS {
-                rows[*other][column] -= share * rows[pivot][column];
+            let share = of_pivot[*other] / size;
+            for (entry, upper) in rows[*other].iter_mut().zip(of_pivot) {
+                *entry -= share * upper;
             }
         }
         order.push(pivot);

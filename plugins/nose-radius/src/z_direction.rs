@@ -133,7 +133,7 @@ fn heights(cut: Cut<'_>, descents: &mut [Descent], points: &mut Evaluation<Serie
     points.set(descents.iter().map(Descent::curve));
     points.series(cut.surface)?;
     for (i, descent) in descents.iter_mut().enumerate() {
-        descent.settle(radius, points.z[i], points.zx[i], points.zy[i]);
+        descent.learn_height(radius, points.z[i], points.zx[i], points.zy[i]);
     }
     Ok(())
 }
@@ -195,7 +195,8 @@ impl Descent {
         self.offset.0[1] = -self.tilt(radius, zx, zy).0[1] / self.steepness;
     }
 
-    fn settle(&mut self, radius: f64, z: Series, zx: Series, zy: Series) {
+    /// The height at the foot, and what Z still lacks in the fourth order.
+    fn learn_height(&mut self, radius: f64, z: Series, zx: Series, zy: Series) {
         let rest = self.tilt(radius, zx, zy).0[2];
         self.height = Taylor(z) + rise(radius, self.offset);
         self.height.0[4] -= 0.5 * rest * rest / self.steepness;

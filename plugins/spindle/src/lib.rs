@@ -5,7 +5,7 @@
 //! derivatives of X and Z in the C angle for each eighth of a turn. A strategy turns them into the
 //! largest speed that each eighth allows. `smooth` makes a smooth speed below it, and `law` the
 //! pieces of t(N). `limits` checks the pieces against the machine, and `search` keeps the fastest of
-//! several schedules.
+//! several schedules. `plan` puts them together.
 //!
 //! The speed follows whole turns, and not the angle. A speed that is also the fastest within the
 //! turn gains a few percent more at most, and ripples.
@@ -15,6 +15,7 @@ mod law;
 mod limits;
 mod motion;
 mod per_revolution;
+mod plan;
 mod search;
 mod smooth;
 mod surface_speed;

@@ -2,10 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::grid::Grid;
-use crate::limits::Limits;
-use crate::motion::motion;
-use crate::search::Conditions;
+use crate::plan::fastest_law;
 
 /// As fast as the machine's limits allow, smoothly from turn to turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,37 +22,13 @@ impl Strategy for PerRevolution {
 
 impl SpindleStrategy for PerRevolution {
     fn plan(&self, path: &Path<'_>, ask: &SpindleAsk<'_>) -> Result<SpindleLaw> {
-        let machine = &path.task.machine;
-        check_limits(machine)?;
-        let grid = Grid::new(path.law.end());
-        let cells = motion(path, &grid)?;
-        let limits = Limits::of(machine);
-        let played = played_speeds(ask, &grid);
-        let speeds = cells.iter().zip(&played);
-        let speeds = speeds.map(|(cell, played)| limits.steady_speed(cell).min(*played));
-        let speeds = speeds.collect();
-        let conditions = Conditions {
-            grid,
-            cells: &cells,
-            limits,
-            played,
-            speed: ask.speed,
-        };
-        Ok(conditions.fastest(speeds))
+        check_limits(&path.task.machine)?;
+        fastest_law(path, ask, |_| f64::INFINITY)
     }
 
     fn follows_factors(&self) -> bool {
         true
     }
-}
-
-/// The largest speed of each cell at which the axes as played keep to the limits, rad/s.
-pub fn played_speeds(ask: &SpindleAsk<'_>, grid: &Grid) -> Vec<f64> {
-    let speed = |cell: usize| {
-        let factors = grid.halves(cell).filter_map(|half| ask.factors.get(half));
-        ask.speed * factors.copied().fold(1.0, f64::min)
-    };
-    (0..grid.cells).map(speed).collect()
 }
 
 /// Checks that the machine has the limits without which no speed is the largest.

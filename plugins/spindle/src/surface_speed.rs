@@ -2,11 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::grid::Grid;
-use crate::limits::Limits;
-use crate::motion::motion;
-use crate::per_revolution::played_speeds;
-use crate::search::Conditions;
+use crate::plan::fastest_law;
 
 /// One cutting speed for the whole part, between the lowest and the largest speed of the spindle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,23 +45,9 @@ impl SpindleStrategy for SurfaceSpeed {
         if self.lowest > ask.speed {
             return Err(LOWEST.refused("it is more than `speed`, the largest; choose less"));
         }
-        let grid = Grid::new(path.law.end());
-        let cells = motion(path, &grid)?;
-        let limits = Limits::of(&path.task.machine);
-        let played = played_speeds(ask, &grid);
-        let speeds = cells.iter().zip(&played).map(|(cell, played)| {
-            let wanted = (self.cutting_speed / cell.radius).max(self.lowest);
-            wanted.min(limits.steady_speed(cell)).min(*played)
-        });
-        let speeds = speeds.collect();
-        let conditions = Conditions {
-            grid,
-            cells: &cells,
-            limits,
-            played,
-            speed: ask.speed,
-        };
-        Ok(conditions.fastest(speeds))
+        fastest_law(path, ask, |cell| {
+            (self.cutting_speed / cell.radius).max(self.lowest)
+        })
     }
 
     fn follows_factors(&self) -> bool {

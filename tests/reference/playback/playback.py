@@ -14,8 +14,9 @@ prints JSON: the error of interpolation (played minus true Z, along z), the resi
 height along the profile's normal in the XZ plane, tool centres at their true Z), the highest cusp
 as played, what stays
 uncut at the part's edges and around the axis (null: not reached, or no such place), the error of
-the machined surface (what the played nose leaves, along z), its form where the recipe has a
-tolerance of it, the rows of the file and the revolutions of section 1. Only section 1 (cutting) is measured. Of recipes that
+the machined surface (what the played nose leaves, along z), what a real nose leaves on the path of
+a point, the form where the recipe has a tolerance of it, the rows of the file and the revolutions
+of section 1. Only section 1 (cutting) is measured. Of recipes that
 cut what fits, cusps count from the closing of the profile by the nose, and what stays between
 closing and surface is a figure of its own.
 """
@@ -50,7 +51,7 @@ class Recipe:
         self.nose_half_angle = min(included / 2, math.pi / 2)
         self.covers_axis = table.get("path", {}).get("overrun", "contact") != "none"
         self.cuts_what_fits = tool.get("interference", "refuse") == "cut-what-fits"
-        self.asks_form = "form" in table["tolerance"]
+        self.asks_form = "form" in table.get("tolerance", {})
         self.covers_part = table.get("path", {}).get("overrun", "contact") == "contact"
         self.compensator = table["compensator"]["use"]
         if self.compensator not in COMPENSATORS:
@@ -292,22 +293,18 @@ def height_above(profile, x, z):
     return ((z - profile(foot)) - s * (x - foot)) / np.sqrt(1 + s * s), foot
 
 
-def height_above_closing(recipe, theta, x, z, first, second, scan):
-    """Distance of cusps at (x, z) from the lowest that the nose can leave there, along the normal.
+def closing_at(recipe, theta, s, low, high, scan):
+    """The lowest that the nose can leave over the places `s`, and the X between low and high where
+    it stands then.
 
-    That is the least over X, from pass to pass, of the lower side of the nose at X: one valley,
-    found by golden section. The normal is that of the surface where the nose touches it there,
-    else that of the nose.
+    That is the least over X of the lower side of the nose at X: one valley, found by golden section.
     """
-    profile, radius = recipe.profile(theta), recipe.nose_radius
-
-    def lift(at):
-        return np.sqrt(np.maximum(radius**2 - (at - x)**2, 0))
+    radius = recipe.nose_radius
 
     def under(at):
-        return first_touch(recipe, theta, at, scan) - lift(at)
+        side = np.sqrt(np.maximum(radius**2 - (at - s)**2, 0))
+        return first_touch(recipe, theta, at, scan) - side
 
-    low, high = np.minimum(first, second), np.maximum(first, second)
     golden = (math.sqrt(5) - 1) / 2
     a, b = high - golden * (high - low), low + golden * (high - low)
     at_a, at_b = under(a), under(b)
@@ -318,10 +315,21 @@ def height_above_closing(recipe, theta, x, z, first, second, scan):
         at_new = under(new)
         a, b = np.where(left, new, b), np.where(left, a, new)
         at_a, at_b = np.where(left, at_new, at_b), np.where(left, at_a, at_new)
-    at = np.where(at_a < at_b, a, b)
-    closing = np.minimum(at_a, at_b)
+    return np.minimum(at_a, at_b), np.where(at_a < at_b, a, b)
+
+
+def height_above_closing(recipe, theta, x, z, first, second, scan):
+    """Distance of cusps at (x, z) from the lowest that the nose can leave there, along the normal.
+
+    The nose that leaves it stands between the two passes. The normal is that of the surface where
+    the nose touches it there, else that of the nose.
+    """
+    profile, radius = recipe.profile(theta), recipe.nose_radius
+    low, high = np.minimum(first, second), np.maximum(first, second)
+    closing, at = closing_at(recipe, theta, x, low, high, scan)
     touches = closing - profile(x) < 1e-8
-    normal = np.where(touches, 1 / np.sqrt(1 + slope(profile, x)**2), lift(at) / radius)
+    side = np.sqrt(np.maximum(radius**2 - (at - x)**2, 0))
+    normal = np.where(touches, 1 / np.sqrt(1 + slope(profile, x)**2), side / radius)
     return (z - closing) * normal
 
 
@@ -357,7 +365,8 @@ def section_residual(recipe, path, section_deg, scan):
 
 
 def residual(recipe, path, sections=90, scan=129):
-    """The highest cusp over `sections` angles, then over 20 finer ones around the worst.
+    """The highest cusp over `sections` angles, then over 20 finer ones around the worst. Beside a seam
+    cusps change fast with the angle, so finer ones are put around the worst few.
 
     "at" is the section angle (within one turn) and the cusp's foot on the profile.
     """
@@ -366,8 +375,10 @@ def residual(recipe, path, sections=90, scan=129):
     worst = max(coarse, key=lambda found: found[0])
     if worst[1] is None:
         return {"max": None, "at": None}
-    around = worst[1]["c_deg"] + step * np.arange(-10, 11) / 10
-    fine = [section_residual(recipe, path, float(c), scan) for c in around]
+    found = sorted((one for one in coarse if one[1]), key=lambda one: -one[0])
+    around = [one[1]["c_deg"] + step * np.arange(-10, 11) / 10
+              for one in found[:ZOOMED if recipe.leaves_seams else 1]]
+    fine = [section_residual(recipe, path, float(c), scan) for c in np.concatenate(around)]
     worst = max([worst, *fine], key=lambda found: found[0])
     return {"max": worst[0] * NM_PER_MM, "at": worst[1]}
 
@@ -423,10 +434,12 @@ def uncut_at(sections, radius, degrees):
     recipe = sections.recipe
     nose, reach = recipe.nose_radius, recipe.nose_radius * math.sin(recipe.nose_half_angle)
     near = lambda x, sign: x[np.abs(sign * x - radius) < 2 * nose]
-    profile = recipe.profile(math.radians(degrees))
+    theta = math.radians(degrees)
+    profile = recipe.profile(theta)
     place, seam = float(profile(np.float64(radius))), 0.0
     if recipe.leaves_seams:
-        seam = float(np.interp(radius, *section_closing(recipe, math.radians(degrees), CLOSING_STEP)))
+        at = np.array([radius])
+        seam = float(closing_at(recipe, theta, at, at - reach, at + reach, sections.scan)[0][0]) - place
     uncut = lowest = math.inf
     for x, z in sections.line_at(degrees, near):
         over = np.abs(x - radius) < reach
@@ -462,7 +475,8 @@ def uncut_at_edge(sections, radius):
 
 def uncut_at_centre(sections):
     """The highest cusp between neighbouring passes of the innermost three turns, both halves of
-    each line together; infinite where they do not meet, or one half has none."""
+    each line together; infinite where they do not meet, or one half has none. Over a seam through
+    the axis it counts from the lowest that the nose can leave."""
     recipe, worst = sections.recipe, -math.inf
     played = [x for x in sections.played if len(x)]
     ends = [abs(np.mean([x[at] for x in played])) for at in (0, -1)]
@@ -480,8 +494,13 @@ def uncut_at_centre(sections):
         with np.errstate(invalid="ignore", divide="ignore"):
             cusp_x, cusp_z = lower_intersection(recipe.nose_radius, x, z)
         differ = apart > 1e-9
-        profile = recipe.profile(math.radians(sections.degrees[i]))
-        height, foot = height_above(profile, cusp_x[differ], cusp_z[differ])
+        theta = math.radians(sections.degrees[i])
+        if recipe.leaves_seams:
+            foot = cusp_x[differ]
+            height = height_above_closing(recipe, theta, foot, cusp_z[differ], x[:-1][differ],
+                                          x[1:][differ], sections.scan)
+        else:
+            height, foot = height_above(recipe.profile(theta), cusp_x[differ], cusp_z[differ])
         on_part = np.abs(foot) <= recipe.part_radius
         worst = max(worst, height[on_part].max(initial=-math.inf))
     return worst if worst > -math.inf else math.inf
@@ -619,9 +638,12 @@ FEWEST_PLACES = 2000
 ZOOMED = 8          # lines around which the highest and the lowest place are looked for again
 
 
-def played_circles(recipe, path, section_deg, with_side=False):
+def played_circles(recipe, path, section_deg, with_side=False, real=False):
     """Nose centres (signed place, Z) on the line through the axis at an angle, as played, and
-    which side of the axis their X belongs to, if that is asked."""
+    which side of the axis their X belongs to, if that is asked.
+
+    The path of the compensator `none` is that of a point. Its nose touches the surface at each
+    point, or has its lowest point there if it is a `real` one."""
     places, heights, sides = [], [], []
     for turned, sign in ((0.0, 1.0), (180.0, -1.0)):
         section = section_deg + turned
@@ -630,7 +652,9 @@ def played_circles(recipe, path, section_deg, with_side=False):
         when = path.when(section + 360.0 * np.arange(first, last + 1))
         x, z = path.play("x", *when), path.play("z", *when)
         sides.append(sign * np.where(x < 0, -1.0, 1.0))
-        if recipe.compensator == "none":
+        if recipe.compensator == "none" and real:
+            z = z + recipe.nose_radius
+        elif recipe.compensator == "none":
             tilt = slope(recipe.profile(math.radians(section)), x)
             w = np.sqrt(1 + tilt * tilt)
             x, z = x - recipe.nose_radius * tilt / w, z + recipe.nose_radius / w
@@ -643,10 +667,10 @@ def played_circles(recipe, path, section_deg, with_side=False):
     return places[order], heights[order]
 
 
-def line_error(recipe, path, section_deg, s):
+def line_error(recipe, path, section_deg, s, real=False):
     """Machined minus wanted at the places `s` of a line: the minimum over circles near where the
     nose would touch each place; infinite where none reaches."""
-    x, z = played_circles(recipe, path, section_deg)
+    x, z = played_circles(recipe, path, section_deg, real=real)
     profile, radius = recipe.profile(math.radians(section_deg)), recipe.nose_radius
     tilt = slope(profile, s)
     touching = s - radius * tilt / np.sqrt(1 + tilt * tilt)
@@ -654,7 +678,7 @@ def line_error(recipe, path, section_deg, s):
     reach = radius * math.sin(recipe.nose_half_angle)
     lowest = np.full(len(s), np.inf)
     neighbours = NEIGHBOURS
-    if recipe.cuts_what_fits:  # over a seam any pass within reach may be the lowest
+    if recipe.cuts_what_fits or real:  # over a seam any pass within reach may be the lowest
         neighbours += int(2 * reach * len(x) / (x[-1] - x[0]))
     for step in range(-neighbours, neighbours):
         index = nearest + step
@@ -676,7 +700,7 @@ def line_places(recipe, count, shift):
     return np.concatenate([-side[::-1], side])
 
 
-def surface_error(recipe, path, sections=None):
+def surface_error(recipe, path, sections=None, real=False):
     """PV and RMS of machined minus wanted along z, on a polar grid; the RMS weighted by area.
 
     PV is looked for again around the extremes of the grid, in angle and along the line.
@@ -689,7 +713,7 @@ def surface_error(recipe, path, sections=None):
     for i in range(sections):
         angle = (i + 0.41) * step
         s = line_places(recipe, int(PLACES_A_PASS * passes), (0.5 + 0.618 * i) % 1.0)
-        error = line_error(recipe, path, angle, s)
+        error = line_error(recipe, path, angle, s, real)
         weight = np.where(np.isfinite(error), np.abs(s), 0.0)
         weight[np.abs(s) == recipe.part_radius] = 0.0  # an edge is no part of the area
         weight[np.abs(s) == recipe.hole_radius] = 0.0
@@ -699,62 +723,110 @@ def surface_error(recipe, path, sections=None):
         high, low = int(np.nanargmax(cut)), int(np.nanargmin(cut))
         found.append((angle, s[high], cut[high], s[low], cut[low]))
     pitch = 2 * recipe.part_radius / passes
-    highest = max(zoom(recipe, path, angle, s, step, pitch, np.nanmax)
+    error_at = lambda angle, s: line_error(recipe, path, angle, s, real)
+    highest = max(zoom(recipe, error_at, angle, s, step, pitch, np.nanmax)
                   for angle, s, _, _, _ in sorted(found, key=lambda one: -one[2])[:ZOOMED])
-    lowest = min(zoom(recipe, path, angle, s, step, pitch, np.nanmin)
+    lowest = min(zoom(recipe, error_at, angle, s, step, pitch, np.nanmin)
                  for angle, _, _, s, _ in sorted(found, key=lambda one: one[4])[:ZOOMED])
     return {"pv": (highest - lowest) * NM_PER_MM, "highest": highest * NM_PER_MM,
             "lowest": lowest * NM_PER_MM, "rms": math.sqrt(squares / area) * NM_PER_MM}
 
 
-def zoom(recipe, path, angle, s, step, pitch, extreme):
+def zoom(recipe, error_at, angle, s, step, pitch, extreme):
     """The extreme error within a section's width and three passes of a place."""
     s = s + pitch * np.linspace(-3, 3, 1201)
     s = np.clip(s, -recipe.part_radius, recipe.part_radius)
     s = s[np.abs(s) >= recipe.hole_radius]
-    errors = [line_error(recipe, path, angle + step * share, s)
-              for share in np.linspace(-0.5, 0.5, 41)]
+    errors = [error_at(angle + step * share, s) for share in np.linspace(-0.5, 0.5, 41)]
     errors = np.array(errors)
     return float(extreme(np.where(np.isfinite(errors), errors, np.nan)))
 
 
-FORM_SECTIONS, SEAM_SECTIONS = 240, 24  # a closing of a section takes long
-FORM_CLOSING_STEP = 1e-4  # mm: finer than for what stays, since cusps beside a seam are lower
+def real_nose(recipe, path):
+    """PV of what a real nose leaves on the path of the compensator `none`; None on any other."""
+    if recipe.compensator != "none":
+        return None
+    found = surface_error(recipe, path, real=True)
+    return {key: found[key] for key in ("pv", "highest", "lowest")}
 
 
-def form_error(recipe, path, surface):
+FORM_SECTIONS = 240
+SEAM_PLACES = 5e-4  # mm: how far apart places are where a line with seams is looked over
+SEAM_ZOOMED = 3     # lines around which its highest and its lowest place are looked for again
+
+
+def form_error(recipe, path, surface, scan=129):
     """PV of the machined surface as its tolerance counts it, None unless the recipe asks.
 
-    It is that of `surface`, the figures of the machined surface. Where the nose leaves seams it
-    counts from the closing of each section by the nose; where the path does not cover the part,
-    between the contacts of the outermost and of the innermost passes of either side.
+    It is that of `surface`, the figures of the machined surface, which of the compensator `none` is
+    what a real nose leaves. Where the nose leaves seams it counts from the closing of each section
+    by the nose; where the path does not cover the part, between the contacts of the outermost and
+    of the innermost passes of either side.
     """
     if not recipe.asks_form:
         return None
     if recipe.covers_part and not recipe.leaves_seams:
         return surface["pv"]
-    highest, lowest = -np.inf, np.inf
-    sections = SEAM_SECTIONS if recipe.leaves_seams else FORM_SECTIONS
-    for i in range(sections):
-        angle = (i + 0.41) * 180 / sections
+    real, step = recipe.compensator == "none", 180 / FORM_SECTIONS
+    found = []
+    for i in range(FORM_SECTIONS):
+        angle, closing = (i + 0.41) * step, 0.0
         if recipe.leaves_seams:
-            s, closing = section_closing(recipe, math.radians(angle), FORM_CLOSING_STEP)
+            s, closing = section_closing(recipe, math.radians(angle), SEAM_PLACES)
         else:
             s = line_places(recipe, int(4 * PLACES_A_PASS * path.revolutions), (0.618 * i) % 1.0)
-            closing = 0.0
-        error = line_error(recipe, path, angle, s) - closing
-        counts = (np.abs(s) <= recipe.part_radius) & (np.abs(s) >= recipe.hole_radius)
-        if not recipe.covers_part:
-            x, _ = played_circles(recipe, path, angle)
-            left, right = x[x < 0], x[x >= 0]
-            counts &= between_contacts(recipe, angle, left, s) | between_contacts(recipe, angle, right, s)
-        counts &= np.isfinite(error)
-        highest, lowest = max(highest, error[counts].max()), min(lowest, error[counts].min())
-    return float((highest - lowest) * NM_PER_MM)
+        error = line_error(recipe, path, angle, s, real) - closing
+        error = np.where(counts_for_form(recipe, path, angle, s), error, np.nan)
+        high, low = int(np.nanargmax(error)), int(np.nanargmin(error))
+        found.append((angle, s[high], error[high], s[low], error[low]))
+    by_height, by_depth = sorted(found, key=lambda one: -one[2]), sorted(found, key=lambda one: one[4])
+    if not recipe.leaves_seams:
+        return float((by_height[0][2] - by_depth[0][4]) * NM_PER_MM)
+    pitch = recipe.part_radius / path.revolutions
+    highest = max(zoom_over_closing(recipe, path, angle, s, step, pitch, 1, scan)
+                  for angle, s, _, _, _ in by_height[:SEAM_ZOOMED])
+    depth = max(zoom_over_closing(recipe, path, angle, s, step, pitch, -1, scan)
+                for angle, _, _, s, _ in by_depth[:SEAM_ZOOMED])
+    return float((highest + depth) * NM_PER_MM)
+
+
+def counts_for_form(recipe, path, angle, s):
+    """Which places of a line its form counts."""
+    counts = recipe.has_radius(s)
+    if recipe.covers_part:
+        return counts
+    x, _ = played_circles(recipe, path, angle, real=recipe.compensator == "none")
+    left, right = x[x < 0], x[x >= 0]
+    return counts & (between_contacts(recipe, angle, left, s) | between_contacts(recipe, angle, right, s))
+
+
+def zoom_over_closing(recipe, path, angle, s, step, pitch, sign, scan):
+    """The highest (sign 1) or the depth of the lowest (sign -1) over the closing, around a place:
+    within half a section's width and a pass, and then twice more, each time ten times closer."""
+    best = -math.inf
+    reach = recipe.nose_radius * math.sin(recipe.nose_half_angle)
+    for closer in (1, 10, 100):
+        centre = (angle, s)
+        for share in np.linspace(-0.5, 0.5, 11):
+            degrees = centre[0] + share * step / closer
+            places = centre[1] + pitch / closer * np.linspace(-1, 1, 81)
+            places = places[counts_for_form(recipe, path, degrees, places)]
+            if not len(places):
+                continue
+            theta = math.radians(degrees)
+            closing, _ = closing_at(recipe, theta, places, places - reach, places + reach, scan)
+            error = sign * (line_error(recipe, path, degrees, places) + recipe.profile(theta)(places) - closing)
+            k = int(np.argmax(error))
+            if error[k] > best:
+                best, angle, s = float(error[k]), degrees, places[k]
+    return best
 
 
 def between_contacts(recipe, section_deg, x, s):
-    """Which places lie between the contacts of the passes at the smallest and at the largest X."""
+    """Which places lie between the contacts of the passes at the smallest and at the largest X. The
+    contacts of the compensator `none` are the points of the path."""
+    if recipe.compensator == "none":
+        return (s >= x.min()) & (s <= x.max())
     profile, radius = recipe.profile(math.radians(section_deg)), recipe.nose_radius
     ends = []
     for centre in (x.min(), x.max()):
@@ -821,16 +893,17 @@ def measure(recipe, path, stride=1, instants=48, sections=90, scan=129):
     """All figures of a path, as printed."""
     if recipe.cuts_what_fits:  # hills of nearly one height are told apart on a finer scan
         scan = max(scan, SEAM_SCAN)
-    surface = surface_error(recipe, path)
+    surface, nose = surface_error(recipe, path), real_nose(recipe, path)
     figures = {"interpolation_error_nm": interpolation_error(recipe, path, stride, instants, scan),
                "residual_nm": residual(recipe, path, sections, scan),
                "played_cusp_nm": played_cusp(recipe, path, scan=scan),
                "surface_error_nm": surface,
+               "real_nose_nm": nose,
                "coverage_nm": coverage(recipe, path, scan),
                "unreached": unreached(recipe),
                "rows": path.rows, "control_points": path.segments + 1,
                "revolutions": float(path.revolutions)}
-    form = form_error(recipe, path, surface)
+    form = form_error(recipe, path, nose or surface, scan)
     return figures if form is None else figures | {"form_error_nm": form}
 
 

@@ -152,6 +152,25 @@ def check_touch_by_brute_force():
         check(f"touch - brute force, {surface['use']}, nose {nose}, mm", np.abs(gap).max(), 0, 3e-10)
 
 
+def check_closing_by_brute_force():
+    """The lowest that the nose can leave, against every position of the nose on every place of a
+    lattice, on seams and beside them. Places a step of `h` apart miss the lowest by half of `h` times
+    the slope at most."""
+    lattice = {"use": "sinusoidal-array", "amplitude_x": "10 um", "amplitude_y": "10 um",
+               "frequency_x": "1 /mm", "frequency_y": "1 /mm", "form": "sum"}
+    nose, reach, h, steepest = 3.0, 0.3, 5e-5, 0.09
+    body = recipe(lattice, "z-direction", aperture=3.0, nose=nose)
+    off = h * np.arange(-round(reach / h), round(reach / h) + 1)
+    for theta, s in ((0.79, 0.6), (0.79, 0.7071), (0.5, -0.55), (0.1, 0.5), (1.2, 0.2)):
+        profile, lift = body.profile(theta), np.sqrt(nose**2 - off**2)
+        centres = np.array([np.max(profile(s + x + off) + lift) for x in off])
+        brute = np.min(centres - lift)
+        found, _ = playback.closing_at(body, theta, np.array([s]), s - reach, s + reach, playback.SEAM_SCAN)
+        above = (found[0] - profile(s)) * 1e6
+        expected, bound = (brute - profile(s)) * 1e6, 0.5 * h * steepest * 1e6
+        check(f"closing at {s} mm of {theta} rad, nm above the lattice", above, expected, bound)
+
+
 def check_sign_and_place():
     """5 nm put into one row's Z comes back with its sign, at that row."""
     rows = ast_rows(0.025, 1.0, 2.5, 1.0)
@@ -231,7 +250,8 @@ def check_coverage():
         found = playback.coverage(recipe(flat, comp), path)
         # on the first section past the end the last pass lies nearly a turn further in
         away = 2.5 - feed * (turns - 1 + 1e-7 / 360)
-        check(f"rim of a flat, {comp}, nm", found["rim"], (math.hypot(1, away) - 1) * 1e6, 0.01)
+        # the flank of that pass stands higher at the rim than the rim is from it
+        check(f"rim of a flat, {comp}, nm", found["rim"], (1 - math.sqrt(1 - away**2)) * 1e6, 0.01)
         gap = feed * (0.5 + 179 / 180)
         check(f"centre of a flat, {comp}, nm", found["centre"], (1 - math.sqrt(1 - gap**2 / 4)) * 1e6, 0.01)
 
@@ -279,6 +299,7 @@ def check_file(rows_wanted=10_000):
 if __name__ == "__main__":
     check_surfaces()
     check_touch_by_brute_force()
+    check_closing_by_brute_force()
     check_sign_and_place()
     check_interpolation()
     check_residual()

@@ -8,5 +8,5 @@ pub enum DraftKind {
     /// A folder that goes when it is empty.
     Folder,
     /// The file that keeps other writers out of a folder. It goes after what it protects.
-    Lock,
+    Claim,
 }

@@ -1,4 +1,4 @@
-//! The registry where no signal handler may ask for it: a list behind a lock.
+//! The registry where no signal handler may ask for it: a list behind a mutex.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,13 +34,14 @@ impl Entry {
     }
 }
 
-/// Removes all paths: files, folders, and, if asked for, locks and the folders that only a lock kept.
+/// Removes all paths: files, folders, and, if asked for, claims and the folders that only a claim
+/// kept.
 /// Folders were added from the outside in.
-pub fn remove_all(locks: bool) {
+pub fn remove_all(claims: bool) {
     let taken = std::mem::take(&mut *lines());
     let of_kind = |kind| taken.iter().rev().filter(move |line| line.1 == kind);
-    let kinds = [DraftKind::File, DraftKind::Lock].into_iter();
-    for kind in kinds.filter(|kind| locks || *kind == DraftKind::File) {
+    let kinds = [DraftKind::File, DraftKind::Claim].into_iter();
+    for kind in kinds.filter(|kind| claims || *kind == DraftKind::File) {
         for (.., path) in of_kind(kind) {
             let _ = fs::remove_file(path);
         }

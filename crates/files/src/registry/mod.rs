@@ -47,17 +47,17 @@ impl Drop for Registration {
     }
 }
 
-/// Removes all drafts that live, the folders that were made for them, and the locks. For a process
+/// Removes all drafts that live, the folders that were made for them, and the claims. For a process
 /// that is about to end: each draft is then lost for the work that made it.
 ///
-/// On Unix this may be called from a signal handler. It takes no lock, allocates nothing, and calls
+/// On Unix this may be called from a signal handler. It waits for no mutex, allocates nothing, and calls
 /// `unlink` and `rmdir` alone; its frames take less than 2 KiB of the stack.
 pub fn remove_drafts() {
     entries::remove_all(true);
 }
 
-/// The same without the locks, where a name may still be given: other writers stay away until the
+/// The same without the claims, where a name may still be given: other writers stay away until the
 /// process has ended.
-pub fn remove_drafts_under_lock() {
+pub fn remove_drafts_but_claims() {
     entries::remove_all(false);
 }

@@ -21,12 +21,12 @@ type Slot = AtomicPtr<c_char>;
 const FILES: usize = 256;
 /// Places for folders. They are gathered on the stack of a signal handler, hence few.
 const FOLDERS: usize = 64;
-/// Places for locks: a process writes into few folders at a time.
-const LOCKS: usize = 32;
+/// Places for claims: a process writes into few folders at a time.
+const CLAIMS: usize = 32;
 
 static FILE_SLOTS: [Slot; FILES] = [const { Slot::new(ptr::null_mut()) }; FILES];
 static FOLDER_SLOTS: [Slot; FOLDERS] = [const { Slot::new(ptr::null_mut()) }; FOLDERS];
-static LOCK_SLOTS: [Slot; LOCKS] = [const { Slot::new(ptr::null_mut()) }; LOCKS];
+static CLAIM_SLOTS: [Slot; CLAIMS] = [const { Slot::new(ptr::null_mut()) }; CLAIMS];
 
 /// A path in its place.
 #[derive(Debug)]
@@ -47,7 +47,7 @@ impl Entry {
         let slots: &'static [Slot] = match kind {
             DraftKind::File => &FILE_SLOTS,
             DraftKind::Folder => &FOLDER_SLOTS,
-            DraftKind::Lock => &LOCK_SLOTS,
+            DraftKind::Claim => &CLAIM_SLOTS,
         };
         let path = CString::new(path.as_os_str().as_bytes()).ok()?.into_raw();
         let free = |slot: &&Slot| {
@@ -87,8 +87,8 @@ fn take(slot: &Slot) -> Option<&'static CStr> {
     (!path.is_null()).then(|| unsafe { CStr::from_ptr(path) })
 }
 
-/// Removes all paths: files, folders, and, if asked for, locks and the folders that only a lock kept.
-pub fn remove_all(locks: bool) {
+/// Removes all paths: files, folders, and, if asked for, claims and the folders that only a claim kept.
+pub fn remove_all(claims: bool) {
     for path in FILE_SLOTS.iter().filter_map(take) {
         let _ = rustix::fs::unlink(path);
     }
@@ -97,10 +97,10 @@ pub fn remove_all(locks: bool) {
         *folder = take(slot);
     }
     remove_empty(&mut folders);
-    if !locks {
+    if !claims {
         return;
     }
-    for path in LOCK_SLOTS.iter().filter_map(take) {
+    for path in CLAIM_SLOTS.iter().filter_map(take) {
         let _ = rustix::fs::unlink(path);
     }
     remove_empty(&mut folders);

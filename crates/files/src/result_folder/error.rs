@@ -18,9 +18,9 @@ pub enum FolderError {
         /// The folder.
         folder: PathBuf,
     },
-    /// The folder cannot be locked.
-    #[error("cannot lock {}", folder.display())]
-    Lock {
+    /// The folder cannot be claimed.
+    #[error("cannot claim {}", folder.display())]
+    Claim {
         /// The folder.
         folder: PathBuf,
         /// Why.
@@ -65,8 +65,8 @@ impl FolderError {
             Self::OtherWriter { .. } => {
                 Some("wait until it ends, or choose another folder with `-o`")
             }
-            Self::Lock { .. } => {
-                Some("results need a file system with locks: choose another folder with `-o`")
+            Self::Claim { .. } => {
+                Some("results need a file system that locks files: choose another folder with `-o`")
             }
             Self::Link { .. } => {
                 Some("remove the link, or give the folder that it leads into with `-o`")

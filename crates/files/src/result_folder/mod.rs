@@ -5,10 +5,10 @@
 //! on the result is the new one; the files then get their names, and if that is not done to its end
 //! the next writer does it. `docs/decisions/a-result-is-whole.md` has the reasons.
 
+mod claim;
 mod commit;
 mod error;
 mod listing;
-mod lock;
 mod made_folders;
 mod own;
 mod staging;
@@ -22,11 +22,11 @@ use crate::draft::{Draft, WholeFile};
 use crate::file_error::FileError;
 use crate::gate;
 
+use claim::FolderClaim;
 use commit::{COMMIT, PLAN, sync_folder};
 pub use error::FolderError;
 pub use listing::ListedFile;
 use listing::{Plan, is_member};
-use lock::FolderLock;
 use made_folders::MadeFolders;
 use staging::Staging;
 
@@ -45,12 +45,12 @@ pub struct ResultFolder {
     // Dropped in this order.
     staging: Staging,
     _hidden: MadeFolders,
-    _lock: FolderLock,
+    _claim: FolderClaim,
     _made: MadeFolders,
 }
 
 impl ResultFolder {
-    /// Locks the folder, which is made if it is not there; gives a result that was whole before all
+    /// Claims the folder, which is made if it is not there; gives a result that was whole before all
     /// its names; and removes what other writers left.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl ResultFolder {
     pub fn open(folder: &Path) -> Result<Self, FolderError> {
         let _gate = gate::enter();
         let mut made = MadeFolders::default();
-        let lock = FolderLock::take(folder, &mut made)?;
+        let claim = FolderClaim::take(folder, &mut made)?;
         let hidden_path = folder.join(HIDDEN);
         if own::folder_is_there(&hidden_path)? {
             own::folder_is_there(&hidden_path.join(COMMIT))?;
@@ -72,7 +72,7 @@ impl ResultFolder {
             parts: AtomicU64::new(0),
             staging: staging.map_err(FileError::of(folder))?,
             _hidden: hidden,
-            _lock: lock,
+            _claim: claim,
             _made: made,
         })
     }

@@ -20,7 +20,7 @@ pub struct Staging {
 }
 
 impl Staging {
-    /// Makes the folder, and removes those of writers that did not end well: the lock is held, so
+    /// Makes the folder, and removes those of writers that did not end well: the folder is claimed, so
     /// none of them lives.
     pub fn new(hidden: &Path) -> io::Result<Self> {
         for entry in fs::read_dir(hidden)? {

@@ -4,6 +4,9 @@ use crate::form::{FormReport, FormSplit};
 
 use super::numbers::{against, line, small_length};
 
+/// What a person should know where a search changed nothing.
+const DECIDED: &str = "other tolerances leave the same: the recipe's own feed and steps decide it";
+
 /// The form against its tolerance, and how the tolerance was divided.
 pub fn form(report: &FormReport, verdict: Option<bool>) -> String {
     let tolerance = report.tolerance;
@@ -31,10 +34,11 @@ fn split(split: &FormSplit) -> String {
     };
     let ended = split.search_ended_because.as_ref();
     let ended = ended.map(|why| line("", format!("no other path could be made: {why}")));
+    let decided = split.decided_by_recipe.then(|| line("", DECIDED));
     line(
         "",
         format!("with residual {residual}, interpolation {interpolation}{made}"),
-    ) + &ended.unwrap_or_default()
+    ) + &decided.or(ended).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -50,6 +54,7 @@ mod tests {
                 interpolation: 25e-6,
                 rounds,
                 search_ended_because: None,
+                decided_by_recipe: false,
             }),
         }
     }
@@ -80,6 +85,10 @@ mod tests {
             text.ends_with("no other path could be made: too fine\n"),
             "{text}"
         );
+        let mut decided = report(Some(65.8e-6), 4);
+        decided.split.as_mut().unwrap().decided_by_recipe = true;
+        let text = form(&decided, Some(true));
+        assert!(text.ends_with("feed and steps decide it\n"), "{text}");
         let text = first_split(&report(None, 0));
         assert!(text.ends_with("interpolation 25.00 nm\n"), "{text}");
     }

@@ -45,8 +45,21 @@ fn sentence(remark: &Remark) -> String {
         } => {
             let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
             format!(
-                "position_decimals = {position_decimals} rounds by up to {rounding}, and the \
-                 interpolation tolerance is {tolerance}"
+                "position_decimals = {position_decimals} rounds positions by up to {rounding}, and \
+                 the interpolation tolerance is {tolerance}"
+            )
+        }
+        Remark::CoarseVelocityDigits {
+            velocity_decimals,
+            rounding,
+            segment_time,
+            tolerance,
+        } => {
+            let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
+            let time = significant(segment_time * 1e3);
+            format!(
+                "velocity_decimals = {velocity_decimals} moves the middle of a segment of {time} ms \
+                 by up to {rounding}, and the interpolation tolerance is {tolerance}"
             )
         }
         Remark::FilledPoints { filled, points } => {

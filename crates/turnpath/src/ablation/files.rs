@@ -18,7 +18,7 @@ pub struct AblationFiles {
 }
 
 impl AblationFiles {
-    /// Makes the folder and takes its lock, so that a folder that takes no files is refused before
+    /// Makes the folder and claims it, so that a folder that takes no files is refused before
     /// the work.
     pub fn new(folder: &Path) -> Result<Self, FolderError> {
         for name in [JSON, CSV] {

@@ -108,7 +108,7 @@ impl Plots {
     }
 
     /// Finds before the work whether the folder takes files, where it is there. A result does that by
-    /// its lock.
+    /// its claim.
     pub fn try_folder(&self, folder: &Path) -> Result<(), FileError> {
         let mut files = self.files().filter(|file| file.parent() == Some(folder));
         match files.next().filter(|_| folder.exists()) {

@@ -17,8 +17,8 @@ pub fn of_rows(figures: ComparisonFigures) -> report::Anomalies {
 
 /// The points that stand out among their neighbours, and why the rows were not compared with those of
 /// the recipe.
-pub fn of_neighbours(detector: AnomalyDetector, reason: String) -> report::Anomalies {
-    let (count, found) = detector.finish();
+pub fn of_neighbours(detector: Option<AnomalyDetector>, reason: String) -> report::Anomalies {
+    let (count, found) = detector.map(AnomalyDetector::finish).unwrap_or_default();
     report::Anomalies {
         compared_with: report::Standard::Neighbours,
         not_compared_because: Some(reason),

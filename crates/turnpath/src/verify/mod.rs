@@ -99,7 +99,9 @@ impl<'a> Target<'a> {
         let failed = |error| of_measure(recipe, error);
         let mut reader = file.open()?;
         let touch = FirstTouch::new(self.subject.clone()).map_err(failed)?;
-        let meters = PathMeters::new(recipe, touch).with_servo(recipe);
+        let meters = PathMeters::new(recipe, touch)
+            .with_servo(recipe)
+            .with_anomalies(recipe);
         observer.begin(Stage::Measure, 0);
         let meters = measure(recipe, meters, self.shape, reader.as_mut(), observer)?;
         let (meter, read) = (&meters.cut, reader.read_count());
@@ -166,7 +168,7 @@ impl<'a> Target<'a> {
         &self,
         file: &SourceFile,
         played: &PlayedPath<'_>,
-        neighbours: AnomalyDetector,
+        neighbours: Option<AnomalyDetector>,
         observer: &dyn Observer,
     ) -> Result<report::Anomalies, Error> {
         let made_by = (self.recipe, self.catalogue, &self.data_files);

@@ -109,10 +109,7 @@ fn split_beside(recipe: &Recipe, file: &Path) -> Option<Tolerance> {
     let is_own =
         source.sha256 == sha256_hex(recipe.text().as_bytes()) && source.sets == recipe.sets();
     let split = summary.path.form?.split.filter(|_| is_own)?;
-    let tolerance = Tolerance {
-        interpolation: split.interpolation,
-        residual: split.residual,
-    };
+    let tolerance = split.tolerance();
     let budget = recipe.tolerances.budget()?;
     may_be_found(&budget, tolerance).then_some(tolerance)
 }
@@ -132,10 +129,7 @@ fn may_be_found(budget: &FormBudget, tolerance: Tolerance) -> bool {
 fn found_split(job: &Job, observer: &dyn Observer) -> Result<Tolerance, Error> {
     let report = job.run(Outputs::nowhere(), observer)?.report;
     let split = report.path.form.and_then(|form| form.split);
-    Ok(split.map_or(job.recipe.tolerance, |split| Tolerance {
-        interpolation: split.interpolation,
-        residual: split.residual,
-    }))
+    Ok(split.map_or(job.recipe.tolerance, |split| split.tolerance()))
 }
 
 /// Why a comparison ended before the paths did.

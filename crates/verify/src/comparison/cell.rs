@@ -8,6 +8,10 @@ use turnpath_core::toolpath::{ControlPoint, Segment, SegmentShape};
 use crate::instants::INSTANTS;
 use crate::touch::FirstTouch;
 
+/// Positions of each path that are held against the surface in one batch. They take some kilobytes,
+/// however long a stretch is.
+const BATCH: usize = 1024;
+
 /// Control points of a path between two of its rows, both included.
 pub struct Stretch {
     segments: Vec<Segment>,
@@ -22,21 +26,19 @@ struct Position([f64; 3]);
 
 impl Stretch {
     /// What is played between these points.
-    pub fn new(points: &[ControlPoint], shape: SegmentShape) -> Self {
+    pub fn new(points: impl Iterator<Item = ControlPoint> + Clone, shape: SegmentShape) -> Self {
         let between = match shape {
             SegmentShape::Cubic => Segment::between,
             SegmentShape::Linear => Segment::straight,
         };
-        let pairs = points.windows(2);
-        let segments: Vec<Segment> = pairs.map(|pair| between(&pair[0], &pair[1])).collect();
-        let (start, duration) = match (points.first(), points.last()) {
-            (Some(first), Some(last)) => (first.t, last.t - first.t),
-            _ => (0.0, 0.0),
-        };
+        let pairs = points.clone().zip(points.clone().skip(1));
+        let segments = pairs.map(|(from, to)| between(&from, &to)).collect();
+        let start = points.clone().next().map_or(0.0, |first| first.t);
+        let end = points.last().map_or(start, |last| last.t);
         Self {
             segments,
             start,
-            duration,
+            duration: end - start,
         }
     }
 
@@ -74,9 +76,23 @@ impl Stretch {
 /// When the surface fails.
 pub fn distance(touch: &FirstTouch, file: &Stretch, remade: &Stretch) -> Result<f64> {
     let instants = remade.instants().chain(file.instants());
-    let positions: Vec<[Position; 2]> = instants
-        .filter_map(|part| Some([file.at(part)?, remade.at(part)?]))
-        .collect();
+    let mut positions = instants.filter_map(|part| Some([file.at(part)?, remade.at(part)?]));
+    let mut largest: f64 = 0.0;
+    loop {
+        let batch: Vec<[Position; 2]> = positions.by_ref().take(BATCH).collect();
+        if batch.is_empty() {
+            return Ok(largest);
+        }
+        let apart = largest_of(touch, &batch)?;
+        if apart.is_nan() {
+            return Ok(f64::NAN);
+        }
+        largest = largest.max(apart);
+    }
+}
+
+/// The largest difference of the heights at these positions of both paths, mm.
+fn largest_of(touch: &FirstTouch, positions: &[[Position; 2]]) -> Result<f64> {
     let all = || positions.iter().flatten();
     let theta: Vec<f64> = all().map(|Position([c, ..])| c.rem_euclid(TAU)).collect();
     let x: Vec<f64> = all().map(|Position([_, x, _])| *x).collect();

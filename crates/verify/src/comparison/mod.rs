@@ -28,6 +28,7 @@ const FEW: u64 = 16;
 /// The part of the rows that is most of them.
 const MOST: f64 = 0.5;
 /// Most rows between two rows with a partner that are kept to be played: more than a revolution has.
+/// They take 18 MB on either side.
 const MOST_UNPAIRED: usize = 100_000;
 
 /// What is wrong with a row.
@@ -63,10 +64,6 @@ pub struct RowAnomaly {
 pub struct ComparisonFigures {
     /// Rows that are not as the recipe gives them.
     pub count: u64,
-    /// Rows of the recipe's path before the file's first row with a partner.
-    pub lost_before: u64,
-    /// Rows of the recipe's path after the file's last row with a partner.
-    pub lost_after: u64,
     /// The worst rows, the worst one first.
     pub worst: Vec<RowAnomaly>,
 }
@@ -88,16 +85,23 @@ struct TimeShift {
     last: Option<f64>,
 }
 
+/// A row with its number in the file.
+#[derive(Debug, Clone, Copy)]
+struct NumberedRow {
+    /// As [`RowAnomaly::row`].
+    row: u64,
+    point: ControlPoint,
+}
+
 /// Rows between two pairs, those of the file or those of the recipe's path.
 #[derive(Debug, Clone, Default)]
 struct Unpaired {
-    points: Vec<ControlPoint>,
-    anomalies: Vec<RowAnomaly>,
+    rows: Vec<NumberedRow>,
     /// Whether there were more than are kept.
     overflows: bool,
 }
 
-/// Compares two paths row by row. It keeps a few rows and the worst anomalies.
+/// Compares two paths row by row. It keeps the rows since the last pair and the worst anomalies.
 pub struct RowComparison {
     touch: FirstTouch,
     shape: SegmentShape,
@@ -116,7 +120,6 @@ pub struct RowComparison {
     /// The anomaly of the last pair, whose segment after it is not known yet.
     open: Option<RowAnomaly>,
     wrong: u64,
-    lost_before: u64,
     found: WorstFirst<RowAnomaly>,
 }
 
@@ -137,7 +140,6 @@ impl RowComparison {
             shift: None,
             open: None,
             wrong: 0,
-            lost_before: 0,
             found: WorstFirst::default(),
         }
     }
@@ -188,15 +190,9 @@ impl RowComparison {
     /// What was found.
     pub fn into_figures(mut self) -> ComparisonFigures {
         self.found_all(self.open.clone());
-        let lost_after = match self.last {
-            Some(_) => self.lost.anomalies.len() as u64,
-            None => 0,
-        };
-        self.settle_unpaired(f64::NAN);
+        self.rate_unpaired(f64::NAN);
         ComparisonFigures {
             count: self.found.count(),
-            lost_before: self.lost_before,
-            lost_after,
             worst: self.found.into_items(),
         }
     }
@@ -250,28 +246,24 @@ impl RowComparison {
         }
     }
 
-    fn anomaly(&self, row: &PathRow, fault: RowFault) -> RowAnomaly {
-        RowAnomaly {
-            row: self.row,
-            c: row.point.c,
-            x: row.point.x,
-            fault,
-            worth: f64::NAN,
-        }
-    }
-
     fn lose_row(&mut self, row: &PathRow) {
-        let anomaly = self.anomaly(row, RowFault::Lost);
-        self.lost_before += u64::from(self.last.is_none());
-        self.lost.push(row.point, anomaly, &mut self.found);
+        let row = NumberedRow {
+            row: self.row,
+            point: row.point,
+        };
+        let beyond = self.lost.push(row);
+        self.found_all(beyond.map(|row| row.anomaly(RowFault::Lost)));
         self.forget_time();
     }
 
     /// Counts the file's next row as added.
     fn add_row(&mut self) {
-        let row = self.ahead.remove(0);
-        let anomaly = self.anomaly(&row, RowFault::Added);
-        self.added.push(row.point, anomaly, &mut self.found);
+        let row = NumberedRow {
+            row: self.row,
+            point: self.ahead.remove(0).point,
+        };
+        let beyond = self.added.push(row);
+        self.found_all(beyond.map(|row| row.anomaly(RowFault::Added)));
         self.forget_time();
         self.row += 1;
         self.wrong += 1;
@@ -291,7 +283,11 @@ impl RowComparison {
         }
         let differs = !columns.is_empty();
         self.wrong += u64::from(differs);
-        let anomaly = differs.then(|| self.anomaly(&file, RowFault::Differs(columns)));
+        let row = NumberedRow {
+            row: self.row,
+            point: file.point,
+        };
+        let anomaly = differs.then(|| row.anomaly(RowFault::Differs(columns)));
         self.row += 1;
         let pair = RowPair {
             file,
@@ -332,36 +328,49 @@ impl RowComparison {
         is_right
     }
 
-    /// Measures what is played from the last pair to this one, if it differs, and settles the rows
-    /// between both.
+    /// Measures what is played from the last pair to this one, if it differs, and gives the rows
+    /// between both their worth.
     fn close_cell(&mut self, pair: &RowPair) -> Result<f64> {
         let Some(last) = self.last else {
-            self.settle_unpaired(f64::NAN);
+            self.rate_unpaired(f64::NAN);
             return Ok(f64::NAN);
         };
-        let unpaired = !(self.lost.anomalies.is_empty() && self.added.anomalies.is_empty());
+        let unpaired = !(self.lost.rows.is_empty() && self.added.rows.is_empty());
         if !(unpaired || last.differs || pair.differs) {
             return Ok(0.0);
         }
         let worth = match self.lost.overflows || self.added.overflows {
             true => f64::NAN,
             false => {
-                let file = self.added.between(&last.file, &pair.file);
-                let remade = self.lost.between(&last.remade, &pair.remade);
-                let stretch = |points: Vec<ControlPoint>| Stretch::new(&points, self.shape);
-                distance(&self.touch, &stretch(file), &stretch(remade))?
+                let file = self.added.between(&last.file, &pair.file, self.shape);
+                let remade = self.lost.between(&last.remade, &pair.remade, self.shape);
+                distance(&self.touch, &file, &remade)?
             }
         };
-        self.settle_unpaired(worth);
+        self.rate_unpaired(worth);
         Ok(worth)
     }
 
     /// Gives the rows without a partner their worth.
-    fn settle_unpaired(&mut self, worth: f64) {
-        let lost = std::mem::take(&mut self.lost);
-        let added = std::mem::take(&mut self.added);
-        let all = lost.anomalies.into_iter().chain(added.anomalies);
+    fn rate_unpaired(&mut self, worth: f64) {
+        let lost = std::mem::take(&mut self.lost).rows.into_iter();
+        let added = std::mem::take(&mut self.added).rows.into_iter();
+        let lost = lost.map(|row| row.anomaly(RowFault::Lost));
+        let all = lost.chain(added.map(|row| row.anomaly(RowFault::Added)));
         self.found_all(all.map(|anomaly| RowAnomaly { worth, ..anomaly }));
+    }
+}
+
+impl NumberedRow {
+    /// The anomaly of this row, whose worth is not known yet.
+    fn anomaly(&self, fault: RowFault) -> RowAnomaly {
+        RowAnomaly {
+            row: self.row,
+            c: self.point.c,
+            x: self.point.x,
+            fault,
+            worth: f64::NAN,
+        }
     }
 }
 
@@ -374,25 +383,20 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 impl Unpaired {
-    /// Keeps a row, or counts its anomaly at once if there are too many.
-    fn push(
-        &mut self,
-        point: ControlPoint,
-        anomaly: RowAnomaly,
-        found: &mut WorstFirst<RowAnomaly>,
-    ) {
-        if self.points.len() < MOST_UNPAIRED {
-            self.points.push(point);
-            self.anomalies.push(anomaly);
-        } else {
-            self.overflows = true;
-            found.add(anomaly.worth, anomaly);
+    /// Keeps a row, or gives it back if there are too many: its worth will not be known.
+    fn push(&mut self, row: NumberedRow) -> Option<NumberedRow> {
+        if self.rows.len() < MOST_UNPAIRED {
+            self.rows.push(row);
+            return None;
         }
+        self.overflows = true;
+        Some(row)
     }
 
-    /// The points with those of the pairs before and after.
-    fn between(&self, before: &PathRow, after: &PathRow) -> Vec<ControlPoint> {
-        let ends = [before.point, after.point];
-        [&ends[..1], &self.points, &ends[1..]].concat()
+    /// What is played from the row before to the row after.
+    fn between(&self, before: &PathRow, after: &PathRow, shape: SegmentShape) -> Stretch {
+        let own = self.rows.iter().map(|row| row.point);
+        let [before, after] = [before.point, after.point].map(std::iter::once);
+        Stretch::new(before.chain(own).chain(after), shape)
     }
 }

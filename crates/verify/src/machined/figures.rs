@@ -1,25 +1,15 @@
 //! Figures of the machined surface, weighted by area.
 
 use rayon::prelude::*;
-use turnpath_core::{Part, Result, Scalar};
+use turnpath_core::{Part, Result};
 
 use super::cusps::HighestCusp;
+use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
 use super::sections::Lines;
 use super::strip::{Sample, Strip};
 use crate::cusp::Point;
 use crate::subject::Subject;
 use crate::touch::FirstTouch;
-
-/// A point of the part and the surface error there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PartPoint {
-    /// Machined − wanted along z, mm.
-    pub error: f64,
-    /// x on the part, mm.
-    pub x: f64,
-    /// y on the part, mm.
-    pub y: f64,
-}
 
 /// The figures of the machined surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,44 +45,17 @@ impl MachinedFigures {
     }
 }
 
-/// The extremes of a machined surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfaceExtremes {
-    /// The point where most material is left.
-    pub highest: PartPoint,
-    /// The point where most material is missing or least is left.
-    pub lowest: PartPoint,
-}
-
-impl SurfaceExtremes {
-    /// Peak to valley, mm.
-    pub fn pv(&self) -> f64 {
-        self.highest.error - self.lowest.error
-    }
-}
-
 /// Integrals along one line.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     area: f64,
     error: f64,
     square: f64,
     slope_square: f64,
-    /// The extreme errors, each with its signed position on the line.
-    highest: (f64, f64),
-    lowest: (f64, f64),
+    extremes: LineExtremes,
 }
 
 impl Sums {
-    const NONE: Self = Self {
-        area: 0.0,
-        error: 0.0,
-        square: 0.0,
-        slope_square: 0.0,
-        highest: (f64::NEG_INFINITY, 0.0),
-        lowest: (f64::INFINITY, 0.0),
-    };
-
     fn include(&mut self, sample: &Sample) {
         for k in 0..4 {
             let (weight, error, slope) = (sample.weight[k], sample.error[k], sample.slope[k]);
@@ -101,14 +64,7 @@ impl Sums {
             self.square += weight * error * error;
             self.slope_square += weight * slope * slope;
         }
-        for (s, error) in sample.extremes() {
-            if error > self.highest.0 {
-                self.highest = (error, s);
-            }
-            if error < self.lowest.0 {
-                self.lowest = (error, s);
-            }
-        }
+        self.extremes.include_sample(sample);
     }
 }
 
@@ -118,7 +74,7 @@ impl Lines {
     /// two sides of the axis count.
     ///
     /// # Errors
-    /// When the surface fails.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn figures(
         &self,
         touch: &FirstTouch,
@@ -132,9 +88,11 @@ impl Lines {
         if area <= 0.0 {
             return Ok(None);
         }
+        let Some(SurfaceExtremes { highest, lowest }) = extremes(&lines, &sums) else {
+            return Ok(None);
+        };
         let mean = total(|line| line.error) / area;
         let mean_square = total(|line| line.square) / area;
-        let SurfaceExtremes { highest, lowest } = extremes(&lines, &sums);
         Ok(Some(MachinedFigures {
             highest,
             lowest,
@@ -154,12 +112,11 @@ impl Lines {
     /// The extremes over the part; `None` if nothing of the part was cut.
     ///
     /// # Errors
-    /// When the surface fails.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn extremes(&self, subject: &Subject) -> Result<Option<SurfaceExtremes>> {
         let lines = self.all();
         let sums = sums(subject, &lines)?;
-        let cut = sums.iter().any(|line| line.area > 0.0);
-        Ok(cut.then(|| extremes(&lines, &sums)))
+        Ok(extremes(&lines, &sums))
     }
 
     /// The integral of |error − mean|.
@@ -184,7 +141,7 @@ fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
     let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[Point])| {
         strip.set_line(subject, *angle, passes);
         strip.look_up(subject.surface.as_ref())?;
-        let mut sums = Sums::NONE;
+        let mut sums = Sums::default();
         strip.samples().for_each(|sample| sums.include(&sample));
         Ok(sums)
     };
@@ -195,23 +152,9 @@ fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
 }
 
 /// The highest and the lowest point over all lines.
-fn extremes<T>(lines: &[(f64, T)], sums: &[Sums]) -> SurfaceExtremes {
-    let point = |angle: f64, (error, s): (f64, f64)| {
-        let (sin, cos) = Scalar::sin_cos(angle);
-        let (x, y) = (s * cos, s * sin);
-        PartPoint { error, x, y }
-    };
-    let mut highest = point(0.0, Sums::NONE.highest);
-    let mut lowest = point(0.0, Sums::NONE.lowest);
-    for ((angle, _), sums) in lines.iter().zip(sums) {
-        if sums.highest.0 > highest.error {
-            highest = point(*angle, sums.highest);
-        }
-        if sums.lowest.0 < lowest.error {
-            lowest = point(*angle, sums.lowest);
-        }
-    }
-    SurfaceExtremes { highest, lowest }
+fn extremes(lines: &[(f64, &[Point])], sums: &[Sums]) -> Option<SurfaceExtremes> {
+    let each = lines.iter().zip(sums);
+    SurfaceExtremes::over(each.map(|((angle, _), sums)| (*angle, &sums.extremes)))
 }
 
 /// An uncut part of the area below this comes from rounding of the sums.

@@ -16,7 +16,8 @@ use rayon::prelude::*;
 use turnpath_core::{Result, Scalar};
 
 use super::envelope::{Arc, lower_arc, lower_envelope};
-use super::figures::{PartPoint, SurfaceExtremes};
+use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
+use super::no_height::no_height;
 use super::sections::{Lines, sort};
 use super::strip::{EVERYWHERE, Strip, on_part};
 use crate::closing;
@@ -38,29 +39,6 @@ pub struct FormScope {
     pub covers_centre: bool,
 }
 
-/// The extreme errors of one line, with their signed positions, mm.
-#[derive(Debug, Clone, Copy)]
-struct Extremes {
-    highest: (f64, f64),
-    lowest: (f64, f64),
-}
-
-impl Extremes {
-    const NONE: Self = Self {
-        highest: (f64::NEG_INFINITY, 0.0),
-        lowest: (f64::INFINITY, 0.0),
-    };
-
-    fn include(&mut self, error: f64, s: f64) {
-        if error > self.highest.0 {
-            self.highest = (error, s);
-        }
-        if error < self.lowest.0 {
-            self.lowest = (error, s);
-        }
-    }
-}
-
 /// An end of an arc.
 #[derive(Debug, Clone, Copy)]
 struct ArcEnd {
@@ -72,16 +50,17 @@ struct ArcEnd {
 }
 
 impl Lines {
-    /// The form of the part; `None` if nothing of the part was cut.
+    /// The form of the part; `None` if nothing of the part was cut, or where it is no number.
     ///
     /// # Errors
-    /// When the surface fails.
+    /// When the surface fails or has no height at a place that was cut.
     pub fn form(&self, touch: &FirstTouch, scope: FormScope) -> Result<Option<SurfaceExtremes>> {
         // A nose that no compensator fits to the surface is held to the surface itself.
-        match touch.leaves_seams() && touch.subject().compensates_nose {
+        let form = match touch.leaves_seams() && touch.subject().compensates_nose {
             false => self.over_surface(touch, scope),
             true => self.over_closing(touch, scope),
-        }
+        };
+        Ok(form?.filter(|form| form.pv().is_finite()))
     }
 
     fn over_surface(
@@ -94,20 +73,19 @@ impl Lines {
             let spans = spans(touch, scope, *angle, passes)?;
             strip.set_line_within(subject, *angle, passes, &spans);
             strip.look_up_heights(subject.surface.as_ref())?;
-            let mut found = Extremes::NONE;
-            for sample in strip.samples() {
-                for (s, error) in sample.extremes() {
-                    found.include(error, s);
-                }
-            }
-            Ok((*angle, found))
+            let mut found = LineExtremes::default();
+            strip
+                .samples()
+                .for_each(|sample| found.include_sample(&sample));
+            Ok(found)
         };
         let lines = self.all();
-        let each: Vec<(f64, Extremes)> = lines
+        let each: Vec<LineExtremes> = lines
             .par_iter()
             .map_init(Strip::default, of_line)
             .collect::<Result<_>>()?;
-        Ok(figures(&each))
+        let angles = lines.iter().map(|line| line.0);
+        Ok(SurfaceExtremes::over(angles.zip(&each)))
     }
 
     fn over_closing(
@@ -118,14 +96,14 @@ impl Lines {
         let lines = self.all();
         let of_line =
             |(angle, passes): &(f64, &[Point])| ends_and_errors(touch, scope, *angle, passes);
-        let each: Vec<(Vec<ArcEnd>, Extremes)> =
+        let each: Vec<(Vec<ArcEnd>, LineExtremes)> =
             lines.par_iter().map(of_line).collect::<Result<_>>()?;
         let angles = lines.iter().map(|line| line.0);
-        let errors: Vec<(f64, Extremes)> = angles.zip(each.iter().map(|one| one.1)).collect();
-        let ends = each.into_iter().flat_map(|one| one.0).collect();
-        let Some(form) = figures(&errors) else {
+        let errors = each.iter().map(|(_, errors)| errors);
+        let Some(form) = SurfaceExtremes::over(angles.zip(errors)) else {
             return Ok(None);
         };
+        let ends = each.into_iter().flat_map(|(ends, _)| ends).collect();
         let highest = highest_over_closing(touch, ends, form.highest)?;
         Ok(Some(SurfaceExtremes { highest, ..form }))
     }
@@ -137,7 +115,7 @@ fn ends_and_errors(
     scope: FormScope,
     angle: f64,
     passes: &[Point],
-) -> Result<(Vec<ArcEnd>, Extremes)> {
+) -> Result<(Vec<ArcEnd>, LineExtremes)> {
     let subject = touch.subject();
     let (tool, part) = (&subject.tool, &subject.part);
     let spans = spans(touch, scope, angle, passes)?;
@@ -151,10 +129,14 @@ fn ends_and_errors(
     let (at, x): (Vec<f64>, Vec<f64>) = arcs.iter().map(|arc| (angle, arc.centre.x)).unzip();
     let mut touches = Vec::new();
     touch.find(&at, &x, &mut touches)?;
-    let mut errors = Extremes::NONE;
+    let mut errors = LineExtremes::default();
     for (arc, touch) in arcs.iter().zip(&touches) {
-        if counts(touch.foot) {
-            errors.include(arc.centre.y - touch.z, touch.foot);
+        // What is cut by a nose that touches nothing has no known error.
+        let on_part = on_part(arc, part, &spans).next();
+        match on_part.filter(|_| touch.foot.is_nan()) {
+            Some((from, _)) => errors.include(f64::NAN, from),
+            None if counts(touch.foot) => errors.include(arc.centre.y - touch.z, touch.foot),
+            None => {}
         }
     }
     Ok((ends(touch, angle, &arcs, &spans)?, errors))
@@ -180,7 +162,10 @@ fn ends(touch: &FirstTouch, angle: f64, arcs: &[Arc], spans: &[(f64, f64)]) -> R
     let y: Vec<f64> = ends.iter().map(|end| end.s * sin).collect();
     let mut wanted = vec![f64::NAN; ends.len()];
     subject.surface.heights(&x, &y, &mut wanted)?;
-    for (end, wanted) in ends.iter_mut().zip(wanted) {
+    for (i, (end, wanted)) in ends.iter_mut().zip(wanted).enumerate() {
+        if !wanted.is_finite() {
+            return Err(no_height(x[i], y[i]));
+        }
         end.above = end.z - wanted;
     }
     Ok(ends)
@@ -193,7 +178,6 @@ fn highest_over_closing(
     mut ends: Vec<ArcEnd>,
     known: PartPoint,
 ) -> Result<PartPoint> {
-    ends.retain(|end| end.above.is_finite());
     ends.sort_by(|a, b| b.above.total_cmp(&a.above));
     let mut highest = known;
     for go in ends.chunks(GO * BATCH) {
@@ -209,8 +193,13 @@ fn highest_over_closing(
             })
             .collect::<Result<_>>()?;
         for (end, closing) in go.iter().zip(heights.iter().flatten()) {
-            if end.z - closing > highest.error {
-                highest = point(end.angle, (end.z - closing, end.s));
+            // At the surface's end the closing may be unknown, and is no lower than the surface.
+            let above = match closing.is_finite() {
+                true => end.z - closing,
+                false => end.above,
+            };
+            if above > highest.error {
+                highest = PartPoint::on_line(end.angle, end.s, above);
             }
         }
     }
@@ -264,23 +253,4 @@ fn first_contact<'a>(
         }
     }
     Ok(None)
-}
-
-/// The extremes over all lines; `None` if no line has any.
-fn figures(lines: &[(f64, Extremes)]) -> Option<SurfaceExtremes> {
-    let higher =
-        |a: &&(f64, Extremes), b: &&(f64, Extremes)| a.1.highest.0.total_cmp(&b.1.highest.0);
-    let lower = |a: &&(f64, Extremes), b: &&(f64, Extremes)| a.1.lowest.0.total_cmp(&b.1.lowest.0);
-    let (highest, lowest) = (lines.iter().max_by(higher)?, lines.iter().min_by(lower)?);
-    let form = SurfaceExtremes {
-        highest: point(highest.0, highest.1.highest),
-        lowest: point(lowest.0, lowest.1.lowest),
-    };
-    form.pv().is_finite().then_some(form)
-}
-
-fn point(angle: f64, (error, s): (f64, f64)) -> PartPoint {
-    let (sin, cos) = Scalar::sin_cos(angle);
-    let (x, y) = (s * cos, s * sin);
-    PartPoint { error, x, y }
 }

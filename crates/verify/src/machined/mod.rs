@@ -9,10 +9,12 @@
 
 mod cusps;
 mod envelope;
+mod extremes;
 mod figures;
 mod form;
 mod grid;
 mod map;
+mod no_height;
 mod profile;
 mod sections;
 mod spectrum;
@@ -21,7 +23,8 @@ mod turns;
 
 pub use cusps::HighestCusp;
 pub use envelope::{Arc, lower_envelope};
-pub use figures::{MachinedFigures, PartPoint, SurfaceExtremes};
+pub use extremes::{PartPoint, SurfaceExtremes};
+pub use figures::MachinedFigures;
 pub use form::FormScope;
 pub use grid::{Grid, GridPoint};
 pub use map::{Map, Nose};

@@ -3,6 +3,7 @@
 use turnpath_core::{Gradients, Part, Result, Scalar, SurfaceModel};
 
 use super::envelope::{Arc, lower_arc, lower_envelope};
+use super::no_height::no_height;
 use super::sections::sort;
 use crate::cusp::Point;
 use crate::subject::Subject;
@@ -133,7 +134,8 @@ impl Strip {
             zx: &mut self.zx,
             zy: &mut self.zy,
         };
-        surface.gradient(&self.x, &self.y, out)
+        surface.gradient(&self.x, &self.y, out)?;
+        self.check_heights()
     }
 
     /// Looks up wanted heights alone.
@@ -143,7 +145,17 @@ impl Strip {
             slopes.clear();
             slopes.resize(self.x.len(), 0.0);
         }
-        surface.heights(&self.x, &self.y, &mut self.z)
+        surface.heights(&self.x, &self.y, &mut self.z)?;
+        self.check_heights()
+    }
+
+    /// Refuses a surface that has no height at one of the nodes.
+    fn check_heights(&self) -> Result<()> {
+        let places = self.x.iter().zip(&self.y).zip(&self.z);
+        match places.into_iter().find(|(_, z)| !z.is_finite()) {
+            Some(((x, y), _)) => Err(no_height(*x, *y)),
+            None => Ok(()),
+        }
     }
 
     /// The sample of each piece, from left to right.

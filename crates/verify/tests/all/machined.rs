@@ -3,11 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{AST5, Astigmatic, Ball, Paraboloid, Plane, SPEED, astigmatic_path, touch_on};
+use crate::common::{
+    AST5, Astigmatic, Ball, Paraboloid, Plane, Pocket, SPEED, astigmatic_path, touch_of, touch_on,
+};
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Segment};
-use turnpath_core::{DEG, NM, Scalar};
+use turnpath_core::{DEG, Misfit, NM, Scalar, Tool};
 use turnpath_verify::machined::{
-    Grid, MachinedFigures, Map, Nose, ProfileLine, SpectrumLine, power_spectrum,
+    FormScope, Grid, MachinedFigures, Map, Nose, ProfileLine, SpectrumLine, power_spectrum,
 };
 use turnpath_verify::{FirstTouch, Meter};
 
@@ -36,6 +38,30 @@ fn spiral(feed: f64, rim: f64, beyond: f64, z: impl Fn(f64) -> (f64, f64)) -> Pa
             vc: SPEED,
             vx,
             vz: slope * vx,
+        });
+    }
+    points
+}
+
+/// The path of the contact over z = k ρ² sin 2θ at these angles, with exact rates. `law` gives X and
+/// dX/dθ at θ.
+fn contact_path(
+    surface: Astigmatic,
+    angles: impl Iterator<Item = f64>,
+    law: impl Fn(f64) -> (f64, f64),
+) -> PathBlock {
+    let mut points = PathBlock::default();
+    for theta in angles {
+        let (x, rate) = law(theta);
+        let (sin, cos) = Scalar::sin_cos(2.0 * theta);
+        points.push(ControlPoint {
+            t: theta / SPEED,
+            c: theta,
+            x,
+            z: surface.k * x * x * sin,
+            vc: SPEED,
+            vx: rate * SPEED,
+            vz: surface.k * (2.0 * x * rate * sin + 2.0 * x * x * cos) * SPEED,
         });
     }
     points
@@ -172,22 +198,10 @@ fn a_coarse_path_leaves_the_bound_of_its_fourth_derivative() {
     let touch = touch_on(surface, rim, 1.0, false);
     let step = TAU / steps as f64;
     let turns = rim / feed + 2.0;
-    let mut points = PathBlock::default();
-    for i in 0..=(turns * steps as f64) as usize {
-        let theta = step * (i as f64 + 0.5);
-        let x = feed * (theta / TAU - 1.0);
-        let (sin, cos) = Scalar::sin_cos(2.0 * theta);
-        let rate = feed / TAU;
-        points.push(ControlPoint {
-            t: theta / SPEED,
-            c: theta,
-            x,
-            z: surface.k * x * x * sin,
-            vc: SPEED,
-            vx: rate * SPEED,
-            vz: surface.k * (2.0 * x * rate * sin + 2.0 * x * x * cos) * SPEED,
-        });
-    }
+    let count = (turns * steps as f64) as usize;
+    let angles = (0..=count).map(|i| step * (i as f64 + 0.5));
+    let law = |theta: f64| (feed * (theta / TAU - 1.0), feed / TAU);
+    let points = contact_path(surface, angles, law);
     let found = machined(&touch, &points);
     let bound = 16.0 * surface.k * rim * rim * Scalar::powi(step, 4) / 384.0;
     for point in [found.highest, found.lowest] {
@@ -327,21 +341,8 @@ fn maps_of_contact_paths_agree_with_figures() {
     let surface = Astigmatic { k: 0.02 };
     let touch = touch_on(surface, 2.5, 1.0, false);
     let law = |theta: f64| (2.6 - 0.03 * theta / TAU, -0.03 / TAU);
-    let mut points = PathBlock::default();
-    for i in 0..=88 * 40 {
-        let theta = 9.0 * DEG * f64::from(i);
-        let (x, rate) = law(theta);
-        let (sin, cos) = Scalar::sin_cos(2.0 * theta);
-        points.push(ControlPoint {
-            t: theta / SPEED,
-            c: theta,
-            x,
-            z: surface.k * x * x * sin,
-            vc: SPEED,
-            vx: rate * SPEED,
-            vz: surface.k * (2.0 * x * rate * sin + 2.0 * x * x * cos) * SPEED,
-        });
-    }
+    let angles = (0..=88 * 40).map(|i| 9.0 * DEG * f64::from(i));
+    let points = contact_path(surface, angles, law);
     let figures = machined(&touch, &points);
     let grid = Grid::polar(&touch.subject().part, 200, 97);
     let near = map_of(&touch, grid, std::slice::from_ref(&points), 100.0 * NM);
@@ -380,4 +381,59 @@ fn a_profile_has_the_feed_as_its_period() {
     let higher = |a: &&SpectrumLine, b: &&SpectrumLine| a.density.total_cmp(&b.density);
     let top = spectrum.iter().max_by(higher).expect("a line");
     assert!((top.frequency * feed - 1.0).abs() < 0.01, "{top:?}");
+}
+
+/// A pocket as wide as a feed lies on one of the lines. No extreme is measured without it, whatever
+/// the nose, and whether or not seams are left.
+#[test]
+fn a_place_of_the_part_without_a_height_is_an_error_that_names_it() {
+    let (rim, feed) = (2.0, 0.05);
+    // The first line of the fan through the axis: 0.37 of a section of 736.
+    let (sin, cos) = Scalar::sin_cos(0.37 * TAU / 736.0);
+    let pocket = |radius| Pocket {
+        x: 1.2 * cos,
+        y: 1.2 * sin,
+        radius,
+    };
+    let measured = |radius, misfit, compensates: bool| {
+        let tool = Tool {
+            nose_radius: 1.0,
+            included_angle: None,
+            clearance_angle: None,
+            misfit,
+        };
+        let touch = touch_of(pocket(radius), rim, tool, compensates);
+        let height = if compensates { 1.0 } else { 0.0 };
+        let path = spiral(feed, rim, 2.0, |_| (height, 0.0));
+        let mut meter = Meter::new(touch.clone()).with_form(Some(FormScope {
+            covers_part: true,
+            covers_centre: true,
+        }));
+        meter
+            .append(&Meter::measure(&touch, &path).expect("figures"))
+            .expect("figures");
+        let pv = meter.form().map(|form| form.map(|form| form.pv()));
+        [
+            pv,
+            meter.machined().map(|found| found.map(|found| found.pv())),
+        ]
+    };
+    let cases = [
+        (Misfit::Refuse, true),
+        (Misfit::Refuse, false),
+        (Misfit::CutWhatFits, true),
+    ];
+    for (misfit, compensates) in cases {
+        for found in measured(0.0, misfit, compensates) {
+            let scallop = feed * feed / 8.0;
+            let pv = found.expect("a height everywhere").expect("a cut");
+            assert!((pv / scallop - 1.0).abs() < 0.02, "{pv:e}");
+        }
+        for found in measured(0.5 * feed, misfit, compensates) {
+            let message = found.expect_err("a pocket").to_string();
+            // The first of the places on the line that lie in the pocket.
+            assert!(message.contains("at x = 1.1"), "{message}");
+            assert!(message.contains(" mm, y = 0.003"), "{message}");
+        }
+    }
 }

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{AtpgCase, Case, ast_5, ast_50, joints, oap_213, rate_at, words};
-use crate::random::{array, compensator, polynomial, terms};
-use proptest::prelude::{ProptestConfig, any, prop, prop_assert, proptest};
+use crate::random::{array, compensator, one_case_in, polynomial, terms};
+use proptest::prelude::{any, prop, prop_assert, proptest};
 use turnpath_atpg::{AtpgFeed, CubicFit, Residual, explicit_pairs};
 use turnpath_core::{Locus, Params, Radial, RadialRange, SpiralLaw, Strategy, SurfaceModel, UM};
 use turnpath_nose_radius::{Normal, ZDirection};
@@ -239,11 +239,7 @@ fn check_law(case: &Case, law: &SpiralLaw, offset: f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.div_ceil(4),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(one_case_in(4))]
 
     #[test]
     fn on_polynomials_the_law_never_exceeds_the_residual_feed(

@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{AtpgCase, Case, ast_5, ast_50, oap_213};
-use proptest::prelude::{ProptestConfig, proptest};
+use crate::random::one_case_in;
+use proptest::prelude::proptest;
 use turnpath_atpg::AtpgSampler;
 use turnpath_core::{
     CentreSeries, DEG, Locus, NM, NodeList, Nodes, ParamValue, Params, Path, Result, Revolutions,
@@ -389,11 +390,7 @@ fn a_surface_that_needs_endless_nodes_is_an_error() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.div_ceil(4),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(one_case_in(4))]
 
     #[test]
     fn on_arrays_the_tolerance_holds(

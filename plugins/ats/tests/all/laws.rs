@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use crate::common::{Case, ast_5, mla_5};
-use crate::random::{array, compensating, polynomial, terms};
-use proptest::prelude::{ProptestConfig, any, prop, proptest};
+use crate::random::{array, compensating, one_case_in, polynomial, terms};
+use proptest::prelude::{any, prop, proptest};
 use turnpath_atpg::AtpgFeed;
 use turnpath_ats::AtsFeed;
 use turnpath_core::{Direction, ParamValue, Params, Scalar, SpiralLaw, Strategy, Surface, angle};
@@ -322,11 +322,7 @@ fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.div_ceil(4),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(one_case_in(4))]
 
     #[test]
     fn on_polynomials_the_law_is_smooth_covers_the_range_and_holds(

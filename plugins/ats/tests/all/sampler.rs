@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use crate::common::{Case, ast_5, mla_5};
-use crate::random::{array, compensating};
-use proptest::prelude::{ProptestConfig, any, proptest};
+use crate::random::{array, compensating, one_case_in};
+use proptest::prelude::{any, proptest};
 use turnpath_ats::{AtsFeed, AtsSampler};
 use turnpath_core::{
     DEG, NodeList, Params, Path, Revolutions, Sampler, Series, SpiralLaw, Strategy,
@@ -139,11 +139,7 @@ fn a_knot_a_hair_beyond_a_blocks_start_is_where_it_starts() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.div_ceil(4),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(one_case_in(4))]
 
     #[test]
     fn on_arrays_both_axes_keep_their_tolerances(

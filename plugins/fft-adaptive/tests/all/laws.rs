@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{Case, ast_5, mla_5};
-use crate::random::{array, compensating};
-use proptest::prelude::{ProptestConfig, any, prop, prop_assert, proptest};
+use crate::random::{array, compensating, one_case_in};
+use proptest::prelude::{any, prop, prop_assert, proptest};
 use turnpath_core::{Direction, NM, ParamValue, Params, SpiralLaw, Strategy, Surface, angle};
 use turnpath_fft_adaptive::FftAdaptiveFeed;
 use turnpath_nose_radius::{Uncompensated, ZDirection};
@@ -172,11 +172,7 @@ fn a_part_without_surface_or_without_width_is_an_error() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.div_ceil(4),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(one_case_in(4))]
 
     #[test]
     fn on_arrays_the_law_goes_from_end_to_end_and_keeps_the_residual(

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{Case, mla_5};
-use crate::random::{array, compensating};
-use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};
+use crate::random::{array, compensating, one_case_in};
+use proptest::prelude::{any, prop_assert, prop_assert_eq, proptest};
 use turnpath_core::{
     Compensator, DEG, NM, NodeList, ParamValue, Params, Path, Result, Revolutions, Sampler, Scalar,
     SpiralLaw, Strategy, Surface,
@@ -240,11 +240,7 @@ fn the_axis_itself_is_not_an_obstacle() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.div_ceil(4),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(one_case_in(4))]
 
     #[test]
     fn nodes_increase_begin_every_turn_and_do_not_depend_on_blocks(

@@ -100,6 +100,20 @@ impl Surface for Waves {
     }
 }
 
+/// The plane z = 0 with a disc around (x, y) that has no height.
+pub struct Pocket {
+    pub x: f64,
+    pub y: f64,
+    pub radius: f64,
+}
+
+impl Surface for Pocket {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let off = (x - self.x).squared() + (y - self.y).squared();
+        (off - self.radius * self.radius).sqrt() * 0.0
+    }
+}
+
 /// The search for touches of a nose on a surface.
 pub fn touch_on(
     surface: impl Surface + 'static,

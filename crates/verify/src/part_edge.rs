@@ -83,9 +83,16 @@ struct NearPass {
     segments: Vec<([f64; 2], Segment)>,
 }
 
-/// A place at the edge: its angle, how far that lies from the section whose passes count, and the
-/// number of that section.
-type Place = (f64, usize, f64);
+/// An angle of the edge at which a height is measured.
+#[derive(Debug, Clone, Copy)]
+struct EdgeAngle {
+    /// Within the turn, rad.
+    theta: f64,
+    /// The number of the section at the angle or before it, whose passes count.
+    section: usize,
+    /// How far the angle lies behind that section, rad.
+    off: f64,
+}
 
 impl PartEdge {
     /// What the passes of a block leave at one radius, mm.
@@ -139,10 +146,13 @@ impl PartEdge {
 
     /// The largest height over all angles; infinite if nothing was measured.
     pub fn uncut(&self, touch: &FirstTouch) -> Result<UncutHeight> {
-        let own: Vec<Place> = (0..self.sections.len())
-            .map(|section| (angle_of(section as i64), section, 0.0))
-            .collect();
-        let mut heights = self.heights(touch, &own)?;
+        let on_section = |section: usize| EdgeAngle {
+            theta: angle_of(section as i64),
+            section,
+            off: 0.0,
+        };
+        let sections: Vec<EdgeAngle> = (0..self.sections.len()).map(on_section).collect();
+        let mut heights = self.heights(touch, &sections)?;
         heights.sort_by(|a, b| b.height.total_cmp(&a.height));
         let Some(mut largest) = heights.first().copied() else {
             return Ok(UncutHeight {
@@ -166,7 +176,7 @@ impl PartEdge {
         }
         let mut step = step;
         for _ in 0..ROUNDS {
-            for found in self.heights(touch, &places(&angles))? {
+            for found in self.heights(touch, &edge_angles(&angles))? {
                 if found.height > largest.height {
                     largest = found;
                 }
@@ -177,16 +187,15 @@ impl PartEdge {
         Ok(largest)
     }
 
-    /// The height at each place. Between sections, the passes of both sections around it count.
-    fn heights(&self, touch: &FirstTouch, places: &[Place]) -> Result<Vec<UncutHeight>> {
-        let mut theta: Vec<f64> = places.iter().map(|(theta, ..)| *theta).collect();
+    /// The height at each angle. Between sections, the passes of both sections around it count.
+    fn heights(&self, touch: &FirstTouch, angles: &[EdgeAngle]) -> Result<Vec<UncutHeight>> {
+        let mut theta: Vec<f64> = angles.iter().map(|angle| angle.theta).collect();
         let ring = ring(touch, &theta, self.radius)?;
         let tool = touch.subject().tool;
-        let mut found = vec![Least::NOTHING; places.len()];
-        for (place, centre) in self.centres(touch, places)? {
-            found[place].include(centre, &ring[place], &tool);
+        let mut found = vec![Least::NOTHING; angles.len()];
+        for (index, centre) in self.centres(touch, angles)? {
+            found[index].include(centre, &ring[index], &tool);
         }
-        let edge = self.radius;
         let machined = found.iter().zip(&ring).map(|(least, wanted)| {
             let reached = least.lowest.is_finite();
             let z = if reached {
@@ -194,29 +203,34 @@ impl PartEdge {
             } else {
                 wanted.point.y
             };
-            Point::new(edge, z)
+            Point::new(self.radius, z)
         });
         let machined: Vec<Point> = machined.collect();
         let surface = touch.subject().surface.as_ref();
         let (along_normal, _) = residual::heights(surface, &theta, &machined)?;
-        let places = theta.drain(..).zip(ring).zip(found).zip(along_normal);
+        let measured = theta.drain(..).zip(ring).zip(found).zip(along_normal);
         let height = |(((at_theta, wanted), least), exact): (((f64, WantedPoint), Least), f64)| {
             UncutHeight {
                 height: least.height(&wanted, exact),
                 at_theta,
             }
         };
-        Ok(places.map(height).collect())
+        Ok(measured.map(height).collect())
     }
 
-    /// The nose centres of the passes that count at each place, with the number of the place.
-    fn centres(&self, touch: &FirstTouch, places: &[Place]) -> Result<Vec<(usize, Point)>> {
+    /// The nose centres of the passes that count at each angle, with the index of the angle.
+    fn centres(&self, touch: &FirstTouch, angles: &[EdgeAngle]) -> Result<Vec<(usize, Point)>> {
         let (mut of, mut theta, mut x) = (Vec::new(), Vec::new(), Vec::new());
         let ends = self.ends.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        for (index, (at, section, off)) in places.iter().enumerate() {
-            let sides = match *off == 0.0 {
-                true => vec![(*section, 0.0)],
-                false => vec![(*section, *off), ((section + 1) % TURN, off - WIDTH)],
+        for (index, angle) in angles.iter().enumerate() {
+            let EdgeAngle {
+                theta: at,
+                section,
+                off,
+            } = *angle;
+            let sides = match off == 0.0 {
+                true => vec![(section, 0.0)],
+                false => vec![(section, off), ((section + 1) % TURN, off - WIDTH)],
             };
             for (section, off) in sides {
                 let passes = self.sections.get(section).into_iter();
@@ -226,7 +240,7 @@ impl PartEdge {
                     };
                     let turned = match pass.mirrored {
                         true => at + 0.5 * TAU,
-                        false => *at,
+                        false => at,
                     };
                     of.push((index, pass.mirrored));
                     theta.push(turned.rem_euclid(TAU));
@@ -243,14 +257,18 @@ impl PartEdge {
     }
 }
 
-/// The place at each angle: the section before it, and how far it lies behind that.
-fn places(angles: &[f64]) -> Vec<Place> {
-    let place = |angle: &f64| {
+/// The angles of the edge, each with the section before it.
+fn edge_angles(angles: &[f64]) -> Vec<EdgeAngle> {
+    let of = |angle: &f64| {
         let theta = angle.rem_euclid(TAU);
         let section = (theta / WIDTH).floor();
-        (theta, section as usize % TURN, theta - section * WIDTH)
+        EdgeAngle {
+            theta,
+            section: section as usize % TURN,
+            off: theta - section * WIDTH,
+        }
     };
-    angles.iter().map(place).collect()
+    angles.iter().map(of).collect()
 }
 
 impl<P: Clone> LowestPasses<P> {

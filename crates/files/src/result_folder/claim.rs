@@ -12,27 +12,27 @@ use crate::gate;
 use crate::operation::{Operation, perform};
 use crate::registry::Registration;
 
-/// The file that is locked.
-const LOCK: &str = ".turnpath.lock";
-/// How often the lock is tried while other writers make and remove the file and the folder. Each
+/// The file that the system locks for the writer.
+const CLAIM: &str = ".turnpath.lock";
+/// How often the claim is tried while other writers make and remove the file and the folder. Each
 /// try that fails means that another writer has just ended.
 const TRIES: usize = 1000;
 
-/// The lock of a folder, held until this is dropped. On Unix the file goes with the lock; elsewhere
-/// it stays, since a file that is open cannot be told from one of the same name.
+/// The claim of a writer on a folder, held until this is dropped: a lock of the system on a file, so
+/// that it ends with the process. On Unix the file goes with the claim; elsewhere it stays, since a file that is open cannot be told from one of the same name.
 #[derive(Debug)]
-pub struct FolderLock {
+pub struct FolderClaim {
     path: PathBuf,
     registration: Option<Registration>,
-    /// Closing the file releases the lock.
+    /// Closing the file ends the claim.
     _file: File,
 }
 
-impl FolderLock {
-    /// Takes the lock at once or not at all; makes the folder if it is not there.
+impl FolderClaim {
+    /// Claims the folder at once or not at all; makes the folder if it is not there.
     pub fn take(folder: &Path, made: &mut MadeFolders) -> Result<Self, FolderError> {
-        let path = folder.join(LOCK);
-        let failed = |error| FolderError::Lock {
+        let path = folder.join(CLAIM);
+        let failed = |error| FolderError::Claim {
             folder: folder.to_owned(),
             error,
         };
@@ -44,7 +44,7 @@ impl FolderLock {
                 Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                 file => file.map_err(FileError::of(&path))?,
             };
-            match perform(Operation::Lock, &path, || try_lock(&file)) {
+            match perform(Operation::Claim, &path, || try_lock(&file)) {
                 Ok(true) if is_file(&file, &path).map_err(failed)? => {
                     let registration = registered(&path);
                     return Ok(Self {
@@ -53,7 +53,7 @@ impl FolderLock {
                         _file: file,
                     });
                 }
-                // The file was removed by the writer that had the lock.
+                // The file was removed by the writer that had the claim.
                 Ok(true) => {}
                 Ok(false) => break,
                 Err(error) => return Err(failed(error)),
@@ -84,7 +84,7 @@ fn follow_no_link(options: &mut OpenOptions) {
 #[cfg(not(unix))]
 fn follow_no_link(_: &mut OpenOptions) {}
 
-/// False if another has the lock.
+/// False if another has the claim.
 fn try_lock(file: &File) -> io::Result<bool> {
     match file.try_lock() {
         Ok(()) => Ok(true),
@@ -93,7 +93,7 @@ fn try_lock(file: &File) -> io::Result<bool> {
     }
 }
 
-/// Whether this open file is the one of this name. Only who holds the lock removes the file, so it
+/// Whether this open file is the one of this name. Only who has the claim removes the file, so it
 /// stays the one of this name from then on.
 #[cfg(unix)]
 fn is_file(file: &File, path: &Path) -> io::Result<bool> {
@@ -114,7 +114,7 @@ fn is_file(_: &File, _: &Path) -> io::Result<bool> {
 #[cfg(unix)]
 fn registered(path: &Path) -> Option<Registration> {
     use crate::registry::DraftKind;
-    Some(Registration::new(DraftKind::Lock, path))
+    Some(Registration::new(DraftKind::Claim, path))
 }
 
 #[cfg(not(unix))]
@@ -122,8 +122,8 @@ fn registered(_: &Path) -> Option<Registration> {
     None
 }
 
-impl Drop for FolderLock {
-    /// The file goes while the lock is held. Its registration ends first, since another writer may
+impl Drop for FolderClaim {
+    /// The file goes while the claim is held. Its registration ends first, since another writer may
     /// have a file of this name as soon as this one is gone; a signal waits meanwhile.
     fn drop(&mut self) {
         let _gate = gate::enter_if_free();

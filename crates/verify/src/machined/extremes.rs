@@ -1,0 +1,152 @@
+//! The highest and the lowest point of a machined surface.
+
+use turnpath_core::Scalar;
+
+use super::strip::Sample;
+
+/// A point of the part and the surface error there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartPoint {
+    /// Machined − wanted along z, mm.
+    pub error: f64,
+    /// x on the part, mm.
+    pub x: f64,
+    /// y on the part, mm.
+    pub y: f64,
+}
+
+impl PartPoint {
+    /// The point at signed position `s`, mm, on the line at `angle`, rad.
+    pub(super) fn on_line(angle: f64, s: f64, error: f64) -> Self {
+        let (sin, cos) = Scalar::sin_cos(angle);
+        let (x, y) = (s * cos, s * sin);
+        Self { error, x, y }
+    }
+}
+
+/// The extremes of a machined surface. Where its height is no number they are infinite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceExtremes {
+    /// The point where most material is left.
+    pub highest: PartPoint,
+    /// The point where most material is missing or least is left.
+    pub lowest: PartPoint,
+}
+
+impl SurfaceExtremes {
+    /// Peak to valley, mm.
+    pub fn pv(&self) -> f64 {
+        self.highest.error - self.lowest.error
+    }
+
+    /// The extremes over lines, each given with its angle, rad; `None` if no line has any.
+    pub(super) fn over<'a>(lines: impl Iterator<Item = (f64, &'a LineExtremes)>) -> Option<Self> {
+        let mut over: Option<Self> = None;
+        for (angle, line) in lines {
+            let Some([highest, lowest]) = line.0 else {
+                continue;
+            };
+            let at = |(error, s): (f64, f64)| PartPoint::on_line(angle, s, error);
+            let found = over.get_or_insert(Self {
+                highest: at(highest),
+                lowest: at(lowest),
+            });
+            if highest.0 > found.highest.error {
+                found.highest = at(highest);
+            }
+            if lowest.0 < found.lowest.error {
+                found.lowest = at(lowest);
+            }
+        }
+        over
+    }
+}
+
+/// The highest and the lowest error of one line, mm, each with its signed position, mm.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct LineExtremes(Option<[(f64, f64); 2]>);
+
+impl LineExtremes {
+    /// Includes the error at a signed position, both in mm. An error that is no number counts as
+    /// infinite both ways: nothing is known about the surface there, so it holds no tolerance.
+    pub fn include(&mut self, error: f64, s: f64) {
+        let (above, below) = match error.is_nan() {
+            true => (f64::INFINITY, f64::NEG_INFINITY),
+            false => (error, error),
+        };
+        let [highest, lowest] = self.0.get_or_insert([(above, s), (below, s)]);
+        if above > highest.0 {
+            *highest = (above, s);
+        }
+        if below < lowest.0 {
+            *lowest = (below, s);
+        }
+    }
+
+    /// Includes a piece of the machined profile. Its extremes may be numbers where the error at a node
+    /// is none.
+    pub fn include_sample(&mut self, sample: &Sample) {
+        let nodes = sample.s.iter().zip(&sample.error);
+        for (s, error) in nodes.filter(|(_, error)| error.is_nan()) {
+            self.include(*error, *s);
+        }
+        for (s, error) in sample.extremes() {
+            self.include(error, s);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+
+    fn line(errors: &[(f64, f64)]) -> LineExtremes {
+        let mut line = LineExtremes::default();
+        errors
+            .iter()
+            .for_each(|(error, s)| line.include(*error, *s));
+        line
+    }
+
+    fn over(lines: &[LineExtremes]) -> Option<SurfaceExtremes> {
+        SurfaceExtremes::over([0.0, FRAC_PI_2].into_iter().zip(lines))
+    }
+
+    #[test]
+    fn the_extremes_are_those_of_all_lines_that_have_any() {
+        let lines = [line(&[(2.0, 1.0), (-1.0, 3.0)]), line(&[(5.0, -4.0)])];
+        let found = over(&lines).unwrap();
+        assert_eq!((found.highest.error, found.lowest.error), (5.0, -1.0));
+        assert_eq!((found.highest.y, found.lowest.x), (-4.0, 3.0));
+        let alone = over(&[line(&[]), line(&[(7.0, 2.0)])]).unwrap();
+        assert_eq!((alone.pv(), alone.lowest.y), (0.0, 2.0));
+        assert_eq!(over(&[line(&[]), line(&[])]), None);
+    }
+
+    #[test]
+    fn an_error_that_is_no_number_is_infinite_at_its_place() {
+        let lines = [line(&[(2.0, 1.0)]), line(&[(1.0, 1.0), (f64::NAN, -2.5)])];
+        let found = over(&lines).unwrap();
+        assert_eq!(found.pv(), f64::INFINITY);
+        assert_eq!((found.highest.y, found.lowest.y), (-2.5, -2.5));
+    }
+
+    /// An inner node does not reach the ends of a piece, nor the level places of its cubic.
+    #[test]
+    fn no_node_of_a_piece_is_left_out() {
+        for node in 0..4 {
+            let mut sample = Sample {
+                s: [1.0, 2.0, 3.0, 4.0],
+                error: [0.5; 4],
+                slope: [0.0; 4],
+                weight: [0.0; 4],
+            };
+            sample.error[node] = f64::NAN;
+            let mut line = LineExtremes::default();
+            line.include_sample(&sample);
+            assert_eq!(over(&[line]).unwrap().pv(), f64::INFINITY);
+        }
+    }
+}
