@@ -10,6 +10,7 @@ const BUILT_INS: [(&str, &[&str]); 6] = [
         &[
             "astigmatic",
             "conic",
+            "grid-sag",
             "off-axis-paraboloid",
             "sinusoidal-array",
             "toric",

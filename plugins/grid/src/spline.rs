@@ -35,6 +35,7 @@ pub struct Local {
 impl Spline {
     /// The spline through heights without holes. `first` is the place of the first height and
     /// `pitch` the distance of neighbours, mm.
+    #[cfg(test)]
     pub fn through(heights: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
         Self::of(coefficients(heights), first, pitch)
     }
