@@ -1,23 +1,18 @@
-//! The speed of a map beside that of a conic: `cargo bench -p turnpath-grid`. Items are points, curves
-//! or positions. `docs/maps.md` has the results.
+//! The speed of a map beside that of a conic: `cargo bench -p turnpath-grid`. Items are points or curves.
+//! `docs/maps.md` has the results.
 
 use std::hint::black_box;
 use std::sync::Arc;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use turnpath_core::{
-    GradientSeries, Gradients, Misfit, Params, Part, Series, Strategy, SurfaceModel, Tool,
-};
+use turnpath_core::{GradientSeries, Gradients, Params, Series, Strategy, SurfaceModel};
 use turnpath_grid::GridSag;
 use turnpath_maps::Map;
 use turnpath_surfaces::Conic;
-use turnpath_verify::{FirstTouch, Subject};
 
 /// Points of a batch.
 const POINTS: usize = 4096;
-/// Points along a side of the map: its coefficients take 9 MB, more than a core's own cache.
-const SIDE: usize = 1024;
 /// The radius of the conic, mm.
 const RADIUS: f64 = 50.0;
 /// The radius of the part, mm.
@@ -30,10 +25,12 @@ fn main() {
 #[derive(Debug, Clone, Copy)]
 enum Which {
     Conic,
-    Grid,
+    /// Points along a side of the map. The coefficients of 256² take 0.7 MB, those of 1024² take 9 MB,
+    /// which is more than a core's own cache.
+    Grid(usize),
 }
 
-const BOTH: [Which; 2] = [Which::Conic, Which::Grid];
+const ALL: [Which; 3] = [Which::Conic, Which::Grid(256), Which::Grid(1024)];
 
 fn surface(which: Which) -> Arc<dyn SurfaceModel> {
     let params = Params::new().with("radius", RADIUS).with("conic", 0.0);
@@ -42,15 +39,15 @@ fn surface(which: Which) -> Arc<dyn SurfaceModel> {
     };
     match which {
         Which::Conic => Arc::new(conic),
-        Which::Grid => {
+        Which::Grid(count) => {
             let side = 2.4 * APERTURE;
-            let pitch = side / (SIDE - 1) as f64;
+            let pitch = side / (count - 1) as f64;
             let place = |k: usize| pitch * k as f64 - 0.5 * side;
-            let x: Vec<f64> = (0..SIDE * SIDE).map(|k| place(k % SIDE)).collect();
-            let y: Vec<f64> = (0..SIDE * SIDE).map(|k| place(k / SIDE)).collect();
+            let x: Vec<f64> = (0..count * count).map(|k| place(k % count)).collect();
+            let y: Vec<f64> = (0..count * count).map(|k| place(k / count)).collect();
             let mut z = vec![0.0; x.len()];
             let heights = SurfaceModel::heights(&conic, &x, &y, &mut z);
-            let map = heights.map(|()| Map::new(SIDE, SIDE, pitch, pitch, z));
+            let map = heights.map(|()| Map::new(count, count, pitch, pitch, z));
             match map.map(|map| map.map(|map| GridSag::of(map, None))) {
                 Ok(Ok(Ok(grid))) => Arc::new(grid),
                 _ => panic!("the map of a conic is a map"),
@@ -76,7 +73,7 @@ fn curves() -> (Vec<Series>, Vec<Series>) {
     (x.iter().map(curve).collect(), y.iter().map(curve).collect())
 }
 
-#[divan::bench(args = BOTH)]
+#[divan::bench(args = ALL)]
 fn value(bencher: Bencher<'_, '_>, which: Which) {
     let (surface, (x, y)) = (surface(which), points());
     let mut z = vec![0.0; POINTS];
@@ -85,7 +82,7 @@ fn value(bencher: Bencher<'_, '_>, which: Which) {
         .bench_local(|| surface.heights(black_box(&x), &y, &mut z));
 }
 
-#[divan::bench(args = BOTH)]
+#[divan::bench(args = ALL)]
 fn gradient(bencher: Bencher<'_, '_>, which: Which) {
     let (surface, (x, y)) = (surface(which), points());
     let [mut z, mut zx, mut zy] = [0; 3].map(|_| vec![0.0; POINTS]);
@@ -99,7 +96,7 @@ fn gradient(bencher: Bencher<'_, '_>, which: Which) {
     });
 }
 
-#[divan::bench(args = BOTH)]
+#[divan::bench(args = ALL)]
 fn series(bencher: Bencher<'_, '_>, which: Which) {
     let (surface, (x, y)) = (surface(which), curves());
     let [mut z, mut zx, mut zy] = [0; 3].map(|_| vec![[0.0; 5]; POINTS]);
@@ -111,33 +108,4 @@ fn series(bencher: Bencher<'_, '_>, which: Which) {
         };
         surface.series(black_box(&x), &y, out)
     });
-}
-
-#[divan::bench(args = BOTH)]
-fn first_touch(bencher: Bencher<'_, '_>, which: Which) {
-    let subject = Subject {
-        surface: surface(which),
-        part: Part {
-            aperture_radius: APERTURE,
-            inner_radius: 0.0,
-        },
-        tool: Tool {
-            nose_radius: 1.0,
-            included_angle: None,
-            clearance_angle: None,
-            misfit: Misfit::Refuse,
-        },
-        compensates_nose: true,
-    };
-    let Ok(touch) = FirstTouch::new(subject) else {
-        panic!("a nose of 1 mm fits")
-    };
-    let theta: Vec<f64> = (0..POINTS).map(|i| 0.001 * i as f64).collect();
-    let x: Vec<f64> = (0..POINTS)
-        .map(|i| 0.9 * APERTURE * i as f64 / POINTS as f64)
-        .collect();
-    let mut found = Vec::new();
-    bencher
-        .counter(ItemsCount::new(POINTS))
-        .bench_local(|| touch.find(black_box(&theta), black_box(&x), &mut found));
 }

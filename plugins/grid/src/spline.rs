@@ -7,7 +7,10 @@ use crate::sheet::Sheet;
 use crate::trend::Trend;
 
 /// The 36 coefficients that count at a place, row by row.
-pub type Patch = [Weights; SPLINES];
+type Patch = [Weights; SPLINES];
+
+/// The same where they lie.
+pub type Lines<'a> = [&'a Weights; SPLINES];
 
 /// A tensor B-spline of degree 5 over knots at all points of a regular grid. It has a value
 /// everywhere and is C⁴ everywhere.
@@ -21,15 +24,6 @@ pub struct Spline {
     pub per: [f64; 2],
     /// Number of the column (row) of coefficients at x = 0 (y = 0).
     origin: [f64; 2],
-}
-
-/// Where a place lies in its cell, and the coefficients there.
-pub struct Local {
-    /// From 0 to 1 along x.
-    pub s: f64,
-    /// From 0 to 1 along y.
-    pub t: f64,
-    pub patch: Patch,
 }
 
 impl Spline {
@@ -65,45 +59,43 @@ impl Spline {
         }
     }
 
-    /// The cell of a place, and its coefficients. `None` where the place is no number.
+    /// What `answer` makes of the cell of a place: where the place lies in it, 0 to 1 along x and y,
+    /// and the coefficients that count there. `None` where the place is no number.
     #[inline(always)]
-    pub fn local(&self, x: f64, y: f64) -> Option<Local> {
+    pub fn at<R>(&self, x: f64, y: f64, answer: impl Fn(f64, f64, &Lines<'_>) -> R) -> Option<R> {
         let (u, v) = (
             x * self.per[0] + self.origin[0],
             y * self.per[1] + self.origin[1],
         );
         let (column, row) = (whole(u), whole(v));
         let (s, t) = (u - column as f64, v - row as f64);
+        if let Some(lines) = self.lines(column, row) {
+            return Some(answer(s, t, &lines));
+        }
         if !(s.is_finite() && t.is_finite()) {
             return None;
         }
-        let patch = self.patch(column, row);
-        Some(Local { s, t, patch })
+        let patch = self.patch_outside(column, row);
+        Some(answer(s, t, &patch.each_ref()))
     }
 
+    /// The coefficients of a cell, where the spline has them all.
     #[inline(always)]
-    fn patch(&self, column: i64, row: i64) -> Patch {
-        let before = BEFORE as i64;
-        let inside = |at: i64, count: usize| {
-            let first = usize::try_from(at.wrapping_sub(before)).ok()?;
-            (first < count.wrapping_sub(SPLINES - 1)).then_some(first)
-        };
+    fn lines(&self, column: i64, row: i64) -> Option<Lines<'_>> {
         let Sheet {
             columns,
             rows,
             values,
         } = &self.coefficients;
-        let (Some(left), Some(top)) = (inside(column, *columns), inside(row, *rows)) else {
-            return self.patch_outside(column, row);
-        };
-        let mut patch = [[0.0; SPLINES]; SPLINES];
-        for (line, number) in patch.iter_mut().zip(top..) {
-            let start = number * columns + left;
-            if let Some(six) = values.get(start..).and_then(|rest| rest.first_chunk()) {
-                *line = *six;
-            }
+        // A number below zero becomes a very large one.
+        let left = column.wrapping_sub(BEFORE as i64) as usize;
+        let top = row.wrapping_sub(BEFORE as i64) as usize;
+        if left >= columns.wrapping_sub(SPLINES - 1) || top >= rows.wrapping_sub(SPLINES - 1) {
+            return None;
         }
-        patch
+        let block = values.get(top * columns + left..)?;
+        let line = |number: usize| block.get(number * columns..)?.first_chunk();
+        Some([line(0)?, line(1)?, line(2)?, line(3)?, line(4)?, line(5)?])
     }
 
     #[cold]
@@ -135,27 +127,27 @@ impl Spline {
     /// The height at a place.
     #[inline(always)]
     pub fn height(&self, x: f64, y: f64) -> f64 {
-        let Some(Local { s, t, patch }) = self.local(x, y) else {
-            return f64::NAN;
-        };
-        let lines = combine(&patch, &basis::derivative::<0>(t));
-        dot(&lines, &basis::derivative::<0>(s))
+        let height = self.at(x, y, |s, t, lines| {
+            let line = combine(lines, &basis::derivative::<0>(t));
+            dot(&line, &basis::derivative::<0>(s))
+        });
+        height.unwrap_or(f64::NAN)
     }
 
     /// The height and both slopes at a place.
     #[inline(always)]
     pub fn gradient(&self, x: f64, y: f64) -> [f64; 3] {
-        let Some(Local { s, t, patch }) = self.local(x, y) else {
-            return [f64::NAN; 3];
-        };
-        let lines = combine(&patch, &basis::derivative::<0>(t));
-        let rates = combine(&patch, &basis::derivative::<1>(t));
-        let weights = basis::derivative::<0>(s);
-        [
-            dot(&lines, &weights),
-            dot(&lines, &basis::derivative::<1>(s)) * self.per[0],
-            dot(&rates, &weights) * self.per[1],
-        ]
+        let gradient = self.at(x, y, |s, t, lines| {
+            let line = combine(lines, &basis::derivative::<0>(t));
+            let rates = combine(lines, &basis::derivative::<1>(t));
+            let weights = basis::derivative::<0>(s);
+            [
+                dot(&line, &weights),
+                dot(&line, &basis::derivative::<1>(s)) * self.per[0],
+                dot(&rates, &weights) * self.per[1],
+            ]
+        });
+        gradient.unwrap_or([f64::NAN; 3])
     }
 }
 
@@ -179,12 +171,12 @@ fn straight(at: f64, count: usize) -> [(usize, f64); 2] {
     }
 }
 
-/// The sum of the patch's rows, weighted.
+/// The sum of the rows, weighted.
 #[inline(always)]
-pub fn combine(patch: &Patch, weights: &Weights) -> Weights {
-    let mut sum = [0.0; SPLINES];
-    for (line, weight) in patch.iter().zip(weights) {
-        for (sum, value) in sum.iter_mut().zip(line) {
+pub fn combine(lines: &Lines<'_>, weights: &Weights) -> Weights {
+    let mut sum = lines[0].map(|value| weights[0] * value);
+    for (line, weight) in lines.iter().zip(weights).skip(1) {
+        for (sum, value) in sum.iter_mut().zip(*line) {
             *sum += weight * value;
         }
     }
@@ -244,7 +236,11 @@ mod tests {
             ]
         };
         for column in -30..60 {
-            let patches = [column - 1, column].map(|column| spline.patch(column, 3));
+            let patch = |column: i64| match spline.lines(column, 3) {
+                Some(lines) => lines.map(|line| *line),
+                None => spline.patch_outside(column, 3),
+            };
+            let patches = [column - 1, column].map(patch);
             for down in 0..SPLINES {
                 for order in 0..5 {
                     let before = dot(&patches[0][down], &orders(1.0)[order]);

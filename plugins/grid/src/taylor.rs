@@ -3,7 +3,7 @@
 use turnpath_plugin::prelude::Series;
 
 use crate::basis::{self, SPLINES};
-use crate::spline::{Local, Spline, combine, dot};
+use crate::spline::{Lines, Spline, combine, dot};
 
 /// The highest order of a series.
 const ORDER: usize = 4;
@@ -15,10 +15,9 @@ type Terms = [[f64; SPLINES]; SPLINES];
 impl Spline {
     /// The series of the height and of both slopes along the curve (x(t), y(t)).
     pub fn series(&self, x: &Series, y: &Series) -> [Series; 3] {
-        let Some(local) = self.local(x[0], y[0]) else {
+        let Some(terms) = self.at(x[0], y[0], terms) else {
             return [[f64::NAN; ORDER + 1]; 3];
         };
-        let terms = terms(&local);
         let [over_x, over_y] = self.per;
         let (powers_x, powers_y) = (powers(x, over_x), powers(y, over_y));
         let mut sums = [[0.0; ORDER + 1]; 3];
@@ -42,10 +41,9 @@ impl Spline {
 
     /// The series of the height along the curve (x(t), y(t)).
     pub fn height_series(&self, x: &Series, y: &Series) -> Series {
-        let Some(local) = self.local(x[0], y[0]) else {
+        let Some(terms) = self.at(x[0], y[0], terms) else {
             return [f64::NAN; ORDER + 1];
         };
-        let terms = terms(&local);
         let (powers_x, powers_y) = (powers(x, self.per[0]), powers(y, self.per[1]));
         let mut sum = [0.0; ORDER + 1];
         for (b, of_y) in powers_y.iter().enumerate() {
@@ -60,13 +58,11 @@ impl Spline {
     }
 }
 
-fn terms(local: &Local) -> Terms {
-    let Local { s, t, patch } = local;
-    let along_x = orders(*s);
-    let along_y = orders(*t);
+fn terms(s: f64, t: f64, lines: &Lines<'_>) -> Terms {
+    let (along_x, along_y) = (orders(s), orders(t));
     let mut terms = [[0.0; SPLINES]; SPLINES];
     for (b, (terms, weights)) in terms.iter_mut().zip(&along_y).enumerate() {
-        let line = combine(patch, weights);
+        let line = combine(lines, weights);
         for (term, weights) in terms.iter_mut().zip(&along_x).take(SPLINES - b) {
             *term = dot(&line, weights);
         }
