@@ -52,7 +52,7 @@ fn a_paraboloid_stays_and_noise_goes() {
         2e-6 * 12_f64.sqrt() * (n - n.floor() - 0.5)
     };
     let surface = GridSag::of(map(|x, y| paraboloid(x, y) + noise(x, y)), Some(0.6)).unwrap();
-    let (mut square, mut count) = (0.0, 0.0);
+    let (mut square, mut count) = (0.0_f64, 0.0);
     for i in -45..=45 {
         for j in -45..=45 {
             let (x, y) = (0.1 * f64::from(i) + 0.013, 0.1 * f64::from(j) - 0.021);
@@ -61,7 +61,7 @@ fn a_paraboloid_stays_and_noise_goes() {
             count += 1.0;
         }
     }
-    let rms = (square / count as f64).sqrt();
+    let rms = (square / count).sqrt();
     // A Gaussian of cutoff L over a pitch p leaves √(0.66)·p/L of white noise: 0.14 nm here.
     assert!(rms < 0.3e-6, "{rms}");
 }
