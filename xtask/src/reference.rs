@@ -38,6 +38,7 @@ const MAPS: &str = "maps";
 const PLAYBACK: &str = "playback";
 const PMAC: &str = "pmac";
 const RIMS: &str = "rims";
+const SPOKES: &str = "spokes";
 const REPRODUCTION: &str = "reproduction";
 /// The tables of docs/recipe.md.
 const RECIPE: &str = "recipe";
@@ -57,6 +58,7 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             REPRODUCTION,
             RECIPE,
             SPOILS,
+            SPOKES,
         ])
         .collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
@@ -72,7 +74,7 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             with_packages(figures.packages, || figures.make())
         }));
     }
-    let steps_of_the_program: [(&str, Make); 8] = [
+    let steps_of_the_program: [(&str, Make); 9] = [
         (GRIDS, || {
             with_packages(&["mpmath", "numpy", "prysm", "scipy"], grids)
         }),
@@ -83,6 +85,7 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
         (REPRODUCTION, reproduction),
         (RECIPE, recipe),
         (SPOILS, spoils),
+        (SPOKES, || with_packages(&["numpy"], spokes)),
     ];
     for (name, make) in steps_of_the_program {
         if chosen(name) {
@@ -163,6 +166,14 @@ fn maps() -> Outcome {
 fn rims() -> Outcome {
     match program() {
         Ok(program) => run(script("tests/reference/rims/rims.py", &[&program])),
+        Err(outcome) => outcome,
+    }
+}
+
+/// What spokes.py measures on paths whose steps wander and do not.
+fn spokes() -> Outcome {
+    match program() {
+        Ok(program) => run(script("tests/reference/spokes/spokes.py", &[&program])),
         Err(outcome) => outcome,
     }
 }
