@@ -22,7 +22,7 @@ use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
-use crate::remarks::{PathSubject, remarks};
+use crate::remarks::PathSubject;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -212,7 +212,7 @@ impl Job {
             revolutions: outcome.revolutions,
             cutting_time: outcome.cutting_time,
             feed_cap: figures::feed_cap(outcome.feed_cap.as_ref()),
-            remarks: remarks(recipe, &subject),
+            remarks: self.remarks(&subject)?,
             within: path.verdict(None),
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),

@@ -10,6 +10,7 @@
 
 pub mod csv;
 pub mod library;
+pub mod map;
 pub mod pmac;
 mod points;
 pub mod recipe;
@@ -28,7 +29,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 6] = [
+pub const TARGETS: [Target; 7] = [
     Target {
         name: "recipe",
         read: recipe::read,
@@ -53,6 +54,11 @@ pub const TARGETS: [Target; 6] = [
         name: "library",
         read: library::read,
         words: library::WORDS,
+    },
+    Target {
+        name: "map",
+        read: map::read,
+        words: map::WORDS,
     },
     Target {
         name: "report",
