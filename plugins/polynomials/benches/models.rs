@@ -1,5 +1,5 @@
 //! What a point costs on each surface model: `cargo bench -p turnpath-polynomials`. Items are points
-//! or curves. `docs/benchmarks.md` has the results.
+//! or curves.
 
 use std::hint::black_box;
 
