@@ -288,7 +288,7 @@ mod tests {
         let point = |i: usize| ControlPoint {
             t: i as f64,
             c: speed * i as f64,
-            vc: speed * (1.0 + if i % 2 == 0 { swing } else { -swing }),
+            vc: speed * (1.0 + if i.is_multiple_of(2) { swing } else { -swing }),
             ..ControlPoint::default()
         };
         for i in turns.start * STEPS..turns.end * STEPS {
