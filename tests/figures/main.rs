@@ -20,4 +20,5 @@ mod servo;
 mod spindle;
 mod spoiled_paths;
 mod spoils;
+mod surface_models;
 mod whole_part;

@@ -204,6 +204,7 @@ fn the_summary_names_file_and_hash_of_every_plugin_that_was_loaded() {
         "turnpath-atpg",
         "turnpath-ats",
         "turnpath-fft-adaptive",
+        "turnpath-polynomials",
         "turnpath-spindle",
     ];
     let used = BUILT_INS.into_iter().filter(|name| !idle.contains(name));

@@ -10,13 +10,14 @@ use tempfile::TempDir;
 use super::fixtures::file_name;
 
 /// The packages of the built-in plugins.
-pub const BUILT_INS: [&str; 9] = [
+pub const BUILT_INS: [&str; 10] = [
     "turnpath-atpg",
     "turnpath-ats",
     "turnpath-constant",
     "turnpath-fft-adaptive",
     "turnpath-integrated",
     "turnpath-nose-radius",
+    "turnpath-polynomials",
     "turnpath-spindle",
     "turnpath-surfaces",
     "turnpath-triangle-rotary",

@@ -16,13 +16,16 @@ struct Figures {
     packages: &'static [&'static str],
 }
 
-const FIGURES: [Figures; 6] = [
+const FIGURES: [Figures; 9] = [
     figures("compensators", &["mpmath"]),
     figures("dropcutter", &["numpy", "opencamlib"]),
     figures("poses", &["mpmath"]),
     figures("series", &["mpmath"]),
     figures("splines", &["numpy", "scipy"]),
     figures("surfaces", &["mpmath"]),
+    figures("surfaces/composites", &["mpmath"]),
+    figures("surfaces/series", &["mpmath"]),
+    figures("surfaces/values", &["numpy", "optiland", "prysm", "scipy"]),
 ];
 
 const fn figures(name: &'static str, packages: &'static [&'static str]) -> Figures {
@@ -54,7 +57,12 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             known.join(", ")
         ));
     }
-    let chosen = |name: &str| names.is_empty() || names.contains(&name);
+    // A folder's name stands for all figures in it.
+    let folder = |name: &str| {
+        name.split_once('/')
+            .is_some_and(|(of, _)| names.contains(&of))
+    };
+    let chosen = |name: &str| names.is_empty() || names.contains(&name) || folder(name);
     let mut steps = Vec::new();
     for figures in FIGURES.iter().filter(|figures| chosen(figures.name)) {
         steps.push(Step::run(figures.name, || {

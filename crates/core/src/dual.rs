@@ -189,6 +189,16 @@ impl<T: Scalar> Scalar for Dual<T> {
     }
 
     #[inline(always)]
+    fn floor(self) -> Self {
+        let zero = T::constant(0.0);
+        Self {
+            value: self.value.floor(),
+            dx: zero,
+            dy: zero,
+        }
+    }
+
+    #[inline(always)]
     fn recip(self) -> Self {
         let value = self.value.recip();
         self.chain(value, -value.squared())

@@ -6,6 +6,7 @@
 
 use nalgebra::Vector2;
 
+use crate::crease;
 use crate::extreme;
 pub use crate::extreme::Extreme;
 use crate::profile::{Profile, profile_at};
@@ -140,14 +141,19 @@ fn larger(first: Extreme, second: Extreme) -> Extreme {
 }
 
 /// Looks for the extremes within `region`: first on a grid, then closer and closer around its
-/// highest points.
+/// highest points. Hollows between the points of the grid, such as the seams of a lens array, are
+/// found by the slopes on both sides.
 ///
 /// # Errors
 /// If the surface has no height somewhere in `region`.
 pub fn check(cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
     let mut measure =
         |theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]| sections(cut, theta, rho, out);
-    extreme::largest(region, &mut measure).map(Interference::from_extremes)
+    let mut found = extreme::largest(region, &mut measure).map(Interference::from_extremes)?;
+    if let Some(sharper) = crease::sharpest(cut, region, found.curvature.value)? {
+        found.curvature = sharper;
+    }
+    Ok(found)
 }
 
 /// The extremes over the given points of contact. There must be at least one point.

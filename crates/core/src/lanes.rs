@@ -92,6 +92,11 @@ impl<const N: usize> Scalar for Lanes<N> {
     }
 
     #[inline(always)]
+    fn floor(self) -> Self {
+        self.map(Scalar::floor)
+    }
+
+    #[inline(always)]
     fn recip(self) -> Self {
         self.map(Scalar::recip)
     }

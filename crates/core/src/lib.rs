@@ -5,6 +5,8 @@
 //! revolutions.
 
 mod compensator;
+mod conicoid;
+mod crease;
 mod cusp;
 mod cut;
 mod dual;
@@ -45,6 +47,7 @@ mod turns;
 mod velocity;
 
 pub use compensator::{CentreSeries, Centres, Compensator, Rates};
+pub use conicoid::Conicoid;
 pub use cut::{Cut, Radial};
 pub use dual::Dual;
 pub use error::{Result, StrategyError};

@@ -71,6 +71,8 @@ pub trait Scalar:
     /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// The largest whole number that is not above the value. Its derivatives are zero.
+    fn floor(self) -> Self;
     /// 1 / self.
     fn recip(self) -> Self;
     /// Square root.
@@ -175,6 +177,10 @@ impl Scalar for f64 {
 
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+
+    fn floor(self) -> Self {
+        libm::floor(self)
     }
 
     fn recip(self) -> Self {

@@ -194,6 +194,13 @@ impl<T: Scalar> Scalar for Taylor<T> {
     }
 
     #[inline(always)]
+    fn floor(self) -> Self {
+        let mut out = [T::constant(0.0); COUNT];
+        out[0] = self.0[0].floor();
+        Self(out)
+    }
+
+    #[inline(always)]
     fn recip(self) -> Self {
         let value = self.0[0].recip();
         let mut out = [value; COUNT];

@@ -189,7 +189,9 @@ fn check(info: &StrategyInfo, plugin: &Arc<Plugin>) -> Result<(), LoadError> {
     }
     for param in info.params {
         match param.kind {
-            ParamKind::Rows(columns) if columns > MOST_COLUMNS => {
+            ParamKind::Rows(columns) | ParamKind::Coefficients(columns, _)
+                if columns > MOST_COLUMNS =>
+            {
                 return Err(LoadError::TooManyColumns {
                     slot,
                     strategy: name,

@@ -62,14 +62,14 @@ pub mod prelude {
     pub use turnpath_core::kind::*;
     pub use turnpath_core::toolpath::SegmentShape;
     pub use turnpath_core::{
-        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Continuation, Cut, DEG,
-        DataFile, Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy, GradientSeries,
-        Gradients, LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM, NodeList, NodeOffset,
-        Nodes, Pace, Param, ParamInfo, Params, Part, Path, Piece, PiecewisePolynomial, Radial,
-        RadialRange, Rates, Result, Revolutions, Sampler, SamplerPlan, Scalar, Series, Setup,
-        SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw, Strategy, StrategyError, Surface,
-        SurfaceModel, Task, Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle,
-        per_radian, quintic,
+        AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Conicoid, Continuation, Cut,
+        DEG, DataFile, Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy,
+        GradientSeries, Gradients, LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM,
+        NodeList, NodeOffset, Nodes, Pace, Param, ParamInfo, Params, Part, Path, Piece,
+        PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler, SamplerPlan,
+        Scalar, Series, Setup, SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw, Strategy,
+        StrategyError, Surface, SurfaceModel, Task, Taylor, Tolerance, Tool, Turn, UM, Velocities,
+        VelocitySolver, angle, per_radian, quintic,
     };
 }
 

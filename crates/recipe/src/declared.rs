@@ -1,7 +1,7 @@
 //! Declarations of parameters and keys as text, for messages, `turnpath explain` and the
 //! documentation.
 
-use turnpath_core::{ParamDefault, ParamInfo, ParamKind};
+use turnpath_core::{ParamDefault, ParamInfo, ParamKind, Quantity};
 
 /// A value as a recipe would write it, from the units used inside (mm, rad, s).
 pub(crate) fn shown(kind: ParamKind, value: f64) -> String {
@@ -27,6 +27,7 @@ pub fn kind(param: &ParamInfo) -> String {
         ParamKind::List(words) => format!("a list of {}", in_quotes(words, ", ")),
         ParamKind::Rows(columns) => format!("a list of rows of {columns} numbers"),
         ParamKind::File => "a file, by its path relative to the recipe".to_owned(),
+        ParamKind::Coefficients(indices, quantity) => coefficients(indices, quantity),
     }
 }
 
@@ -107,9 +108,11 @@ pub(crate) fn usual_text(param: &ParamInfo) -> &'static str {
 pub(crate) fn example(param: &ParamInfo) -> String {
     if !param.example.is_empty() {
         return match param.kind {
-            ParamKind::Number | ParamKind::Count | ParamKind::Flag | ParamKind::Rows(_) => {
-                param.example.to_owned()
-            }
+            ParamKind::Number
+            | ParamKind::Count
+            | ParamKind::Flag
+            | ParamKind::Rows(_)
+            | ParamKind::Coefficients(..) => param.example.to_owned(),
             ParamKind::List(_) => format!("[\"{}\"]", param.example),
             _ => format!("\"{}\"", param.example),
         };
@@ -127,6 +130,7 @@ pub(crate) fn example(param: &ParamInfo) -> String {
         (ParamKind::List(words), _) => format!("[\"{}\"]", words.first().unwrap_or(&"…")),
         (ParamKind::Rows(columns), _) => example_rows(columns),
         (ParamKind::File, _) => "\"data.csv\"".to_owned(),
+        (ParamKind::Coefficients(indices, quantity), _) => example_coefficients(indices, quantity),
         (_, ParamDefault::Number(value)) => written(param.kind, value),
         _ => written(param.kind, example_number(param)),
     }
@@ -144,6 +148,31 @@ fn example_rows(columns: usize) -> String {
         .map(|column| if column == 0 { "2" } else { "0" })
         .collect();
     format!("[[{}]]", row.join(", "))
+}
+
+/// What a table of coefficients is: "a table of lengths, under whole numbers".
+fn coefficients(indices: usize, quantity: Option<Quantity>) -> String {
+    let values = match quantity {
+        Some(Quantity::Length) => "lengths".to_owned(),
+        Some(quantity) => format!("values, each {}", quantity.noun()),
+        None => "numbers".to_owned(),
+    };
+    let keys = match indices {
+        1 => "whole numbers".to_owned(),
+        several => format!("{several} whole numbers each"),
+    };
+    format!("a table of {values}, under {keys}")
+}
+
+fn example_coefficients(indices: usize, quantity: Option<Quantity>) -> String {
+    let key = match indices {
+        1 => "4".to_owned(),
+        several => format!("\"2{}\"", ",0".repeat(several.saturating_sub(1))),
+    };
+    match quantity {
+        Some(quantity) => format!("{{ {key} = \"{}\" }}", quantity.example()),
+        None => format!("{{ {key} = 0.5 }}"),
+    }
 }
 
 /// The usual value of the kind if it is in range, else a larger or smaller value that is.
@@ -204,6 +233,14 @@ mod tests {
         assert_eq!(
             example(Param::choice("form", &["sum", "product"], "")),
             "\"sum\""
+        );
+        assert_eq!(
+            example(Param::coefficients("coefficients", 1, "")),
+            "{ 4 = 0.5 }"
+        );
+        assert_eq!(
+            example(Param::length_coefficients("coefficients", 2, "")),
+            "{ \"2,0\" = \"5 mm\" }"
         );
     }
 }

@@ -2,6 +2,7 @@
 
 use turnpath_core::{ParamDefault, ParamInfo, ParamKind, ParamValue};
 
+use crate::coefficients;
 use crate::declared::{example, range, shown, usual_text};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Node, Value};
@@ -29,6 +30,9 @@ pub(crate) fn key_value(param: &ParamInfo, node: &Node) -> Result<KeyValue, Diag
         }
         ParamKind::List(words) => ParamValue::List(list(key, node, words)?),
         ParamKind::Rows(columns) => ParamValue::Rows(rows(key, node, columns)?),
+        ParamKind::Coefficients(indices, quantity) => {
+            ParamValue::Rows(coefficients::read(param, node, indices, quantity)?)
+        }
         ParamKind::Quantity(_) | ParamKind::ChoiceOr(..) | ParamKind::Number | ParamKind::Count => {
             ParamValue::Number(number(param, node)?)
         }

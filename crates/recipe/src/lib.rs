@@ -47,6 +47,7 @@
 mod ablation;
 mod bind;
 mod choice;
+mod coefficients;
 pub mod declared;
 mod diagnostic;
 mod document;

@@ -93,7 +93,8 @@ fn keys(source: &Arc<Source>, path: &str) -> Vec<(String, Span)> {
 }
 
 fn is_key(text: &str) -> bool {
-    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    // A comma stands between the whole numbers of a coefficient.
+    let bare = |c: char| c.is_ascii_alphanumeric() || "_-,".contains(c);
     !text.is_empty() && text.chars().all(bare)
 }
 

@@ -2,6 +2,8 @@
 
 use turnpath_plugin::prelude::*;
 
+use crate::revolved::revolved;
+
 /// z = R − sqrt((R − a + sqrt(a² − y²))² − x²): the base arc of radius a in the YZ plane, turned
 /// about an axis parallel to Y at the distance R.
 ///
@@ -53,13 +55,7 @@ impl Toric {
 
 impl Surface for Toric {
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
-        let u = self.base_arc(y);
-        let to_axis = -(u * self.curvature) + 1.0;
-        let across = x * self.curvature;
-        let below_root = (to_axis - across) * (to_axis + across);
-        let beyond_axis = to_axis.less(S::constant(0.0));
-        let root = S::select(beyond_axis, S::constant(-1.0), below_root).sqrt();
-        (u * (to_axis + 1.0) + x * across) / (root + 1.0)
+        revolved(self.base_arc(y), x, self.curvature)
     }
 }
 

@@ -7,9 +7,9 @@ use turnpath_units::Quantity;
 
 use super::info::{ParamDefault, ParamInfo, ParamKind};
 use super::kind::{
-    Acceleration, Angle, AngularAcceleration, AngularJerk, Choice, ChoiceOr, Count, Feed, File,
-    Flag, Frequency, Jerk, Kind, Length, List, Number, PerLength, RotationSpeed, Rows, Scale, Text,
-    Time, UnitKind, Velocity,
+    Acceleration, Angle, AngularAcceleration, AngularJerk, Choice, ChoiceOr, Coefficients, Count,
+    Feed, File, Flag, Frequency, Jerk, Kind, Length, List, Number, PerLength, RotationSpeed, Rows,
+    Scale, Text, Time, UnitKind, Velocity,
 };
 use crate::StrategyError;
 
@@ -295,6 +295,23 @@ impl Param<Rows> {
     /// Rows of numbers, `columns` in each.
     pub const fn rows(name: &'static str, columns: usize, help: &'static str) -> Self {
         Self::new(name, ParamKind::Rows(columns), help)
+    }
+}
+
+impl Param<Coefficients> {
+    /// Coefficients that are pure numbers, each under `indices` whole numbers.
+    pub const fn coefficients(name: &'static str, indices: usize, help: &'static str) -> Self {
+        Self::new(name, ParamKind::Coefficients(indices, None), help)
+    }
+
+    /// Coefficients that are lengths, inside in mm, each under `indices` whole numbers.
+    pub const fn length_coefficients(
+        name: &'static str,
+        indices: usize,
+        help: &'static str,
+    ) -> Self {
+        let kind = ParamKind::Coefficients(indices, Some(Length::QUANTITY));
+        Self::new(name, kind, help)
     }
 }
 

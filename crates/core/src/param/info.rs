@@ -30,6 +30,9 @@ pub enum ParamKind {
     Rows(usize),
     /// A file, by its path relative to the recipe: `"measured.csv"`.
     File,
+    /// A table of coefficients. Each has this many whole numbers as its key, and is a quantity, or a
+    /// pure number without one: `{ 4 = "0.2 um", 11 = "-30 nm" }`, `{ "2,0" = "1 um" }`.
+    Coefficients(usize, Option<Quantity>),
 }
 
 impl ParamKind {

@@ -12,6 +12,7 @@
 //! | [`List`] | `&[String]` |
 //! | [`Rows`] | `&[Vec<f64>]`, each row with the declared number of columns |
 //! | [`File`] | [`&DataFile`](DataFile) |
+//! | [`Coefficients`] | `&[Vec<f64>]`, each row with its whole numbers and then the value |
 //! | `Option` of a kind | `Option` of that type; `None` if the recipe leaves the parameter out |
 
 use std::marker::PhantomData;
@@ -204,6 +205,19 @@ impl Kind for Rows {
             Some(ParamValue::Rows(rows)) => Some(rows),
             _ => None,
         }
+    }
+}
+
+/// A table of coefficients under whole numbers, `{ 4 = "0.2 um", 11 = "-30 nm" }`. Several whole
+/// numbers have commas between them, `{ "2,0" = "1 um" }`. No two coefficients have the same ones.
+#[derive(Debug)]
+pub enum Coefficients {}
+
+impl Kind for Coefficients {
+    type Value<'a> = &'a [Vec<f64>];
+
+    fn read(value: Option<&ParamValue>) -> Option<&[Vec<f64>]> {
+        Rows::read(value)
     }
 }
 

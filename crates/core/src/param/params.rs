@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use crate::DataFile;
     use crate::kind::{
-        Choice, ChoiceOr, Count, File, Flag, Length, List, Rows, Text, WordOrNumber,
+        Choice, ChoiceOr, Coefficients, Count, File, Flag, Length, List, Rows, Text, WordOrNumber,
     };
 
     const LENGTH: Param<Length> = Param::length("length", "");
@@ -83,6 +83,7 @@ mod tests {
     const LIST: Param<List> = Param::list("list", &[], "");
     const ROWS: Param<Rows> = Param::rows("rows", 2, "");
     const FILE: Param<File> = Param::file("file", "");
+    const COEFFICIENTS: Param<Coefficients> = Param::length_coefficients("coefficients", 1, "");
 
     #[test]
     fn every_kind_has_its_type() {
@@ -104,6 +105,8 @@ mod tests {
         let rows: &[Vec<f64>] = params.get(ROWS);
         assert_eq!((length, count, flag, word), (0.5, 36, true, "two"));
         assert_eq!(rows, [[1.0, 2.0]]);
+        params.set("coefficients", ParamValue::Rows(vec![vec![4.0, 0.5]]));
+        assert_eq!(params.get(COEFFICIENTS), [[4.0, 0.5]]);
         assert_eq!(params.get(TEXT), "x + y");
         assert_eq!(params.get(LIST), ["csv"]);
         params.set("end", ParamValue::Text("none".to_owned()));

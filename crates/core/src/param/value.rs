@@ -26,7 +26,8 @@ pub enum ParamValue {
     Text(String),
     /// Texts.
     List(Vec<String>),
-    /// Rows of numbers, all with the declared number of columns.
+    /// Rows of numbers, all with the declared number of columns; or coefficients, each a row of its
+    /// whole numbers and its value.
     Rows(Vec<Vec<f64>>),
     /// A file.
     File(DataFile),

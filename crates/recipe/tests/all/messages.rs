@@ -207,6 +207,12 @@ const PARAMS: &[ParamInfo] = &[
     Param::file("map", "heights that were measured")
         .optional()
         .info(),
+    Param::length_coefficients("heights", 1, "of each term")
+        .optional()
+        .info(),
+    Param::coefficients("powers", 2, "of each product")
+        .optional()
+        .info(),
 ];
 
 const SAMPLER: StrategyInfo = StrategyInfo {
@@ -256,6 +262,12 @@ bind_says! {
     feed_with_an_angle: "spacing = \"10 um\"\nfeed = \"3 deg\"";
     file_as_number: "spacing = \"10 um\"\nmap = 3";
     file_without_a_name: "spacing = \"10 um\"\nmap = \"\"";
+    coefficients_as_list: "spacing = \"10 um\"\nheights = [\"1 um\", \"2 um\"]";
+    coefficient_without_unit: "spacing = \"10 um\"\nheights = { 4 = \"1 um\", 11 = 0.2 }";
+    coefficient_with_a_unit: "spacing = \"10 um\"\npowers = { \"2,0\" = \"1 um\" }";
+    coefficient_under_a_word: "spacing = \"10 um\"\nheights = { Z4 = \"1 um\" }";
+    coefficient_under_one_number_of_two: "spacing = \"10 um\"\npowers = { 2 = 0.5 }";
+    coefficient_twice: "spacing = \"10 um\"\npowers = { \"2,0\" = 0.5, \"2, 0\" = 0.25 }";
     several_params: "spacng = \"10 um\"\nsmooth = 1";
 }
 

@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use crate::common::FULL;
-use turnpath_core::kind::{Angle, Choice, Count, File, Flag, Number, Rows};
+use turnpath_core::kind::{Angle, Choice, Coefficients, Count, File, Flag, Number, Rows};
 use turnpath_core::{
     DEG, Direction, Machine, Misfit, Overrun, Param, ParamInfo, ParamValue, Slot, StrategyInfo,
 };
@@ -393,6 +393,29 @@ fn binding_fills_defaults_and_leaves_optional_ones_absent() {
             .count(),
         2
     );
+}
+
+#[test]
+fn coefficients_are_rows_of_their_numbers_and_values() {
+    const HEIGHTS: Param<Coefficients> = Param::length_coefficients("heights", 1, "");
+    const POWERS: Param<Coefficients> = Param::coefficients("powers", 2, "");
+    const PARAMS: &[ParamInfo] = &[HEIGHTS.info(), POWERS.info()];
+    let info = StrategyInfo {
+        slot: Slot::Sampler,
+        name: "atpg",
+        summary: "",
+        source: "",
+        params: PARAMS,
+    };
+    let sets = [
+        "sampler={ use = \"atpg\", heights = { 11 = \"-30 nm\", 4 = \"1 um\" }, powers = { \"2,-1\" = 0.5 } }",
+        "sampler.heights.4=2 um",
+        "sampler.powers.0,3=-1e-3",
+    ];
+    let bound = parse(FULL, &sets).bind(Slot::Sampler, &info).unwrap();
+    assert_eq!(bound.params.get(HEIGHTS), [[11.0, -3e-5], [4.0, 2e-3]]);
+    let powers = [[2.0, -1.0, 0.5], [0.0, 3.0, -1e-3]];
+    assert_eq!(bound.params.get(POWERS), powers);
 }
 
 #[test]

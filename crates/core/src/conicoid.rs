@@ -1,0 +1,65 @@
+//! The conicoid of revolution, which many surfaces have as their base.
+
+use crate::Scalar;
+
+/// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)), c the curvature at the vertex, K the conic number.
+///
+/// K = 0 is a sphere, −1 a paraboloid. Where the conicoid has no point, z is NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conicoid {
+    /// c, 1/mm.
+    pub curvature: f64,
+    /// (1 + K)c², 1/mm².
+    pub bend: f64,
+}
+
+impl Conicoid {
+    /// The conicoid of this radius at the vertex, mm, and this conic number. Without a radius it is a
+    /// flat. `None` if the formula has no finite values, because the radius is too small.
+    pub fn new(radius: Option<f64>, conic: f64) -> Option<Self> {
+        let curvature = radius.map_or(0.0, f64::recip);
+        let bend = (1.0 + conic) * curvature * curvature;
+        bend.is_finite().then_some(Self { curvature, bend })
+    }
+
+    /// The height at a squared distance ρ² from the axis, mm².
+    pub fn sag<S: Scalar>(&self, square: S) -> S {
+        square * self.curvature / (self.root(square) + 1.0)
+    }
+
+    /// sqrt(1 − (1 + K)c²ρ²); of a sphere the cosine of the slope's angle.
+    pub fn root<S: Scalar>(&self, square: S) -> S {
+        (-(square * self.bend) + 1.0).sqrt()
+    }
+
+    /// Whether the conicoid has a point and a slope at the squared distance ρ² from the axis, mm².
+    pub fn reaches(&self, square: f64) -> bool {
+        square * self.bend < 1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sphere_a_paraboloid_and_a_flat_are_their_closed_forms() {
+        let sag = |radius, conic, square: f64| {
+            Conicoid::new(radius, conic).map(|conicoid| conicoid.sag(square))
+        };
+        assert_eq!(sag(Some(5.0), 0.0, 9.0), Some(1.0));
+        assert_eq!(sag(Some(-5.0), 0.0, 16.0), Some(-2.0));
+        assert_eq!(sag(Some(4.0), -1.0, 16.0), Some(2.0));
+        assert_eq!(sag(None, -0.5, 16.0), Some(0.0));
+        assert!(sag(Some(5.0), 0.0, 25.1).is_some_and(f64::is_nan));
+        assert_eq!(sag(Some(1e-200), 0.0, 1.0), None);
+    }
+
+    #[test]
+    fn a_conicoid_reaches_to_its_equator() {
+        let sphere = Conicoid::new(Some(5.0), 0.0);
+        assert!(sphere.is_some_and(|one| one.reaches(24.9) && !one.reaches(25.0)));
+        let hyperboloid = Conicoid::new(Some(5.0), -2.0);
+        assert!(hyperboloid.is_some_and(|one| one.reaches(1e9)));
+    }
+}

@@ -1,0 +1,74 @@
+//! The asphere by polynomials that are orthogonal in height, on top of a conicoid.
+
+use turnpath_plugin::prelude::*;
+
+use super::best_fit_sphere::LARGEST_DEGREE;
+use crate::jacobi::jacobi;
+use crate::recurrence::Family;
+use crate::terms::{NORMALIZATION_RADIUS, degree, terms};
+
+/// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)) + u⁴ Σ a_n Q_n(u²), with u = 1 at the normalisation
+/// radius.
+///
+/// Q_n(x) = P_n^(0, 4)(2x − 1), so that each Q_n is 1 at the normalisation radius. Where the conicoid
+/// has no point, z is NaN.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForbesQcon {
+    base: Conicoid,
+    normalization_radius: f64,
+    family: Family,
+    coefficients: Vec<f64>,
+}
+
+const RADIUS: Param<Option<Length>> = Param::length(
+    "radius",
+    "radius of curvature at the vertex; positive: concave; left out: flat",
+)
+.nonzero()
+.optional();
+const CONIC: Param<Number> =
+    Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0);
+const COEFFICIENTS: Param<Coefficients> =
+    Param::length_coefficients("coefficients", 1, "a_n of Q_n under n, from 0 on")
+        .example("{ 0 = \"2 um\", 1 = \"-150 nm\" }");
+
+impl Strategy for ForbesQcon {
+    const NAME: &'static str = "forbes-qcon";
+    const SUMMARY: &'static str = "a conicoid with Forbes' polynomials for strong aspheres";
+    const SOURCE: &'static str = "Forbes 2007, Opt. Express 15, 5218; Forbes 2010, Opt. Express \
+        18, 13851";
+    const PARAMS: &'static [ParamInfo] = &[
+        RADIUS.info(),
+        CONIC.info(),
+        NORMALIZATION_RADIUS.info(),
+        COEFFICIENTS.info(),
+    ];
+
+    fn new(params: &Params) -> Result<Self> {
+        let mut dense = Vec::new();
+        for ([n], coefficient) in terms::<1>(params, COEFFICIENTS) {
+            let n = degree(COEFFICIENTS, "degree", n, LARGEST_DEGREE)?;
+            dense.resize(dense.len().max(n + 1), 0.0);
+            dense[n] = coefficient;
+        }
+        let base = Conicoid::new(params.get(RADIUS), params.get(CONIC));
+        Ok(Self {
+            base: base.ok_or_else(|| {
+                RADIUS.refused("the radius is too small: the formula has no finite values")
+            })?,
+            normalization_radius: params.get(NORMALIZATION_RADIUS),
+            family: jacobi(4.0, dense.len()),
+            coefficients: dense,
+        })
+    }
+}
+
+impl Surface for ForbesQcon {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let square = x.squared() + y.squared();
+        let radius = self.normalization_radius;
+        let u = square / (radius * radius);
+        let departure = u.squared() * self.family.sum(&self.coefficients, u * 2.0 - 1.0);
+        self.base.sag(square) + departure
+    }
+}
