@@ -42,7 +42,7 @@ pub enum Mistake {
     #[error("a number, a name or `(` is missing here")]
     NoValue,
     /// Two values stand side by side.
-    #[error("an operator is missing before this; a product is written with `*`, as in 5*um*x/mm")]
+    #[error("an operator is missing before this; a product is written with `*`, as in 5*um")]
     NoOperator,
     /// A parenthesis is not closed.
     #[error("this parenthesis is not closed")]

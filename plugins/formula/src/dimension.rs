@@ -60,7 +60,7 @@ impl fmt::Display for Dimension {
         } else if self.common(Self::LENGTH).is_some() {
             f.write_str("a length")
         } else {
-            write!(f, "in mm^{power}")
+            write!(f, "a number of mm^{power}")
         }
     }
 }

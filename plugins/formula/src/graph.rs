@@ -219,7 +219,7 @@ impl Graph {
     }
 
     /// Whether a node is x² + y².
-    fn is_square_of_rho(&self, id: Id) -> bool {
+    pub fn is_square_of_rho(&self, id: Id) -> bool {
         let square_of = |id: Id| match self.node(id) {
             Node::Power(base, 2) => Some(self.node(base)),
             _ => None,

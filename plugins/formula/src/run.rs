@@ -6,6 +6,7 @@
 
 use turnpath_plugin::prelude::*;
 
+use crate::names::{Function, PairFunction};
 use crate::tape::{MOST_REGISTERS, Operation, Step, Tape, X, Y};
 
 /// ρ² below which a point counts as one of the axis, mm². The fifth derivative of ρ is still
@@ -26,42 +27,71 @@ impl Tape {
     }
 
     /// The same on `N` registers, a power of two: so no index is out of range.
+    #[inline(always)]
     fn on<S: Scalar, const N: usize>(&self, x: S, y: S) -> S {
-        let mut registers = [S::constant(0.0); N];
-        registers[usize::from(X) % N] = x;
+        let mut registers = [x; N];
         registers[usize::from(Y) % N] = y;
         for step in &self.steps {
-            registers[usize::from(step.out) % N] = value(step, &registers);
+            apply(step, &mut registers);
         }
         registers[usize::from(self.height) % N]
     }
 }
 
+/// Each operation reads and writes its registers itself: a value that goes through a variable is
+/// copied, and a register of a series is large.
 #[inline(always)]
-fn value<S: Scalar, const N: usize>(step: &Step, registers: &[S; N]) -> S {
-    let a = registers[usize::from(step.a) % N];
-    let b = || registers[usize::from(step.b) % N];
+fn apply<S: Scalar, const N: usize>(step: &Step, r: &mut [S; N]) {
+    let [a, b, out] = [step.a, step.b, step.out].map(|register| usize::from(register) % N);
+    let [x, y] = [X, Y].map(|register| usize::from(register) % N);
     match step.operation {
-        Operation::Sum => a + b(),
-        Operation::Difference => a - b(),
-        Operation::Product => a * b(),
-        Operation::Quotient => a / b(),
-        Operation::Negative => -a,
-        Operation::Square => a.squared(),
-        Operation::Power(exponent) => a.powi(exponent),
-        Operation::RealPower(exponent) => a.powf(exponent),
-        Operation::Number(number) => S::constant(number),
-        Operation::PlusNumber(number) => a + number,
-        Operation::TimesNumber(number) => a * number,
-        Operation::NumberMinus(number) => -a + number,
-        Operation::NumberOver(number) => a.recip() * number,
-        Operation::Rho => rho(registers[usize::from(X) % N], registers[usize::from(Y) % N]),
-        Operation::Theta => theta(registers[usize::from(X) % N], registers[usize::from(Y) % N]),
-        Operation::One(function) => function.of(a),
-        Operation::Two(function) => function.of(a, b()),
+        Operation::Sum => r[out] = r[a] + r[b],
+        Operation::Difference => r[out] = r[a] - r[b],
+        Operation::Product => r[out] = r[a] * r[b],
+        Operation::Quotient => r[out] = r[a] / r[b],
+        Operation::Square => r[out] = r[a].squared(),
+        Operation::PlusNumber(number) => r[out] = r[a] + number,
+        Operation::TimesNumber(number) => r[out] = r[a] * number,
+        Operation::Line(factor, number) => r[out] = r[a] * factor + number,
+        Operation::SquareOfRho => r[out] = r[x].squared() + r[y].squared(),
+        Operation::One(Function::Sqrt) => r[out] = r[a].sqrt(),
+        Operation::One(Function::Cos) => r[out] = r[a].cos(),
+        Operation::One(Function::Sin) => r[out] = r[a].sin(),
+        Operation::Negative => r[out] = -r[a],
+        Operation::Power(exponent) => r[out] = power(r[a], exponent),
+        Operation::RealPower(exponent) => r[out] = r[a].powf(exponent),
+        Operation::Number(number) => r[out] = S::constant(number),
+        Operation::NumberOver(number) => r[out] = over(number, r[a]),
+        Operation::Rho => r[out] = rho(r[x], r[y]),
+        Operation::Theta => r[out] = theta(r[x], r[y]),
+        Operation::One(function) => r[out] = one(function, r[a]),
+        Operation::Two(function) => r[out] = two(function, r[a], r[b]),
     }
 }
 
+// What takes long anyway stays out of the loop, so that the loop is small.
+
+#[inline(never)]
+fn power<S: Scalar>(a: S, exponent: i32) -> S {
+    a.powi(exponent)
+}
+
+#[inline(never)]
+fn over<S: Scalar>(number: f64, a: S) -> S {
+    a.recip() * number
+}
+
+#[inline(never)]
+fn one<S: Scalar>(function: Function, a: S) -> S {
+    function.of(a)
+}
+
+#[inline(never)]
+fn two<S: Scalar>(function: PairFunction, a: S, b: S) -> S {
+    function.of(a, b)
+}
+
+#[inline(never)]
 fn rho<S: Scalar>(x: S, y: S) -> S {
     let square = x.squared() + y.squared();
     let at_axis = square.less(S::constant(AXIS));
@@ -69,6 +99,7 @@ fn rho<S: Scalar>(x: S, y: S) -> S {
     S::select(at_axis, S::constant(0.0), beside)
 }
 
+#[inline(never)]
 fn theta<S: Scalar>(x: S, y: S) -> S {
     let at_axis = (x.squared() + y.squared()).less(S::constant(AXIS));
     let (x, y) = (

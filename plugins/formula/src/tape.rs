@@ -36,10 +36,12 @@ pub enum Operation {
     PlusNumber(f64),
     /// a·number.
     TimesNumber(f64),
-    /// number − a.
-    NumberMinus(f64),
+    /// a·first + second.
+    Line(f64, f64),
     /// number / a.
     NumberOver(f64),
+    /// x² + y².
+    SquareOfRho,
     /// ρ of x and y.
     Rho,
     /// θ of x and y.
@@ -136,8 +138,9 @@ fn action(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
         // x and y are in their registers already: the writer makes no step for them.
         Node::Variable(Variable::X | Variable::Y) => none(Operation::Number(0.0)),
         Node::Sum(a, b) => match (graph.number(a), graph.number(b)) {
-            (Some(number), _) => one(Operation::PlusNumber(number), b),
-            (_, Some(number)) => one(Operation::PlusNumber(number), a),
+            (Some(number), _) => line(graph, b, 1.0, number),
+            (_, Some(number)) => line(graph, a, 1.0, number),
+            _ if graph.is_square_of_rho(id) => none(Operation::SquareOfRho),
             _ => two(Operation::Sum, a, b),
         },
         Node::Product(a, b) => match (graph.number(a), graph.number(b)) {
@@ -146,7 +149,7 @@ fn action(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
             _ => two(Operation::Product, a, b),
         },
         Node::Difference(a, b) => match graph.number(a) {
-            Some(number) => one(Operation::NumberMinus(number), b),
+            Some(number) => line(graph, b, -1.0, number),
             None => two(Operation::Difference, a, b),
         },
         Node::Quotient(a, b) => match graph.number(a) {
@@ -160,6 +163,22 @@ fn action(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
         Node::One(function, a) => one(Operation::One(function), a),
         Node::Two(function, a, b) => two(Operation::Two(function), a, b),
     }
+}
+
+/// a·sign + number, where a may be a product with a number itself.
+fn line(graph: &Graph, a: Id, sign: f64, number: f64) -> (Operation, [Option<Id>; 2]) {
+    if let Node::Product(one, two) = graph.node(a) {
+        for (factor, other) in [(one, two), (two, one)] {
+            if let Some(factor) = graph.number(factor) {
+                return (Operation::Line(sign * factor, number), [Some(other), None]);
+            }
+        }
+    }
+    let operation = match sign {
+        1.0 => Operation::PlusNumber(number),
+        _ => Operation::Line(sign, number),
+    };
+    (operation, [Some(a), None])
 }
 
 struct Writer<'a> {
