@@ -21,6 +21,9 @@ const SAMPLERS: [&str; 6] = [
     "use = \"ats\"",
     "use = \"fft-adaptive\"",
 ];
+/// A sampler that needs exact rates, and the one solver here that gives them.
+const FEWEST_POINTS: &str = "use = \"minimax\"";
+const EXACT: &str = SOLVERS[0];
 const COMPENSATORS: [&str; 3] = ["z-direction", "normal", "none"];
 const SOLVERS: [&str; 6] = [
     "use = \"analytic\"",
@@ -84,6 +87,16 @@ impl Chain {
                     }
                 }
             }
+        }
+        chains
+    }
+
+    /// All chains of the sampler that needs exact rates.
+    fn with_the_fewest_points() -> Vec<Self> {
+        let mut chains = Self::all();
+        chains.retain(|chain| chain.sampler == SAMPLERS[0] && chain.solver == EXACT);
+        for chain in &mut chains {
+            chain.sampler = FEWEST_POINTS;
         }
         chains
     }
@@ -284,4 +297,30 @@ fn long_the_files_of_all_chains_have_no_anomaly() {
     let chains = Chain::all();
     assert_eq!(chains.len(), 2 * 4 * 6 * 3 * 6);
     have_no_anomaly(&chains);
+}
+
+/// Every feed with every compensator, on one part or the other, at a constant speed or at a changing
+/// one.
+#[test]
+fn half_of_the_chains_with_the_fewest_points_hold_both_tolerances() {
+    let mut chains = Chain::with_the_fewest_points();
+    let place = |names: &[&str], name| names.iter().position(|one| *one == name).unwrap();
+    chains.retain_mut(|chain| {
+        let feed = place(&FEEDS, chain.feed);
+        chain.changes_speed = !feed.is_multiple_of(2);
+        (feed + place(&COMPENSATORS, chain.compensator) + chain.part).is_multiple_of(2)
+    });
+    assert_eq!(chains.len(), 4 * 3);
+    hold_or_report(&chains);
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_every_chain_with_the_fewest_points_holds_both_tolerances() {
+    let chains = Chain::with_the_fewest_points();
+    assert_eq!(chains.len(), 2 * 4 * 3);
+    hold_or_report(&chains);
+    hold_or_report(&changing(chains.clone()));
+    have_no_anomaly(&chains);
+    have_no_anomaly(&changing(chains));
 }

@@ -16,6 +16,7 @@ mod poses;
 mod real_nose;
 mod recipes;
 mod rims;
+mod schedules;
 mod servo;
 mod spindle;
 mod spoiled_paths;

@@ -36,9 +36,18 @@ const FAST: Spindle = Spindle {
 struct Case {
     recipe: &'static str,
     spindle: Spindle,
+    sampler: &'static str,
 }
 
 impl Case {
+    fn with_atpg(recipe: &'static str, spindle: Spindle) -> Self {
+        Self {
+            recipe,
+            spindle,
+            sampler: "atpg",
+        }
+    }
+
     /// The recipe with this table `[spindle]`.
     fn recipe(&self, spindle: &str) -> String {
         let file = format!("docs/recipes/{}.toml", self.recipe);
@@ -53,8 +62,9 @@ impl Case {
             "{head}[spindle]\n{spindle}\n\n{SLIDES}c_velocity = \"{rpm} rpm\"\n\
              c_acceleration = \"{acceleration} rad/s^2\"\nc_jerk = \"{jerk} rad/s^3\"\n\n\
              [path]\noverrun = \"none\"\nlead = false\n\n[feed]\nuse = \"atpg\"\n\n\
-             [sampler]\nuse = \"atpg\"\nmax_step = \"45 deg\"\n\n[compensator]\n\
-             use = \"z-direction\"\n\n[velocity]\nuse = \"analytic\"\n\n[output]\ndata = []\n"
+             [sampler]\nuse = \"{}\"\nmax_step = \"45 deg\"\n\n[compensator]\n\
+             use = \"z-direction\"\n\n[velocity]\nuse = \"analytic\"\n\n[output]\ndata = []\n",
+            self.sampler
         )
     }
 
@@ -113,8 +123,24 @@ const ARRAY: &str = "sinusoidal-array-10mm";
 fn small_parts_take_half_the_time_of_a_constant_speed() {
     for recipe in [SADDLE, ARRAY] {
         for spindle in [SLOW, FAST] {
-            Case { recipe, spindle }.takes_at_most(0.54);
+            Case::with_atpg(recipe, spindle).takes_at_most(0.54);
         }
+    }
+}
+
+/// Nodes that take the whole tolerance as played: they are placed for the schedule that is played, and
+/// not for the first one, at which errors were a tenth larger.
+#[test]
+fn the_fewest_points_hold_the_tolerance_at_the_speed_that_is_played() {
+    for spindle in [SLOW, FAST] {
+        let sampler = "minimax";
+        let recipe = SADDLE;
+        let case = Case {
+            recipe,
+            spindle,
+            sampler,
+        };
+        case.takes_at_most(0.54);
     }
 }
 
@@ -129,7 +155,7 @@ fn long_large_parts_take_no_more_time_than_published_schedules() {
         ("off-axis-paraboloid-213mm", FAST, 0.515),
     ];
     for (recipe, spindle, part) in bounds {
-        Case { recipe, spindle }.takes_at_most(part);
+        Case::with_atpg(recipe, spindle).takes_at_most(part);
     }
 }
 
@@ -137,10 +163,7 @@ fn long_large_parts_take_no_more_time_than_published_schedules() {
 /// byte.
 #[test]
 fn a_schedule_without_need_is_the_constant_speed() {
-    let case = Case {
-        recipe: SADDLE,
-        spindle: SLOW,
-    };
+    let case = Case::with_atpg(SADDLE, SLOW);
     let table = |spindle: &str| {
         let recipe = case.recipe(&format!("{spindle}speed = \"100 rpm\""));
         let bench = Bench::with(&recipe.replace("data = []", "data = [\"csv\"]"));
@@ -150,14 +173,11 @@ fn a_schedule_without_need_is_the_constant_speed() {
     assert!(table("use = \"per-revolution\"\n") == table(""));
 }
 
-/// The cutting speed is the one asked for wherever neither the lowest speed of the spindle nor the
-/// largest ends it, to a thousandth.
+/// The cutting speed is the one asked for, to a thousandth below, wherever neither the lowest speed
+/// of the spindle nor the largest ends it. Nothing but the lowest speed makes it larger.
 #[test]
 fn the_cutting_speed_is_the_one_asked_for() {
-    let case = Case {
-        recipe: SADDLE,
-        spindle: FAST,
-    };
+    let case = Case::with_atpg(SADDLE, FAST);
     let run = |lowest: f64| {
         case.run(&format!(
             "use = \"surface-speed\"\nspeed = \"600 rpm\"\nlowest = \"{lowest} rpm\"\n\
@@ -173,8 +193,7 @@ fn the_cutting_speed_is_the_one_asked_for() {
     let [mean, most] =
         ["mean", "most"].map(|which| number(&free, &format!("/cutting_speed/{which}_mm_per_s")));
     // The mean has the middle of the part, where the spindle is at its largest speed.
-    // The mean over turns may be above the wish of a single turn: a cutting speed is no limit.
-    assert!((9.9..=10.01).contains(&most), "{most}");
+    assert!((9.99..=10.0 * (1.0 + 1e-6)).contains(&most), "{most}");
     assert!((9.0..most).contains(&mean), "{mean}");
     let least = |summary| number(summary, "/cutting_speed/spindle_least_rpm");
     let at_rim = 60.0 * 10.0 / (std::f64::consts::TAU * 2.5);
@@ -195,10 +214,7 @@ fn the_cutting_speed_is_the_one_asked_for() {
 /// and the program too.
 #[test]
 fn leads_and_programs_follow_a_changing_speed() {
-    let case = Case {
-        recipe: SADDLE,
-        spindle: SLOW,
-    };
+    let case = Case::with_atpg(SADDLE, SLOW);
     let spindle = format!("use = \"per-revolution\"\nspeed = \"{} rpm\"", SLOW.rpm);
     for direction in ["inward", "outward"] {
         let recipe = case.recipe(&spindle).replace(
@@ -239,62 +255,10 @@ fn leads_and_programs_follow_a_changing_speed() {
     }
 }
 
-/// An independent playback of the file in Python finds the same motion of all axes, and the limits of
-/// the recipe hold in it.
-#[test]
-fn a_schedule_measures_like_the_reference() {
-    let folder = repository().join("tests/reference/playback/schedules");
-    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
-    let reference: Value = serde_json::from_str(&read("saddle.json")).unwrap();
-    let bench = Bench::with(&read("saddle.toml"));
-    let made = bench
-        .line("run recipe.toml -o out --format json")
-        .ends(0)
-        .json();
-    let limits = [
-        ("x", "mm", [50.0, 500.0, 5e4]),
-        ("z", "mm", [50.0, 500.0, 2e5]),
-        (
-            "c",
-            "deg",
-            [6000.0, 100.0 * 57.295_779_513_1, 1000.0 * 57.295_779_513_1],
-        ),
-    ];
-    let orders = [("velocity", "s"), ("acceleration", "s2"), ("jerk", "s3")];
-    for (axis, unit, limits) in limits {
-        for ((order, seconds), limit) in orders.into_iter().zip(limits) {
-            let found = number(
-                &made,
-                &format!("/axes/{axis}/max_{order}_{unit}_per_{seconds}"),
-            );
-            let expected = number(&reference, &format!("/axes/{axis}/{order}"));
-            let close = (found - expected).abs() <= 1e-6 * limit;
-            assert!(close, "{axis} {order}: {found}, {expected}");
-            assert!(
-                expected <= (1.0 + 1e-6) * limit,
-                "{axis} {order}: {expected} of {limit}"
-            );
-        }
-    }
-    for (pointer, of_reference) in [
-        ("/interpolation_error/max_nm", "/interpolation_error_nm/max"),
-        ("/residual/max_nm", "/residual_nm/max"),
-    ] {
-        let [found, expected] = [number(&made, pointer), number(&reference, of_reference)];
-        assert!(
-            (found / expected - 1.0).abs() < 0.02,
-            "{pointer}: {found}, {expected}"
-        );
-    }
-}
-
 /// `highest_spindle` is a speed at which the same schedule holds all limits, and it cannot be faster.
 #[test]
 fn a_schedule_reaches_its_limits() {
-    let case = Case {
-        recipe: SADDLE,
-        spindle: SLOW,
-    };
+    let case = Case::with_atpg(SADDLE, SLOW);
     let summary = case.per_revolution();
     let highest = number(&summary, "/highest_spindle/speed_rpm");
     let largest = number(&summary, "/cutting_speed/spindle_most_rpm");

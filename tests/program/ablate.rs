@@ -587,3 +587,45 @@ fn a_mistake_in_a_list_is_shown_there_before_the_work() {
     insta::assert_snapshot!("no_ablation", bench.shown(&said));
     assert_eq!(bench.files(), ["recipe.toml"]);
 }
+
+/// Every spindle strategy is a row with its own time, that of a run of its own.
+#[test]
+fn spindles_are_compared_by_their_times() {
+    let spindles = [
+        "{ use = \"per-revolution\" }",
+        "{ use = \"surface-speed\", cutting_speed = \"20 mm/s\" }",
+    ];
+    let machine =
+        "[machine]\nz_acceleration = \"300 mm/s^2\"\nc_acceleration = \"100 rad/s^2\"\n\n[path]";
+    let recipe = changed(SADDLE, "[path]", machine);
+    let lists = format!("[ablation]\nspindle = [{}]\n", spindles.join(", "));
+    let bench = Bench::with(&format!("{recipe}\n{lists}"));
+    let said = ablate(&bench, "--columns points,time,spindle-max").ends(0);
+    for name in ["constant", "per-revolution", "surface-speed", "time"] {
+        assert!(said.stdout.contains(name), "no {name}: {said}");
+    }
+    let times = |runs: &[Value]| -> Vec<f64> {
+        let times = runs.iter().map(|run| run["cutting_time_s"].as_f64());
+        times.map(Option::unwrap).collect()
+    };
+    let found = times(&runs(&bench));
+    let alone = ["{ use = \"constant\" }", spindles[0], spindles[1]].map(|spindle| {
+        let spindle = spindle.replace(" }", ", speed = \"500 rpm\" }");
+        let set = format!("spindle={spindle}");
+        let args = [
+            "run",
+            "recipe.toml",
+            "--format",
+            "json",
+            "--set",
+            "refine=false",
+        ];
+        let said = bench.call(args.into_iter().chain(["--set", &set]));
+        said.json()
+    });
+    assert_eq!(found, times(&alone));
+    // The rim's 300 mm/s² allow 165 rpm and 26 mm/s.
+    assert!(found[0] < found[1] && found[1] < found[2], "{found:?}");
+    let shown = |time: &f64| said.stdout.contains(&format!("{time:.2}"));
+    assert!(found[1..].iter().all(shown), "{found:?}\n{said}");
+}

@@ -273,6 +273,21 @@ fn a_machine_that_is_not_known() {
 }
 
 #[test]
+fn a_spindle_that_follows_limits_of_which_the_machine_has_none_for_c() {
+    let spindle = "use = \"per-revolution\"\nspeed = \"500 rpm\"";
+    let recipe = with_table(SADDLE, "spindle", spindle);
+    insta::assert_snapshot!(answer(&recipe, "run recipe.toml"));
+}
+
+#[test]
+fn a_spindle_that_follows_limits_of_which_the_machine_has_none_for_x_and_z() {
+    let spindle = "use = \"per-revolution\"\nspeed = \"500 rpm\"";
+    let machine = "[machine]\nc_acceleration = \"100 rad/s^2\"\n";
+    let recipe = format!("{}\n{machine}", with_table(SADDLE, "spindle", spindle));
+    insta::assert_snapshot!(answer(&recipe, "run recipe.toml"));
+}
+
+#[test]
 fn a_spindle_faster_than_the_machine() {
     let recipe = format!("{SADDLE}\n[machine]\nc_velocity = \"300 rpm\"\n");
     insta::assert_snapshot!(answer(recipe, "check recipe.toml"));

@@ -23,11 +23,13 @@ impl Conicoid {
     }
 
     /// The height at a squared distance ρ² from the axis, mm².
+    #[inline(always)]
     pub fn sag<S: Scalar>(&self, square: S) -> S {
         square * self.curvature / (self.root(square) + 1.0)
     }
 
     /// sqrt(1 − (1 + K)c²ρ²); of a sphere the cosine of the slope's angle.
+    #[inline(always)]
     pub fn root<S: Scalar>(&self, square: S) -> S {
         (-(square * self.bend) + 1.0).sqrt()
     }

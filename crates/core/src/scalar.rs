@@ -118,6 +118,7 @@ pub trait Scalar:
     }
 
     /// self · self.
+    #[inline(always)]
     fn squared(self) -> Self {
         self * self
     }
@@ -148,16 +149,19 @@ pub trait Scalar:
     }
 
     /// Absolute value. At zero the derivatives are those of `self`.
+    #[inline(always)]
     fn abs(self) -> Self {
         Self::select(self.less(Self::constant(0.0)), -self, self)
     }
 
     /// The smaller one, by value.
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(other.less(self), other, self)
     }
 
     /// The larger one, by value.
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(self.less(other), other, self)
     }
@@ -179,6 +183,7 @@ impl Scalar for f64 {
         if mask { yes } else { no }
     }
 
+    #[inline(always)]
     fn floor(self) -> Self {
         libm::floor(self)
     }

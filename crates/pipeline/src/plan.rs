@@ -45,7 +45,7 @@ pub struct Plan<'a> {
     pub law: SpiralLaw,
     /// t(N).
     pub spindle: SpindleLaw,
-    /// The spindle law that the sampler sees: the first one, if the strategy was asked again.
+    /// The spindle law that the sampler sees: the one at which its nodes were placed.
     sampled: SpindleLaw,
     /// Between which revolutions the law is the feed strategy's own; `None` if no part is.
     pub own: Option<[f64; 2]>,
@@ -108,6 +108,23 @@ impl<'a> Plan<'a> {
     /// would have other peaks.
     pub fn take_spindle(&mut self, spindle: SpindleLaw) {
         self.spindle = spindle;
+    }
+
+    /// Lets the sampler place its nodes again, for the present spindle law. They are held if those
+    /// before were.
+    pub fn place_again(&mut self, observer: &dyn Observer) -> Result<()> {
+        let Self {
+            chain, preparation, ..
+        } = *self;
+        self.sampled = self.spindle.clone();
+        self.sampler = plan_nodes(chain, preparation, &self.law, &self.sampled)?;
+        let were_held = !self.held.is_empty();
+        self.held = Vec::new();
+        self.divide(observer)?;
+        if were_held {
+            self.hold_nodes();
+        }
+        Ok(())
     }
 
     /// Holds the nodes of each block as the sampler places them, so that it is not asked again. A

@@ -188,9 +188,27 @@ fn no_lead(recipe: &Recipe, title: String) -> Diagnostic {
     recipe.diagnostic(span, title, "leads are made here", [help])
 }
 
+/// A hollow that takes a smaller nose than this is a crease, mm: no recipe may have one.
+const SHARPEST_NOSE: f64 = 1e-4;
+
 /// The message for a tool that does not fit.
 fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
     let (key, cause, help) = match conflict {
+        Conflict::NoseRadius { largest, at } if *largest < SHARPEST_NOSE => (
+            "tool.nose_radius",
+            format!(
+                "no nose reaches the bottom of the crease at x = {}, y = {}",
+                millimetres(at.x, 2),
+                millimetres(at.y, 2)
+            ),
+            match recipe.tool.misfit {
+                Misfit::Refuse => {
+                    "write interference = \"cut-what-fits\" under [tool]: the nose goes as deep as \
+                     it can, and the report says what stays"
+                }
+                Misfit::CutWhatFits => "choose a smaller aperture",
+            },
+        ),
         Conflict::NoseRadius { largest, at } => (
             "tool.nose_radius",
             format!(

@@ -9,6 +9,8 @@
 //!   path is tabulated once in each block (`table`), and the error of a trial step is compared with
 //!   the tolerance at all places of the table (`segment`). Cubics are played in time. So where the
 //!   spindle changes its speed or X moves, the error is e_Z − Z_θ·e_C − Z_X·e_X.
+//! - **Room.** Where X moves within the turn, its own error is held to what the cusps leave room for
+//!   (`room`), so that refinement need not halve steps.
 //! - **Shortest path.** A node is in one of a few states (α, β): it lies αε above the locus, and its
 //!   rate is βε/h larger, with h the natural step there. The states of one node are tried against
 //!   those of the next, and the chain that gets furthest with each number of nodes is kept
@@ -20,6 +22,7 @@
 mod grid;
 mod place;
 mod reach;
+mod room;
 mod sampler;
 mod scale;
 mod search;

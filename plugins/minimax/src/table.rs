@@ -5,6 +5,7 @@ use turnpath_plugin::prelude::*;
 
 use crate::grid::{Sample, sample_before};
 use crate::place::Place;
+use crate::room::parts;
 
 /// The largest slope that is assumed in the test whether X's own interpolation matters.
 const STEEPEST: f64 = 10.0;
@@ -12,15 +13,15 @@ const STEEPEST: f64 = 10.0;
 /// tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 /// X's own interpolation does not matter to the cusps if it errs by less than this part of what it
-/// may.
-const NEGLIGIBLE_SHARE: f64 = 0.5;
+/// may where cusps leave room: less than what it may always.
+const NEGLIGIBLE_SHARE: f64 = 0.2;
 
 /// What the errors of steps are held to.
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
     /// The largest error of Z, mm.
     pub allowed: f64,
-    /// The part of the distance between passes that X's own error may take.
+    /// The part of the distance between passes that X's own error may take where cusps leave room.
     pub feed_part: f64,
     /// The largest step, in revolutions.
     pub max_step: f64,
@@ -116,11 +117,15 @@ impl<'a> Table<'a> {
             z_x: &mut slope,
         };
         self.path.locus.rates(&theta, &rho, rates)?;
-        let weight = |n: &f64| 1.0 / (self.limits.feed_part * pitch(self.path, *n));
+        let part = match self.x_matters {
+            true => parts(self.path, &self.n)?,
+            false => vec![self.limits.feed_part; self.n.len()],
+        };
+        let weight = |(n, part): (&f64, f64)| 1.0 / (part * pitch(self.path, *n));
         Ok(Coupling {
             slope,
             along,
-            x_weight: self.n.iter().map(weight).collect(),
+            x_weight: self.n.iter().zip(part).map(weight).collect(),
         })
     }
 

@@ -28,13 +28,14 @@ pub struct CellMotion {
 }
 
 impl CellMotion {
-    fn include(&mut self, x: &Series, z: &Series) {
+    /// Includes a sample. `reach` is the way to the middle between it and the next one, rad.
+    fn include(&mut self, x: &Series, z: &Series, reach: f64) {
         const FACTORIALS: [f64; 3] = [1.0, 2.0, 6.0];
         for (k, factorial) in FACTORIALS.into_iter().enumerate() {
             self.x[k] = self.x[k].max(factorial * x[k + 1].abs());
             self.z[k] = self.z[k].max(factorial * z[k + 1].abs());
         }
-        self.radius = self.radius.max(x[0].abs());
+        self.radius = self.radius.max(x[0].abs() + x[1].abs() * reach);
     }
 
     /// The larger of both, each amount by itself.
@@ -85,6 +86,7 @@ pub fn motion(path: &Path<'_>, grid: &Grid) -> Result<Vec<CellMotion>> {
 fn sample(path: &Path<'_>, grid: &Grid, cells: &[usize]) -> Result<Vec<CellMotion>> {
     let mut found = Vec::with_capacity(cells.len());
     let (mut x, mut z) = (Vec::new(), Vec::new());
+    let reach = 0.5 * TAU * grid.step() / SAMPLES as f64;
     for cells in cells.chunks(BATCH / SAMPLES) {
         let place =
             |cell: usize, k: usize| (cell as f64 + (k as f64 + 0.5) / SAMPLES as f64) * grid.step();
@@ -100,7 +102,7 @@ fn sample(path: &Path<'_>, grid: &Grid, cells: &[usize]) -> Result<Vec<CellMotio
         }
         for (x, z) in x.chunks(SAMPLES).zip(z.chunks(SAMPLES)) {
             let mut cell = CellMotion::default();
-            x.iter().zip(z).for_each(|(x, z)| cell.include(x, z));
+            x.iter().zip(z).for_each(|(x, z)| cell.include(x, z, reach));
             found.push(cell);
         }
     }

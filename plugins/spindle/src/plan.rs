@@ -18,16 +18,19 @@ pub fn fastest_law(
     let grid = Grid::new(path.law.end());
     let cells = motion(path, &grid)?;
     let limits = Limits::of(&path.task.machine);
-    let played = played_speeds(ask, &grid);
-    let speeds = cells.iter().zip(&played);
+    let bounds = cells.iter().zip(played_speeds(ask, &grid));
+    let bounds: Vec<f64> = bounds
+        .map(|(cell, played)| wanted(cell).min(played))
+        .collect();
+    let speeds = cells.iter().zip(&bounds);
     let speeds = speeds
-        .map(|(cell, played)| wanted(cell).min(limits.steady_speed(cell)).min(*played))
+        .map(|(cell, bound)| limits.steady_speed(cell).min(*bound))
         .collect();
     let conditions = Conditions {
         grid,
         cells: &cells,
         limits,
-        played,
+        bounds,
         speed: ask.speed,
     };
     Ok(conditions.fastest(speeds))

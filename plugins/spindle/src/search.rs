@@ -30,8 +30,9 @@ pub struct Conditions<'a> {
     pub cells: &'a [CellMotion],
     /// What the machine allows.
     pub limits: Limits,
-    /// The largest speed of each cell at which the axes as played keep to the limits, rad/s.
-    pub played: Vec<f64>,
+    /// The largest speed of each cell, rad/s: that at which the axes as played keep to the limits, or
+    /// less.
+    pub bounds: Vec<f64>,
     /// The largest speed of all, rad/s.
     pub speed: f64,
 }
@@ -91,10 +92,10 @@ impl Conditions<'_> {
         let law = Law::new(&self.grid, &smoother.apply(&self.grid, &speeds));
         let mut factor: f64 = 1.0;
         let mut asked = Vec::with_capacity(speeds.len());
-        let cells = self.cells.iter().zip(&self.played);
-        for ((cell, played), motion) in cells.zip(law.motions()) {
+        let cells = self.cells.iter().zip(&self.bounds);
+        for ((cell, bound), motion) in cells.zip(law.motions()) {
             let of_path = self.limits.factor_of_axes(cell, &motion);
-            let of_axes = of_path.min(played / motion.speed);
+            let of_axes = of_path.min(bound / motion.speed);
             let of_c = self.limits.factor_of_c(&motion).min(self.of_speed(&motion));
             factor = factor.min(of_axes).min(of_c);
             asked.push(match of_axes < 1.0 - WITHIN {

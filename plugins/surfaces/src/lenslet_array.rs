@@ -85,11 +85,13 @@ impl Surface for LensletArray {
 }
 
 /// The squared distance from the nearest point of a rectangular lattice.
+#[inline(always)]
 fn from_lattice<S: Scalar>(x: S, y: S, along_x: f64, along_y: f64) -> S {
     from_nearest(x, along_x).squared() + from_nearest(y, along_y).squared()
 }
 
 /// The distance from the nearest multiple of a spacing.
+#[inline(always)]
 fn from_nearest<S: Scalar>(x: S, spacing: f64) -> S {
     x - (x / spacing + 0.5).floor() * spacing
 }

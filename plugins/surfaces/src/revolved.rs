@@ -7,6 +7,7 @@ use turnpath_plugin::prelude::*;
 ///
 /// It is free of cancellation: z = (u(2 − cu) + cx²) / (1 + sqrt((1 − cu)² − c²x²)). It is NaN where
 /// the curve has reached the axis, and beyond the turned curve.
+#[inline(always)]
 pub fn revolved<S: Scalar>(u: S, x: S, curvature: f64) -> S {
     let to_axis = -(u * curvature) + 1.0;
     let across = x * curvature;

@@ -5,6 +5,7 @@ mod call;
 mod damage;
 mod damaged_files;
 mod damaged_recipes;
+mod fewest_points;
 mod recipes;
 mod seeded;
 mod targets;

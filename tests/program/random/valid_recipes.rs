@@ -116,7 +116,7 @@ fn refine(random: &mut SeededNumbers) -> &'static str {
 }
 
 /// A length in one of the units, with digits enough for any of them.
-fn length(mm: f64, random: &mut SeededNumbers) -> String {
+pub fn length(mm: f64, random: &mut SeededNumbers) -> String {
     let units = [
         (1.0, "mm"),
         (1e3, "um"),
@@ -135,7 +135,7 @@ fn signed(low: f64, high: f64, random: &mut SeededNumbers) -> f64 {
 }
 
 /// One to three surfaces, and perhaps a pose. `reach` is a radius within which the path stays, mm.
-fn surfaces(reach: f64, random: &mut SeededNumbers) -> String {
+pub fn surfaces(reach: f64, random: &mut SeededNumbers) -> String {
     let mut text = String::new();
     if random.one_in(3) {
         text += "[part.pose]\n";
@@ -220,7 +220,7 @@ fn placement(random: &mut SeededNumbers) -> String {
     kept.copied().collect()
 }
 
-fn tool(random: &mut SeededNumbers) -> String {
+pub fn tool(random: &mut SeededNumbers) -> String {
     let nose = length(random.of_any_size(0.05, 1.0), random);
     let edge = *random.pick(&["", "included_angle = \"120 deg\"\n"]);
     let flank = *random.pick(&["", "clearance_angle = \"0.5 rad\"\n"]);
@@ -266,7 +266,7 @@ fn spindle(random: &mut SeededNumbers) -> String {
     format!("[spindle]\n{chosen}speed = \"{speed:.3} rpm\"\n\n")
 }
 
-fn path(random: &mut SeededNumbers) -> String {
+pub fn path(random: &mut SeededNumbers) -> String {
     let keys = [
         *random.pick(&["", "direction = \"outward\"\n", "direction = \"inward\"\n"]),
         *random.pick(&[
@@ -281,7 +281,7 @@ fn path(random: &mut SeededNumbers) -> String {
 }
 
 /// A strategy's table, with one of the parameters that it may have.
-fn strategy(slot: &str, parts: &[&str], more: &str, random: &mut SeededNumbers) -> String {
+pub fn strategy(slot: &str, parts: &[&str], more: &str, random: &mut SeededNumbers) -> String {
     let name = parts.first().copied().unwrap_or_default();
     let param = match random.below(parts.len()) {
         0 => String::new(),

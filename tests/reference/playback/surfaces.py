@@ -54,13 +54,16 @@ def xy_polynomial(table):
 
 
 def toric(table):
-    """z = R - sqrt((R - a + sqrt(a^2 - y^2))^2 - x^2): base arc a, turned at radius R."""
+    """z = R - sqrt((R - a + sqrt(a^2 - y^2))^2 - x^2): base arc a, turned at radius R.
+
+    Each root has the sign of its radius; a negative radius is convex.
+    """
     rotation = quantity(table, "radius_rotation", LENGTH_MM)
     base = quantity(table, "radius_base", LENGTH_MM)
 
     def sag(x, y):
-        arc = rotation - base + np.sqrt(base**2 - y * y)
-        return rotation - np.sqrt(arc * arc - x * x)
+        arc = rotation - base + math.copysign(1, base) * np.sqrt(base**2 - y * y)
+        return rotation - math.copysign(1, rotation) * np.sqrt(arc * arc - x * x)
 
     return sag
 
@@ -72,9 +75,10 @@ def sinusoidal_array(table):
     """
     amplitude_x = quantity(table, "amplitude_x", LENGTH_MM)
     amplitude_y = quantity(table, "amplitude_y", LENGTH_MM, amplitude_x)
-    k_x = 2 * math.pi * quantity(table, "frequency_x", PER_LENGTH)
-    k_y = 2 * math.pi * quantity(table, "frequency_y", PER_LENGTH)
-    if table["form"] == "sum":
+    frequency_x = quantity(table, "frequency_x", PER_LENGTH)
+    k_x = 2 * math.pi * frequency_x
+    k_y = 2 * math.pi * quantity(table, "frequency_y", PER_LENGTH, frequency_x)
+    if table.get("form", "sum") == "sum":
         return lambda x, y: amplitude_x * np.cos(k_x * x) + amplitude_y * np.cos(k_y * y)
     if table["form"] != "product" or amplitude_x != amplitude_y:
         raise SystemExit("sinusoidal-array: form is sum or product, the latter of one amplitude")

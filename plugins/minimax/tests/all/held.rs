@@ -96,7 +96,9 @@ proptest! {
         ..Default::default()
     })]
 
-    /// And it takes no more nodes than `atpg`, but for one a block.
+    /// And it takes no more nodes than `atpg`, but for one a block. With `normal` nodes do not compare:
+    /// `atpg` lets X err by more than the cusps leave room for, and refinement halves such steps. The
+    /// random recipes of the suite `program` compare the points of whole runs.
     #[test]
     fn on_arrays_and_with_no_more_nodes_than_atpg(
         amplitude in 0.2..5.0f64,
@@ -125,6 +127,9 @@ proptest! {
         let worst = largest_error((&played, &truth), &law, &blocks, law.end());
         let tolerance = played.task.tolerance.interpolation;
         prop_assert!(worst <= HELD * tolerance, "{} of {} nm", worst / NM, tolerance / NM);
+        if which == 1 {
+            return Ok(());
+        }
         let bound = nodes(&played, &law, &atpg(max_step));
         let (found, most) = (count(&blocks), count(&bound) + bound.len());
         prop_assert!(found <= most, "{found} nodes, {} of atpg", count(&bound));

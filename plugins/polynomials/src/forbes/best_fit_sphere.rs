@@ -21,6 +21,7 @@ pub fn sphere(params: &Params) -> Result<Conicoid> {
 }
 
 /// The height of a sphere with a departure along its normal: z = sphere + departure / cos φ.
+#[inline(always)]
 pub fn with_departure<S: Scalar>(sphere: Conicoid, square: S, departure: S) -> S {
     let cosine = sphere.root(square);
     square * sphere.curvature / (cosine + 1.0) + departure / cosine
