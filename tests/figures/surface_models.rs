@@ -12,8 +12,8 @@ use std::sync::{Arc, OnceLock};
 use serde_json::Value;
 use turnpath::Catalogue;
 use turnpath_core::{
-    Attitude, GradientSeries, Gradients, NamedConstant, ParamDefault, ParamKind, ParamValue, Params, Placement,
-    Pose, Series, Slot, SurfaceModel,
+    Attitude, GradientSeries, Gradients, NamedConstant, ParamDefault, ParamKind, ParamValue,
+    Params, Placement, Pose, Series, Slot, SurfaceModel,
 };
 use turnpath_pipeline::{PlacedSurface, PosedSurface, SurfaceSum};
 

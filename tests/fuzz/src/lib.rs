@@ -9,6 +9,7 @@
 )]
 
 pub mod csv;
+pub mod formula;
 pub mod library;
 pub mod pmac;
 mod points;
@@ -28,7 +29,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 6] = [
+pub const TARGETS: [Target; 7] = [
     Target {
         name: "recipe",
         read: recipe::read,
@@ -38,6 +39,11 @@ pub const TARGETS: [Target; 6] = [
         name: "csv",
         read: csv::read,
         words: csv::WORDS,
+    },
+    Target {
+        name: "formula",
+        read: formula::read,
+        words: formula::WORDS,
     },
     Target {
         name: "pmac",
