@@ -423,12 +423,13 @@ fn coefficients_are_rows_of_their_numbers_and_values() {
 #[test]
 fn constants_have_names_and_powers_of_a_length() {
     const CONSTANTS: Param<Constants> = Param::constants("constants", "");
+    const PARAMS: &[ParamInfo] = &[CONSTANTS.info()];
     let info = StrategyInfo {
         slot: Slot::Sampler,
         name: "atpg",
         summary: "",
         source: "",
-        params: &[CONSTANTS.info()],
+        params: PARAMS,
     };
     let sets = [
         "sampler={ use = \"atpg\", constants = { R = \"5 m\", n = 4, t = \"180 deg\" } }",
