@@ -25,9 +25,9 @@ pub enum StrategyError {
         /// What is wrong with the value, and which value would do.
         message: Cow<'static, str>,
         /// The bytes of a text that are wrong; none for the value as a whole. Plugins that were
-        /// built before do not give it.
+        /// built before do not give it. A box, so that the errors without it stay small.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        place: Option<Range<usize>>,
+        place: Option<Box<Range<usize>>>,
     },
     /// A strategy that this one called could not answer. A sampler calls the locus, for example,
     /// and a compensator calls the surface.

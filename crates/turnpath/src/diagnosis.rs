@@ -35,8 +35,13 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
                 },
             ..
         } => {
-            let diagnostic =
-                wrong_parameter(recipe, recipe.choice(*slot), name, message, place.as_ref());
+            let diagnostic = wrong_parameter(
+                recipe,
+                recipe.choice(*slot),
+                name,
+                message,
+                place.as_deref(),
+            );
             Error::refused_by(diagnostic, error)
         }
         // A surface without a height on the part's inner ring is wrong only if it lies where its

@@ -89,7 +89,7 @@ fn not_made(recipe: &Recipe, choice: &Choice, plugin: &str, error: StrategyError
             message,
             place,
         } => {
-            let diagnostic = wrong_parameter(recipe, choice, parameter, message, place.as_ref());
+            let diagnostic = wrong_parameter(recipe, choice, parameter, message, place.as_deref());
             Error::refused_by(diagnostic, error)
         }
         StrategyError::Failed(message) => {

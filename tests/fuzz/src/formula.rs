@@ -70,7 +70,7 @@ pub fn read(bytes: &[u8]) {
         Err(StrategyError::Parameter {
             place: Some(place), ..
         }) => {
-            assert!(text.get(place.clone()).is_some(), "no place: {place:?}");
+            assert!(text.get(*place.clone()).is_some(), "no place: {place:?}");
             return;
         }
         Err(error) => panic!("{error}"),

@@ -115,7 +115,7 @@ impl<K> Param<K> {
         StrategyError::Parameter {
             name: self.info.name.into(),
             message: message.into(),
-            place: Some(place),
+            place: Some(Box::new(place)),
         }
     }
 }

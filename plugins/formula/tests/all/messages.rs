@@ -13,7 +13,7 @@ fn said(z: &str) -> String {
             place: Some(place),
         }) => {
             let before = z[..place.start].chars().count();
-            let under = z[place].chars().count().max(1);
+            let under = z[*place].chars().count().max(1);
             assert_eq!(name, "z");
             format!(
                 "{z}\n{}{}\n{message}\n",
