@@ -21,5 +21,6 @@ mod servo;
 mod spindle;
 mod spoiled_paths;
 mod spoils;
+mod spokes;
 mod surface_models;
 mod whole_part;

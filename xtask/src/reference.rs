@@ -40,6 +40,7 @@ type Make = fn() -> Outcome;
 const PLAYBACK: &str = "playback";
 const PMAC: &str = "pmac";
 const RIMS: &str = "rims";
+const SPOKES: &str = "spokes";
 const REPRODUCTION: &str = "reproduction";
 /// The tables of docs/recipe.md.
 const RECIPE: &str = "recipe";
@@ -50,7 +51,7 @@ const SPOILS: &str = "spoils";
 pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
     let own = FIGURES.iter().map(|figures| figures.name);
     let known: Vec<&str> = own
-        .chain([PLAYBACK, PMAC, RIMS, REPRODUCTION, RECIPE, SPOILS])
+        .chain([PLAYBACK, PMAC, RIMS, REPRODUCTION, RECIPE, SPOILS, SPOKES])
         .collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
         return Err(format!(
@@ -70,13 +71,14 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             with_packages(figures.packages, || figures.make())
         }));
     }
-    let steps_of_the_program: [(&str, Make); 6] = [
+    let steps_of_the_program: [(&str, Make); 7] = [
         (PLAYBACK, || with_packages(&["numpy"], playback)),
         (PMAC, || with_packages(&["numpy"], pmac)),
         (RIMS, || with_packages(&["numpy"], rims)),
         (REPRODUCTION, reproduction),
         (RECIPE, recipe),
         (SPOILS, spoils),
+        (SPOKES, || with_packages(&["numpy"], spokes)),
     ];
     for (name, make) in steps_of_the_program {
         if chosen(name) {
@@ -134,6 +136,14 @@ fn playback() -> Outcome {
 fn rims() -> Outcome {
     match program() {
         Ok(program) => run(script("tests/reference/rims/rims.py", &[&program])),
+        Err(outcome) => outcome,
+    }
+}
+
+/// What spokes.py measures on paths whose steps wander and do not.
+fn spokes() -> Outcome {
+    match program() {
+        Ok(program) => run(script("tests/reference/spokes/spokes.py", &[&program])),
         Err(outcome) => outcome,
     }
 }

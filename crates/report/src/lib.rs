@@ -38,6 +38,7 @@ mod run;
 #[cfg(test)]
 mod sample;
 mod servo;
+mod spokes;
 mod surface_error;
 pub mod text;
 mod tool_fit;
@@ -71,6 +72,7 @@ pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
 };
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
+pub use spokes::Spokes;
 pub use surface_error::{RealNose, SurfaceError};
 pub use tool_fit::{
     AngleMargin, ContactPlace, Hollow, Margins, NoseMargin, Region, Sections, Slope, ToolFit,

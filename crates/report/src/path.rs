@@ -11,6 +11,7 @@ use crate::lead::LeadReport;
 use crate::machine::{HighestSpindle, MachineReport, all_hold};
 use crate::reach::Reach;
 use crate::servo::ServoReport;
+use crate::spokes::Spokes;
 use crate::surface_error::{RealNose, SurfaceError};
 use crate::unit;
 use crate::verdict::{Verdict, within};
@@ -41,6 +42,10 @@ pub struct PathReport {
     pub axis_crossing: AxisCrossing,
     /// Machined − wanted surface; `None` where nothing of the part is cut.
     pub surface_error: Option<SurfaceError>,
+    /// The largest spoke; `None` on a path of less than a turn, and in a report that was written
+    /// before there was such a figure. No tolerance applies to it.
+    #[serde(default)]
+    pub spokes: Option<Spokes>,
     /// What the real nose leaves where the path takes its radius as 0; `None` elsewhere.
     #[serde(default)]
     pub real_nose: Option<RealNose>,

@@ -108,6 +108,12 @@ pub fn path(
             contact: figures.coverage.contact_beyond_axis,
         },
         surface_error: cut.machined.map(surface_error),
+        spokes: figures.spoke.map(|spoke| report::Spokes {
+            amplitude: spoke.amplitude,
+            per_turn: spoke.per_turn,
+            from: spoke.from,
+            to: spoke.to,
+        }),
         real_nose: cut
             .machined
             .and_then(|machined| machined.real_nose)

@@ -10,6 +10,7 @@ use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, Sur
 use crate::playback::{PlaybackFigures, play_back};
 use crate::points::{PointFigures, point_errors};
 use crate::residual::{Passes, ResidualFigures};
+use crate::spokes::{BlockSpokes, SegmentErrors, Spoke, Spokes};
 use crate::touch::FirstTouch;
 
 /// The figures of one block of the cutting section.
@@ -34,7 +35,30 @@ pub struct BlockFigures {
     /// The passes of the real nose, where the path takes its radius as 0.
     real_nose: Option<SectionPasses>,
     coverage: Coverage,
+    spokes: BlockSpokes,
     ends: Option<[ControlPoint; 2]>,
+}
+
+impl BlockFigures {
+    /// Plays the block back; the errors of its points are known.
+    fn play_back(&mut self, touch: &FirstTouch, points: &PathBlock) -> Result<()> {
+        let (part, spokes) = (touch.subject().part, &mut self.spokes);
+        let at_points = &self.per_point;
+        self.playback = play_back(touch, points, &mut self.per_segment, |found| {
+            let end = found.number + 1;
+            let errors = SegmentErrors {
+                segment: found.segment,
+                ends: [points.c[end - 1], points.c[end]],
+                errors: std::array::from_fn(|k| match found.errors.get(k) {
+                    Some(error) => *error,
+                    None => at_points[end],
+                }),
+                touches: found.touches,
+            };
+            spokes.add(&errors, &part);
+        })?;
+        Ok(())
+    }
 }
 
 /// The figures of a whole path.
@@ -52,6 +76,8 @@ pub struct PathFigures {
     pub axes: AxesMotion,
     /// Cutting speed.
     pub cutting_speed: CuttingSpeed,
+    /// The largest spoke; `None` on a path of less than a turn.
+    pub spoke: Option<Spoke>,
 }
 
 /// Measures a path against its subject.
@@ -63,6 +89,7 @@ pub struct Meter {
     /// The lines of the real nose, where the path takes its radius as 0.
     real_nose: Option<Lines>,
     coverage: Coverage,
+    spokes: Spokes,
     counts_centre: bool,
     form: Option<FormScope>,
     ends: Option<[ControlPoint; 2]>,
@@ -79,6 +106,7 @@ impl Meter {
             passes: Passes::default(),
             lines: Lines::new(Fan::WHOLE),
             coverage: Coverage::default(),
+            spokes: Spokes::default(),
             counts_centre: false,
             form: None,
             ends: None,
@@ -124,8 +152,8 @@ impl Meter {
             ends: ends(points),
             ..BlockFigures::default()
         };
-        block.playback = play_back(touch, points, &mut block.per_segment)?;
         block.per_point = point_errors(touch, points)?;
+        block.play_back(touch, points)?;
         block.points = PointFigures::of(points, &block.per_point, offsets);
         block.passes = Passes::of(touch, points)?;
         block.residual = block.passes.residual(touch)?;
@@ -142,7 +170,7 @@ impl Meter {
     /// The largest |error| of each segment alone, mm, for refinement.
     pub fn segment_errors(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
         let mut errors = Vec::new();
-        play_back(touch, points, &mut errors)?;
+        play_back(touch, points, &mut errors, |_| ())?;
         Ok(errors)
     }
 
@@ -161,6 +189,7 @@ impl Meter {
             lines.append(passes);
         }
         self.coverage.append(&next.coverage, &next.passes);
+        self.spokes.append(&next.spokes);
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
             (own, next) => own.or(next),
@@ -227,6 +256,7 @@ impl Meter {
         let mut figures = self.figures.clone();
         let (coverage, around_axis) = self.coverage.figures(&self.touch)?;
         figures.coverage = coverage;
+        figures.spoke = self.spokes.largest();
         if self.counts_centre {
             figures.residual.append(&around_axis);
         }

@@ -5,7 +5,7 @@ use turnpath_core::toolpath::{PathBlock, Segment};
 
 use crate::corners::at_corners;
 use crate::instants::{BATCH, INSTANTS, InstantBatch};
-use crate::touch::FirstTouch;
+use crate::touch::{FirstTouch, Touch};
 use crate::worst::Worst;
 
 /// The interpolation error of a path.
@@ -66,12 +66,25 @@ impl PlaybackFigures {
     }
 }
 
+/// What was found on one segment.
+pub(crate) struct SegmentPlayback<'a> {
+    /// The number of the segment in its block.
+    pub number: usize,
+    /// What is played.
+    pub segment: &'a Segment,
+    /// Played − true Z at each instant, mm.
+    pub errors: [f64; INSTANTS],
+    /// The first touch at each instant.
+    pub touches: &'a [Touch],
+}
+
 /// Plays `points` back, writes the largest |error| of each segment to `per_segment`, mm, and
-/// returns the figures of the block.
-pub fn play_back(
+/// returns the figures of the block. `seen` gets what was found on each segment.
+pub(crate) fn play_back(
     touch: &FirstTouch,
     points: &PathBlock,
     per_segment: &mut Vec<f64>,
+    mut seen: impl FnMut(&SegmentPlayback<'_>),
 ) -> Result<PlaybackFigures> {
     let segments: Vec<Segment> = points.segments().collect();
     let mut figures = PlaybackFigures::default();
@@ -90,6 +103,12 @@ pub fn play_back(
             figures.time += segment.duration;
             let worst = Worst::of(&errors).or(corners.get(i).copied().flatten());
             figures.include(worst, segment);
+            seen(&SegmentPlayback {
+                number: per_segment.len(),
+                segment,
+                errors,
+                touches: &instants.touches()[i * INSTANTS..(i + 1) * INSTANTS],
+            });
             per_segment.push(worst.amount());
         }
     }

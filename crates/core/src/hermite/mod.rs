@@ -11,8 +11,10 @@ mod clock;
 mod samples;
 mod steps;
 mod swing;
+mod wander;
 
 pub use bound::{Bound, Jumps};
 pub use samples::pitch;
-pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER, largest_step};
+pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER};
 pub use swing::x_swings;
+pub use wander::Wander;

@@ -4,6 +4,7 @@ use crate::cutting_speed::CuttingSpeed;
 use crate::errors::PlayedCusp;
 use crate::path::PathReport;
 use crate::place::SurfacePoint;
+use crate::spokes::Spokes;
 use crate::surface_error::{RealNose, SurfaceError};
 use crate::unit;
 use crate::verdict::Verdict;
@@ -24,6 +25,7 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     text += &line("residual", residual(path, verdict));
     text += &played_cusp(path.played_cusp.as_ref());
     text += &surface_error(path.surface_error.as_ref());
+    text += &spokes(path.spokes.as_ref());
     text += &real_nose(path.real_nose.as_ref());
     if let Some(report) = &path.form {
         text += &form(report, verdict.form);
@@ -73,6 +75,17 @@ fn played_cusp(cusp: Option<&PlayedCusp>) -> String {
         let (max, at) = (small_length(cusp.max), path_place(&cusp.at));
         let text = format!("{max:>12} as played, with the interpolation error; at {at}");
         line("", text)
+    })
+}
+
+/// The line on spokes.
+fn spokes(spokes: Option<&Spokes>) -> String {
+    spokes.map_or_else(String::new, |spokes| {
+        let amplitude = small_length(spokes.amplitude);
+        let [from, to] = [spokes.from, spokes.to].map(|mm| millimetres(mm, 4));
+        let periods = spokes.per_turn;
+        let text = format!("{amplitude:>12} with {periods} periods a turn, from {from} to {to}");
+        line("spokes", text)
     })
 }
 

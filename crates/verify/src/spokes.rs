@@ -1,0 +1,384 @@
+//! Spokes: the error that comes back at the same angles turn after turn.
+//!
+//! One turn cuts one ring of the part, and each ring has some error of the interpolation. Where
+//! neighbouring rings have it at the same angles, it stands on the part as spokes, which scatter
+//! light to where a whole pattern can be seen. Where it lies at other angles on every ring, what
+//! stays of it, averaged over many rings, is next to nothing.
+//!
+//! So the error as played is averaged at each of [`ANGLES`] angles over the turns of a window of
+//! [`WINDOW`] turns. The window moves over the path by [`ADVANCE`] turns at a time, and the last one
+//! ends with the path. The largest harmonic of these mean turns is the figure. The harmonics of a
+//! mean turn are the complex means of the harmonics of its turns, so one Fourier transform for each
+//! window gives them.
+
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlannerScalar};
+use turnpath_core::Part;
+use turnpath_core::toolpath::Segment;
+
+use crate::instants::INSTANTS;
+use crate::touch::Touch;
+
+/// Angles of a mean turn: four for each period of the highest harmonic.
+const ANGLES: usize = 4 * HIGHEST;
+/// The lowest harmonic. Below it are tilt and astigmatism, which are no spokes.
+const LOWEST: usize = 3;
+/// The highest harmonic.
+const HIGHEST: usize = 512;
+/// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
+const WINDOW: usize = 64;
+/// Turns from one window to the next: a pattern that stays for as many fills half of a window.
+const ADVANCE: usize = 32;
+/// C follows a straight line if it leaves it by less than this part of the segment.
+const STRAIGHT: f64 = 1e-9;
+/// Newton's method finds an instant to rounding in so many steps from the straight line.
+const NEWTON_STEPS: usize = 5;
+
+/// The largest spoke of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spoke {
+    /// Amplitude of the harmonic of machined − wanted along z, mm: half its peak to valley.
+    pub amplitude: f64,
+    /// Periods on a turn.
+    pub per_turn: usize,
+    /// The smallest radius of a contact in its window, mm.
+    pub from: f64,
+    /// The largest, mm.
+    pub to: f64,
+}
+
+/// The errors of one turn.
+#[derive(Debug, Clone)]
+struct Turn {
+    /// C in turns, rounded down.
+    number: i64,
+    /// The error at each angle, mm; NaN where no contact lies on the part.
+    errors: Vec<f64>,
+    from: f64,
+    to: f64,
+}
+
+impl Turn {
+    fn new(number: i64) -> Self {
+        Self {
+            number,
+            errors: vec![f64::NAN; ANGLES],
+            from: f64::INFINITY,
+            to: 0.0,
+        }
+    }
+
+    fn include(&mut self, angle: usize, error: f64, foot: f64) {
+        self.errors[angle] = error;
+        self.from = self.from.min(foot);
+        self.to = self.to.max(foot);
+    }
+
+    /// Adds the part of this turn that lies in the next block.
+    fn join(&mut self, rest: &Self) {
+        let known = rest.errors.iter().enumerate().filter(|(_, e)| !e.is_nan());
+        for (angle, error) in known {
+            self.errors[angle] = *error;
+        }
+        self.from = self.from.min(rest.from);
+        self.to = self.to.max(rest.to);
+    }
+}
+
+/// What was found on one segment.
+pub(crate) struct SegmentErrors<'a> {
+    /// What is played.
+    pub segment: &'a Segment,
+    /// C at both ends, rad, as its control points have it.
+    pub ends: [f64; 2],
+    /// Machined − wanted at each instant and at the end, mm.
+    pub errors: [f64; INSTANTS + 1],
+    /// The first touch at each instant.
+    pub touches: &'a [Touch],
+}
+
+impl SegmentErrors<'_> {
+    /// The place between the instants, counted in instants, where C is `c`.
+    fn place(&self, c: f64) -> f64 {
+        let [start, end] = self.ends;
+        let mut s = (c - start) / (end - start);
+        let played = &self.segment.c;
+        let [_, rise, square, cube] = played.0;
+        if square.abs() + cube.abs() > STRAIGHT * rise.abs() {
+            for _ in 0..NEWTON_STEPS {
+                s -= (played.value(s) - c) / played.slope(s);
+            }
+        }
+        INSTANTS as f64 * s.clamp(0.0, 1.0)
+    }
+
+    /// The error at a place: the cubic through the four values around it.
+    fn error_at(&self, place: f64) -> f64 {
+        let first = (place as usize).saturating_sub(1).min(INSTANTS - 3);
+        let [a, b, c, d] = std::array::from_fn(|k| self.errors[first + k]);
+        let u = place - first as f64;
+        let third = d - 3.0 * (c - b) - a;
+        let bend = c - 2.0 * b + a + (u - 2.0) / 3.0 * third;
+        a + u * (b - a + 0.5 * (u - 1.0) * bend)
+    }
+}
+
+/// The turns of one block of a path.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct BlockSpokes {
+    /// In order.
+    turns: Vec<Turn>,
+}
+
+impl BlockSpokes {
+    /// Adds the block's next segment. Only contacts on the part count.
+    pub fn add(&mut self, found: &SegmentErrors<'_>, part: &Part) {
+        let per_radian = ANGLES as f64 / TAU;
+        let [from, to] = found.ends.map(|c| (c * per_radian).ceil());
+        if !from.is_finite() || !to.is_finite() {
+            return;
+        }
+        for cell in from as i64..to as i64 {
+            let place = found.place(cell as f64 / per_radian);
+            let nearest = (place as usize).min(INSTANTS - 1);
+            let foot = found.touches[nearest].foot;
+            let error = found.error_at(place);
+            let counts = (part.inner_radius..=part.aperture_radius).contains(&foot);
+            if counts && error.is_finite() {
+                let angle = cell.rem_euclid(ANGLES as i64) as usize;
+                let turn = cell.div_euclid(ANGLES as i64);
+                self.turn(turn).include(angle, error, foot);
+            }
+        }
+    }
+
+    fn turn(&mut self, number: i64) -> &mut Turn {
+        let known = self.turns.iter().rposition(|turn| turn.number == number);
+        let index = known.unwrap_or_else(|| {
+            self.turns.push(Turn::new(number));
+            self.turns.len() - 1
+        });
+        &mut self.turns[index]
+    }
+}
+
+/// Finds the largest spoke of a path, block by block. It needs memory for one window, however long
+/// the path is.
+pub(crate) struct Spokes {
+    fft: Arc<dyn Fft<f64>>,
+    /// The last turns, [`WINDOW`] at the most, in order. The last of them may still grow.
+    window: VecDeque<Turn>,
+    /// Turns that end before the next window does.
+    until_next: usize,
+    /// The largest spoke of all windows before.
+    largest: Option<Spoke>,
+}
+
+impl Default for Spokes {
+    fn default() -> Self {
+        Self {
+            // The scalar planner uses no vector instructions, which not every CPU has.
+            fft: FftPlannerScalar::new().plan_fft_forward(ANGLES),
+            window: VecDeque::with_capacity(WINDOW),
+            until_next: WINDOW,
+            largest: None,
+        }
+    }
+}
+
+impl Spokes {
+    /// Appends the path's next block.
+    pub fn append(&mut self, next: &BlockSpokes) {
+        for turn in &next.turns {
+            match self.window.back_mut() {
+                Some(last) if last.number == turn.number => last.join(turn),
+                _ => self.push(turn.clone()),
+            }
+        }
+    }
+
+    /// Begins the path's next turn: the one before is whole.
+    fn push(&mut self, turn: Turn) {
+        if self.until_next == 0 {
+            self.largest = larger(self.largest, self.spoke());
+            self.until_next = ADVANCE;
+        }
+        if self.window.len() == WINDOW {
+            self.window.pop_front();
+        }
+        self.window.push_back(turn);
+        self.until_next -= 1;
+    }
+
+    /// The largest spoke so far; `None` if no window has errors at all angles.
+    pub fn largest(&self) -> Option<Spoke> {
+        larger(self.largest, self.spoke())
+    }
+
+    /// The largest harmonic of the window's mean turn; `None` if there is an angle without errors.
+    fn spoke(&self) -> Option<Spoke> {
+        let mut harmonics = self.mean_turn()?;
+        self.fft.process(&mut harmonics);
+        let harmonics = harmonics.iter().enumerate().take(HIGHEST + 1).skip(LOWEST);
+        let amplitudes = harmonics.map(|(k, value)| (k, 2.0 * value.norm() / ANGLES as f64));
+        let (per_turn, amplitude) = amplitudes.max_by(|one, other| one.1.total_cmp(&other.1))?;
+        let turns = self.window.iter();
+        Some(Spoke {
+            amplitude,
+            per_turn,
+            from: turns
+                .clone()
+                .fold(f64::INFINITY, |r, turn| r.min(turn.from)),
+            to: turns.fold(0.0, |r, turn| r.max(turn.to)),
+        })
+    }
+
+    fn mean_turn(&self) -> Option<Vec<Complex<f64>>> {
+        let mut sums = vec![(0.0, 0_u32); ANGLES];
+        for turn in &self.window {
+            let known = sums
+                .iter_mut()
+                .zip(&turn.errors)
+                .filter(|(_, e)| !e.is_nan());
+            known.for_each(|((sum, count), error)| {
+                *sum += error;
+                *count += 1;
+            });
+        }
+        let means = sums.iter().map(|(sum, count)| match count {
+            0 => None,
+            _ => Some(Complex::new(sum / f64::from(*count), 0.0)),
+        });
+        means.collect()
+    }
+}
+
+fn larger(one: Option<Spoke>, other: Option<Spoke>) -> Option<Spoke> {
+    match (one, other) {
+        (Some(one), Some(other)) if other.amplitude > one.amplitude => Some(other),
+        (one, other) => one.or(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::Range;
+
+    use turnpath_core::Scalar;
+    use turnpath_core::toolpath::ControlPoint;
+
+    use super::*;
+
+    const PART: Part = Part {
+        aperture_radius: 1000.0,
+        inner_radius: 0.0,
+    };
+    /// Steps on a turn.
+    const STEPS: usize = 20;
+
+    /// The block of turns whose error is `error(turn, θ)`, at the radius of the turn's number. The
+    /// speed swings within a step by `swing`.
+    fn block(turns: Range<usize>, swing: f64, error: impl Fn(usize, f64) -> f64) -> BlockSpokes {
+        let mut spokes = BlockSpokes::default();
+        let speed = TAU / STEPS as f64;
+        let point = |i: usize| ControlPoint {
+            t: i as f64,
+            c: speed * i as f64,
+            vc: speed * (1.0 + if i % 2 == 0 { swing } else { -swing }),
+            ..ControlPoint::default()
+        };
+        for i in turns.start * STEPS..turns.end * STEPS {
+            let segment = Segment::between(&point(i), &point(i + 1));
+            let turn = i / STEPS;
+            let foot = turn as f64;
+            let touches = [Touch {
+                foot,
+                ..Touch::default()
+            }; INSTANTS];
+            spokes.add(
+                &SegmentErrors {
+                    segment: &segment,
+                    ends: [point(i).c, point(i + 1).c],
+                    errors: std::array::from_fn(|k| {
+                        error(turn, segment.c.value(k as f64 / INSTANTS as f64))
+                    }),
+                    touches: &touches,
+                },
+                &PART,
+            );
+        }
+        spokes
+    }
+
+    fn largest(blocks: &[BlockSpokes]) -> Option<Spoke> {
+        let mut spokes = Spokes::default();
+        blocks.iter().for_each(|block| spokes.append(block));
+        spokes.largest()
+    }
+
+    fn is_near(found: f64, expected: f64) -> bool {
+        (found / expected - 1.0).abs() < 2e-3
+    }
+
+    #[test]
+    fn a_wave_at_the_same_angles_has_its_amplitude_whatever_the_speed() {
+        for swing in [0.0, 0.3] {
+            let wave = |_: usize, c: f64| 3.0 + Scalar::cos(c) + 2e-3 * Scalar::sin(17.0 * c);
+            let found = largest(&[block(0..64, swing, wave)]).unwrap();
+            assert_eq!(found.per_turn, 17);
+            assert!(is_near(found.amplitude, 2e-3), "{found:?}");
+            assert_eq!((found.from, found.to), (0.0, 63.0));
+        }
+    }
+
+    #[test]
+    fn a_wave_that_comes_round_evenly_leaves_nothing() {
+        let wave = |turn: usize, c: f64| Scalar::sin(17.0 * c + TAU * turn as f64 / 16.0);
+        let found = largest(&[block(0..64, 0.0, wave)]).unwrap();
+        assert!(found.amplitude < 1e-2, "{found:?}");
+    }
+
+    #[test]
+    fn the_largest_window_counts_with_its_radii_however_the_path_is_cut() {
+        let wave = |turn: usize, c: f64| match turn {
+            96..160 => 4.0 * Scalar::cos(5.0 * c),
+            _ => Scalar::cos(9.0 * c),
+        };
+        let found = largest(&[block(0..100, 0.0, wave), block(100..200, 0.0, wave)]).unwrap();
+        assert_eq!((found.per_turn, found.from, found.to), (5, 96.0, 159.0));
+        assert!(is_near(found.amplitude, 4.0), "{found:?}");
+        let whole = largest(&[block(0..200, 0.0, wave)]).unwrap();
+        assert!(is_near(found.amplitude, whole.amplitude));
+        assert_eq!(found.per_turn, whole.per_turn);
+    }
+
+    #[test]
+    fn the_last_window_ends_with_the_path() {
+        let wave = |turn: usize, c: f64| match turn {
+            64..74 => Scalar::cos(9.0 * c),
+            _ => 0.0,
+        };
+        let found = largest(&[block(0..74, 0.0, wave)]).unwrap();
+        assert!(is_near(found.amplitude, 10.0 / 64.0), "{found:?}");
+        assert_eq!((found.from, found.to), (10.0, 73.0));
+    }
+
+    #[test]
+    fn a_path_of_few_turns_is_one_window() {
+        let wave = |turn: usize, c: f64| turn as f64 * Scalar::cos(9.0 * c);
+        let found = largest(&[block(0..3, 0.0, wave)]).unwrap();
+        assert!(is_near(found.amplitude, 1.0), "{found:?}");
+    }
+
+    #[test]
+    fn a_path_of_less_than_a_turn_has_no_spokes() {
+        assert_eq!(largest(&[]), None);
+        let mut half = block(0..1, 0.0, |_, c| c);
+        half.turns[0].errors[5] = f64::NAN;
+        assert_eq!(largest(&[half]), None);
+    }
+}
