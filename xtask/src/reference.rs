@@ -16,7 +16,7 @@ struct Figures {
     packages: &'static [&'static str],
 }
 
-const FIGURES: [Figures; 9] = [
+const FIGURES: [Figures; 10] = [
     figures("compensators", &["mpmath"]),
     figures("dropcutter", &["numpy", "opencamlib"]),
     figures("poses", &["mpmath"]),
