@@ -169,7 +169,7 @@ pub struct AblateArgs {
 pub struct VerifyArgs {
     #[command(flatten)]
     pub recipe: RecipeArgs,
-    /// The tool path to measure: a toolpath.csv, or a program of the post pmac-pvt (.pmc)
+    /// The tool path to measure: a toolpath.csv, or a program of a post (.pmc, .ppmc, .ascript, .mpf)
     pub file: PathBuf,
     /// Where maps, profiles, circles and the spectrum go; the present folder unless given
     #[arg(short, long, value_name = "DIR")]

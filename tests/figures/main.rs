@@ -13,6 +13,7 @@ mod machine;
 mod machined_surface;
 mod pmac;
 mod poses;
+mod posts;
 mod real_nose;
 mod recipes;
 mod rims;

@@ -229,12 +229,40 @@ fn header_and_footer_are_the_recipes() {
 }
 
 #[test]
+fn a_segment_that_is_too_long_for_the_controller_is_divided_on_its_cubic() {
+    // 15 s from point to point, and 4095.9998 ms at the most.
+    let slow = ["spindle.speed=\"0.1 rpm\""];
+    let run = Run::of(&astigmatic(), &slow).ends(0);
+    let summary = run.summary();
+    costs_little(&summary);
+    let points = points_of(&run.read("astigmatic-5mm.pmc"));
+    const LONGEST: f64 = 16_777_215.0;
+    let table = run.read("toolpath.csv");
+    let steps = |row: &str| row.split(',').next().unwrap().parse::<f64>().unwrap() * 4_096_000.0;
+    let times: Vec<f64> = table.lines().skip(1).map(steps).collect();
+    let parts = times
+        .windows(2)
+        .map(|pair| ((pair[1] - pair[0]).round() / LONGEST).ceil());
+    let parts: f64 = parts.sum();
+    assert!(
+        parts > 3.9 * times.len() as f64,
+        "{parts} of {}",
+        times.len()
+    );
+    assert_eq!(points.len() as f64, parts + 1.0);
+    let steps = points.windows(2).map(|pair| pair[1].0 - pair[0].0);
+    assert!(steps.into_iter().all(|step| step <= LONGEST));
+    let report = verified(&astigmatic(), &run.path("astigmatic-5mm.pmc"), &slow);
+    assert_eq!(
+        number(&report, "/interpolation_error/max_nm"),
+        errors(&summary).1
+    );
+    assert_eq!(report["anomalies"]["count"], 0, "{}", report["anomalies"]);
+}
+
+#[test]
 fn what_the_post_cannot_write_is_the_recipes_fault_and_leaves_no_file() {
     for (set, says) in [
-        (
-            "spindle.speed=\"0.1 rpm\"",
-            "takes 15000.0000 ms; the controller allows 4095.9998 ms at the most",
-        ),
         (
             "output.pmac-pvt.position_decimals=12",
             "too many digits with 12 decimals",

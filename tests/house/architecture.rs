@@ -18,13 +18,14 @@ const PLUGINS: &str = "plugins/*";
 const RULES: &[Rule] = &[
     rule("turnpath-units", &[], &[]),
     rule("turnpath-files", &[], &[]),
+    rule("turnpath-maps", &[], &[]),
     rule("turnpath-core", &["turnpath-units"], &[]),
     rule("turnpath-plugin", &["turnpath-core"], &[]),
-    rule("turnpath-recipe", &["turnpath-core"], &[]),
+    rule("turnpath-recipe", &["turnpath-core", "turnpath-post"], &[]),
     rule(
         "turnpath-verify",
         &["turnpath-core"],
-        &["turnpath-surfaces"],
+        &["turnpath-grid", "turnpath-maps", "turnpath-surfaces"],
     ),
     rule("turnpath-post", &["turnpath-core", "turnpath-files"], &[]),
     rule(
@@ -37,7 +38,11 @@ const RULES: &[Rule] = &[
         &["turnpath-core", "turnpath-files", "turnpath-plugin"],
         &[PLUGINS],
     ),
-    rule(PLUGINS, &["turnpath-plugin"], &["turnpath-core", PLUGINS]),
+    rule(
+        PLUGINS,
+        &["turnpath-maps", "turnpath-plugin"],
+        &["turnpath-core", PLUGINS],
+    ),
     rule("turnpath-report", &["turnpath-core"], &[]),
     rule("turnpath", LIBRARIES, &[]),
     rule(
@@ -53,6 +58,7 @@ const LIBRARIES: &[&str] = &[
     "turnpath-core",
     "turnpath-files",
     "turnpath-host",
+    "turnpath-maps",
     "turnpath-pipeline",
     "turnpath-post",
     "turnpath-recipe",
@@ -160,7 +166,7 @@ fn a_plugin_never_sees_host_pipeline_or_recipe_even_in_its_tests() {
     let plugins = metadata.packages.iter();
     for package in plugins.filter(|package| is_plugin(&metadata, &package.name)) {
         for dependency in inner(&metadata, package) {
-            let within = dependency.name == "turnpath-plugin"
+            let within = ["turnpath-maps", "turnpath-plugin"].contains(&dependency.name.as_str())
                 || (is_for_tests(dependency)
                     && (dependency.name == "turnpath-core"
                         || is_plugin(&metadata, &dependency.name)));

@@ -17,6 +17,7 @@ const BUILT_INS: [(&str, &[&str]); 6] = [
             "forbes-qbfs",
             "forbes-qcon",
             "formula",
+            "grid-sag",
             "lenslet-array",
             "odd-asphere",
             "off-axis-conic",

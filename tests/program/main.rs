@@ -15,6 +15,7 @@ mod damaged_libraries;
 mod data_files;
 mod ending_plugins;
 mod frozen_boundary;
+mod maps;
 mod own_sampler;
 mod plugins_lock;
 mod random;

@@ -37,6 +37,8 @@ const fn figures(name: &'static str, packages: &'static [&'static str]) -> Figur
 type Make = fn() -> Outcome;
 
 /// What needs the program or a test of it.
+const GRIDS: &str = "grids";
+const MAPS: &str = "maps";
 const PLAYBACK: &str = "playback";
 const PMAC: &str = "pmac";
 const RIMS: &str = "rims";
@@ -51,7 +53,17 @@ const SPOILS: &str = "spoils";
 pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
     let own = FIGURES.iter().map(|figures| figures.name);
     let known: Vec<&str> = own
-        .chain([PLAYBACK, PMAC, RIMS, REPRODUCTION, RECIPE, SPOILS, SPOKES])
+        .chain([
+            GRIDS,
+            MAPS,
+            PLAYBACK,
+            PMAC,
+            RIMS,
+            REPRODUCTION,
+            RECIPE,
+            SPOILS,
+            SPOKES,
+        ])
         .collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(name)) {
         return Err(format!(
@@ -71,7 +83,11 @@ pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
             with_packages(figures.packages, || figures.make())
         }));
     }
-    let steps_of_the_program: [(&str, Make); 7] = [
+    let steps_of_the_program: [(&str, Make); 9] = [
+        (GRIDS, || {
+            with_packages(&["mpmath", "numpy", "prysm", "scipy"], grids)
+        }),
+        (MAPS, || with_packages(&["numpy"], maps)),
         (PLAYBACK, || with_packages(&["numpy"], playback)),
         (PMAC, || with_packages(&["numpy"], pmac)),
         (RIMS, || with_packages(&["numpy"], rims)),
@@ -130,6 +146,29 @@ fn playback() -> Outcome {
     let mut call = script("tests/reference/playback/measure_all.py", &[&program]);
     call.arg("--plugins").arg(plugins);
     run(call)
+}
+
+/// The small maps of every format, and the splines through grids.
+fn grids() -> Outcome {
+    let outcome = run(script("tests/reference/grids/files.py", &[]));
+    if outcome != Outcome::Passed {
+        return outcome;
+    }
+    let splines = script("tests/reference/grids/splines.py", &[]);
+    write(splines, Path::new("tests/reference/grids/splines.json"))
+}
+
+/// The path over grids of known surfaces, and a part that is corrected by its own error.
+fn maps() -> Outcome {
+    let program = match program() {
+        Ok(program) => program,
+        Err(outcome) => return outcome,
+    };
+    let outcome = run(script("tests/reference/grids/accuracy.py", &[&program]));
+    if outcome != Outcome::Passed {
+        return outcome;
+    }
+    run(script("tests/reference/grids/correction.py", &[&program]))
 }
 
 /// What rims.py measures at the rims of steep caps.

@@ -87,7 +87,7 @@ fn refuse_commands(recipe: &Recipe) -> Result<(), Error> {
             );
             let label = "may move an axis, set a variable, or start what does";
             let help = "if that is right for your machine, call again with `--trust-recipe`; the \
-                        words that need no trust stand in docs/pmac.md";
+                        words that need no trust stand in docs/posts.md";
             recipe.diagnostic(span, title, label, [help.to_owned()])
         })
         .collect();

@@ -74,7 +74,7 @@ pub use servo::{AxisServo, Servo};
 pub use slot::Slot;
 pub use spindle::{SpindleAsk, SpindleStrategy};
 pub use strategy::{HOST_KEYS, Strategy, StrategyInfo, is_strategy_name};
-pub use surface::{GradientSeries, Gradients, Surface, SurfaceModel};
+pub use surface::{GradientSeries, Gradients, Surface, SurfaceData, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
 pub use turnpath_units::{DEG, LengthPower, NM, Quantity, QuantityError, UM};
 pub use turns::{Revolutions, Turn, angle};

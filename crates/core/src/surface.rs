@@ -2,6 +2,8 @@
 
 use std::array::from_fn;
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
 
 /// A surface z = f(x, y), written once for every number type. Lengths are in mm, and z points to
@@ -52,6 +54,30 @@ pub trait SurfaceModel: Send + Sync {
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()>;
     /// The series of z alone along the curves (x(t), y(t)).
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()>;
+
+    /// How far each (x, y) lies beyond the data that the surface was made from, mm: 0 where there
+    /// are data. A formula has no data, and gives 0 everywhere, which is the default.
+    fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()> {
+        let _ = (x, y);
+        distance.fill(0.0);
+        Ok(())
+    }
+
+    /// The data that the surface was made from; `None` for a formula, which is the default.
+    fn data(&self) -> Result<Option<SurfaceData>> {
+        Ok(None)
+    }
+}
+
+/// What a surface was made from, for reports.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SurfaceData {
+    /// Points of the data, with those that have no height.
+    pub points: u64,
+    /// Points that have no height in the data and were filled.
+    pub filled: u64,
+    /// How the surface goes on beyond the data, in a few words.
+    pub continuation: String,
 }
 
 /// How many points go through a formula together. The number is large enough to fill the vector

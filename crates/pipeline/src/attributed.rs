@@ -8,7 +8,7 @@ use std::sync::Arc;
 use turnpath_core::interference::Interference;
 use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, GradientSeries, Gradients, Radial, RadialRange, Rates,
-    Result, Series, Slot, StrategyError, SurfaceModel,
+    Result, Series, Slot, StrategyError, SurfaceData, SurfaceModel,
 };
 
 use crate::Link;
@@ -86,6 +86,15 @@ impl SurfaceModel for NamedSurface {
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
         self.name.attribute(self.surface.height_series(x, y, z))
+    }
+
+    fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()> {
+        self.name
+            .attribute(self.surface.beyond_data(x, y, distance))
+    }
+
+    fn data(&self) -> Result<Option<SurfaceData>> {
+        self.name.attribute(self.surface.data())
     }
 }
 

@@ -68,8 +68,8 @@ pub mod prelude {
         NamedConstant, NodeList, NodeOffset, Nodes, Pace, Param, ParamInfo, Params, Part, Path,
         Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler,
         SamplerPlan, Scalar, Series, Setup, SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw,
-        Strategy, StrategyError, Surface, SurfaceModel, Task, Taylor, Tolerance, Tool, Turn, UM,
-        Velocities, VelocitySolver, angle, per_radian, quintic,
+        Strategy, StrategyError, Surface, SurfaceData, SurfaceModel, Task, Taylor, Tolerance, Tool,
+        Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
     };
 }
 
@@ -95,6 +95,10 @@ pub mod macros {
 /// ```text
 /// turnpath_plugin::export!(feeds: [MyFeed], samplers: [MySampler, MyOther]);
 /// ```
+///
+/// A surface that is a formula goes under `surfaces`. One that answers in batches by itself, because
+/// it looks into a table, implements [`SurfaceModel`](prelude::SurfaceModel) and goes under
+/// `surface_models`.
 ///
 /// The slots are `surfaces`, `feeds`, `samplers`, `compensators`, `velocities` and `spindles`. Use the macro
 /// once in a crate. A plugin must unwind on panic. `panic = "abort"` in its profile would end the

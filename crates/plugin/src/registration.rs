@@ -79,6 +79,13 @@ impl Registration {
     }
 
     registrar!(surfaces, Surface, Surface, SurfaceModel, "surface model");
+    registrar!(
+        surface_models,
+        Surface,
+        SurfaceModel,
+        SurfaceModel,
+        "surface model that answers in batches by itself"
+    );
     registrar!(feeds, Feed, FeedStrategy, FeedStrategy, "feed strategy");
     registrar!(samplers, Sampler, Sampler, Sampler, "sampler");
     registrar!(

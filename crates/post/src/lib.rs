@@ -5,27 +5,50 @@
 //! files and programs can be written to memory instead, and read from memory.
 //! A reader shares no code with the writer of its format.
 
+mod automation1;
+mod axes;
+mod carry;
+mod decimal;
+mod fixed_point;
+mod layout;
 mod maps;
 mod ordinary_file;
 mod path_reader;
 mod pmac;
+mod post;
+mod posts;
+mod power_pmac;
+mod program_error;
+mod program_format;
+mod program_reader;
+#[cfg(test)]
+mod program_tests;
+mod program_writer;
 mod read_csv;
 mod read_error;
 mod row;
+mod settings;
 mod short_lines;
+mod siemens_840d;
+mod template;
 #[cfg(test)]
 mod tests;
 mod turn;
 mod write_csv;
 
+pub use carry::{DigitSegment, Digits};
+pub use layout::{Layout, Lines};
 pub use maps::{GsfWriter, XyzWriter};
 pub use path_reader::{ReadCount, ReadPath};
-pub use pmac::{
-    Command, ENTRY_MS, FOOTER as PMAC_FOOTER, HEADER as PMAC_HEADER, PLACEHOLDERS, PmacError,
-    PmacFileBody, PmacFormat, PmacReader, PmacWriter, QUANTA_PER_S as PMAC_TIME_STEPS, Template,
-    TemplateError, commands, leaves_program_open,
-};
+pub use post::{Command, Dialect, Grammar, Post};
+pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};
+pub use program_error::ProgramError;
+pub use program_format::ProgramFormat;
+pub use program_reader::ProgramReader;
+pub use program_writer::{ProgramFileBody, ProgramWriter};
 pub use read_csv::PathReader;
 pub use read_error::ReadError;
 pub use row::HEADER;
+pub use settings::{C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY};
+pub use template::{PLACEHOLDERS, Template, TemplateError};
 pub use write_csv::PathWriter;

@@ -75,4 +75,6 @@ pub use recipe::{FileProblem, Recipe, RecipeError};
 pub use span::{Source, Span, Spanned};
 pub use surface_entry::SurfaceEntry;
 pub use table_info::TableInfo;
-pub use tables::{AskedTolerances, DataFormat, Output, PmacPvt, ZReference, slot_keys, tables};
+pub use tables::{
+    AskedTolerances, DataFormat, Output, PostSettings, ZReference, slot_keys, tables,
+};

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use toml::de::DeTable;
 use turnpath_core::{Direction, Machine, Overrun, Part, Pose, Servo, Slot, Tolerance, Tool};
+use turnpath_post::POSTS;
 
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -16,7 +17,7 @@ use crate::read::Sections;
 use crate::set;
 use crate::span::{Source, Span, Spanned};
 use crate::surface_entry::{SurfaceEntry, surface_entries};
-use crate::tables::{self, AskedTolerances, DEFAULT_SPINDLE, Output, PmacPvt};
+use crate::tables::{self, AskedTolerances, DEFAULT_SPINDLE, Output, PostSettings};
 
 /// Largest recipe, in bytes: a hundred times as much as a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -61,8 +62,8 @@ pub struct Recipe {
     pub refine: bool,
     /// The files to write.
     pub output: Output,
-    /// The layout of the programs of the post `pmac-pvt`.
-    pub pmac_pvt: PmacPvt,
+    /// The tables of all posts, in the order of [`POSTS`].
+    pub post_settings: Vec<PostSettings>,
     /// Folders and libraries to load plugins from, as the recipe gives them, relative to the recipe.
     pub plugins: Vec<Spanned<String>>,
     choices: [Choice; 6],
@@ -232,6 +233,11 @@ impl Recipe {
             Slot::Velocity => &self.choices[4],
             Slot::Spindle => &self.choices[5],
         }
+    }
+
+    /// The table of a post, by its name.
+    pub fn settings_of(&self, post: &str) -> Option<&PostSettings> {
+        self.post_settings.iter().find(|table| table.post == post)
     }
 
     /// Whether the spindle turns at one speed over the whole cut.
@@ -415,7 +421,10 @@ pub(crate) fn build(
     let servo = tables::servo(&mut sections.open("servo"), machine.preset);
     let path_table = tables::path(&mut sections.open("path"));
     let output = tables::output(&mut sections.open("output"));
-    let pmac_pvt = tables::pmac_pvt(&mut sections.open("output.pmac-pvt"));
+    let posts = POSTS.iter();
+    let post_settings = posts
+        .map(|post| tables::post_settings(post, &mut sections.open(post.table)))
+        .collect();
     let surfaces = surface_entries(&mut sections);
     let mut choose = |slot: Slot| Choice::read(slot, &mut sections.open(slot.key()));
     let [feed, sampler, compensator, velocity, spindle] = [
@@ -446,7 +455,7 @@ pub(crate) fn build(
         clearance: path_table.clearance,
         refine: top.refine,
         output,
-        pmac_pvt: pmac_pvt?,
+        post_settings,
         plugins: top.plugins,
         choices: [surface?, feed?, sampler?, compensator?, velocity?, spindle?],
         document,

@@ -44,8 +44,8 @@ pub struct MeasuredRun {
     /// As `turnpath run` writes it into `summary.json`, without programs.
     #[serde(flatten)]
     pub report: RunReport,
-    /// Bytes of the lines that the post `pmac-pvt` makes of the points, header and footer aside;
-    /// `None` where such a program cannot carry the path.
+    /// Bytes of the lines that the recipe's first post makes of the points, or else `pmac-pvt`, header
+    /// and footer aside; `None` where such a program cannot carry the path.
     pub program_bytes: Option<u64>,
     /// Processor time that one thread took to make and measure the path, s; `None` where that was
     /// not measured.

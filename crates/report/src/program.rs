@@ -9,6 +9,9 @@ use crate::verdict::within;
 /// What a recipe's own header or footer tells the controller besides the path.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ControllerCommand {
+    /// The post whose template it is; empty in a report of a version that had one post alone.
+    #[serde(default)]
+    pub post: String,
     /// `header` or `footer`.
     pub template: String,
     /// The line in it, from 1.

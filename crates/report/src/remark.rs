@@ -26,7 +26,7 @@ const LARGEST_ROUNDING: f64 = 0.02;
 const VELOCITY_SHARE: f64 = 0.25;
 
 /// One remark, with its numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Remark {
@@ -78,6 +78,29 @@ pub enum Remark {
         /// The interpolation tolerance, mm.
         #[serde(rename = "tolerance_nm", with = "unit::nm")]
         tolerance: f64,
+    },
+    /// Points of a map have no height, and were filled.
+    FilledPoints {
+        /// Points without a height.
+        filled: u64,
+        /// All points.
+        points: u64,
+    },
+    /// The path leaves the data that the surface was made from.
+    BeyondData {
+        /// Whether the place lies on the part, and not on its overrun alone.
+        on_part: bool,
+        /// How far the place lies beyond the data, mm.
+        #[serde(rename = "distance_mm", with = "unit::mm")]
+        distance: f64,
+        /// The radius of the place, mm.
+        #[serde(rename = "radius_mm", with = "unit::mm")]
+        radius: f64,
+        /// The angle of the place, rad.
+        #[serde(rename = "c_deg", with = "unit::deg")]
+        c: f64,
+        /// How the surface goes on there, in a few words.
+        continuation: String,
     },
 }
 

@@ -12,7 +12,7 @@ use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::figures::{self, machine_source};
 use crate::job::Job;
-use crate::remarks::{PathSubject, remarks};
+use crate::remarks::PathSubject;
 use crate::sizes::toolpath_bytes;
 
 /// A place is on the part up to this much beyond its edges, mm.
@@ -54,7 +54,7 @@ impl Job {
                 programs: programs.collect(),
             },
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
-            remarks: remarks(&self.recipe, &path),
+            remarks: self.remarks(&path)?,
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())

@@ -1,7 +1,10 @@
 //! The controller's commands in a recipe's own header and footer.
 
+use turnpath_post::Post;
 use turnpath_recipe::{Recipe, Span, Spanned};
 use turnpath_report::ControllerCommand;
+
+use crate::posts::posts;
 
 /// The template before the path's lines.
 const HEADER: &str = "header";
@@ -28,17 +31,20 @@ pub fn commands_to_trust(recipe: &Recipe) -> Vec<(ControllerCommand, Span)> {
 }
 
 fn found(recipe: &Recipe) -> impl Iterator<Item = TemplateCommand<'_>> {
-    let settings = &recipe.pmac_pvt;
-    let written = !recipe.output.posts.is_empty();
-    let templates = [(HEADER, &settings.header), ("footer", &settings.footer)];
-    let own = templates.into_iter().filter(move |_| written);
-    own.filter_map(|(name, own)| Some((name, own.as_ref()?)))
-        .flat_map(|(name, own)| of_template(name, own))
+    posts(recipe).flat_map(|post| {
+        let settings = recipe.settings_of(post.name);
+        let header = settings.and_then(|settings| settings.header.as_ref());
+        let footer = settings.and_then(|settings| settings.footer.as_ref());
+        let templates = [(HEADER, header), ("footer", footer)];
+        let own = templates.into_iter();
+        own.filter_map(|(name, own)| Some((name, own?)))
+            .flat_map(|(name, own)| of_template(post, name, own))
+    })
 }
 
-fn of_template<'a>(name: &str, own: &'a Spanned<String>) -> Vec<TemplateCommand<'a>> {
-    let mut commands = turnpath_post::commands(&own.value);
-    if name == HEADER && !turnpath_post::leaves_program_open(&own.value) {
+fn of_template<'a>(post: &Post, name: &str, own: &'a Spanned<String>) -> Vec<TemplateCommand<'a>> {
+    let mut commands = post.dialect.commands(&own.value);
+    if name == HEADER && !post.dialect.leaves_program_open(&own.value) {
         // The path's lines follow, and go wherever this one leaves the controller.
         if let Some(last) = commands.last_mut() {
             last.harmless = false;
@@ -46,6 +52,7 @@ fn of_template<'a>(name: &str, own: &'a Spanned<String>) -> Vec<TemplateCommand<
     }
     let found = commands.into_iter().map(|command| TemplateCommand {
         command: ControllerCommand {
+            post: post.name.to_owned(),
             template: name.to_owned(),
             line: command.line as u64,
             command: command.text,

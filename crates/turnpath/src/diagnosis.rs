@@ -5,13 +5,12 @@ use std::ops::Range;
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
 use turnpath_pipeline::{Excess, PathSize, PipelineError};
-use turnpath_post::PmacError;
 use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned, SurfaceEntry};
 use turnpath_report::text::{millimetres, nose_radius};
 
 use crate::data_files::DataFileError;
 use crate::error::Error;
-use crate::posts::PMAC_PVT;
+use crate::posts::NotCarried;
 
 /// A feed below this part of the nose radius leaves cusps of less than a thousandth of a nanometre
 /// under any usual nose: the residual makes such a path long, and not the part.
@@ -112,10 +111,12 @@ pub fn unreadable_file(
 }
 
 /// A path that the post cannot carry: the recipe asks for both.
-pub fn not_carried(recipe: &Recipe, error: PmacError) -> Error {
-    let post = recipe.output.posts.first();
+pub fn not_carried(recipe: &Recipe, not_carried: NotCarried) -> Error {
+    let NotCarried { post: name, error } = not_carried;
+    let mut posts = recipe.output.posts.iter();
+    let post = posts.find(|post| post.value == name);
     let span = post.map_or_else(|| recipe.nearest_span("output"), |post| post.span.clone());
-    let title = format!("the post `{PMAC_PVT}` cannot carry this path: {error}");
+    let title = format!("the post `{name}` cannot carry this path: {error}");
     let help = [error.help().to_owned()];
     Error::refused_by(recipe.diagnostic(span, title, "chosen here", help), error)
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
 use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
-use turnpath_post::{PathReader, PathWriter, PmacReader, PmacWriter};
+use turnpath_post::{Lines, PathReader, PathWriter, ProgramWriter};
 use turnpath_report::{ProgramReport, ResultFile};
 
 use crate::error::Error;
@@ -46,7 +46,7 @@ pub struct FolderSink<'a> {
 #[derive(Default)]
 struct Files {
     toolpath: Option<PathWriter>,
-    programs: Vec<PmacWriter>,
+    programs: Vec<ProgramWriter>,
     /// Files that are whole, and still without their names.
     drafts: Vec<Draft>,
 }
@@ -61,7 +61,7 @@ pub struct WholeResult {
 /// A block in the form of each file.
 pub struct FileBlock {
     rows: Option<Vec<u8>>,
-    lines: Vec<Vec<u8>>,
+    lines: Vec<Lines>,
 }
 
 impl<'a> FolderSink<'a> {
@@ -89,7 +89,8 @@ impl<'a> FolderSink<'a> {
         }
         for program in self.programs {
             let draft = self.draft(&program.file)?;
-            files.programs.push(PmacWriter::begin(draft)?);
+            let comment = program.layout.post.comment;
+            files.programs.push(ProgramWriter::begin(draft, comment)?);
         }
         Ok(files)
     }
@@ -110,14 +111,15 @@ impl<'a> FolderSink<'a> {
         };
         let mut reports = Vec::new();
         for (program, writer) in self.programs.iter().zip(files.programs.drain(..)) {
-            let frame = program.frame(&job.recipe, outcome);
+            let points = writer.points();
+            let frame = program.frame(&job.recipe, outcome, points);
             let mut draft = writer.assemble(&frame.header, &frame.footer)?;
             let name = draft.path().to_owned();
-            let reader = PmacReader::open(draft.readable()?, program.format);
+            let reader = program.layout.open(draft.readable()?);
             let mut reader = reader.map_err(|error| error.named(&name))?.named(&name);
             let touch = job.preparation.touch.clone();
-            let (recipe, rows) = (&job.recipe, self.rows);
-            reports.push(program.measure(&mut reader, &name, recipe, touch, rows, observer)?);
+            let recipe = &job.recipe;
+            reports.push(program.measure(&mut reader, &name, recipe, touch, points, observer)?);
             files.drafts.push(draft);
         }
         Ok(reports)
@@ -267,7 +269,7 @@ impl Sink for FolderSink<'_> {
         }
         let programs = self.programs.iter().zip(&mut files.programs);
         for ((program, writer), lines) in programs.zip(&block.lines) {
-            let appended = writer.append(points, lines);
+            let appended = writer.append(lines);
             appended.map_err(|error| not_written(&program.file, error))?;
         }
         Ok(())

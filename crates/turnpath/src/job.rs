@@ -6,7 +6,7 @@ use turnpath_host::Catalogue;
 use turnpath_pipeline::{
     Chain, JobSpec, LeadLimits, LeadSettings, PathOptions, Preparation, prepare,
 };
-use turnpath_post::{PMAC_TIME_STEPS, PmacError};
+use turnpath_post::ProgramError;
 use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 
@@ -16,6 +16,7 @@ use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
 use crate::error::Error;
 use crate::figures::form_scope;
 use crate::named_files::UsedFile;
+use crate::posts::NotCarried;
 use crate::program::{Program, programs};
 use crate::strategies::used_files;
 
@@ -92,12 +93,23 @@ impl Job {
         job
     }
 
-    /// A program in PVT mode plays cubics; a path of straight lines is another one.
+    /// The programs play cubics; a path of straight lines is another one.
     fn refuse_straight_lines(&self) -> Result<(), Error> {
-        match self.plays_straight_lines() && !self.programs.is_empty() {
-            true => Err(not_carried(&self.recipe, PmacError::Straight)),
-            false => Ok(()),
+        match self.programs.first() {
+            Some(program) if self.plays_straight_lines() => {
+                let (post, error) = (program.layout.post.name, ProgramError::Straight);
+                Err(not_carried(&self.recipe, NotCarried { post, error }))
+            }
+            _ => Ok(()),
         }
+    }
+
+    /// The steps of time in a second on which control points lie: the coarsest steps of the programs.
+    /// A program with finer ones moves a point along the path by half a fine step at the most.
+    fn time_steps(&self) -> Option<f64> {
+        let steps = self.programs.iter().map(|program| &program.layout.format);
+        let coarsest = steps.map(|format| format.steps_per_s).min();
+        coarsest.map(|steps| steps as f64)
     }
 
     /// What is played between control points.
@@ -119,7 +131,7 @@ impl Job {
         let recipe = &self.recipe;
         PathOptions {
             refine: recipe.refine,
-            time_steps: (!self.programs.is_empty()).then_some(PMAC_TIME_STEPS),
+            time_steps: self.time_steps(),
             lead: recipe.lead.then(|| LeadSettings {
                 clearance: recipe.clearance,
                 limits: LeadLimits::within(recipe.machine),

@@ -22,6 +22,7 @@ mod chain;
 mod check;
 mod commands;
 mod data_files;
+mod data_remarks;
 mod diagnosis;
 mod error;
 mod figures;
@@ -69,7 +70,7 @@ pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
 };
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
-pub use turnpath_post::{PmacError, ReadError};
+pub use turnpath_post::{ProgramError, ReadError};
 pub use turnpath_recipe::{
     Diagnostic, Diagnostics, Recipe, RecipeError, Span, TableInfo, declared, slot_keys, tables,
 };
@@ -80,7 +81,7 @@ pub use verify::verify;
 #[cfg(feature = "built-ins")]
 use {
     turnpath_atpg as _, turnpath_ats as _, turnpath_constant as _, turnpath_fft_adaptive as _,
-    turnpath_formula as _, turnpath_integrated as _, turnpath_minimax as _,
+    turnpath_formula as _, turnpath_grid as _, turnpath_integrated as _, turnpath_minimax as _,
     turnpath_nose_radius as _, turnpath_polynomials as _, turnpath_spindle as _,
     turnpath_surfaces as _, turnpath_triangle_rotary as _,
 };

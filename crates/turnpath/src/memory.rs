@@ -2,8 +2,9 @@
 
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_pipeline::Sink;
-use turnpath_post::{PmacError, PmacWriter};
+use turnpath_post::{Lines, ProgramWriter};
 
+use crate::posts::NotCarried;
 use crate::program::Program;
 use crate::toolpath::ToolPath;
 
@@ -11,7 +12,7 @@ use crate::toolpath::ToolPath;
 pub struct MemorySink<'a> {
     programs: &'a [Program],
     /// A writer for each program.
-    pub writers: Vec<PmacWriter<Vec<u8>>>,
+    pub writers: Vec<ProgramWriter<Vec<u8>>>,
     /// The path so far.
     pub toolpath: ToolPath,
 }
@@ -20,7 +21,7 @@ pub struct MemorySink<'a> {
 pub struct MemoryBlock {
     section: Section,
     points: PathBlock,
-    lines: Vec<Vec<u8>>,
+    lines: Vec<Lines>,
 }
 
 impl<'a> MemorySink<'a> {
@@ -28,17 +29,21 @@ impl<'a> MemorySink<'a> {
     pub fn new(programs: &'a [Program]) -> Self {
         Self {
             programs,
-            writers: programs.iter().map(|_| PmacWriter::in_memory()).collect(),
+            writers: programs.iter().map(begin).collect(),
             toolpath: ToolPath::default(),
         }
     }
 }
 
+fn begin(program: &Program) -> ProgramWriter<Vec<u8>> {
+    ProgramWriter::in_memory(program.layout.post.comment)
+}
+
 impl Sink for MemorySink<'_> {
     type Block = MemoryBlock;
-    type Error = PmacError;
+    type Error = NotCarried;
 
-    fn encode(&self, block: &SectionBlock<'_>) -> Result<MemoryBlock, PmacError> {
+    fn encode(&self, block: &SectionBlock<'_>) -> Result<MemoryBlock, NotCarried> {
         let lines = self.programs.iter().map(|program| program.lines(block));
         Ok(MemoryBlock {
             section: block.section,
@@ -47,11 +52,11 @@ impl Sink for MemorySink<'_> {
         })
     }
 
-    fn take(&mut self, points: usize, block: MemoryBlock) -> Result<(), PmacError> {
+    fn take(&mut self, _: usize, block: MemoryBlock) -> Result<(), NotCarried> {
         self.toolpath.append(block.section, &block.points);
         for (writer, lines) in self.writers.iter_mut().zip(&block.lines) {
             // Memory takes all that it is given.
-            let _ = writer.append(points, lines);
+            let _ = writer.append(lines);
         }
         Ok(())
     }

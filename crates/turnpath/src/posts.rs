@@ -1,25 +1,34 @@
-//! The posts of motion programs: their names, and how a recipe lays out what they write.
+//! The posts of a recipe, and how it lays out what they write.
 
-use turnpath_post::PmacFormat;
+use turnpath_core::Params;
+use turnpath_post::{Layout, Post, ProgramError, post_named};
 use turnpath_recipe::{Recipe, ZReference};
 
-/// The post's name in recipes.
-pub const PMAC_PVT: &str = "pmac-pvt";
-/// What the names of its files end with.
-pub const PMAC_EXTENSION: &str = "pmc";
+/// A path that the program of a post cannot carry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NotCarried {
+    /// The post.
+    pub post: &'static str,
+    /// Why.
+    pub error: ProgramError,
+}
 
-/// How a recipe lays out PMAC programs. A path that is not compensated is that of the contact, so
-/// its Z is the tip's already.
-pub fn pmac_format(recipe: &Recipe, compensates_nose: bool) -> PmacFormat {
-    let settings = &recipe.pmac_pvt;
+/// The posts that a recipe asks for.
+pub fn posts(recipe: &Recipe) -> impl Iterator<Item = &'static Post> {
+    let names = recipe.output.posts.iter();
+    names.filter_map(|name| post_named(&name.value))
+}
+
+/// How a recipe lays out the programs of a post. A path that is not compensated is that of the
+/// contact, so its Z is the tip's already.
+pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> Layout {
     let tip = recipe.output.z_reference == ZReference::Tip && compensates_nose;
-    PmacFormat {
-        position_decimals: settings.position_decimals,
-        velocity_decimals: settings.velocity_decimals,
-        per_minute: settings.per_minute,
-        c_reversed: settings.c_reversed,
-        c_wrapped: settings.c_wrapped,
-        incremental: settings.incremental,
-        z_above: if tip { recipe.tool.nose_radius } else { 0.0 },
+    let z_above = if tip { recipe.tool.nose_radius } else { 0.0 };
+    let settings = recipe.settings_of(post.name);
+    let none = Params::new();
+    let params = settings.map_or(&none, |settings| &settings.params);
+    Layout {
+        post,
+        format: post.format(params, z_above),
     }
 }

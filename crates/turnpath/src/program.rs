@@ -5,9 +5,7 @@ use std::path::Path;
 use turnpath_core::toolpath::{SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, Stage};
-use turnpath_post::{
-    PLACEHOLDERS, PMAC_FOOTER, PMAC_HEADER, PmacError, PmacFormat, PmacWriter, ReadPath, Template,
-};
+use turnpath_post::{Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::{ProgramFigures, ProgramReport};
 use turnpath_verify::FirstTouch;
@@ -16,13 +14,13 @@ use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, PathMeters, measure};
-use crate::posts::{PMAC_EXTENSION, PMAC_PVT, pmac_format};
+use crate::posts::{NotCarried, layout, posts};
 
 /// A program that a recipe asks for.
 #[derive(Clone)]
 pub struct Program {
     /// How it is laid out.
-    pub format: PmacFormat,
+    pub layout: Layout,
     /// Its file's name.
     pub file: String,
     header: Template,
@@ -39,43 +37,46 @@ pub struct Frame {
 
 /// The programs that a recipe asks for.
 pub fn programs(recipe: &Recipe, compensates_nose: bool) -> Result<Vec<Program>, Error> {
-    let posts = recipe.output.posts.iter();
-    posts
-        .map(|_| Program::new(recipe, compensates_nose))
+    posts(recipe)
+        .map(|post| Program::new(recipe, post, compensates_nose))
         .collect()
 }
 
 impl Program {
-    fn new(recipe: &Recipe, compensates_nose: bool) -> Result<Self, Error> {
-        let settings = &recipe.pmac_pvt;
+    fn new(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> Result<Self, Error> {
+        let settings = recipe.settings_of(post.name);
+        let header = settings.and_then(|settings| settings.header.as_ref());
+        let footer = settings.and_then(|settings| settings.footer.as_ref());
         Ok(Self {
-            format: pmac_format(recipe, compensates_nose),
-            file: format!("{}.{PMAC_EXTENSION}", recipe.stem()),
-            header: template(recipe, settings.header.as_ref(), PMAC_HEADER)?,
-            footer: template(recipe, settings.footer.as_ref(), PMAC_FOOTER)?,
+            layout: layout(recipe, post, compensates_nose),
+            file: format!("{}.{}", recipe.stem(), post.extension),
+            header: template(recipe, header, post.header, post.comment)?,
+            footer: template(recipe, footer, post.footer, post.comment)?,
         })
     }
 
     /// A block of the path as program lines.
-    pub fn lines(&self, block: &SectionBlock<'_>) -> Result<Vec<u8>, PmacError> {
-        PmacWriter::lines(&self.format, block)
+    pub fn lines(&self, block: &SectionBlock<'_>) -> Result<Lines, NotCarried> {
+        let lines = self.layout.lines(block);
+        lines.map_err(|error| NotCarried {
+            post: self.layout.post.name,
+            error,
+        })
     }
 
     /// Bytes that the program will take.
     pub fn expected_bytes(&self, radius: f64, expected: &Estimate) -> f64 {
         let c = std::f64::consts::TAU * expected.revolutions;
-        PmacWriter::expected_bytes(
-            &self.format,
-            radius,
-            expected.cutting_time,
-            c,
-            expected.control_points,
-        )
+        let (time, points) = (expected.cutting_time, expected.control_points);
+        self.layout.expected_bytes(radius, time, c, points)
     }
 
-    /// Header and footer with the figures of a path.
-    pub fn frame(&self, recipe: &Recipe, outcome: &Outcome) -> Frame {
-        let value = |placeholder: &str| self.value(placeholder, recipe, outcome);
+    /// Header and footer with the figures of a path, of which the program has so many points.
+    pub fn frame(&self, recipe: &Recipe, outcome: &Outcome, points: u64) -> Frame {
+        let value = |placeholder: &str| match placeholder {
+            "points" => points.to_string(),
+            other => self.value(other, recipe, outcome),
+        };
         Frame {
             header: self.header.fill(value),
             footer: self.footer.fill(value),
@@ -83,6 +84,7 @@ impl Program {
     }
 
     fn value(&self, placeholder: &str, recipe: &Recipe, outcome: &Outcome) -> String {
+        let format = &self.layout.format;
         let either = |first: bool, one: &str, other: &str| {
             let chosen = if first { one } else { other };
             chosen.to_owned()
@@ -98,10 +100,6 @@ impl Program {
             "changes" if recipe.sets().is_empty() => "nothing".to_owned(),
             "changes" => recipe.sets().join(", "),
             "turnpath" => env!("CARGO_PKG_VERSION").to_owned(),
-            "points" => {
-                let points = outcome.control_points + lead.map_or(0, |lead| lead.points);
-                points.to_string()
-            }
             "revolutions" => {
                 let turns = with_leads(outcome.revolutions, |l| l.turns_in + l.turns_out);
                 format!("{turns:.2}")
@@ -112,9 +110,9 @@ impl Program {
             }
             "ends" => either(lead.is_some(), "at rest", "in motion"),
             "z_reference" => either(tip, "tool tip", "nose centre"),
-            "c_range" => either(self.format.c_wrapped, "within 0 to 360", "unwrapped"),
-            "velocity_unit" => either(self.format.per_minute, "min", "s"),
-            "ix90" => self.format.ix90().to_string(),
+            "c_range" => either(format.c_wrapped, "within 0 to 360", "unwrapped"),
+            "velocity_unit" => either(format.per_minute, "min", "s"),
+            "ix90" => format.velocity_ms().to_string(),
             _ => String::new(),
         }
     }
@@ -152,7 +150,7 @@ impl Program {
         let tolerances = tolerances(recipe);
         Ok(ProgramReport::new(
             self.file.clone(),
-            PMAC_PVT,
+            self.layout.post.name,
             &figures,
             &tolerances,
         ))
@@ -164,9 +162,10 @@ fn template(
     recipe: &Recipe,
     given: Option<&Spanned<String>>,
     own: &str,
+    comment: &'static str,
 ) -> Result<Template, Error> {
     let text = given.map_or(own, |given| &given.value);
-    Template::parse(text).map_err(|error| {
+    Template::parse(text, comment).map_err(|error| {
         let span = given.map_or_else(|| recipe.nearest_span("output"), |given| given.span.clone());
         let known = format!("placeholders: {{{}}}", PLACEHOLDERS.join("}, {"));
         let diagnostic = recipe.diagnostic(span, error.to_string(), "in this template", [known]);

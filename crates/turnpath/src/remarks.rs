@@ -1,11 +1,11 @@
 //! What is allowed in a recipe but seldom meant.
 
 use turnpath_core::{Axis, Derivative, Tolerance};
-use turnpath_recipe::{PmacPvt, Recipe};
+use turnpath_post::ProgramFormat;
+use turnpath_recipe::Recipe;
 use turnpath_report::{ProgramDigits, Remark, RemarkSubject};
 
-/// Seconds of a minute.
-const MINUTE: f64 = 60.0;
+use crate::posts::{layout, posts};
 
 /// What remarks are made on besides the recipe: its path, or what is expected of it.
 pub struct PathSubject {
@@ -25,7 +25,9 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         .machine
         .limits()
         .any(|limit| limit.axis == Axis::Z && limit.derivative == Derivative::Acceleration);
-    let has_program = !recipe.output.posts.is_empty();
+    // The digits do not depend on the nose.
+    let formats = posts(recipe).map(|post| layout(recipe, post, true).format);
+    let coarsest = formats.min_by_key(|one| (one.position_decimals, one.velocity_decimals));
     let subject = RemarkSubject {
         aperture: 2.0 * recipe.part.aperture_radius,
         residual: path.tolerance.residual,
@@ -34,15 +36,15 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         cutting_time: path.cutting_time,
         segment_time: path.cutting_time / path.control_points.max(1.0),
         free_z_acceleration: path.z_acceleration.filter(|_| !limited),
-        digits: has_program.then(|| digits(&recipe.pmac_pvt)),
+        digits: coarsest.map(|format| digits(&format)),
     };
     subject.remarks()
 }
 
-fn digits(settings: &PmacPvt) -> ProgramDigits {
+fn digits(format: &ProgramFormat) -> ProgramDigits {
     ProgramDigits {
-        position_decimals: settings.position_decimals,
-        velocity_decimals: settings.velocity_decimals,
-        velocity_time: if settings.per_minute { MINUTE } else { 1.0 },
+        position_decimals: format.position_decimals,
+        velocity_decimals: format.velocity_decimals,
+        velocity_time: format.velocity_time(),
     }
 }

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use turnpath_core::{Direction, Misfit, Slot};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
-use turnpath_post::PmacReader;
 use turnpath_report as report;
 use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::unreached;
@@ -23,7 +22,7 @@ use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
-use crate::remarks::{PathSubject, remarks};
+use crate::remarks::PathSubject;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -118,14 +117,14 @@ impl Job {
         let rows = sink.toolpath.len() as u64;
         let (mut reports, mut programs) = (Vec::new(), Vec::new());
         for (program, writer) in self.programs.iter().zip(sink.writers) {
-            let frame = program.frame(&self.recipe, &outcome);
+            let points = writer.points();
+            let frame = program.frame(&self.recipe, &outcome, points);
             let text = writer.assemble_in_memory(&frame.header, &frame.footer);
-            let mut reader =
-                PmacReader::from_reader(Cursor::new(&text), &program.file, program.format);
+            let mut reader = program.layout.read(Cursor::new(&text), &program.file);
             let touch = self.preparation.touch.clone();
             let name = Path::new(&program.file);
             let recipe = &self.recipe;
-            reports.push(program.measure(&mut reader, name, recipe, touch, rows, observer)?);
+            reports.push(program.measure(&mut reader, name, recipe, touch, points, observer)?);
             programs.push((program.file.clone(), text));
         }
         Ok(RunResult {
@@ -213,7 +212,7 @@ impl Job {
             revolutions: outcome.revolutions,
             cutting_time: outcome.cutting_time,
             feed_cap: figures::feed_cap(outcome.feed_cap.as_ref()),
-            remarks: remarks(recipe, &subject),
+            remarks: self.remarks(&subject)?,
             within: path.verdict(None),
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),

@@ -5,23 +5,23 @@ use std::convert::Infallible;
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_files::FileError;
 use turnpath_pipeline::{RunError, Sink};
-use turnpath_post::PmacError;
 use turnpath_recipe::Recipe;
 
 use crate::diagnosis::{not_carried, of_pipeline};
 use crate::error::Error;
+use crate::posts::NotCarried;
 
 /// Why an output could not take a block.
 #[derive(Debug)]
 pub enum SinkError {
     /// A program cannot carry the path.
-    Program(PmacError),
+    Program(NotCarried),
     /// A file could not be written.
     File(FileError),
 }
 
-impl From<PmacError> for SinkError {
-    fn from(error: PmacError) -> Self {
+impl From<NotCarried> for SinkError {
+    fn from(error: NotCarried) -> Self {
         Self::Program(error)
     }
 }

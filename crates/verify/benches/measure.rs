@@ -6,14 +6,17 @@ mod common;
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
+use std::sync::Arc;
 
 use common::{AST5, astigmatic_path, touch_on};
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{DEG, NM};
+use turnpath_core::{DEG, Misfit, NM, Params, Part, Strategy, Surface, SurfaceModel, Tool};
+use turnpath_grid::GridSag;
+use turnpath_surfaces::Conic;
 use turnpath_verify::machined::{Grid, Map, Nose};
-use turnpath_verify::{FirstTouch, Meter};
+use turnpath_verify::{FirstTouch, Meter, Subject};
 
 /// The path over AST-5: 110 turns of 25 µm in steps of 9 deg.
 const TURNS: usize = 110;
@@ -41,6 +44,61 @@ fn first_touch(bencher: Bencher<'_, '_>) {
     let touch = touch();
     let theta: Vec<f64> = (0..10_000).map(|i| 0.001 * f64::from(i)).collect();
     let x: Vec<f64> = (0..10_000).map(|i| 2.5e-4 * f64::from(i)).collect();
+    let mut found = Vec::new();
+    bencher
+        .counter(ItemsCount::new(x.len()))
+        .bench_local(|| touch.find(black_box(&theta), black_box(&x), &mut found));
+}
+
+/// A conic, or a map of it.
+#[derive(Debug, Clone, Copy)]
+enum Which {
+    Conic,
+    /// Points along a side of the map.
+    Map(usize),
+}
+
+/// A sphere of 50 mm, and maps of it with a side of 12 mm.
+fn conic(which: Which) -> Arc<dyn SurfaceModel> {
+    let params = Params::new().with("radius", 50.0).with("conic", 0.0);
+    let Ok(conic) = Conic::new(&params) else {
+        panic!("the conic has its parameters")
+    };
+    let Which::Map(count) = which else {
+        return Arc::new(conic);
+    };
+    let pitch = 12.0 / (count - 1) as f64;
+    let place = |k: usize| pitch * k as f64 - 6.0;
+    let heights =
+        (0..count * count).map(|k| Surface::sag(&conic, place(k % count), place(k / count)));
+    let map = turnpath_maps::Map::new(count, count, pitch, pitch, heights.collect());
+    match map.map(|map| GridSag::of(map, None)) {
+        Ok(Ok(grid)) => Arc::new(grid),
+        _ => panic!("the map of a conic is a map"),
+    }
+}
+
+#[divan::bench(args = [Which::Conic, Which::Map(256), Which::Map(1024)])]
+fn first_touch_on_a_map(bencher: Bencher<'_, '_>, which: Which) {
+    let subject = Subject {
+        surface: conic(which),
+        part: Part {
+            aperture_radius: 5.0,
+            inner_radius: 0.0,
+        },
+        tool: Tool {
+            nose_radius: 1.0,
+            included_angle: None,
+            clearance_angle: None,
+            misfit: Misfit::Refuse,
+        },
+        compensates_nose: true,
+    };
+    let Ok(touch) = FirstTouch::new(subject) else {
+        panic!("a nose of 1 mm fits")
+    };
+    let theta: Vec<f64> = (0..10_000).map(|i| 0.001 * f64::from(i)).collect();
+    let x: Vec<f64> = (0..10_000).map(|i| 4.5e-4 * f64::from(i)).collect();
     let mut found = Vec::new();
     bencher
         .counter(ItemsCount::new(x.len()))

@@ -11,6 +11,7 @@
 pub mod csv;
 pub mod formula;
 pub mod library;
+pub mod map;
 pub mod pmac;
 mod points;
 pub mod recipe;
@@ -29,7 +30,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 7] = [
+pub const TARGETS: [Target; 8] = [
     Target {
         name: "recipe",
         read: recipe::read,
@@ -59,6 +60,11 @@ pub const TARGETS: [Target; 7] = [
         name: "library",
         read: library::read,
         words: library::WORDS,
+    },
+    Target {
+        name: "map",
+        read: map::read,
+        words: map::WORDS,
     },
     Target {
         name: "report",

@@ -1,10 +1,11 @@
-//! Motion programs for Turbo PMAC, in all layouts.
+//! Motion programs of all posts, in all layouts.
 
-use turnpath_post::{PmacFormat, PmacReader};
+use turnpath_core::Params;
+use turnpath_post::{Layout, POSTS, ProgramFormat};
 
 use super::points::{assert_blocks_agree, one_by_one};
 
-const FILE: &str = "part.pmc";
+const FILE: &str = "part.program";
 
 /// Words of such programs.
 pub const WORDS: &[&str] = &[
@@ -39,27 +40,47 @@ pub const WORDS: &[&str] = &[
     "\n",
     "\r\n",
     "\u{b5}",
+    "// -- cutting --\n",
+    "// -- end of path: 1 points --\n",
+    "SetupTaskTimeUnits(TimeUnits.Seconds)\n",
+    "SetupTaskTargetMode(TargetMode.Absolute)\n",
+    "SetupTaskTargetMode(TargetMode.Incremental)\n",
+    "MovePvt([C, X, Z], [9, 2.5, 1.5], [3000, -0.2, 0], 0.003)\n",
+    "[",
+    "]",
+    "G90 G93 G64 FGROUP(C) UPATH\n",
+    "G1 C0 X2.5 Z1.5 F60\n",
+    "POLY PO[C]=(9) PO[X]=(2.4,0.001) PO[Z]=(1.6,0.001,-0.001) F20000\n",
+    "PO[Z]=(",
+    "F20000",
+    "POLY ",
 ];
 
-/// Reads a program in each layout that changes what its numbers mean.
+/// Reads a program as one of each post, in each layout that changes what its numbers mean.
 pub fn read(bytes: &[u8]) {
-    for layout in 0..8_u8 {
-        let bit = |which: u8| layout & (1 << which) != 0;
-        let format = PmacFormat {
-            per_minute: bit(0),
-            c_reversed: bit(1),
-            c_wrapped: bit(2),
-            z_above: if bit(0) { 1.5 } else { 0.0 },
-            ..PmacFormat::default()
-        };
-        let new = || PmacReader::from_reader(bytes, FILE, format);
-        let (points, error) = one_by_one(&mut new());
-        assert_blocks_agree(|| Some(new()), &points, error.as_ref());
-        for pair in points.windows(2) {
-            let [(before, _), (after, _)] = pair else {
-                continue;
+    for post in POSTS {
+        for layout in 0..8_u8 {
+            let bit = |which: u8| layout & (1 << which) != 0;
+            let z_above = if bit(0) { 1.5 } else { 0.0 };
+            let format = ProgramFormat {
+                per_minute: bit(0),
+                c_reversed: bit(1),
+                c_wrapped: bit(2),
+                ..post.format(&Params::new(), z_above)
             };
-            assert!(before.t < after.t, "times grow");
+            read_one(&Layout { post, format }, bytes);
         }
+    }
+}
+
+fn read_one(layout: &Layout, bytes: &[u8]) {
+    let new = || layout.read(bytes, FILE);
+    let (points, error) = one_by_one(&mut new());
+    assert_blocks_agree(|| Some(new()), &points, error.as_ref());
+    for pair in points.windows(2) {
+        let [(before, _), (after, _)] = pair else {
+            continue;
+        };
+        assert!(before.t < after.t, "times grow");
     }
 }

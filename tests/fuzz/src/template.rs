@@ -1,6 +1,7 @@
 //! Headers and footers of programs: what a template makes of a person's words is comments.
 
-use turnpath_post::{PmacFormat, PmacReader, ReadPath, Template};
+use turnpath_core::Params;
+use turnpath_post::{Layout, POSTS, Post, ReadPath, Template};
 
 /// Words of templates.
 pub const WORDS: &[&str] = &[
@@ -35,12 +36,18 @@ const WORDS_OF_A_PERSON: &str = "a\r\nX9:9\u{2028}-- cutting --\n; -- cutting --
 /// What shows that such words got out of their comment.
 const CODE: &str = "X9:9";
 
-/// Fills the text as a template.
+/// Fills the text as a template of each post.
 pub fn read(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;
     };
-    let Ok(template) = Template::parse(text) else {
+    for post in POSTS {
+        read_for(post, text);
+    }
+}
+
+fn read_for(post: &'static Post, text: &str) {
+    let Ok(template) = Template::parse(text, post.comment) else {
         return;
     };
     let filled = template.fill(|_| WORDS_OF_A_PERSON.to_owned());
@@ -55,12 +62,13 @@ pub fn read(bytes: &[u8]) {
     };
     if !text.contains(CODE) {
         for line in template.fill(words).lines() {
-            let code = line.split(';').next().unwrap_or_default();
+            let code = line.split(post.comment).next().unwrap_or_default();
             assert!(!code.contains(CODE), "a person's words are code: {line}");
         }
     }
     let filled = template.fill(words);
-    let mut reader = PmacReader::from_reader(filled.as_bytes(), "part.pmc", PmacFormat::default());
+    let format = post.format(&Params::new(), 0.0);
+    let mut reader = Layout { post, format }.read(filled.as_bytes(), "part.program");
     let read = reader.next_point();
     let said = read.expect_err("a header has no path").to_string();
     assert!(said.contains("there is no path"), "{said}: {filled}");

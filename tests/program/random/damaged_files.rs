@@ -39,6 +39,26 @@ const PROGRAM: Kind = Kind {
     words: fuzz::pmac::WORDS,
     line: "verify recipe.toml out/recipe.pmc --format json --threads 2",
 };
+const POWER_PMAC: Kind = Kind {
+    name: "program for Power PMAC",
+    file: "out/recipe.ppmc",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.ppmc --format json --threads 2",
+};
+const AUTOMATION1: Kind = Kind {
+    name: "program for Automation1",
+    file: "out/recipe.ascript",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.ascript --format json --threads 2",
+};
+const SIEMENS: Kind = Kind {
+    name: "program for Sinumerik 840D",
+    file: "out/recipe.mpf",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.mpf --format json --threads 2",
+};
+/// A program of each post.
+const PROGRAMS: [&Kind; 4] = [&PROGRAM, &POWER_PMAC, &AUTOMATION1, &SIEMENS];
 const SUMMARY: Kind = Kind {
     name: "summary.json",
     file: "out/summary.json",
@@ -70,9 +90,10 @@ fn originals() -> &'static Path {
             .replace("lead = false", "lead = true")
             .replace("\"9 deg\"", "\"30 deg\"");
         let bench = Bench::empty();
+        let posts = r#""pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly""#;
         bench.write(
             "recipe.toml",
-            format!("{recipe}\n[output]\nposts = [\"pmac-pvt\"]\n"),
+            format!("{recipe}\n[output]\nposts = [{posts}]\n"),
         );
         let lists = "[ablation]\ncompensator = [{ use = \"none\" }]\n";
         bench.write("ablation.toml", format!("{recipe}\n{lists}"));
@@ -136,7 +157,8 @@ fn try_kind(kind: &Kind, cases: u64) -> Tally {
 
 #[test]
 fn damaged_files_are_measured_or_refused() {
-    for kind in [&CSV, &PROGRAM, &SUMMARY, &SUMMARY_UNDER_A_RUN, &RECORD] {
+    let others = [&CSV, &SUMMARY, &SUMMARY_UNDER_A_RUN, &RECORD];
+    for kind in others.into_iter().chain(PROGRAMS) {
         try_kind(kind, CASES);
     }
 }
@@ -144,7 +166,7 @@ fn damaged_files_are_measured_or_refused() {
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_five_hundred_damaged_files_of_each_kind_are_measured_or_refused() {
-    for kind in [&CSV, &PROGRAM] {
+    for kind in [&CSV].into_iter().chain(PROGRAMS) {
         let tally = try_kind(kind, MANY_CASES);
         let refused = tally.count(End::Status(4));
         assert!(refused > 50, "{}: few are refused: {tally}", kind.name);

@@ -89,7 +89,7 @@ fn another_version_of_the_boundary() {
     assert_eq!(
         message(&error_of(&file), &file),
         format!(
-            "cannot load the plugin {}: it is built against turnpath-plugin 0.999.3, but this program has 0.2.0; \
+            "cannot load the plugin {}: it is built against turnpath-plugin 0.999.3, but this program has 0.2.1; \
              rebuild the plugin against turnpath-plugin 0.2",
             fixtures::file_name("other-version")
         )

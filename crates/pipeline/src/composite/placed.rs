@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::sync::Arc;
 
 use turnpath_core::{
-    GradientSeries, Gradients, ORDER, Placement, Result, Scalar, Series, SurfaceModel,
+    GradientSeries, Gradients, ORDER, Placement, Result, Scalar, Series, SurfaceData, SurfaceModel,
 };
 
 use super::rooms::{CURVES, POINTS, ranges, same_lengths};
@@ -148,5 +148,21 @@ impl SurfaceModel for PlacedSurface {
             self.lift(z);
         }
         Ok(())
+    }
+
+    fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()> {
+        same_lengths(x.len(), [y.len(), distance.len()])?;
+        let mut own = [[0.0; POINTS]; 2];
+        for range in ranges(x.len(), POINTS) {
+            let (distance, count) = (&mut distance[range.clone()], range.len());
+            self.own_points(&x[range.clone()], &y[range], &mut own);
+            self.surface
+                .beyond_data(&own[0][..count], &own[1][..count], distance)?;
+        }
+        Ok(())
+    }
+
+    fn data(&self) -> Result<Option<SurfaceData>> {
+        self.surface.data()
     }
 }

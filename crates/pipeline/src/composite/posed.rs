@@ -4,8 +4,8 @@ use std::array::from_fn;
 use std::sync::Arc;
 
 use turnpath_core::{
-    GradientSeries, Gradients, ORDER, Pose, Result, Scalar, Series, StrategyError, SurfaceModel,
-    Taylor,
+    GradientSeries, Gradients, ORDER, Pose, Result, Scalar, Series, StrategyError, SurfaceData,
+    SurfaceModel, Taylor,
 };
 
 use super::frame::Frame;
@@ -201,5 +201,29 @@ impl SurfaceModel for PosedSurface {
             self.lift(x, y, &mut z[range], &mut own)?;
         }
         Ok(())
+    }
+
+    fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()> {
+        same_lengths(x.len(), [y.len(), distance.len()])?;
+        let mut roots = Roots::BLANK;
+        let mut own = [[0.0; POINTS]; 2];
+        for range in ranges(x.len(), POINTS) {
+            let (x, y) = (&x[range.clone()], &y[range.clone()]);
+            self.find(x, y, &mut roots)?;
+            for (axis, own) in own.iter_mut().enumerate() {
+                for (((own, x), y), z) in own.iter_mut().zip(x).zip(y).zip(&roots.z) {
+                    *own = self.frame.coordinate(axis, *x, *y, *z);
+                }
+            }
+            let count = range.len();
+            let distance = &mut distance[range];
+            self.surface
+                .beyond_data(&own[0][..count], &own[1][..count], distance)?;
+        }
+        Ok(())
+    }
+
+    fn data(&self) -> Result<Option<SurfaceData>> {
+        self.surface.data()
     }
 }

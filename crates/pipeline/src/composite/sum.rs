@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use turnpath_core::{GradientSeries, Gradients, ORDER, Result, Series, SurfaceModel};
+use turnpath_core::{GradientSeries, Gradients, ORDER, Result, Series, SurfaceData, SurfaceModel};
 
 use super::rooms::{CURVES, POINTS, ranges, same_lengths};
 
@@ -115,5 +115,41 @@ impl SurfaceModel for SurfaceSum {
             }
         }
         Ok(())
+    }
+
+    /// That of the surface whose data are farthest away.
+    fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()> {
+        same_lengths(x.len(), [y.len(), distance.len()])?;
+        let mut more = [0.0; POINTS];
+        for range in ranges(x.len(), POINTS) {
+            let (x, y) = (&x[range.clone()], &y[range.clone()]);
+            let (distance, more) = (&mut distance[range.clone()], &mut more[..range.len()]);
+            distance.fill(0.0);
+            for surface in &self.surfaces {
+                surface.beyond_data(x, y, more)?;
+                for (most, more) in distance.iter_mut().zip(&*more) {
+                    *most = most.max(*more);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// All data together. They go on in the way of the first that has data.
+    fn data(&self) -> Result<Option<SurfaceData>> {
+        let mut sum: Option<SurfaceData> = None;
+        for surface in &self.surfaces {
+            if let Some(data) = surface.data()? {
+                sum = Some(match sum {
+                    None => data,
+                    Some(sum) => SurfaceData {
+                        points: sum.points + data.points,
+                        filled: sum.filled + data.filled,
+                        ..sum
+                    },
+                });
+            }
+        }
+        Ok(sum)
     }
 }

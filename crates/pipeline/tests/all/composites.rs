@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde_json::Value;
 use turnpath_core::{
     Attitude, GradientSeries, Gradients, Placement, Pose, Result, Scalar, Series, StrategyError,
-    Surface, SurfaceModel,
+    Surface, SurfaceData, SurfaceModel,
 };
 use turnpath_pipeline::{PlacedSurface, PoseError, PosedSurface, SurfaceSum};
 
@@ -430,4 +430,87 @@ fn slices_of_unequal_length_are_an_error() {
         let text = "a batch of 3 points came with a slice of length 2";
         assert_eq!(error, Err(StrategyError::failed(text)));
     }
+}
+
+/// The plane z = 0.75 x, from data that end at x = 1 mm.
+struct PlaneOfData;
+
+const SLOPE: f64 = 0.75;
+
+impl SurfaceModel for PlaneOfData {
+    fn heights(&self, x: &[f64], _: &[f64], z: &mut [f64]) -> Result<()> {
+        for (z, x) in z.iter_mut().zip(x) {
+            *z = SLOPE * x;
+        }
+        Ok(())
+    }
+
+    fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
+        out.zx.fill(SLOPE);
+        out.zy.fill(0.0);
+        self.heights(x, y, out.z)
+    }
+
+    fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
+        out.zx.fill([SLOPE, 0.0, 0.0, 0.0, 0.0]);
+        out.zy.fill([0.0; 5]);
+        self.height_series(x, y, out.z)
+    }
+
+    fn height_series(&self, x: &[Series], _: &[Series], z: &mut [Series]) -> Result<()> {
+        for (z, x) in z.iter_mut().zip(x) {
+            *z = x.map(|c| SLOPE * c);
+        }
+        Ok(())
+    }
+
+    fn beyond_data(&self, x: &[f64], _: &[f64], distance: &mut [f64]) -> Result<()> {
+        for (distance, x) in distance.iter_mut().zip(x) {
+            *distance = (x - 1.0).max(0.0);
+        }
+        Ok(())
+    }
+
+    fn data(&self) -> Result<Option<SurfaceData>> {
+        Ok(Some(SurfaceData {
+            points: 100,
+            filled: 7,
+            continuation: "straight on".into(),
+        }))
+    }
+}
+
+/// Where the data end moves with the surface: turned by a right angle, laid level, or farther away in
+/// one of two.
+#[test]
+fn the_end_of_the_data_goes_with_the_surface() {
+    let distance = |surface: &dyn SurfaceModel, x: f64, y: f64| {
+        let mut distance = [f64::NAN];
+        surface.beyond_data(&[x], &[y], &mut distance).unwrap();
+        distance[0]
+    };
+    let near =
+        |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+    let plane = || -> Arc<dyn SurfaceModel> { Arc::new(PlaneOfData) };
+    let place = Placement {
+        scale: -2.0,
+        decentre_y: 0.5,
+        clocking: 0.5 * std::f64::consts::PI,
+        ..Placement::PLAIN
+    };
+    let placed = PlacedSurface::new(plane(), place);
+    near(distance(&placed, 9.0, 4.0), 2.5);
+    near(distance(&placed, 0.0, 1.4), 0.0);
+    let tilted = posed(plane(), level(0.25, 0.0));
+    // Along the slope 5 mm of the part are 4 mm of the surface.
+    near(distance(&tilted, 5.0, 3.0), 3.25);
+    let sum = SurfaceSum::new(vec![paraboloid(), plane(), Arc::new(placed)]);
+    near(distance(&sum, 2.0, 4.0), 2.5);
+    near(distance(&sum, 6.0, 4.0), 5.0);
+    let data = sum.data().unwrap().unwrap();
+    assert_eq!((data.points, data.filled), (200, 14));
+    assert_eq!(data.continuation, "straight on");
+    assert_eq!(tilted.data().unwrap().unwrap().points, 100);
+    assert_eq!(paraboloid().data(), Ok(None));
+    near(distance(paraboloid().as_ref(), 1e3, 0.0), 0.0);
 }

@@ -2,7 +2,7 @@
 
 use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
-use turnpath_core::{GradientSeries, Gradients, Result, Series, SurfaceModel};
+use turnpath_core::{GradientSeries, Gradients, Result, Series, SurfaceData, SurfaceModel};
 
 use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
@@ -22,7 +22,25 @@ declare! {
         fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()>;
         fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()>;
     }
+    later {
+        fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()>
+            = { distance.into_mut_slice().fill(0.0); Ok(()) };
+        fn data(&self) -> Result<Option<SurfaceData>> = Ok(None);
+    }
     owned by OwnedSurface
+}
+
+/// The data of a surface cross as text; a formula has none.
+impl Returned for Option<SurfaceData> {
+    type Wire = RString;
+
+    fn send(self) -> RString {
+        text::write(&self)
+    }
+
+    fn receive(text: RString) -> Result<Self> {
+        text::read(&text, "data of a surface")
+    }
 }
 
 /// A surface, lent for the duration of a call.

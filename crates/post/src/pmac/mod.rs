@@ -13,11 +13,12 @@
 //!
 //! The lines before the first mark belong to the header, those after the last mark to the footer.
 //! The first move brings the axes from wherever they are to the first control point, within
-//! [`ENTRY_MS`], and reaches the velocity of that point. If the path has a lead-in, that point is a
+//! a second, and reaches the velocity of that point. If the path has a lead-in, that point is a
 //! rest above the part. Every other move is a segment of the path. Sections follow each other without
 //! a break, and each begins with a mark.
 //!
-//! **Times.** The controller counts times in 1/4096 ms. The writer rounds the time of each point since
+//! **Times.** The controller counts times in 1/4096 ms, and a segment takes 4095.9998 ms at the most: a
+//! longer one is divided, and the parts play the same cubic. The writer rounds the time of each point since
 //! the start of the path, not the time of each segment, so rounding errors do not add up. A point
 //! between two such times moves along the played cubic to the nearer one (by 122 ns at the most) and
 //! takes the velocity there. So the spindle keeps its speed from segment to segment, and the played
@@ -28,21 +29,97 @@
 //!
 //! Facts on the language: Turbo PMAC Software Reference and User Manual, "PVT-Mode Moves".
 
+mod clock;
 mod commands;
-mod decimal;
-mod encode;
-mod error;
-mod format;
-mod program;
 mod read;
 mod scan;
-mod template;
 #[cfg(test)]
 mod tests;
+mod write;
 
-pub use commands::{Command, commands, leaves_program_open};
-pub use error::PmacError;
-pub use format::{ENTRY_MS, PmacFormat, QUANTA_PER_S};
-pub use program::{FOOTER, HEADER, PmacFileBody, PmacWriter};
-pub use read::PmacReader;
-pub use template::{PLACEHOLDERS, Template, TemplateError};
+use turnpath_core::ParamInfo;
+
+pub(crate) use clock::Clock;
+
+use commands::{commands, leaves_program_open};
+use read::PvtGrammar;
+use write::{push_first, push_segment};
+
+use crate::carry::{DigitSegment, Digits};
+use crate::post::{Command, Dialect, Grammar, Post};
+use crate::program_format::ProgramFormat;
+use crate::settings::{
+    C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, VELOCITY_DECIMALS, VELOCITY_PER,
+};
+
+/// Turbo PMAC with I42 = 0: 24 bits, 12 of them fraction.
+pub(crate) const TURBO_CLOCK: Clock = Clock {
+    steps_per_ms: 4096,
+    decimals: 12,
+    range: "1/4096 ms to 4095.9998 ms",
+};
+
+/// Programs for Turbo PMAC.
+pub(crate) const PMAC_PVT: Post = Post {
+    name: "pmac-pvt",
+    table: "output.pmac-pvt",
+    extension: "pmc",
+    summary: "the layout of the programs of the post `pmac-pvt`",
+    comment: ";",
+    keys: PVT_KEYS,
+    header: "\
+; {name}
+; recipe {recipe}, SHA-256 {sha256}
+; changed by --set: {changes}
+; turnpath {turnpath}, post pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
+; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Ix90 = {ix90}
+; segment times in steps of 1/4096 ms: I42 = 0
+; the path begins and ends {ends}
+CLOSE
+OPEN PROG 1 CLEAR
+",
+    footer: "CLOSE\n",
+    steps_per_s: 4_096_000,
+    longest: (1 << 24) - 1,
+    dialect: &Pvt { clock: TURBO_CLOCK },
+};
+
+/// The keys of this family of controllers.
+pub(crate) const PVT_KEYS: &[ParamInfo] = &[
+    POSITION_DECIMALS.info(),
+    VELOCITY_DECIMALS.info(),
+    VELOCITY_PER.info(),
+    C_SIGN.info(),
+    C_WRAP.info(),
+    POSITIONING.info(),
+    HEADER.info(),
+    FOOTER.info(),
+];
+
+/// Lines in position-velocity-time mode.
+#[derive(Debug)]
+pub(crate) struct Pvt {
+    pub(crate) clock: Clock,
+}
+
+impl Dialect for Pvt {
+    fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
+        push_first(text, format, point);
+    }
+
+    fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment) {
+        push_segment(text, self.clock, format, segment);
+    }
+
+    fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
+        Box::new(PvtGrammar::new(self.clock, format))
+    }
+
+    fn commands(&self, template: &str) -> Vec<Command> {
+        commands(template)
+    }
+
+    fn leaves_program_open(&self, header: &str) -> bool {
+        leaves_program_open(header)
+    }
+}

@@ -3,10 +3,7 @@
 //! This follows the manual's description of motion programs and shares nothing with the writer.
 //! Letters may be lower-case or capital. Spaces are allowed everywhere except within numbers and words.
 
-/// Decimals of the numbers here.
-pub(super) const PLACES: u32 = 12;
-/// Most digits before the point: with them all sums fit into 128 bits by far.
-const MOST_DIGITS: usize = 15;
+use crate::fixed_point::fixed;
 
 /// The axes of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -147,25 +144,10 @@ impl<'a> Scanner<'a> {
     }
 }
 
-/// The number in 10⁻¹², rounded.
-fn fixed(whole: &str, fraction: &str) -> Option<i128> {
-    let whole = whole.trim_start_matches('0');
-    if whole.len() > MOST_DIGITS {
-        return None;
-    }
-    let digits = fraction.bytes().chain(std::iter::repeat(b'0'));
-    let value = |sum: i128, digit: u8| sum * 10 + i128::from(digit - b'0');
-    let start = whole.bytes().fold(0, value);
-    let sum = digits.take(PLACES as usize).fold(start, value);
-    let next = fraction.as_bytes().get(PLACES as usize);
-    Some(sum + i128::from(next.is_some_and(|digit| *digit >= b'5')))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const ONE: i128 = 10i128.pow(PLACES);
+    use crate::fixed_point::ONE;
 
     #[test]
     fn spaces_case_and_order_do_not_matter() {

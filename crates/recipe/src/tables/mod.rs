@@ -5,8 +5,8 @@ mod cutting;
 mod machine;
 mod output;
 mod path;
-mod pmac_pvt;
 mod pose;
+mod post;
 mod schema;
 mod servo;
 mod slot;
@@ -19,7 +19,7 @@ mod work;
 
 pub use cutting::AskedTolerances;
 pub use output::{DataFormat, Output, ZReference};
-pub use pmac_pvt::PmacPvt;
+pub use post::PostSettings;
 pub use slot::slot_keys;
 
 pub(crate) use ablation::is_one_at_a_time;
@@ -27,8 +27,8 @@ pub(crate) use cutting::{DEFAULT_SPINDLE, check_servo_tolerance, spindle, tolera
 pub(crate) use machine::{check_spindle, machine};
 pub(crate) use output::output;
 pub(crate) use path::path;
-pub(crate) use pmac_pvt::pmac_pvt;
 pub(crate) use pose::pose;
+pub(crate) use post::post_settings;
 pub(crate) use schema::SCHEMA;
 pub(crate) use servo::servo;
 pub(crate) use strategy::USE;

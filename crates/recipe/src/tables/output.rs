@@ -2,6 +2,7 @@
 
 use turnpath_core::Param;
 use turnpath_core::kind::{Choice, List};
+use turnpath_post::POST_NAMES;
 
 use crate::diagnostic::Diagnostic;
 use crate::read::Section;
@@ -9,13 +10,11 @@ use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
 use crate::table_info::TableInfo;
 
-/// The known posts. Each may have a table of its name below `[output]`.
-const POSTS: &[&str] = &["pmac-pvt"];
 const DATA: &[&str] = &["csv"];
 const CENTRE: &str = "centre";
 
 const POSTS_KEY: Param<List> =
-    Param::list("posts", POSTS, "the programs to write, each once").default(&[]);
+    Param::list("posts", POST_NAMES, "the programs to write, each once").default(&[]);
 const DATA_KEY: Param<List> =
     Param::list("data", DATA, "the data files to write; csv: `toolpath.csv`").default(DATA);
 const Z_REFERENCE: Param<Choice> = Param::choice(
@@ -106,8 +105,8 @@ fn unknown_name(what: &str, name: &Spanned<String>, known: &[&str]) -> Diagnosti
 
 fn check_posts(section: &mut Section<'_>, posts: &[Spanned<String>]) {
     for (index, post) in posts.iter().enumerate() {
-        if !POSTS.contains(&post.value.as_str()) {
-            section.report(unknown_name("post", post, POSTS));
+        if !POST_NAMES.contains(&post.value.as_str()) {
+            section.report(unknown_name("post", post, POST_NAMES));
         } else if posts[..index].iter().any(|other| other.value == post.value) {
             let title = format!("the post {} is named twice", quoted(&post.value));
             let diagnostic = Diagnostic::new(post.span.clone(), title)

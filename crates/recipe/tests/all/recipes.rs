@@ -11,6 +11,7 @@ use turnpath_core::kind::{
 use turnpath_core::{
     DEG, Direction, Machine, Misfit, Overrun, Param, ParamInfo, ParamValue, Slot, StrategyInfo,
 };
+use turnpath_post::post_named;
 use turnpath_recipe::{DataFormat, FileProblem, Recipe, RecipeError, ZReference};
 
 fn parse(text: &str, sets: &[&str]) -> Recipe {
@@ -174,19 +175,23 @@ fn words_are_read() {
 
 #[test]
 fn programs_have_the_layout_of_the_recipe_or_the_default() {
-    let plain = parse(FULL, &[]).pmac_pvt;
+    let plain = parse(FULL, &[]);
+    let settings = plain.settings_of("pmac-pvt").unwrap();
+    assert!(settings.header.is_none() && settings.footer.is_none());
+    let post = post_named("pmac-pvt").unwrap();
+    let plain = post.format(&settings.params, 0.0);
     assert_eq!((plain.position_decimals, plain.velocity_decimals), (7, 7));
     assert!(!plain.per_minute && !plain.c_reversed && !plain.c_wrapped && !plain.incremental);
-    assert!(plain.header.is_none() && plain.footer.is_none());
     let table = "[output.pmac-pvt]\nposition_decimals = 6\nvelocity_per = \"min\"\nc_sign = -1\n\
                  c_wrap = \"0-360\"\npositioning = \"incremental\"\nheader = \"; {name}\"\n";
     let text = FULL.replace("posts = []", "posts = [\"pmac-pvt\"]") + table;
     let recipe = parse(&text, &["output.pmac-pvt.footer=\"M30\""]);
-    let layout = &recipe.pmac_pvt;
+    let settings = recipe.settings_of("pmac-pvt").unwrap();
+    let layout = post.format(&settings.params, 0.0);
     assert_eq!((layout.position_decimals, layout.velocity_decimals), (6, 5));
     assert!(layout.per_minute && layout.c_reversed && layout.c_wrapped && layout.incremental);
-    assert_eq!(layout.header.as_ref().unwrap().value, "; {name}");
-    assert_eq!(layout.footer.as_ref().unwrap().value, "M30");
+    assert_eq!(settings.header.as_ref().unwrap().value, "; {name}");
+    assert_eq!(settings.footer.as_ref().unwrap().value, "M30");
     assert_eq!(recipe.output.posts[0].value, "pmac-pvt");
     assert_eq!(recipe.text(), text);
 }

@@ -16,7 +16,7 @@ use super::wording::wrapped;
 const LEAST_LABEL: usize = 14;
 /// What two of the columns are.
 const OF_LAW: &str = "law's: apart from where the feed runs out at the path's ends";
-const PROGRAM: &str = "program: the lines that pmac-pvt makes of the points, measured";
+const PROGRAM: &str = "program: the lines that the post makes of the points, measured";
 const PLANNING: &str = "planning: processor time to make and measure the path";
 
 /// The runs side by side, on so many columns of the terminal.

@@ -1,5 +1,7 @@
 //! The lines on what is allowed but seldom meant, and on the cap of the feed.
 
+use turnpath_core::DEG;
+
 use crate::feed_cap::FeedCap;
 use crate::remark::Remark;
 use crate::unit;
@@ -15,15 +17,15 @@ pub fn remarks(remarks: &[Remark]) -> String {
 }
 
 fn sentence(remark: &Remark) -> String {
-    match *remark {
+    match remark {
         Remark::RoughResidual { residual } => {
-            let residual = small_length(residual);
+            let residual = small_length(*residual);
             format!("a residual of {residual} is far above that of an optical surface")
         }
         Remark::SmallAperture { aperture } => {
             format!(
                 "an aperture of {} is that of a grain",
-                small_length(aperture)
+                small_length(*aperture)
             )
         }
         Remark::FastZ { acceleration } => {
@@ -33,7 +35,7 @@ fn sentence(remark: &Remark) -> String {
         Remark::LongCut { cutting_time } => {
             format!(
                 "the cut takes {}, longer than a working day",
-                duration(cutting_time)
+                duration(*cutting_time)
             )
         }
         Remark::CoarseDigits {
@@ -41,7 +43,7 @@ fn sentence(remark: &Remark) -> String {
             rounding,
             tolerance,
         } => {
-            let (rounding, tolerance) = (small_length(rounding), small_length(tolerance));
+            let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
             format!(
                 "position_decimals = {position_decimals} rounds positions by up to {rounding}, and \
                  the interpolation tolerance is {tolerance}"
@@ -53,11 +55,29 @@ fn sentence(remark: &Remark) -> String {
             segment_time,
             tolerance,
         } => {
-            let (rounding, tolerance) = (small_length(rounding), small_length(tolerance));
+            let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
             let time = significant(segment_time * 1e3);
             format!(
                 "velocity_decimals = {velocity_decimals} moves the middle of a segment of {time} ms \
                  by up to {rounding}, and the interpolation tolerance is {tolerance}"
+            )
+        }
+        Remark::FilledPoints { filled, points } => {
+            format!("{filled} of {points} points of the map have no height; they were filled")
+        }
+        Remark::BeyondData {
+            on_part,
+            distance,
+            radius,
+            c,
+            continuation,
+        } => {
+            let what = if *on_part { "part" } else { "overrun" };
+            let (distance, radius) = (millimetres(*distance, 3), millimetres(*radius, 3));
+            let angle = c / DEG;
+            format!(
+                "the {what} leaves the data of the surface by {distance} at radius {radius}, \
+                 C = {angle:.1} deg; there it goes on {continuation}"
             )
         }
     }

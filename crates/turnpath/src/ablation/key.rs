@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value as Json, json};
 use turnpath_host::{Catalogue, sha256_hex, sha256_hex_of_file};
+use turnpath_post::POST_NAMES;
 use turnpath_recipe::{Recipe, Table, Value, Variant};
 
 use crate::data_files::DataFiles;
@@ -20,8 +21,8 @@ use crate::strategies::used_files;
 const RECORD_FORMAT: u32 = 3;
 /// Keys that no figure depends on.
 const NO_PART: [&str; 3] = ["format", "name", "plugins"];
-/// Keys of `[output]` that a program's size depends on.
-const OUTPUT_PART: [&str; 3] = ["posts", "z_reference", "pmac-pvt"];
+/// Keys of `[output]` that a program's size depends on, besides the tables of posts.
+const OUTPUT_PART: [&str; 2] = ["posts", "z_reference"];
 
 /// A run's key.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +97,8 @@ impl<'a> Keys<'a> {
 fn values(document: &Table) -> Json {
     let mut values = canonical_table(document, |key| !NO_PART.contains(&key));
     if let Some(Json::Object(output)) = values.get_mut("output") {
-        output.retain(|key, _| OUTPUT_PART.contains(&key.as_str()));
+        let parts = [&OUTPUT_PART[..], POST_NAMES].concat();
+        output.retain(|key, _| parts.contains(&key.as_str()));
     }
     values.retain(|key, value| key != "output" || *value != json!({}));
     Json::Object(values)

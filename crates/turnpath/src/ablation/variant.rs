@@ -3,7 +3,7 @@
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Sink, Stage};
-use turnpath_post::{PmacError, PmacFormat, PmacWriter};
+use turnpath_post::{Layout, POSTS};
 use turnpath_recipe::Recipe;
 use turnpath_report::MeasuredRun;
 
@@ -11,7 +11,7 @@ use crate::data_files::DataFiles;
 use crate::error::Error;
 use crate::form::search_split;
 use crate::job::Job;
-use crate::posts::pmac_format;
+use crate::posts::{NotCarried, layout, posts};
 
 use super::clock;
 use super::observer::AblationObserver;
@@ -62,7 +62,8 @@ impl Observer for Cancellation<'_> {
 
 /// Counts what files of the path would hold.
 struct SizeSink {
-    format: PmacFormat,
+    /// The layout of the recipe's first post; without a post, that of the first of all posts.
+    layout: Layout,
     /// Whether the recipe asks for a program, so that a path that the program cannot carry is a
     /// failure.
     is_asked: bool,
@@ -73,8 +74,9 @@ struct SizeSink {
 
 impl SizeSink {
     fn new(job: &Job) -> Self {
+        let post = posts(&job.recipe).next().unwrap_or(&POSTS[0]);
         Self {
-            format: pmac_format(&job.recipe, job.compensates_nose()),
+            layout: layout(&job.recipe, post, job.compensates_nose()),
             is_asked: !job.programs.is_empty(),
             rows: 0,
             program_bytes: (!job.plays_straight_lines()).then_some(0),
@@ -85,20 +87,23 @@ impl SizeSink {
 impl Sink for SizeSink {
     /// Bytes of the block's program lines; `None` where a program cannot carry the block.
     type Block = Option<u64>;
-    type Error = PmacError;
+    type Error = NotCarried;
 
-    fn encode(&self, block: &SectionBlock<'_>) -> Result<Option<u64>, PmacError> {
+    fn encode(&self, block: &SectionBlock<'_>) -> Result<Option<u64>, NotCarried> {
         if self.program_bytes.is_none() {
             return Ok(None);
         }
-        match PmacWriter::lines(&self.format, block) {
-            Ok(lines) => Ok(Some(lines.len() as u64)),
-            Err(error) if self.is_asked => Err(error),
+        match self.layout.lines(block) {
+            Ok(lines) => Ok(Some(lines.text.len() as u64)),
+            Err(error) if self.is_asked => Err(NotCarried {
+                post: self.layout.post.name,
+                error,
+            }),
             Err(_) => Ok(None),
         }
     }
 
-    fn take(&mut self, points: usize, bytes: Option<u64>) -> Result<(), PmacError> {
+    fn take(&mut self, points: usize, bytes: Option<u64>) -> Result<(), NotCarried> {
         self.rows += points as u64;
         self.program_bytes = self.program_bytes.zip(bytes).map(|(sum, more)| sum + more);
         Ok(())

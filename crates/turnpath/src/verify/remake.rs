@@ -10,7 +10,7 @@ use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_core::{FormBudget, StrategyError, Tolerance};
 use turnpath_host::{Catalogue, sha256_hex};
 use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
-use turnpath_post::{PmacError, PmacWriter, ReadError, ReadPath};
+use turnpath_post::{Layout, ProgramError, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
 
@@ -20,6 +20,7 @@ use crate::error::Error;
 use crate::form::FARTHEST_SUM;
 use crate::job::Job;
 use crate::outputs::Outputs;
+use crate::posts::NotCarried;
 use crate::summary::{FolderSummary, folder_of};
 
 use super::source::SourceFile;
@@ -139,7 +140,7 @@ enum Stop {
     /// The file could not be read.
     Read(ReadError),
     /// A program could not carry the path.
-    Program(PmacError),
+    Program(NotCarried),
     /// The surface failed where a row differs.
     Measure(StrategyError),
     /// There is no path.
@@ -199,12 +200,20 @@ impl ComparisonSink<'_> {
     }
 
     /// Whole turns that a program leaves out at its beginning.
-    fn turns_before(&self, points: &PathBlock) -> Result<f64, PmacError> {
+    fn turns_before(&self, points: &PathBlock) -> Result<f64, Stop> {
         match self.file.program.zip(points.get(0)) {
-            Some((format, first)) => PmacWriter::turns_left_out(&format, &first),
+            Some((layout, first)) => {
+                let turns = layout.turns_left_out(&first);
+                turns.map_err(|error| not_carried_by(&layout, error))
+            }
             None => Ok(0.0),
         }
     }
+}
+
+fn not_carried_by(layout: &Layout, error: ProgramError) -> Stop {
+    let post = layout.post.name;
+    Stop::Program(NotCarried { post, error })
 }
 
 /// The file's next row.
@@ -220,7 +229,10 @@ impl Sink for ComparisonSink<'_> {
     /// The points in the digits of the file.
     fn encode(&self, block: &SectionBlock<'_>) -> Result<Self::Block, Stop> {
         let points = match self.file.program {
-            Some(format) => PmacWriter::carried(&format, block).map_err(Stop::Program)?,
+            Some(layout) => {
+                let carried = layout.carried(block);
+                carried.map_err(|error| not_carried_by(&layout, error))?
+            }
             None => block.points.clone(),
         };
         Ok((block.section, points))
@@ -229,7 +241,7 @@ impl Sink for ComparisonSink<'_> {
     fn take(&mut self, _: usize, (section, points): Self::Block) -> Result<(), Stop> {
         let turns = match self.turns {
             Some(turns) => turns,
-            None => self.turns_before(&points).map_err(Stop::Program)?,
+            None => self.turns_before(&points)?,
         };
         self.turns = Some(turns);
         for mut point in points.points() {

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Section};
-use turnpath_post::{PMAC_TIME_STEPS, PathReader, PmacFormat, PmacReader, ReadError, ReadPath};
+use turnpath_post::{Layout, PathReader, ReadError, ReadPath, post_of_extension};
 use turnpath_recipe::Recipe;
 use turnpath_verify::HalfDigits;
 
-use crate::posts::{PMAC_EXTENSION, pmac_format};
+use crate::posts::layout;
 
 /// A file of a tool path, which can be read more than once.
 #[derive(Debug, Clone)]
@@ -16,24 +16,24 @@ pub struct SourceFile {
     /// Where it is.
     pub path: PathBuf,
     /// How it is laid out, if it is a program; a table otherwise.
-    pub program: Option<PmacFormat>,
+    pub program: Option<Layout>,
 }
 
 impl SourceFile {
     /// The file at `path`. What its name ends with says whether it is a program.
     pub fn new(path: &Path, recipe: &Recipe, compensates_nose: bool) -> Self {
-        let extension = path.extension();
-        let is_program = extension.is_some_and(|end| end.eq_ignore_ascii_case(PMAC_EXTENSION));
+        let extension = path.extension().and_then(|end| end.to_str());
+        let post = extension.and_then(post_of_extension);
         Self {
             path: path.to_owned(),
-            program: is_program.then(|| pmac_format(recipe, compensates_nose)),
+            program: post.map(|post| layout(recipe, post, compensates_nose)),
         }
     }
 
     /// Opens the file at its beginning.
     pub fn open(&self) -> Result<Box<dyn ReadPath + Send + Sync>, ReadError> {
         Ok(match self.program {
-            Some(format) => Box::new(PmacReader::open(&self.path, format)?),
+            Some(layout) => Box::new(layout.open(&self.path)?),
             None => Box::new(PathReader::open(&self.path)?),
         })
     }
@@ -45,21 +45,20 @@ impl SourceFile {
 
     /// The last digit of its velocities, mm/s or deg/s; zero if it has all digits of a double.
     pub fn velocity_digit(&self) -> f64 {
-        self.program.map_or(0.0, |format| {
-            let per = if format.per_minute { 60.0 } else { 1.0 };
-            one_in(format.velocity_decimals) / per
+        self.program.map_or(0.0, |Layout { format, .. }| {
+            one_in(format.velocity_decimals) / format.velocity_time()
         })
     }
 
     /// Half of its last digits; zero if it has all digits of a double.
     pub fn half_digits(&self) -> HalfDigits {
-        let Some(format) = self.program else {
+        let Some(Layout { format, .. }) = self.program else {
             return HalfDigits::default();
         };
         let position = 0.5 * one_in(format.position_decimals);
         let velocity = 0.5 * self.velocity_digit();
         HalfDigits {
-            time: 0.5 / PMAC_TIME_STEPS,
+            time: 0.5 / format.steps_per_s as f64,
             position,
             angle: position * DEG,
             velocity,

@@ -1,0 +1,95 @@
+//! How far the part and its overrun leave the data that the surface was made from.
+
+use std::f64::consts::TAU;
+
+use turnpath_core::{RadialRange, Scalar, SurfaceData};
+
+use crate::contact::contact_range;
+use crate::{Chain, Preparation, Result};
+
+/// Rings of the part that are looked at: what is missing on less than a hundredth of the diameter is
+/// filled as well as a grain of dust is.
+const RINGS: usize = 50;
+/// Angles on a ring.
+const ANGLES: usize = 360;
+/// A distance below this is rounding of the rim, mm.
+const SMALLEST: f64 = 1e-9;
+
+/// The place that lies farthest beyond the data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Farthest {
+    /// How far it lies beyond them, mm.
+    pub distance: f64,
+    /// Its radius on the part, mm.
+    pub radius: f64,
+    /// Its angle, rad.
+    pub angle: f64,
+}
+
+/// The data of a surface, and how far the path leaves them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DataReach {
+    /// The data.
+    pub data: SurfaceData,
+    /// The farthest place of the part; `None` where the part lies on data.
+    pub part: Option<Farthest>,
+    /// The farthest place of the overrun, as far as the nose makes contact there; `None` where that
+    /// is nowhere farther away than the part is.
+    pub overrun: Option<Farthest>,
+}
+
+/// How far the path leaves the data that the surface was made from; `None` for formulas.
+///
+/// # Errors
+/// When a strategy fails.
+pub fn data_reach(chain: &Chain, preparation: &Preparation) -> Result<Option<DataReach>> {
+    let surface = &chain.surface;
+    let data = surface.strategy.data();
+    let data = data.map_err(|error| surface.failed("for its data", error))?;
+    let Some(data) = data else { return Ok(None) };
+    let task = &preparation.task;
+    let part = RadialRange {
+        inner: task.part.inner_radius,
+        outer: task.part.aperture_radius,
+    };
+    let step = (part.outer - part.inner) / RINGS as f64;
+    let rings = (0..=RINGS).map(|ring| part.inner + step * ring as f64);
+    let on_part = farthest(chain, rings)?;
+    let contact = contact_range(chain, &preparation.locus, &task.tool, task.range)?;
+    let ends = [contact.inner, contact.outer].into_iter();
+    let beyond = ends.filter(|radius| *radius < part.inner || *radius > part.outer);
+    let overrun = farthest(chain, beyond)?;
+    let least = on_part.map_or(SMALLEST, |place| place.distance + SMALLEST);
+    Ok(Some(DataReach {
+        data,
+        part: on_part,
+        overrun: overrun.filter(|place| place.distance > least),
+    }))
+}
+
+/// The place on some rings that lies farthest beyond the data, if one does.
+fn farthest(chain: &Chain, rings: impl Iterator<Item = f64>) -> Result<Option<Farthest>> {
+    let turn: Vec<(f64, (f64, f64))> = (0..ANGLES)
+        .map(|i| TAU * i as f64 / ANGLES as f64)
+        .map(|angle| (angle, Scalar::sin_cos(angle)))
+        .collect();
+    let mut most: Option<Farthest> = None;
+    let mut distances = vec![0.0; ANGLES];
+    for radius in rings {
+        let places = turn.iter().map(|(_, (s, c))| (radius * c, radius * s));
+        let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
+        let answer = chain.surface.strategy.beyond_data(&x, &y, &mut distances);
+        let context = "for the distance from its data";
+        answer.map_err(|error| chain.surface.failed(context, error))?;
+        for (distance, (angle, _)) in distances.iter().zip(&turn) {
+            if *distance > most.map_or(SMALLEST, |most| most.distance) {
+                most = Some(Farthest {
+                    distance: *distance,
+                    radius,
+                    angle: *angle,
+                });
+            }
+        }
+    }
+    Ok(most)
+}

@@ -1,0 +1,99 @@
+//! Motion programs for Aerotech Automation1: AeroScript with `MovePvt`.
+//!
+//! ```text
+//! // -- cutting --
+//! SetupTaskTimeUnits(TimeUnits.Seconds)
+//! SetupTaskTargetMode(TargetMode.Absolute)
+//! MovePvt([C, X, Z], [0, 2.5, 1.5], [3000, -0.2003846, 0], 1)
+//! MovePvt([C, X, Z], [9, 2.4993989, 1.6544085], [3000, -0.2003846, 50.3013247], 0.003)
+//! …
+//! // -- end of path: 4160 points --
+//! ```
+//!
+//! Each call gives positions and velocities at the end of a segment and its time in seconds; between
+//! them the controller plays the cubic that has both positions and both velocities. Numbers are
+//! doubles. The program writes times in steps of a nanosecond, and rounds the time since the start, so
+//! that rounding errors do not add up.
+//!
+//! The first call brings the axes from wherever they are to the first control point, within a second.
+//!
+//! What is not known from a manual: the shortest and the longest time that the controller accepts.
+//! Segments of more than 1000 s are divided.
+
+mod read;
+#[cfg(test)]
+mod tests;
+mod write;
+
+use read::AeroScript;
+use write::{push_first, push_segment};
+
+use crate::carry::{DigitSegment, Digits};
+use crate::post::{Command, Dialect, Grammar, Post, commands_of};
+use crate::program_format::ProgramFormat;
+use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, VELOCITY_DECIMALS};
+
+/// Programs for Aerotech Automation1.
+pub(crate) const AUTOMATION1_PVT: Post = Post {
+    name: "automation1-pvt",
+    table: "output.automation1-pvt",
+    extension: "ascript",
+    summary: "the layout of the programs of the post `automation1-pvt`",
+    comment: "//",
+    keys: &[
+        POSITION_DECIMALS.info(),
+        VELOCITY_DECIMALS.info(),
+        C_SIGN.info(),
+        POSITIONING.info(),
+        HEADER.info(),
+        FOOTER.info(),
+    ],
+    header: "\
+// {name}
+// recipe {recipe}, SHA-256 {sha256}
+// changed by --set: {changes}
+// turnpath {turnpath}, post automation1-pvt: {points} points, {revolutions} revolutions, {time_s} s
+// X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}
+// the path begins and ends {ends}
+",
+    footer: "",
+    steps_per_s: 1_000_000_000,
+    longest: 1_000_000_000_000,
+    dialect: &MovePvt,
+};
+
+/// Lines with `MovePvt`.
+#[derive(Debug)]
+struct MovePvt;
+
+/// Calls that move nothing, set nothing but what the path sets itself, and start nothing.
+const HARMLESS: &[&str] = &[
+    "program",
+    "end",
+    "SetupTaskTargetMode(TargetMode.Absolute)",
+    "SetupTaskTargetMode(TargetMode.Incremental)",
+    "SetupTaskTimeUnits(TimeUnits.Seconds)",
+];
+
+impl Dialect for MovePvt {
+    fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
+        push_first(text, format, point);
+    }
+
+    fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment) {
+        push_segment(text, format, segment);
+    }
+
+    fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
+        Box::new(AeroScript::new(format))
+    }
+
+    fn commands(&self, template: &str) -> Vec<Command> {
+        let code_of = |line: &str| line.find("//").unwrap_or(line.len());
+        commands_of(
+            template,
+            |line| line.get(..code_of(line)).unwrap_or(line),
+            |code| HARMLESS.contains(&code),
+        )
+    }
+}

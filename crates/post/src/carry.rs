@@ -1,0 +1,288 @@
+//! Control points on a program's steps of time and in its digits: the half of writing that all
+//! dialects share.
+
+use turnpath_core::DEG;
+use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Segment};
+
+use crate::program_error::ProgramError;
+use crate::program_format::{ProgramFormat, TURN_DEG};
+
+/// Beyond this a double times a power of ten is not exact.
+const LARGEST_UNITS: f64 = 9e15;
+/// The program's axes, in the order in which they are written.
+pub(crate) const AXES: [char; 3] = ['C', 'X', 'Z'];
+
+/// A control point in a program's digits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Digits {
+    /// Time in steps.
+    pub steps: i64,
+    /// C, X, Z in last digits; C unwrapped.
+    pub position: [i64; 3],
+    /// Their velocities in last digits.
+    pub velocity: [i64; 3],
+}
+
+/// A segment in a program's digits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DigitSegment {
+    /// Where it begins.
+    pub from: Digits,
+    /// Where it ends.
+    pub to: Digits,
+    /// The steps of the segment before; `None` for the first segment.
+    pub steps_before: Option<i64>,
+}
+
+impl DigitSegment {
+    /// The steps that it takes.
+    pub fn steps(&self) -> i64 {
+        self.to.steps - self.from.steps
+    }
+}
+
+/// What stands in the lines of a stretch.
+pub(crate) enum Written<'a> {
+    /// The path's first point.
+    First(&'a Digits),
+    /// A segment.
+    Segment(&'a DigitSegment),
+}
+
+/// Gives the first point and the segments of a stretch in their order, long segments divided; returns
+/// the number of their points.
+pub(crate) fn carry(
+    format: &ProgramFormat,
+    stretch: &SectionBlock<'_>,
+    write: &mut dyn FnMut(Written<'_>),
+) -> Result<usize, ProgramError> {
+    let mut trail = Trail::default();
+    for point in stretch.before {
+        trail.go_to(format, point, &mut |_| {})?;
+    }
+    let mut points = 0;
+    for point in stretch.points.points() {
+        trail.go_to(format, &point, &mut |written| {
+            points += 1;
+            write(written);
+        })?;
+    }
+    Ok(points)
+}
+
+/// The points of a stretch as a program carries them: on the controller's steps of time, in the
+/// program's digits, C unwrapped, long segments divided.
+pub(crate) fn carried(
+    format: &ProgramFormat,
+    stretch: &SectionBlock<'_>,
+) -> Result<PathBlock, ProgramError> {
+    let mut carried = PathBlock {
+        shape: stretch.points.shape,
+        ..PathBlock::default()
+    };
+    carry(format, stretch, &mut |written| {
+        carried.push(match written {
+            Written::First(digits) => digits.point(format),
+            Written::Segment(segment) => segment.to.point(format),
+        });
+    })?;
+    Ok(carried)
+}
+
+/// Whole turns of C that a program leaves out because it begins within 0 to 360 deg, rad.
+pub(crate) fn turns_left_out(
+    format: &ProgramFormat,
+    first: &ControlPoint,
+) -> Result<f64, ProgramError> {
+    let digits = Digits::of(format, first, None)?;
+    let left_out = match format.c_wrapped {
+        true => digits.position[0].div_euclid(turn(format)),
+        false => 0,
+    };
+    Ok(format.c_sign() * std::f64::consts::TAU * left_out as f64)
+}
+
+/// The positions that a program's line says: absolute ones with C wrapped where the format has it so,
+/// or distances.
+pub(crate) fn said_positions(format: &ProgramFormat, segment: &DigitSegment) -> [i64; 3] {
+    let ([c, x, z], [from_c, from_x, from_z]) = (segment.to.position, segment.from.position);
+    match format.incremental {
+        true => [c - from_c, x - from_x, z - from_z],
+        false => said_place(format, &segment.to),
+    }
+}
+
+/// The absolute position of a point as a program says it.
+pub(crate) fn said_place(format: &ProgramFormat, digits: &Digits) -> [i64; 3] {
+    let [c, x, z] = digits.position;
+    match format.c_wrapped {
+        true => [c.rem_euclid(turn(format)), x, z],
+        false => [c, x, z],
+    }
+}
+
+/// What the lines before have left.
+#[derive(Default)]
+struct Trail {
+    point: Option<ControlPoint>,
+    digits: Option<Digits>,
+    /// The steps of the segment before.
+    steps: Option<i64>,
+}
+
+impl Trail {
+    /// Goes on to the next point.
+    fn go_to(
+        &mut self,
+        format: &ProgramFormat,
+        point: &ControlPoint,
+        write: &mut dyn FnMut(Written<'_>),
+    ) -> Result<(), ProgramError> {
+        let end = Digits::of(format, point, self.point.as_ref())?;
+        match self.digits {
+            None => write(Written::First(&end)),
+            Some(from) => {
+                let steps = end.steps - from.steps;
+                let (t, c_deg) = (point.t, point.c / DEG);
+                if steps < 1 {
+                    return Err(ProgramError::Short { t, c_deg });
+                }
+                // Rounded up, without a sum that could be too large.
+                let parts = (steps - 1) / format.longest + 1;
+                for part in 1..parts {
+                    let at = from.steps + steps / parts * part + steps % parts * part / parts;
+                    let middle = Digits::at(format, point, self.point.as_ref(), at)?;
+                    self.write_segment(format, point, middle, write)?;
+                }
+                self.write_segment(format, point, end, write)?;
+            }
+        }
+        self.point = Some(*point);
+        self.digits = Some(end);
+        Ok(())
+    }
+
+    /// Writes one segment, or a part of one; `point` is the end of the whole, for messages.
+    fn write_segment(
+        &mut self,
+        format: &ProgramFormat,
+        point: &ControlPoint,
+        to: Digits,
+        write: &mut dyn FnMut(Written<'_>),
+    ) -> Result<(), ProgramError> {
+        let Some(from) = self.digits else {
+            return Ok(());
+        };
+        let turned = to.position[0] - from.position[0];
+        if format.c_wrapped && !format.incremental && turned.abs() >= turn(format) / 2 {
+            let (t, c_deg) = (point.t, point.c / DEG);
+            return Err(ProgramError::HalfTurn { t, c_deg });
+        }
+        let segment = DigitSegment {
+            from,
+            to,
+            steps_before: self.steps,
+        };
+        write(Written::Segment(&segment));
+        self.steps = Some(segment.steps());
+        self.digits = Some(to);
+        Ok(())
+    }
+}
+
+impl Digits {
+    fn of(
+        format: &ProgramFormat,
+        point: &ControlPoint,
+        before: Option<&ControlPoint>,
+    ) -> Result<Self, ProgramError> {
+        let steps = (point.t * format.steps_per_s as f64).round() as i64;
+        Self::at(format, point, before, steps)
+    }
+
+    /// The digits at a step of time on the cubic that ends at a point.
+    fn at(
+        format: &ProgramFormat,
+        point: &ControlPoint,
+        before: Option<&ControlPoint>,
+        steps: i64,
+    ) -> Result<Self, ProgramError> {
+        let moved = at_time(point, before, steps as f64 / format.steps_per_s as f64);
+        let (sign, per) = (format.c_sign(), format.velocity_time());
+        let positions = [sign * moved.c / DEG, moved.x, moved.z - format.z_above];
+        let velocities = [sign * moved.vc / DEG, moved.vx, moved.vz].map(|v| v * per);
+        let (mut position, mut velocity) = ([0; 3], [0; 3]);
+        for (k, axis) in AXES.into_iter().enumerate() {
+            let units = |value: f64, decimals: u32| {
+                let t = point.t;
+                units(value, decimals).ok_or(ProgramError::Digits {
+                    axis,
+                    value,
+                    decimals,
+                    t,
+                })
+            };
+            position[k] = units(positions[k], format.position_decimals)?;
+            velocity[k] = units(velocities[k], format.velocity_decimals)?;
+        }
+        Ok(Self {
+            steps,
+            position,
+            velocity,
+        })
+    }
+
+    /// The control point that has these digits.
+    fn point(&self, format: &ProgramFormat) -> ControlPoint {
+        let one = |decimals: u32| 10u64.pow(decimals) as f64;
+        let [c, x, z] = self
+            .position
+            .map(|p| p as f64 / one(format.position_decimals));
+        let velocity = one(format.velocity_decimals) * format.velocity_time();
+        let [vc, vx, vz] = self.velocity.map(|v| v as f64 / velocity);
+        let to_angle = format.c_sign() * DEG;
+        ControlPoint {
+            t: self.steps as f64 / format.steps_per_s as f64,
+            c: to_angle * c,
+            x,
+            z: z + format.z_above,
+            vc: to_angle * vc,
+            vx,
+            vz,
+        }
+    }
+}
+
+/// A value in last digits, if it fits.
+fn units(value: f64, decimals: u32) -> Option<i64> {
+    let scaled = (value * 10u64.pow(decimals) as f64).round();
+    (scaled.abs() <= LARGEST_UNITS).then_some(scaled as i64)
+}
+
+/// The point of the cubic that ends at `point`, at a time in or near the segment.
+fn at_time(point: &ControlPoint, before: Option<&ControlPoint>, time: f64) -> ControlPoint {
+    let by = time - point.t;
+    let bends = before.map_or([(0.0, 0.0); 3], |before| {
+        let segment = Segment::between(before, point);
+        let h = segment.duration;
+        [&segment.c, &segment.x, &segment.z]
+            .map(|axis| (axis.bend(1.0) / (h * h), axis.jerk() / (h * h * h)))
+    });
+    let place = |p: f64, v: f64, (a, j): (f64, f64)| p + by * (v + by * (a / 2.0 + by * j / 6.0));
+    let speed = |v: f64, (a, j): (f64, f64)| v + by * (a + by * j / 2.0);
+    let [c, x, z] = bends;
+    ControlPoint {
+        t: time,
+        c: place(point.c, point.vc, c),
+        x: place(point.x, point.vx, x),
+        z: place(point.z, point.vz, z),
+        vc: speed(point.vc, c),
+        vx: speed(point.vx, x),
+        vz: speed(point.vz, z),
+    }
+}
+
+/// A revolution in last digits.
+fn turn(format: &ProgramFormat) -> i64 {
+    TURN_DEG * 10i64.pow(format.position_decimals)
+}

@@ -1,0 +1,121 @@
+//! A program of one recipe: its post, and how it is laid out.
+
+use std::io::Read;
+use std::path::PathBuf;
+
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
+
+use crate::carry::{Written, carried, carry, turns_left_out};
+use crate::ordinary_file;
+use crate::post::Post;
+use crate::program_error::ProgramError;
+use crate::program_format::{ProgramFormat, mark};
+use crate::program_reader::ProgramReader;
+use crate::read_error::ReadError;
+
+/// A post with the format of one recipe.
+#[derive(Debug, Clone, Copy)]
+pub struct Layout {
+    /// The post.
+    pub post: &'static Post,
+    /// The format.
+    pub format: ProgramFormat,
+}
+
+/// Lines of a program.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Lines {
+    /// The text.
+    pub text: Vec<u8>,
+    /// The control points in it: more than those of the path where segments were divided.
+    pub points: usize,
+}
+
+impl Layout {
+    /// A part of the path as program lines. This needs no file, so several parts can be formatted in
+    /// parallel.
+    ///
+    /// # Errors
+    /// When a program cannot carry the path.
+    pub fn lines(&self, stretch: &SectionBlock<'_>) -> Result<Lines, ProgramError> {
+        let Self { post, format } = self;
+        let mut text = Vec::new();
+        if stretch.opens_section {
+            let opening = format!("{} {}\n", post.comment, mark(stretch.section));
+            text.extend_from_slice(opening.as_bytes());
+        }
+        let points = carry(format, stretch, &mut |written| match written {
+            Written::First(digits) => post.dialect.write_first(&mut text, format, digits),
+            Written::Segment(segment) => post.dialect.write_segment(&mut text, format, segment),
+        })?;
+        Ok(Lines { text, points })
+    }
+
+    /// A part of the path as a reader finds it in the program: on the controller's times, and in the
+    /// program's digits. C is unwrapped, and begins [`Layout::turns_left_out`] later.
+    ///
+    /// # Errors
+    /// When a program cannot carry the path.
+    pub fn carried(&self, stretch: &SectionBlock<'_>) -> Result<PathBlock, ProgramError> {
+        carried(&self.format, stretch)
+    }
+
+    /// Whole turns of C, rad, that a program leaves out before the path's first point: not zero only
+    /// if its C is wrapped.
+    ///
+    /// # Errors
+    /// When a program cannot carry the point.
+    pub fn turns_left_out(&self, first: &ControlPoint) -> Result<f64, ProgramError> {
+        turns_left_out(&self.format, first)
+    }
+
+    /// Opens a program of this layout.
+    ///
+    /// # Errors
+    /// When the file cannot be opened.
+    pub fn open(&self, path: impl Into<PathBuf>) -> Result<ProgramReader, ReadError> {
+        let path = path.into();
+        match ordinary_file::open(&path) {
+            Ok(file) => Ok(self.read(file, path)),
+            Err(error) => Err(ReadError::File { path, error }),
+        }
+    }
+
+    /// Reads a program of this layout from `reader`, for example from bytes in memory. Errors name
+    /// `path`.
+    pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
+        let grammar = self.post.dialect.grammar(&self.format);
+        ProgramReader::new(reader, path.into(), grammar, self.post.comment)
+    }
+
+    /// A rough estimate of the bytes of a program with so many points. It is made from invented points
+    /// in the middle of the path, which have all digits and one common time. If every point has a time
+    /// of its own, the program may be larger by half.
+    pub fn expected_bytes(&self, radius: f64, time: f64, c: f64, points: f64) -> f64 {
+        let half = |end: f64| 0.5 * end * (1.0 + 1e-7 / 3.0);
+        let (speed, step) = (c / time, time / points.max(1.0));
+        let point = |k: u32| {
+            let t = half(time) + f64::from(k) * step;
+            ControlPoint {
+                t,
+                c: speed * t,
+                x: half(radius),
+                z: half(radius),
+                vc: speed,
+                vx: -half(radius) / time,
+                vz: half(radius) * speed,
+            }
+        };
+        let mut block = PathBlock::default();
+        block.push(point(1));
+        block.push(point(2));
+        let stretch = SectionBlock {
+            section: Section::Cutting,
+            opens_section: false,
+            before: &[point(0)],
+            points: &block,
+        };
+        let bytes = self.lines(&stretch).map_or(0, |lines| lines.text.len());
+        points * bytes as f64 / 2.0
+    }
+}

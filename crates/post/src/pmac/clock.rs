@@ -1,0 +1,12 @@
+//! How a controller of this family counts the time of a segment.
+
+/// Times of segments in the text, and their steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Clock {
+    /// Steps in a millisecond.
+    pub(crate) steps_per_ms: i64,
+    /// Decimals of milliseconds with which every step is exact.
+    pub(crate) decimals: u32,
+    /// The times that a segment may take, for messages.
+    pub(crate) range: &'static str,
+}

@@ -1,0 +1,105 @@
+//! A post: the data of a dialect of motion programs, and the small trait of what is no data.
+
+use std::fmt::Debug;
+
+use turnpath_core::ParamInfo;
+use turnpath_core::toolpath::ControlPoint;
+
+use crate::carry::{DigitSegment, Digits};
+use crate::program_format::ProgramFormat;
+
+/// A dialect of motion programs.
+#[derive(Debug, Clone, Copy)]
+pub struct Post {
+    /// Its name in recipes.
+    pub name: &'static str,
+    /// The recipe's table with its settings, `output.` and the name.
+    pub table: &'static str,
+    /// What the names of its files end with. No two posts have the same.
+    pub extension: &'static str,
+    /// One line that says what its table is about.
+    pub summary: &'static str,
+    /// What begins a comment that reaches to the end of the line.
+    pub comment: &'static str,
+    /// The keys of its table.
+    pub keys: &'static [ParamInfo],
+    /// The template of what stands before the path.
+    pub header: &'static str,
+    /// The template of what stands after the path.
+    pub footer: &'static str,
+    /// Steps of time in a second.
+    pub steps_per_s: i64,
+    /// The longest segment, in steps. A longer one is divided.
+    pub longest: i64,
+    /// How it writes and reads lines.
+    pub dialect: &'static dyn Dialect,
+}
+
+/// How a dialect writes the lines of a path, and how it reads them. Writer and reader share no code.
+pub trait Dialect: Debug + Send + Sync {
+    /// Writes the lines that bring the axes to the first control point. They are no part of the path.
+    fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits);
+
+    /// Writes the lines of a segment.
+    fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment);
+
+    /// A reader of lines, at the beginning of a program.
+    fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar>;
+
+    /// The commands of a template, line by line. Comments and empty lines are none.
+    fn commands(&self, template: &str) -> Vec<Command>;
+
+    /// Whether the path's lines go into a program after a header. Where a file is a program as it is,
+    /// they always do.
+    fn leaves_program_open(&self, _header: &str) -> bool {
+        true
+    }
+}
+
+/// Reads the lines of a program in their order.
+pub trait Grammar: Send + Sync {
+    /// The code of a line, before any comment, and the comment, if there is one.
+    fn split_comment<'a>(&self, line: &'a [u8]) -> (&'a [u8], Option<&'a [u8]>);
+
+    /// Reads a line's code, and appends the control points that are known with it. A point may wait for
+    /// the line behind it.
+    ///
+    /// # Errors
+    /// When the line is not of the dialect: what is wrong with it.
+    fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String>;
+
+    /// The control point that waits for a line behind it, at the end of the path.
+    fn finish(&mut self) -> Option<ControlPoint> {
+        None
+    }
+}
+
+/// A line of a header or a footer that is more than a comment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Command {
+    /// The line in its template, from 1.
+    pub line: usize,
+    /// The line without its comment; placeholders stand as the template has them.
+    pub text: String,
+    /// Whether all of its words are known to move nothing, set nothing and start nothing.
+    pub harmless: bool,
+}
+
+/// The commands of a template whose comments begin at `comment`, and whose other lines are judged one
+/// by one.
+pub(crate) fn commands_of(
+    template: &str,
+    code_of: impl Fn(&str) -> &str,
+    is_harmless: impl Fn(&str) -> bool,
+) -> Vec<Command> {
+    let lines = template.lines().zip(1..);
+    let commands = lines.filter_map(|(line_text, line)| {
+        let code = code_of(line_text).trim();
+        (!code.is_empty()).then(|| Command {
+            line,
+            text: code.to_owned(),
+            harmless: is_harmless(code),
+        })
+    });
+    commands.collect()
+}

@@ -1,0 +1,60 @@
+//! The errors of a path that a program cannot carry.
+
+/// Why a program cannot carry a path, and where.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProgramError {
+    /// A segment is shorter than the controller's time step.
+    #[error(
+        "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes less than the \
+         controller's time step"
+    )]
+    Short {
+        /// The time of its end, s.
+        t: f64,
+        /// C at its end, deg.
+        c_deg: f64,
+    },
+    /// A value has more digits than doubles hold.
+    #[error("{axis} = {value} at {t:.6} s has too many digits with {decimals} decimals")]
+    Digits {
+        /// C, X or Z.
+        axis: char,
+        /// The position or velocity.
+        value: f64,
+        /// The decimals that the program should have.
+        decimals: u32,
+        /// The time of the point, s.
+        t: f64,
+    },
+    /// C turns so far that a wrapped position does not show the direction.
+    #[error(
+        "C turns by half a revolution or more in the segment that ends at {t:.6} s, C = \
+         {c_deg:.3} deg: wrapped positions do not show the direction"
+    )]
+    HalfTurn {
+        /// The time of its end, s.
+        t: f64,
+        /// C at its end, deg.
+        c_deg: f64,
+    },
+    /// The path goes straight from point to point.
+    #[error(
+        "the path goes straight from point to point, but this program plays cubics: it cannot carry \
+         such a path"
+    )]
+    Straight,
+}
+
+impl ProgramError {
+    /// What the user can do.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Short { .. } => "place points farther apart, or turn the spindle slower",
+            Self::Digits { .. } => "write fewer decimals, or c_wrap = \"0-360\"",
+            Self::HalfTurn { .. } => {
+                "place points closer together, or write c_wrap = \"unwrapped\""
+            }
+            Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
+        }
+    }
+}

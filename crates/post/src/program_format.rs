@@ -1,0 +1,60 @@
+//! The numbers of a program: what its writer and its reader must agree on.
+
+use turnpath_core::toolpath::Section;
+
+/// Degrees of a revolution.
+pub(crate) const TURN_DEG: i64 = 360;
+/// The beginning of the line after the path, in its comment.
+pub(crate) const END_MARK: &str = "-- end of path";
+
+/// How a program writes times, positions and velocities.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramFormat {
+    /// Steps of time in a second: every segment takes a whole number of them.
+    pub steps_per_s: i64,
+    /// Longest segment, in steps. A longer one is divided.
+    pub longest: i64,
+    /// Decimals of positions, in mm and deg.
+    pub position_decimals: u32,
+    /// Decimals of velocities. If velocities have as many decimals as positions, or one less where
+    /// they are per minute, their rounding costs less than a position's last digit over any segment
+    /// of some seconds: the rounding at both ends moves the middle of the segment by a quarter of the
+    /// rounding error times the segment's duration in seconds.
+    pub velocity_decimals: u32,
+    /// Velocities per minute instead of per second.
+    pub per_minute: bool,
+    /// The program's C runs against the path's.
+    pub c_reversed: bool,
+    /// Absolute C within 0 to 360 deg.
+    pub c_wrapped: bool,
+    /// Distances from point to point instead of positions.
+    pub incremental: bool,
+    /// Z of the path − Z of the program, mm: the nose radius where the program's Z is the tip's.
+    pub z_above: f64,
+}
+
+impl ProgramFormat {
+    /// The milliseconds that velocities refer to, which Turbo PMAC has in Ix90.
+    pub fn velocity_ms(&self) -> u32 {
+        if self.per_minute { 60_000 } else { 1000 }
+    }
+
+    /// The seconds that velocities refer to.
+    pub fn velocity_time(&self) -> f64 {
+        if self.per_minute { 60.0 } else { 1.0 }
+    }
+
+    /// 1, or −1 if the program's C runs against the path's.
+    pub fn c_sign(&self) -> f64 {
+        if self.c_reversed { -1.0 } else { 1.0 }
+    }
+}
+
+/// The comment before a section.
+pub(crate) fn mark(section: Section) -> &'static str {
+    match section {
+        Section::LeadIn => "-- lead-in --",
+        Section::Cutting => "-- cutting --",
+        Section::LeadOut => "-- lead-out --",
+    }
+}

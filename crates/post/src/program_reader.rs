@@ -1,0 +1,197 @@
+//! Reads a motion program back into control points, whatever its dialect. An error names the line.
+
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use turnpath_core::toolpath::{ControlPoint, Section};
+
+use crate::path_reader::{ReadCount, ReadPath};
+use crate::post::Grammar;
+use crate::program_format::{END_MARK, mark};
+use crate::read_error::ReadError;
+use crate::turn::check_turn;
+
+/// Longest line that is read, bytes: far longer than any line of a program, so that a file that is no
+/// program does not fill the memory.
+const LONGEST_LINE: u64 = 1 << 16;
+/// Size of the buffer, bytes.
+const BUFFER: usize = 1 << 18;
+
+/// Reads a program's path point by point, from a file or from any other [`Read`].
+pub struct ProgramReader<R = File> {
+    lines: BufReader<R>,
+    path: PathBuf,
+    grammar: Box<dyn Grammar>,
+    /// What begins a comment, for messages.
+    comment: &'static str,
+    line: u64,
+    section: Option<Section>,
+    /// The points that the end mark says, after it was read.
+    said_points: Option<u64>,
+    /// Points that were read and not given yet.
+    waiting: VecDeque<(ControlPoint, Section)>,
+    read_count: ReadCount,
+}
+
+impl<R: Read> ProgramReader<R> {
+    pub(crate) fn new(
+        reader: R,
+        path: PathBuf,
+        grammar: Box<dyn Grammar>,
+        comment: &'static str,
+    ) -> Self {
+        Self {
+            lines: BufReader::with_capacity(BUFFER, reader),
+            path,
+            grammar,
+            comment,
+            line: 0,
+            section: None,
+            said_points: None,
+            waiting: VecDeque::new(),
+            read_count: ReadCount::default(),
+        }
+    }
+
+    /// Errors name this file instead of the one that is read.
+    pub fn named(self, path: impl AsRef<Path>) -> Self {
+        Self {
+            path: path.as_ref().to_owned(),
+            ..self
+        }
+    }
+
+    fn wrong(&self, what: String) -> ReadError {
+        ReadError::Line {
+            path: self.path.clone(),
+            line: self.line.max(1),
+            what,
+        }
+    }
+
+    /// Reads the next line into `text`; `false` at the end of the file.
+    fn read_line(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
+        text.clear();
+        let mut limited = (&mut self.lines).take(LONGEST_LINE);
+        let read = limited.read_until(b'\n', text);
+        let read = read.map_err(|error| ReadError::File {
+            path: self.path.clone(),
+            error,
+        })?;
+        self.line += u64::from(read > 0);
+        if read as u64 == LONGEST_LINE {
+            return Err(self.wrong("this line is longer than any line of a program".to_owned()));
+        }
+        Ok(read > 0)
+    }
+
+    /// The error of a file that ends too early.
+    fn incomplete(&self) -> ReadError {
+        let comment = self.comment;
+        self.wrong(match self.section {
+            None => format!(
+                "there is no path: the line `{comment} {}` is missing",
+                mark(Section::Cutting)
+            ),
+            Some(_) => format!(
+                "the program ends without the line `{comment} {END_MARK} --`: it is not complete"
+            ),
+        })
+    }
+
+    /// Reads a comment, which may be a mark.
+    fn read_comment(&mut self, said: &[u8]) -> Result<(), String> {
+        let text = String::from_utf8_lossy(said).trim().to_ascii_lowercase();
+        if !text.starts_with("--") {
+            return Ok(());
+        }
+        let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
+        if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
+            if self.section.is_some_and(|last| section <= last) {
+                return Err(format!(
+                    "`{} {text}` is out of order: the sections are lead-in, cutting, lead-out",
+                    self.comment
+                ));
+            }
+            self.section = Some(section);
+        } else if self.section.is_some() && text.starts_with(END_MARK) {
+            let digits: String = text.chars().filter(char::is_ascii_digit).collect();
+            let points: u64 = digits
+                .parse()
+                .map_err(|_| "the end mark must give the number of points".to_owned())?;
+            self.said_points = Some(points);
+            let last = self.grammar.finish();
+            self.wait(last);
+        }
+        Ok(())
+    }
+
+    /// Reads a line of the path.
+    fn read_code(&mut self, code: &[u8]) -> Result<(), String> {
+        let code = std::str::from_utf8(code).map_err(|_| "this is not text".to_owned())?;
+        let mut points = Vec::new();
+        self.grammar.read(code, &mut points)?;
+        self.wait(points);
+        Ok(())
+    }
+
+    fn wait(&mut self, points: impl IntoIterator<Item = ControlPoint>) {
+        if let Some(section) = self.section {
+            let points = points.into_iter().map(|point| (point, section));
+            self.waiting.extend(points);
+        }
+    }
+
+    /// Reads the next line; `false` at the end of the path.
+    fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
+        if let Some(said) = self.said_points {
+            let count = self.read_count.points();
+            return match said == count {
+                true => Ok(false),
+                false => Err(self.wrong(format!(
+                    "the path has {count} points, but its end mark says {said}"
+                ))),
+            };
+        }
+        if !self.read_line(text)? {
+            return Err(self.incomplete());
+        }
+        let (code, comment) = self.grammar.split_comment(text);
+        if let Some(comment) = comment {
+            let read = self.read_comment(comment);
+            read.map_err(|what| self.wrong(what))?;
+        }
+        // The lines before the path belong to the header, and those after it to the footer.
+        if self.section.is_some() && self.said_points.is_none() {
+            self.read_code(code).map_err(|what| self.wrong(what))?;
+        }
+        Ok(true)
+    }
+}
+
+impl<R: Read> ReadPath for ProgramReader<R> {
+    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+        let mut text = Vec::new();
+        while self.waiting.is_empty() {
+            if !self.read_on(&mut text)? {
+                return Ok(None);
+            }
+        }
+        let Some((point, section)) = self.waiting.pop_front() else {
+            return Ok(None);
+        };
+        check_turn(self.read_count.last(), &point, section).map_err(|what| self.wrong(what))?;
+        self.read_count.add(point, section);
+        Ok(Some((point, section)))
+    }
+
+    fn read_count(&self) -> &ReadCount {
+        &self.read_count
+    }
+
+    fn read_count_mut(&mut self) -> &mut ReadCount {
+        &mut self.read_count
+    }
+}

@@ -1,0 +1,91 @@
+//! The settings of posts: keys that dialects may have in their tables, and the format that they give.
+
+use turnpath_core::kind::{Choice, Count, Number, Text};
+use turnpath_core::{Param, Params};
+
+use crate::post::Post;
+use crate::program_format::ProgramFormat;
+
+/// Decimals of positions if the recipe gives none: the last one is 0.1 nm.
+const DECIMALS: u64 = 7;
+/// Most decimals: with more, a position does not fit into 64 bits.
+const MOST_DECIMALS: u64 = 12;
+
+const PER_MINUTE: &str = "min";
+const WRAPPED: &str = "0-360";
+const INCREMENTAL: &str = "incremental";
+
+pub(crate) const POSITION_DECIMALS: Param<Count> =
+    Param::count("position_decimals", "decimals of positions, mm and deg")
+        .default(DECIMALS)
+        .max(MOST_DECIMALS);
+pub(crate) const VELOCITY_DECIMALS: Param<Option<Count>> = Param::count(
+    "velocity_decimals",
+    "decimals of velocities; left out: as for positions, one less per minute",
+)
+.max(MOST_DECIMALS)
+.example("7")
+.optional();
+pub(crate) const VELOCITY_PER: Param<Choice> = Param::choice(
+    "velocity_per",
+    &["s", PER_MINUTE],
+    "velocities per second or per minute",
+)
+.default("s");
+/// The sign of C.
+pub const C_SIGN: Param<Number> = Param::number(
+    "c_sign",
+    "1, or -1: the program's C runs against the path's",
+)
+.default(1.0);
+pub(crate) const C_WRAP: Param<Choice> = Param::choice(
+    "c_wrap",
+    &["unwrapped", WRAPPED],
+    "C unwrapped, or within 0 to 360 deg",
+)
+.default("unwrapped");
+pub(crate) const POSITIONING: Param<Choice> = Param::choice(
+    "positioning",
+    &["absolute", INCREMENTAL],
+    "positions, or distances from point to point",
+)
+.default("absolute");
+/// The template of the header.
+pub const HEADER: Param<Option<Text>> = Param::text(
+    "header",
+    "template of what stands before the lines; left out: the post's own",
+)
+.optional();
+/// The template of the footer.
+pub const FOOTER: Param<Option<Text>> = Param::text(
+    "footer",
+    "template of what stands after the lines; left out: the post's own",
+)
+.optional();
+
+impl Post {
+    /// The format that the keys of its table give. A key that it does not have, or that has no value,
+    /// counts as absolute positions, C unwrapped and growing, 7 decimals, velocities per second.
+    /// `z_above` is Z of the path − Z of the program, mm.
+    pub fn format(&self, settings: &Params, z_above: f64) -> ProgramFormat {
+        let per_minute = settings.find(VELOCITY_PER) == Some(PER_MINUTE);
+        let position_decimals = decimals(settings.find(POSITION_DECIMALS).unwrap_or(DECIMALS));
+        let to_match = position_decimals.saturating_sub(u32::from(per_minute));
+        let velocity_decimals = settings.find(VELOCITY_DECIMALS).flatten();
+        ProgramFormat {
+            steps_per_s: self.steps_per_s,
+            longest: self.longest,
+            position_decimals,
+            velocity_decimals: velocity_decimals.map_or(to_match, decimals),
+            per_minute,
+            c_reversed: settings.find(C_SIGN).is_some_and(|sign| sign < 0.0),
+            c_wrapped: settings.find(C_WRAP) == Some(WRAPPED),
+            incremental: settings.find(POSITIONING) == Some(INCREMENTAL),
+            z_above,
+        }
+    }
+}
+
+fn decimals(count: u64) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}

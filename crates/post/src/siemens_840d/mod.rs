@@ -1,0 +1,102 @@
+//! Motion programs for Siemens Sinumerik 840D with polynomials.
+//!
+//! ```text
+//! ; -- cutting --
+//! G90 G93 G64 FGROUP(C) UPATH
+//! G1 C0 X2.5 Z1.5 F60
+//! POLY PO[C]=(9) PO[X]=(2.4993989) PO[Z]=(1.6544085,0.0023,-0.0001) F20000
+//! PO[C]=(18) PO[X]=(2.4987978) PO[Z]=(1.8,0.0021,-0.0001) F20000
+//! …
+//! ; -- end of path: 4160 points --
+//! ```
+//!
+//! `PO[X]=(xe,a2,a3)` is the polynomial a0 + a1 p + a2 p² + a3 p³ on p = 0 … 1 (`PL` = 1): a0 is where
+//! the axis stands, and a1 follows from the end xe. The polynomial is the cubic that PVT would play
+//! between the positions as they are written, so a1 is the velocity times the segment's time. The
+//! coefficients have twelve decimals: their rounding moves the path by less than 10⁻¹¹ mm.
+//!
+//! **Time.** `G93`: F is one over the minutes of a segment. `FGROUP(C)` makes C alone the path to which
+//! F refers, and `UPATH` makes X and Z follow C by the parameter p. So X and Z belong to their C as
+//! the recipe has it, whatever the speed at which C is played. Within a segment the controller keeps
+//! the speed of the path, which is that of C: where the spindle's speed changes, C is right at the
+//! control points and linear in time between them. A reader takes C as the polynomial says.
+//!
+//! Facts on the language: Siemens, SINUMERIK Job Planning (6FC5398-2BP40), "Polynomial interpolation
+//! (POLY, POLYPATH, PO, PL)" and "Settable path reference (SPATH, UPATH)".
+//!
+//! What depends on the machine: the digits of a position that the controller keeps
+//! (`MD10200 $MN_INT_INCR_PER_MM` and `MD10210 $MN_INT_INCR_PER_DEG`), and whether C may leave 0 to
+//! 360 deg (`MD30310 $MA_ROT_IS_MODULO = 0`).
+
+mod read;
+#[cfg(test)]
+mod tests;
+mod write;
+
+use read::PolyGrammar;
+use write::{push_first, push_segment};
+
+use crate::carry::{DigitSegment, Digits};
+use crate::post::{Command, Dialect, Grammar, Post, commands_of};
+use crate::program_format::ProgramFormat;
+use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS};
+
+/// Programs for Siemens Sinumerik 840D.
+pub(crate) const SIEMENS_840D_POLY: Post = Post {
+    name: "siemens-840d-poly",
+    table: "output.siemens-840d-poly",
+    extension: "mpf",
+    summary: "the layout of the programs of the post `siemens-840d-poly`",
+    comment: ";",
+    keys: &[
+        POSITION_DECIMALS.info(),
+        C_SIGN.info(),
+        HEADER.info(),
+        FOOTER.info(),
+    ],
+    header: "\
+; {name}
+; recipe {recipe}, SHA-256 {sha256}
+; changed by --set: {changes}
+; turnpath {turnpath}, post siemens-840d-poly: {points} points, {revolutions} revolutions, {time_s} s
+; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; F in 1/min: G93
+; the path begins and ends {ends}
+G71
+",
+    footer: "M30\n",
+    steps_per_s: 1_000_000_000,
+    longest: 1_000_000_000_000,
+    dialect: &Poly,
+};
+
+/// Lines with polynomials.
+#[derive(Debug)]
+struct Poly;
+
+/// Words that move nothing, and set nothing but units and what the path sets itself.
+const HARMLESS: &[&str] = &[
+    "G71", "G710", "G90", "G93", "G64", "M0", "M2", "M17", "M30", "UPATH",
+];
+
+impl Dialect for Poly {
+    fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
+        push_first(text, format, point);
+    }
+
+    fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment) {
+        push_segment(text, format, segment);
+    }
+
+    fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
+        Box::new(PolyGrammar::new(format))
+    }
+
+    fn commands(&self, template: &str) -> Vec<Command> {
+        let is_harmless = |code: &str| code.split_whitespace().all(|word| HARMLESS.contains(&word));
+        commands_of(
+            template,
+            |line| line.split(';').next().unwrap_or(line),
+            is_harmless,
+        )
+    }
+}

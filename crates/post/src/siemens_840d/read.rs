@@ -1,0 +1,259 @@
+//! Reads the blocks of a path. This follows the manual's description of polynomial interpolation, and
+//! shares nothing with the writer.
+
+use turnpath_core::toolpath::ControlPoint;
+
+use crate::axes::{Axes, AxisWords, NAMES};
+use crate::fixed_point::fixed;
+use crate::post::Grammar;
+use crate::program_format::ProgramFormat;
+
+/// By how much a polynomial may begin with another velocity than the one before ends with, as a way in
+/// its time, in 10⁻¹² mm or deg. Control points have one velocity; a larger jump is a path that they
+/// cannot say.
+const LARGEST_JUMP: i128 = 1000;
+/// Seconds of a minute.
+const MINUTE: f64 = 60.0;
+
+/// The blocks of a program, in their order.
+pub(super) struct PolyGrammar {
+    format: ProgramFormat,
+    /// The axes, once the first block said where they stand.
+    state: Option<State>,
+    /// Whether the program has said all of `G90`, `G93`, `FGROUP(C)` and `UPATH`.
+    modes: [bool; 4],
+    /// Whether `POLY` is on.
+    poly: bool,
+}
+
+/// Where the axes are, in 10⁻¹² mm or deg.
+struct State {
+    axes: Axes,
+    position: [i128; 3],
+    /// Ways in the time of the last segment at its last velocity, and its steps; `None` behind the
+    /// first block, whose point waits for the velocity with which the first polynomial begins.
+    last: Option<([i128; 3], i64)>,
+}
+
+/// A polynomial, in 10⁻¹² mm or deg: its end, a2 and a3.
+type Polynomial = [i128; 3];
+
+impl PolyGrammar {
+    pub(super) fn new(format: &ProgramFormat) -> Self {
+        Self {
+            format: *format,
+            state: None,
+            modes: [false; 4],
+            poly: false,
+        }
+    }
+
+    /// The steps of a block with `F`, one over its minutes.
+    fn steps(&self, feed: f64) -> Result<i64, String> {
+        let steps = MINUTE * self.format.steps_per_s as f64 / feed;
+        if steps.round() >= 1.0 && steps.round() <= self.format.longest as f64 {
+            return Ok(steps.round() as i64);
+        }
+        Err(format!(
+            "F{feed} is no segment that the controller plays: 60/F must be 1 ns to 1000 s"
+        ))
+    }
+
+    fn straight(&mut self, words: &[(usize, i128)]) -> Result<(), String> {
+        if self.state.is_some() {
+            return Err("a straight line within a path of polynomials".to_owned());
+        }
+        let mut position = [None; 3];
+        for (k, value) in words {
+            position[*k] = Some(*value);
+        }
+        let missing = position.iter().position(Option::is_none);
+        if let Some(k) = missing {
+            return Err(format!("the first point does not give {}", NAMES[k]));
+        }
+        self.state = Some(State {
+            axes: Axes::new(self.format),
+            position: position.map(Option::unwrap_or_default),
+            last: None,
+        });
+        Ok(())
+    }
+
+    fn polynomials(
+        &mut self,
+        found: [Option<Polynomial>; 3],
+        steps: i64,
+        points: &mut Vec<ControlPoint>,
+    ) -> Result<(), String> {
+        let steps_per_s = self.format.steps_per_s;
+        let state = self.state.as_mut();
+        let state = state.ok_or("a polynomial before the first point")?;
+        let (mut begin, mut end, mut target) = ([0; 3], [0; 3], state.position);
+        for (k, polynomial) in found.into_iter().enumerate() {
+            let from = state.position[k];
+            // An axis without a polynomial stays where it is.
+            let [to, square, cube] = polynomial.unwrap_or([from, 0, 0]);
+            begin[k] = to - from - square - cube;
+            end[k] = begin[k] + 2 * square + 3 * cube;
+            target[k] = to;
+        }
+        match state.last {
+            None => points.push(state.go_to(state.position, begin, steps, steps_per_s)?),
+            Some((last, of_last)) => {
+                for (k, name) in NAMES.into_iter().enumerate() {
+                    let expected = last[k] * i128::from(steps) / i128::from(of_last);
+                    let finer = LARGEST_JUMP.max(i128::from(8 * (steps / of_last)));
+                    if (begin[k] - expected).abs() > finer {
+                        return Err(format!(
+                            "the polynomial of {name} does not begin with the velocity with which \
+                             the one before ends"
+                        ));
+                    }
+                }
+            }
+        }
+        points.push(state.go_to(target, end, steps, steps_per_s)?);
+        state.position = target;
+        state.last = Some((end, steps));
+        Ok(())
+    }
+}
+
+impl State {
+    /// The point at a position with a velocity that is given as the way in `steps`.
+    fn go_to(
+        &mut self,
+        position: [i128; 3],
+        way: [i128; 3],
+        steps: i64,
+        steps_per_s: i64,
+    ) -> Result<ControlPoint, String> {
+        let mut words: AxisWords = [None; 3];
+        for (k, word) in words.iter_mut().enumerate() {
+            let velocity = way[k].checked_mul(i128::from(steps_per_s));
+            let velocity = velocity.ok_or("a velocity has too many digits")?;
+            *word = Some((position[k], Some(rounded(velocity, steps))));
+        }
+        self.axes.go_to(&words, [true; 3], steps)
+    }
+}
+
+impl Grammar for PolyGrammar {
+    fn split_comment<'a>(&self, line: &'a [u8]) -> (&'a [u8], Option<&'a [u8]>) {
+        match line.iter().position(|byte| *byte == b';') {
+            Some(at) => (&line[..at], Some(&line[at + 1..])),
+            None => (line, None),
+        }
+    }
+
+    fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
+        let (mut straight, mut found, mut feed) = (Vec::new(), [None; 3], None);
+        let mut is_straight = false;
+        for word in code.split_whitespace() {
+            match word {
+                "G90" => self.modes[0] = true,
+                "G93" => self.modes[1] = true,
+                "FGROUP(C)" => self.modes[2] = true,
+                "UPATH" => self.modes[3] = true,
+                "G64" => {}
+                "G1" => is_straight = true,
+                "POLY" => self.poly = true,
+                word => match word.as_bytes() {
+                    [b'P', b'O', b'[', ..] => {
+                        let (k, polynomial) = polynomial(word)?;
+                        if found[k].replace(polynomial).is_some() {
+                            return Err(format!("{} appears twice on this line", NAMES[k]));
+                        }
+                    }
+                    [b'F', ..] => feed = Some(feed_of(word)?),
+                    _ => straight.push(axis_word(word)?),
+                },
+            }
+        }
+        let moves = found.iter().any(Option::is_some);
+        if !moves && straight.is_empty() {
+            return Ok(());
+        }
+        if self.modes != [true; 4] {
+            return Err("a move before `G90`, `G93`, `FGROUP(C)` and `UPATH`".to_owned());
+        }
+        let steps = self.steps(feed.ok_or("a move without F, which `G93` needs")?)?;
+        match (is_straight, moves) {
+            (true, false) => self.straight(&straight),
+            (false, true) if self.poly && straight.is_empty() => {
+                self.polynomials(found, steps, points)
+            }
+            _ => {
+                Err("this block is neither a straight line to the path nor polynomials".to_owned())
+            }
+        }
+    }
+
+    fn finish(&mut self) -> Option<ControlPoint> {
+        let state = self.state.as_mut().filter(|state| state.last.is_none())?;
+        state.go_to(state.position, [0; 3], 1, 1).ok()
+    }
+}
+
+/// A quotient, rounded.
+fn rounded(value: i128, by: i64) -> i128 {
+    let by = i128::from(by);
+    (value + by / 2).div_euclid(by)
+}
+
+/// `PO[X]=(1.5,0.1)`: the axis and its polynomial. A coefficient that is left out is zero.
+fn polynomial(word: &str) -> Result<(usize, Polynomial), String> {
+    let parts = word.strip_prefix("PO[").and_then(|rest| {
+        let (axis, list) = rest.split_once("]=(")?;
+        Some((axis, list.strip_suffix(')')?))
+    });
+    let (axis, list) = parts.ok_or_else(|| not_a_word(word))?;
+    let k = axis_of(axis, word)?;
+    let mut polynomial = [0; 3];
+    for (place, text) in list.split(',').enumerate() {
+        let slot = polynomial.get_mut(place);
+        let slot = slot.ok_or_else(|| format!("the polynomial of {axis} is no cubic"))?;
+        *slot = number(axis, text)?;
+    }
+    Ok((k, polynomial))
+}
+
+/// `X1.5`.
+fn axis_word(word: &str) -> Result<(usize, i128), String> {
+    let axis = word.get(..1).ok_or_else(|| not_a_word(word))?;
+    let k = axis_of(axis, word)?;
+    let value = number(axis, word.get(1..).unwrap_or_default())?;
+    Ok((k, value))
+}
+
+fn axis_of(axis: &str, word: &str) -> Result<usize, String> {
+    let k = NAMES.iter().position(|name| *name == axis);
+    k.ok_or_else(|| not_a_word(word))
+}
+
+fn feed_of(word: &str) -> Result<f64, String> {
+    let digits = word.get(1..).unwrap_or_default();
+    let is_number = digits.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+    let feed = digits.parse::<f64>().ok().filter(|_| is_number);
+    feed.ok_or_else(|| not_a_word(word))
+}
+
+fn not_a_word(word: &str) -> String {
+    let shown: String = word.chars().take(40).collect();
+    format!("`{shown}` is not a word of a path of polynomials")
+}
+
+/// A constant in 10⁻¹².
+fn number(axis: &str, text: &str) -> Result<i128, String> {
+    let (negative, size) = match text.strip_prefix('-') {
+        Some(size) => (true, size),
+        None => (false, text),
+    };
+    let (whole, fraction) = size.split_once('.').unwrap_or((size, ""));
+    let are_digits = |digits: &str| digits.bytes().all(|byte| byte.is_ascii_digit());
+    if whole.len() + fraction.len() == 0 || !are_digits(whole) || !are_digits(fraction) {
+        return Err(format!("{axis} has no number"));
+    }
+    let size = fixed(whole, fraction).ok_or_else(|| format!("{axis} has too many digits"))?;
+    Ok(if negative { -size } else { size })
+}

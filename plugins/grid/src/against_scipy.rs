@@ -1,0 +1,82 @@
+//! The spline against scipy and mpmath (tests/reference/grids/splines.py): heights, slopes, series.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use serde_json::Value;
+use turnpath_plugin::prelude::Series;
+
+use crate::sheet::Sheet;
+use crate::spline::Spline;
+
+/// Bound of heights, mm.
+const HEIGHT: f64 = 1e-12;
+/// Bound of slopes.
+const SLOPE: f64 = 1e-11;
+/// Bound of each coefficient of a series, relative to the largest of its order in any series of the
+/// case: a coefficient may vanish where the terms that it is a sum of do not.
+const RELATIVE: f64 = 1e-11;
+
+fn cases() -> Vec<Value> {
+    let text = include_str!("../../../tests/reference/grids/splines.json");
+    serde_json::from_str(text).unwrap()
+}
+
+/// The spline through the heights of a case.
+fn spline(case: &Value) -> Spline {
+    let count = |key: &str| case[key].as_u64().unwrap() as usize;
+    let pair = |key: &str| [0, 1].map(|axis| case[key][axis].as_f64().unwrap());
+    let heights: Vec<Vec<f64>> = serde_json::from_value(case["heights"].clone()).unwrap();
+    let heights = Sheet {
+        columns: count("columns"),
+        rows: count("rows"),
+        values: heights.concat(),
+    };
+    Spline::through(heights, pair("first"), pair("pitch"))
+}
+
+#[test]
+fn heights_and_slopes_are_those_of_scipy() {
+    for case in cases() {
+        let spline = spline(&case);
+        for place in case["places"].as_array().unwrap() {
+            let [x, y] = ["x", "y"].map(|axis| place[axis].as_f64().unwrap());
+            let found = spline.gradient(x, y);
+            for (k, bound) in [HEIGHT, SLOPE, SLOPE].into_iter().enumerate() {
+                let wanted = place["z_zx_zy"][k].as_f64().unwrap();
+                let far = (found[k] - wanted).abs();
+                assert!(far <= bound, "{place} {k}: {} off by {far}", found[k]);
+            }
+            assert_eq!(spline.height(x, y), found[0]);
+        }
+    }
+}
+
+#[test]
+fn series_along_curves_are_those_of_50_digits() {
+    let mut checked = 0;
+    for case in cases() {
+        let spline = spline(&case);
+        let curves = case["curves"].as_array().unwrap();
+        let of = |curve: &Value, key: &str| -> Series {
+            serde_json::from_value(curve[key].clone()).unwrap()
+        };
+        // A coefficient is a sum of terms of the size of the largest.
+        let size = |key: &str, order: usize| {
+            let all = curves.iter().map(|curve| of(curve, key)[order].abs());
+            all.fold(0.0, f64::max)
+        };
+        for curve in curves {
+            let (x, y) = (of(curve, "x"), of(curve, "y"));
+            let [z, zx, zy] = spline.series(&x, &y);
+            assert_eq!(spline.height_series(&x, &y), z);
+            for (key, found) in [("z", z), ("zx", zx), ("zy", zy)] {
+                for (order, wanted) in of(curve, key).into_iter().enumerate() {
+                    let far = (found[order] - wanted).abs() / size(key, order);
+                    assert!(far <= RELATIVE, "{key} {order}: {} {wanted}", found[order]);
+                    checked += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(checked, 3 * 4 * 3 * 5);
+}

@@ -1,0 +1,30 @@
+//! The surface model `grid-sag`: a spline through the heights of a map.
+//!
+//! [`surface`](GridSag) reads the map. Then each step has a file of its own:
+//!
+//! 1. `trend`: the quadratic of best fit is taken away, so that what follows works on what is
+//!    left, and added again at the end.
+//! 2. `low_pass`: with `smooth`, what is shorter than the cutoff is removed.
+//! 3. `bending`: holes, and a margin around the map, are filled so that the bend changes least.
+//! 4. `interpolation`: the coefficients of a tensor B-spline of degree 5 through all points.
+//! 5. `edges`: where the map is smooth, its own spline counts up to its edge.
+//! 6. `spline` and `taylor`: values, slopes, and series.
+
+#[cfg(test)]
+mod against_scipy;
+mod banded;
+mod basis;
+mod bending;
+mod cells;
+mod edges;
+mod interpolation;
+mod low_pass;
+mod sheet;
+mod spline;
+mod surface;
+mod taylor;
+mod trend;
+
+pub use surface::GridSag;
+
+turnpath_plugin::export!(surface_models: [GridSag]);

@@ -1,0 +1,275 @@
+//! The spline: its coefficients, and its values and slopes.
+
+use crate::basis::{self, BEFORE, SPLINES, Weights};
+use crate::edges;
+use crate::interpolation::{BEYOND, coefficients};
+use crate::sheet::Sheet;
+use crate::trend::Trend;
+
+/// The 36 coefficients that count at a place, row by row.
+type Patch = [Weights; SPLINES];
+
+/// The same where they lie.
+pub type Lines<'a> = [&'a Weights; SPLINES];
+
+/// A tensor B-spline of degree 5 over knots at all points of a regular grid. It has a value
+/// everywhere and is C⁴ everywhere.
+///
+/// Beyond the points its coefficients go on as the quadratic of best fit, plus a straight line.
+#[derive(Debug, Clone)]
+pub struct Spline {
+    coefficients: Sheet,
+    trend: Trend,
+    /// 1 / pitch, 1/mm.
+    pub per: [f64; 2],
+    /// Number of the column (row) of coefficients at x = 0 (y = 0).
+    origin: [f64; 2],
+}
+
+impl Spline {
+    /// The spline through heights without holes. `first` is the place of the first height and
+    /// `pitch` the distance of neighbours, mm.
+    #[cfg(test)]
+    pub fn through(heights: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
+        Self::of(coefficients(heights), first, pitch)
+    }
+
+    /// The same, carried on by `wide`: the heights in the middle of a sheet with `margin` heights more
+    /// on each side. `first` is the place of the first height within the margin.
+    pub fn carried_on(
+        heights: Sheet,
+        wide: Sheet,
+        margin: usize,
+        first: [f64; 2],
+        pitch: [f64; 2],
+    ) -> Self {
+        let mut outer = coefficients(wide);
+        edges::join(&coefficients(heights), &mut outer, margin);
+        let first = [0, 1].map(|axis| first[axis] - pitch[axis] * margin as f64);
+        Self::of(outer, first, pitch)
+    }
+
+    fn of(coefficients: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
+        let before = BEYOND as f64;
+        Self {
+            trend: Trend::of(&coefficients),
+            coefficients,
+            per: pitch.map(f64::recip),
+            origin: [before - first[0] / pitch[0], before - first[1] / pitch[1]],
+        }
+    }
+
+    /// What `answer` makes of the cell of a place: where the place lies in it, 0 to 1 along x and y,
+    /// and the coefficients that count there. `None` where the place is no number.
+    #[inline(always)]
+    pub fn at<R>(&self, x: f64, y: f64, answer: impl Fn(f64, f64, &Lines<'_>) -> R) -> Option<R> {
+        let (u, v) = (
+            x * self.per[0] + self.origin[0],
+            y * self.per[1] + self.origin[1],
+        );
+        let (column, row) = (whole(u), whole(v));
+        let (s, t) = (u - column as f64, v - row as f64);
+        if let Some(lines) = self.lines(column, row) {
+            return Some(answer(s, t, &lines));
+        }
+        if !(s.is_finite() && t.is_finite()) {
+            return None;
+        }
+        let patch = self.patch_outside(column, row);
+        Some(answer(s, t, &patch.each_ref()))
+    }
+
+    /// The coefficients of a cell, where the spline has them all.
+    #[inline(always)]
+    fn lines(&self, column: i64, row: i64) -> Option<Lines<'_>> {
+        let Sheet {
+            columns,
+            rows,
+            values,
+        } = &self.coefficients;
+        // A number below zero becomes a very large one.
+        let left = column.wrapping_sub(BEFORE as i64) as usize;
+        let top = row.wrapping_sub(BEFORE as i64) as usize;
+        if left >= columns.wrapping_sub(SPLINES - 1) || top >= rows.wrapping_sub(SPLINES - 1) {
+            return None;
+        }
+        let block = values.get(top * columns + left..)?;
+        let line = |number: usize| block.get(number * columns..)?.first_chunk();
+        Some([line(0)?, line(1)?, line(2)?, line(3)?, line(4)?, line(5)?])
+    }
+
+    #[cold]
+    fn patch_outside(&self, column: i64, row: i64) -> Patch {
+        let mut patch = [[0.0; SPLINES]; SPLINES];
+        for (line, down) in patch.iter_mut().zip(0..) {
+            for (value, right) in line.iter_mut().zip(0..) {
+                let at = |middle: i64, shift: i64| middle as f64 + (shift - BEFORE as i64) as f64;
+                *value = self.beyond(at(column, right), at(row, down));
+            }
+        }
+        patch
+    }
+
+    /// A coefficient that the spline has, or one beyond.
+    fn beyond(&self, column: f64, row: f64) -> f64 {
+        let Sheet { columns, rows, .. } = self.coefficients;
+        let (of_columns, of_rows) = (straight(column, columns), straight(row, rows));
+        let mut rest = 0.0;
+        for (row, share) in of_rows {
+            for (column, part) in of_columns {
+                let value = self.coefficients.values[row * columns + column];
+                rest += share * part * (value - self.trend.at(column as f64, row as f64));
+            }
+        }
+        self.trend.at(column, row) + rest
+    }
+
+    /// The height at a place.
+    #[inline(always)]
+    pub fn height(&self, x: f64, y: f64) -> f64 {
+        let height = self.at(x, y, |s, t, lines| {
+            let line = combine(lines, &basis::derivative::<0>(t));
+            dot(&line, &basis::derivative::<0>(s))
+        });
+        height.unwrap_or(f64::NAN)
+    }
+
+    /// The height and both slopes at a place.
+    #[inline(always)]
+    pub fn gradient(&self, x: f64, y: f64) -> [f64; 3] {
+        let gradient = self.at(x, y, |s, t, lines| {
+            let line = combine(lines, &basis::derivative::<0>(t));
+            let rates = combine(lines, &basis::derivative::<1>(t));
+            let weights = basis::derivative::<0>(s);
+            [
+                dot(&line, &weights),
+                dot(&line, &basis::derivative::<1>(s)) * self.per[0],
+                dot(&rates, &weights) * self.per[1],
+            ]
+        });
+        gradient.unwrap_or([f64::NAN; 3])
+    }
+}
+
+/// The largest whole number that is not above this one. Beyond 2⁶³ it is the last one that there is.
+#[inline(always)]
+fn whole(number: f64) -> i64 {
+    let towards_zero = number as i64;
+    towards_zero.wrapping_sub(i64::from(towards_zero as f64 > number))
+}
+
+/// The two numbers of columns (rows) whose straight line goes through this one, with their shares.
+fn straight(at: f64, count: usize) -> [(usize, f64); 2] {
+    let last = count - 1;
+    if at < 0.0 {
+        [(0, 1.0 - at), (1, at)]
+    } else if at > last as f64 {
+        let beyond = at - last as f64;
+        [(last, 1.0 + beyond), (last - 1, -beyond)]
+    } else {
+        [(at as usize, 1.0), (at as usize, 0.0)]
+    }
+}
+
+/// The sum of the rows, weighted.
+#[inline(always)]
+pub fn combine(lines: &Lines<'_>, weights: &Weights) -> Weights {
+    let mut sum = lines[0].map(|value| weights[0] * value);
+    for (line, weight) in lines.iter().zip(weights).skip(1) {
+        for (sum, value) in sum.iter_mut().zip(*line) {
+            *sum += weight * value;
+        }
+    }
+    sum
+}
+
+#[inline(always)]
+pub fn dot(values: &Weights, weights: &Weights) -> f64 {
+    let [a, b, c, d, e, f]: Weights = std::array::from_fn(|k| values[k] * weights[k]);
+    (a + b) + (c + d) + (e + f)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wavy(x: f64, y: f64) -> f64 {
+        let fraction = |n: f64| n - n.floor();
+        fraction(12.9898 * x + 78.233 * y) - 0.5 + 0.1 * x * x
+    }
+
+    /// A spline through numbers that jump from point to point, so that nothing is smooth by chance.
+    fn spline() -> Spline {
+        let mut heights = Sheet::of(12, 9, 0.0);
+        for (row, line) in heights.lines_mut().enumerate() {
+            for (column, value) in line.iter_mut().enumerate() {
+                *value = wavy(0.5 * column as f64 - 2.0, 0.3 * row as f64 + 1.0);
+            }
+        }
+        Spline::through(heights, [-2.0, 1.0], [0.5, 0.3])
+    }
+
+    #[test]
+    fn the_spline_goes_through_all_points() {
+        let spline = spline();
+        for row in 0..9 {
+            for column in 0..12 {
+                let (x, y) = (0.5 * f64::from(column) - 2.0, 0.3 * f64::from(row) + 1.0);
+                let (found, wanted) = (spline.height(x, y), wavy(x, y));
+                assert!((found - wanted).abs() < 1e-12, "{x} {y}: {found} {wanted}");
+            }
+        }
+    }
+
+    /// In a cell the spline is a polynomial of degree 5. Over a border, also beyond the points, only the
+    /// fifth derivative may jump.
+    #[test]
+    fn value_and_four_derivatives_go_on_over_every_border() {
+        let spline = spline();
+        let orders = |s: f64| {
+            [
+                basis::derivative::<0>(s),
+                basis::derivative::<1>(s),
+                basis::derivative::<2>(s),
+                basis::derivative::<3>(s),
+                basis::derivative::<4>(s),
+            ]
+        };
+        for column in -30..60 {
+            let patch = |column: i64| match spline.lines(column, 3) {
+                Some(lines) => lines.map(|line| *line),
+                None => spline.patch_outside(column, 3),
+            };
+            let patches = [column - 1, column].map(patch);
+            for (before, after) in patches[0].iter().zip(&patches[1]) {
+                for (of_end, of_start) in orders(1.0).iter().zip(&orders(0.0)) {
+                    let (before, after) = (dot(before, of_end), dot(after, of_start));
+                    let size = before.abs().max(1.0);
+                    assert!((before - after).abs() < 1e-10 * size, "{column}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_quadratic_goes_on_as_itself_and_far_places_have_numbers() {
+        let quadratic = |x: f64, y: f64| 0.02 * x * x - 0.03 * x * y + 0.01 * y + 0.5;
+        let mut heights = Sheet::of(20, 30, 0.0);
+        for (row, line) in heights.lines_mut().enumerate() {
+            for (column, value) in line.iter_mut().enumerate() {
+                *value = quadratic(0.1 * column as f64, 0.2 * row as f64);
+            }
+        }
+        let spline = Spline::through(heights, [0.0, 0.0], [0.1, 0.2]);
+        for (x, y) in [(1.0, 2.0), (-0.5, 3.0), (2.5, 6.5), (-0.8, 8.0)] {
+            let (found, wanted) = (spline.height(x, y), quadratic(x, y));
+            assert!(
+                (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0),
+                "{found} {wanted}"
+            );
+        }
+        assert!(spline.height(1e9, -1e9).is_finite());
+        assert!(spline.height(f64::NAN, 0.0).is_nan());
+        assert!(spline.height(f64::INFINITY, 0.0).is_nan());
+    }
+}

@@ -1,0 +1,84 @@
+//! The low-pass, as a stated filter.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::f64::consts::{LN_2, TAU};
+
+use turnpath_core::{Scalar, SurfaceModel};
+use turnpath_grid::GridSag;
+use turnpath_maps::Map;
+
+const COUNT: usize = 201;
+const PITCH: f64 = 0.05;
+
+fn map(height: impl Fn(f64, f64) -> f64) -> Map {
+    let place = |k: usize| PITCH * k as f64 - 5.0;
+    let heights = (0..COUNT * COUNT).map(|k| height(place(k % COUNT), place(k / COUNT)));
+    Map::new(COUNT, COUNT, PITCH, PITCH, heights.collect()).unwrap()
+}
+
+fn height(surface: &GridSag, x: f64, y: f64) -> f64 {
+    let mut z = [0.0];
+    surface.heights(&[x], &[y], &mut z).unwrap();
+    z[0]
+}
+
+/// With a cutoff of 0.4 mm the filter works on all points, with one of 1.5 mm on blocks.
+#[test]
+fn a_wave_passes_as_the_cutoff_says() {
+    for cutoff in [0.4, 1.5] {
+        for length in [0.5 * cutoff, cutoff, 3.0 * cutoff] {
+            let wave = |x: f64, _: f64| 1e-3 * Scalar::cos(TAU * x / length);
+            let surface = GridSag::of(map(wave), Some(cutoff)).unwrap();
+            let found = height(&surface, 0.0, 0.1) / 1e-3;
+            let share: f64 = cutoff / length;
+            let wanted = Scalar::exp(-LN_2 * share * share);
+            // Blocks take up to a hundredth more.
+            let bound = if cutoff > 1.0 { 0.012 } else { 2e-3 };
+            assert!(
+                (found - wanted).abs() < bound,
+                "{cutoff} {length}: {found} {wanted}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_paraboloid_stays_and_noise_goes() {
+    let paraboloid = |x: f64, y: f64| 0.01 * (x * x + 2.0 * y * y) - 0.003 * x * y;
+    let noise = |x: f64, y: f64| {
+        let n = Scalar::sin(12.9898 * x + 78.233 * y) * 43758.5453;
+        // RMS 2 nm.
+        2e-6 * 12_f64.sqrt() * (n - n.floor() - 0.5)
+    };
+    let surface = GridSag::of(map(|x, y| paraboloid(x, y) + noise(x, y)), Some(0.6)).unwrap();
+    let (mut square, mut count) = (0.0_f64, 0.0);
+    for i in -45..=45 {
+        for j in -45..=45 {
+            let (x, y) = (0.1 * f64::from(i) + 0.013, 0.1 * f64::from(j) - 0.021);
+            let off = height(&surface, x, y) - paraboloid(x, y);
+            square += off * off;
+            count += 1.0;
+        }
+    }
+    let rms = (square / count).sqrt();
+    // A Gaussian of cutoff L over a pitch p leaves √(0.66)·p/L of white noise: 0.14 nm here.
+    assert!(rms < 0.3e-6, "{rms}");
+}
+
+/// Up to the edge and beside holes a slope is followed.
+#[test]
+fn edges_are_not_flattened() {
+    let slope = |x: f64, y: f64| 1e-3 * Scalar::sin(0.4 * x + 0.2 * y);
+    let disc = |x: f64, y: f64| match x * x + y * y < 20.0 {
+        true => slope(x, y),
+        false => f64::NAN,
+    };
+    let surface = GridSag::of(map(disc), Some(0.5)).unwrap();
+    for k in 0..60 {
+        let (sin, cos) = Scalar::sin_cos(TAU * f64::from(k) / 60.0);
+        let (x, y) = (4.4 * cos, 4.4 * sin);
+        let off = (height(&surface, x, y) - slope(x, y)).abs();
+        assert!(off < 4e-6, "{k}: {off}");
+    }
+}

@@ -1,0 +1,104 @@
+//! All posts: their programs are written, read back from their own text, measured and verified.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use turnpath_post::{POST_NAMES, POSTS};
+
+use crate::support::repository;
+
+/// The largest difference between the error of a program and that of the path, nm: the cost of 7
+/// decimals.
+const COST_NM: f64 = 0.3;
+
+fn call(command: &str, recipe: &Path, rest: &[&str]) -> Output {
+    let mut call = Command::new(env!("CARGO_BIN_EXE_turnpath"));
+    call.arg(command).arg(recipe).args(rest);
+    let posts = POST_NAMES.join("\", \"");
+    call.args(["--set", &format!("output.posts=[\"{posts}\"]")]);
+    call.output().unwrap()
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("no number at {pointer} of {value}"))
+}
+
+/// Runs a recipe with all posts. Each program holds the tolerance or the status is 1, and its digits
+/// and times cost what seven decimals cost.
+fn all_posts_carry(recipe: &Path, rest: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let run = call(
+        "run",
+        recipe,
+        &[&["-o", out.to_str().unwrap()], rest].concat(),
+    );
+    let said = String::from_utf8_lossy(&run.stderr);
+    let status = run.status.code();
+    assert!(
+        matches!(status, Some(0 | 1)),
+        "{}: {said}",
+        recipe.display()
+    );
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let path = number(&summary, "/interpolation_error/max_nm");
+    let programs = summary["programs"].as_array().unwrap();
+    assert_eq!(programs.len(), POSTS.len());
+    for (program, post) in programs.iter().zip(POSTS) {
+        assert_eq!(program["post"], post.name);
+        let error = number(program, "/interpolation_error_nm");
+        assert!(
+            (error - path).abs() < COST_NM,
+            "{}: {error} {path}",
+            post.name
+        );
+        let exceeded = program["within_interpolation"] == Value::Bool(false);
+        assert!(!exceeded || status == Some(1), "{program}");
+        let file = out.join(program["file"].as_str().unwrap());
+        let text = fs::read_to_string(&file).unwrap();
+        assert!(text.contains(summary["recipe"]["sha256"].as_str().unwrap()));
+        let verify = call(
+            "verify",
+            recipe,
+            &[&[file.to_str().unwrap(), "--format", "json"], rest].concat(),
+        );
+        assert_eq!(verify.status.code(), status, "{}", post.name);
+        let report: Value = serde_json::from_slice(&verify.stdout).unwrap();
+        assert_eq!(
+            number(&report, "/interpolation_error/max_nm"),
+            error,
+            "{}",
+            post.name
+        );
+        assert_eq!(
+            report["anomalies"]["count"], 0,
+            "{}: {}",
+            post.name, report["anomalies"]
+        );
+    }
+}
+
+#[test]
+fn all_posts_carry_a_path_with_leads_within_its_tolerance() {
+    let recipe = repository().join("docs/recipes/astigmatic-5mm.toml");
+    all_posts_carry(&recipe, &[]);
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_all_posts_carry_all_ready_recipes_within_their_tolerances() {
+    let mut recipes = 0;
+    for entry in fs::read_dir(repository().join("docs/recipes")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|end| end == "toml") {
+            all_posts_carry(&path, &["--set", "refine=false"]);
+            recipes += 1;
+        }
+    }
+    assert!(recipes > 3);
+}
