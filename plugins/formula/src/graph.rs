@@ -6,7 +6,7 @@ use turnpath_plugin::prelude::Scalar;
 
 use crate::names::{Function, PairFunction, Variable};
 
-/// Most nodes of a formula. A formula of this size takes some 10 µs for a height.
+/// Most nodes of a formula.
 pub const MOST_NODES: usize = 4096;
 
 /// Largest whole exponent that is worked out by multiplications.
