@@ -12,8 +12,8 @@ use std::sync::{Arc, OnceLock};
 use serde_json::Value;
 use turnpath::Catalogue;
 use turnpath_core::{
-    Attitude, GradientSeries, Gradients, ParamDefault, ParamKind, ParamValue, Params, Placement,
-    Pose, Series, Slot, SurfaceModel,
+    Attitude, GradientSeries, Gradients, NamedConstant, ParamDefault, ParamKind, ParamValue,
+    Params, Placement, Pose, Series, Slot, SurfaceModel,
 };
 use turnpath_pipeline::{PlacedSurface, PosedSurface, SurfaceSum};
 
@@ -63,6 +63,14 @@ fn param_value(given: &Value, kind: ParamKind) -> ParamValue {
                 numbers.chain([value.as_f64().unwrap()]).collect()
             };
             ParamValue::Rows(table.iter().map(row).collect())
+        }
+        (Value::Object(table), ParamKind::Constants) => {
+            let constant = |(name, value): (&String, &Value)| NamedConstant {
+                name: name.clone(),
+                value: value[0].as_f64().unwrap(),
+                length_power: i32::try_from(value[1].as_i64().unwrap()).unwrap(),
+            };
+            ParamValue::Constants(table.iter().map(constant).collect())
         }
         (Value::String(word), _) => ParamValue::Text(word.clone()),
         (given, kind) => ParamValue::Number(given.as_f64().unwrap_or_else(|| {
@@ -179,6 +187,16 @@ fn series_of_height_and_slopes_are_those_of_fifty_digits() {
     }
 }
 
+#[test]
+fn series_of_formulas_are_those_of_fifty_digits() {
+    let cases = cases("formula.json");
+    assert_eq!(cases.len(), 28);
+    for case in cases {
+        let what = format!("{} at {}", case["params"]["z"], case["x"]);
+        agrees(&what, model(&case).as_ref(), &case);
+    }
+}
+
 fn placement(place: &Value) -> Placement {
     let number = |key: &str| place[key].as_f64().unwrap();
     Placement {
@@ -236,7 +254,7 @@ const COARSE: [&str; 4] = [
 #[test]
 fn the_recipe_of_each_model_holds_at_a_coarse_setting() {
     let bench = Bench::empty();
-    for model in MODELS {
+    for model in MODELS.into_iter().chain(["formula"]) {
         let recipe = repository().join(format!("docs/recipes/surfaces/{model}.toml"));
         let text = fs::read_to_string(&recipe).unwrap();
         assert!(text.contains(&format!("use = \"{model}\"")), "{model}");

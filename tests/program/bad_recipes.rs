@@ -390,3 +390,38 @@ fn a_folder_where_the_tool_path_should_be() {
     assert_eq!(bench.files(), ["recipe.toml"]);
     insta::assert_snapshot!(bench.shown(&said));
 }
+
+/// The saddle's recipe with a formula as its surface.
+fn with_formula(lines: &str) -> String {
+    let recipe = saddle_with("surface", &format!("use = \"formula\"\n{lines}"));
+    answer(recipe, "check recipe.toml")
+}
+
+#[test]
+fn a_formula_with_a_number_that_has_no_unit() {
+    insta::assert_snapshot!(with_formula(
+        "z = \"k*x^2 + 0.01*y^2\"\nconstants = { k = \"0.01 /mm\" }"
+    ));
+}
+
+#[test]
+fn a_formula_with_an_unknown_name() {
+    insta::assert_snapshot!(with_formula(
+        "z = \"\"\"\n  k*x^2\n  + q*y^2\"\"\"\nconstants = { k = \"0.01 /mm\" }"
+    ));
+}
+
+#[test]
+fn a_formula_in_a_text_with_escapes() {
+    insta::assert_snapshot!(with_formula("z = \"x\\u002b1\""));
+}
+
+#[test]
+fn a_formula_without_a_value_on_the_part() {
+    insta::assert_snapshot!(with_formula("z = \"mm*sqrt(1 - (rho/mm)^2)\""));
+}
+
+#[test]
+fn a_formula_with_a_valley() {
+    insta::assert_snapshot!(with_formula("z = \"0.1*abs(x - 0.3*mm)\""));
+}

@@ -16,6 +16,7 @@ const BUILT_INS: [(&str, &[&str]); 6] = [
             "forbes-q2d",
             "forbes-qbfs",
             "forbes-qcon",
+            "formula",
             "grid-sag",
             "lenslet-array",
             "odd-asphere",

@@ -204,6 +204,7 @@ fn the_summary_names_file_and_hash_of_every_plugin_that_was_loaded() {
         "turnpath-atpg",
         "turnpath-ats",
         "turnpath-fft-adaptive",
+        "turnpath-formula",
         "turnpath-polynomials",
         "turnpath-spindle",
     ];

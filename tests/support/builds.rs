@@ -10,11 +10,12 @@ use tempfile::TempDir;
 use super::fixtures::file_name;
 
 /// The packages of the built-in plugins.
-pub const BUILT_INS: [&str; 10] = [
+pub const BUILT_INS: [&str; 11] = [
     "turnpath-atpg",
     "turnpath-ats",
     "turnpath-constant",
     "turnpath-fft-adaptive",
+    "turnpath-formula",
     "turnpath-integrated",
     "turnpath-nose-radius",
     "turnpath-polynomials",

@@ -16,7 +16,7 @@ struct Figures {
     packages: &'static [&'static str],
 }
 
-const FIGURES: [Figures; 9] = [
+const FIGURES: [Figures; 10] = [
     figures("compensators", &["mpmath"]),
     figures("dropcutter", &["numpy", "opencamlib"]),
     figures("poses", &["mpmath"]),
@@ -24,6 +24,7 @@ const FIGURES: [Figures; 9] = [
     figures("splines", &["numpy", "scipy"]),
     figures("surfaces", &["mpmath"]),
     figures("surfaces/composites", &["mpmath"]),
+    figures("surfaces/formula", &["mpmath"]),
     figures("surfaces/series", &["mpmath"]),
     figures("surfaces/values", &["numpy", "optiland", "prysm", "scipy"]),
 ];

@@ -1,6 +1,7 @@
 //! The errors of strategies.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,10 @@ pub enum StrategyError {
         name: Cow<'static, str>,
         /// What is wrong with the value, and which value would do.
         message: Cow<'static, str>,
+        /// The bytes of a text that are wrong; none for the value as a whole. Plugins that were
+        /// built before do not give it. A box, so that the errors without it stay small.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        place: Option<Box<Range<usize>>>,
     },
     /// A strategy that this one called could not answer. A sampler calls the locus, for example,
     /// and a compensator calls the surface.
@@ -56,6 +61,7 @@ impl StrategyError {
         Self::Parameter {
             name: name.into(),
             message: message.into(),
+            place: None,
         }
     }
 }

@@ -59,7 +59,9 @@ pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use machine::{Axis, AxisLimits, Derivative, Limit, Machine};
 pub use node_list::{LARGEST_OFFSET, NodeList, NodeOffset};
 pub use pace::Pace;
-pub use param::{DataFile, Param, ParamDefault, ParamInfo, ParamKind, ParamValue, Params, kind};
+pub use param::{
+    DataFile, NamedConstant, Param, ParamDefault, ParamInfo, ParamKind, ParamValue, Params, kind,
+};
 pub use part::{Direction, Misfit, Overrun, Part, RadialRange, Task, Tolerance, Tool};
 pub use path::Path;
 pub use piecewise::{Piece, PiecewisePolynomial, quintic};
@@ -74,6 +76,6 @@ pub use spindle::{SpindleAsk, SpindleStrategy};
 pub use strategy::{HOST_KEYS, Strategy, StrategyInfo, is_strategy_name};
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceData, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
-pub use turnpath_units::{DEG, NM, Quantity, QuantityError, UM};
+pub use turnpath_units::{DEG, LengthPower, NM, Quantity, QuantityError, UM};
 pub use turns::{Revolutions, Turn, angle};
 pub use velocity::{Nodes, Velocities, VelocitySolver};

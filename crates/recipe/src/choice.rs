@@ -1,9 +1,11 @@
 //! The strategy that a recipe chooses for a slot, with the parameters as the recipe gives them.
 
+use std::ops::Range;
+
 use turnpath_core::{Slot, is_strategy_name};
 
 use crate::diagnostic::Diagnostic;
-use crate::document::{Entry, Table};
+use crate::document::{Entry, Table, Value};
 use crate::read::Section;
 use crate::span::{Span, Spanned};
 use crate::suggest::quoted;
@@ -41,6 +43,16 @@ impl Choice {
         self.param(name)
             .map_or(&self.name.span, |entry| &entry.node.span)
             .clone()
+    }
+
+    /// The span of the bytes at `place` in a parameter's text; that of the whole value if the recipe
+    /// writes the text with escapes.
+    pub fn place_span(&self, name: &str, place: &Range<usize>) -> Span {
+        let whole = self.param_span(name);
+        match self.param(name).map(|entry| &entry.node.value) {
+            Some(Value::Text(text)) => whole.part(text, place).unwrap_or(whole),
+            _ => whole,
+        }
     }
 
     fn read_name(slot: Slot, section: &mut Section<'_>) -> Option<Spanned<String>> {

@@ -28,6 +28,9 @@ pub fn kind(param: &ParamInfo) -> String {
         ParamKind::Rows(columns) => format!("a list of rows of {columns} numbers"),
         ParamKind::File => "a file, by its path relative to the recipe".to_owned(),
         ParamKind::Coefficients(indices, quantity) => coefficients(indices, quantity),
+        ParamKind::Constants => {
+            "a table of numbers, lengths, powers of lengths and angles".to_owned()
+        }
     }
 }
 
@@ -112,7 +115,8 @@ pub(crate) fn example(param: &ParamInfo) -> String {
             | ParamKind::Count
             | ParamKind::Flag
             | ParamKind::Rows(_)
-            | ParamKind::Coefficients(..) => param.example.to_owned(),
+            | ParamKind::Coefficients(..)
+            | ParamKind::Constants => param.example.to_owned(),
             ParamKind::List(_) => format!("[\"{}\"]", param.example),
             _ => format!("\"{}\"", param.example),
         };
@@ -131,6 +135,7 @@ pub(crate) fn example(param: &ParamInfo) -> String {
         (ParamKind::Rows(columns), _) => example_rows(columns),
         (ParamKind::File, _) => "\"data.csv\"".to_owned(),
         (ParamKind::Coefficients(indices, quantity), _) => example_coefficients(indices, quantity),
+        (ParamKind::Constants, _) => "{ k = \"0.08 /mm\" }".to_owned(),
         (_, ParamDefault::Number(value)) => written(param.kind, value),
         _ => written(param.kind, example_number(param)),
     }

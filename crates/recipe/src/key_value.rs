@@ -3,6 +3,7 @@
 use turnpath_core::{ParamDefault, ParamInfo, ParamKind, ParamValue};
 
 use crate::coefficients;
+use crate::constants;
 use crate::declared::{example, range, shown, usual_text};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Node, Value};
@@ -33,6 +34,7 @@ pub(crate) fn key_value(param: &ParamInfo, node: &Node) -> Result<KeyValue, Diag
         ParamKind::Coefficients(indices, quantity) => {
             ParamValue::Rows(coefficients::read(param, node, indices, quantity)?)
         }
+        ParamKind::Constants => ParamValue::Constants(constants::read(param, node)?),
         ParamKind::Quantity(_) | ParamKind::ChoiceOr(..) | ParamKind::Number | ParamKind::Count => {
             ParamValue::Number(number(param, node)?)
         }

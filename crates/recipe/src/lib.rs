@@ -48,6 +48,7 @@ mod ablation;
 mod bind;
 mod choice;
 mod coefficients;
+mod constants;
 pub mod declared;
 mod diagnostic;
 mod document;

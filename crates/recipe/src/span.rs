@@ -60,6 +60,14 @@ impl Span {
         self.range.clone()
     }
 
+    /// The bytes at `place` of a text that this span holds as it is, between quotes.
+    pub(crate) fn part(&self, text: &str, place: &Range<usize>) -> Option<Self> {
+        let written = self.source.text.get(self.range.clone())?;
+        let start = self.range.start + written.find(text)?;
+        let shifted = start + place.start..(start + place.end).min(self.range.end);
+        Some(Self::new(self.source.clone(), shifted))
+    }
+
     /// Whether the span stands for the source as a whole.
     pub fn is_whole(&self) -> bool {
         self.range == (0..0)

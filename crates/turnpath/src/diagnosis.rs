@@ -1,5 +1,7 @@
 //! Errors of the stages at their places in the recipe: cause, place and remedy.
 
+use std::ops::Range;
+
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
 use turnpath_pipeline::{Excess, PathSize, PipelineError};
@@ -24,10 +26,21 @@ pub fn of_pipeline(recipe: &Recipe, error: PipelineError) -> Error {
         // A parameter may turn out wrong only when the path is made.
         PipelineError::Strategy {
             slot,
-            error: StrategyError::Parameter { name, message },
+            error:
+                StrategyError::Parameter {
+                    name,
+                    message,
+                    place,
+                },
             ..
         } => {
-            let diagnostic = wrong_parameter(recipe, recipe.choice(*slot), name, message);
+            let diagnostic = wrong_parameter(
+                recipe,
+                recipe.choice(*slot),
+                name,
+                message,
+                place.as_deref(),
+            );
             Error::refused_by(diagnostic, error)
         }
         // A surface without a height on the part's inner ring is wrong only if it lies where its
@@ -70,10 +83,14 @@ pub fn wrong_parameter(
     choice: &Choice,
     parameter: &str,
     message: &str,
+    place: Option<&Range<usize>>,
 ) -> Diagnostic {
     let (noun, name) = (choice.slot.noun(), choice.name());
     let title = format!("the {noun} `{name}` cannot work with this: {message}");
-    let span = choice.param_span(parameter);
+    let span = match place {
+        Some(place) => choice.place_span(parameter, place),
+        None => choice.param_span(parameter),
+    };
     recipe.diagnostic(span, title, format!("`{parameter}`"), [])
 }
 

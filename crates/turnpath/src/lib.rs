@@ -81,7 +81,7 @@ pub use verify::verify;
 #[cfg(feature = "built-ins")]
 use {
     turnpath_atpg as _, turnpath_ats as _, turnpath_constant as _, turnpath_fft_adaptive as _,
-    turnpath_grid as _, turnpath_integrated as _, turnpath_minimax as _, turnpath_nose_radius as _,
-    turnpath_polynomials as _, turnpath_spindle as _, turnpath_surfaces as _,
-    turnpath_triangle_rotary as _,
+    turnpath_formula as _, turnpath_grid as _, turnpath_integrated as _, turnpath_minimax as _,
+    turnpath_nose_radius as _, turnpath_polynomials as _, turnpath_spindle as _,
+    turnpath_surfaces as _, turnpath_triangle_rotary as _,
 };

@@ -87,7 +87,11 @@ fn not_made(recipe: &Recipe, choice: &Choice, plugin: &str, error: StrategyError
         StrategyError::Parameter {
             name: parameter,
             message,
-        } => Error::refused_by(wrong_parameter(recipe, choice, parameter, message), error),
+            place,
+        } => {
+            let diagnostic = wrong_parameter(recipe, choice, parameter, message, place.as_deref());
+            Error::refused_by(diagnostic, error)
+        }
         StrategyError::Failed(message) => {
             let title = format!("the {noun} `{name}` cannot be made: {message}");
             let label = format!("from {plugin}");

@@ -14,10 +14,12 @@
 //! ```
 
 mod decimal;
+mod length_power;
 mod quantity;
 mod table;
 mod text;
 
+pub use length_power::LengthPower;
 pub use quantity::{Quantity, QuantityError};
 
 /// A degree in rad.

@@ -9,6 +9,7 @@
 )]
 
 pub mod csv;
+pub mod formula;
 pub mod library;
 pub mod map;
 pub mod pmac;
@@ -29,7 +30,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 7] = [
+pub const TARGETS: [Target; 8] = [
     Target {
         name: "recipe",
         read: recipe::read,
@@ -39,6 +40,11 @@ pub const TARGETS: [Target; 7] = [
         name: "csv",
         read: csv::read,
         words: csv::WORDS,
+    },
+    Target {
+        name: "formula",
+        read: formula::read,
+        words: formula::WORDS,
     },
     Target {
         name: "pmac",

@@ -2,14 +2,15 @@
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
+use std::ops::Range;
 
 use turnpath_units::Quantity;
 
 use super::info::{ParamDefault, ParamInfo, ParamKind};
 use super::kind::{
-    Acceleration, Angle, AngularAcceleration, AngularJerk, Choice, ChoiceOr, Coefficients, Count,
-    Feed, File, Flag, Frequency, Jerk, Kind, Length, List, Number, PerLength, RotationSpeed, Rows,
-    Scale, Text, Time, UnitKind, Velocity,
+    Acceleration, Angle, AngularAcceleration, AngularJerk, Choice, ChoiceOr, Coefficients,
+    Constants, Count, Feed, File, Flag, Frequency, Jerk, Kind, Length, List, Number, PerLength,
+    RotationSpeed, Rows, Scale, Text, Time, UnitKind, Velocity,
 };
 use crate::StrategyError;
 
@@ -103,6 +104,19 @@ impl<K> Param<K> {
     /// value in the recipe.
     pub fn refused(self, message: impl Into<Cow<'static, str>>) -> StrategyError {
         StrategyError::parameter(self.info.name, message)
+    }
+
+    /// The same for a text of which only the bytes at `place` are wrong.
+    pub fn refused_at(
+        self,
+        place: Range<usize>,
+        message: impl Into<Cow<'static, str>>,
+    ) -> StrategyError {
+        StrategyError::Parameter {
+            name: self.info.name.into(),
+            message: message.into(),
+            place: Some(Box::new(place)),
+        }
     }
 }
 
@@ -312,6 +326,13 @@ impl Param<Coefficients> {
     ) -> Self {
         let kind = ParamKind::Coefficients(indices, Some(Length::QUANTITY));
         Self::new(name, kind, help)
+    }
+}
+
+impl Param<Constants> {
+    /// Constants under names.
+    pub const fn constants(name: &'static str, help: &'static str) -> Self {
+        Self::new(name, ParamKind::Constants, help)
     }
 }
 

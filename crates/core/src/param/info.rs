@@ -33,6 +33,9 @@ pub enum ParamKind {
     /// A table of coefficients. Each has this many whole numbers as its key, and is a quantity, or a
     /// pure number without one: `{ 4 = "0.2 um", 11 = "-30 nm" }`, `{ "2,0" = "1 um" }`.
     Coefficients(usize, Option<Quantity>),
+    /// A table of constants under names. Each is a number, an angle, or a power of a length:
+    /// `{ k = "0.08 /mm", turns = 4 }`.
+    Constants,
 }
 
 impl ParamKind {

@@ -13,13 +13,14 @@
 //! | [`Rows`] | `&[Vec<f64>]`, each row with the declared number of columns |
 //! | [`File`] | [`&DataFile`](DataFile) |
 //! | [`Coefficients`] | `&[Vec<f64>]`, each row with its whole numbers and then the value |
+//! | [`Constants`] | `&[NamedConstant]`, in the order of the recipe |
 //! | `Option` of a kind | `Option` of that type; `None` if the recipe leaves the parameter out |
 
 use std::marker::PhantomData;
 
 use turnpath_units::Quantity;
 
-use super::value::{DataFile, ParamValue};
+use super::value::{DataFile, NamedConstant, ParamValue};
 
 /// A kind of parameter.
 pub trait Kind: 'static {
@@ -218,6 +219,22 @@ impl Kind for Coefficients {
 
     fn read(value: Option<&ParamValue>) -> Option<&[Vec<f64>]> {
         Rows::read(value)
+    }
+}
+
+/// A table of constants under names, `{ k = "0.08 /mm", turns = 4 }`. Each is a number, an angle, or
+/// a power of a length.
+#[derive(Debug)]
+pub enum Constants {}
+
+impl Kind for Constants {
+    type Value<'a> = &'a [NamedConstant];
+
+    fn read(value: Option<&ParamValue>) -> Option<&[NamedConstant]> {
+        match value {
+            Some(ParamValue::Constants(constants)) => Some(constants),
+            _ => None,
+        }
     }
 }
 

@@ -14,4 +14,4 @@ mod value;
 pub use declared::Param;
 pub use info::{ParamDefault, ParamInfo, ParamKind};
 pub use params::Params;
-pub use value::{DataFile, ParamValue};
+pub use value::{DataFile, NamedConstant, ParamValue};

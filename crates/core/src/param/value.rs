@@ -14,6 +14,18 @@ pub struct DataFile {
     pub bytes: Arc<[u8]>,
 }
 
+/// A constant that a recipe names: a number, an angle, or a power of a length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NamedConstant {
+    /// The name: letters, digits and `_`, and no digit first.
+    pub name: String,
+    /// The value in powers of mm, and in rad.
+    pub value: f64,
+    /// The power of a length: 1 for a length, −1 for a quantity per length, 0 for numbers and
+    /// angles.
+    pub length_power: i32,
+}
+
 /// The value of a parameter, in inner units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -29,6 +41,8 @@ pub enum ParamValue {
     /// Rows of numbers, all with the declared number of columns; or coefficients, each a row of its
     /// whole numbers and its value.
     Rows(Vec<Vec<f64>>),
+    /// Named constants.
+    Constants(Vec<NamedConstant>),
     /// A file.
     File(DataFile),
 }

@@ -213,6 +213,9 @@ const PARAMS: &[ParamInfo] = &[
     Param::coefficients("powers", 2, "of each product")
         .optional()
         .info(),
+    Param::constants("constants", "of a formula")
+        .optional()
+        .info(),
 ];
 
 const SAMPLER: StrategyInfo = StrategyInfo {
@@ -243,6 +246,11 @@ macro_rules! bind_says {
 }
 
 bind_says! {
+    constants_as_list: "spacing = \"10 um\"\nconstants = [3]";
+    constant_of_time: "spacing = \"10 um\"\nconstants = { a = \"5 s\" }";
+    constant_without_unit: "spacing = \"10 um\"\nconstants = { a = \"5\" }";
+    constant_with_a_misspelt_unit: "spacing = \"10 um\"\nconstants = { a = \"5 mmm\" }";
+    constant_that_no_formula_can_name: "spacing = \"10 um\"\nconstants = { \"a-b\" = 5 }";
     param_missing: "";
     param_unknown: "spacing = \"10 um\"\nmaxstep = \"3 deg\"";
     param_of_another_kind: "spacing = \"8 ms\"";

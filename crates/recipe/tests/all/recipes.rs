@@ -5,7 +5,9 @@
 use std::f64::consts::TAU;
 
 use crate::common::FULL;
-use turnpath_core::kind::{Angle, Choice, Coefficients, Count, File, Flag, Number, Rows};
+use turnpath_core::kind::{
+    Angle, Choice, Coefficients, Constants, Count, File, Flag, Number, Rows,
+};
 use turnpath_core::{
     DEG, Direction, Machine, Misfit, Overrun, Param, ParamInfo, ParamValue, Slot, StrategyInfo,
 };
@@ -421,6 +423,42 @@ fn coefficients_are_rows_of_their_numbers_and_values() {
     assert_eq!(bound.params.get(HEIGHTS), [[11.0, -3e-5], [4.0, 2e-3]]);
     let powers = [[2.0, -1.0, 0.5], [0.0, 3.0, -1e-3]];
     assert_eq!(bound.params.get(POWERS), powers);
+}
+
+#[test]
+fn constants_have_names_and_powers_of_a_length() {
+    const CONSTANTS: Param<Constants> = Param::constants("constants", "");
+    const PARAMS: &[ParamInfo] = &[CONSTANTS.info()];
+    let info = StrategyInfo {
+        slot: Slot::Sampler,
+        name: "atpg",
+        summary: "",
+        source: "",
+        params: PARAMS,
+    };
+    let sets = [
+        "sampler={ use = \"atpg\", constants = { R = \"5 m\", n = 4, t = \"180 deg\" } }",
+        "sampler.constants.A4=2 /um^3",
+        "sampler.constants.R=5 um",
+    ];
+    let bound = parse(FULL, &sets).bind(Slot::Sampler, &info).unwrap();
+    let constants = bound.params.get(CONSTANTS).iter();
+    let found: Vec<(&str, f64, i32)> = constants
+        .map(|constant| {
+            (
+                constant.name.as_str(),
+                constant.value,
+                constant.length_power,
+            )
+        })
+        .collect();
+    let expected = [
+        ("R", 5e-3, 1),
+        ("n", 4.0, 0),
+        ("t", std::f64::consts::PI, 0),
+        ("A4", 2e9, -3),
+    ];
+    assert_eq!(found, expected);
 }
 
 #[test]

@@ -1,0 +1,68 @@
+//! The surface that a recipe writes as a formula.
+
+use turnpath_plugin::prelude::*;
+
+use crate::complaint::{Complaint, Mistake};
+use crate::graph::{MOST_NODES, Refusal};
+use crate::names::is_taken;
+use crate::parser::parse;
+use crate::polar::resolved;
+use crate::tape::{MOST_REGISTERS, Tape};
+
+/// z = a formula in x, y, ρ, θ and named constants.
+///
+/// Beyond the aperture the formula goes on. Where it has no value, such as the root of a negative
+/// number, z is NaN.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formula(Tape);
+
+const Z: Param<Text> = Param::text(
+    "z",
+    "the height as a formula in x, y, rho, theta, units and constants",
+)
+.example("0.02/mm*(x^2 - y^2) + 5*um*cos(4*theta)*(rho/mm)^4");
+
+const CONSTANTS: Param<Option<Constants>> = Param::constants(
+    "constants",
+    "the formula's constants by their names: numbers, lengths, angles, powers of lengths",
+)
+.example("{ k = \"0.08 /mm\" }")
+.optional();
+
+impl Strategy for Formula {
+    const NAME: &'static str = "formula";
+    const SUMMARY: &'static str = "a formula in x, y, rho and theta, with constants and units";
+    const PARAMS: &'static [ParamInfo] = &[Z.info(), CONSTANTS.info()];
+
+    fn new(params: &Params) -> Result<Self> {
+        let constants = params.get(CONSTANTS).unwrap_or_default();
+        if let Some(constant) = constants.iter().find(|constant| is_taken(&constant.name)) {
+            return Err(CONSTANTS.refused(format!(
+                "every formula has its own `{}`; choose another name",
+                constant.name
+            )));
+        }
+        tape(params.get(Z), constants)
+            .map(Self)
+            .map_err(|complaint| {
+                let message = complaint.to_string();
+                Z.refused_at(complaint.place, message)
+            })
+    }
+}
+
+fn tape(text: &str, constants: &[NamedConstant]) -> std::result::Result<Tape, Complaint> {
+    let (graph, root) = parse(text, constants)?;
+    let whole = || 0..text.len();
+    let (graph, root) = resolved(&graph, root).map_err(|refusal| match refusal {
+        Refusal::TooLarge => Mistake::TooLarge(MOST_NODES).at(whole()),
+        Refusal::NoFiniteValue => Mistake::NoFiniteValue.at(whole()),
+    })?;
+    Tape::new(&graph, root).ok_or_else(|| Mistake::TooWide(MOST_REGISTERS).at(whole()))
+}
+
+impl Surface for Formula {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        self.0.run(x, y)
+    }
+}

@@ -1,0 +1,285 @@
+//! The formula as a graph: each subexpression stands once, and constants are worked out.
+
+use std::collections::BTreeMap;
+
+use turnpath_plugin::prelude::Scalar;
+
+use crate::names::{Function, PairFunction, Variable};
+
+/// Most nodes of a formula.
+pub const MOST_NODES: usize = 4096;
+
+/// Largest whole exponent that is worked out by multiplications.
+const LARGEST_POWER: f64 = 64.0;
+
+/// The number of a node. Nodes stand after those that they use.
+pub type Id = u16;
+
+/// A subexpression. Numbers are their bits, so that nodes can be compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Node {
+    /// A variable.
+    Variable(Variable),
+    /// A number.
+    Constant(u64),
+    /// a + b.
+    Sum(Id, Id),
+    /// a − b.
+    Difference(Id, Id),
+    /// a·b.
+    Product(Id, Id),
+    /// a / b.
+    Quotient(Id, Id),
+    /// −a.
+    Negative(Id),
+    /// A whole power.
+    Power(Id, i32),
+    /// A power of a positive number.
+    RealPower(Id, u64),
+    /// A function of one value.
+    One(Function, Id),
+    /// A function of two values.
+    Two(PairFunction, Id, Id),
+}
+
+/// Why a node cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// The graph is full.
+    TooLarge,
+    /// It has only constants, and no finite value.
+    NoFiniteValue,
+}
+
+/// The nodes of a formula.
+#[derive(Debug, Clone, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    numbers: BTreeMap<Node, Id>,
+}
+
+impl Graph {
+    /// The nodes in their order.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// A node by its number.
+    pub fn node(&self, id: Id) -> Node {
+        let node = self.nodes.get(usize::from(id)).copied();
+        node.unwrap_or(Node::Constant(0))
+    }
+
+    /// The number that a node is, if it is one.
+    pub fn number(&self, id: Id) -> Option<f64> {
+        match self.node(id) {
+            Node::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    fn put(&mut self, node: Node) -> Result<Id, Refusal> {
+        if let Some(id) = self.numbers.get(&node) {
+            return Ok(*id);
+        }
+        let id = match Id::try_from(self.nodes.len()) {
+            Ok(id) if usize::from(id) < MOST_NODES => id,
+            _ => return Err(Refusal::TooLarge),
+        };
+        self.nodes.push(node);
+        self.numbers.insert(node, id);
+        Ok(id)
+    }
+
+    /// A variable.
+    pub fn variable(&mut self, variable: Variable) -> Result<Id, Refusal> {
+        self.put(Node::Variable(variable))
+    }
+
+    /// A number.
+    pub fn constant(&mut self, value: f64) -> Result<Id, Refusal> {
+        if !value.is_finite() {
+            return Err(Refusal::NoFiniteValue);
+        }
+        // −0 and 0 are one number.
+        self.put(Node::Constant((value + 0.0).to_bits()))
+    }
+
+    /// a + b.
+    pub fn sum(&mut self, a: Id, b: Id) -> Result<Id, Refusal> {
+        match (self.number(a), self.number(b)) {
+            (Some(one), Some(two)) => self.constant(one + two),
+            (Some(0.0), None) => Ok(b),
+            (None, Some(0.0)) => Ok(a),
+            _ => self.put(Node::Sum(a.min(b), a.max(b))),
+        }
+    }
+
+    /// a − b.
+    pub fn difference(&mut self, a: Id, b: Id) -> Result<Id, Refusal> {
+        match (self.number(a), self.number(b)) {
+            (Some(one), Some(two)) => self.constant(one - two),
+            (Some(0.0), None) => self.negative(b),
+            (None, Some(two)) => {
+                let opposite = self.constant(-two)?;
+                self.sum(a, opposite)
+            }
+            _ => self.put(Node::Difference(a, b)),
+        }
+    }
+
+    /// a·b.
+    pub fn product(&mut self, a: Id, b: Id) -> Result<Id, Refusal> {
+        match (self.number(a), self.number(b)) {
+            (Some(one), Some(two)) => self.constant(one * two),
+            (Some(0.0), None) | (None, Some(0.0)) => self.constant(0.0),
+            (Some(1.0), None) => Ok(b),
+            (None, Some(1.0)) => Ok(a),
+            (Some(one), None) => self.scaled(b, one),
+            (None, Some(two)) => self.scaled(a, two),
+            _ if a == b => self.power(a, 2.0),
+            _ => self.put(Node::Product(a.min(b), a.max(b))),
+        }
+    }
+
+    /// A product with a number. Two numbers in a row become one.
+    fn scaled(&mut self, a: Id, factor: f64) -> Result<Id, Refusal> {
+        if let Node::Product(one, two) = self.node(a) {
+            for (number, other) in [(one, two), (two, one)] {
+                if let Some(number) = self.number(number) {
+                    let both = self.constant(number * factor)?;
+                    return self.put(Node::Product(both.min(other), both.max(other)));
+                }
+            }
+        }
+        let factor = self.constant(factor)?;
+        self.put(Node::Product(a.min(factor), a.max(factor)))
+    }
+
+    /// a / b. A division by a number is a product with its inverse.
+    pub fn quotient(&mut self, a: Id, b: Id) -> Result<Id, Refusal> {
+        match (self.number(a), self.number(b)) {
+            (Some(one), Some(two)) => self.constant(one / two),
+            (None, Some(two)) if (1.0 / two).is_normal() => {
+                let inverse = self.constant(1.0 / two)?;
+                self.product(a, inverse)
+            }
+            (None, Some(0.0)) => Err(Refusal::NoFiniteValue),
+            _ => self.put(Node::Quotient(a, b)),
+        }
+    }
+
+    /// −a.
+    pub fn negative(&mut self, a: Id) -> Result<Id, Refusal> {
+        match (self.number(a), self.node(a)) {
+            (Some(number), _) => self.constant(-number),
+            (None, Node::Negative(inner)) => Ok(inner),
+            (None, Node::Product(one, two))
+                if self.number(one).is_some() || self.number(two).is_some() =>
+            {
+                self.scaled(a, -1.0)
+            }
+            _ => self.put(Node::Negative(a)),
+        }
+    }
+
+    /// aⁿ. Whole exponents are worked out by multiplications, which is right for every a.
+    pub fn power(&mut self, a: Id, exponent: f64) -> Result<Id, Refusal> {
+        let whole = exponent.fract() == 0.0 && exponent.abs() <= LARGEST_POWER;
+        if let Some(number) = self.number(a) {
+            let value = match whole {
+                true => Scalar::powi(number, exponent as i32),
+                false => Scalar::powf(number, exponent),
+            };
+            return self.constant(value);
+        }
+        match (whole, self.node(a)) {
+            (true, _) if exponent == 0.0 => self.constant(1.0),
+            (true, _) if exponent == 1.0 => Ok(a),
+            (true, Node::Power(base, inner))
+                if (f64::from(inner) * exponent).abs() <= LARGEST_POWER =>
+            {
+                self.power(base, f64::from(inner) * exponent)
+            }
+            (true, _) => self.put(Node::Power(a, exponent as i32)),
+            (false, _) if exponent == 0.5 => self.one(Function::Sqrt, a),
+            (false, _) => self.put(Node::RealPower(a, exponent.to_bits())),
+        }
+    }
+
+    /// A function of one value.
+    pub fn one(&mut self, function: Function, a: Id) -> Result<Id, Refusal> {
+        match self.number(a) {
+            Some(number) => self.constant(function.of(number)),
+            None if function == Function::Sqrt && self.is_square_of_rho(a) => {
+                self.variable(Variable::Rho)
+            }
+            None => self.put(Node::One(function, a)),
+        }
+    }
+
+    /// Whether a node is x² + y².
+    pub fn is_square_of_rho(&self, id: Id) -> bool {
+        let square_of = |id: Id| match self.node(id) {
+            Node::Power(base, 2) => Some(self.node(base)),
+            _ => None,
+        };
+        let Node::Sum(a, b) = self.node(id) else {
+            return false;
+        };
+        let [x, y] = [Variable::X, Variable::Y].map(|variable| Some(Node::Variable(variable)));
+        let squares = (square_of(a), square_of(b));
+        squares == (x, y) || squares == (y, x)
+    }
+
+    /// A function of two values.
+    pub fn two(&mut self, function: PairFunction, a: Id, b: Id) -> Result<Id, Refusal> {
+        match (self.number(a), self.number(b)) {
+            (Some(one), Some(two)) => self.constant(function.of(one, two)),
+            _ => match (function, self.node(a), self.node(b)) {
+                (PairFunction::Hypot, Node::Variable(Variable::X), Node::Variable(Variable::Y)) => {
+                    self.variable(Variable::Rho)
+                }
+                (PairFunction::Atan2, Node::Variable(Variable::Y), Node::Variable(Variable::X)) => {
+                    self.variable(Variable::Theta)
+                }
+                _ => self.put(Node::Two(function, a, b)),
+            },
+        }
+    }
+}
+
+impl Function {
+    /// The function's value.
+    #[inline(always)]
+    pub fn of<S: Scalar>(self, a: S) -> S {
+        match self {
+            Self::Sqrt => a.sqrt(),
+            Self::Abs => Scalar::abs(a),
+            Self::Exp => a.exp(),
+            Self::Ln => a.ln(),
+            Self::Sin => Scalar::sin(a),
+            Self::Cos => Scalar::cos(a),
+            Self::Tan => a.tan(),
+            Self::Asin => a.asin(),
+            Self::Acos => a.acos(),
+            Self::Atan => a.atan(),
+            Self::Sinh => Scalar::sinh(a),
+            Self::Cosh => Scalar::cosh(a),
+            Self::Tanh => a.tanh(),
+        }
+    }
+}
+
+impl PairFunction {
+    /// The function's value.
+    #[inline(always)]
+    pub fn of<S: Scalar>(self, a: S, b: S) -> S {
+        match self {
+            Self::Atan2 => a.atan2(b),
+            Self::Hypot => Scalar::hypot(a, b),
+            Self::Min => Scalar::min(a, b),
+            Self::Max => Scalar::max(a, b),
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! The surface `formula`: z(x, y) as the recipe writes it.
+//!
+//! The text is read once. [`parser`] turns it into a [`graph`] in which every subexpression stands
+//! once, and checks that the [dimensions](dimension) fit. [`polar`] turns ρ and θ into x and y, such
+//! that the axis is a point like any other. [`tape`] puts the graph into a list of steps, which runs
+//! on every number type.
+
+mod complaint;
+mod dimension;
+mod formula;
+mod graph;
+mod lexer;
+mod names;
+mod parser;
+mod polar;
+mod run;
+mod tape;
+
+pub use formula::Formula;
+
+turnpath_plugin::export!(surfaces: [Formula]);

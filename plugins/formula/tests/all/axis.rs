@@ -1,0 +1,68 @@
+//! The axis is a point like any other where the formula has all derivatives there.
+
+use turnpath_core::{Gradients, SurfaceModel};
+
+use crate::common::{formula, points};
+
+fn gradient(z: &str, x: f64, y: f64) -> [f64; 3] {
+    let (mut height, mut zx, mut zy) = ([f64::NAN], [f64::NAN], [f64::NAN]);
+    let out = Gradients {
+        z: &mut height,
+        zx: &mut zx,
+        zy: &mut zy,
+    };
+    formula(z, &[]).gradient(&[x], &[y], out).unwrap();
+    [height[0], zx[0], zy[0]]
+}
+
+/// Each pair is the same surface, in ρ and θ, and in x and y.
+const PAIRS: [(&str, &str); 8] = [
+    ("rho*cos(theta)", "x"),
+    ("rho*sin(theta)", "y"),
+    ("rho*cos(-theta) + rho*sin(-theta)", "x - y"),
+    ("0.1/mm^2*rho^3*cos(3*theta)", "0.1/mm^2*(x^3 - 3*x*y^2)"),
+    ("rho^4*cos(2*theta)/mm^3", "(x^2 + y^2)*(x^2 - y^2)/mm^3"),
+    (
+        "rho^2/mm*(1 + 0.3*cos(2*theta) - 0.1*sin(2*theta))",
+        "(x^2 + y^2 + 0.3*(x^2 - y^2) - 0.2*x*y)/mm",
+    ),
+    (
+        "rho^2*cos(2*(theta - 30*deg))/mm",
+        "(0.5*(x^2 - y^2) + sqrt(3)*x*y)/mm",
+    ),
+    ("rho^4*cos(theta)^2*sin(theta)^2/mm^3", "x^2*y^2/mm^3"),
+];
+
+#[test]
+fn waves_on_the_turn_are_polynomials() {
+    for (polar, straight) in PAIRS {
+        for (x, y) in points(2.0) {
+            let (found, expected) = (gradient(polar, x, y), gradient(straight, x, y));
+            for (a, b) in found.into_iter().zip(expected) {
+                let off = (a - b).abs();
+                assert!(
+                    off <= 1e-13 * (1.0 + b.abs()),
+                    "{polar} at {x}, {y}: {found:?} {expected:?}"
+                );
+            }
+        }
+    }
+}
+
+/// What is left of ρ and θ: derivatives at the axis are 0, and no NaN comes of them.
+#[test]
+fn nothing_at_the_axis_is_nan() {
+    for z in [
+        "rho",
+        "rho^3/mm^2",
+        "rho*cos(3*theta)",
+        "mm*theta",
+        "rho*theta",
+        "hypot(x, y)",
+        "sqrt(y^2 + x^2)",
+        "mm*atan2(y, x)",
+    ] {
+        assert_eq!(gradient(z, 0.0, 0.0), [0.0; 3], "{z}");
+    }
+    assert_eq!(gradient("0*x", 1.0, 1.0), [0.0; 3]);
+}
