@@ -10,13 +10,15 @@ use tempfile::TempDir;
 use super::fixtures::file_name;
 
 /// The packages of the built-in plugins.
-pub const BUILT_INS: [&str; 11] = [
+pub const BUILT_INS: [&str; 13] = [
     "turnpath-atpg",
     "turnpath-ats",
     "turnpath-constant",
     "turnpath-fft-adaptive",
     "turnpath-formula",
+    "turnpath-grid",
     "turnpath-integrated",
+    "turnpath-minimax",
     "turnpath-nose-radius",
     "turnpath-polynomials",
     "turnpath-spindle",
