@@ -57,6 +57,7 @@ const PURE: &[&str] = &[
     "point",
     "count",
     "rounds",
+    "per_turn",
 ];
 /// What a unit in a key ends in.
 const UNITS: &[&str] = &[

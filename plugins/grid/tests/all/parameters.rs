@@ -98,7 +98,7 @@ fn axes_are_mirrored_about_the_origin() {
 #[test]
 fn what_is_wrong_names_its_parameter_and_the_files_line() {
     let refused = |params: &Params| match GridSag::new(params) {
-        Err(StrategyError::Parameter { name, message }) => format!("{name}: {message}"),
+        Err(StrategyError::Parameter { name, message, .. }) => format!("{name}: {message}"),
         other => panic!("{other:?}"),
     };
     let said = refused(&params("points.xyz"));
