@@ -205,6 +205,8 @@ fn the_summary_names_file_and_hash_of_every_plugin_that_was_loaded() {
         "turnpath-ats",
         "turnpath-fft-adaptive",
         "turnpath-formula",
+        "turnpath-grid",
+        "turnpath-minimax",
         "turnpath-polynomials",
         "turnpath-spindle",
     ];

@@ -25,9 +25,10 @@ impl Strategy for AtpgSampler {
     const PARAMS: &'static [ParamInfo] = &[MAX_STEP.info(), WANDER.info()];
 
     fn new(params: &Params) -> Result<Self> {
+        let max_step = hermite::largest_step(params.get(MAX_STEP), params.get(WANDER));
         let steps = Steps {
-            wander: params.get(WANDER),
-            ..Steps::new(params, STILL_PART)
+            max_step,
+            feed_part: STILL_PART,
         };
         Ok(Self { steps })
     }

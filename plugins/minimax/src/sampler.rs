@@ -1,6 +1,6 @@
 //! The sampler `minimax`.
 
-use turnpath_plugin::hermite::{FEED_PART, MAX_STEP, WANDER, Wander};
+use turnpath_plugin::hermite::{FEED_PART, MAX_STEP, WANDER, largest_step};
 use turnpath_plugin::prelude::*;
 
 use crate::grid::Grid;
@@ -42,7 +42,6 @@ pub struct MinimaxSampler {
 struct Chains {
     states: &'static [State],
     max_step: f64,
-    wander: bool,
 }
 
 impl Strategy for MinimaxSampler {
@@ -57,10 +56,10 @@ impl Strategy for MinimaxSampler {
         let count = params.get(STATES);
         let states = states(count)
             .ok_or_else(|| STATES.refused(format!("{count} is none of 1, 3, 7 and 25")))?;
+        let (max_step, wander) = (params.get(MAX_STEP), params.get(WANDER));
         let plan = Chains {
             states,
-            max_step: params.get(MAX_STEP),
-            wander: params.get(WANDER),
+            max_step: largest_step(max_step, wander),
         };
         Ok(Self { plan })
     }
@@ -110,7 +109,6 @@ impl Chains {
                 _ => AMONG_STATES,
             },
         };
-        let wander = Wander::new(span.start, self.wander);
-        Search::new(&reach, self.states, path.task.tool.misfit, wander).run(nodes)
+        Search::new(&reach, self.states, path.task.tool.misfit).run(nodes)
     }
 }

@@ -1,12 +1,12 @@
 //! The shortest path over the states of the nodes of one span.
 
-use turnpath_plugin::hermite::{SHORTEST, Wander};
+use turnpath_plugin::hermite::SHORTEST;
 use turnpath_plugin::prelude::*;
 
 use crate::grid::{LEAST_NEAR_SEAMS, too_short};
 use crate::place::Place;
 use crate::reach::Reach;
-use crate::segment::{Node, holds};
+use crate::segment::holds;
 use crate::state::{ON_LOCUS, State};
 
 /// Inner nodes stay this part of a natural step away from the span's end. Otherwise a node could lie
@@ -34,17 +34,11 @@ pub struct Search<'a> {
     layers: Vec<Layer>,
     /// The last step from each state to each other, in revolutions.
     last: Vec<f64>,
-    wander: Wander,
 }
 
 impl<'a> Search<'a> {
     /// A search with these states, the first of which is on the locus.
-    pub fn new(
-        reach: &'a Reach<'a>,
-        states: &'static [State],
-        misfit: Misfit,
-        wander: Wander,
-    ) -> Self {
+    pub fn new(reach: &'a Reach<'a>, states: &'static [State], misfit: Misfit) -> Self {
         let first = reach.table.n.first().copied().unwrap_or_default();
         Self {
             reach,
@@ -52,7 +46,6 @@ impl<'a> Search<'a> {
             misfit,
             layers: Vec::new(),
             last: vec![reach.scale.at(first); states.len() * states.len()],
-            wander,
         }
     }
 
@@ -81,15 +74,12 @@ impl<'a> Search<'a> {
                     self.trace(state, nodes);
                     return Ok(());
                 }
-                None => {
-                    self.follow(&next);
-                    layer = next;
-                }
+                None => layer = next,
             }
         }
     }
 
-    fn node(&self, front: &Front, state: usize) -> Node {
+    fn node(&self, front: &Front, state: usize) -> crate::segment::Node {
         self.reach.node(front.place, self.states[state])
     }
 
@@ -149,43 +139,7 @@ impl<'a> Search<'a> {
         let range = (limit, self.last[pair]);
         let place = self.reach.longest(&node, self.states[to], range, best)?;
         self.last[pair] = place.n - front.place.n;
-        let place = self.shortened(&node, to, place);
-        best.is_none_or(|best| place.n > best).then_some(place)
-    }
-
-    /// The end of a step that is shorter by as much as the nodes need to wander. A step that would
-    /// not hold then stays as it is.
-    fn shortened(&self, from: &Node, to: usize, place: Place) -> Place {
-        let factor = self.wander.factor();
-        if factor == 1.0 {
-            return place;
-        }
-        let length = factor * (place.n - from.place.n);
-        let shorter = self.reach.step(from, self.states[to], length);
-        shorter.unwrap_or(place)
-    }
-
-    /// Lets the nodes of the furthest chain say how the next steps wander.
-    fn follow(&mut self, layer: &Layer) {
-        let fronts = layer.iter().enumerate();
-        let fronts = fronts.filter_map(|(state, front)| front.map(|front| (state, front)));
-        let furthest = fronts.max_by(|a, b| a.1.place.n.total_cmp(&b.1.place.n));
-        let Some((_, front)) = furthest.filter(|(_, front)| self.wander.is_due(front.place.n))
-        else {
-            return;
-        };
-        let mut nodes = vec![front.place.n];
-        let mut state = front.from;
-        for layer in self.layers.iter().rev() {
-            let Some(before) = &layer[state] else { break };
-            nodes.push(before.place.n);
-            if before.place.n <= front.place.n - 1.0 {
-                break;
-            }
-            state = before.from;
-        }
-        nodes.reverse();
-        self.wander.follow(&nodes);
+        Some(place)
     }
 
     /// A step to the locus from the furthest front, as short as it takes. Only where the path has a

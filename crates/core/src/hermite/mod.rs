@@ -11,10 +11,8 @@ mod clock;
 mod samples;
 mod steps;
 mod swing;
-mod wander;
 
 pub use bound::{Bound, Jumps};
 pub use samples::pitch;
-pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER};
+pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER, largest_step};
 pub use swing::x_swings;
-pub use wander::Wander;

@@ -19,6 +19,10 @@ fn loaded() -> Catalogue {
     crate::common::with_file(&surfaces_library()).unwrap()
 }
 
+fn rows(rows: &[&[f64]]) -> ParamValue {
+    ParamValue::Rows(rows.iter().map(|row| row.to_vec()).collect())
+}
+
 fn params(name: &str) -> Params {
     let mut params = Params::new();
     match name {
@@ -45,6 +49,39 @@ fn params(name: &str) -> Params {
                 .with("amplitude_y", 0.004)
                 .with("frequency_x", 0.5)
                 .with("frequency_y", 0.3);
+        }
+        "even-asphere" => {
+            params = params.with("radius", 62.5).with("conic", -0.85);
+            params.set("coefficients", rows(&[&[4.0, 1.35e-6], &[6.0, -4.2e-9]]));
+        }
+        "odd-asphere" => {
+            params = params.with("radius", 180.0).with("conic", 0.0);
+            params.set("coefficients", rows(&[&[3.0, 4e-6], &[5.0, -6e-9]]));
+        }
+        "biconic" => {
+            return params
+                .with("radius_x", 160.0)
+                .with("radius_y", 210.0)
+                .with("conic_x", -1.0)
+                .with("conic_y", -0.6);
+        }
+        "toroid-yz" => {
+            params = params.with("radius_rotation", 85.0).with("radius", 240.0);
+            params.set("conic", ParamValue::Number(-0.4));
+            params.set("coefficients", rows(&[&[4.0, -1.5e-7]]));
+        }
+        "off-axis-conic" => {
+            return params
+                .with("vertex_radius", 220.0)
+                .with("conic", -0.45)
+                .with("off_axis_distance", 35.0);
+        }
+        "lenslet-array" => {
+            params = params
+                .with("pitch", 1.0)
+                .with("radius", 12.0)
+                .with("conic", 0.0);
+            params.set("layout", ParamValue::Text("hexagonal".into()));
         }
         other => panic!("no parameters here for `{other}`"),
     }
