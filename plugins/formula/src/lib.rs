@@ -1,8 +1,8 @@
 //! The surface `formula`: z(x, y) as the recipe writes it.
 //!
-//! The text is read once. [`parser`] turns it into a [`graph`] in which every subexpression stands
-//! once, and checks that the [dimensions](dimension) fit. [`polar`] turns ρ and θ into x and y, such
-//! that the axis is a point like any other. [`tape`] puts the graph into a list of steps, which runs
+//! The text is read once. `parser` turns it into a `graph` in which every subexpression stands
+//! once, and checks that the dimensions (`dimension`) fit. `polar` turns ρ and θ into x and y, such
+//! that the axis is a point like any other. `tape` puts the graph into a list of steps, which runs
 //! on every number type.
 
 mod complaint;

@@ -1,8 +1,8 @@
 //! Polynomial surfaces in the terms of the design programs: Zernike, Forbes' Q and Chebyshev.
 //!
 //! z(x, y) is in mm, with x and y from the spindle axis and z towards the tool. Each polynomial is
-//! evaluated by its recurrence ([`recurrence`]), never by its powers, and its angular part as a
-//! polynomial in x and y ([`harmonics`]), so that it has all derivatives at the axis too. Beyond the
+//! evaluated by its recurrence (`recurrence`), never by its powers, and its angular part as a
+//! polynomial in x and y (`harmonics`), so that it has all derivatives at the axis too. Beyond the
 //! normalisation radius all of them go on as the polynomials that they are.
 
 mod chebyshev;
