@@ -4,6 +4,8 @@ use turnpath_plugin::prelude::*;
 
 use crate::complaint::{Complaint, Mistake};
 use crate::graph::{MOST_NODES, Refusal};
+use crate::jump::jump;
+use crate::lexer::names;
 use crate::names::is_taken;
 use crate::parser::parse;
 use crate::polar::resolved;
@@ -42,13 +44,25 @@ impl Strategy for Formula {
                 constant.name
             )));
         }
-        tape(params.get(Z), constants)
-            .map(Self)
-            .map_err(|complaint| {
-                let message = complaint.to_string();
-                Z.refused_at(complaint.place, message)
-            })
+        let tape = tape(params.get(Z), constants).map_err(|complaint| {
+            let message = complaint.to_string();
+            Z.refused_at(complaint.place, message)
+        })?;
+        match unused(params.get(Z), constants) {
+            None => Ok(Self(tape)),
+            Some(constant) => Err(CONSTANTS.refused(format!(
+                "the formula does not use `{}`; leave it out",
+                constant.name
+            ))),
+        }
     }
+}
+
+/// The first constant that stands nowhere in a formula.
+fn unused<'a>(text: &str, constants: &'a [NamedConstant]) -> Option<&'a NamedConstant> {
+    let names = names(text)?;
+    let is_used = |constant: &&NamedConstant| names.contains(&constant.name.as_str());
+    constants.iter().find(|constant| !is_used(constant))
 }
 
 fn tape(text: &str, constants: &[NamedConstant]) -> std::result::Result<Tape, Complaint> {
@@ -58,7 +72,12 @@ fn tape(text: &str, constants: &[NamedConstant]) -> std::result::Result<Tape, Co
         Refusal::TooLarge => Mistake::TooLarge(MOST_NODES).at(whole()),
         Refusal::NoFiniteValue => Mistake::NoFiniteValue.at(whole()),
     })?;
-    Tape::new(&graph, root).ok_or_else(|| Mistake::TooWide(MOST_REGISTERS).at(whole()))
+    let tape = Tape::new(&graph, root);
+    let tape = tape.ok_or_else(|| Mistake::TooWide(MOST_REGISTERS).at(whole()))?;
+    match jump(&graph, &tape) {
+        None => Ok(tape),
+        Some(jump) => Err(jump.complaint(text)),
+    }
 }
 
 impl Surface for Formula {
