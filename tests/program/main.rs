@@ -16,6 +16,7 @@ mod data_files;
 mod ending_plugins;
 mod frozen_boundary;
 mod maps;
+mod no_surface;
 mod own_sampler;
 mod plugins_lock;
 mod random;

@@ -26,6 +26,7 @@ mod make;
 mod measurement;
 mod node_check;
 mod observer;
+mod on_part;
 mod options;
 mod order;
 mod path_size;

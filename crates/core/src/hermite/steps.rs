@@ -237,7 +237,8 @@ impl Walk<'_> {
 }
 
 fn too_short(n: f64, natural: f64) -> StrategyError {
-    StrategyError::failed(format!(
+    // The recipe asks for it: surface, tool and tolerance together.
+    MAX_STEP.refused(format!(
         "the tolerance needs steps of {:.2e} deg at C = {:.3} deg, but the shortest \
          allowed step is {SHORTEST_DEG} deg: the tool centre's path is not smooth there; choose a larger \
          interpolation tolerance, a smaller tool, or another sampler",

@@ -17,7 +17,8 @@ fn folder() -> &'static Path {
 
 fn entries() -> Vec<Value> {
     let text = std::fs::read_to_string(folder().join("files.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
+    let all: Value = serde_json::from_str(&text).unwrap();
+    all["files"].as_array().unwrap().clone()
 }
 
 fn conventions(entry: &Value) -> Conventions {
