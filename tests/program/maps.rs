@@ -226,7 +226,7 @@ fn files_that_are_no_map_end_with_status_2_and_the_line() {
                 .map(|k| format!("{} {} 0\n", (k % 8) * (k % 8), k / 8))
                 .collect::<String>()
                 .into(),
-            "uneven.xyz: line 8: the points lie on no regular grid",
+            "uneven.xyz: line 2: the points lie on no regular grid",
         ),
         (
             "map.png",
