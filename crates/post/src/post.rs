@@ -68,6 +68,11 @@ pub trait Grammar: Send + Sync {
     /// When the line is not of the dialect: what is wrong with it.
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String>;
 
+    /// Whether a point waits for the line behind it: the first of those that are known next.
+    fn holds_point(&self) -> bool {
+        false
+    }
+
     /// The control point that waits for a line behind it, at the end of the path.
     fn finish(&mut self) -> Option<ControlPoint> {
         None

@@ -162,6 +162,132 @@ proptest! {
     ) {
         let _ = read(&plain(&POSTS[post]), text.as_bytes());
     }
+
+    /// Words of each dialect in any order, with numbers of any size.
+    #[test]
+    fn no_words_of_its_dialect_make_a_reader_panic(
+        post in 0..POSTS.len(),
+        words in prop::collection::vec((0..40usize, "-?[0-9]{0,16}(\\.[0-9]{0,14})?"), 1..60),
+    ) {
+        let post = &POSTS[post];
+        let first = program(&plain(post), &path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]]));
+        let (path, _) = first.split_once(" -- end of path").unwrap();
+        let (path, _) = path.rsplit_once('\n').unwrap();
+        let mut text = format!("{path}\n");
+        let all = words_of(post.name);
+        for (word, number) in words {
+            text += &all[word % all.len()].replace('#', &number);
+        }
+        text += &format!("\n{} -- end of path: 2 points --\n", post.comment);
+        let _ = read(&plain(post), text.as_bytes());
+    }
+}
+
+/// The words of a dialect; `#` stands for a number.
+fn words_of(post: &str) -> &'static [&'static str] {
+    match post {
+        "siemens-840d-poly" => &[
+            " PO[C]=(#)",
+            " PO[X]=(#,#)",
+            " PO[Z]=(#,#,#)",
+            " PO[C]=(#,#,#)",
+            " F#\n",
+            " F0.06\n",
+            " F60000000000\n",
+            " POLY",
+            " G1",
+            " X#",
+            "\n",
+            "N#",
+            " UPATH",
+            " G71",
+        ],
+        "automation1-pvt" => &[
+            "MovePvt([C, X, Z], [#, #, #], [#, #, #], #)\n",
+            "MovePvt([C], [#], [#], 1000)\n",
+            "MovePvt([X",
+            "])\n",
+            ", #",
+            "SetupTaskTargetMode(TargetMode.Incremental)\n",
+            "SetupTaskTargetMode(TargetMode.Absolute)\n",
+        ],
+        _ => &[
+            " C#",
+            " X#:#",
+            " Z#",
+            "\n",
+            " PVT#",
+            "\nPVT0.25\n",
+            " INC",
+            " ABS",
+            " INC(C)",
+            " TM#",
+            " N#",
+            ":#",
+            " ABS(",
+        ],
+    }
+}
+
+/// The shortest path on which a point that waited for the line behind it had the section of that line.
+#[test]
+fn a_single_cutting_point_after_a_single_point_of_the_lead_keeps_its_section() {
+    for post in POSTS {
+        let layout = plain(post);
+        let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
+        for cut in [1..2, 1..5, 2..3, 0..1] {
+            let text = assembled(
+                &layout,
+                &lines_in_sections(&layout, &points, &[], cut.clone()),
+            );
+            let (_, sections) = read_sections(&layout, text.as_bytes()).unwrap();
+            let expected = (0..5).map(|k| match k {
+                _ if k < cut.start => Section::LeadIn,
+                _ if k < cut.end => Section::Cutting,
+                _ => Section::LeadOut,
+            });
+            assert_eq!(sections, expected.collect::<Vec<_>>(), "{}", post.name);
+        }
+    }
+}
+
+/// What stands before a mark on its line is code that no reader of the path reads.
+#[test]
+fn code_before_a_mark_is_refused_and_an_end_mark_has_one_form() {
+    for post in POSTS {
+        let layout = plain(post);
+        let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
+        let (comment, good) = (post.comment, program(&layout, &points));
+        let spoiled = |from: &str, to: &str| {
+            let (from, to) = (format!("{comment} {from}"), to.replace(';', comment));
+            assert!(good.contains(&from));
+            read(&layout, good.replace(&from, &to).as_bytes())
+        };
+        let end = "-- end of path: 5 points --";
+        for mark in [end, "-- cutting --"] {
+            let said = spoiled(mark, &format!("C3600:0 X0:0 Z-50:0 ; {mark}")).unwrap_err();
+            assert!(said.contains("code stands before a mark"), "{said}");
+            assert!(spoiled(mark, &format!("  ; {mark}")).is_ok());
+        }
+        for wrong in [
+            "5 0",
+            "0 5",
+            "05 points 5",
+            "5, points",
+            "5.0 points",
+            "",
+            "points",
+        ] {
+            let said = spoiled(end, &format!("; -- end of path: {wrong} --")).unwrap_err();
+            assert!(
+                said.contains("must give the number of points"),
+                "{wrong}: {said}"
+            );
+        }
+        for right in ["-- end of path: 5 points", "-- End of Path : 5 points--"] {
+            assert!(spoiled(end, &format!("; {right}")).is_ok(), "{right}");
+        }
+    }
 }
 
 #[test]

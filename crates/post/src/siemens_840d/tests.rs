@@ -111,7 +111,21 @@ fn damaged_lines_are_refused_with_their_number() {
             "line 5: `PO[C]=(9` is not a word",
         ),
         (5, "POLY PO[C]=(9e1) F20000", "line 5: C has no number"),
-        (6, "G1 C18 X2 Z1 F20000", "line 6: a straight line within"),
+        (6, "G1 C18 X2 Z1 F20000", "line 6: `G1` ends the path"),
+        (6, "G90 UPATH G1", "line 6: `G1` ends the path"),
+        (4, "G1 C0 X2.5 Z0 X2 F60", "line 4: X appears twice"),
+        (5, "POLY PO[C]=(9) F20000 F60", "line 5: F appears twice"),
+        (5, "N POLY PO[C]=(9) F20000", "line 5: `N` is not a word"),
+        (
+            5,
+            "N10POLY PO[C]=(9) F20000",
+            "line 5: `N10POLY` is not a word",
+        ),
+        (
+            5,
+            "N+1 POLY PO[C]=(9) F20000",
+            "line 5: `N+1` is not a word",
+        ),
         (
             6,
             "PO[C]=(18) PO[X]=(2.498,-0.0012,0.0008) PO[Z]=(1,-0.0451,0.03) F20000",
@@ -121,6 +135,37 @@ fn damaged_lines_are_refused_with_their_number() {
         let message = refusal(line, new);
         assert!(message.contains(says), "{new}: {message}");
     }
+}
+
+#[test]
+fn block_numbers_and_small_letters_are_read() {
+    let layout = plain(&SIEMENS_840D_POLY);
+    let numbered = good()
+        .replace("G90 ", "N10 g90 ")
+        .replace("POLY PO[C]", "n20 poly po[c]")
+        .replace("PO[C]=(18)", "  N030 PO[c]=(18)");
+    assert_eq!(
+        read(&layout, numbered.as_bytes()),
+        read(&layout, good().as_bytes())
+    );
+}
+
+/// The velocities of such a program do not fit into the numbers of the reader.
+#[test]
+fn coefficients_of_any_size_are_refused_with_their_line() {
+    let huge = "999999999999999";
+    let poly = format!("POLY PO[X]=(0.48,{huge},{huge}) F60000000000");
+    let lines = [
+        "; -- lead-in --",
+        "G90 G93 G64 FGROUP(C) UPATH",
+        "G1 C0 X2.5 Z0 F60",
+        &poly,
+        "PO[X]=(0.48) F0.06",
+        "; -- end of path: 3 points --",
+    ];
+    let message = read(&plain(&SIEMENS_840D_POLY), lines.join("\n").as_bytes()).unwrap_err();
+    let says = "line 5: the velocity of X has too many digits";
+    assert!(message.contains(says), "{message}");
 }
 
 #[test]
