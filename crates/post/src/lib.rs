@@ -8,6 +8,7 @@
 mod automation1;
 mod axes;
 mod carry;
+mod comment;
 mod decimal;
 mod fixed_point;
 mod layout;
@@ -45,7 +46,7 @@ pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};
 pub use program_error::ProgramError;
 pub use program_format::ProgramFormat;
 pub use program_reader::ProgramReader;
-pub use program_writer::{ProgramFileBody, ProgramWriter};
+pub use program_writer::{ProgramFileBody, ProgramPath, ProgramPathInMemory, ProgramWriter};
 pub use read_csv::PathReader;
 pub use read_error::ReadError;
 pub use row::HEADER;

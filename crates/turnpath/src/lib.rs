@@ -44,6 +44,7 @@ mod run;
 mod sag;
 mod sinks;
 mod sizes;
+mod speed_steps;
 mod strategies;
 mod summary;
 mod surface;

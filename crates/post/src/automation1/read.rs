@@ -17,6 +17,8 @@ pub(super) struct AeroScript {
     absolute: Option<bool>,
     /// Whether times are in seconds, as the program must say.
     in_seconds: bool,
+    /// Whether distances are in the primary units of the axes, as the program must say.
+    in_primary_units: bool,
 }
 
 impl AeroScript {
@@ -27,6 +29,7 @@ impl AeroScript {
             axes: Axes::new(*format),
             absolute: None,
             in_seconds: false,
+            in_primary_units: false,
         }
     }
 
@@ -40,6 +43,10 @@ impl AeroScript {
             let s = time as f64 / ONE as f64;
             format!("a segment cannot take {s} s, only 1 ns to 1000 s")
         })?;
+        if !self.in_primary_units {
+            let units = "SetupTaskDistanceUnits(DistanceUnits.Primary)";
+            return Err(format!("a move before `{units}`"));
+        }
         if !self.in_seconds {
             return Err("a move before `SetupTaskTimeUnits(TimeUnits.Seconds)`".to_owned());
         }
@@ -72,6 +79,9 @@ impl Grammar for AeroScript {
             Some(("SetupTaskTargetMode", "TargetMode.Absolute")) => self.absolute = Some(true),
             Some(("SetupTaskTargetMode", "TargetMode.Incremental")) => self.absolute = Some(false),
             Some(("SetupTaskTimeUnits", "TimeUnits.Seconds")) => self.in_seconds = true,
+            Some(("SetupTaskDistanceUnits", "DistanceUnits.Primary")) => {
+                self.in_primary_units = true;
+            }
             _ => {
                 let shown: String = code.chars().take(40).collect();
                 return Err(format!("`{shown}` is not a call of a PVT path"));

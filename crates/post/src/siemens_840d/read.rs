@@ -20,10 +20,24 @@ pub(super) struct PolyGrammar {
     format: ProgramFormat,
     /// The axes, once the first block said where they stand.
     state: Option<State>,
-    /// Whether the program has said all of `G90`, `G93`, `FGROUP(C)` and `UPATH`.
-    modes: [bool; 4],
+    modes: Modes,
     /// Whether `POLY` is on.
     poly: bool,
+}
+
+/// What the program has said of its numbers. A controller begins with what the program before has left.
+#[derive(Default)]
+struct Modes {
+    /// `G71` or `G710`: lengths are in mm.
+    metric: bool,
+    /// `G90`: positions.
+    absolute: bool,
+    /// `G93`: F is one over minutes.
+    inverse_time: bool,
+    /// `FGROUP(C)`: C alone is the path to which F refers.
+    c_is_path: bool,
+    /// `UPATH`: the other axes follow the parameter.
+    by_parameter: bool,
 }
 
 /// Where the axes are, in 10⁻¹² mm or deg.
@@ -43,7 +57,7 @@ impl PolyGrammar {
         Self {
             format: *format,
             state: None,
-            modes: [false; 4],
+            modes: Modes::default(),
             poly: false,
         }
     }
@@ -157,10 +171,12 @@ impl Grammar for PolyGrammar {
         let mut is_straight = false;
         for word in without_number(&code)?.split_whitespace() {
             match word {
-                "G90" => self.modes[0] = true,
-                "G93" => self.modes[1] = true,
-                "FGROUP(C)" => self.modes[2] = true,
-                "UPATH" => self.modes[3] = true,
+                "G71" | "G710" => self.modes.metric = true,
+                "G90" => self.modes.absolute = true,
+                "G93" => self.modes.inverse_time = true,
+                "FGROUP(C)" => self.modes.c_is_path = true,
+                "FGROUP()" => self.modes.c_is_path = false,
+                "UPATH" => self.modes.by_parameter = true,
                 "G64" => {}
                 "G1" if self.state.is_some() => {
                     return Err("`G1` ends the path of polynomials".to_owned());
@@ -187,8 +203,12 @@ impl Grammar for PolyGrammar {
         if !moves && straight.is_empty() {
             return Ok(());
         }
-        if self.modes != [true; 4] {
-            return Err("a move before `G90`, `G93`, `FGROUP(C)` and `UPATH`".to_owned());
+        let modes = &self.modes;
+        if !(modes.metric && modes.absolute && modes.inverse_time) {
+            return Err("a move before `G71`, `G90` and `G93`".to_owned());
+        }
+        if moves && !(modes.c_is_path && modes.by_parameter) {
+            return Err("a polynomial before `FGROUP(C)` and `UPATH`".to_owned());
         }
         let steps = self.steps(feed.ok_or("a move without F, which `G93` needs")?)?;
         match (is_straight, moves) {

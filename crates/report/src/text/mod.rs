@@ -19,4 +19,4 @@ mod unreached;
 pub use check::check;
 pub use file::file;
 pub use numbers::{bytes, grouped, millimetres, nose_radius};
-pub use run::run;
+pub use run::{run, verified_figures};

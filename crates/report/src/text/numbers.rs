@@ -6,7 +6,7 @@ use crate::place::PathPlace;
 use crate::unit;
 
 /// Column at which values begin.
-const LABEL: usize = 16;
+pub const LABEL: usize = 16;
 /// Seconds in a minute.
 const MINUTE: f64 = 60.0;
 
