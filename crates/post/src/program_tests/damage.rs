@@ -67,8 +67,9 @@ fn a_line_with_another_character_in_a_number_is_refused_at_its_place_or_read_as_
                     ),
                     Err(said) => {
                         let at = |line: usize| said.contains(&format!("line {line}: "));
-                        // A time or a mode that is no longer said is missed by the next move.
-                        let next = if damaged < begin + WAY_LINES { 3 } else { 2 };
+                        // A time or a mode that is no longer said is missed by the next move. Where
+                        // polynomials begin elsewhere, the second one does not fit to the first.
+                        let next = if damaged < begin + WAY_LINES { 4 } else { 2 };
                         let near = (1..=next).any(|lines| at(damaged + lines));
                         assert!(near, "{line}: {said}");
                         refused += 1;
