@@ -83,19 +83,20 @@ fn a_header_without_an_open_program_and_a_rotary_buffer_need_trust() {
 /// are refused there. A word that ends the program keeps the path from running.
 #[test]
 fn text_in_quotes_is_a_command_and_so_is_the_end_of_a_program_before_the_path() {
-    let of_siemens = |header: &str| {
+    let of_siemens = |header: &str, trust: &str| {
         let output = "[output]\nposts = [\"siemens-840d-poly\"]\n\n[output.siemens-840d-poly]\n";
         let bench = Bench::with(&format!("{SADDLE}\n{output}header = '{header}'\n"));
-        bench.line("check recipe.toml").ends(2).stderr
+        let said = bench.line(&format!("check recipe.toml{trust}")).ends(2);
+        said.stderr
     };
-    let said = of_siemens("MSG(\"; part\") G0 Z-50 ; a");
+    let said = of_siemens("MSG(\"; part\") G0 Z-50 ; a", "");
     assert!(
         said.contains("it tells the controller `MSG(\"; part\") G0 Z-50`"),
         "{said}"
     );
-    let said = of_siemens("MSG(\"; {name}\")");
+    let said = of_siemens("MSG(\"; {name}\")", " --trust-recipe");
     assert!(said.contains("`{name}` is outside a comment"), "{said}");
-    let said = of_siemens("M30");
+    let said = of_siemens("M30", "");
     assert!(said.contains("it tells the controller `M30`"), "{said}");
 }
 

@@ -8,7 +8,6 @@ use turnpath_core::toolpath::ControlPoint;
 use crate::carry::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
 use crate::program_format::ProgramFormat;
-use crate::settings::VELOCITY_DECIMALS;
 
 /// A dialect of motion programs.
 #[derive(Debug, Clone, Copy)]
@@ -43,14 +42,6 @@ pub struct Post {
     pub delivered_decimals: Option<u32>,
     /// How it writes and reads lines.
     pub dialect: &'static dyn Dialect,
-}
-
-impl Post {
-    /// Whether its programs have velocities, whose decimals are a setting.
-    pub fn writes_velocities(&self) -> bool {
-        let mut keys = self.keys.iter();
-        keys.any(|info| info.name == VELOCITY_DECIMALS.info().name)
-    }
 }
 
 /// How a dialect writes the lines of a path, and how it reads them. Writer and reader share no code.

@@ -1,6 +1,6 @@
 //! The errors of a path that a program cannot carry.
 
-use crate::post::Post;
+use turnpath_core::ParamInfo;
 
 /// Why a program cannot carry a path, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -63,15 +63,15 @@ pub enum ProgramError {
 }
 
 impl ProgramError {
-    /// What the user can do with the keys of a post.
-    pub fn help(&self, post: &Post) -> &'static str {
-        let has = |key: &str| post.keys.iter().any(|info| info.name == key);
+    /// What the user can do with these keys, which a post has.
+    pub fn help(&self, keys: &[ParamInfo]) -> &'static str {
+        let has = |key: &str| keys.iter().any(|info| info.name == key);
         match self {
             Self::Short { .. } | Self::ShorterThanSaid { .. } => {
                 "place points farther apart, or turn the spindle slower"
             }
             Self::Digits { axis: 'C', .. } if has("c_wrap") => {
-                "write fewer decimals, or c_wrap = \"0-360\""
+                "write a smaller position_decimals, or c_wrap = \"0-360\""
             }
             Self::Digits { .. } if has("velocity_decimals") => {
                 "write a smaller position_decimals or velocity_decimals"
@@ -81,6 +81,32 @@ impl ProgramError {
                 "place points closer together, or write c_wrap = \"unwrapped\""
             }
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::POSTS;
+
+    #[test]
+    fn help_on_digits_names_keys_that_the_post_has() {
+        let keys = ["position_decimals", "velocity_decimals", "c_wrap"];
+        for post in POSTS {
+            for axis in ['C', 'X'] {
+                let error = ProgramError::Digits {
+                    axis,
+                    value: 1e9,
+                    decimals: 12,
+                    t: 0.0,
+                };
+                let help = error.help(post.keys);
+                let has = |key: &&str| post.keys.iter().any(|info| info.name == *key);
+                let named = keys.iter().filter(|key| help.contains(**key));
+                assert!(named.clone().count() > 0, "{help}");
+                assert!(named.clone().all(|key| has(key)), "{}: {help}", post.name);
+            }
         }
     }
 }

@@ -72,6 +72,12 @@ pub const FOOTER: Param<Option<Text>> = Param::text(
 .optional();
 
 impl Post {
+    /// Whether its programs have velocities, whose decimals are a setting.
+    pub fn writes_velocities(&self) -> bool {
+        let mut keys = self.keys.iter();
+        keys.any(|info| info.name == VELOCITY_DECIMALS.info().name)
+    }
+
     /// The format that the keys of its table give. A key that it does not have, or that has no value,
     /// counts as absolute positions, C unwrapped and growing, 7 decimals, velocities per second.
     /// `z_above` is Z of the path − Z of the program, mm.

@@ -118,7 +118,7 @@ pub fn not_carried(recipe: &Recipe, not_carried: NotCarried) -> Error {
     let post = posts.find(|post| post.value == name);
     let span = post.map_or_else(|| recipe.nearest_span("output"), |post| post.span.clone());
     let title = format!("the post `{name}` cannot carry this path: {error}");
-    let help = post_named(name).map(|post| error.help(post).to_owned());
+    let help = post_named(name).map(|post| error.help(post.keys).to_owned());
     Error::refused_by(recipe.diagnostic(span, title, "chosen here", help), error)
 }
 

@@ -3,7 +3,7 @@
 
 use turnpath_core::toolpath::ControlPoint;
 
-use crate::axes::{Axes, AxisWords, NAMES, steps_of};
+use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
 use crate::fixed_point::{ONE, number};
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
@@ -41,7 +41,8 @@ impl AeroScript {
         let words = axis_words(&axes, &positions, &velocities)?;
         let steps = steps_of(time, self.steps_per_s, self.longest).ok_or_else(|| {
             let s = time as f64 / ONE as f64;
-            format!("a segment cannot take {s} s, only 1 ns to 1000 s")
+            let range = times(self.steps_per_s, self.longest, "s");
+            format!("a segment cannot take {s} s, only {range}")
         })?;
         if !self.in_primary_units {
             let units = "SetupTaskDistanceUnits(DistanceUnits.Primary)";

@@ -57,7 +57,6 @@ use crate::settings::{
 pub(crate) const TURBO_CLOCK: Clock = Clock {
     steps_per_ms: 4096,
     decimals: 12,
-    range: "1/4096 ms to 4095.9998 ms",
 };
 
 /// Programs for Turbo PMAC.

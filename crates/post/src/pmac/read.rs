@@ -4,7 +4,7 @@ use turnpath_core::toolpath::ControlPoint;
 
 use super::clock::Clock;
 use super::scan::{Axis, Word, split_comment, words};
-use crate::axes::{Axes, AxisWords, NAMES, steps_of};
+use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
 use crate::fixed_point::ONE;
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
@@ -41,9 +41,10 @@ impl PvtGrammar {
 
     /// A time in steps, from 10⁻¹² ms.
     fn steps(&self, time: i128) -> Result<i64, String> {
-        steps_of(time, self.clock.steps_per_ms, self.longest).ok_or_else(|| {
+        let steps_per_ms = self.clock.steps_per_ms;
+        steps_of(time, steps_per_ms, self.longest).ok_or_else(|| {
             let ms = time as f64 / ONE as f64;
-            let range = self.clock.range;
+            let range = times(steps_per_ms, self.longest, "ms");
             format!("a segment cannot take {ms} ms, only {range}")
         })
     }

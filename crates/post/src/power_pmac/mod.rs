@@ -14,7 +14,6 @@ use crate::post::Post;
 const CLOCK: Clock = Clock {
     steps_per_ms: 1_000_000,
     decimals: 6,
-    range: "0.000001 ms to 1000 s",
 };
 
 /// Programs for Power PMAC.

@@ -3,7 +3,7 @@
 
 use turnpath_core::toolpath::ControlPoint;
 
-use crate::axes::{Axes, AxisWords, NAMES};
+use crate::axes::{Axes, AxisWords, NAMES, times};
 use crate::fixed_point::number;
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
@@ -68,8 +68,9 @@ impl PolyGrammar {
         if steps.round() >= 1.0 && steps.round() <= self.format.longest as f64 {
             return Ok(steps.round() as i64);
         }
+        let range = times(self.format.steps_per_s, self.format.longest, "s");
         Err(format!(
-            "F{feed} is no segment that the controller plays: 60/F must be 1 ns to 1000 s"
+            "F{feed} is no segment that the controller plays: 60/F must be {range}"
         ))
     }
 
