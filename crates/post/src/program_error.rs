@@ -105,7 +105,7 @@ mod tests {
                 let has = |key: &&str| post.keys.iter().any(|info| info.name == *key);
                 let named = keys.iter().filter(|key| help.contains(**key));
                 assert!(named.clone().count() > 0, "{help}");
-                assert!(named.clone().all(|key| has(key)), "{}: {help}", post.name);
+                assert!(named.clone().all(has), "{}: {help}", post.name);
             }
         }
     }
