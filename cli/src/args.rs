@@ -31,8 +31,10 @@ pub enum Command {
     Ablate(AblateArgs),
     /// Measure a tool path against a recipe's surface, tool and tolerances
     Verify(VerifyArgs),
-    /// Write the surface of a recipe on a grid, as CSV
+    /// Write the surface of a recipe on a grid, or compare it with a map
     Sag(SagArgs),
+    /// Make a recipe of a surface of a lens design, a Zemax .zmx
+    Import(ImportArgs),
     /// List the strategies that can be chosen
     List(ListArgs),
     /// Explain one strategy, or one table of the recipe: its keys, defaults and limits
@@ -193,6 +195,36 @@ pub struct SagArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct ImportArgs {
+    /// The lens design: a Zemax .zmx
+    pub file: PathBuf,
+    /// The number of the surface in the design; the only one that is bent unless given
+    #[arg(long, value_name = "N")]
+    pub surface: Option<usize>,
+    /// The side of the surface on which the tool stands; the side without material unless given
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub tool_side: Option<ToolSide>,
+    /// The diameter of the part, such as "60 mm"; that of the aperture in the design unless given
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub aperture: Option<String>,
+    /// The recipe to write; standard output unless given, as with -
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A side of a surface, by the z axis of its design.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ToolSide {
+    /// Where z of the design is less
+    MinusZ,
+    /// Where z of the design is more
+    PlusZ,
+}
+
+#[derive(Debug, Args)]
 pub struct ListArgs {
     /// Only the strategies of this slot
     #[arg(value_parser = PossibleValuesParser::new(Slot::ALL.map(Slot::key)))]
@@ -215,17 +247,18 @@ pub struct ExplainArgs {
 }
 
 impl Command {
-    /// Where its strategies come from.
-    pub fn plugins(&self) -> &PluginArgs {
-        match self {
+    /// Where its strategies come from, if it needs any.
+    pub fn plugins(&self) -> Option<&PluginArgs> {
+        Some(match self {
             Self::Run(args) => &args.recipe.plugins,
             Self::Check(args) => &args.recipe.plugins,
             Self::Ablate(args) => &args.recipe.plugins,
             Self::Verify(args) => &args.recipe.plugins,
             Self::Sag(args) => &args.recipe.plugins,
+            Self::Import(_) => return None,
             Self::List(args) => &args.plugins,
             Self::Explain(args) => &args.plugins,
-        }
+        })
     }
 }
 

@@ -28,6 +28,7 @@ mod error;
 mod figures;
 mod folder;
 mod form;
+mod import;
 mod job;
 mod memory;
 mod meters;
@@ -54,6 +55,7 @@ pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
 pub use commands::{commands_to_trust, controller_commands};
 pub use data_files::DataFileError;
 pub use error::{Error, Fault};
+pub use import::{ImportRequest, ImportedRecipe, import};
 pub use job::Job;
 pub use outputs::Outputs;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
@@ -69,6 +71,7 @@ pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
 };
+pub use turnpath_lens::Side;
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{ProgramError, ReadError};
 pub use turnpath_recipe::{
