@@ -188,10 +188,38 @@ pub struct SagArgs {
     pub recipe: RecipeArgs,
     /// Points along each side of the square around the aperture, its edges included
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=20_000))]
-    pub grid: u32,
-    /// The file to write; - for standard output
-    #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
+    #[arg(required_unless_present = "against", conflicts_with = "against")]
+    pub grid: Option<u32>,
+    /// The file to write: .gsf (Gwyddion), .DAT (Zemax), or CSV for all others; - for CSV on
+    /// standard output
+    #[arg(short, long, value_name = "FILE", required_unless_present = "against")]
+    pub output: Option<PathBuf>,
+    /// Compare a map with the surface instead, at the map's own points on the part; -o then writes
+    /// the difference, map minus surface
+    #[arg(long, value_name = "MAP")]
+    pub against: Option<PathBuf>,
+    #[command(flatten)]
+    pub map: MapArgs,
+    /// What to print on standard output
+    #[arg(long, value_enum, default_value_t = Format::Human, requires = "against")]
+    pub format: Format,
+}
+
+/// What the file of a map does not say. What is given goes before what the file says.
+#[derive(Debug, Args)]
+pub struct MapArgs {
+    /// Unit of x, y and distances in the map: m, cm, mm, um, nm or in
+    #[arg(long, value_name = "UNIT", requires = "against")]
+    pub xy_unit: Option<String>,
+    /// Unit of heights in the map
+    #[arg(long, value_name = "UNIT", requires = "against")]
+    pub z_unit: Option<String>,
+    /// Distance of neighbouring points of the map, such as "0.1 mm"
+    #[arg(long, value_name = "LENGTH", requires = "against")]
+    pub pitch: Option<String>,
+    /// Change the sign of x in the map
+    #[arg(long, requires = "against")]
+    pub flip_x: bool,
 }
 
 #[derive(Debug, Args)]

@@ -63,7 +63,7 @@ pub use plugins::with_listed_plugins;
 pub use plugins_lock::{PluginsLock, PluginsLockError};
 pub use result_check::{ResultError, read_result};
 pub use run::RunResult;
-pub use sag::{write_sag, write_sag_to};
+pub use sag::{MapSource, compare_with_map, write_sag, write_sag_to};
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
@@ -72,6 +72,7 @@ pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
 };
 pub use turnpath_lens::Side;
+pub use turnpath_maps::length_unit;
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{ProgramError, ReadError};
 pub use turnpath_recipe::{
