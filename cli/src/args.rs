@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use turnpath::MapFormat;
 use turnpath::report::comparison;
 use turnpath_core::Slot;
 
@@ -201,13 +202,18 @@ pub struct SagArgs {
     #[command(flatten)]
     pub map: MapArgs,
     /// What to print on standard output
-    #[arg(long, value_enum, default_value_t = Format::Human, requires = "against")]
-    pub format: Format,
+    #[arg(long, value_enum, requires = "against")]
+    pub format: Option<Format>,
 }
 
 /// What the file of a map does not say. What is given goes before what the file says.
 #[derive(Debug, Args)]
 pub struct MapArgs {
+    /// Format of the map: zemax, code-v, xyz, gsf or metropro; as its first bytes or its name say
+    /// unless given
+    #[arg(long, value_name = "FORMAT", requires = "against")]
+    #[arg(value_parser = PossibleValuesParser::new(MapFormat::WORDS.map(|(word, _)| word)))]
+    pub map_format: Option<String>,
     /// Unit of x, y and distances in the map: m, cm, mm, um, nm or in
     #[arg(long, value_name = "UNIT", requires = "against")]
     pub xy_unit: Option<String>,

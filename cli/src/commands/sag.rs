@@ -5,13 +5,14 @@ use std::path::Path;
 
 use turnpath::report::text;
 use turnpath::{
-    Catalogue, Error, MapSource, Recipe, compare_with_map, length_unit, write_sag, write_sag_to,
+    Catalogue, Error, MapFormat, MapSource, Recipe, compare_with_map, length_unit, write_sag,
+    write_sag_to,
 };
 use turnpath_core::Quantity;
 
 use super::output::{is_standard, refuse_output};
 use super::setup;
-use crate::args::SagArgs;
+use crate::args::{Format, SagArgs};
 use crate::failure::Failure;
 use crate::print::{Output, print_report};
 use crate::{Outcome, Status};
@@ -27,7 +28,11 @@ pub fn sag(args: &SagArgs, catalogue: Catalogue) -> Outcome {
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
     if let Some(source) = against {
         let report = compare_with_map(&recipe, &catalogue, &source, args.output.as_deref())?;
-        print_report(args.format, &report, text::map_comparison)?;
+        print_report(
+            args.format.unwrap_or(Format::Human),
+            &report,
+            text::map_comparison,
+        )?;
         return Ok(Status::Holds);
     }
     match (args.grid, args.output.as_deref()) {
@@ -59,8 +64,10 @@ fn source(args: &SagArgs, file: &Path) -> Result<MapSource, Failure> {
         let parsed = Quantity::Length.parse(text);
         parsed.map_err(|error| Failure::Call(format!("--pitch: {error}")))
     });
+    let format = map.map_format.as_deref().and_then(MapFormat::of_word);
     Ok(MapSource {
         file: file.to_owned(),
+        format,
         xy_unit: unit("--xy-unit", map.xy_unit.as_deref())?,
         z_unit: unit("--z-unit", map.z_unit.as_deref())?,
         pitch: pitch.transpose()?,

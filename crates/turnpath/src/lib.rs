@@ -72,7 +72,7 @@ pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
 };
 pub use turnpath_lens::Side;
-pub use turnpath_maps::length_unit;
+pub use turnpath_maps::{Format as MapFormat, length_unit};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{ProgramError, ReadError};
 pub use turnpath_recipe::{

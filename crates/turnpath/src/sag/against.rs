@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use turnpath_core::{Part, SurfaceModel};
 use turnpath_files::{Draft, read_bounded};
 use turnpath_host::Catalogue;
-use turnpath_maps::{Conventions, Map, MapError};
+use turnpath_maps::{Conventions, Format, Map, MapError};
 use turnpath_pipeline::Link;
 use turnpath_post::GridPoints;
 use turnpath_recipe::{Diagnostic, Recipe};
@@ -28,6 +28,8 @@ const EDGE: f64 = 1e-9;
 pub struct MapSource {
     /// The file.
     pub file: PathBuf,
+    /// The format; without it as the first bytes or the name say.
+    pub format: Option<Format>,
     /// Unit of x, y and distances, mm; without it that of the file.
     pub xy_unit: Option<f64>,
     /// Unit of heights, mm; without it that of the file.
@@ -91,6 +93,7 @@ fn read_map(source: &MapSource) -> Result<Map, Error> {
         source,
     })?;
     let conventions = Conventions {
+        format: source.format,
         xy_unit: source.xy_unit,
         z_unit: source.z_unit,
         pitch_x: source.pitch,
