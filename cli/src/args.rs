@@ -202,7 +202,7 @@ pub struct SagArgs {
     #[command(flatten)]
     pub map: MapArgs,
     /// What to print on standard output
-    #[arg(long, value_enum, requires = "against")]
+    #[arg(long, value_enum, requires = "against", conflicts_with = "grid")]
     pub format: Option<Format>,
 }
 
@@ -211,20 +211,40 @@ pub struct SagArgs {
 pub struct MapArgs {
     /// Format of the map: zemax, code-v, xyz, gsf or metropro; as its first bytes or its name say
     /// unless given
-    #[arg(long, value_name = "FORMAT", requires = "against")]
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
     #[arg(value_parser = PossibleValuesParser::new(MapFormat::WORDS.map(|(word, _)| word)))]
     pub map_format: Option<String>,
     /// Unit of x, y and distances in the map: m, cm, mm, um, nm or in
-    #[arg(long, value_name = "UNIT", requires = "against")]
+    #[arg(
+        long,
+        value_name = "UNIT",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
     pub xy_unit: Option<String>,
     /// Unit of heights in the map
-    #[arg(long, value_name = "UNIT", requires = "against")]
+    #[arg(
+        long,
+        value_name = "UNIT",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
     pub z_unit: Option<String>,
     /// Distance of neighbouring points of the map, such as "0.1 mm"
-    #[arg(long, value_name = "LENGTH", requires = "against")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
     pub pitch: Option<String>,
     /// Change the sign of x in the map
-    #[arg(long, requires = "against")]
+    #[arg(long, requires = "against", conflicts_with = "grid")]
     pub flip_x: bool,
 }
 

@@ -29,7 +29,11 @@ fn the_commands_of_the_telescope_mirror_print_what_the_page_quotes() {
     assert_eq!(commands.len(), 4);
     for (command, quoted) in commands {
         let said = bench.line(command).ends(0);
-        assert_eq!(format!("{}{}", said.stdout, said.stderr), quoted, "{command}");
+        assert_eq!(
+            format!("{}{}", said.stdout, said.stderr),
+            quoted,
+            "{command}"
+        );
     }
     let (_, recipe) = page.split_once("```toml\n").expect("the recipe");
     let (recipe, _) = recipe.split_once("```").expect("its end");

@@ -85,7 +85,8 @@ def parm(values):
 
 
 def xdat(normalization, values):
-    rows = {1: max(values), 2: normalization, **{n + 2: value for n, value in values.items()}}
+    rows = {1: max(values), 2: normalization}
+    rows |= {n + 2: values.get(n, 0.0) for n in range(1, max(values) + 1)}
     return [f'XDAT {n} {value:.17E} 0 0 1.000000000000E+000 0.000000000000E+000 0 ""'
             for n, value in rows.items()]
 
