@@ -411,3 +411,23 @@ fn names_stay_in_their_lines() {
     bench.line("sag recipe.toml --grid 2 -o -").ends(0);
     assert!(said.stdout.contains("\\u{c}format"), "{said}");
 }
+
+/// What the part has beside its clear aperture is said, and only that.
+#[test]
+fn an_edge_beyond_the_aperture_is_a_note() {
+    let note = |lines: &str, words: &str| {
+        let to = format!("DISZ 50\n{lines}");
+        let said = import("DISZ 50\n", &to, &format!("--surface 2 {words}"));
+        said.ends(0).stderr
+    };
+    assert_eq!(note("  CLAP 1 6 0\n  MEMA 6 0 0 0 1\n", ""), "");
+    assert_eq!(
+        note("  CLAP 1 6 0\n  MEMA 6.5 0 0 0 1\n", ""),
+        "note: line 22: MEMA 6.5 0 0 0 1 is not in the recipe\n"
+    );
+    assert_eq!(
+        note("  CLAP 1 6 0\n  OBSC 0 2 0\n", "--aperture 8mm"),
+        "note: line 21: CLAP 1 6 0 is not in the recipe\n\
+         note: line 22: OBSC 0 2 0 is not in the recipe\n"
+    );
+}

@@ -6,6 +6,9 @@ use crate::numbers::{no_number, number};
 use crate::record::Record;
 use crate::surface_block::SurfaceBlock;
 
+/// Where something comes from that the caller said.
+pub const AS_ASKED_FOR: &str = "as asked for";
+
 /// A circle on a surface, in the frame in which it is given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Aperture {
@@ -33,7 +36,7 @@ pub fn read_aperture(
         Some(record) => pair(record)?,
     };
     let (radius, inner, origin) = match given {
-        Some(radius) => (radius / unit, 0.0, "as asked for".to_owned()),
+        Some(radius) => (radius / unit, 0.0, AS_ASKED_FOR.to_owned()),
         None => of_file(block)?,
     };
     Ok(Aperture {

@@ -1,8 +1,9 @@
 //! A lens file, and one surface out of it.
 
-use crate::aperture::{Aperture, read_aperture};
+use crate::aperture::{AS_ASKED_FOR, Aperture, read_aperture};
 use crate::error::{LensError, LensProblem, ProblemKind};
 use crate::keys::{is_of_surface, is_other_aperture, is_system};
+use crate::numbers::number;
 use crate::record::{Record, records, shown};
 use crate::shape::Shape;
 use crate::shape_reader::{ReadShape, read_shape};
@@ -96,7 +97,7 @@ impl LensText {
         let aperture = read_aperture(block, unit, selection.radius);
         let aperture = keep(aperture, &mut problems);
         let side = match selection.side {
-            Some(side) => Some((side, "as asked for")),
+            Some(side) => Some((side, AS_ASKED_FOR)),
             None => keep(cut_from(&lines.blocks, block), &mut problems),
         };
         if let (Some(shape), Some(aperture)) = (&shape, &aperture) {
@@ -234,6 +235,7 @@ impl<'a> Lines<'a> {
                 shape.seen_from_behind()
             }
         };
+        let notes = self.notes(block, &aperture);
         let title = self.system.iter().find(|record| record.key == "NAME");
         let title = title.map(Record::text).filter(|text| !text.is_empty());
         DesignSurface {
@@ -246,11 +248,18 @@ impl<'a> Lines<'a> {
             side_origin,
             shape,
             aperture,
-            notes: self.notes(block),
+            notes,
         }
     }
 
-    fn notes(&self, block: &SurfaceBlock<'a>) -> Vec<Note> {
+    /// Whether the part reaches beyond its aperture.
+    fn reaches_beyond(&self, record: &Record<'_>, aperture: &Aperture) -> bool {
+        let radius = number(record.line, record.words().next());
+        let in_mm = radius.and_then(|radius| Ok(radius * self.unit()?));
+        in_mm.is_ok_and(|radius| radius > aperture.radius * (1.0 + ROUNDING))
+    }
+
+    fn notes(&self, block: &SurfaceBlock<'a>, aperture: &Aperture) -> Vec<Note> {
         let earlier = self.blocks.get(..block.number).unwrap_or_default();
         let breaks = earlier.iter().filter(|one| one.is_break());
         let breaks = breaks.filter_map(|one| {
@@ -268,8 +277,12 @@ impl<'a> Lines<'a> {
             let line = one.line;
             (!numbers.is_empty()).then_some(Note { line, text })
         });
-        let of_edge = block.records.iter().filter(|record| {
-            record.key == "OBSC" || record.key == "MEMA" || is_other_aperture(record.key)
+        let is_given = aperture.origin == AS_ASKED_FOR;
+        let of_edge = block.records.iter().filter(|record| match record.key {
+            "OBSC" => true,
+            "CLAP" | "FLAP" => is_given,
+            "MEMA" => self.reaches_beyond(record, aperture),
+            key => is_other_aperture(key),
         });
         let of_edge = of_edge.map(|record| Note {
             line: record.line,
@@ -278,6 +291,9 @@ impl<'a> Lines<'a> {
         breaks.chain(of_edge).collect()
     }
 }
+
+/// Part of a radius that is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Most surfaces that a message lists.
 const MOST_LISTED: usize = 30;

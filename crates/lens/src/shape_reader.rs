@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use crate::base::Base;
 use crate::error::{LensProblem, ProblemKind};
-use crate::numbers::{power, radius};
+use crate::numbers::{no_number, power, radius};
 use crate::record::shown;
 use crate::shape::{Powers, Shape};
 use crate::slots::Slots;
@@ -151,7 +151,12 @@ impl Reader<'_, '_> {
                 let line = self.xdat.line(number + BEFORE_TERMS);
                 return Err(ProblemKind::Power { power, most }.at(line));
             }
-            powers.insert(of, coefficient / power(normalization, of));
+            let value = coefficient / power(normalization, of);
+            if !value.is_finite() {
+                let line = self.xdat.line(number + BEFORE_TERMS);
+                return Err(no_number(line, &value.to_string(), "coefficient"));
+            }
+            powers.insert(of, value);
         }
         Ok(Shape::Radial {
             base: self.base()?,

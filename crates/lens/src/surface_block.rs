@@ -10,6 +10,9 @@ const STANDARD: &str = "STANDARD";
 /// A break of coordinates, which is no surface.
 const BREAK: &str = "COORDBRK";
 
+/// A metre in mm: the largest unit of a file.
+const LARGEST_UNIT: f64 = 1e3;
+
 /// What a mirror has for a glass.
 const MIRROR: &str = "MIRROR";
 
@@ -65,7 +68,7 @@ impl<'a> SurfaceBlock<'a> {
             None => Ok(0.0),
             Some(record) => {
                 let curvature = fixed_number(record, "CURV")?;
-                match curvature == 0.0 || (1.0 / curvature).is_finite() {
+                match curvature == 0.0 || (LARGEST_UNIT / curvature).is_finite() {
                     true => Ok(curvature),
                     false => Err(no_number(record.line, record.rest, "curvature")),
                 }
