@@ -41,11 +41,11 @@ impl DigitSegment {
     }
 }
 
-/// What stands in the lines of a stretch.
-pub(crate) enum Written<'a> {
-    /// The path's first point.
-    First(&'a Digits),
-    /// A segment.
+/// A move of a program.
+pub(crate) enum Move<'a> {
+    /// To the path's first point.
+    Start(&'a Digits),
+    /// Along a segment.
     Segment(&'a DigitSegment),
 }
 
@@ -54,7 +54,7 @@ pub(crate) enum Written<'a> {
 pub(crate) fn carry(
     format: &ProgramFormat,
     stretch: &SectionBlock<'_>,
-    write: &mut dyn FnMut(Written<'_>),
+    write: &mut dyn FnMut(Move<'_>),
 ) -> Result<usize, ProgramError> {
     let mut trail = Trail::default();
     for point in stretch.before {
@@ -62,9 +62,9 @@ pub(crate) fn carry(
     }
     let mut points = 0;
     for point in stretch.points.points() {
-        trail.go_to(format, &point, &mut |written| {
+        trail.go_to(format, &point, &mut |step| {
             points += 1;
-            write(written);
+            write(step);
         })?;
     }
     Ok(points)
@@ -80,10 +80,10 @@ pub(crate) fn carried(
         shape: stretch.points.shape,
         ..PathBlock::default()
     };
-    carry(format, stretch, &mut |written| {
-        carried.push(match written {
-            Written::First(digits) => digits.point(format),
-            Written::Segment(segment) => segment.to.point(format),
+    carry(format, stretch, &mut |step| {
+        carried.push(match step {
+            Move::Start(digits) => digits.point(format),
+            Move::Segment(segment) => segment.to.point(format),
         });
     })?;
     Ok(carried)
@@ -136,11 +136,11 @@ impl Trail {
         &mut self,
         format: &ProgramFormat,
         point: &ControlPoint,
-        write: &mut dyn FnMut(Written<'_>),
+        write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
         let end = Digits::of(format, point, self.point.as_ref())?;
         match self.digits {
-            None => write(Written::First(&end)),
+            None => write(Move::Start(&end)),
             Some(from) => {
                 let steps = end.steps - from.steps;
                 let (t, c_deg) = (point.t, point.c / DEG);
@@ -168,7 +168,7 @@ impl Trail {
         format: &ProgramFormat,
         point: &ControlPoint,
         to: Digits,
-        write: &mut dyn FnMut(Written<'_>),
+        write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
         let Some(from) = self.digits else {
             return Ok(());
@@ -183,7 +183,7 @@ impl Trail {
             to,
             steps_before: self.steps,
         };
-        write(Written::Segment(&segment));
+        write(Move::Segment(&segment));
         self.steps = Some(segment.steps());
         self.digits = Some(to);
         Ok(())

@@ -21,3 +21,18 @@ pub(crate) fn fixed(whole: &str, fraction: &str) -> Option<i128> {
     let next = fraction.as_bytes().get(PLACES as usize);
     Some(sum + i128::from(next.is_some_and(|digit| *digit >= b'5')))
 }
+
+/// A decimal number with or without a minus in 10⁻¹²; `what` names it in the message.
+pub(crate) fn number(what: &str, text: &str) -> Result<i128, String> {
+    let (negative, size) = match text.strip_prefix('-') {
+        Some(size) => (true, size),
+        None => (false, text),
+    };
+    let (whole, fraction) = size.split_once('.').unwrap_or((size, ""));
+    let are_digits = |digits: &str| digits.bytes().all(|byte| byte.is_ascii_digit());
+    if whole.len() + fraction.len() == 0 || !are_digits(whole) || !are_digits(fraction) {
+        return Err(format!("{what} has no number"));
+    }
+    let size = fixed(whole, fraction).ok_or_else(|| format!("{what} has too many digits"))?;
+    Ok(if negative { -size } else { size })
+}

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
-use crate::carry::{Written, carried, carry, turns_left_out};
+use crate::carry::{Move, carried, carry, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
@@ -44,9 +44,9 @@ impl Layout {
             let opening = format!("{} {}\n", post.comment, mark(stretch.section));
             text.extend_from_slice(opening.as_bytes());
         }
-        let points = carry(format, stretch, &mut |written| match written {
-            Written::First(digits) => post.dialect.write_first(&mut text, format, digits),
-            Written::Segment(segment) => post.dialect.write_segment(&mut text, format, segment),
+        let points = carry(format, stretch, &mut |step| match step {
+            Move::Start(digits) => post.dialect.write_first(&mut text, format, digits),
+            Move::Segment(segment) => post.dialect.write_segment(&mut text, format, segment),
         })?;
         Ok(Lines { text, points })
     }

@@ -52,19 +52,19 @@ fn first_touch(bencher: Bencher<'_, '_>) {
 
 /// A conic, or a map of it.
 #[derive(Debug, Clone, Copy)]
-enum Which {
+enum Sag {
     Conic,
     /// Points along a side of the map.
     Map(usize),
 }
 
 /// A sphere of 50 mm, and maps of it with a side of 12 mm.
-fn conic(which: Which) -> Arc<dyn SurfaceModel> {
+fn conic(sag: Sag) -> Arc<dyn SurfaceModel> {
     let params = Params::new().with("radius", 50.0).with("conic", 0.0);
     let Ok(conic) = Conic::new(&params) else {
         panic!("the conic has its parameters")
     };
-    let Which::Map(count) = which else {
+    let Sag::Map(count) = sag else {
         return Arc::new(conic);
     };
     let pitch = 12.0 / (count - 1) as f64;
@@ -78,10 +78,10 @@ fn conic(which: Which) -> Arc<dyn SurfaceModel> {
     }
 }
 
-#[divan::bench(args = [Which::Conic, Which::Map(256), Which::Map(1024)])]
-fn first_touch_on_a_map(bencher: Bencher<'_, '_>, which: Which) {
+#[divan::bench(args = [Sag::Conic, Sag::Map(256), Sag::Map(1024)])]
+fn first_touch_on_a_map(bencher: Bencher<'_, '_>, sag: Sag) {
     let subject = Subject {
-        surface: conic(which),
+        surface: conic(sag),
         part: Part {
             aperture_radius: 5.0,
             inner_radius: 0.0,

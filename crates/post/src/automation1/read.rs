@@ -4,7 +4,7 @@
 use turnpath_core::toolpath::ControlPoint;
 
 use crate::axes::{Axes, AxisWords, NAMES, steps_of};
-use crate::fixed_point::{ONE, fixed};
+use crate::fixed_point::{ONE, number};
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
 
@@ -34,7 +34,7 @@ impl AeroScript {
         let (axes, rest) = list(arguments)?;
         let (positions, rest) = list(after_comma(rest)?)?;
         let (velocities, rest) = list(after_comma(rest)?)?;
-        let time = number("the time", after_comma(rest)?)?;
+        let time = number("the time", after_comma(rest)?.trim())?;
         let words = axis_words(&axes, &positions, &velocities)?;
         let steps = steps_of(time, self.steps_per_s, self.longest).ok_or_else(|| {
             let s = time as f64 / ONE as f64;
@@ -110,25 +110,9 @@ fn axis_words(axes: &[&str], positions: &[&str], velocities: &[&str]) -> Result<
         if words[k].is_some() {
             return Err(format!("{axis} appears twice on this line"));
         }
-        let position = number(&format!("the position of {axis}"), position)?;
-        let velocity = number(&format!("the velocity of {axis}"), velocity)?;
+        let position = number(&format!("the position of {axis}"), position.trim())?;
+        let velocity = number(&format!("the velocity of {axis}"), velocity.trim())?;
         words[k] = Some((position, Some(velocity)));
     }
     Ok(words)
-}
-
-/// A constant in 10⁻¹².
-fn number(what: &str, text: &str) -> Result<i128, String> {
-    let text = text.trim();
-    let (negative, size) = match text.strip_prefix('-') {
-        Some(size) => (true, size),
-        None => (false, text),
-    };
-    let (whole, fraction) = size.split_once('.').unwrap_or((size, ""));
-    let are_digits = |digits: &str| digits.bytes().all(|byte| byte.is_ascii_digit());
-    if whole.len() + fraction.len() == 0 || !are_digits(whole) || !are_digits(fraction) {
-        return Err(format!("{what} has no number"));
-    }
-    let size = fixed(whole, fraction).ok_or_else(|| format!("{what} has too many digits"))?;
-    Ok(if negative { -size } else { size })
 }

@@ -4,7 +4,7 @@
 use turnpath_core::toolpath::ControlPoint;
 
 use crate::axes::{Axes, AxisWords, NAMES};
-use crate::fixed_point::fixed;
+use crate::fixed_point::number;
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
 
@@ -241,19 +241,4 @@ fn feed_of(word: &str) -> Result<f64, String> {
 fn not_a_word(word: &str) -> String {
     let shown: String = word.chars().take(40).collect();
     format!("`{shown}` is not a word of a path of polynomials")
-}
-
-/// A constant in 10⁻¹².
-fn number(axis: &str, text: &str) -> Result<i128, String> {
-    let (negative, size) = match text.strip_prefix('-') {
-        Some(size) => (true, size),
-        None => (false, text),
-    };
-    let (whole, fraction) = size.split_once('.').unwrap_or((size, ""));
-    let are_digits = |digits: &str| digits.bytes().all(|byte| byte.is_ascii_digit());
-    if whole.len() + fraction.len() == 0 || !are_digits(whole) || !are_digits(fraction) {
-        return Err(format!("{axis} has no number"));
-    }
-    let size = fixed(whole, fraction).ok_or_else(|| format!("{axis} has too many digits"))?;
-    Ok(if negative { -size } else { size })
 }

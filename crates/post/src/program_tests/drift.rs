@@ -1,0 +1,74 @@
+//! The times of a program add up to the time of the path.
+
+use super::*;
+use crate::POSTS;
+
+/// The time of a segment in seconds, from a line of text alone.
+fn said_time(line: &str) -> Option<f64> {
+    if let Some(ms) = line.strip_prefix("PVT") {
+        return Some(ms.parse::<f64>().unwrap() / 1e3);
+    }
+    if let Some((_, feed)) = line.split_once(" F") {
+        let feed: Option<f64> = feed.parse().ok();
+        return feed.map(|feed| 60.0 / feed);
+    }
+    let call = line.strip_prefix("MovePvt(")?.strip_suffix(')')?;
+    Some(call.rsplit(", ").next().unwrap().parse().unwrap())
+}
+
+/// The sum of the times in the text stays within half a step of the path's time, however many segments
+/// it has. The sum is counted in steps, so that it has no rounding of its own.
+fn times_do_not_drift(layout: &Layout, segments: u32) {
+    let steps_per_s = layout.format.steps_per_s as f64;
+    // 1/3 ms and a little is never a whole number of steps.
+    let point = |k: u32| ControlPoint {
+        t: f64::from(k) * (1e-3 / 3.0 + 1e-10 / 7.0),
+        c: f64::from(k) * 0.01,
+        vc: 30.0,
+        ..ControlPoint::default()
+    };
+    let (mut sum, mut time, mut first) = (0i64, 0i64, true);
+    let mut before: Vec<ControlPoint> = Vec::new();
+    for begin in (0..=segments).step_by(10_000) {
+        let mut block = PathBlock::default();
+        (begin..(begin + 10_000).min(segments + 1)).for_each(|k| block.push(point(k)));
+        let stretch = SectionBlock {
+            section: Section::Cutting,
+            opens_section: begin == 0,
+            before: &before,
+            points: &block,
+        };
+        let lines = String::from_utf8(layout.lines(&stretch).unwrap().text).unwrap();
+        for line in lines.lines() {
+            time = said_time(line).map_or(time, |s| (s * steps_per_s).round() as i64);
+            let moves = ["C", "MovePvt", "G1 ", "POLY ", "PO["];
+            let moves = moves.iter().any(|begin| line.starts_with(begin));
+            // The first move is the way to the path.
+            sum += if moves && !first { time } else { 0 };
+            first &= !moves;
+        }
+        let last = block.get(block.len() - 1).unwrap();
+        let off = sum as f64 / steps_per_s - last.t;
+        assert!(
+            off.abs() <= 0.5001 / steps_per_s + 1e-15 * last.t,
+            "{}: {off}",
+            layout.post.name
+        );
+        before = block.points().skip(block.len().saturating_sub(2)).collect();
+    }
+}
+
+#[test]
+fn times_do_not_drift_over_a_hundred_thousand_segments() {
+    for post in POSTS {
+        times_do_not_drift(&plain(post), 100_000);
+    }
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_times_do_not_drift_over_ten_million_segments() {
+    for post in POSTS {
+        times_do_not_drift(&plain(post), 10_000_000);
+    }
+}

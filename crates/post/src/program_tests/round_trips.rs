@@ -1,0 +1,214 @@
+//! A path comes back from its program whatever the settings.
+
+use proptest::prelude::*;
+use turnpath_core::DEG;
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
+
+use super::*;
+use crate::{POSTS, ProgramFormat};
+
+fn step() -> impl Strategy<Value = [f64; 6]> {
+    (
+        1e-4..0.5f64,
+        0.01..170.0f64,
+        -300.0..300.0f64,
+        -20.0..20.0f64,
+        -9.0..9.0f64,
+        -200.0..200.0f64,
+    )
+        .prop_map(|(dt, dc, x, z, vx, vz)| [dt, dc, x, z, vx, vz])
+}
+
+/// The time of the first point as a program carries it; a reader counts from there.
+fn carried_start(layout: &Layout, points: &[ControlPoint]) -> f64 {
+    let steps_per_s = layout.format.steps_per_s as f64;
+    (points[0].t * steps_per_s).round() / steps_per_s
+}
+
+/// A post in some layout that its table can ask for.
+fn layout() -> impl Strategy<Value = Layout> {
+    let flags = any::<[bool; 4]>();
+    (0..POSTS.len(), 3..9u32, 3..9u32, flags, 0.0..2.0f64).prop_map(
+        |(post, position, velocity, flags, z_above)| {
+            let plain = plain(&POSTS[post]);
+            let has = |key: &str| plain.post.keys.iter().any(|info| info.name == key);
+            let [per_minute, c_reversed, c_wrapped, incremental] = flags;
+            let format = ProgramFormat {
+                position_decimals: position,
+                velocity_decimals: velocity,
+                per_minute: per_minute && has("velocity_per"),
+                c_reversed: c_reversed && has("c_sign"),
+                c_wrapped: c_wrapped && has("c_wrap"),
+                incremental: incremental && has("positioning"),
+                z_above,
+                ..plain.format
+            };
+            Layout { format, ..plain }
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn a_path_comes_back_to_half_a_digit_whatever_the_settings(
+        layout in layout(),
+        steps in prop::collection::vec(step(), 1..60),
+    ) {
+        let points = path_of(&steps);
+        let text = program(&layout, &points);
+        assert_same(&layout, &points, &read(&layout, text.as_bytes()).unwrap());
+    }
+
+    /// What `verify` compares a program with: the points that a reader finds in it, to the rounding of
+    /// doubles.
+    #[test]
+    fn what_a_program_carries_is_what_a_reader_finds_in_it(
+        layout in layout(),
+        steps in prop::collection::vec(step(), 1..60),
+        cut in 0..60usize,
+    ) {
+        let points = path_of(&steps);
+        let read = read(&layout, program(&layout, &points).as_bytes()).unwrap();
+        let left_out = layout.turns_left_out(&points[0]).unwrap();
+        let cut = cut.min(points.len());
+        let mut carried = Vec::new();
+        for (from, to) in [(0, cut), (cut, points.len())] {
+            let mut block = PathBlock::default();
+            points[from..to].iter().for_each(|point| block.push(*point));
+            let stretch = SectionBlock {
+                section: Section::Cutting,
+                opens_section: from == 0,
+                before: &points[from.saturating_sub(2)..from],
+                points: &block,
+            };
+            carried.extend(layout.carried(&stretch).unwrap().points());
+        }
+        prop_assert_eq!(carried.len(), read.len());
+        for (k, (carried, read)) in carried.iter().zip(&read).enumerate() {
+            let next = points.get(k.max(1)).map_or(f64::INFINITY, |point| point.t);
+            let duration = next - points[k.max(1) - 1].t;
+            let of_coefficients = coefficient_rounding(&layout, duration);
+            let pairs = [
+                (carried.t - carried_start(&layout, &points), read.t),
+                (carried.c - left_out, read.c),
+                (carried.x, read.x),
+                (carried.z, read.z),
+                (carried.vc, read.vc),
+                (carried.vx, read.vx),
+                (carried.vz, read.vz),
+            ];
+            for (one, other) in pairs {
+                prop_assert!((one - other).abs() <= 1e-14 * (1.0 + other.abs()) + of_coefficients, "{} {}", one, other);
+            }
+        }
+    }
+
+    #[test]
+    fn lines_do_not_depend_on_where_blocks_end(
+        layout in layout(),
+        steps in prop::collection::vec(step(), 1..40),
+        cuts in prop::collection::btree_set(1..40usize, 0..12),
+    ) {
+        let points = path_of(&steps);
+        let cuts: Vec<usize> = cuts.into_iter().filter(|cut| *cut < points.len()).collect();
+        prop_assert_eq!(lines(&layout, &points, &cuts), lines(&layout, &points, &[]));
+    }
+
+    #[test]
+    fn leads_come_back_in_their_sections_whatever_the_settings(
+        layout in layout(),
+        steps in prop::collection::vec(step(), 2..40),
+        (start, end) in (0..20usize, 1..20usize),
+        cuts in prop::collection::btree_set(1..40usize, 0..6),
+    ) {
+        let points = path_of(&steps);
+        let start = start.min(points.len() - 1);
+        let cut = start..(start + end).min(points.len());
+        let cuts: Vec<usize> = cuts.into_iter().filter(|cut| *cut < points.len()).collect();
+        let lines = lines_in_sections(&layout, &points, &cuts, cut.clone());
+        prop_assert_eq!(&lines, &lines_in_sections(&layout, &points, &[], cut.clone()));
+        let text = assembled(&layout, &lines);
+        let (read, sections) = read_sections(&layout, text.as_bytes()).unwrap();
+        assert_same(&layout, &points, &read);
+        for (k, section) in sections.into_iter().enumerate() {
+            let expected = match k {
+                _ if k < cut.start => Section::LeadIn,
+                _ if k < cut.end => Section::Cutting,
+                _ => Section::LeadOut,
+            };
+            prop_assert_eq!(section, expected);
+        }
+    }
+
+    #[test]
+    fn distances_give_the_same_points_as_positions(
+        post in 0..POSTS.len(),
+        steps in prop::collection::vec(step(), 1..60),
+    ) {
+        let points = path_of(&steps);
+        let positions = plain(&POSTS[post]);
+        let format = ProgramFormat { incremental: true, ..positions.format };
+        let distances = Layout { format, ..positions };
+        prop_assert_eq!(
+            read(&positions, program(&positions, &points).as_bytes()),
+            read(&distances, program(&distances, &points).as_bytes())
+        );
+    }
+
+    #[test]
+    fn no_text_makes_a_reader_panic(
+        post in 0..POSTS.len(),
+        text in "((;|//) -- cutting --\n)?([-ABSINCPVTXZcxz0-9.:;(),\\[\\]MovePvt \n]|\\PC){0,80}",
+    ) {
+        let _ = read(&plain(&POSTS[post]), text.as_bytes());
+    }
+}
+
+#[test]
+fn a_segment_that_is_too_long_for_the_controller_is_divided_and_plays_the_same_cubic() {
+    for post in POSTS {
+        let layout = plain(post);
+        let longest = layout.format.longest as f64 / layout.format.steps_per_s as f64;
+        let long = 3.5 * longest;
+        // A quarter of a turn: C grows evenly, and by less than a turn in each part.
+        let rate = 90.0 / long;
+        let points = path_of(&[
+            [0.5, 0.5 * rate, 2.5, 1.0, -0.2, 5.0],
+            [long, 90.0, 2.0, -1.0, 0.1, -1.0],
+        ]);
+        let read = read(&layout, program(&layout, &points).as_bytes()).unwrap();
+        assert_eq!(read.len(), 6, "{}", post.name);
+        for pair in read.windows(2) {
+            assert!(pair[1].t - pair[0].t <= longest);
+        }
+        let half_digit = 0.5001e-7;
+        for point in &read[2..] {
+            let expected = played(&points[1], &points[2], point.t);
+            assert!(
+                (expected.x - point.x).abs() < half_digit,
+                "{expected:?} {point:?}"
+            );
+            assert!((expected.z - point.z).abs() < half_digit);
+            assert!((expected.c - point.c).abs() < half_digit * DEG);
+            assert!((expected.vz - point.vz).abs() < half_digit);
+        }
+        assert_eq!(
+            lines(&layout, &points, &[1, 2]),
+            lines(&layout, &points, &[])
+        );
+    }
+}
+
+#[test]
+fn a_program_in_memory_has_the_bytes_of_its_file() {
+    for post in POSTS {
+        let layout = plain(post);
+        let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
+        let lines = lines(&layout, &points, &[]);
+        let file = assembled(&layout, &lines);
+        let mut writer = ProgramWriter::in_memory(post.comment);
+        writer.append(&lines).unwrap();
+        let memory = writer.assemble_in_memory("OPEN PROG 1 CLEAR\n", "CLOSE\n");
+        assert_eq!(String::from_utf8(memory).unwrap(), file);
+    }
+}
