@@ -59,20 +59,22 @@ def check(program, recipe):
     """All comparisons of one recipe; gives the largest difference from brute force, m."""
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        call = [program, "run", recipe, "-o", folder, "--map-size", str(SIZE), "--map"]
-        for name in ("map.gsf", "map.xyz"):
-            run = subprocess.run([*call, name], capture_output=True, text=True)
+        call = [program, "run", recipe, "--map-size", str(SIZE)]
+        # A second run into one folder removes the map of the first.
+        for name in ("gsf", "xyz"):
+            words = ["-o", folder / name, "--map", f"map.{name}"]
+            run = subprocess.run([*call, *words], capture_output=True, text=True)
             assert run.returncode in (0, 1), run.stderr
-        fields, data = by_description(folder / "map.gsf")
-        by_package, _ = read_gsf(folder / "map.gsf")
+        fields, data = by_description(folder / "gsf" / "map.gsf")
+        by_package, _ = read_gsf(folder / "gsf" / "map.gsf")
         assert np.array_equal(data, by_package, equal_nan=True)
         x, y = places(fields)
         on_part = ~np.isnan(data)
-        lines = np.loadtxt(folder / "map.xyz")
+        lines = np.loadtxt(folder / "xyz" / "map.xyz")
         assert np.allclose(lines[:, 0], x[on_part], rtol=1e-8, atol=1e-13)
         assert np.allclose(lines[:, 1], y[on_part], rtol=1e-8, atol=1e-13)
         assert np.allclose(lines[:, 2], data[on_part], rtol=1e-5, atol=1e-18)
-        path, wanted = ToolPath.read(folder / "toolpath.csv"), Recipe.read(recipe)
+        path, wanted = ToolPath.read(folder / "xyz" / "toolpath.csv"), Recipe.read(recipe)
         cells = np.argwhere(on_part)
         chosen = np.random.default_rng(1).choice(len(cells), CELLS, replace=False)
         worst = 0.0
