@@ -10,7 +10,9 @@ use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
-const COMMANDS: [&str; 7] = ["run", "check", "ablate", "verify", "sag", "list", "explain"];
+const COMMANDS: [&str; 8] = [
+    "run", "check", "ablate", "verify", "sag", "import", "list", "explain",
+];
 
 fn page(name: &str) -> String {
     fs::read_to_string(repository().join(name)).expect("a page")

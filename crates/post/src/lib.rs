@@ -39,7 +39,7 @@ mod write_csv;
 
 pub use carry::{DigitSegment, Digits};
 pub use layout::{Layout, Lines};
-pub use maps::{GsfWriter, XyzWriter};
+pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use path_reader::{ReadCount, ReadPath};
 pub use post::{Command, Dialect, Grammar, Post};
 pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};

@@ -28,6 +28,7 @@ mod error;
 mod figures;
 mod folder;
 mod form;
+mod import;
 mod job;
 mod memory;
 mod meters;
@@ -55,6 +56,7 @@ pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
 pub use commands::{commands_to_trust, controller_commands};
 pub use data_files::DataFileError;
 pub use error::{Error, Fault};
+pub use import::{ImportRequest, ImportedRecipe, import};
 pub use job::Job;
 pub use outputs::Outputs;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
@@ -62,7 +64,7 @@ pub use plugins::with_listed_plugins;
 pub use plugins_lock::{PluginsLock, PluginsLockError};
 pub use result_check::{ResultError, read_result};
 pub use run::RunResult;
-pub use sag::{write_sag, write_sag_to};
+pub use sag::{MapSource, compare_with_map, write_sag, write_sag_to};
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
@@ -70,6 +72,8 @@ pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
     Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
 };
+pub use turnpath_lens::Side;
+pub use turnpath_maps::{Format as MapFormat, length_unit};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{ProgramError, ReadError};
 pub use turnpath_recipe::{

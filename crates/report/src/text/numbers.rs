@@ -62,6 +62,12 @@ pub fn small_length(mm: f64) -> String {
     }
 }
 
+/// The same with its sign.
+pub fn signed_length(mm: f64) -> String {
+    let sign = if mm < 0.0 { "-" } else { "" };
+    format!("{sign}{}", small_length(mm.abs()))
+}
+
 /// Lengths from which a power of ten reads better than all digits, mm.
 const LONG: f64 = 1e6;
 
