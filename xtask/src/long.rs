@@ -16,6 +16,7 @@ const OTHER_CHECKS: &str = "\
 random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
+programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
 deny: `cargo xtask deny`";
@@ -38,6 +39,7 @@ pub fn run_checks() -> Vec<Step> {
             })
         }),
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
+        Step::run("programs", || with_packages(&[], programs)),
     ];
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
@@ -66,6 +68,16 @@ fn random_input() -> Outcome {
         .args(["--lib", "--test", "all", "--examples"])
         .env("PROPTEST_CASES", RANDOM_CASES.max(cases).to_string());
     run(tests)
+}
+
+/// The table beside the script is what the script makes of the program beside it.
+fn programs() -> Outcome {
+    let folder = Path::new("tests/reference/programs");
+    let files = ["saddle.mpf", "siemens_840d.csv"].map(|file| folder.join(file));
+    run(script(
+        "tests/reference/programs/siemens_840d.py",
+        &[&files[0], &files[1]],
+    ))
 }
 
 fn maps() -> Outcome {

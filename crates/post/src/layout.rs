@@ -9,7 +9,7 @@ use crate::carry::{Move, carried, carry, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
-use crate::program_format::{ProgramFormat, mark};
+use crate::program_format::{END_MARK, ProgramFormat, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
 
@@ -49,6 +49,16 @@ impl Layout {
             Move::Segment(segment) => post.dialect.write_segment(&mut text, format, segment),
         })?;
         Ok(Lines { text, points })
+    }
+
+    /// The lines between the last segment of a path of so many points and the footer: what the dialect
+    /// writes there, and the end mark.
+    pub(crate) fn end(&self, points: u64) -> Vec<u8> {
+        let mut text = Vec::new();
+        self.post.dialect.write_last(&mut text, &self.format);
+        let mark = format!("{} {END_MARK}: {points} points --\n", self.post.comment);
+        text.extend_from_slice(mark.as_bytes());
+        text
     }
 
     /// A part of the path as a reader finds it in the program: on the controller's times, and in the
@@ -106,6 +116,12 @@ impl Layout {
                 vz: half(radius) * speed,
             }
         };
+        // An estimate has segments of any time.
+        let format = ProgramFormat {
+            shortest: 1,
+            ..self.format
+        };
+        let layout = Self { format, ..*self };
         let mut block = PathBlock::default();
         block.push(point(1));
         block.push(point(2));
@@ -115,7 +131,7 @@ impl Layout {
             before: &[point(0)],
             points: &block,
         };
-        let bytes = self.lines(&stretch).map_or(0, |lines| lines.text.len());
+        let bytes = layout.lines(&stretch).map_or(0, |lines| lines.text.len());
         points * bytes as f64 / 2.0
     }
 }

@@ -8,6 +8,7 @@
 mod automation1;
 mod axes;
 mod carry;
+mod comment;
 mod decimal;
 mod fixed_point;
 mod layout;
@@ -38,14 +39,14 @@ mod write_csv;
 
 pub use carry::{DigitSegment, Digits};
 pub use layout::{Layout, Lines};
-pub use maps::{GsfWriter, XyzWriter};
+pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use path_reader::{ReadCount, ReadPath};
 pub use post::{Command, Dialect, Grammar, Post};
 pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};
 pub use program_error::ProgramError;
 pub use program_format::ProgramFormat;
 pub use program_reader::ProgramReader;
-pub use program_writer::{ProgramFileBody, ProgramWriter};
+pub use program_writer::{ProgramFileBody, ProgramPath, ProgramPathInMemory, ProgramWriter};
 pub use read_csv::PathReader;
 pub use read_error::ReadError;
 pub use row::HEADER;
