@@ -201,7 +201,7 @@ fn is_what_its_command_writes(page: &str, extension: &str) {
     command[1] = recipe.to_str().expect("a path in UTF-8");
     let bench = Bench::empty();
     bench.call(command.iter().chain(&["-o", "out"])).ends(0);
-    let program = bench.read(&format!("out/astigmatic-5mm.{extension}"));
+    let program = bench.read(format!("out/astigmatic-5mm.{extension}"));
     let mut lines = program.lines();
     for line in quoted.lines().filter(|line| *line != "…") {
         // A hash is quoted by its beginning, and lines are left out where the page says so.
