@@ -10,6 +10,7 @@ mod axes;
 mod carry;
 mod decimal;
 mod fixed_point;
+mod g_code;
 mod layout;
 mod maps;
 mod ordinary_file;
@@ -33,6 +34,8 @@ mod siemens_840d;
 mod template;
 #[cfg(test)]
 mod tests;
+mod travel;
+mod travel_check;
 mod turn;
 mod write_csv;
 
@@ -49,6 +52,9 @@ pub use program_writer::{ProgramFileBody, ProgramWriter};
 pub use read_csv::PathReader;
 pub use read_error::ReadError;
 pub use row::HEADER;
-pub use settings::{C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY};
+pub use settings::{
+    APPROACH_FEED, APPROACH_HEIGHT, C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY,
+};
 pub use template::{PLACEHOLDERS, Template, TemplateError};
+pub use travel::{Extent, Places, Travel, TravelModes};
 pub use write_csv::PathWriter;

@@ -6,7 +6,9 @@ use turnpath_core::ParamInfo;
 use turnpath_core::toolpath::ControlPoint;
 
 use crate::carry::{DigitSegment, Digits};
+use crate::g_code;
 use crate::program_format::ProgramFormat;
+use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +50,20 @@ pub trait Dialect: Debug + Send + Sync {
 
     /// The commands of a template, line by line. Comments and empty lines are none.
     fn commands(&self, template: &str) -> Vec<Command>;
+
+    /// Writes a statement before or after the path. Unless a dialect says otherwise, these are words of
+    /// G code.
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        g_code::push_travel(text, format, "", travel);
+    }
+
+    /// Reads a line before or after the path: the places that it gives to the axes.
+    ///
+    /// # Errors
+    /// When the line is not of the dialect: what is wrong with it.
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        g_code::read_travel(code, modes)
+    }
 
     /// Whether the path's lines go into a program after a header. Where a file is a program as it is,
     /// they always do.

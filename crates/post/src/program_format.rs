@@ -7,6 +7,11 @@ pub(crate) const TURN_DEG: i64 = 360;
 /// The beginning of the line after the path, in its comment.
 pub(crate) const END_MARK: &str = "-- end of path";
 
+/// The mark before the approach.
+pub(crate) const APPROACH_MARK: &str = "-- approach --";
+/// The mark before the retreat.
+pub(crate) const RETREAT_MARK: &str = "-- retreat --";
+
 /// How a program writes times, positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramFormat {
@@ -31,6 +36,10 @@ pub struct ProgramFormat {
     pub incremental: bool,
     /// Z of the path − Z of the program, mm: the nose radius where the program's Z is the tip's.
     pub z_above: f64,
+    /// How far above the highest place of the path X and C move before it, mm.
+    pub approach_height: f64,
+    /// How fast Z goes down to the path's first point, mm/min.
+    pub approach_feed: f64,
 }
 
 impl ProgramFormat {
@@ -42,6 +51,12 @@ impl ProgramFormat {
     /// The seconds that velocities refer to.
     pub fn velocity_time(&self) -> f64 {
         if self.per_minute { 60.0 } else { 1.0 }
+    }
+
+    /// The height of the approach in last digits, rounded up.
+    pub(crate) fn approach_digits(&self) -> i64 {
+        let one = 10u64.pow(self.position_decimals) as f64;
+        (self.approach_height * one).ceil() as i64
     }
 
     /// 1, or −1 if the program's C runs against the path's.

@@ -89,8 +89,9 @@ impl<'a> FolderSink<'a> {
         }
         for program in self.programs {
             let draft = self.draft(&program.file)?;
-            let comment = program.layout.post.comment;
-            files.programs.push(ProgramWriter::begin(draft, comment)?);
+            files
+                .programs
+                .push(ProgramWriter::begin(draft, program.layout)?);
         }
         Ok(files)
     }

@@ -35,6 +35,8 @@ mod read;
 mod scan;
 #[cfg(test)]
 mod tests;
+mod travel_read;
+mod travel_write;
 mod write;
 
 use turnpath_core::ParamInfo;
@@ -43,6 +45,8 @@ pub(crate) use clock::Clock;
 
 use commands::{commands, leaves_program_open};
 use read::PvtGrammar;
+use travel_read::read_travel;
+use travel_write::push_travel;
 use write::{push_first, push_segment};
 
 use crate::carry::{DigitSegment, Digits};
@@ -51,6 +55,7 @@ use crate::program_format::ProgramFormat;
 use crate::settings::{
     C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, VELOCITY_DECIMALS, VELOCITY_PER,
 };
+use crate::travel::{Places, Travel, TravelModes};
 
 /// Turbo PMAC with I42 = 0: 24 bits, 12 of them fraction.
 pub(crate) const TURBO_CLOCK: Clock = Clock {
@@ -113,6 +118,14 @@ impl Dialect for Pvt {
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(PvtGrammar::new(self.clock, format))
+    }
+
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        push_travel(text, format, travel);
+    }
+
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        read_travel(code, modes)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

@@ -11,6 +11,7 @@ mod drift;
 mod extremes;
 mod numbers;
 mod round_trips;
+mod travel;
 
 /// A path from random steps: time in s, angle in deg, the rest in the units used inside.
 pub(crate) fn path_of(steps: &[[f64; 6]]) -> Vec<ControlPoint> {
@@ -75,6 +76,10 @@ fn lines_in_sections(
         let lines = layout.lines(&stretch).unwrap();
         all.text.extend(lines.text);
         all.points += lines.points;
+        all.extent = match (all.extent, lines.extent) {
+            (Some(before), Some(next)) => Some(before.and(next)),
+            (before, next) => before.or(next),
+        };
         begin = end;
     }
     all
@@ -87,8 +92,7 @@ pub(crate) fn program(layout: &Layout, points: &[ControlPoint]) -> String {
 pub(crate) fn assembled(layout: &Layout, lines: &Lines) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.pmc");
-    let mut writer =
-        ProgramWriter::begin(Draft::begin(&path).unwrap(), layout.post.comment).unwrap();
+    let mut writer = ProgramWriter::begin(Draft::begin(&path).unwrap(), *layout).unwrap();
     writer.append(lines).unwrap();
     let draft = writer.assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n").unwrap();
     draft.complete().unwrap();

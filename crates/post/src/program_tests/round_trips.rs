@@ -206,7 +206,7 @@ fn a_program_in_memory_has_the_bytes_of_its_file() {
         let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
         let lines = lines(&layout, &points, &[]);
         let file = assembled(&layout, &lines);
-        let mut writer = ProgramWriter::in_memory(post.comment);
+        let mut writer = ProgramWriter::in_memory(layout);
         writer.append(&lines).unwrap();
         let memory = writer.assemble_in_memory("OPEN PROG 1 CLEAR\n", "CLOSE\n");
         assert_eq!(String::from_utf8(memory).unwrap(), file);
