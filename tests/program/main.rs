@@ -13,6 +13,7 @@ mod commands;
 mod controller_commands;
 mod damaged_libraries;
 mod data_files;
+mod dry_run;
 mod ending_plugins;
 mod frozen_boundary;
 mod maps;

@@ -9,6 +9,7 @@ mod automation1;
 mod axes;
 mod carry;
 mod decimal;
+mod dry_run;
 mod fixed_point;
 mod g_code;
 mod layout;
@@ -40,6 +41,7 @@ mod turn;
 mod write_csv;
 
 pub use carry::{DigitSegment, Digits};
+pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines};
 pub use maps::{GsfWriter, XyzWriter};
 pub use path_reader::{ReadCount, ReadPath};

@@ -12,6 +12,11 @@ pub(crate) const APPROACH_MARK: &str = "-- approach --";
 /// The mark before the retreat.
 pub(crate) const RETREAT_MARK: &str = "-- retreat --";
 
+/// The mark before the moves of a dry run.
+pub(crate) const DRY_RUN_MARK: &str = "-- dry run --";
+/// The mark after them.
+pub(crate) const END_OF_DRY_RUN_MARK: &str = "-- end of dry run --";
+
 /// How a program writes times, positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramFormat {

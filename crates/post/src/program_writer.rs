@@ -104,6 +104,11 @@ impl<B: Write> ProgramWriter<B> {
 }
 
 impl<B> ProgramWriter<B> {
+    /// From where to where the path so far goes; `None` without points.
+    pub fn extent(&self) -> Option<Extent> {
+        self.extent
+    }
+
     /// The control points so far, with those of divided segments.
     pub fn points(&self) -> u64 {
         self.points

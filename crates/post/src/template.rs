@@ -150,6 +150,11 @@ fn harmless(value: &str) -> String {
     short.replace("--", "- -")
 }
 
+/// A person's words in ASCII, on one line.
+pub(crate) fn plain_text(text: &str) -> String {
+    harmless(text)
+}
+
 fn plain(c: char) -> char {
     match c {
         ' '..='~' => c,

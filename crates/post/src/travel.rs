@@ -81,7 +81,7 @@ impl Extent {
     }
 
     /// The plane over which X and C go.
-    fn plane(&self, format: &ProgramFormat) -> i64 {
+    pub(crate) fn plane(&self, format: &ProgramFormat) -> i64 {
         self.highest.saturating_add(format.approach_digits())
     }
 

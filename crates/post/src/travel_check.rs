@@ -31,6 +31,15 @@ pub(crate) struct TravelCheck {
 }
 
 impl TravelCheck {
+    /// A check of moves alone, none of which goes below `height`, mm.
+    pub(crate) fn above(height: f64) -> Self {
+        Self {
+            highest: Some(height),
+            retreats: true,
+            ..Self::default()
+        }
+    }
+
     /// Takes the places that a line gives. Only one axis may move, and Z must have moved first.
     pub(crate) fn go_to(&mut self, places: &Places, line: u64) -> Result<(), String> {
         let moved: Vec<usize> = (0..3).filter(|k| places[*k].is_some()).collect();
@@ -88,7 +97,7 @@ impl TravelCheck {
         let to = to.map(|to| to as f64 / ONE as f64);
         let below = |highest: f64| to.is_some_and(|to| to < highest - SAME);
         match self.retreats && self.highest.is_some_and(below) {
-            true => Err("the retreat goes below the highest place of the path".to_owned()),
+            true => Err("Z goes below the highest place of the path".to_owned()),
             false => Ok(()),
         }
     }

@@ -25,8 +25,13 @@ const TOOLPATH: &str = "toolpath.csv";
 ///
 /// # Errors
 /// When another run has it, or something is in the way that would stop this one only at its end.
-pub fn open_folder(folder: &Path, job: &Job) -> Result<ResultFolder, FolderError> {
-    let names = job.programs.iter().map(|program| program.file.as_str());
+pub fn open_folder(folder: &Path, job: &Job, dry_run: bool) -> Result<ResultFolder, FolderError> {
+    let programs = job.programs.iter().map(|program| program.file.clone());
+    let dry_runs = job.programs.iter().filter(|_| dry_run);
+    let names: Vec<String> = programs
+        .chain(dry_runs.map(Program::dry_run_file))
+        .collect();
+    let names = names.iter().map(String::as_str);
     nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
     ResultFolder::open(folder)
 }
@@ -105,6 +110,7 @@ impl<'a> FolderSink<'a> {
         &mut self,
         job: &Job,
         outcome: &Outcome,
+        dry_run: bool,
         observer: &dyn Observer,
     ) -> Result<Vec<ProgramReport>, Error> {
         let Some(files) = &mut self.files else {
@@ -114,6 +120,13 @@ impl<'a> FolderSink<'a> {
         for (program, writer) in self.programs.iter().zip(files.programs.drain(..)) {
             let points = writer.points();
             let frame = program.frame(&job.recipe, outcome, points);
+            if let Some(extent) = writer.extent().filter(|_| dry_run) {
+                let text = job.dry_run(program, &frame, &extent)?;
+                let path = self.folder.path().join(program.dry_run_file());
+                let mut draft = self.folder.draft(&path)?;
+                draft.write_all(&text).map_err(FileError::of(&path))?;
+                files.drafts.push(draft);
+            }
             let mut draft = writer.assemble(&frame.header, &frame.footer)?;
             let name = draft.path().to_owned();
             let reader = program.layout.open(draft.readable()?);

@@ -24,6 +24,7 @@ mod commands;
 mod data_files;
 mod data_remarks;
 mod diagnosis;
+mod dry_run;
 mod error;
 mod figures;
 mod folder;

@@ -55,6 +55,12 @@ impl Program {
         })
     }
 
+    /// The name of the file with its dry run.
+    pub fn dry_run_file(&self) -> String {
+        let stem = self.file.rsplit_once('.').map_or("", |(stem, _)| stem);
+        format!("{stem}-dry-run.{}", self.layout.post.extension)
+    }
+
     /// A block of the path as program lines.
     pub fn lines(&self, block: &SectionBlock<'_>) -> Result<Lines, NotCarried> {
         let lines = self.layout.lines(block);

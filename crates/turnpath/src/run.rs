@@ -68,7 +68,7 @@ impl Job {
             Destination::Memory => self.run_in_memory(observer),
             Destination::Folder(folder) => {
                 let plots = Plots::new(&outputs.plots, &self.recipe.part, folder)?;
-                self.run_in_folder(folder, &plots, observer)
+                self.run_in_folder(folder, &plots, outputs.dry_run, observer)
             }
         }
     }
@@ -138,11 +138,15 @@ impl Job {
         &self,
         folder: &Path,
         plots: &Plots,
+        dry_run: bool,
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
+        if dry_run && self.programs.is_empty() {
+            return Err(Error::NoProgram);
+        }
         plots.can_be_in_result(folder)?;
-        let result = open_folder(folder, self)?;
+        let result = open_folder(folder, self, dry_run)?;
         let path = search_split(self, observer, |job| {
             let mut sink = FolderSink::new(&result, self);
             let outcome = job.run_into(&mut sink, observer)?;
@@ -153,7 +157,7 @@ impl Job {
             outcome,
             split,
         } = path;
-        let reports = sink.read_back(self, &outcome, observer)?;
+        let reports = sink.read_back(self, &outcome, dry_run, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
         let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
         let whole = WholeResult::new(sink.finish()?, result);

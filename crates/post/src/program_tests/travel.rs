@@ -166,7 +166,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             pmac(),
             "RAPID\nZ6.5\n; -- end",
             "RAPID\nZ1.2\n; -- end",
-            "the retreat goes below",
+            "Z goes below the highest place",
         ),
         (
             pmac(),
