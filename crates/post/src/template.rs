@@ -97,6 +97,19 @@ impl Template {
         Ok(Self(parts))
     }
 
+    /// Characters of its own text: about the length of the filled one.
+    pub fn len(&self) -> usize {
+        let parts = self.0.iter().map(|part| match part {
+            Part::Text(text) | Part::Placeholder(text) => text.len(),
+        });
+        parts.sum()
+    }
+
+    /// Whether there is nothing in it.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// The text with the values of its placeholders and a line end. Line ends and characters beyond
     /// ASCII in a value are replaced, because a controller may fail on them.
     pub fn fill(&self, value: impl Fn(&str) -> String) -> String {

@@ -26,14 +26,29 @@ const TOOLPATH: &str = "toolpath.csv";
 /// # Errors
 /// When another run has it, or something is in the way that would stop this one only at its end.
 pub fn open_folder(folder: &Path, job: &Job, dry_run: bool) -> Result<ResultFolder, FolderError> {
-    let programs = job.programs.iter().map(|program| program.file.clone());
-    let dry_runs = job.programs.iter().filter(|_| dry_run);
-    let names: Vec<String> = programs
-        .chain(dry_runs.map(Program::dry_run_file))
-        .collect();
+    let names = job.file_names(dry_run);
     let names = names.iter().map(String::as_str);
-    nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
+    nothing_in_the_way(folder, names.chain([SUMMARY]))?;
     ResultFolder::open(folder)
+}
+
+impl Job {
+    /// The names of the files of its path.
+    pub(crate) fn file_names(&self, dry_run: bool) -> Vec<String> {
+        let programs = self.programs.iter().map(|program| program.file.clone());
+        let dry_runs = self.programs.iter().filter(|_| dry_run);
+        let table = std::iter::once(self.toolpath_file());
+        let programs = programs.chain(dry_runs.map(Program::dry_run_file));
+        programs.chain(table).collect()
+    }
+
+    /// The name of the table of its path.
+    fn toolpath_file(&self) -> String {
+        match self.recipe.rough_name() {
+            Some(rough) => format!("toolpath-{rough}.csv"),
+            None => TOOLPATH.to_owned(),
+        }
+    }
 }
 
 /// The files of a path, in the making. A path that fails leaves none of them.
@@ -41,6 +56,8 @@ pub struct FolderSink<'a> {
     files: Option<Files>,
     folder: &'a ResultFolder,
     writes_toolpath: bool,
+    /// The name of the table of the path.
+    toolpath: String,
     programs: &'a [Program],
     /// The outer end of the range of ρ, mm.
     radius: f64,
@@ -75,6 +92,7 @@ impl<'a> FolderSink<'a> {
         Self {
             folder,
             writes_toolpath: !job.recipe.output.data.is_empty(),
+            toolpath: job.toolpath_file(),
             programs: &job.programs,
             radius: job.preparation.task.range.outer,
             files: None,
@@ -90,7 +108,7 @@ impl<'a> FolderSink<'a> {
     fn begin(&self) -> Result<Files, FileError> {
         let mut files = Files::default();
         if self.writes_toolpath {
-            files.toolpath = Some(PathWriter::begin(self.draft(TOOLPATH)?)?);
+            files.toolpath = Some(PathWriter::begin(self.draft(&self.toolpath)?)?);
         }
         for program in self.programs {
             let draft = self.draft(&program.file)?;
@@ -151,7 +169,7 @@ impl<'a> FolderSink<'a> {
             return Ok(());
         };
         if let Some(toolpath) = &mut files.toolpath {
-            let name = self.folder.path().join(TOOLPATH);
+            let name = self.folder.path().join(&self.toolpath);
             let reader = PathReader::open(toolpath.readable()?);
             let mut reader = reader.map_err(|error| error.named(&name))?;
             let played = PlayedPath {
@@ -255,7 +273,7 @@ impl Sink for FolderSink<'_> {
             .writes_toolpath
             .then(|| PathWriter::rows(block.section, block.points));
         let rows = rows.transpose().map_err(|error| FileError {
-            path: self.folder.path().join(TOOLPATH),
+            path: self.folder.path().join(&self.toolpath),
             error,
         })?;
         let lines = self.programs.iter().map(|program| program.lines(block));
@@ -279,7 +297,7 @@ impl Sink for FolderSink<'_> {
         };
         if let Some((toolpath, rows)) = files.toolpath.as_mut().zip(block.rows) {
             let appended = toolpath.append(&rows);
-            appended.map_err(|error| not_written(TOOLPATH, error))?;
+            appended.map_err(|error| not_written(&self.toolpath, error))?;
         }
         let programs = self.programs.iter().zip(&mut files.programs);
         for ((program, writer), lines) in programs.zip(&block.lines) {

@@ -50,6 +50,7 @@ impl Job {
         catalogue: &Catalogue,
         files: &DataFiles,
     ) -> Result<Self, Error> {
+        recipe.rough_paths().map_err(Error::refused)?;
         let chain = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;

@@ -41,6 +41,7 @@ mod posts;
 mod program;
 mod remarks;
 mod result_check;
+mod rough_paths;
 mod run;
 mod sag;
 mod sinks;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use turnpath_core::toolpath::{SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
-use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, Stage};
+use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
 use turnpath_post::{Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::{ProgramFigures, ProgramReport};
@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, PathMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
+use crate::sizes::sampled_bytes;
 
 /// A program that a recipe asks for.
 #[derive(Clone)]
@@ -70,7 +71,16 @@ impl Program {
         })
     }
 
-    /// Bytes that the program will take.
+    /// Bytes that the program will take, from a sample of its path: within some percent.
+    pub fn sampled_bytes(&self, sample: &PathSample) -> Result<f64, NotCarried> {
+        let lines = sampled_bytes(sample, |block| {
+            self.lines(block).map(|lines| lines.text.len())
+        })?;
+        let frame = self.header.len() + self.footer.len();
+        Ok(lines + frame as f64)
+    }
+
+    /// A rough estimate of the bytes that the program will take, to see whether a disk has room.
     pub fn expected_bytes(&self, radius: f64, expected: &Estimate) -> f64 {
         let c = std::f64::consts::TAU * expected.revolutions;
         let (time, points) = (expected.cutting_time, expected.control_points);

@@ -11,6 +11,7 @@ mod machine;
 mod numbers;
 mod path;
 mod remark;
+mod rough_path;
 mod run;
 mod servo;
 mod tool_fit;
