@@ -9,6 +9,7 @@ mod ablate;
 mod bad_plugins;
 mod bad_recipes;
 mod built_ins;
+mod column_files;
 mod commands;
 mod controller_commands;
 mod damaged_libraries;

@@ -8,6 +8,8 @@
 mod automation1;
 mod axes;
 mod carry;
+mod column_files;
+mod columns;
 mod decimal;
 mod dry_run;
 mod fixed_point;
@@ -39,8 +41,13 @@ mod travel;
 mod travel_check;
 mod turn;
 mod write_csv;
+#[cfg(feature = "npz")]
+mod write_npz;
+#[cfg(feature = "parquet")]
+mod write_parquet;
 
 pub use carry::{DigitSegment, Digits};
+pub use columns::{ColumnFormat, Columns, WriteColumns};
 pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines};
 pub use maps::{GsfWriter, XyzWriter};

@@ -2,8 +2,8 @@
 
 use std::fmt::Debug;
 
-use turnpath_core::ParamInfo;
 use turnpath_core::toolpath::ControlPoint;
+use turnpath_core::{ParamInfo, Params};
 
 use crate::carry::{DigitSegment, Digits};
 use crate::g_code;
@@ -63,6 +63,12 @@ pub trait Dialect: Debug + Send + Sync {
     /// When the line is not of the dialect: what is wrong with it.
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
         g_code::read_travel(code, modes)
+    }
+
+    /// The template of the header that these settings ask for in place of the post's own, if they do,
+    /// behind the name of the key that asks.
+    fn other_header(&self, _settings: &Params) -> Option<(&'static str, &'static str)> {
+        None
     }
 
     /// Whether the path's lines go into a program after a header. Where a file is a program as it is,

@@ -39,6 +39,14 @@ pub(crate) const VELOCITY_PER: Param<Choice> = Param::choice(
     "velocities per second or per minute",
 )
 .default("s");
+pub(crate) const ROTARY: &str = "rotary";
+/// Where the lines of a program go.
+pub(crate) const BUFFER: Param<Choice> = Param::choice(
+    "buffer",
+    &["program", ROTARY],
+    "a motion program in the controller, or its rotary buffer, for programs that do not fit",
+)
+.default("program");
 /// The sign of C.
 pub const C_SIGN: Param<Number> = Param::number(
     "c_sign",

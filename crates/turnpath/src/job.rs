@@ -7,7 +7,7 @@ use turnpath_pipeline::{
     Chain, JobSpec, LeadLimits, LeadSettings, PathOptions, Preparation, prepare,
 };
 use turnpath_post::ProgramError;
-use turnpath_recipe::Recipe;
+use turnpath_recipe::{DataFormat, Recipe};
 use turnpath_report::Overrun;
 
 use crate::chain::chain;
@@ -74,6 +74,7 @@ impl Job {
             programs,
             split: None,
         };
+        job.refuse_formats_left_out()?;
         job.refuse_straight_lines()?;
         Ok(job)
     }
@@ -92,6 +93,25 @@ impl Job {
         job.preparation.task.tolerance = tolerance;
         job.split = Some(tolerance);
         job
+    }
+
+    /// A build may have been made without a format of data files.
+    fn refuse_formats_left_out(&self) -> Result<(), Error> {
+        let left_out = |format: &&DataFormat| match format {
+            DataFormat::Csv => false,
+            DataFormat::Columns(format) => !format.is_built_in(),
+        };
+        let Some(DataFormat::Columns(format)) = self.recipe.output.data.iter().find(left_out)
+        else {
+            return Ok(());
+        };
+        let title = format!("this build of turnpath writes no .{}", format.extension());
+        let help = "leave it out of `data`, or build turnpath with its feature";
+        let span = self.recipe.nearest_span("output.data");
+        let diagnostic = self
+            .recipe
+            .diagnostic(span, title, "asked for here", [help.to_owned()]);
+        Err(Error::refused(diagnostic))
     }
 
     /// The programs play cubics; a path of straight lines is another one.

@@ -48,10 +48,12 @@ impl Program {
         let settings = recipe.settings_of(post.name);
         let header = settings.and_then(|settings| settings.header.as_ref());
         let footer = settings.and_then(|settings| settings.footer.as_ref());
+        let other = settings.and_then(|settings| post.dialect.other_header(&settings.params));
+        let own_header = other.map_or(post.header, |(_, text)| text);
         Ok(Self {
             layout: layout(recipe, post, compensates_nose),
             file: format!("{}.{}", recipe.stem(), post.extension),
-            header: template(recipe, header, post.header, post.comment)?,
+            header: template(recipe, header, own_header, post.comment)?,
             footer: template(recipe, footer, post.footer, post.comment)?,
         })
     }

@@ -10,6 +10,9 @@ use turnpath_pipeline::{Estimate, PathSample};
 /// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
 const ROW_BYTES: f64 = 125.0;
 
+/// Bytes of a row in a file of columns: seven doubles and a section.
+const COLUMN_ROW_BYTES: f64 = 57.0;
+
 /// Bytes of all blocks and leads of a path, from a sample of it. `bytes_of` gives those of points of a
 /// section, which begin with one that stands for the lines before.
 pub fn sampled_bytes<E>(
@@ -48,6 +51,11 @@ pub fn sampled_bytes<E>(
 /// Bytes of `toolpath.csv` before refinement, to see whether a disk has room.
 pub fn toolpath_bytes(expected: &Estimate) -> f64 {
     expected.control_points * ROW_BYTES
+}
+
+/// Bytes that a file of columns takes at most while it is put together: the columns wait beside it.
+pub fn column_bytes(expected: &Estimate) -> f64 {
+    2.0 * COLUMN_ROW_BYTES * expected.control_points
 }
 
 /// Bytes that programs of these sizes take at most while they are put together: one after the other is

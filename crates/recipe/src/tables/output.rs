@@ -2,7 +2,7 @@
 
 use turnpath_core::Param;
 use turnpath_core::kind::{Choice, Length, List, Velocity};
-use turnpath_post::{APPROACH_FEED, APPROACH_HEIGHT, POST_NAMES};
+use turnpath_post::{APPROACH_FEED, APPROACH_HEIGHT, ColumnFormat, POST_NAMES};
 
 use crate::diagnostic::Diagnostic;
 use crate::read::Section;
@@ -10,13 +10,18 @@ use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
 use crate::table_info::TableInfo;
 
-const DATA: &[&str] = &["csv"];
+const CSV: &str = "csv";
+const DATA: &[&str] = &[CSV, "parquet", "npz"];
 const CENTRE: &str = "centre";
 
 const POSTS_KEY: Param<List> =
     Param::list("posts", POST_NAMES, "the programs to write, each once").default(&[]);
-const DATA_KEY: Param<List> =
-    Param::list("data", DATA, "the data files to write; csv: `toolpath.csv`").default(DATA);
+const DATA_KEY: Param<List> = Param::list(
+    "data",
+    DATA,
+    "the data files to write, as `toolpath.csv`, `toolpath.parquet`, `toolpath.npz`",
+)
+.default(&[CSV]);
 const Z_REFERENCE: Param<Choice> = Param::choice(
     "z_reference",
     &["tip", CENTRE],
@@ -62,6 +67,8 @@ pub(super) const OUTPUT: TableInfo = TableInfo {
 pub enum DataFormat {
     /// `toolpath.csv`.
     Csv,
+    /// `toolpath.parquet` or `toolpath.npz`.
+    Columns(ColumnFormat),
 }
 
 /// The point of the tool whose Z a program gives.
@@ -120,11 +127,19 @@ fn data(section: &mut Section<'_>) -> Vec<DataFormat> {
         .map(|name| unknown_name("data format", name, DATA))
         .collect();
     section.diagnostics.extend(messages);
-    if names.is_empty() {
-        Vec::new()
-    } else {
-        vec![DataFormat::Csv]
+    let format = |name: &Spanned<String>| match name.value.as_str() {
+        CSV => Some(DataFormat::Csv),
+        "parquet" => Some(DataFormat::Columns(ColumnFormat::Parquet)),
+        "npz" => Some(DataFormat::Columns(ColumnFormat::Npz)),
+        _ => None,
+    };
+    let mut formats: Vec<DataFormat> = Vec::new();
+    for format in names.iter().filter_map(format) {
+        if !formats.contains(&format) {
+            formats.push(format);
+        }
     }
+    formats
 }
 
 fn unknown_name(what: &str, name: &Spanned<String>, known: &[&str]) -> Diagnostic {
