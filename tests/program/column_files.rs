@@ -1,5 +1,6 @@
 //! `toolpath.parquet` and `toolpath.npz`: read by the crates of these formats, and held against
 //! `toolpath.csv`, number by number.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::fs::File;
 use std::io::Read;

@@ -1,4 +1,5 @@
 //! `[passes]`: paths before the finishing one, each with what it leaves and with values of its own.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use serde_json::Value;
 

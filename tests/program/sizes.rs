@@ -1,4 +1,5 @@
 //! The sizes that `check` says, held against the files that `run` writes.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use serde_json::Value;
 
