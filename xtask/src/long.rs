@@ -111,8 +111,8 @@ fn dry_runs() -> Outcome {
     });
     let table = folder.join("toolpath.csv");
     let (nose, clearance) = (PathBuf::from("1"), PathBuf::from("5"));
-    let mut arguments = vec![&table, &nose, &clearance];
-    arguments.extend(&files);
+    let mut arguments: Vec<&Path> = vec![&table, &nose, &clearance];
+    arguments.extend(files.iter().map(PathBuf::as_path));
     run(script("tests/reference/programs/dry_run.py", &arguments))
 }
 
