@@ -18,6 +18,7 @@ playback: tests/reference/playback/selftest.py, the independent measurement on c
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
 columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
+programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
 deny: `cargo xtask deny`";
@@ -42,6 +43,7 @@ pub fn run_checks() -> Vec<Step> {
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
         Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
         Step::run("dry runs", dry_runs),
+        Step::run("programs", || with_packages(&[], programs)),
     ];
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
@@ -114,6 +116,16 @@ fn dry_runs() -> Outcome {
     let mut arguments: Vec<&Path> = vec![&table, &nose, &clearance];
     arguments.extend(files.iter().map(PathBuf::as_path));
     run(script("tests/reference/programs/dry_run.py", &arguments))
+}
+
+/// The table beside the script is what the script makes of the program beside it.
+fn programs() -> Outcome {
+    let folder = Path::new("tests/reference/programs");
+    let files = ["saddle.mpf", "siemens_840d.csv"].map(|file| folder.join(file));
+    run(script(
+        "tests/reference/programs/siemens_840d.py",
+        &[&files[0], &files[1]],
+    ))
 }
 
 fn maps() -> Outcome {

@@ -9,7 +9,7 @@ use crate::carry::{Move, carried, carry, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
-use crate::program_format::{ProgramFormat, mark};
+use crate::program_format::{APPROACH_MARK, END_MARK, ProgramFormat, RETREAT_MARK, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
 use crate::travel::{Extent, Travel};
@@ -69,6 +69,21 @@ impl Layout {
         })
     }
 
+    /// The lines between the header and a path of this extent.
+    pub(crate) fn approach(&self, extent: Option<&Extent>) -> Vec<u8> {
+        let moves = extent.map(|extent| extent.approach(&self.format));
+        self.marked_travel(APPROACH_MARK, &moves.unwrap_or_default())
+    }
+
+    fn marked_travel(&self, mark: &str, moves: &[Travel]) -> Vec<u8> {
+        if moves.is_empty() {
+            return Vec::new();
+        }
+        let mut text = format!("{} {mark}\n", self.post.comment).into_bytes();
+        text.extend(self.travel_lines(moves));
+        text
+    }
+
     /// The lines of moves before or after a path.
     pub(crate) fn travel_lines(&self, moves: &[Travel]) -> Vec<u8> {
         let mut text = Vec::new();
@@ -77,6 +92,18 @@ impl Layout {
                 .dialect
                 .write_travel(&mut text, &self.format, *one);
         }
+        text
+    }
+
+    /// The lines between the last segment of a path of so many points and the footer: what the dialect
+    /// writes there, and the end mark.
+    pub(crate) fn end(&self, points: u64, extent: Option<&Extent>) -> Vec<u8> {
+        let mut text = Vec::new();
+        self.post.dialect.write_last(&mut text, &self.format);
+        let moves = extent.map(|extent| extent.retreat(&self.format));
+        text.extend(self.marked_travel(RETREAT_MARK, &moves.unwrap_or_default()));
+        let mark = format!("{} {END_MARK}: {points} points --\n", self.post.comment);
+        text.extend_from_slice(mark.as_bytes());
         text
     }
 
@@ -134,6 +161,12 @@ impl Layout {
                 vz: half(radius) * speed,
             }
         };
+        // An estimate has segments of any time.
+        let format = ProgramFormat {
+            shortest: 1,
+            ..self.format
+        };
+        let layout = Self { format, ..*self };
         let mut block = PathBlock::default();
         block.push(point(1));
         block.push(point(2));
@@ -143,7 +176,7 @@ impl Layout {
             before: &[point(0)],
             points: &block,
         };
-        let bytes = self.lines(&stretch).map_or(0, |lines| lines.text.len());
+        let bytes = layout.lines(&stretch).map_or(0, |lines| lines.text.len());
         points * bytes as f64 / 2.0
     }
 }

@@ -22,6 +22,8 @@ pub(crate) const END_OF_DRY_RUN_MARK: &str = "-- end of dry run --";
 pub struct ProgramFormat {
     /// Steps of time in a second: every segment takes a whole number of them.
     pub steps_per_s: i64,
+    /// Shortest segment, in steps. A shorter one is refused.
+    pub shortest: i64,
     /// Longest segment, in steps. A longer one is divided.
     pub longest: i64,
     /// Decimals of positions, in mm and deg.
@@ -39,6 +41,9 @@ pub struct ProgramFormat {
     pub c_wrapped: bool,
     /// Distances from point to point instead of positions.
     pub incremental: bool,
+    /// Bits of the size of a number that the controller holds, where it holds less than a double. It
+    /// rounds absolute positions to them; distances are small, and their rounding counts for nothing.
+    pub mantissa_bits: Option<u32>,
     /// Z of the path − Z of the program, mm: the nose radius where the program's Z is the tip's.
     pub z_above: f64,
     /// How far above the highest place of the path X and C move before it, mm.
@@ -62,6 +67,17 @@ impl ProgramFormat {
     pub(crate) fn approach_digits(&self) -> i64 {
         let one = 10u64.pow(self.position_decimals) as f64;
         (self.approach_height * one).ceil() as i64
+    }
+
+    /// The most by which the controller's numbers move a position of this size, in its unit; `None` where
+    /// they hold all digits of a double, or where the program says distances.
+    pub fn held_rounding(&self, position: f64) -> Option<f64> {
+        let bits = self.mantissa_bits.filter(|_| !self.incremental)?;
+        let mut quantum = 1.0 / (1_u64 << bits.min(53)) as f64;
+        while quantum * ((1_u64 << bits.min(53)) as f64) <= position.abs() {
+            quantum *= 2.0;
+        }
+        Some(0.5 * quantum)
     }
 
     /// 1, or −1 if the program's C runs against the path's.

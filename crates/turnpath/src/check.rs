@@ -43,6 +43,7 @@ impl Job {
         let path = PathSubject {
             tolerance: self.preparation.task.tolerance,
             cutting_time: expected.cutting_time,
+            revolutions: expected.revolutions,
             control_points: expected.control_points,
             z_acceleration: None,
         };

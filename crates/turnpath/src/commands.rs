@@ -57,6 +57,12 @@ fn other_header(recipe: &Recipe, post: &Post) -> Option<Spanned<String>> {
 
 fn of_template(post: &Post, name: &str, own: &Spanned<String>) -> Vec<TemplateCommand> {
     let mut commands = post.dialect.commands(&own.value);
+    if name == HEADER {
+        // The path's lines follow, and the controller does not come to them.
+        for command in &mut commands {
+            command.harmless &= !post.dialect.ends_program(&command.text);
+        }
+    }
     if name == HEADER && !post.dialect.leaves_program_open(&own.value) {
         // The path's lines follow, and go wherever this one leaves the controller.
         if let Some(last) = commands.last_mut() {

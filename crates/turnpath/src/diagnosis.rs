@@ -5,6 +5,7 @@ use std::ops::Range;
 use turnpath_core::interference::Conflict;
 use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
 use turnpath_pipeline::{Excess, PathSize, PipelineError};
+use turnpath_post::post_named;
 use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned, SurfaceEntry};
 use turnpath_report::text::{millimetres, nose_radius};
 
@@ -117,7 +118,7 @@ pub fn not_carried(recipe: &Recipe, not_carried: NotCarried) -> Error {
     let post = posts.find(|post| post.value == name);
     let span = post.map_or_else(|| recipe.nearest_span("output"), |post| post.span.clone());
     let title = format!("the post `{name}` cannot carry this path: {error}");
-    let help = [error.help().to_owned()];
+    let help = post_named(name).map(|post| error.help(post.keys).to_owned());
     Error::refused_by(recipe.diagnostic(span, title, "chosen here", help), error)
 }
 

@@ -16,7 +16,7 @@ use turnpath_report::{ProgramReport, ResultFile};
 use crate::error::Error;
 use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
-use crate::program::Program;
+use crate::program::{Program, ProgramText};
 
 use crate::sinks::SinkError;
 use crate::sizes::{bytes_while_assembled, check_room, column_bytes, toolpath_bytes};
@@ -142,9 +142,8 @@ impl<'a> FolderSink<'a> {
         files.columns = Mutex::new(columns);
         for program in self.programs {
             let draft = self.draft(&program.file)?;
-            files
-                .programs
-                .push(ProgramWriter::begin(draft, program.layout)?);
+            let writer = ProgramWriter::begin(draft, program.layout)?;
+            files.programs.push(writer);
         }
         Ok(files)
     }
@@ -153,7 +152,8 @@ impl<'a> FolderSink<'a> {
         self.folder.draft(&self.folder.path().join(name))
     }
 
-    /// Puts the programs together, reads each back and measures it on its own text.
+    /// Measures each program on the text of its path, puts it together with its figures in the header, and
+    /// reads it as a whole.
     pub fn read_back(
         &mut self,
         job: &Job,
@@ -166,22 +166,31 @@ impl<'a> FolderSink<'a> {
         };
         let mut reports = Vec::new();
         for (program, writer) in self.programs.iter().zip(files.programs.drain(..)) {
-            let points = writer.points();
-            let frame = program.frame(&job.recipe, outcome, points);
-            if let Some(extent) = writer.extent().filter(|_| dry_run) {
+            let mut path = writer.close()?;
+            let (points, name) = (path.points(), path.file().to_owned());
+            let mut reader = program.layout.read(path.text()?, &name);
+            let text = ProgramText {
+                reader: &mut reader,
+                name: &name,
+                points,
+            };
+            let touch = job.preparation.touch.clone();
+            let path_error = outcome.figures.playback.max();
+            let report = program.measure(text, (&job.recipe, touch), path_error, observer)?;
+            drop(reader);
+            let frame = program.frame(&job.recipe, outcome, points, &report);
+            if let Some(extent) = path.extent().filter(|_| dry_run) {
                 let text = job.dry_run(program, &frame, &extent)?;
-                let path = self.folder.path().join(program.dry_run_file());
-                let mut draft = self.folder.draft(&path)?;
-                draft.write_all(&text).map_err(FileError::of(&path))?;
+                let file = self.folder.path().join(program.dry_run_file());
+                let mut draft = self.folder.draft(&file)?;
+                draft.write_all(&text).map_err(FileError::of(&file))?;
                 files.drafts.push(draft);
             }
-            let mut draft = writer.assemble(&frame.header, &frame.footer)?;
-            let name = draft.path().to_owned();
-            let reader = program.layout.open(draft.readable()?);
-            let mut reader = reader.map_err(|error| error.named(&name))?.named(&name);
-            let touch = job.preparation.touch.clone();
-            let recipe = &job.recipe;
-            reports.push(program.measure(&mut reader, &name, recipe, touch, points, observer)?);
+            let mut draft = path.assemble(&frame.header, &frame.footer)?;
+            let whole = program.layout.open(draft.readable()?);
+            let mut whole = whole.map_err(|error| error.named(&name))?.named(&name);
+            program.read_whole(&mut whole, &name, points)?;
+            reports.push(report);
             files.drafts.push(draft);
         }
         Ok(reports)

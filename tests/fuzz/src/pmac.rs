@@ -58,6 +58,13 @@ pub const WORDS: &[&str] = &[
     "G1 C0 X2.5 Z1.5 F60\n",
     "POLY PO[C]=(9) PO[X]=(2.4,0.001) PO[Z]=(1.6,0.001,-0.001) F20000\n",
     "PO[Z]=(",
+    "POLY PO[X]=(1,999999999999999,999999999999999) F60\n",
+    "F60000000000\n",
+    "F0.06\n",
+    "g1 ",
+    "G71 ",
+    "MovePvt([C], [999999999999999], [-999999999999999], 1000)\n",
+    "SetupTaskDistanceUnits(DistanceUnits.Primary)\n",
     "F20000",
     "POLY ",
 ];

@@ -43,18 +43,18 @@ use turnpath_core::{ParamInfo, Params};
 
 pub(crate) use clock::Clock;
 
-use commands::{commands, leaves_program_open};
+use commands::{commands, ends_program, leaves_program_open};
 use read::PvtGrammar;
 use travel_read::read_travel;
 use travel_write::push_travel;
-use write::{push_first, push_segment};
+use write::{push_first, push_last, push_segment};
 
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::ProgramFormat;
 use crate::settings::{
     BUFFER, C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, ROTARY,
-    VELOCITY_DECIMALS, VELOCITY_PER,
+    SHORTEST_SEGMENT, VELOCITY_DECIMALS, VELOCITY_PER,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -62,7 +62,6 @@ use crate::travel::{Places, Travel, TravelModes};
 pub(crate) const TURBO_CLOCK: Clock = Clock {
     steps_per_ms: 4096,
     decimals: 12,
-    range: "1/4096 ms to 4095.9998 ms",
 };
 
 /// Programs for Turbo PMAC.
@@ -91,12 +90,16 @@ pub(crate) const PMAC_PVT: Post = Post {
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Ix90 = {ix90}
 ; segment times in steps of 1/4096 ms: I42 = 0
 ; the path begins and ends {ends}
+; verified on this text: {verified}
 CLOSE
 OPEN PROG 1 CLEAR
 ",
     footer: "CLOSE\n",
     steps_per_s: 4_096_000,
     longest: (1 << 24) - 1,
+    mantissa_bits: Some(35),
+    c_is_even: false,
+    delivered_decimals: None,
     dialect: &Pvt { clock: TURBO_CLOCK },
 };
 
@@ -123,6 +126,7 @@ pub(crate) const PVT_KEYS: &[ParamInfo] = &[
     C_SIGN.info(),
     C_WRAP.info(),
     POSITIONING.info(),
+    SHORTEST_SEGMENT.info(),
     HEADER.info(),
     FOOTER.info(),
 ];
@@ -140,6 +144,10 @@ impl Dialect for Pvt {
 
     fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment) {
         push_segment(text, self.clock, format, segment);
+    }
+
+    fn write_last(&self, text: &mut Vec<u8>, format: &ProgramFormat) {
+        push_last(text, format);
     }
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
@@ -165,5 +173,9 @@ impl Dialect for Pvt {
 
     fn leaves_program_open(&self, header: &str) -> bool {
         leaves_program_open(header)
+    }
+
+    fn ends_program(&self, command: &str) -> bool {
+        ends_program(command)
     }
 }

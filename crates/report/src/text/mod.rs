@@ -8,6 +8,7 @@ mod file;
 mod form;
 mod lead;
 mod machine;
+mod map_comparison;
 mod numbers;
 mod path;
 mod remark;
@@ -19,5 +20,6 @@ mod unreached;
 
 pub use check::check;
 pub use file::file;
+pub use map_comparison::map_comparison;
 pub use numbers::{bytes, grouped, millimetres, nose_radius};
-pub use run::run;
+pub use run::{run, verified_figures};
