@@ -14,13 +14,12 @@ use crate::diagnosis::{not_carried, of_pipeline};
 use crate::error::Error;
 use crate::figures::{self, machine_source};
 use crate::job::Job;
+use crate::part_shape;
 use crate::posts::NotCarried;
 use crate::program::Program;
+use crate::region::region;
 use crate::remarks::PathSubject;
 use crate::sizes::sampled_bytes;
-
-/// A place is on the part up to this much beyond its edges, mm.
-const ON_PART: f64 = 1e-9;
 
 impl Job {
     /// What the part asks of the tool, and what the path will be, without making it.
@@ -32,6 +31,7 @@ impl Job {
         let (expected, sample) =
             sample_path(&self.chain, &self.preparation, self.options()).map_err(failed)?;
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
+        let part = self.preparation.task.part;
         let size = |program: &Program| -> Result<report::ProgramEstimate, NotCarried> {
             Ok(report::ProgramEstimate {
                 file: program.file.clone(),
@@ -50,6 +50,7 @@ impl Job {
         let report = CheckReport {
             format: report::FORMAT,
             name: self.recipe.name.clone(),
+            part: Some(part_shape::shape(&self.recipe, &self.chain.surface, &part)?),
             tool_fit: self.tool_fit(&nose),
             machine: self.machine_limits(),
             unreached: self.unreached()?,
@@ -142,7 +143,10 @@ fn margins(found: &Interference, nose: &LargestNose, tool: &Tool, part: &Part) -
             given: tool.nose_radius,
             most,
             margin: most.map(|most| most - tool.nose_radius),
-            at: most.map(|_| place(&nose.at, part)),
+            // Where the surface ends within the reach of a larger nose, no place limits it.
+            at: most
+                .filter(|_| nose.at.value.is_finite())
+                .map(|_| place(&nose.at, part)),
         },
         included_angle: angle(tool.included_angle, least_included(found), contact),
         clearance_angle: angle(tool.clearance_angle, cut.value, cut),
@@ -168,17 +172,11 @@ fn sections(found: &Interference, part: &Part) -> report::Sections {
 
 fn place(extreme: &Extreme, part: &Part) -> report::ContactPlace {
     let (at, rho) = (extreme.position(), extreme.rho);
-    let inside = rho < part.inner_radius - ON_PART;
-    let outside = rho > part.aperture_radius + ON_PART;
     report::ContactPlace {
         x: at.x,
         y: at.y,
         rho,
         c: extreme.theta.rem_euclid(360.0 * DEG),
-        on: if inside || outside {
-            report::Region::Overrun
-        } else {
-            report::Region::Part
-        },
+        on: region(rho, part),
     }
 }
