@@ -83,7 +83,10 @@ impl<'a> ReadyPath<'a> {
         sink.expect(&estimate).map_err(RunError::Sink)?;
         let batch = batch_size(&plan, nodes);
         let depths = match options.refine {
-            true => refine(&plan, batch, observer)?,
+            true => {
+                let all: Vec<usize> = (0..plan.blocks()).collect();
+                refine(&plan, batch, &all, observer)?
+            }
             false => Vec::new(),
         };
         stop_if_cancelled(observer)?;
