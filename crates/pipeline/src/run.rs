@@ -82,10 +82,15 @@ impl<'a> ReadyPath<'a> {
         let estimate = Estimate::of(&plan, nodes)?;
         sink.expect(&estimate).map_err(RunError::Sink)?;
         let batch = batch_size(&plan, nodes);
-        let depths = match options.refine {
+        let mut depths = match options.refine {
             true => refine(&plan, batch, observer)?,
             false => Vec::new(),
         };
+        let is_slower = schedule::slow_down_refined(&mut plan, &depths, observer)?;
+        if is_slower && plan.time_steps.is_some() {
+            // At another speed the points lie on other steps of the controller's time.
+            depths = refine(&plan, batch, observer)?;
+        }
         stop_if_cancelled(observer)?;
         let leads = options
             .lead

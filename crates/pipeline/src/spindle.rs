@@ -11,6 +11,9 @@ use crate::{Chain, Preparation, Result};
 const END_SLACK: f64 = 1e-9;
 /// By how much t may jump at a knot, as a part of a revolution's time.
 const TIME_JUMP: f64 = 1e-9;
+/// By how much t may jump at a knot, as a part of itself: its rounding. At high speeds it is more than
+/// the part of a revolution's time.
+const TIME_ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// By how much the speed may jump at a knot, or exceed its bound, as a part of itself.
 const SPEED_JUMP: f64 = 1e-9;
 /// By how much the change of the speed over a revolution may jump at a knot, as a part of the speed.
@@ -130,7 +133,8 @@ impl SpindleCheck<'_> {
         }
         let (before, after) = (self.time.series_before(n), self.time.series(n));
         let jump = |order: usize| (after[order] - before[order]).abs();
-        if !within(jump(0), TIME_JUMP * self.least_period()) {
+        let rounding = TIME_ROUNDING * before[0].abs();
+        if !within(jump(0), TIME_JUMP * self.least_period() + rounding) {
             return Err(format!(
                 "t jumps from {} s to {} s {}",
                 before[0],
