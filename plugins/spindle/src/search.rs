@@ -21,6 +21,9 @@ const MOST_EXTENSIONS: usize = 10;
 const ROUNDS: usize = 4;
 /// How many of the first schedules are lowered in this way: the fastest ones.
 const FINALISTS: usize = 4;
+/// A schedule is taken if it saves this part of the time at a constant speed. Below it the speed
+/// would change by next to nothing, and rounding would stand against C's limits.
+const WORTH: f64 = 1e-3;
 /// The spindle stays below its largest speed by this part, for rounding.
 const ROUNDING: f64 = 1e-11;
 /// A cell counts as within its limits up to this part of its speed.
@@ -70,7 +73,7 @@ impl Conditions<'_> {
         let finished = first.into_iter().map(|schedule| self.lowered(schedule));
         let fastest = finished.min_by(|one, other| one.time.total_cmp(&other.time));
         let constant = TAU * self.grid.end / least;
-        match fastest.filter(|schedule| schedule.time < constant) {
+        match fastest.filter(|schedule| schedule.time < (1.0 - WORTH) * constant) {
             Some(schedule) => schedule.law.into_spindle(schedule.factor),
             None => SpindleLaw::constant(least),
         }
