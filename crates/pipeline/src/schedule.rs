@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use turnpath_core::Machine;
 use turnpath_core::toolpath::PathBlock;
 use turnpath_verify::AxesMotion;
 
@@ -180,9 +181,19 @@ fn headroom(plan: &Plan<'_>, depths: &[Depths], observer: &dyn Observer) -> Resu
     Ok(all)
 }
 
+/// The limits that a speed can be asked for. A constant speed has no acceleration and no jerk, and what
+/// the rounding of its points leaves of them follows no speed.
+fn limits(plan: &Plan<'_>) -> Machine {
+    let mut machine = plan.preparation.task.machine;
+    if plan.spindle.is_constant() {
+        (machine.c.acceleration, machine.c.jerk) = (None, None);
+    }
+    machine
+}
+
 /// Includes the half turns of a block. A segment across the border of two counts for both.
 fn include(plan: &Plan<'_>, block: &BlockPoints, all: &mut [f64]) {
-    let (machine, points) = (&plan.preparation.task.machine, &block.points);
+    let (machine, points) = (&limits(plan), &block.points);
     let (Some(first), Some(last)) = (points.c.first(), points.c.last()) else {
         return;
     };

@@ -375,6 +375,20 @@ mod tests {
         refused(&bend, &["acceleration of the spindle jumps at 5.000"]);
     }
 
+    /// After 5000 s a double has steps of 9e-13 s, far more than a billionth of a short turn.
+    #[test]
+    fn a_jump_by_the_rounding_of_t_passes_at_any_largest_speed() {
+        let next = f64::from_bits(5000f64.to_bits() + 1);
+        let of = |t| law([(5.0, straight(0.0, 1000.0)), (5.0, straight(t, 1000.0))]);
+        let check = |time: &PiecewisePolynomial| {
+            let speed = TAU / 1e-7;
+            let end = 10.0;
+            SpindleCheck { time, end, speed }.check()
+        };
+        assert_eq!(check(&of(next)), Ok(()));
+        assert!(check(&of(5000.0 + 1e-9)).is_err());
+    }
+
     #[test]
     fn a_speed_beyond_the_bound_is_found_within_a_piece() {
         refused(
