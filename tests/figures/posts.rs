@@ -57,11 +57,16 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
             "{}: {error} {path}",
             post.name
         );
+        let raised = number(program, "/raised_by_nm");
+        assert!((raised - (error - path)).abs() < 1e-6, "{raised}");
         let exceeded = program["within_interpolation"] == Value::Bool(false);
         assert!(!exceeded || status == Some(1), "{program}");
         let file = out.join(program["file"].as_str().unwrap());
         let text = fs::read_to_string(&file).unwrap();
         assert!(text.contains(summary["recipe"]["sha256"].as_str().unwrap()));
+        // The header has the figures of the report.
+        let verified = format!("verified on this text: interpolation error {error:.2} nm");
+        assert!(text.contains(&verified), "{verified}");
         let verify = call(
             "verify",
             recipe,
@@ -92,13 +97,15 @@ fn all_posts_carry_a_path_with_leads_within_its_tolerance() {
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_all_posts_carry_all_ready_recipes_within_their_tolerances() {
-    let mut recipes = 0;
-    for entry in fs::read_dir(repository().join("docs/recipes")).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|end| end == "toml") {
-            all_posts_carry(&path, &["--set", "refine=false"]);
-            recipes += 1;
+    for folder in ["docs/recipes", "docs/recipes/surfaces"] {
+        let mut recipes = 0;
+        for entry in fs::read_dir(repository().join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|end| end == "toml") {
+                all_posts_carry(&path, &["--set", "refine=false"]);
+                recipes += 1;
+            }
         }
+        assert!(recipes > 3, "{folder}");
     }
-    assert!(recipes > 3);
 }

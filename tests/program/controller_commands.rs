@@ -79,6 +79,41 @@ fn a_header_without_an_open_program_and_a_rotary_buffer_need_trust() {
 }
 
 /// Who calls has written it, and not whoever wrote the recipe.
+/// A comment character within quotes begins no comment: the line is shown whole, and a recipe's own words
+/// are refused there. A word that ends the program keeps the path from running.
+#[test]
+fn text_in_quotes_is_a_command_and_so_is_the_end_of_a_program_before_the_path() {
+    let of_siemens = |header: &str, trust: &str| {
+        let output = "[output]\nposts = [\"siemens-840d-poly\"]\n\n[output.siemens-840d-poly]\n";
+        let bench = Bench::with(&format!("{SADDLE}\n{output}header = '{header}'\n"));
+        let said = bench.line(&format!("check recipe.toml{trust}")).ends(2);
+        said.stderr
+    };
+    let said = of_siemens("MSG(\"; part\") G0 Z-50 ; a", "");
+    assert!(
+        said.contains("it tells the controller `MSG(\"; part\") G0 Z-50`"),
+        "{said}"
+    );
+    let said = of_siemens("MSG(\"; {name}\")", " --trust-recipe");
+    assert!(said.contains("`{name}` is outside a comment"), "{said}");
+    let said = of_siemens("M30", "");
+    assert!(said.contains("it tells the controller `M30`"), "{said}");
+}
+
+#[test]
+fn a_name_that_makes_a_mark_of_a_comment_is_refused_with_its_template() {
+    let text = SADDLE.replace("name = \"Saddle\"", "name = \"- cutting -\"");
+    let output = "[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\n";
+    let bench = Bench::with(&format!("{text}\n{output}header = '; -{{name}}-'\n"));
+    let said = bench.line("check recipe.toml").ends(2);
+    assert!(
+        said.stderr
+            .contains("would be taken for a mark of the path"),
+        "{said}"
+    );
+    assert!(said.stderr.contains("in this template"), "{said}");
+}
+
 #[test]
 fn what_the_caller_sets_needs_no_trust() {
     let bench = bench("");
@@ -96,4 +131,34 @@ fn the_posts_own_templates_and_unused_ones_are_not_named() {
     let unused = Bench::with(&format!("{SADDLE}\n[output.pmac-pvt]\n{COOLANT}\n"));
     let said = unused.line("run recipe.toml -o out").ends(0);
     assert!(!said.stdout.contains("M1=1"), "{said}");
+}
+
+#[test]
+fn a_rotary_buffer_that_a_recipe_asks_for_needs_trust_and_the_path_stays_the_same() {
+    let bench = bench("buffer = \"rotary\"");
+    let said = bench.line("run recipe.toml -o out").ends(2);
+    assert!(
+        said.stderr
+            .contains("it tells the controller `OPEN ROTARY`"),
+        "{said}"
+    );
+    bench.line("run recipe.toml -o out --trust-recipe").ends(0);
+    let rotary = bench.read("out/recipe.pmc");
+    assert!(
+        rotary.contains("CLOSE\nOPEN ROTARY\n; -- cutting --\n"),
+        "{rotary:.900}"
+    );
+    let own = [
+        "run",
+        "recipe.toml",
+        "-o",
+        "own",
+        "--set",
+        "output.pmac-pvt.buffer=program",
+    ];
+    bench.call(own).ends(0);
+    let program = bench.read("own/recipe.pmc");
+    let path = |text: &str| text.split_once("; -- cutting").unwrap().1.to_owned();
+    assert_eq!(path(&rotary), path(&program));
+    bench.line("verify recipe.toml out/recipe.pmc").ends(0);
 }

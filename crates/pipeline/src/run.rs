@@ -82,8 +82,16 @@ impl<'a> ReadyPath<'a> {
         let estimate = Estimate::of(&plan, nodes)?;
         sink.expect(&estimate).map_err(RunError::Sink)?;
         let batch = batch_size(&plan, nodes);
+<<<<<<< HEAD
         let mut depths = match options.refine {
             true => refine(&plan, batch, observer)?,
+=======
+        let depths = match options.refine {
+            true => {
+                let all: Vec<usize> = (0..plan.blocks()).collect();
+                refine(&plan, batch, &all, observer)?
+            }
+>>>>>>> main
             false => Vec::new(),
         };
         let is_slower = schedule::slow_down_refined(&mut plan, &depths, observer)?;

@@ -2,11 +2,14 @@
 
 use std::fmt::Debug;
 
-use turnpath_core::ParamInfo;
 use turnpath_core::toolpath::ControlPoint;
+use turnpath_core::{ParamInfo, Params};
 
 use crate::carry::{DigitSegment, Digits};
+use crate::comment::code_before_comment;
+use crate::g_code;
 use crate::program_format::ProgramFormat;
+use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +34,14 @@ pub struct Post {
     pub steps_per_s: i64,
     /// The longest segment, in steps. A longer one is divided.
     pub longest: i64,
+    /// Bits of the size of a number that the controller holds, where it holds less than a double.
+    pub mantissa_bits: Option<u32>,
+    /// Whether the controller keeps the speed of C within a segment, and lets X and Z follow C. The curve
+    /// is then the path's, and the speeds step at control points.
+    pub c_is_even: bool,
+    /// Decimals of positions that the controller keeps as it is delivered, where it rounds positions to
+    /// them whatever the program has.
+    pub delivered_decimals: Option<u32>,
     /// How it writes and reads lines.
     pub dialect: &'static dyn Dialect,
 }
@@ -43,17 +54,44 @@ pub trait Dialect: Debug + Send + Sync {
     /// Writes the lines of a segment.
     fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment);
 
+    /// Writes the lines behind the last segment, before the end mark.
+    fn write_last(&self, _text: &mut Vec<u8>, _format: &ProgramFormat) {}
+
     /// A reader of lines, at the beginning of a program.
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar>;
 
     /// The commands of a template, line by line. Comments and empty lines are none.
     fn commands(&self, template: &str) -> Vec<Command>;
 
+    /// Writes a statement before or after the path. Unless a dialect says otherwise, these are words of
+    /// G code.
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        g_code::push_travel(text, format, "", travel);
+    }
+
+    /// Reads a line before or after the path: the places that it gives to the axes.
+    ///
+    /// # Errors
+    /// When the line is not of the dialect: what is wrong with it.
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        g_code::read_travel(code, modes)
+    }
+
+    /// The template of the header that these settings ask for in place of the post's own, if they do,
+    /// behind the name of the key that asks.
+    fn other_header(&self, _settings: &Params) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
     /// Whether the path's lines go into a program after a header. Where a file is a program as it is,
     /// they always do.
     fn leaves_program_open(&self, _header: &str) -> bool {
         true
     }
+
+    /// Whether a command ends the program in which it stands, or halts it: in a header, the path then
+    /// does not run.
+    fn ends_program(&self, command: &str) -> bool;
 }
 
 /// Reads the lines of a program in their order.
@@ -67,6 +105,11 @@ pub trait Grammar: Send + Sync {
     /// # Errors
     /// When the line is not of the dialect: what is wrong with it.
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String>;
+
+    /// Whether a point waits for the line behind it: the first of those that are known next.
+    fn holds_point(&self) -> bool {
+        false
+    }
 
     /// The control point that waits for a line behind it, at the end of the path.
     fn finish(&mut self) -> Option<ControlPoint> {
@@ -85,16 +128,16 @@ pub struct Command {
     pub harmless: bool,
 }
 
-/// The commands of a template whose comments begin at `comment`, and whose other lines are judged one
-/// by one.
+/// The commands of a template: its lines without their comments, which begin with one of `comments`.
+/// Each is judged by itself.
 pub(crate) fn commands_of(
     template: &str,
-    code_of: impl Fn(&str) -> &str,
+    comments: &[&str],
     is_harmless: impl Fn(&str) -> bool,
 ) -> Vec<Command> {
     let lines = template.lines().zip(1..);
     let commands = lines.filter_map(|(line_text, line)| {
-        let code = code_of(line_text).trim();
+        let code = code_before_comment(line_text, comments).trim();
         (!code.is_empty()).then(|| Command {
             line,
             text: code.to_owned(),

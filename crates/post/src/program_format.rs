@@ -7,11 +7,23 @@ pub(crate) const TURN_DEG: i64 = 360;
 /// The beginning of the line after the path, in its comment.
 pub(crate) const END_MARK: &str = "-- end of path";
 
+/// The mark before the approach.
+pub(crate) const APPROACH_MARK: &str = "-- approach --";
+/// The mark before the retreat.
+pub(crate) const RETREAT_MARK: &str = "-- retreat --";
+
+/// The mark before the moves of a dry run.
+pub(crate) const DRY_RUN_MARK: &str = "-- dry run --";
+/// The mark after them.
+pub(crate) const END_OF_DRY_RUN_MARK: &str = "-- end of dry run --";
+
 /// How a program writes times, positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramFormat {
     /// Steps of time in a second: every segment takes a whole number of them.
     pub steps_per_s: i64,
+    /// Shortest segment, in steps. A shorter one is refused.
+    pub shortest: i64,
     /// Longest segment, in steps. A longer one is divided.
     pub longest: i64,
     /// Decimals of positions, in mm and deg.
@@ -29,8 +41,15 @@ pub struct ProgramFormat {
     pub c_wrapped: bool,
     /// Distances from point to point instead of positions.
     pub incremental: bool,
+    /// Bits of the size of a number that the controller holds, where it holds less than a double. It
+    /// rounds absolute positions to them; distances are small, and their rounding counts for nothing.
+    pub mantissa_bits: Option<u32>,
     /// Z of the path − Z of the program, mm: the nose radius where the program's Z is the tip's.
     pub z_above: f64,
+    /// How far above the highest place of the path X and C move before it, mm.
+    pub approach_height: f64,
+    /// How fast Z goes down to the path's first point, mm/min.
+    pub approach_feed: f64,
 }
 
 impl ProgramFormat {
@@ -42,6 +61,23 @@ impl ProgramFormat {
     /// The seconds that velocities refer to.
     pub fn velocity_time(&self) -> f64 {
         if self.per_minute { 60.0 } else { 1.0 }
+    }
+
+    /// The height of the approach in last digits, rounded up.
+    pub(crate) fn approach_digits(&self) -> i64 {
+        let one = 10u64.pow(self.position_decimals) as f64;
+        (self.approach_height * one).ceil() as i64
+    }
+
+    /// The most by which the controller's numbers move a position of this size, in its unit; `None` where
+    /// they hold all digits of a double, or where the program says distances.
+    pub fn held_rounding(&self, position: f64) -> Option<f64> {
+        let bits = self.mantissa_bits.filter(|_| !self.incremental)?;
+        let mut quantum = 1.0 / (1_u64 << bits.min(53)) as f64;
+        while quantum * ((1_u64 << bits.min(53)) as f64) <= position.abs() {
+            quantum *= 2.0;
+        }
+        Some(0.5 * quantum)
     }
 
     /// 1, or −1 if the program's C runs against the path's.

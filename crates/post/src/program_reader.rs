@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 use turnpath_core::toolpath::{ControlPoint, Section};
 
 use crate::path_reader::{ReadCount, ReadPath};
-use crate::post::Grammar;
-use crate::program_format::{END_MARK, mark};
+use crate::post::{Grammar, Post};
+use crate::program_format::{APPROACH_MARK, END_MARK, ProgramFormat, RETREAT_MARK, mark};
 use crate::read_error::ReadError;
+use crate::travel_check::TravelCheck;
 use crate::turn::check_turn;
 
 /// Longest line that is read, bytes: far longer than any line of a program, so that a file that is no
@@ -23,34 +24,53 @@ const BUFFER: usize = 1 << 18;
 pub struct ProgramReader<R = File> {
     lines: BufReader<R>,
     path: PathBuf,
+    post: &'static Post,
+    format: ProgramFormat,
     grammar: Box<dyn Grammar>,
-    /// What begins a comment, for messages.
-    comment: &'static str,
     line: u64,
+    part: Part,
     section: Option<Section>,
+    /// The moves before and after the path.
+    travel: TravelCheck,
     /// The points that the end mark says, after it was read.
     said_points: Option<u64>,
     /// Points that were read and not given yet.
     waiting: VecDeque<(ControlPoint, Section)>,
+    /// The section of the point that the grammar holds back until it has read the line behind it.
+    held: Option<Section>,
     read_count: ReadCount,
+}
+
+/// The part of a program that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Header,
+    Approach,
+    Path,
+    Retreat,
+    Footer,
 }
 
 impl<R: Read> ProgramReader<R> {
     pub(crate) fn new(
         reader: R,
         path: PathBuf,
-        grammar: Box<dyn Grammar>,
-        comment: &'static str,
+        post: &'static Post,
+        format: &ProgramFormat,
     ) -> Self {
         Self {
             lines: BufReader::with_capacity(BUFFER, reader),
             path,
-            grammar,
-            comment,
+            post,
+            format: *format,
+            grammar: post.dialect.grammar(format),
             line: 0,
+            part: Part::Header,
             section: None,
+            travel: TravelCheck::default(),
             said_points: None,
             waiting: VecDeque::new(),
+            held: None,
             read_count: ReadCount::default(),
         }
     }
@@ -89,7 +109,7 @@ impl<R: Read> ProgramReader<R> {
 
     /// The error of a file that ends too early.
     fn incomplete(&self) -> ReadError {
-        let comment = self.comment;
+        let comment = self.post.comment;
         self.wrong(match self.section {
             None => format!(
                 "there is no path: the line `{comment} {}` is missing",
@@ -101,46 +121,91 @@ impl<R: Read> ProgramReader<R> {
         })
     }
 
-    /// Reads a comment, which may be a mark.
-    fn read_comment(&mut self, said: &[u8]) -> Result<(), String> {
+    /// Reads a comment, which may be a mark; says whether it is one.
+    fn read_comment(&mut self, said: &[u8]) -> Result<bool, String> {
         let text = String::from_utf8_lossy(said).trim().to_ascii_lowercase();
         if !text.starts_with("--") {
-            return Ok(());
+            return Ok(false);
         }
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
-            if self.section.is_some_and(|last| section <= last) {
+            let is_late = self.part == Part::Retreat;
+            if is_late || self.section.is_some_and(|last| section <= last) {
                 return Err(format!(
                     "`{} {text}` is out of order: the sections are lead-in, cutting, lead-out",
-                    self.comment
+                    self.post.comment
                 ));
             }
             self.section = Some(section);
-        } else if self.section.is_some() && text.starts_with(END_MARK) {
-            let digits: String = text.chars().filter(char::is_ascii_digit).collect();
-            let points: u64 = digits
-                .parse()
-                .map_err(|_| "the end mark must give the number of points".to_owned())?;
-            self.said_points = Some(points);
+            self.part = Part::Path;
+            return Ok(true);
+        }
+        if text == APPROACH_MARK && self.part == Part::Header {
+            self.part = Part::Approach;
+            return Ok(true);
+        }
+        if text == RETREAT_MARK && self.part == Part::Path {
+            self.part = Part::Retreat;
+            self.travel.begin_retreat();
             let last = self.grammar.finish();
             self.wait(last);
+            return Ok(true);
         }
-        Ok(())
+        if text == APPROACH_MARK || text == RETREAT_MARK {
+            let comment = self.post.comment;
+            return Err(format!(
+                "`{comment} {text}` is out of order: it is approach, path, retreat"
+            ));
+        }
+        let Some(said) = text.strip_prefix(END_MARK) else {
+            return Ok(false);
+        };
+        if self.section.is_some() {
+            let points = said_points(said);
+            self.said_points = Some(points.ok_or("the end mark must give the number of points")?);
+            if self.part == Part::Path {
+                let last = self.grammar.finish();
+                self.wait(last);
+            }
+            self.part = Part::Footer;
+        }
+        Ok(true)
     }
 
     /// Reads a line of the path.
     fn read_code(&mut self, code: &[u8]) -> Result<(), String> {
         let code = std::str::from_utf8(code).map_err(|_| "this is not text".to_owned())?;
+        if matches!(self.part, Part::Approach | Part::Retreat) {
+            let modes = &mut self.travel.modes;
+            let places = self.post.dialect.read_travel(code.trim(), modes)?;
+            return self.travel.go_to(&places, self.line);
+        }
         let mut points = Vec::new();
         self.grammar.read(code, &mut points)?;
         self.wait(points);
+        if self.grammar.holds_point() {
+            self.held = self.held.or(self.section);
+        }
         Ok(())
     }
 
+    /// Takes points. The first of them may have been held back since a line of an earlier section.
     fn wait(&mut self, points: impl IntoIterator<Item = ControlPoint>) {
-        if let Some(section) = self.section {
-            let points = points.into_iter().map(|point| (point, section));
-            self.waiting.extend(points);
+        for point in points {
+            if let Some(section) = self.held.take().or(self.section) {
+                self.waiting.push_back((point, section));
+            }
+        }
+    }
+
+    /// Checks the moves around the whole path.
+    fn check_heights(&mut self) -> Result<bool, ReadError> {
+        match self.travel.finish() {
+            Ok(()) => Ok(false),
+            Err((line, what)) => {
+                self.line = line;
+                Err(self.wrong(what))
+            }
         }
     }
 
@@ -149,7 +214,7 @@ impl<R: Read> ProgramReader<R> {
         if let Some(said) = self.said_points {
             let count = self.read_count.points();
             return match said == count {
-                true => Ok(false),
+                true => self.check_heights(),
                 false => Err(self.wrong(format!(
                     "the path has {count} points, but its end mark says {said}"
                 ))),
@@ -161,14 +226,29 @@ impl<R: Read> ProgramReader<R> {
         let (code, comment) = self.grammar.split_comment(text);
         if let Some(comment) = comment {
             let read = self.read_comment(comment);
-            read.map_err(|what| self.wrong(what))?;
+            let is_mark = read.map_err(|what| self.wrong(what))?;
+            if is_mark && !code.trim_ascii().is_empty() {
+                let what = "code stands before a mark of the path: a mark has a line of its own";
+                return Err(self.wrong(what.to_owned()));
+            }
         }
         // The lines before the path belong to the header, and those after it to the footer.
-        if self.section.is_some() && self.said_points.is_none() {
+        if !matches!(self.part, Part::Header | Part::Footer) {
             self.read_code(code).map_err(|what| self.wrong(what))?;
         }
         Ok(true)
     }
+}
+
+/// The points that an end mark says, by what stands behind its first words: `: 12 points`, and two
+/// dashes that may be missing.
+fn said_points(said: &str) -> Option<u64> {
+    let number = said.trim_start().strip_prefix(':')?.trim_start();
+    let end = number.find(|c: char| !c.is_ascii_digit())?;
+    let (digits, rest) = number.split_at(end);
+    let points = rest.trim_start().strip_prefix("points")?;
+    let is_whole = matches!(points.trim_start(), "" | "--");
+    digits.parse().ok().filter(|_| is_whole)
 }
 
 impl<R: Read> ReadPath for ProgramReader<R> {
@@ -182,7 +262,9 @@ impl<R: Read> ReadPath for ProgramReader<R> {
         let Some((point, section)) = self.waiting.pop_front() else {
             return Ok(None);
         };
-        check_turn(self.read_count.last(), &point, section).map_err(|what| self.wrong(what))?;
+        let checked = check_turn(self.read_count.last(), &point, section)
+            .and_then(|()| self.travel.pass(&point, &self.format));
+        checked.map_err(|what| self.wrong(what))?;
         self.read_count.add(point, section);
         Ok(Some((point, section)))
     }

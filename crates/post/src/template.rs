@@ -1,5 +1,7 @@
 //! Headers and footers: text with placeholders.
 
+use crate::comment::code_before_comment;
+
 /// The names that may appear in braces.
 pub const PLACEHOLDERS: &[&str] = &[
     "name",
@@ -15,6 +17,11 @@ pub const PLACEHOLDERS: &[&str] = &[
     "velocity_unit",
     "ix90",
     "ends",
+    "increments",
+    "interpolation_error_nm",
+    "form_error_nm",
+    "lead_clearance_nm",
+    "verified",
 ];
 
 /// Placeholders whose values are words of a person. They are allowed only in comments, which no
@@ -50,6 +57,12 @@ pub enum TemplateError {
     /// A reader would take a line for a mark of the path.
     #[error("a comment that begins with `--` would be taken for a mark of the path")]
     Mark,
+    /// A reader would take a line for a mark of the path once its placeholders have their values.
+    #[error(
+        "with the values of its placeholders, the comment of the line `{0}` begins with `--` and \
+         would be taken for a mark of the path"
+    )]
+    FilledMark(String),
     /// A brace has no partner.
     #[error("a single brace; write a literal brace twice: `{{{{` or `}}}}`")]
     SingleBrace,
@@ -85,7 +98,8 @@ impl Template {
             if let Part::Placeholder(name) = &part {
                 let read = text.len() - rest.len() + before.len();
                 let line = text[..read].rsplit('\n').next().unwrap_or_default();
-                if FREE_TEXT.contains(&name.as_str()) && !line.contains(comment) {
+                let is_code = code_before_comment(line, &[comment]) == line;
+                if FREE_TEXT.contains(&name.as_str()) && is_code {
                     let name = name.clone();
                     return Err(TemplateError::OutsideComment { name, comment });
                 }
@@ -95,6 +109,31 @@ impl Template {
         }
         parts.push(Part::Text(rest.to_owned()));
         Ok(Self(parts))
+    }
+
+    /// Characters of its own text: about the length of the filled one.
+    pub fn len(&self) -> usize {
+        let parts = self.0.iter().map(|part| match part {
+            Part::Text(text) | Part::Placeholder(text) => text.len(),
+        });
+        parts.sum()
+    }
+
+    /// Whether there is nothing in it.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Checks the text with these values of its placeholders.
+    ///
+    /// # Errors
+    /// When a reader would take one of its lines for a mark of the path.
+    pub fn check(&self, value: impl Fn(&str) -> String) -> Result<(), TemplateError> {
+        let filled = self.fill(value);
+        match filled.lines().find(|line| is_mark(line)) {
+            None => Ok(()),
+            Some(line) => Err(TemplateError::FilledMark(line.to_owned())),
+        }
     }
 
     /// The text with the values of its placeholders and a line end. Line ends and characters beyond
@@ -148,6 +187,11 @@ fn is_mark(line: &str) -> bool {
 fn harmless(value: &str) -> String {
     let short: String = value.chars().take(LONGEST_VALUE).map(plain).collect();
     short.replace("--", "- -")
+}
+
+/// A person's words in ASCII, on one line.
+pub(crate) fn plain_text(text: &str) -> String {
+    harmless(text)
 }
 
 fn plain(c: char) -> char {
@@ -209,6 +253,21 @@ mod tests {
             Template::parse("CLOSE ;-- end of path --", ";"),
             Err(TemplateError::Mark)
         );
+        // A semicolon within quotes begins no comment.
+        for text in ["MSG(\"; {name}\")", "MSG(\"{name}\")", "MSG(\"a\" ; {name}"] {
+            let outside = Template::parse(text, ";");
+            let refused = matches!(outside, Err(TemplateError::OutsideComment { .. }));
+            assert_eq!(refused, !text.contains("\"a\""), "{text}: {outside:?}");
+        }
+        for (text, name) in [("; -{name}-", "- cutting -"), (";\u{1}{name}-", "-- x")] {
+            let filled = Template::parse(text, ";")
+                .unwrap()
+                .check(|_| name.to_owned());
+            let refused = matches!(filled, Err(TemplateError::FilledMark(_)));
+            assert_eq!(refused, text.starts_with("; -"), "{text}: {filled:?}");
+        }
+        let control = Template::parse(";\u{1}-- cutting --", ";").unwrap();
+        assert!(control.check(|_| String::new()).is_err());
         let filled = Template::parse("; {name}\n", ";")
             .unwrap()
             .fill(|_| format!("-- cutting --\nOPEN{}", "x".repeat(1000)));

@@ -28,12 +28,15 @@ mod form;
 mod format;
 mod lead;
 mod machine;
+mod map_comparison;
+mod part_shape;
 mod path;
 mod place;
 mod program;
 mod reach;
 mod remark;
 mod result_check;
+mod rough_path;
 mod run;
 #[cfg(test)]
 mod sample;
@@ -62,12 +65,15 @@ pub use form::{FormReport, FormSplit};
 pub use format::{FORMAT, FormatError, from_json, to_json};
 pub use lead::{AccelerationStep, LeadLayout, LeadReport};
 pub use machine::{HighestSpindle, LimitFigure, MachineLimits, MachineReport, MachineSource};
+pub use map_comparison::{MapComparison, MapPlace};
+pub use part_shape::{PartCurvature, PartHeight, PartPlace, PartShape, PartSlope, RefusedCheck};
 pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
 pub use program::{ControllerCommand, ProgramFigures, ProgramReport};
 pub use reach::{Radial, Radii, Reach};
 pub use remark::{ProgramDigits, Remark, RemarkSubject};
 pub use result_check::ResultCheck;
+pub use rough_path::{Left, RoughPathReport};
 pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
 };

@@ -32,6 +32,11 @@ pub struct ProgramReport {
     /// Largest interpolation error, mm.
     #[serde(rename = "interpolation_error_nm", with = "unit::nm")]
     pub interpolation_error: f64,
+    /// By how much the program's digits and times raise the largest interpolation error above that of the
+    /// path, mm. It is below zero where rounding happens to be of use; `None` in a report of a version
+    /// that did not say it.
+    #[serde(default, rename = "raised_by_nm", with = "unit::nm")]
+    pub raised_by: Option<f64>,
     /// Whether that holds the interpolation tolerance; `None` without one.
     pub within_interpolation: Option<bool>,
     /// Peak to valley of the machined surface, mm; `None` without a tolerance of form, or where
@@ -41,6 +46,10 @@ pub struct ProgramReport {
     /// Whether that holds the tolerance of form; `None` without one.
     #[serde(default)]
     pub within_form: Option<bool>,
+    /// The largest step of C's speed at a control point, rad/s, where the controller keeps it within a
+    /// segment; `None` where it plays the path's cubics in time.
+    #[serde(default, rename = "c_speed_step_deg_per_s", with = "unit::deg")]
+    pub c_speed_step: Option<f64>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
     #[serde(rename = "lead_clearance_nm", with = "unit::nm")]
     pub lead_clearance: Option<f64>,
@@ -54,6 +63,11 @@ pub struct ProgramReport {
 pub struct ProgramFigures {
     /// Largest interpolation error, mm.
     pub interpolation_error: f64,
+    /// Largest interpolation error of the path that it carries, mm.
+    pub path_error: f64,
+    /// The largest step of C's speed at a control point, rad/s, where the controller keeps it within a
+    /// segment.
+    pub c_speed_step: Option<f64>,
     /// Peak to valley of the machined surface, mm, where it was measured.
     pub form_error: Option<f64>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
@@ -65,6 +79,8 @@ impl ProgramReport {
     pub fn new(file: String, post: &str, figures: &ProgramFigures, tolerance: &Tolerances) -> Self {
         let ProgramFigures {
             interpolation_error,
+            path_error,
+            c_speed_step,
             form_error,
             lead_clearance,
         } = *figures;
@@ -73,6 +89,8 @@ impl ProgramReport {
             file,
             post: post.to_owned(),
             interpolation_error,
+            raised_by: Some(interpolation_error - path_error),
+            c_speed_step,
             within_interpolation: holds(interpolation_error, tolerance.interpolation),
             form_error,
             within_form: holds(form_error.unwrap_or(f64::INFINITY), tolerance.form),

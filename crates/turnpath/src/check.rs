@@ -3,20 +3,23 @@
 use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::{DEG, Part, Tolerance, Tool};
-use turnpath_pipeline::{estimate, largest_nose};
+use turnpath_files::FileError;
+use turnpath_pipeline::{PathSample, largest_nose, sample_path};
+use turnpath_post::PathWriter;
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
 
 use crate::commands::controller_commands;
-use crate::diagnosis::of_pipeline;
+use crate::diagnosis::{not_carried, of_pipeline};
 use crate::error::Error;
 use crate::figures::{self, machine_source};
 use crate::job::Job;
+use crate::part_shape;
+use crate::posts::NotCarried;
+use crate::program::Program;
+use crate::region::region;
 use crate::remarks::PathSubject;
-use crate::sizes::toolpath_bytes;
-
-/// A place is on the part up to this much beyond its edges, mm.
-const ON_PART: f64 = 1e-9;
+use crate::sizes::sampled_bytes;
 
 impl Job {
     /// What the part asks of the tool, and what the path will be, without making it.
@@ -25,23 +28,29 @@ impl Job {
     /// When a strategy fails.
     pub fn check(&self) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
-        let expected = estimate(&self.chain, &self.preparation).map_err(failed)?;
+        let (expected, sample) =
+            sample_path(&self.chain, &self.preparation, self.options()).map_err(failed)?;
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
-        let radius = self.preparation.task.range.outer;
-        let programs = self.programs.iter();
-        let programs = programs.map(|program| report::ProgramEstimate {
-            file: program.file.clone(),
-            bytes: program.expected_bytes(radius, &expected) as u64,
-        });
+        let part = self.preparation.task.part;
+        let size = |program: &Program| -> Result<report::ProgramEstimate, NotCarried> {
+            Ok(report::ProgramEstimate {
+                file: program.file.clone(),
+                bytes: program.sampled_bytes(&sample)? as u64,
+            })
+        };
+        let programs: Result<Vec<_>, _> = self.programs.iter().map(size).collect();
+        let programs = programs.map_err(|error| not_carried(&self.recipe, error))?;
         let path = PathSubject {
             tolerance: self.preparation.task.tolerance,
             cutting_time: expected.cutting_time,
+            revolutions: expected.revolutions,
             control_points: expected.control_points,
             z_acceleration: None,
         };
         let report = CheckReport {
             format: report::FORMAT,
             name: self.recipe.name.clone(),
+            part: Some(part_shape::shape(&self.recipe, &self.chain.surface, &part)?),
             tool_fit: self.tool_fit(&nose),
             machine: self.machine_limits(),
             unreached: self.unreached()?,
@@ -50,14 +59,23 @@ impl Job {
                 revolutions: expected.revolutions,
                 cutting_time: expected.cutting_time,
                 control_points: expected.control_points.round() as u64,
-                toolpath_bytes: toolpath_bytes(&expected) as u64,
-                programs: programs.collect(),
+                toolpath_bytes: self.toolpath_bytes(&sample)? as u64,
+                programs,
             },
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
             remarks: self.remarks(&path)?,
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
+    }
+
+    /// Bytes of the table of the path, from a sample of it.
+    fn toolpath_bytes(&self, sample: &PathSample) -> Result<f64, Error> {
+        let bytes = sampled_bytes(sample, |block| {
+            PathWriter::rows(block.section, block.points).map(|rows| rows.len())
+        });
+        let path = self.recipe.path().to_owned();
+        Ok(bytes.map_err(|error| FileError { path, error })?)
     }
 
     /// The tolerance of form, with what the first path is made for.
@@ -125,7 +143,10 @@ fn margins(found: &Interference, nose: &LargestNose, tool: &Tool, part: &Part) -
             given: tool.nose_radius,
             most,
             margin: most.map(|most| most - tool.nose_radius),
-            at: most.map(|_| place(&nose.at, part)),
+            // Where the surface ends within the reach of a larger nose, no place limits it.
+            at: most
+                .filter(|_| nose.at.value.is_finite())
+                .map(|_| place(&nose.at, part)),
         },
         included_angle: angle(tool.included_angle, least_included(found), contact),
         clearance_angle: angle(tool.clearance_angle, cut.value, cut),
@@ -151,17 +172,11 @@ fn sections(found: &Interference, part: &Part) -> report::Sections {
 
 fn place(extreme: &Extreme, part: &Part) -> report::ContactPlace {
     let (at, rho) = (extreme.position(), extreme.rho);
-    let inside = rho < part.inner_radius - ON_PART;
-    let outside = rho > part.aperture_radius + ON_PART;
     report::ContactPlace {
         x: at.x,
         y: at.y,
         rho,
         c: extreme.theta.rem_euclid(360.0 * DEG),
-        on: if inside || outside {
-            report::Region::Overrun
-        } else {
-            report::Region::Part
-        },
+        on: region(rho, part),
     }
 }

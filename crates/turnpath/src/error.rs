@@ -6,7 +6,7 @@ use turnpath_core::StrategyError;
 use turnpath_files::{FileError, FolderError};
 use turnpath_host::LoadError;
 use turnpath_pipeline::PipelineError;
-use turnpath_post::ReadError;
+use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
@@ -48,6 +48,20 @@ pub enum Error {
         /// Why.
         source: DataFileError,
     },
+    /// A file that the caller names could not be read.
+    #[error("cannot read {}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file is there already, and is not to be replaced.
+    #[error("{} is there already", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
     /// A plugin could not be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -87,6 +101,17 @@ pub enum Error {
         /// Points of the path.
         expected: u64,
     },
+    /// A dry run does not stay above its part.
+    #[error("the dry run {file} is not written")]
+    DryRun {
+        /// Its file.
+        file: String,
+        /// Why.
+        source: DryRunError,
+    },
+    /// A dry run was asked for, and no program.
+    #[error("a dry run is that of a program, and the recipe asks for none: write [output] posts")]
+    NoProgram,
     /// A report could not be put into a file.
     #[error("the report cannot be put into {form}")]
     Report {
@@ -123,19 +148,23 @@ impl Error {
     /// Whose fault it is.
     pub fn fault(&self) -> Fault {
         match self {
-            Self::Recipe(RecipeError::Wrong(_)) | Self::Refused { .. } | Self::Plot(_) => {
-                Fault::Request
-            }
+            Self::Recipe(RecipeError::Wrong(_))
+            | Self::Refused { .. }
+            | Self::NoProgram
+            | Self::Plot(_)
+            | Self::Exists { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
             Self::Load(error) => fault_of_load(error),
             Self::ListedPlugin { source, .. } => fault_of_load(source),
             Self::Recipe(RecipeError::File { .. })
             | Self::DataFile { .. }
+            | Self::Unreadable { .. }
             | Self::File(_)
             | Self::Folder(_)
             | Self::Read(_)
             | Self::NothingCut { .. }
             | Self::PointsLost { .. }
+            | Self::DryRun { .. }
             | Self::Report { .. } => Fault::Files,
             Self::Threads(_) => Fault::Request,
             Self::Cancelled => Fault::Cancelled,
@@ -183,6 +212,7 @@ impl Error {
         match self {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
+            Self::Exists { .. } => Some("`--force` replaces it"),
             _ => None,
         }
     }

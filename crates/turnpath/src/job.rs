@@ -7,14 +7,15 @@ use turnpath_pipeline::{
     Chain, JobSpec, LeadLimits, LeadSettings, PathOptions, Preparation, prepare,
 };
 use turnpath_post::ProgramError;
-use turnpath_recipe::Recipe;
+use turnpath_recipe::{DataFormat, Recipe};
 use turnpath_report::Overrun;
 
 use crate::chain::chain;
 use crate::data_files::DataFiles;
-use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
+use crate::diagnosis::{needs_exact_rates, not_carried};
 use crate::error::Error;
 use crate::figures::form_scope;
+use crate::gap::of_preparation;
 use crate::named_files::UsedFile;
 use crate::posts::NotCarried;
 use crate::program::{Program, programs};
@@ -50,6 +51,7 @@ impl Job {
         catalogue: &Catalogue,
         files: &DataFiles,
     ) -> Result<Self, Error> {
+        recipe.rough_paths().map_err(Error::refused)?;
         let chain = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;
@@ -62,7 +64,8 @@ impl Job {
             spindle_speed: recipe.spindle_speed,
             machine: recipe.machine,
         };
-        let preparation = prepare(&chain, spec).map_err(|error| of_pipeline(&recipe, error))?;
+        let preparation = prepare(&chain, spec)
+            .map_err(|error| of_preparation(&recipe, &chain.surface, error))?;
         let programs = programs(&recipe, chain.compensator.strategy.compensates_nose())?;
         let job = Self {
             recipe,
@@ -73,6 +76,7 @@ impl Job {
             programs,
             split: None,
         };
+        job.refuse_formats_left_out()?;
         job.refuse_straight_lines()?;
         Ok(job)
     }
@@ -91,6 +95,25 @@ impl Job {
         job.preparation.task.tolerance = tolerance;
         job.split = Some(tolerance);
         job
+    }
+
+    /// A build may have been made without a format of data files.
+    fn refuse_formats_left_out(&self) -> Result<(), Error> {
+        let left_out = |format: &&DataFormat| match format {
+            DataFormat::Csv => false,
+            DataFormat::Columns(format) => !format.is_built_in(),
+        };
+        let Some(DataFormat::Columns(format)) = self.recipe.output.data.iter().find(left_out)
+        else {
+            return Ok(());
+        };
+        let title = format!("this build of turnpath writes no .{}", format.extension());
+        let help = "leave it out of `data`, or build turnpath with its feature";
+        let span = self.recipe.nearest_span("output.data");
+        let diagnostic = self
+            .recipe
+            .diagnostic(span, title, "asked for here", [help.to_owned()]);
+        Err(Error::refused(diagnostic))
     }
 
     /// The programs play cubics; a path of straight lines is another one.

@@ -1,7 +1,9 @@
 //! What is allowed in a recipe but seldom meant.
 
-use turnpath_core::{Axis, Derivative, Tolerance};
-use turnpath_post::ProgramFormat;
+use std::f64::consts::TAU;
+
+use turnpath_core::{Axis, DEG, Derivative, Tolerance};
+use turnpath_post::Layout;
 use turnpath_recipe::Recipe;
 use turnpath_report::{ProgramDigits, Remark, RemarkSubject};
 
@@ -13,6 +15,8 @@ pub struct PathSubject {
     pub tolerance: Tolerance,
     /// Time of the cutting section, s.
     pub cutting_time: f64,
+    /// Revolutions of the cutting section.
+    pub revolutions: f64,
     /// Control points of the cutting section.
     pub control_points: f64,
     /// The largest acceleration of Z where it is known, mm/s².
@@ -26,8 +30,7 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         .limits()
         .any(|limit| limit.axis == Axis::Z && limit.derivative == Derivative::Acceleration);
     // The digits do not depend on the nose.
-    let formats = posts(recipe).map(|post| layout(recipe, post, true).format);
-    let coarsest = formats.min_by_key(|one| (one.position_decimals, one.velocity_decimals));
+    let layouts = posts(recipe).map(|post| layout(recipe, post, true));
     let subject = RemarkSubject {
         aperture: 2.0 * recipe.part.aperture_radius,
         residual: path.tolerance.residual,
@@ -36,15 +39,22 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         cutting_time: path.cutting_time,
         segment_time: path.cutting_time / path.control_points.max(1.0),
         free_z_acceleration: path.z_acceleration.filter(|_| !limited),
-        digits: coarsest.map(|format| digits(&format)),
+        digits: layouts.map(|layout| digits(&layout, path)).collect(),
     };
     subject.remarks()
 }
 
-fn digits(format: &ProgramFormat) -> ProgramDigits {
+fn digits(layout: &Layout, path: &PathSubject) -> ProgramDigits {
+    let Layout { post, format } = layout;
+    let c = TAU * path.revolutions;
+    let largest = if format.c_wrapped { c.min(TAU) } else { c };
+    let rounding = format.held_rounding(largest / DEG);
     ProgramDigits {
+        post: post.name,
         position_decimals: format.position_decimals,
-        velocity_decimals: format.velocity_decimals,
+        velocity_decimals: post.writes_velocities().then_some(format.velocity_decimals),
         velocity_time: format.velocity_time(),
+        held_c: rounding.map(|rounding| (c, DEG * rounding)),
+        delivered_decimals: post.delivered_decimals,
     }
 }

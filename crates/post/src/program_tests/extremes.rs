@@ -35,10 +35,11 @@ fn extreme_points_come_back(layout: &Layout, seed: u64, blocks: usize) {
             assert!((one.t - other.t).abs() <= 2.0 * f64::EPSILON * one.t);
             let duration = points[k.max(1)].t - points[k.max(1) - 1].t;
             let of_coefficients = coefficient_rounding(layout, duration);
+            let held = |size: f64| layout.format.held_rounding(size).unwrap_or(0.0);
             for (one, other, more) in [
-                (one.c / DEG, other.c / DEG, 0.0),
-                (one.x, other.x, 0.0),
-                (one.z, other.z, 0.0),
+                (one.c / DEG, other.c / DEG, held(one.c / DEG)),
+                (one.x, other.x, held(one.x)),
+                (one.z, other.z, held(one.z)),
                 (one.vc / DEG, other.vc / DEG, of_coefficients),
                 (one.vx, other.vx, of_coefficients),
                 (one.vz, other.vz, of_coefficients),

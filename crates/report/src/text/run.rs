@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use turnpath_core::printable_line;
+use turnpath_core::{DEG, printable_line};
 
 use crate::errors::Tolerances;
 use crate::program::ProgramReport;
@@ -10,9 +10,10 @@ use crate::run::RunReport;
 
 use super::commands::commands;
 use super::lead::lead;
-use super::numbers::{against_any, duration, grouped, line, small_length};
+use super::numbers::{LABEL, against_any, duration, grouped, line, significant, small_length};
 use super::path::path;
 use super::remark::{feed_cap, remarks};
+use super::rough_path::rough_path;
 use super::servo::servo;
 use super::unreached::unreached;
 
@@ -46,6 +47,9 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     for one in &report.programs {
         text += &program(one, tolerance);
     }
+    for one in &report.rough_paths {
+        text += &rough_path(one);
+    }
     text += &commands(&report.controller_commands);
     text += &remarks(&report.remarks);
     for file in files {
@@ -54,11 +58,54 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     text
 }
 
+/// The line of a post; a long name has a line of its own.
+fn post_line(post: &str, text: &str) -> String {
+    match post.len() < LABEL {
+        true => line(post, text),
+        false => format!("  {post}\n") + &line("", text),
+    }
+}
+
+/// The figures that a program's header says, with their limits: they are those of its report.
+pub fn verified_figures(program: &ProgramReport, tolerance: &Tolerances) -> String {
+    let figure = |what: &str, value: f64, limit: Option<f64>| {
+        let limit = limit.map(|limit| format!(" of {}", small_length(limit)));
+        format!(
+            "{what} {}{}",
+            small_length(value),
+            limit.unwrap_or_default()
+        )
+    };
+    let interpolation = figure(
+        "interpolation error",
+        program.interpolation_error,
+        tolerance.interpolation,
+    );
+    let form = program.form_error;
+    let form = form.map(|form| figure("form error", form, tolerance.form));
+    let clearance = program.lead_clearance;
+    let clearance = clearance.map(|height| figure("lead clearance", height, None));
+    let all = [Some(interpolation), form, clearance];
+    all.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
 /// The lines on a program: its errors against their tolerances.
 fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
     let (error, holds) = (program.interpolation_error, program.within_interpolation);
     let limit = against_any(error, tolerance.interpolation, holds);
-    let mut text = line(&program.post, limit);
+    let mut text = post_line(&program.post, &limit);
+    if let Some(raised) = program.raised_by {
+        let how = if raised < 0.0 { "lower" } else { "raise" };
+        let by = small_length(raised.abs());
+        text += &line("", format!("digits and times {how} the error by {by}"));
+    }
+    if let Some(step) = program.c_speed_step {
+        let step = significant(step / DEG);
+        text += &line(
+            "",
+            format!("C keeps its speed within a segment: it steps by up to {step} deg/s"),
+        );
+    }
     if let Some(holds) = program.within_form {
         let limit = against_any(
             program.form_error.unwrap_or(f64::NAN),
