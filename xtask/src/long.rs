@@ -12,9 +12,13 @@ use crate::{deny, fuzz, msrv};
 /// A larger `PROPTEST_CASES` in the environment counts.
 const RANDOM_CASES: u32 = 256;
 
+/// How long random recipes are measured, s: a sample of them, some seconds each.
+const MEASURING_S: &str = "300";
+
 const OTHER_CHECKS: &str = "\
 random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
+random recipes: tests/reference/playback/measure_random.py, those of the test of five hundred
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
 columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
@@ -39,6 +43,9 @@ pub fn run_checks() -> Vec<Step> {
             with_packages(&["numpy"], || {
                 run(script("tests/reference/playback/selftest.py", &[]))
             })
+        }),
+        Step::run("random recipes", || {
+            with_packages(&["numpy"], random_recipes)
         }),
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
         Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
@@ -126,6 +133,23 @@ fn programs() -> Outcome {
         "tests/reference/programs/siemens_840d.py",
         &[&files[0], &files[1]],
     ))
+}
+
+/// The recipes that the ignored tests leave in their scratch folder, measured with the playback apart,
+/// as many as the time allows.
+fn random_recipes() -> Outcome {
+    let recipes = target().join("tmp").join("fewest-points");
+    match program() {
+        Ok(program) => {
+            let mut measure = script(
+                "tests/reference/playback/measure_random.py",
+                &[&program, &recipes],
+            );
+            measure.args(["--seconds", MEASURING_S]);
+            run(measure)
+        }
+        Err(outcome) => outcome,
+    }
 }
 
 fn maps() -> Outcome {
