@@ -79,6 +79,7 @@ pub(crate) const PMAC_PVT: Post = Post {
         C_WRAP.info(),
         POSITIONING.info(),
         BUFFER.info(),
+        SHORTEST_SEGMENT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
