@@ -2,13 +2,18 @@
 //! dialects share.
 
 use turnpath_core::DEG;
-use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Segment};
+use turnpath_core::toolpath::{
+    ControlPoint, PathBlock, Section, SectionBlock, Segment, SegmentShape,
+};
 
+use crate::chord::chords_within;
 use crate::program_error::ProgramError;
 use crate::program_format::{ProgramFormat, TURN_DEG};
 
 /// Beyond this a double times a power of ten is not exact.
 const LARGEST_UNITS: f64 = 9e15;
+/// Most chords of a segment: far more than any path needs that a machine can play.
+const MOST_CHORDS: i64 = 1_000_000;
 /// The program's axes, in the order in which they are written.
 pub(crate) const AXES: [char; 3] = ['C', 'X', 'Z'];
 
@@ -19,7 +24,7 @@ pub struct Digits {
     pub steps: i64,
     /// C, X, Z in last digits; C unwrapped.
     pub position: [i64; 3],
-    /// Their velocities in last digits.
+    /// Their velocities in last digits; zero in a program without velocities.
     pub velocity: [i64; 3],
 }
 
@@ -56,13 +61,16 @@ pub(crate) fn carry(
     stretch: &SectionBlock<'_>,
     write: &mut dyn FnMut(Move<'_>),
 ) -> Result<usize, ProgramError> {
-    let mut trail = Trail::default();
+    let mut trail = Trail::new(stretch.points.shape);
+    let in_lead = stretch.section != Section::Cutting;
+    // The section before a cut is the lead-in, and that before a lead-out is the cut.
+    let before_in_lead = in_lead != stretch.opens_section;
     for point in stretch.before {
-        trail.go_to(format, point, &mut |_| {})?;
+        trail.go_to(format, point, before_in_lead, &mut |_| {})?;
     }
     let mut points = 0;
     for point in stretch.points.points() {
-        trail.go_to(format, &point, &mut |step| {
+        trail.go_to(format, &point, in_lead, &mut |step| {
             points += 1;
             write(step);
         })?;
@@ -77,7 +85,7 @@ pub(crate) fn carried(
     stretch: &SectionBlock<'_>,
 ) -> Result<PathBlock, ProgramError> {
     let mut carried = PathBlock {
-        shape: stretch.points.shape,
+        shape: format.shape(),
         ..PathBlock::default()
     };
     carry(format, stretch, &mut |step| {
@@ -94,7 +102,12 @@ pub(crate) fn turns_left_out(
     format: &ProgramFormat,
     first: &ControlPoint,
 ) -> Result<f64, ProgramError> {
-    let digits = Digits::of(format, first, None)?;
+    let place = Place {
+        arrival: *first,
+        segment: None,
+        in_lead: false,
+    };
+    let digits = Digits::at(format, &place, steps_of(format, first))?;
     let left_out = match format.c_wrapped {
         true => digits.position[0].div_euclid(turn(format)),
         false => 0,
@@ -122,44 +135,119 @@ pub(crate) fn said_place(format: &ProgramFormat, digits: &Digits) -> [i64; 3] {
 }
 
 /// What the lines before have left.
-#[derive(Default)]
 struct Trail {
+    /// What the path plays between its points.
+    shape: SegmentShape,
     point: Option<ControlPoint>,
+    /// Whether that point is of a lead.
+    in_lead: bool,
     digits: Option<Digits>,
     /// The steps of the segment before.
     steps: Option<i64>,
 }
 
 impl Trail {
-    /// Goes on to the next point.
+    fn new(shape: SegmentShape) -> Self {
+        Self {
+            shape,
+            point: None,
+            in_lead: false,
+            digits: None,
+            steps: None,
+        }
+    }
+
+    /// Goes on to the next point, which may be of a lead.
     fn go_to(
         &mut self,
         format: &ProgramFormat,
         point: &ControlPoint,
+        in_lead: bool,
         write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
-        let end = Digits::of(format, point, self.point.as_ref())?;
-        match self.digits {
+        let segment = self.point.map(|before| self.segment(&before, point));
+        let place = Place {
+            arrival: self.arrival(point, segment.as_ref()),
+            segment: segment.as_ref(),
+            in_lead,
+        };
+        let end = Digits::at(format, &place, steps_of(format, point))?;
+        match self.digits.zip(segment.as_ref()) {
             None => write(Move::Start(&end)),
-            Some(from) => {
+            Some((from, segment)) => {
                 let steps = end.steps - from.steps;
                 let (t, c_deg) = (point.t, point.c / DEG);
                 if steps < 1 {
                     return Err(ProgramError::Short { t, c_deg });
                 }
-                // Rounded up, without a sum that could be too large.
-                let parts = (steps - 1) / format.longest + 1;
+                let of_lead = in_lead || self.in_lead;
+                let parts = self.parts(format, segment, (steps, of_lead), point)?;
+                let middle = Place {
+                    in_lead: of_lead,
+                    ..place
+                };
                 for part in 1..parts {
                     let at = from.steps + steps / parts * part + steps % parts * part / parts;
-                    let middle = Digits::at(format, point, self.point.as_ref(), at)?;
+                    let middle = Digits::at(format, &middle, at)?;
                     self.write_segment(format, point, middle, write)?;
                 }
                 self.write_segment(format, point, end, write)?;
             }
         }
         self.point = Some(*point);
+        self.in_lead = in_lead;
         self.digits = Some(end);
         Ok(())
+    }
+
+    /// What the path plays from one point to the next.
+    fn segment(&self, before: &ControlPoint, point: &ControlPoint) -> Segment {
+        match self.shape {
+            SegmentShape::Cubic => Segment::between(before, point),
+            SegmentShape::Linear => Segment::straight(before, point),
+        }
+    }
+
+    /// A point with the velocities at which it is reached. Between straight lines, its own are those
+    /// of the line behind it.
+    fn arrival(&self, point: &ControlPoint, segment: Option<&Segment>) -> ControlPoint {
+        match segment.filter(|_| self.shape == SegmentShape::Linear) {
+            None => *point,
+            Some(segment) => ControlPoint {
+                vc: segment.c.slope(1.0) / segment.duration,
+                vx: segment.x.slope(1.0) / segment.duration,
+                vz: segment.z.slope(1.0) / segment.duration,
+                ..*point
+            },
+        }
+    }
+
+    /// How many lines a segment of so many steps becomes.
+    fn parts(
+        &self,
+        format: &ProgramFormat,
+        segment: &Segment,
+        (steps, of_lead): (i64, bool),
+        point: &ControlPoint,
+    ) -> Result<i64, ProgramError> {
+        // Rounded up, without a sum that could be too large.
+        let of_time = |longest: i64| (steps - 1) / longest + 1;
+        let parts = of_time(format.longest);
+        let Some(chords) = &format.chords else {
+            return Ok(parts);
+        };
+        let slowest = chords.slowest.filter(|_| of_lead);
+        let in_lead = slowest.map_or(1, |slowest| of_time(slowest.longest_in_lead));
+        let needed = match self.shape {
+            SegmentShape::Cubic => chords_within(chords.deviation, segment),
+            SegmentShape::Linear => 1.0,
+        };
+        if needed > MOST_CHORDS as f64 || needed.is_nan() {
+            let (t, c_deg) = (point.t, point.c / DEG);
+            let most = MOST_CHORDS;
+            return Err(ProgramError::ManyChords { most, t, c_deg });
+        }
+        Ok(parts.max(in_lead).max(needed as i64).min(steps))
     }
 
     /// Writes one segment, or a part of one; `point` is the end of the whole, for messages.
@@ -190,27 +278,37 @@ impl Trail {
     }
 }
 
-impl Digits {
-    fn of(
-        format: &ProgramFormat,
-        point: &ControlPoint,
-        before: Option<&ControlPoint>,
-    ) -> Result<Self, ProgramError> {
-        let steps = (point.t * format.steps_per_s as f64).round() as i64;
-        Self::at(format, point, before, steps)
-    }
+/// A place on the path at or near a control point.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    /// The point with the velocities at which it is reached.
+    arrival: ControlPoint,
+    /// What is played up to the point; `None` at the path's first point.
+    segment: Option<&'a Segment>,
+    /// Whether it is of a lead.
+    in_lead: bool,
+}
 
-    /// The digits at a step of time on the cubic that ends at a point.
-    fn at(
-        format: &ProgramFormat,
-        point: &ControlPoint,
-        before: Option<&ControlPoint>,
-        steps: i64,
-    ) -> Result<Self, ProgramError> {
-        let moved = at_time(point, before, steps as f64 / format.steps_per_s as f64);
+/// The time of a point in steps.
+fn steps_of(format: &ProgramFormat, point: &ControlPoint) -> i64 {
+    (point.t * format.steps_per_s as f64).round() as i64
+}
+
+impl Digits {
+    /// The digits at a step of time at or near a place.
+    fn at(format: &ProgramFormat, place: &Place<'_>, steps: i64) -> Result<Self, ProgramError> {
+        let point = &place.arrival;
+        let moved = at_time(
+            point,
+            place.segment,
+            steps as f64 / format.steps_per_s as f64,
+        );
         let (sign, per) = (format.c_sign(), format.velocity_time());
         let positions = [sign * moved.c / DEG, moved.x, moved.z - format.z_above];
         let velocities = [sign * moved.vc / DEG, moved.vx, moved.vz].map(|v| v * per);
+        let has_velocities = format.shape() == SegmentShape::Cubic;
+        let steps_in_lead = format.chords.and_then(|chords| chords.slowest);
+        let steps_in_lead = steps_in_lead.filter(|_| place.in_lead);
         let (mut position, mut velocity) = ([0; 3], [0; 3]);
         for (k, axis) in AXES.into_iter().enumerate() {
             let units = |value: f64, decimals: u32| {
@@ -223,7 +321,12 @@ impl Digits {
                 })
             };
             position[k] = units(positions[k], format.position_decimals)?;
-            velocity[k] = units(velocities[k], format.velocity_decimals)?;
+            if let Some(slowest) = steps_in_lead {
+                position[k] = nearest_multiple(position[k], slowest.lead_steps[k]);
+            }
+            if has_velocities {
+                velocity[k] = units(velocities[k], format.velocity_decimals)?;
+            }
         }
         Ok(Self {
             steps,
@@ -259,11 +362,15 @@ fn units(value: f64, decimals: u32) -> Option<i64> {
     (scaled.abs() <= LARGEST_UNITS).then_some(scaled as i64)
 }
 
-/// The point of the cubic that ends at `point`, at a time in or near the segment.
-fn at_time(point: &ControlPoint, before: Option<&ControlPoint>, time: f64) -> ControlPoint {
+/// The multiple of `step` next to a value.
+fn nearest_multiple(value: i64, step: i64) -> i64 {
+    (value + step / 2).div_euclid(step) * step
+}
+
+/// The point at a time in or near the segment that ends at `point` with the velocities of the point.
+fn at_time(point: &ControlPoint, segment: Option<&Segment>, time: f64) -> ControlPoint {
     let by = time - point.t;
-    let bends = before.map_or([(0.0, 0.0); 3], |before| {
-        let segment = Segment::between(before, point);
+    let bends = segment.map_or([(0.0, 0.0); 3], |segment| {
         let h = segment.duration;
         [&segment.c, &segment.x, &segment.z]
             .map(|axis| (axis.bend(1.0) / (h * h), axis.jerk() / (h * h * h)))

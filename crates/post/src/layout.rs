@@ -9,7 +9,7 @@ use crate::carry::{Move, carried, carry, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
-use crate::program_format::{ProgramFormat, mark};
+use crate::program_format::{Chords, ProgramFormat, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
 
@@ -44,11 +44,17 @@ impl Layout {
             let opening = format!("{} {}\n", post.comment, mark(stretch.section));
             text.extend_from_slice(opening.as_bytes());
         }
+        let mut in_time = Ok(());
         let points = carry(format, stretch, &mut |step| match step {
             Move::Start(digits) => post.dialect.write_first(&mut text, format, digits),
-            Move::Segment(segment) => post.dialect.write_segment(&mut text, format, segment),
+            Move::Segment(segment) => {
+                if in_time.is_ok() {
+                    in_time = post.dialect.check_time(format, segment);
+                }
+                post.dialect.write_segment(&mut text, format, segment);
+            }
         })?;
-        Ok(Lines { text, points })
+        in_time.map(|()| Lines { text, points })
     }
 
     /// A part of the path as a reader finds it in the program: on the controller's times, and in the
@@ -85,7 +91,21 @@ impl Layout {
     /// `path`.
     pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
         let grammar = self.post.dialect.grammar(&self.format);
-        ProgramReader::new(reader, path.into(), grammar, self.post.comment)
+        ProgramReader::new(reader, path.into(), grammar, self.post)
+    }
+
+    /// The same layout with one line for each segment, however slow.
+    fn without_chords(&self) -> Self {
+        let chords = self.format.chords.map(|chords| Chords {
+            deviation: f64::INFINITY,
+            slowest: None,
+            ..chords
+        });
+        let format = ProgramFormat {
+            chords,
+            ..self.format
+        };
+        Self { format, ..*self }
     }
 
     /// A rough estimate of the bytes of a program with so many points. It is made from invented points
@@ -115,7 +135,8 @@ impl Layout {
             before: &[point(0)],
             points: &block,
         };
-        let bytes = self.lines(&stretch).map_or(0, |lines| lines.text.len());
+        let layout = self.without_chords();
+        let bytes = layout.lines(&stretch).map_or(0, |lines| lines.text.len());
         points * bytes as f64 / 2.0
     }
 }

@@ -37,6 +37,62 @@ pub enum ProgramError {
         /// C at its end, deg.
         c_deg: f64,
     },
+    /// The controller does not play a motion as slowly as the path has it.
+    #[error(
+        "{axes} at {rate:.3e} {unit}/min in the line that ends at {t:.6} s, C = {c_deg:.3} deg; with \
+         `G93` this controller plays no line below {lowest} {unit}/min, and would come too early"
+    )]
+    Slow {
+        /// What moves.
+        axes: &'static str,
+        /// Its rate.
+        rate: f64,
+        /// The lowest rate.
+        lowest: f64,
+        /// mm or deg.
+        unit: &'static str,
+        /// The time of the end of the line, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
+    /// X and Z move by less than the controller counts as a motion.
+    #[error(
+        "X and Z move by no more than {still} mm in the line that ends at {t:.6} s, C = \
+         {c_deg:.3} deg; with `G93` this controller takes such a line for one of C alone, and would \
+         come too early"
+    )]
+    Still {
+        /// The largest way that counts as none, mm.
+        still: f64,
+        /// The time of the end of the line, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
+    /// Nothing moves.
+    #[error(
+        "no axis moves in the line that ends at {t:.6} s, C = {c_deg:.3} deg; with `G93` this \
+         controller plays it in no time, and would come too early"
+    )]
+    Rest {
+        /// The time of the end of the line, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
+    /// Straight lines that stand for a cubic would be too many.
+    #[error(
+        "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes more than {most} straight lines"
+    )]
+    ManyChords {
+        /// Most lines of a segment.
+        most: i64,
+        /// The time of its end, s.
+        t: f64,
+        /// C at its end, deg.
+        c_deg: f64,
+    },
     /// The path goes straight from point to point.
     #[error(
         "the path goes straight from point to point, but this program plays cubics: it cannot carry \
@@ -53,6 +109,17 @@ impl ProgramError {
             Self::Digits { .. } => "write fewer decimals, or c_wrap = \"0-360\"",
             Self::HalfTurn { .. } => {
                 "place points closer together, or write c_wrap = \"unwrapped\""
+            }
+            Self::Slow { .. } => {
+                "feed faster, or turn the spindle faster; LinuxCNC from 2.9.0 on has no lowest rate: \
+                 write lowest_rate = \"0 mm/min\" for it"
+            }
+            Self::Still { .. } => {
+                "feed faster, or turn the spindle faster, or place points farther apart"
+            }
+            Self::Rest { .. } => "turn the spindle faster, or write more decimals",
+            Self::ManyChords { .. } => {
+                "place points closer together, or give more tolerance of interpolation"
             }
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
         }

@@ -5,10 +5,11 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use turnpath_core::toolpath::{ControlPoint, Section};
+use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 
+use crate::forward_rates::ForwardRates;
 use crate::path_reader::{ReadCount, ReadPath};
-use crate::post::Grammar;
+use crate::post::{Grammar, Post};
 use crate::program_format::{END_MARK, mark};
 use crate::read_error::ReadError;
 use crate::turn::check_turn;
@@ -32,25 +33,30 @@ pub struct ProgramReader<R = File> {
     said_points: Option<u64>,
     /// Points that were read and not given yet.
     waiting: VecDeque<(ControlPoint, Section)>,
+    /// The last point that was read from a line.
+    last: Option<(ControlPoint, Section)>,
+    /// Points that were read from lines.
+    found_points: u64,
+    /// What gives points their velocities, where the program has none.
+    rates: Option<ForwardRates>,
     read_count: ReadCount,
 }
 
 impl<R: Read> ProgramReader<R> {
-    pub(crate) fn new(
-        reader: R,
-        path: PathBuf,
-        grammar: Box<dyn Grammar>,
-        comment: &'static str,
-    ) -> Self {
+    pub(crate) fn new(reader: R, path: PathBuf, grammar: Box<dyn Grammar>, post: &Post) -> Self {
+        let has_rates = post.shape == SegmentShape::Linear;
         Self {
             lines: BufReader::with_capacity(BUFFER, reader),
             path,
             grammar,
-            comment,
+            comment: post.comment,
             line: 0,
             section: None,
             said_points: None,
             waiting: VecDeque::new(),
+            last: None,
+            found_points: 0,
+            rates: has_rates.then(ForwardRates::default),
             read_count: ReadCount::default(),
         }
     }
@@ -147,7 +153,7 @@ impl<R: Read> ProgramReader<R> {
     /// Reads the next line; `false` at the end of the path.
     fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
-            let count = self.read_count.points();
+            let count = self.found_points;
             return match said == count {
                 true => Ok(false),
                 false => Err(self.wrong(format!(
@@ -171,8 +177,9 @@ impl<R: Read> ProgramReader<R> {
     }
 }
 
-impl<R: Read> ReadPath for ProgramReader<R> {
-    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+impl<R: Read> ProgramReader<R> {
+    /// The next point with the velocities that its line says.
+    fn next_found(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
         let mut text = Vec::new();
         while self.waiting.is_empty() {
             if !self.read_on(&mut text)? {
@@ -182,9 +189,36 @@ impl<R: Read> ReadPath for ProgramReader<R> {
         let Some((point, section)) = self.waiting.pop_front() else {
             return Ok(None);
         };
-        check_turn(self.read_count.last(), &point, section).map_err(|what| self.wrong(what))?;
-        self.read_count.add(point, section);
-        Ok(Some((point, section)))
+        check_turn(self.last.as_ref(), &point, section).map_err(|what| self.wrong(what))?;
+        self.last = Some((point, section));
+        self.found_points += 1;
+        Ok(self.last)
+    }
+
+    /// The next point with its velocities.
+    fn next_with_rates(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+        loop {
+            let found = self.next_found()?;
+            let Some(rates) = &mut self.rates else {
+                return Ok(found);
+            };
+            let Some(found) = found else {
+                return Ok(rates.finish());
+            };
+            if let Some(before) = rates.push(found) {
+                return Ok(Some(before));
+            }
+        }
+    }
+}
+
+impl<R: Read> ReadPath for ProgramReader<R> {
+    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+        let next = self.next_with_rates()?;
+        if let Some((point, section)) = next {
+            self.read_count.add(point, section);
+        }
+        Ok(next)
     }
 
     fn read_count(&self) -> &ReadCount {

@@ -15,6 +15,7 @@ pub const PLACEHOLDERS: &[&str] = &[
     "velocity_unit",
     "ix90",
     "ends",
+    "f_means",
 ];
 
 /// Placeholders whose values are words of a person. They are allowed only in comments, which no

@@ -25,7 +25,7 @@ impl Job {
     /// When a strategy fails.
     pub fn check(&self) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
-        let expected = estimate(&self.chain, &self.preparation).map_err(failed)?;
+        let expected = estimate(&self.chain, &self.path_preparation()).map_err(failed)?;
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
         let radius = self.preparation.task.range.outer;
         let programs = self.programs.iter();

@@ -29,6 +29,6 @@ pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> L
     let params = settings.map_or(&none, |settings| &settings.params);
     Layout {
         post,
-        format: post.format(params, z_above),
+        format: post.format(params, z_above, recipe.tolerance.interpolation),
     }
 }

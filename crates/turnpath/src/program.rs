@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use turnpath_core::toolpath::{SectionBlock, SegmentShape};
+use turnpath_core::toolpath::SectionBlock;
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, Stage};
-use turnpath_post::{Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
+use turnpath_post::{FeedMeaning, Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::{ProgramFigures, ProgramReport};
 use turnpath_verify::FirstTouch;
@@ -112,9 +112,16 @@ impl Program {
             "z_reference" => either(tip, "tool tip", "nose centre"),
             "c_range" => either(format.c_wrapped, "within 0 to 360", "unwrapped"),
             "velocity_unit" => either(format.per_minute, "min", "s"),
+            "f_means" => either(self.says_seconds(), "s", "1/min"),
             "ix90" => format.velocity_ms().to_string(),
             _ => String::new(),
         }
+    }
+
+    /// Whether F is the seconds of a line.
+    fn says_seconds(&self) -> bool {
+        let chords = self.layout.format.chords;
+        chords.is_some_and(|chords| chords.feed == FeedMeaning::Seconds)
     }
 
     /// Measures the program on its own text, which `reader` reads back; `name` is for messages.
@@ -129,7 +136,7 @@ impl Program {
     ) -> Result<ProgramReport, Error> {
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = PathMeters::new(recipe, touch);
-        let measured = measure(recipe, meters, SegmentShape::Cubic, reader, observer)?;
+        let measured = measure(recipe, meters, self.layout.format.shape(), reader, observer)?;
         let found = reader.read_count().points();
         if found != points {
             return Err(Error::PointsLost {

@@ -85,7 +85,7 @@ impl Job {
     {
         let outcome = run_pipeline(
             &self.chain,
-            &self.preparation,
+            &self.path_preparation(),
             self.options(),
             sink,
             observer,

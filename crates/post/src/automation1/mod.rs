@@ -28,6 +28,8 @@ mod write;
 use read::AeroScript;
 use write::{push_first, push_segment};
 
+use turnpath_core::toolpath::SegmentShape;
+
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::ProgramFormat;
@@ -57,6 +59,7 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
 // the path begins and ends {ends}
 ",
     footer: "",
+    shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     dialect: &MovePvt,

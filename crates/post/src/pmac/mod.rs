@@ -45,6 +45,8 @@ use commands::{commands, leaves_program_open};
 use read::PvtGrammar;
 use write::{push_first, push_segment};
 
+use turnpath_core::toolpath::SegmentShape;
+
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::ProgramFormat;
@@ -79,6 +81,7 @@ CLOSE
 OPEN PROG 1 CLEAR
 ",
     footer: "CLOSE\n",
+    shape: SegmentShape::Cubic,
     steps_per_s: 4_096_000,
     longest: (1 << 24) - 1,
     dialect: &Pvt { clock: TURBO_CLOCK },

@@ -36,6 +36,8 @@ mod write;
 use read::PolyGrammar;
 use write::{push_first, push_segment};
 
+use turnpath_core::toolpath::SegmentShape;
+
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::ProgramFormat;
@@ -64,6 +66,7 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
 G71
 ",
     footer: "M30\n",
+    shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     dialect: &Poly,

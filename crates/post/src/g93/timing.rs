@@ -1,0 +1,87 @@
+//! The proof that LinuxCNC plays a line in its time.
+//!
+//! LinuxCNC turns F of `G93` into a feed rate and forgets the time (`Interp::inverse_time_rate_straight`
+//! in src/emc/rs274ngc/interp_inverse.cc): the length of the line times F. The length is that of X, Y
+//! and Z in mm; where none of them moves by more than 10⁻⁷, it is that of the rotary axes in deg
+//! (`Interp::find_straight_length` in interp_find.cc). Up to version 2.8 the rate is at least 0.1 in a
+//! minute, so a slower line takes less time than F says. Version 2.9.0 has no such bound, except that a
+//! line of no length is played in no time.
+//!
+//! Then the motion's own rule (`getStraightVelocity` in src/emc/task/emccanon.cc) takes the rate for
+//! one along X, Y and Z as soon as one of them moves by 10⁻⁸. So a line whose X or Z moves by less than
+//! 10⁻⁷ and that is not quite still would be played with a rate of degrees along a length of mm.
+
+use crate::carry::DigitSegment;
+use crate::program_error::ProgramError;
+use crate::program_format::{ProgramFormat, Slowest};
+use crate::settings::STILL;
+
+use super::write::inverse_minutes;
+
+/// How far above the lowest rate a line must be, as a part of it, so that the rounding of doubles does
+/// not decide.
+const ROOM: f64 = 1e-9;
+
+/// Checks that a segment takes its own time.
+pub(super) fn check_time(
+    format: &ProgramFormat,
+    segment: &DigitSegment,
+) -> Result<(), ProgramError> {
+    let Some(slowest) = format.chords.and_then(|chords| chords.slowest) else {
+        return Ok(());
+    };
+    let one = 10u64.pow(format.position_decimals) as f64;
+    let way = |k: usize| segment.to.position[k] - segment.from.position[k];
+    let [c, x, z] = [way(0), way(1), way(2)];
+    if [c, x, z] == [0; 3] {
+        // A dwell, where one is written; see `is_dwell`.
+        return Ok(());
+    }
+    let (t, c_deg) = place(format, segment);
+    let length = |x: i64, z: i64| ((x as f64).powi(2) + (z as f64).powi(2)).sqrt() / one;
+    let feed = inverse_minutes(format, segment.steps());
+    if x == 0 && z == 0 {
+        let rate = length(c, 0) * feed;
+        return check_rate(rate, &slowest, ("C moves", "deg"), (t, c_deg));
+    }
+    // The controller compares rounded positions: a way of just 10⁻⁷ may count or not.
+    let most = x.abs().max(z.abs());
+    if most as f64 <= (STILL * one).floor() {
+        let still = STILL;
+        return Err(ProgramError::Still { still, t, c_deg });
+    }
+    let rate = length(x, z) * feed;
+    check_rate(rate, &slowest, ("X and Z move", "mm"), (t, c_deg))
+}
+
+/// Whether nothing moves in a segment of a controller that would play such a line in no time.
+pub(super) fn is_dwell(segment: &DigitSegment) -> bool {
+    segment.from.position == segment.to.position
+}
+
+fn check_rate(
+    rate: f64,
+    slowest: &Slowest,
+    (axes, unit): (&'static str, &'static str),
+    (t, c_deg): (f64, f64),
+) -> Result<(), ProgramError> {
+    let lowest = slowest.rate;
+    if rate >= lowest * (1.0 + ROOM) {
+        return Ok(());
+    }
+    Err(ProgramError::Slow {
+        axes,
+        rate,
+        lowest,
+        unit,
+        t,
+        c_deg,
+    })
+}
+
+/// Time in s and C in deg of the segment's end.
+fn place(format: &ProgramFormat, segment: &DigitSegment) -> (f64, f64) {
+    let c = segment.to.position[0] as f64 / 10u64.pow(format.position_decimals) as f64;
+    let t = segment.to.steps as f64 / format.steps_per_s as f64;
+    (t, format.c_sign() * c)
+}
