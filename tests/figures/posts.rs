@@ -6,13 +6,16 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::Value;
-use turnpath_post::{POST_NAMES, POSTS};
+use turnpath_core::toolpath::SegmentShape;
+use turnpath_post::{POST_NAMES, POSTS, Post};
 
 use crate::support::repository;
 
-/// The largest difference between the error of a program and that of the path, nm: the cost of 7
-/// decimals.
+/// The largest difference between the error of a program of cubics and that of the path, nm: the cost
+/// of 7 decimals.
 const COST_NM: f64 = 0.3;
+/// The part of the tolerance of interpolation that straight lines may take, by default.
+const CHORD_SHARE: f64 = 0.5;
 
 fn call(command: &str, recipe: &Path, rest: &[&str]) -> Output {
     let mut call = Command::new(env!("CARGO_BIN_EXE_turnpath"));
@@ -47,16 +50,15 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
     let summary = fs::read_to_string(out.join("summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&summary).unwrap();
     let path = number(&summary, "/interpolation_error/max_nm");
+    let tolerance = number(&summary, "/tolerance/interpolation_nm");
     let programs = summary["programs"].as_array().unwrap();
     assert_eq!(programs.len(), POSTS.len());
     for (program, post) in programs.iter().zip(POSTS) {
         assert_eq!(program["post"], post.name);
         let error = number(program, "/interpolation_error_nm");
-        assert!(
-            (error - path).abs() < COST_NM,
-            "{}: {error} {path}",
-            post.name
-        );
+        let added = number(program, "/added_error_nm");
+        assert!((error - path - added).abs() < 1e-6, "{program} {path}");
+        assert_cost(program, post, tolerance);
         let exceeded = program["within_interpolation"] == Value::Bool(false);
         assert!(!exceeded || status == Some(1), "{program}");
         let file = out.join(program["file"].as_str().unwrap());
@@ -80,6 +82,24 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
             "{}: {}",
             post.name, report["anomalies"]
         );
+    }
+}
+
+/// A program of cubics costs its digits. One of straight lines takes no more than its share of the
+/// tolerance, and has some lines for each segment.
+fn assert_cost(program: &Value, post: &Post, tolerance: f64) {
+    let added = number(program, "/added_error_nm");
+    let name = post.name;
+    match post.shape {
+        SegmentShape::Cubic => {
+            assert!(added.abs() < COST_NM, "{name}: {added}");
+            assert!(program["straight_lines"].is_null(), "{program}");
+        }
+        SegmentShape::Linear => {
+            assert!(added < CHORD_SHARE * tolerance, "{name}: {added}");
+            let each = number(program, "/straight_lines/per_segment");
+            assert!((1.0..100.0).contains(&each), "{name}: {each}");
+        }
     }
 }
 

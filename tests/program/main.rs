@@ -24,6 +24,7 @@ mod remarks;
 mod results;
 mod sag;
 mod same_bytes;
+mod straight_lines;
 mod sums;
 mod terminal;
 mod too_long;

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::commands::{cargo, repository, run, target};
-use crate::python::{script, with_packages};
+use crate::commands::{cargo, command, repository, run, target};
+use crate::python::{script, with_packages, with_packages_of};
 use crate::step::{Outcome, Step};
 use crate::{deny, fuzz, msrv};
 
@@ -12,10 +12,14 @@ use crate::{deny, fuzz, msrv};
 /// A larger `PROPTEST_CASES` in the environment counts.
 const RANDOM_CASES: u32 = 256;
 
+/// The interpreter for which Debian builds LinuxCNC's module `gcode`.
+const SYSTEM_PYTHON: &str = "/usr/bin/python3";
+
 const OTHER_CHECKS: &str = "\
 random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
+linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
 deny: `cargo xtask deny`";
@@ -38,6 +42,9 @@ pub fn run_checks() -> Vec<Step> {
             })
         }),
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
+        Step::run("linuxcnc", || {
+            with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
+        }),
     ];
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
@@ -66,6 +73,14 @@ fn random_input() -> Outcome {
         .args(["--lib", "--test", "all", "--examples"])
         .env("PROPTEST_CASES", RANDOM_CASES.max(cases).to_string());
     run(tests)
+}
+
+/// The kept output of LinuxCNC's interpreter is what it says of the program that turnpath writes.
+fn linuxcnc() -> Outcome {
+    let folder = "tests/reference/programs";
+    let [script, program, kept] =
+        ["linuxcnc.py", "saddle.ngc", "linuxcnc.csv"].map(|file| format!("{folder}/{file}"));
+    run(command(SYSTEM_PYTHON, &[&script, &program, &kept]))
 }
 
 fn maps() -> Outcome {

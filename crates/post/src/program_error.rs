@@ -39,7 +39,7 @@ pub enum ProgramError {
     },
     /// The controller does not play a motion as slowly as the path has it.
     #[error(
-        "{axes} at {rate:.3e} {unit}/min in the line that ends at {t:.6} s, C = {c_deg:.3} deg; with \
+        "{axes} at {rate:.5} {unit}/min in the line that ends at {t:.6} s, C = {c_deg:.3} deg; with \
          `G93` this controller plays no line below {lowest} {unit}/min, and would come too early"
     )]
     Slow {

@@ -64,7 +64,7 @@ pub use lead::{AccelerationStep, LeadLayout, LeadReport};
 pub use machine::{HighestSpindle, LimitFigure, MachineLimits, MachineReport, MachineSource};
 pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
-pub use program::{ControllerCommand, ProgramFigures, ProgramReport};
+pub use program::{ControllerCommand, ProgramFigures, ProgramReport, StraightLines};
 pub use reach::{Radial, Radii, Reach};
 pub use remark::{ProgramDigits, Remark, RemarkSubject};
 pub use result_check::ResultCheck;

@@ -22,6 +22,15 @@ pub struct ControllerCommand {
     pub harmless: bool,
 }
 
+/// The straight lines of a program that plays no cubics.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct StraightLines {
+    /// How many there are.
+    pub lines: u64,
+    /// How many stand for one segment of the path, on average.
+    pub per_segment: f64,
+}
+
 /// A motion program, measured on its own text as it was read back.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProgramReport {
@@ -34,6 +43,14 @@ pub struct ProgramReport {
     pub interpolation_error: f64,
     /// Whether that holds the interpolation tolerance; `None` without one.
     pub within_interpolation: Option<bool>,
+    /// The largest interpolation error of the program minus that of the path, mm: what digits, times
+    /// and straight lines add. It may be negative, by less than they add elsewhere. `None` in a report
+    /// of an older version.
+    #[serde(default, rename = "added_error_nm", with = "unit::nm")]
+    pub added_error: Option<f64>,
+    /// The straight lines; `None` where the program plays cubics.
+    #[serde(default)]
+    pub straight_lines: Option<StraightLines>,
     /// Peak to valley of the machined surface, mm; `None` without a tolerance of form, or where
     /// nothing is cut.
     #[serde(default, rename = "form_error_nm", with = "unit::nm")]
@@ -58,6 +75,8 @@ pub struct ProgramFigures {
     pub form_error: Option<f64>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
     pub lead_clearance: Option<f64>,
+    /// Straight lines; `None` where the program plays cubics.
+    pub lines: Option<u64>,
 }
 
 impl ProgramReport {
@@ -67,6 +86,7 @@ impl ProgramReport {
             interpolation_error,
             form_error,
             lead_clearance,
+            lines,
         } = *figures;
         let holds = |figure: f64, limit: Option<f64>| limit.map(|limit| within(figure, limit));
         Self {
@@ -74,11 +94,30 @@ impl ProgramReport {
             post: post.to_owned(),
             interpolation_error,
             within_interpolation: holds(interpolation_error, tolerance.interpolation),
+            added_error: None,
+            straight_lines: lines.map(|lines| StraightLines {
+                lines,
+                per_segment: f64::NAN,
+            }),
             form_error,
             within_form: holds(form_error.unwrap_or(f64::INFINITY), tolerance.form),
             lead_clearance,
             within_lead: lead_clearance
                 .and_then(|clearance| holds(-clearance, tolerance.deepest())),
+        }
+    }
+
+    /// The same beside its path: the path's largest interpolation error, mm, and its segments.
+    #[must_use]
+    pub fn beside_path(self, error: f64, segments: u64) -> Self {
+        let straight_lines = self.straight_lines.map(|straight| StraightLines {
+            per_segment: straight.lines as f64 / segments.max(1) as f64,
+            ..straight
+        });
+        Self {
+            added_error: Some(self.interpolation_error - error),
+            straight_lines,
+            ..self
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use turnpath_core::toolpath::SectionBlock;
+use turnpath_core::toolpath::{SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, Stage};
 use turnpath_post::{FeedMeaning, Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
@@ -153,6 +153,8 @@ impl Program {
             interpolation_error: figures.playback.max(),
             form_error: form_error(form.as_ref(), lead_clearance),
             lead_clearance,
+            lines: (self.layout.format.shape() == SegmentShape::Linear)
+                .then(|| points.saturating_sub(1)),
         };
         let tolerances = tolerances(recipe);
         Ok(ProgramReport::new(

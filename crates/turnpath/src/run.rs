@@ -196,6 +196,9 @@ impl Job {
         if let Some(form) = &mut path.form {
             form.split = split;
         }
+        let path_error = outcome.figures.playback.max();
+        let beside_path =
+            |program: ProgramReport| program.beside_path(path_error, rows.saturating_sub(1));
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),
@@ -217,7 +220,7 @@ impl Job {
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),
             unreached: self.unreached()?,
-            programs,
+            programs: programs.into_iter().map(beside_path).collect(),
             controller_commands: controller_commands(&self.recipe),
             plugins: self.plugin_sources(),
             data_files: self.data_sources(),

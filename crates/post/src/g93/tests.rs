@@ -1,6 +1,8 @@
 //! The programs of straight lines as text: how they look, how many lines they have, what of them is
 //! refused.
 
+use std::path::Path;
+
 use turnpath_core::toolpath::{
     ControlPoint, PathBlock, Section, SectionBlock, Segment, SegmentShape,
 };
@@ -158,7 +160,7 @@ fn a_flat_part_at_60_rpm_and_1_um_a_turn_is_refused_with_its_place() {
     let said = error.to_string();
     assert!(
         said.contains(
-            "X and Z move at 6.000e-2 mm/min in the line that ends at 0.025000 s, C = 9.000"
+            "X and Z move at 0.06000 mm/min in the line that ends at 0.025000 s, C = 9.000"
         ),
         "{said}"
     );
@@ -285,6 +287,29 @@ fn damaged_lines_are_refused_with_their_number() {
     let nanotech = plain(&NANOTECH_G93);
     let message = refusal(&nanotech, 5, "G4 P1");
     assert!(message.contains("line 3: `G8` is not a word"), "{message}");
+}
+
+/// What LinuxCNC's own interpreter makes of a program; program and output are in
+/// tests/reference/programs.
+#[test]
+fn linuxcncs_own_interpreter_reads_the_same_positions_and_times() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/programs");
+    let text = std::fs::read(folder.join("saddle.ngc")).unwrap();
+    let points = read(&within(&LINUXCNC_G93, 1e-3), &text).unwrap();
+    let played = std::fs::read_to_string(folder.join("linuxcnc.csv")).unwrap();
+    let rows: Vec<Vec<f64>> = played
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').map(|value| value.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(points.len(), rows.len());
+    assert!(points.len() > 500);
+    for (point, row) in points.iter().zip(&rows) {
+        assert!((point.t - row[0]).abs() < 1e-6, "{point:?} {row:?}");
+        assert!((point.c / DEG - row[1]).abs() < 1e-7, "{point:?} {row:?}");
+        assert!((point.x - row[2]).abs() < 1e-9, "{point:?} {row:?}");
+        assert!((point.z - row[3]).abs() < 1e-9, "{point:?} {row:?}");
+    }
 }
 
 #[test]

@@ -59,6 +59,7 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
     let (error, holds) = (program.interpolation_error, program.within_interpolation);
     let limit = against_any(error, tolerance.interpolation, holds);
     let mut text = line(&program.post, limit);
+    text += &cost(program);
     if let Some(holds) = program.within_form {
         let limit = against_any(
             program.form_error.unwrap_or(f64::NAN),
@@ -75,6 +76,25 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
         );
     }
     text
+}
+
+/// The line on what the program costs beside its path.
+fn cost(program: &ProgramReport) -> String {
+    let Some(added) = program.added_error else {
+        return String::new();
+    };
+    let added = small_length(added.max(0.0));
+    let Some(straight) = &program.straight_lines else {
+        return line("", format!("digits and times add {added}"));
+    };
+    let (lines, each) = (grouped(straight.lines), straight.per_segment);
+    line(
+        "",
+        format!(
+            "straight lines, digits and times add {added}; {lines} lines, {each:.1} for each segment \
+             of the path"
+        ),
+    )
 }
 
 fn points(report: &RunReport) -> String {

@@ -58,7 +58,11 @@ pub fn compare(
             file,
             rows,
             turns: None,
-            comparison: RowComparison::new(touch.clone(), file.shape(job.shape()), file.half_digits()),
+            comparison: RowComparison::new(
+                touch.clone(),
+                file.shape(job.shape()),
+                file.half_digits(),
+            ),
         };
         let made = make_unmeasured(
             &job.chain,
