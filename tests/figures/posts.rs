@@ -22,6 +22,10 @@ fn call(command: &str, recipe: &Path, rest: &[&str]) -> Output {
     call.arg(command).arg(recipe).args(rest);
     let posts = POST_NAMES.join("\", \"");
     call.args(["--set", &format!("output.posts=[\"{posts}\"]")]);
+    // LinuxCNC of today on a fast machine: what it refuses is tested in tests/program.
+    for word in ["lowest_rate=0mm/min", "servo_period=10us"] {
+        call.args(["--set", &format!("output.linuxcnc-g93.{word}")]);
+    }
     call.output().unwrap()
 }
 

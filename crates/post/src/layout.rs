@@ -98,6 +98,7 @@ impl Layout {
     fn without_chords(&self) -> Self {
         let chords = self.format.chords.map(|chords| Chords {
             deviation: f64::INFINITY,
+            shortest: 1,
             slowest: None,
             ..chords
         });

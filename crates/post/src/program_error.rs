@@ -70,12 +70,16 @@ pub enum ProgramError {
         /// C there, deg.
         c_deg: f64,
     },
-    /// Nothing moves.
+    /// The controller plays no line in so short a time.
     #[error(
-        "no axis moves in the line that ends at {t:.6} s, C = {c_deg:.3} deg; with `G93` this \
-         controller plays it in no time, and would come too early"
+        "the line that ends at {t:.6} s, C = {c_deg:.3} deg takes {took:.3} ms; this controller plays \
+         no line in less than {least} ms, and would come too late"
     )]
-    Rest {
+    ShortLine {
+        /// What it takes, ms.
+        took: f64,
+        /// The least, ms.
+        least: f64,
         /// The time of the end of the line, s.
         t: f64,
         /// C there, deg.
@@ -117,7 +121,10 @@ impl ProgramError {
             Self::Still { .. } => {
                 "feed faster, or turn the spindle faster, or place points farther apart"
             }
-            Self::Rest { .. } => "turn the spindle faster, or write more decimals",
+            Self::ShortLine { .. } => {
+                "turn the spindle slower, or give more tolerance of interpolation, so that lines are \
+                 longer; servo_period says what the machine has"
+            }
             Self::ManyChords { .. } => {
                 "place points closer together, or give more tolerance of interpolation"
             }

@@ -38,6 +38,8 @@ pub struct Chords {
     pub deviation: f64,
     /// What F says.
     pub feed: FeedMeaning,
+    /// The shortest line that the controller plays in its time, in steps.
+    pub shortest: i64,
     /// The slowest motion; `None` where every line takes its time.
     pub slowest: Option<Slowest>,
 }

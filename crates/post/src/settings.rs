@@ -1,6 +1,6 @@
 //! The settings of posts: keys that dialects may have in their tables, and the format that they give.
 
-use turnpath_core::kind::{Choice, Count, Number, Text, Velocity};
+use turnpath_core::kind::{Choice, Count, Number, Text, Time, Velocity};
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{Param, ParamDefault, Params};
 
@@ -27,6 +27,9 @@ const LEAST_CHORD_AIM: f64 = 0.25;
 const LONGEST_IN_LEAD: f64 = 4e-3;
 /// Largest way of X and of Z, mm, that a controller with a lowest rate takes for none.
 pub(crate) const STILL: f64 = 1e-7;
+/// The shortest line of LinuxCNC in periods of its servo thread (TP_MIN_SEGMENT_CYCLES in
+/// src/emc/tp/tp_types.h).
+const SHORTEST_PERIODS: f64 = 1.02;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
@@ -85,6 +88,12 @@ pub(crate) const LOWEST_RATE: Param<Velocity> = Param::velocity(
 )
 .default(0.1 / MINUTE)
 .min(0.0);
+pub(crate) const SERVO_PERIOD: Param<Time> = Param::time(
+    "servo_period",
+    "`SERVO_PERIOD` of the machine: LinuxCNC plays no line in less than 1.02 of it",
+)
+.default(1e-3)
+.positive();
 pub(crate) const FEED_MEANING: Param<Choice> = Param::choice(
     "f_means",
     &["1/min", SECONDS],
@@ -149,8 +158,17 @@ impl Post {
                 true => FeedMeaning::Seconds,
                 false => FeedMeaning::PerMinute,
             },
+            shortest: self.shortest(settings),
             slowest: rate.map(|rate| self.slowest(rate * MINUTE, decimals)),
         }
+    }
+
+    /// The shortest line, in steps.
+    fn shortest(&self, settings: &Params) -> i64 {
+        let own = self.default_number(SERVO_PERIOD.name());
+        let period = own.map(|own| settings.find(SERVO_PERIOD).unwrap_or(own));
+        let shortest = period.map(|period| SHORTEST_PERIODS * period * self.steps_per_s as f64);
+        shortest.map_or(1, |steps| (steps.ceil() as i64).max(1))
     }
 
     /// The slowest motion at so many mm or deg in a minute.

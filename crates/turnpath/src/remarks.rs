@@ -7,6 +7,9 @@ use turnpath_report::{ProgramDigits, Remark, RemarkSubject};
 
 use crate::posts::{layout, posts};
 
+/// Decimals of velocities that are never too few.
+const NOT_COARSE: u32 = 12;
+
 /// What remarks are made on besides the recipe: its path, or what is expected of it.
 pub struct PathSubject {
     /// The tolerances that the path was made for.
@@ -27,7 +30,7 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         .any(|limit| limit.axis == Axis::Z && limit.derivative == Derivative::Acceleration);
     // The digits do not depend on the nose.
     let formats = posts(recipe).map(|post| layout(recipe, post, true).format);
-    let coarsest = formats.min_by_key(|one| (one.position_decimals, one.velocity_decimals));
+    let formats: Vec<ProgramFormat> = formats.collect();
     let subject = RemarkSubject {
         aperture: 2.0 * recipe.part.aperture_radius,
         residual: path.tolerance.residual,
@@ -36,15 +39,19 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         cutting_time: path.cutting_time,
         segment_time: path.cutting_time / path.control_points.max(1.0),
         free_z_acceleration: path.z_acceleration.filter(|_| !limited),
-        digits: coarsest.map(|format| digits(&format)),
+        digits: digits(&formats),
     };
     subject.remarks()
 }
 
-fn digits(format: &ProgramFormat) -> ProgramDigits {
-    ProgramDigits {
-        position_decimals: format.position_decimals,
-        velocity_decimals: format.velocity_decimals,
-        velocity_time: format.velocity_time(),
-    }
+/// The coarsest digits of these programs. Those of straight lines have no velocities.
+fn digits(formats: &[ProgramFormat]) -> Option<ProgramDigits> {
+    let position_decimals = formats.iter().map(|one| one.position_decimals).min()?;
+    let cubics = formats.iter().filter(|one| one.chords.is_none());
+    let coarsest = cubics.min_by_key(|one| one.velocity_decimals);
+    Some(ProgramDigits {
+        position_decimals,
+        velocity_decimals: coarsest.map_or(NOT_COARSE, |one| one.velocity_decimals),
+        velocity_time: coarsest.map_or(1.0, ProgramFormat::velocity_time),
+    })
 }

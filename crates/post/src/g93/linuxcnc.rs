@@ -9,7 +9,9 @@ use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_error::ProgramError;
 use crate::program_format::ProgramFormat;
-use crate::settings::{C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, POSITION_DECIMALS};
+use crate::settings::{
+    C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, POSITION_DECIMALS, SERVO_PERIOD,
+};
 
 /// Programs for LinuxCNC.
 pub(crate) const LINUXCNC_G93: Post = Post {
@@ -22,6 +24,7 @@ pub(crate) const LINUXCNC_G93: Post = Post {
         POSITION_DECIMALS.info(),
         CHORD_SHARE.info(),
         LOWEST_RATE.info(),
+        SERVO_PERIOD.info(),
         C_SIGN.info(),
         HEADER.info(),
         FOOTER.info(),

@@ -233,7 +233,7 @@ fn played_minutes(
     let size = |k: usize| to[k].abs_diff(from[k]);
     let (moves, counts) = (size(1) + size(2) > 0, size(1).max(size(2)) > TINY);
     let length = match (moves, counts) {
-        (true, true) => way(1).hypot(way(2)),
+        (true, true) => (way(1) * way(1) + way(2) * way(2)).sqrt(),
         (false, _) => way(0).abs(),
         (true, false) => {
             return Err(

@@ -23,9 +23,14 @@ fn good() -> String {
     program(&plain(&LINUXCNC_G93), &path())
 }
 
-/// A post with chords for this tolerance.
+/// A post with chords for this tolerance, however short.
 fn within(post: &'static Post, tolerance: f64) -> Layout {
     let format = post.format(&Params::new(), 0.0, tolerance);
+    let chords = format.chords.map(|chords| Chords {
+        shortest: 1,
+        ..chords
+    });
+    let format = ProgramFormat { chords, ..format };
     Layout { post, format }
 }
 
@@ -174,6 +179,33 @@ fn a_flat_part_at_60_rpm_and_1_um_a_turn_is_refused_with_its_place() {
 }
 
 #[test]
+fn a_line_that_is_shorter_than_the_servo_period_is_refused_with_its_place() {
+    let points = path();
+    let mut block = PathBlock::default();
+    points.iter().for_each(|point| block.push(*point));
+    let stretch = SectionBlock {
+        section: Section::Cutting,
+        opens_section: true,
+        before: &[],
+        points: &block,
+    };
+    let refused = |period: f64| {
+        let params = Params::new().with("servo_period", period);
+        let post = &LINUXCNC_G93;
+        let format = post.format(&params, 0.0, f64::INFINITY);
+        Layout { post, format }.lines(&stretch).err()
+    };
+    // The lines take 3 ms.
+    assert_eq!(refused(2.94e-3), None);
+    let said = refused(2.95e-3).unwrap().to_string();
+    assert!(
+        said.contains("ends at 0.003000 s, C = 9.000 deg takes 3.000 ms"),
+        "{said}"
+    );
+    assert!(said.contains("less than 3.009 ms"), "{said}");
+}
+
+#[test]
 fn a_lead_from_rest_moves_in_steps_that_are_not_too_slow_and_waits_between_them() {
     let layout = within(&LINUXCNC_G93, 1e-4);
     // Nothing, then C from rest, then Z from rest.
@@ -185,10 +217,10 @@ fn a_lead_from_rest_moves_in_steps_that_are_not_too_slow_and_waits_between_them(
         let (turning, falling) = ((s.min(0.5) - 0.05).max(0.0), (2.0 * s - 1.0).max(0.0));
         points.push(ControlPoint {
             t: s,
-            c: 200.0 * turning.powi(3) + 600.0 * turning.powi(2) * (s - 0.5).max(0.0),
+            c: 200.0 * turning * turning * (turning + 3.0 * (s - 0.5).max(0.0)),
             x: 2.5,
             z: 1e-2 * (1.0 - ramp(falling)),
-            vc: 600.0 * turning.powi(2),
+            vc: 600.0 * turning * turning,
             vx: 0.0,
             vz: -2e-2 * rate(falling),
         });
@@ -209,7 +241,7 @@ fn a_lead_from_rest_moves_in_steps_that_are_not_too_slow_and_waits_between_them(
     let read = read(&layout, text.as_bytes()).unwrap();
     let last = read.last().unwrap();
     assert!((last.t - 1.0).abs() < 1e-9);
-    let one = 10f64.powi(layout.format.position_decimals as i32);
+    let one = 10u64.pow(layout.format.position_decimals) as f64;
     let steps = layout.format.chords.unwrap().slowest.unwrap().lead_steps[1] as f64 / one;
     assert!(steps < 1e-5 && (last.z - points[100].z).abs() <= 0.5 * steps);
 }

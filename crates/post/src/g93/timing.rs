@@ -10,6 +10,9 @@
 //! Then the motion's own rule (`getStraightVelocity` in src/emc/task/emccanon.cc) takes the rate for
 //! one along X, Y and Z as soon as one of them moves by 10⁻⁸. So a line whose X or Z moves by less than
 //! 10⁻⁷ and that is not quite still would be played with a rate of degrees along a length of mm.
+//!
+//! Last, the planner slows a line down that would take less than 1.02 periods of the servo thread
+//! (`tpRunOptimization` in src/emc/tp/tp.c, since 2.7.0).
 
 use crate::carry::DigitSegment;
 use crate::program_error::ProgramError;
@@ -27,7 +30,21 @@ pub(super) fn check_time(
     format: &ProgramFormat,
     segment: &DigitSegment,
 ) -> Result<(), ProgramError> {
-    let Some(slowest) = format.chords.and_then(|chords| chords.slowest) else {
+    let Some(chords) = format.chords else {
+        return Ok(());
+    };
+    let (t, c_deg) = place(format, segment);
+    if segment.steps() < chords.shortest {
+        let ms = |steps: i64| 1e3 * steps as f64 / format.steps_per_s as f64;
+        let (took, least) = (ms(segment.steps()), ms(chords.shortest));
+        return Err(ProgramError::ShortLine {
+            took,
+            least,
+            t,
+            c_deg,
+        });
+    }
+    let Some(slowest) = chords.slowest else {
         return Ok(());
     };
     let one = 10u64.pow(format.position_decimals) as f64;
@@ -37,8 +54,10 @@ pub(super) fn check_time(
         // A dwell, where one is written; see `is_dwell`.
         return Ok(());
     }
-    let (t, c_deg) = place(format, segment);
-    let length = |x: i64, z: i64| ((x as f64).powi(2) + (z as f64).powi(2)).sqrt() / one;
+    let length = |x: i64, z: i64| {
+        let [x, z] = [x, z].map(|way| way as f64);
+        (x * x + z * z).sqrt() / one
+    };
     let feed = inverse_minutes(format, segment.steps());
     if x == 0 && z == 0 {
         let rate = length(c, 0) * feed;

@@ -216,6 +216,7 @@ fn assert_same(layout: &Layout, points: &[ControlPoint], read: &[ControlPoint]) 
 pub(crate) fn plain(post: &'static Post) -> Layout {
     let format = post.format(&Params::new(), 0.0, f64::INFINITY);
     let chords = format.chords.map(|chords| Chords {
+        shortest: 1,
         slowest: None,
         ..chords
     });
