@@ -307,8 +307,8 @@ impl Digits {
         let positions = [sign * moved.c / DEG, moved.x, moved.z - format.z_above];
         let velocities = [sign * moved.vc / DEG, moved.vx, moved.vz].map(|v| v * per);
         let has_velocities = format.shape() == SegmentShape::Cubic;
-        let steps_in_lead = format.chords.and_then(|chords| chords.slowest);
-        let steps_in_lead = steps_in_lead.filter(|_| place.in_lead);
+        let slowest = format.chords.and_then(|chords| chords.slowest);
+        let multiples = slowest.map_or([1; 3], |slowest| slowest.steps(place.in_lead));
         let (mut position, mut velocity) = ([0; 3], [0; 3]);
         for (k, axis) in AXES.into_iter().enumerate() {
             let units = |value: f64, decimals: u32| {
@@ -320,10 +320,8 @@ impl Digits {
                     t,
                 })
             };
-            position[k] = units(positions[k], format.position_decimals)?;
-            if let Some(slowest) = steps_in_lead {
-                position[k] = nearest_multiple(position[k], slowest.lead_steps[k]);
-            }
+            let digits = units(positions[k], format.position_decimals)?;
+            position[k] = nearest_multiple(digits, multiples[k]);
             if has_velocities {
                 velocity[k] = units(velocities[k], format.velocity_decimals)?;
             }

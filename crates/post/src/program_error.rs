@@ -56,20 +56,6 @@ pub enum ProgramError {
         /// C there, deg.
         c_deg: f64,
     },
-    /// X and Z move by less than the controller counts as a motion.
-    #[error(
-        "X and Z move by no more than {still} mm in the line that ends at {t:.6} s, C = \
-         {c_deg:.3} deg; with `G93` this controller takes such a line for one of C alone, and would \
-         come too early"
-    )]
-    Still {
-        /// The largest way that counts as none, mm.
-        still: f64,
-        /// The time of the end of the line, s.
-        t: f64,
-        /// C there, deg.
-        c_deg: f64,
-    },
     /// The controller plays no line in so short a time.
     #[error(
         "the line that ends at {t:.6} s, C = {c_deg:.3} deg takes {took:.3} ms; this controller plays \
@@ -117,9 +103,6 @@ impl ProgramError {
             Self::Slow { .. } => {
                 "feed faster, or turn the spindle faster; LinuxCNC from 2.9.0 on has no lowest rate: \
                  write lowest_rate = \"0 mm/min\" for it"
-            }
-            Self::Still { .. } => {
-                "feed faster, or turn the spindle faster, or place points farther apart"
             }
             Self::ShortLine { .. } => {
                 "turn the spindle slower, or give more tolerance of interpolation, so that lines are \

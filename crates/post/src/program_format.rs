@@ -22,11 +22,24 @@ pub struct Slowest {
     /// The lowest rate of X and Z together, mm/min, and of C where they stand still, deg/min. Zero:
     /// any.
     pub rate: f64,
+    /// Largest way of X and of Z that the controller takes for none, in last digits.
+    pub still: i64,
     /// On leads, positions of C, X and Z are multiples of these, in last digits. So each axis stands
     /// still or is not too slow.
     pub lead_steps: [i64; 3],
     /// The longest line of a lead, in steps of time.
     pub longest_in_lead: i64,
+}
+
+impl Slowest {
+    /// What positions of C, X and Z are multiples of, in last digits.
+    pub(crate) fn steps(&self, in_lead: bool) -> [i64; 3] {
+        match in_lead {
+            true => self.lead_steps,
+            // X and Z stand still, or move by more than counts as none.
+            false => [1, self.still + 1, self.still + 1],
+        }
+    }
 }
 
 /// How chords stand for cubics, where a controller goes straight from point to point.

@@ -26,7 +26,7 @@ const LEAST_CHORD_AIM: f64 = 0.25;
 /// coarser in which the leads move, a shorter one makes more lines: at 0.1 mm/min it is 7 nm.
 const LONGEST_IN_LEAD: f64 = 4e-3;
 /// Largest way of X and of Z, mm, that a controller with a lowest rate takes for none.
-pub(crate) const STILL: f64 = 1e-7;
+const STILL: f64 = 1e-7;
 /// The shortest line of LinuxCNC in periods of its servo thread (TP_MIN_SEGMENT_CYCLES in
 /// src/emc/tp/tp_types.h).
 const SHORTEST_PERIODS: f64 = 1.02;
@@ -147,19 +147,22 @@ impl Post {
         let own = || self.default_number(CHORD_SHARE.name());
         let part = settings.find(CHORD_SHARE).or_else(own).unwrap_or(0.0);
         let share = part * tolerance;
-        let digit = 1.0 / 10u64.pow(decimals) as f64;
+        let one = 10u64.pow(decimals) as f64;
         let seconds = settings.find(FEED_MEANING) == Some(SECONDS);
         let lowest = self.default_number(LOWEST_RATE.name());
         let rate = lowest.map(|own| settings.find(LOWEST_RATE).unwrap_or(own));
+        let slowest = rate.map(|rate| self.slowest(rate * MINUTE, decimals));
+        // Positions are rounded to multiples of this.
+        let rounded_to = slowest.map_or(1, |slowest| slowest.still + 1) as f64 / one;
         Chords {
             share: part,
-            deviation: (CHORD_AIM * share - digit).max(LEAST_CHORD_AIM * share),
+            deviation: (CHORD_AIM * share - rounded_to).max(LEAST_CHORD_AIM * share),
             feed: match seconds {
                 true => FeedMeaning::Seconds,
                 false => FeedMeaning::PerMinute,
             },
             shortest: self.shortest(settings),
-            slowest: rate.map(|rate| self.slowest(rate * MINUTE, decimals)),
+            slowest,
         }
     }
 
@@ -168,18 +171,18 @@ impl Post {
         let own = self.default_number(SERVO_PERIOD.name());
         let period = own.map(|own| settings.find(SERVO_PERIOD).unwrap_or(own));
         let shortest = period.map(|period| SHORTEST_PERIODS * period * self.steps_per_s as f64);
-        shortest.map_or(1, |steps| (steps.ceil() as i64).max(1))
+        shortest.map_or(1, |steps| (steps.round() as i64).max(1))
     }
 
     /// The slowest motion at so many mm or deg in a minute.
     fn slowest(&self, rate: f64, decimals: u32) -> Slowest {
         let one = 10u64.pow(decimals) as f64;
         let of_rate = (rate / MINUTE * LONGEST_IN_LEAD * one).ceil();
-        // One digit more than counts as no motion: the controller compares rounded numbers.
-        let of_still = (STILL * one).floor() + 1.0;
-        let linear = of_rate.max(of_still) as i64;
+        let still = (STILL * one * (1.0 + 1e-9)).floor() as i64;
+        let linear = (of_rate as i64).max(still + 1);
         Slowest {
             rate,
+            still,
             lead_steps: [(of_rate as i64).max(1), linear, linear],
             longest_in_lead: (LONGEST_IN_LEAD * self.steps_per_s as f64) as i64,
         }

@@ -131,6 +131,10 @@ fn a_path_of_straight_lines_is_carried_as_it_is() {
 
 /// A flat part at 60 rpm with this feed, mm/rev, in the layout of a lowest rate, mm/min.
 fn flat(feed: f64, lowest: f64) -> Result<usize, ProgramError> {
+    flat_lines(feed, lowest).map(|(points, _)| points)
+}
+
+fn flat_lines(feed: f64, lowest: f64) -> Result<(usize, String), ProgramError> {
     let params = Params::new().with("lowest_rate", lowest / 60.0);
     let format = LINUXCNC_G93.format(&params, 0.0, 1e-4);
     let layout = Layout {
@@ -156,7 +160,9 @@ fn flat(feed: f64, lowest: f64) -> Result<usize, ProgramError> {
         before: &[],
         points: &block,
     };
-    layout.lines(&stretch).map(|lines| lines.points)
+    let lines = layout.lines(&stretch)?;
+    let text = String::from_utf8(lines.text).unwrap();
+    Ok((lines.points, text))
 }
 
 #[test]
@@ -173,9 +179,28 @@ fn a_flat_part_at_60_rpm_and_1_um_a_turn_is_refused_with_its_place() {
     assert_eq!(flat(1.7e-3, 0.1), Ok(100));
     // LinuxCNC from 2.9.0 on.
     assert_eq!(flat(1e-3, 0.0), Ok(100));
-    // A way of 10^-7 mm is none to its interpreter.
-    let error = flat(3e-6, 0.0).unwrap_err();
-    assert!(matches!(error, ProgramError::Still { .. }), "{error}");
+}
+
+/// A way of 10^-7 mm is none to LinuxCNC's interpreter.
+#[test]
+fn x_and_z_stand_still_or_move_by_more_than_counts_as_none() {
+    // 0.075 nm a line.
+    let (points, text) = flat_lines(3e-6, 0.0).unwrap();
+    let places: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.split(' ').find(|word| word.starts_with('X')))
+        .collect();
+    assert_eq!(places.len(), points);
+    let digits = |place: &str| -> i64 {
+        let value: f64 = place[1..].parse().unwrap();
+        (value * 1e7).round() as i64
+    };
+    let ways: Vec<i64> = places
+        .windows(2)
+        .map(|pair| digits(pair[1]) - digits(pair[0]))
+        .collect();
+    assert!(ways.iter().all(|way| [0, -2].contains(way)), "{ways:?}");
+    assert!(ways.contains(&-2) && ways.contains(&0));
 }
 
 #[test]

@@ -9,7 +9,8 @@
 //!
 //! Then the motion's own rule (`getStraightVelocity` in src/emc/task/emccanon.cc) takes the rate for
 //! one along X, Y and Z as soon as one of them moves by 10⁻⁸. So a line whose X or Z moves by less than
-//! 10⁻⁷ and that is not quite still would be played with a rate of degrees along a length of mm.
+//! 10⁻⁷ and that is not quite still would be played with a rate of degrees along a length of mm. There
+//! is no such line: positions are multiples of a larger step.
 //!
 //! Last, the planner slows a line down that would take less than 1.02 periods of the servo thread
 //! (`tpRunOptimization` in src/emc/tp/tp.c, since 2.7.0).
@@ -17,7 +18,6 @@
 use crate::carry::DigitSegment;
 use crate::program_error::ProgramError;
 use crate::program_format::{ProgramFormat, Slowest};
-use crate::settings::STILL;
 
 use super::write::inverse_minutes;
 
@@ -63,12 +63,7 @@ pub(super) fn check_time(
         let rate = length(c, 0) * feed;
         return check_rate(rate, &slowest, ("C moves", "deg"), (t, c_deg));
     }
-    // The controller compares rounded positions: a way of just 10⁻⁷ may count or not.
-    let most = x.abs().max(z.abs());
-    if most as f64 <= (STILL * one).floor() {
-        let still = STILL;
-        return Err(ProgramError::Still { still, t, c_deg });
-    }
+    // `Slowest::steps` keeps X and Z from ways that are not quite none.
     let rate = length(x, z) * feed;
     check_rate(rate, &slowest, ("X and Z move", "mm"), (t, c_deg))
 }

@@ -35,7 +35,7 @@ use remake::{Comparison, compare};
 use source::SourceFile;
 use whole::{EndRow, wholeness};
 
-/// Measures the tool path in a file: a `toolpath.csv`, or a program of the post `pmac-pvt`. Plots go
+/// Measures the tool path in a file: a `toolpath.csv`, or a program of a post. Plots go
 /// to `folder`.
 ///
 /// # Errors
