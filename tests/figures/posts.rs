@@ -56,6 +56,10 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
     let path = number(&summary, "/interpolation_error/max_nm");
     let tolerance = number(&summary, "/tolerance/interpolation_nm");
     let programs = summary["programs"].as_array().unwrap();
+    let within = summary["within"].as_object().unwrap();
+    let path_holds = within
+        .iter()
+        .all(|(what, holds)| what == "programs" || *holds != Value::Bool(false));
     assert_eq!(programs.len(), POSTS.len());
     for (program, post) in programs.iter().zip(POSTS) {
         assert_eq!(program["post"], post.name);
@@ -73,7 +77,9 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
             recipe,
             &[&[file.to_str().unwrap(), "--format", "json"], rest].concat(),
         );
-        assert_eq!(verify.status.code(), status, "{}", post.name);
+        // One program may be beyond its tolerance where the path and the others hold theirs.
+        let judged = i32::from(exceeded || !path_holds);
+        assert_eq!(verify.status.code(), Some(judged), "{}", post.name);
         let report: Value = serde_json::from_slice(&verify.stdout).unwrap();
         assert_eq!(
             number(&report, "/interpolation_error/max_nm"),
