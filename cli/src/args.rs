@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use turnpath::MapFormat;
 use turnpath::report::comparison;
 use turnpath_core::Slot;
 
@@ -31,8 +32,10 @@ pub enum Command {
     Ablate(AblateArgs),
     /// Measure a tool path against a recipe's surface, tool and tolerances
     Verify(VerifyArgs),
-    /// Write the surface of a recipe on a grid, as CSV
+    /// Write the surface of a recipe on a grid, or compare it with a map
     Sag(SagArgs),
+    /// Make a recipe of a surface of a lens design, a Zemax .zmx
+    Import(ImportArgs),
     /// List the strategies that can be chosen
     List(ListArgs),
     /// Explain one strategy, or one table of the recipe: its keys, defaults and limits
@@ -186,10 +189,93 @@ pub struct SagArgs {
     pub recipe: RecipeArgs,
     /// Points along each side of the square around the aperture, its edges included
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=20_000))]
-    pub grid: u32,
-    /// The file to write; - for standard output
+    #[arg(required_unless_present = "against", conflicts_with = "against")]
+    pub grid: Option<u32>,
+    /// The file to write: .gsf (Gwyddion), .DAT (Zemax), or CSV for all others; - for CSV on
+    /// standard output
+    #[arg(short, long, value_name = "FILE", required_unless_present = "against")]
+    pub output: Option<PathBuf>,
+    /// Compare a map with the surface instead, at the map's own points on the part; -o then writes
+    /// the difference, map minus surface
+    #[arg(long, value_name = "MAP")]
+    pub against: Option<PathBuf>,
+    #[command(flatten)]
+    pub map: MapArgs,
+    /// What to print on standard output
+    #[arg(long, value_enum, requires = "against", conflicts_with = "grid")]
+    pub format: Option<Format>,
+}
+
+/// What the file of a map does not say. What is given goes before what the file says.
+#[derive(Debug, Args)]
+pub struct MapArgs {
+    /// Format of the map: zemax, code-v, xyz, gsf or metropro; as its first bytes or its name say
+    /// unless given
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
+    #[arg(value_parser = PossibleValuesParser::new(MapFormat::WORDS.map(|(word, _)| word)))]
+    pub map_format: Option<String>,
+    /// Unit of x, y and distances in the map: m, cm, mm, um, nm or in
+    #[arg(
+        long,
+        value_name = "UNIT",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
+    pub xy_unit: Option<String>,
+    /// Unit of heights in the map
+    #[arg(
+        long,
+        value_name = "UNIT",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
+    pub z_unit: Option<String>,
+    /// Distance of neighbouring points of the map, such as "0.1 mm"
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        requires = "against",
+        conflicts_with = "grid"
+    )]
+    pub pitch: Option<String>,
+    /// Change the sign of x in the map
+    #[arg(long, requires = "against", conflicts_with = "grid")]
+    pub flip_x: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct ImportArgs {
+    /// The lens design: a Zemax .zmx
+    pub file: PathBuf,
+    /// The number of the surface in the design; the only one that is bent unless given
+    #[arg(long, value_name = "N")]
+    pub surface: Option<usize>,
+    /// The side of the surface on which the tool stands; the side without material unless given
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub tool_side: Option<ToolSide>,
+    /// The diameter of the part, such as "60 mm"; that of the aperture in the design unless given
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub aperture: Option<String>,
+    /// The recipe to write; standard output unless given, as with -
     #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
+    pub output: Option<PathBuf>,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A side of a surface, by the z axis of its design.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ToolSide {
+    /// Where z of the design is less
+    MinusZ,
+    /// Where z of the design is more
+    PlusZ,
 }
 
 #[derive(Debug, Args)]
@@ -215,17 +301,18 @@ pub struct ExplainArgs {
 }
 
 impl Command {
-    /// Where its strategies come from.
-    pub fn plugins(&self) -> &PluginArgs {
-        match self {
+    /// Where its strategies come from, if it needs any.
+    pub fn plugins(&self) -> Option<&PluginArgs> {
+        Some(match self {
             Self::Run(args) => &args.recipe.plugins,
             Self::Check(args) => &args.recipe.plugins,
             Self::Ablate(args) => &args.recipe.plugins,
             Self::Verify(args) => &args.recipe.plugins,
             Self::Sag(args) => &args.recipe.plugins,
+            Self::Import(_) => return None,
             Self::List(args) => &args.plugins,
             Self::Explain(args) => &args.plugins,
-        }
+        })
     }
 }
 

@@ -67,7 +67,9 @@ pub fn main_with(
     }
     let Program { command } = Program::parse_from(args);
     signals::remove_drafts_on_signals();
-    let details = command.plugins().layout_details;
+    let details = command
+        .plugins()
+        .is_some_and(|plugins| plugins.layout_details);
     crash::guard();
     let outcome = crash::take_output()
         .map_err(Failure::Output)
@@ -91,6 +93,7 @@ fn run(command: &Command, catalogue: Catalogue) -> Outcome {
         Command::Check(args) => commands::check(args, catalogue),
         Command::Verify(args) => commands::verify(args, catalogue),
         Command::Sag(args) => commands::sag(args, catalogue),
+        Command::Import(args) => commands::import(args),
         Command::List(args) => commands::list(args, catalogue),
         Command::Explain(args) => commands::explain(args, catalogue),
     }

@@ -7,10 +7,11 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 use serde_json::Value;
-use turnpath::Catalogue;
+use turnpath::{Catalogue, Recipe};
 use turnpath_core::{
     Attitude, GradientSeries, Gradients, NamedConstant, ParamDefault, ParamKind, ParamValue,
     Params, Placement, Pose, Series, Slot, SurfaceModel,
@@ -18,6 +19,7 @@ use turnpath_core::{
 use turnpath_pipeline::{PlacedSurface, PosedSurface, SurfaceSum};
 
 use crate::support::bench::Bench;
+use crate::support::recipe::{SADDLE, with_table};
 use crate::support::repository;
 
 /// Largest difference of a height from another program's, mm.
@@ -190,7 +192,9 @@ fn series_of_height_and_slopes_are_those_of_fifty_digits() {
 #[test]
 fn series_of_formulas_are_those_of_fifty_digits() {
     let cases = cases("formula.json");
-    assert_eq!(cases.len(), 28);
+    assert_eq!(cases.len(), 40);
+    let at_axis = |case: &&Value| case["x"][0] == 0.0 && case["y"][0] == 0.0;
+    assert_eq!(cases.iter().filter(at_axis).count(), 12);
     for case in cases {
         let what = format!("{} at {}", case["params"]["z"], case["x"]);
         agrees(&what, model(&case).as_ref(), &case);
@@ -261,6 +265,126 @@ fn the_recipe_of_each_model_holds_at_a_coarse_setting() {
         let recipe = recipe.to_str().unwrap();
         let run = ["run", recipe, "-o", model];
         bench.call(run.iter().chain(&COARSE)).ends(0);
+    }
+}
+
+/// The surfaces of all ready recipes, by their names. Those of `docs/recipes` are run at their own
+/// setting, and those of the folder `surfaces` at a coarse one: here, and the map in the suite
+/// `program`.
+fn ready_recipes() -> Vec<(String, PathBuf)> {
+    let folder = repository().join("docs/recipes");
+    let mut found = Vec::new();
+    for folder in [folder.clone(), folder.join("surfaces")] {
+        let files = fs::read_dir(folder)
+            .unwrap()
+            .map(|file| file.unwrap().path());
+        for file in files.filter(|file| file.extension().is_some_and(|end| end == "toml")) {
+            let recipe = Recipe::load(file.to_str().unwrap(), &[]).unwrap();
+            let names = recipe
+                .surfaces
+                .iter()
+                .map(|one| one.choice.name().to_owned());
+            found.extend(names.map(|name| (name, file.clone())));
+        }
+    }
+    found
+}
+
+#[test]
+fn each_model_has_a_ready_recipe() {
+    let models = catalogue().names(Slot::Surface).into_iter();
+    let models: BTreeSet<String> = models.map(str::to_owned).collect();
+    let ready: BTreeSet<String> = ready_recipes().into_iter().map(|(name, _)| name).collect();
+    assert_eq!(ready, models);
+}
+
+/// `sag` asks for the square around the aperture: its corners lie 1.4 radii from the axis.
+#[test]
+fn the_surface_of_each_ready_recipe_goes_on_beyond_its_aperture() {
+    let bench = Bench::empty();
+    for (name, file) in ready_recipes() {
+        let recipe = file.to_str().unwrap();
+        let said = bench
+            .call(["sag", recipe, "--grid", "21", "-o", "-"])
+            .ends(0);
+        assert_eq!(said.stdout.lines().count(), 21 * 21 + 1);
+        assert!(!said.stdout.contains("NaN"), "{name}: {recipe}");
+    }
+}
+
+/// Columns of a path's rows before the velocities. Those are what heights differ by over a step of some
+/// milliseconds.
+const POSITIONS: usize = 4;
+
+/// A recipe with a formula for a surface makes the points that the native model makes.
+#[test]
+fn a_formula_makes_the_path_of_the_native_model() {
+    let tables = [
+        (
+            "use = \"conic\"\nradius = \"40 mm\"\nconic = -0.7",
+            "use = \"formula\"\nz = \"c*rho^2/(1 + sqrt(1 - (1 + K)*c^2*rho^2))\"\n\
+             constants = { c = \"0.025 /mm\", K = -0.7 }",
+        ),
+        (
+            "use = \"toric\"\nradius_rotation = \"50 mm\"\nradius_base = \"32 mm\"",
+            "use = \"formula\"\nz = \"R - sqrt((R - a + sqrt(a^2 - y^2))^2 - x^2)\"\n\
+             constants = { R = \"50 mm\", a = \"32 mm\" }",
+        ),
+        (
+            "use = \"astigmatic\"\nk = \"0.08 /mm\"",
+            "use = \"formula\"\nz = \"k*rho^2*sin(2*theta)\"\n\
+             constants = { k = \"0.08 /mm\" }",
+        ),
+    ];
+    for (native, formula) in tables {
+        let [native, formula] = [native, formula].map(rows);
+        assert_eq!(native.len(), formula.len());
+        for (native, formula) in native.iter().zip(&formula) {
+            for (column, (native, formula)) in native.iter().zip(formula).enumerate() {
+                let allowed = if column < POSITIONS { 1e-12 } else { 1e-9 };
+                let off = (native - formula).abs();
+                assert!(
+                    off <= allowed * (1.0 + native.abs()),
+                    "column {column}: {formula} for {native}"
+                );
+            }
+        }
+    }
+}
+
+/// The rows of the path over a surface, with even steps and an even feed: what follows the surface is
+/// searched for, and a search ends where rounding lets it.
+fn rows(surface: &str) -> Vec<Vec<f64>> {
+    let recipe = with_table(SADDLE, "surface", surface);
+    let feed = "use = \"constant\"\nfeed = \"20 um/rev\"";
+    let bench = Bench::with(&with_table(&recipe, "feed", feed));
+    bench.line("run recipe.toml -o out").ends(0);
+    let text = bench.read("out/toolpath.csv");
+    let number = |cell: &str| cell.parse().unwrap();
+    let row = |line: &str| line.split(',').map(number).collect();
+    text.lines().skip(1).map(row).collect()
+}
+
+/// With a spline, the rounds of refinement ended while every second segment waited for its turn: at
+/// 21.4 nm and at 42.9 nm.
+#[test]
+fn a_zernike_surface_with_a_spline_of_velocities_holds_its_tolerance() {
+    let recipe = repository().join("docs/recipes/surfaces/zernike.toml");
+    let bench = Bench::with(&fs::read_to_string(recipe).unwrap());
+    for tolerance in ["20 nm", "40 nm"] {
+        let tolerance = format!("tolerance.interpolation={tolerance}");
+        let solver = "velocity.use=triangle-rotary";
+        let run = [
+            "run",
+            "recipe.toml",
+            "-o",
+            "out",
+            "--set",
+            solver,
+            "--set",
+            &tolerance,
+        ];
+        bench.call(run).ends(0);
     }
 }
 

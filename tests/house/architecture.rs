@@ -18,6 +18,7 @@ const PLUGINS: &str = "plugins/*";
 const RULES: &[Rule] = &[
     rule("turnpath-units", &[], &[]),
     rule("turnpath-files", &[], &[]),
+    rule("turnpath-lens", &[], &[]),
     rule("turnpath-maps", &[], &[]),
     rule("turnpath-core", &["turnpath-units"], &[]),
     rule("turnpath-plugin", &["turnpath-core"], &[]),
@@ -58,6 +59,7 @@ const LIBRARIES: &[&str] = &[
     "turnpath-core",
     "turnpath-files",
     "turnpath-host",
+    "turnpath-lens",
     "turnpath-maps",
     "turnpath-pipeline",
     "turnpath-post",

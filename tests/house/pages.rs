@@ -10,7 +10,9 @@ use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
-const COMMANDS: [&str; 7] = ["run", "check", "ablate", "verify", "sag", "list", "explain"];
+const COMMANDS: [&str; 8] = [
+    "run", "check", "ablate", "verify", "sag", "import", "list", "explain",
+];
 
 fn page(name: &str) -> String {
     fs::read_to_string(repository().join(name)).expect("a page")
@@ -177,14 +179,29 @@ fn command_before<'a>(page: &'a str, block: &str) -> Vec<&'a str> {
 
 #[test]
 fn the_program_of_docs_pmac_md_is_what_its_command_writes() {
-    let page = page("docs/pmac.md");
-    let quoted = first_block(&page, "");
-    let mut command = command_before(&page, quoted);
+    is_what_its_command_writes(&page("docs/pmac.md"), "pmc");
+}
+
+#[test]
+fn the_programs_of_docs_posts_md_are_what_their_commands_write() {
+    let page = page("docs/posts.md");
+    for (heading, extension) in [
+        ("## Aerotech Automation1", "ascript"),
+        ("## Siemens Sinumerik 840D", "mpf"),
+    ] {
+        is_what_its_command_writes(below(&page, heading), extension);
+    }
+}
+
+/// The first block of a text is quoted from the program that the command before it writes.
+fn is_what_its_command_writes(page: &str, extension: &str) {
+    let quoted = first_block(page, "");
+    let mut command = command_before(page, quoted);
     let recipe = repository().join(command[1]);
     command[1] = recipe.to_str().expect("a path in UTF-8");
     let bench = Bench::empty();
     bench.call(command.iter().chain(&["-o", "out"])).ends(0);
-    let program = bench.read("out/astigmatic-5mm.pmc");
+    let program = bench.read(format!("out/astigmatic-5mm.{extension}"));
     let mut lines = program.lines();
     for line in quoted.lines().filter(|line| *line != "…") {
         // A hash is quoted by its beginning, and lines are left out where the page says so.

@@ -110,6 +110,68 @@ fn the_full_product_is_made_with_the_recipe_first() {
     );
 }
 
+/// A term of a table of coefficients is a key like any other: of a surface alone, and of one in a sum.
+#[test]
+fn single_coefficients_of_a_table_can_vary() {
+    let asphere =
+        "use = \"even-asphere\"\nradius = \"50 mm\"\ncoefficients = { 4 = 1e-6, 6 = 2e-9 }";
+    let zernike = "[[surface]]\nuse = \"conic\"\nradius = \"50 mm\"\n\n[[surface]]\nuse = \"zernike\"\n\
+                   indexing = \"noll\"\nnormalization_radius = \"2.5 mm\"\n\
+                   coefficients = { 5 = \"0.8 um\", 7 = \"0.35 um\" }\n\n[tool]";
+    let asphere = with_table(SADDLE, "surface", asphere);
+    let sum = changed(
+        SADDLE,
+        "[surface]\nuse = \"astigmatic\"\nk = \"0.08 /mm\"\n\n[tool]",
+        zernike,
+    );
+    for (recipe, key, own, others) in [
+        (&asphere, "surface.coefficients.4", "1e-6", ["2e-4", "0"]),
+        (
+            &sum,
+            "surface.1.coefficients.7",
+            "0.35 um",
+            ["2 um", "0 um"],
+        ),
+    ] {
+        let quoted = match own.contains(' ') {
+            true => others.map(|value| format!("{value:?}")),
+            false => others.map(str::to_owned),
+        };
+        let list = quoted.join(", ");
+        let bench = Bench::with(&format!("{recipe}\n[ablation]\n{key} = [{list}]\n"));
+        assert_eq!(headline(&ablate(&bench, "").ends(0)), "3 runs");
+        let runs = runs(&bench);
+        for (run, value) in runs.iter().zip([own, others[0], others[1]]) {
+            let value = match own.contains(' ') {
+                true => format!("{key}={value:?}"),
+                false => format!("{key}={value}"),
+            };
+            let words = [
+                "run",
+                "recipe.toml",
+                "-o",
+                "one",
+                "--format",
+                "json",
+                "--set",
+                &value,
+            ];
+            let alone = bench.call(words.iter().chain(&["--set", "refine=false"]));
+            let alone = alone.json();
+            for figure in ["/surface_error/pv_nm", "/axes/z/max_velocity_mm_per_s"] {
+                assert_eq!(
+                    run.pointer(figure),
+                    alone.pointer(figure),
+                    "{value} {figure}"
+                );
+            }
+        }
+        let largest = |run: &Value| run["axes"]["z"]["max_velocity_mm_per_s"].clone();
+        assert_ne!(largest(&runs[0]), largest(&runs[1]));
+        assert_ne!(largest(&runs[0]), largest(&runs[2]));
+    }
+}
+
 #[test]
 fn one_at_a_time_makes_each_change_alone() {
     let recipe = changed(

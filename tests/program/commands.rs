@@ -190,6 +190,117 @@ fn check_reports_what_the_part_needs_of_the_tool() {
     insta::assert_snapshot!(said.stdout);
 }
 
+/// The closed forms of the part's own shape, on the ways of the program.
+#[test]
+fn check_reports_the_shape_of_the_part_itself() {
+    let part = |surface: &str, sets: &str| {
+        let bench = Bench::with(&with_table(SADDLE, "surface", surface));
+        let said = bench.line(&format!("check recipe.toml --format json {sets}"));
+        said.ends(0).json()["part"].clone()
+    };
+    let free = "--set tool.included_angle=\"170 deg\" --set tool.clearance_angle=\"60 deg\"";
+    let free = free.replace(['"', ' '], "").replace("--set", " --set ");
+    // A sphere: 1/r everywhere, the sagitta r − sqrt(r² − a²), the slope asin(a/r).
+    let sphere = part("use = \"conic\"\nradius = \"5 mm\"", &free);
+    close(
+        &sphere["highest"]["height_mm"],
+        5.0 - 18.75f64.sqrt(),
+        1e-12,
+    );
+    assert!(sphere["lowest"]["height_mm"].as_f64().unwrap().abs() < 1e-15);
+    close(&sphere["steepest"]["angle_deg"], 30.0, 1e-12);
+    close(&sphere["most_hollow"]["curvature_per_mm"], 0.2, 1e-11);
+    close(&sphere["most_domed"]["curvature_per_mm"], 0.2, 1e-11);
+    // A torus: 1/a along the tube, cos φ over the distance from its axis across.
+    let tube = "use = \"toric\"\nradius_rotation = \"20 mm\"\nradius_base = \"8 mm\"";
+    let torus = part(tube, &free);
+    let cos = (1.0f64 - 0.3125 * 0.3125).sqrt();
+    close(&torus["most_hollow"]["curvature_per_mm"], 0.125, 1e-11);
+    close(
+        &torus["most_domed"]["curvature_per_mm"],
+        cos / (12.0 + 8.0 * cos),
+        1e-11,
+    );
+    close(&torus["highest"]["height_mm"], 8.0 - 8.0 * cos, 1e-11);
+    // A paraboloid: 1/r at the vertex, the slope a/r at the rim.
+    let paraboloid = part("use = \"conic\"\nradius = \"-2.5 mm\"\nconic = -1", &free);
+    close(&paraboloid["most_domed"]["curvature_per_mm"], -0.4, 1e-11);
+    close(&paraboloid["lowest"]["height_mm"], -1.25, 1e-12);
+    close(&paraboloid["steepest"]["angle_deg"], 45.0, 1e-12);
+    // z = k ρ² sin 2θ: the saddle.
+    let saddle = part("use = \"astigmatic\"\nk = \"0.08 /mm\"", "");
+    close(&saddle["highest"]["height_mm"], 0.5, 1e-12);
+    close(&saddle["lowest"]["height_mm"], -0.5, 1e-12);
+    close(&saddle["most_hollow"]["curvature_per_mm"], 0.16, 1e-11);
+    close(&saddle["most_domed"]["curvature_per_mm"], -0.16, 1e-11);
+}
+
+/// A tool that does not fit, and a feed that no path can have: the part has its shape anyway.
+#[test]
+fn check_reports_the_shape_of_a_part_that_it_refuses() {
+    let bench = Bench::with(SADDLE);
+    let shape = bench.line("check recipe.toml --format json").ends(0).json()["part"].clone();
+    for refused in ["tool.nose_radius=7mm", "feed.feed=1e-7um/rev"] {
+        let line = format!("check recipe.toml --set {refused}");
+        let said = bench.line(&format!("{line} --format json")).ends(2);
+        assert!(said.stderr.contains("error: "), "{said}");
+        let report = said.json();
+        assert_eq!(report["part"], shape);
+        assert_eq!(report["format"], 2);
+        let why = report["refused"].as_str().unwrap();
+        assert!(said.stderr.contains(why.lines().next().unwrap()), "{why}");
+        let said = bench.line(&line).ends(2);
+        let steepest = said.stdout.lines().find(|line| line.contains("steepest"));
+        assert!(
+            steepest.is_some_and(|line| line.contains("by 21.80 deg")),
+            "{said}"
+        );
+    }
+}
+
+/// The largest nose is limited on the part, or on the overrun of so large a nose; both say so. Where
+/// the surface ends within the reach of a larger nose, no place limits it.
+#[test]
+fn the_largest_nose_is_limited_on_the_part_or_on_its_overrun_or_by_the_end_of_the_surface() {
+    let angles = "included_angle = \"120 deg\"\nclearance_angle = \"30 deg\"\n";
+    for (surface, on) in [
+        // The most curved at the vertex; farther out the farther out; and an ellipsoid that ends.
+        ("use = \"conic\"\nradius = \"9 mm\"\nconic = -1", "part"),
+        ("use = \"formula\"\nz = \"0.002/mm^3*rho^4\"", "overrun"),
+        ("use = \"conic\"\nradius = \"9 mm\"\nconic = 0.8", "nowhere"),
+    ] {
+        let bench = Bench::with(&changed(
+            &with_table(SADDLE, "surface", surface),
+            angles,
+            "",
+        ));
+        let line = "check recipe.toml --set path.overrun=none";
+        let report = bench.line(&format!("{line} --format json")).ends(0).json();
+        let nose = &report["margins"]["nose_radius"];
+        let text = bench.line(line).ends(0).stdout;
+        let row = text
+            .lines()
+            .find(|line| line.contains("nose radius"))
+            .unwrap();
+        if on == "nowhere" {
+            assert!(
+                nose["most_mm"].as_f64() > Some(1.0) && nose["at"].is_null(),
+                "{nose}"
+            );
+            assert!(row.ends_with("to spare"), "{text}");
+            continue;
+        }
+        assert_eq!(nose["at"]["on"], on, "{nose}");
+        let rho = nose["at"]["rho_mm"].as_f64().unwrap();
+        assert_eq!(rho > 2.5 + 1e-9, on == "overrun", "{nose}");
+        assert!(row.ends_with(&format!("({on})")), "{text}");
+        let refused = bench
+            .line(&format!("{line} --set tool.nose_radius=20mm"))
+            .ends(2);
+        assert!(refused.stderr.contains(&format!("({on})")), "{refused}");
+    }
+}
+
 #[test]
 fn check_reports_that_a_tool_without_angles_is_not_checked_for_them() {
     let angles = "included_angle = \"120 deg\"\nclearance_angle = \"30 deg\"\n";

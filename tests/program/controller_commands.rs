@@ -79,6 +79,41 @@ fn a_header_without_an_open_program_and_a_rotary_buffer_need_trust() {
 }
 
 /// Who calls has written it, and not whoever wrote the recipe.
+/// A comment character within quotes begins no comment: the line is shown whole, and a recipe's own words
+/// are refused there. A word that ends the program keeps the path from running.
+#[test]
+fn text_in_quotes_is_a_command_and_so_is_the_end_of_a_program_before_the_path() {
+    let of_siemens = |header: &str, trust: &str| {
+        let output = "[output]\nposts = [\"siemens-840d-poly\"]\n\n[output.siemens-840d-poly]\n";
+        let bench = Bench::with(&format!("{SADDLE}\n{output}header = '{header}'\n"));
+        let said = bench.line(&format!("check recipe.toml{trust}")).ends(2);
+        said.stderr
+    };
+    let said = of_siemens("MSG(\"; part\") G0 Z-50 ; a", "");
+    assert!(
+        said.contains("it tells the controller `MSG(\"; part\") G0 Z-50`"),
+        "{said}"
+    );
+    let said = of_siemens("MSG(\"; {name}\")", " --trust-recipe");
+    assert!(said.contains("`{name}` is outside a comment"), "{said}");
+    let said = of_siemens("M30", "");
+    assert!(said.contains("it tells the controller `M30`"), "{said}");
+}
+
+#[test]
+fn a_name_that_makes_a_mark_of_a_comment_is_refused_with_its_template() {
+    let text = SADDLE.replace("name = \"Saddle\"", "name = \"- cutting -\"");
+    let output = "[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\n";
+    let bench = Bench::with(&format!("{text}\n{output}header = '; -{{name}}-'\n"));
+    let said = bench.line("check recipe.toml").ends(2);
+    assert!(
+        said.stderr
+            .contains("would be taken for a mark of the path"),
+        "{said}"
+    );
+    assert!(said.stderr.contains("in this template"), "{said}");
+}
+
 #[test]
 fn what_the_caller_sets_needs_no_trust() {
     let bench = bench("");

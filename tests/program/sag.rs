@@ -1,6 +1,8 @@
 //! `turnpath sag`: the surface on a grid, against closed forms.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+use turnpath_maps::{Conventions, Map};
+
 use crate::support::bench::Bench;
 use crate::support::recipe::{SADDLE, saddle_with};
 
@@ -125,4 +127,207 @@ fn a_grid_replaces_the_one_before_it() {
     let first = grid(&bench, 5);
     assert_eq!((first.len(), grid(&bench, 3).len()), (25, 9));
     assert_eq!(bench.files(), ["recipe.toml", "sag.csv"]);
+}
+
+/// A map that `sag` wrote, read by the reader of maps.
+fn map(bench: &Bench, file: &str) -> Map {
+    let bytes = std::fs::read(bench.path(file)).unwrap();
+    turnpath_maps::read(file, &bytes, &Conventions::default()).unwrap()
+}
+
+/// `.DAT` has all digits; `.gsf` has 32-bit floats of metres.
+#[test]
+fn the_maps_that_are_written_have_the_heights_of_the_closed_form_at_their_places() {
+    let bench = Bench::with(SADDLE);
+    for (file, relative) in [("sag.gsf", 6e-8), ("sag.DAT", 1e-15)] {
+        let line = format!("sag recipe.toml --grid 21 -o {file} --set surface.decentre_x=0.5mm");
+        let said = bench.line(&line).ends(0);
+        assert_eq!((said.stdout.as_str(), said.stderr.as_str()), ("", ""));
+        let map = map(&bench, file);
+        assert_eq!((map.columns(), map.rows()), (21, 21));
+        for row in 0..21 {
+            for column in 0..21 {
+                let (x, y) = (map.x(column), map.y(row));
+                assert!(
+                    (x - (0.25 * column as f64 - 2.5)).abs() < 1e-12,
+                    "{file}: {x}"
+                );
+                assert!((y - (0.25 * row as f64 - 2.5)).abs() < 1e-12, "{file}: {y}");
+                let (found, wanted) = (map.height(column, row), 0.16 * (x - 0.5) * y);
+                let bound = relative * wanted.abs() + 1e-15;
+                assert!(
+                    (found - wanted).abs() <= bound,
+                    "{file}: {found}, not {wanted}"
+                );
+            }
+        }
+    }
+}
+
+/// The header that Zemax describes: `nx ny delx dely unitflag xdec ydec`, then
+/// `z dz/dx dz/dy d2z/dxdy nodata` from the upper left point on.
+#[test]
+fn a_dat_has_the_header_the_order_and_the_holes_of_zemax() {
+    let sphere = saddle_with(
+        "surface",
+        "use = \"conic\"\nradius = \"3 mm\"\ndecentre_x = \"1 mm\"",
+    );
+    let bench = Bench::with(&sphere);
+    bench.line("sag recipe.toml --grid 6 -o sag.DAT").ends(0);
+    let text = bench.read("sag.DAT");
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!((lines[0], lines.len()), ("6 6 1 1 0 0 0", 37));
+    for (index, line) in lines[1..].iter().enumerate() {
+        // To the right, rows downwards.
+        let (x, y) = ((index % 6) as f64 - 3.5, 2.5 - (index / 6) as f64);
+        let inside = 9.0 - x * x - y * y;
+        if inside < 0.0 {
+            assert_eq!(*line, "0 0 0 0 1");
+            continue;
+        }
+        let (height, rest) = line.split_once(' ').unwrap();
+        assert_eq!(rest, "0 0 0 0");
+        near(height.parse().unwrap(), 3.0 - inside.sqrt(), "z");
+    }
+}
+
+/// The saddle's map with a piston of 3 nm, a bump of 40 nm and a hole of 1 point.
+fn measured(bench: &Bench) {
+    let mut text = "21 21 0.3 0.3 0 0 0\n".to_owned();
+    for row in (0..21).rev() {
+        for column in 0..21 {
+            let (x, y) = (0.3 * (column as f64 - 10.0), 0.3 * (row as f64 - 10.0));
+            let bump = if (column, row) == (13, 6) { 40e-6 } else { 0.0 };
+            let hole = u8::from((column, row) == (10, 10));
+            text += &format!("{:e} 0 0 0 {hole}\n", 0.16 * x * y + 3e-6 + bump);
+        }
+    }
+    bench.write("measured.DAT", text);
+}
+
+#[test]
+fn a_map_against_the_surface_gives_its_piston_its_bump_and_its_place() {
+    let bench = Bench::with(SADDLE);
+    measured(&bench);
+    let line = "sag recipe.toml --against measured.DAT -o error.csv --format json";
+    let json = bench.line(line).ends(0).json();
+    let figure = |key: &str| json[key].as_f64().unwrap();
+    // Points within 2.5 mm on a grid of 0.3 mm, less the hole.
+    let inside = |k: i64| k * k;
+    let all = (-10..=10).flat_map(|i| (-10..=10).map(move |j| inside(i) + inside(j)));
+    let count = all.filter(|squares| 0.09 * *squares as f64 <= 6.25).count() as f64 - 1.0;
+    assert_eq!(figure("points"), count);
+    assert_eq!(
+        (figure("without_height"), figure("without_surface")),
+        (1.0, 0.0)
+    );
+    assert_eq!(figure("beyond_part"), 441.0 - count - 1.0);
+    let close =
+        |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-6, "{found} {wanted}");
+    close(figure("pv_nm"), 40.0);
+    close(figure("mean_nm"), 3.0 + 40.0 / count);
+    close(
+        figure("rms_nm"),
+        ((9.0 * (count - 1.0) + 43.0 * 43.0) / count).sqrt(),
+    );
+    close(
+        figure("rms_without_piston_nm"),
+        40.0 * ((count - 1.0) / (count * count)).sqrt(),
+    );
+    close(json["worst"]["difference_nm"].as_f64().unwrap(), 43.0);
+    close(json["worst"]["x_mm"].as_f64().unwrap(), 0.9);
+    close(json["worst"]["y_mm"].as_f64().unwrap(), -1.2);
+    assert_eq!(bench.read("error.csv").lines().count() as f64, count + 1.0);
+    let text = bench
+        .line("sag recipe.toml --against measured.DAT")
+        .ends(0)
+        .stdout;
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn the_difference_is_a_map_with_holes_where_nothing_is_compared() {
+    let bench = Bench::with(SADDLE);
+    measured(&bench);
+    for (file, bound) in [("error.gsf", 1e-11), ("error.DAT", 1e-15)] {
+        bench
+            .line(&format!("sag recipe.toml --against measured.DAT -o {file}"))
+            .ends(0);
+        let map = map(&bench, file);
+        assert_eq!((map.columns(), map.rows()), (21, 21));
+        assert!((map.x(0) + 3.0).abs() < 1e-12 && (map.y(20) - 3.0).abs() < 1e-12);
+        assert!(
+            (map.height(13, 6) - 43e-6).abs() < bound,
+            "{}",
+            map.height(13, 6)
+        );
+        assert!((map.height(6, 13) - 3e-6).abs() < bound);
+        assert!(map.height(10, 10).is_nan() && map.height(0, 0).is_nan());
+    }
+}
+
+#[test]
+fn what_a_maps_file_does_not_say_is_given() {
+    let bench = Bench::with(SADDLE);
+    let mut text = String::new();
+    for i in -8..=8 {
+        for j in -8..=8 {
+            // Seen from behind: x changes its sign.
+            let (x, y) = (0.3 * f64::from(i), 0.3 * f64::from(j));
+            text += &format!("{} {} {}\n", -1e3 * x, 1e3 * y, 0.16e6 * x * y);
+        }
+    }
+    bench.write("map.txt", text);
+    let line = "sag recipe.toml --against map.txt --map-format xyz --xy-unit um --z-unit nm";
+    let json = bench
+        .line(&format!("{line} --flip-x --format json"))
+        .ends(0)
+        .json();
+    assert!(json["pv_nm"].as_f64().unwrap() < 1e-6, "{json}");
+    let json = bench.line(&format!("{line} --format json")).ends(0).json();
+    assert!(json["pv_nm"].as_f64().unwrap() > 1e5, "{json}");
+    for (call, wanted) in [
+        (
+            "sag recipe.toml --against map.txt",
+            "map.txt: the format is unknown",
+        ),
+        (
+            "sag recipe.toml --against map.txt --map-format xyz",
+            "map.txt: the file does not say its unit",
+        ),
+        (
+            "sag recipe.toml --against map.txt --xy-unit ell",
+            "--xy-unit: the unit `ell` is unknown",
+        ),
+        (
+            "sag recipe.toml --against recipe.toml --map-format zemax",
+            "recipe.toml: line 1: ",
+        ),
+        (
+            "sag recipe.toml --against map.txt -o -",
+            "standard output has the report",
+        ),
+        (
+            "sag recipe.toml --grid 3 -o a --format json",
+            "cannot be used with",
+        ),
+        (
+            "sag recipe.toml --grid 3 --against map.txt",
+            "cannot be used with",
+        ),
+        ("sag recipe.toml --grid 3", "--output"),
+    ] {
+        let said = bench.line(call).ends(2);
+        assert!(said.stderr.contains(wanted), "{call}: {said}");
+    }
+    let said = bench.line("sag recipe.toml --against none.DAT").ends(4);
+    assert!(said.stderr.contains("cannot read none.DAT"), "{said}");
+    let beyond = "sag recipe.toml --set part.aperture=0.02mm --set part.inner=0.01mm --against";
+    measured(&bench);
+    let said = bench.line(&format!("{beyond} measured.DAT")).ends(2);
+    assert!(
+        said.stderr
+            .contains("no point of measured.DAT that has a height"),
+        "{said}"
+    );
 }

@@ -43,3 +43,22 @@ fn a_path_of_straight_lines_is_carried_as_it_is() {
         .ends(2);
     assert!(said.stderr.contains("`pmac-pvt` cannot carry"), "{said}");
 }
+
+#[test]
+fn a_flat_part_is_refused_where_its_feed_runs_out_with_leads_and_without() {
+    let bench = flat("5 um/rev");
+    for lead in [false, true] {
+        let said = bench
+            .line(&format!(
+                "{RUN} --set path.lead={lead} --set path.overrun=contact"
+            ))
+            .ends(2);
+        assert!(said.stderr.contains("no line below 0.1 mm/min"), "{said}");
+        assert!(!bench.path("out").exists());
+    }
+    for lead in [false, true] {
+        bench
+            .line(&format!("{RUN} --set path.lead={lead}").replace("-o out", &format!("-o {lead}")))
+            .ends(0);
+    }
+}

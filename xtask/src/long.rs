@@ -20,6 +20,7 @@ random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
 linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
+programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
 deny: `cargo xtask deny`";
@@ -45,6 +46,7 @@ pub fn run_checks() -> Vec<Step> {
         Step::run("linuxcnc", || {
             with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
         }),
+        Step::run("programs", || with_packages(&[], programs)),
     ];
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
@@ -81,6 +83,16 @@ fn linuxcnc() -> Outcome {
     let [script, program, kept] =
         ["linuxcnc.py", "saddle.ngc", "linuxcnc.csv"].map(|file| format!("{folder}/{file}"));
     run(command(SYSTEM_PYTHON, &[&script, &program, &kept]))
+}
+
+/// The table beside the script is what the script makes of the program beside it.
+fn programs() -> Outcome {
+    let folder = Path::new("tests/reference/programs");
+    let files = ["saddle.mpf", "siemens_840d.csv"].map(|file| folder.join(file));
+    run(script(
+        "tests/reference/programs/siemens_840d.py",
+        &[&files[0], &files[1]],
+    ))
 }
 
 fn maps() -> Outcome {

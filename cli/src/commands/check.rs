@@ -1,16 +1,39 @@
 //! `turnpath check`: everything but the path.
 
-use turnpath::Catalogue;
 use turnpath::report::text;
+use turnpath::{Catalogue, Error, Job, Recipe, refused_check};
 
 use super::setup;
-use crate::args::CheckArgs;
+use crate::args::{CheckArgs, Format};
+use crate::failure::Failure;
 use crate::print::print_report;
 use crate::{Outcome, Status};
 
 /// Checks a recipe.
 pub fn check(args: &CheckArgs, catalogue: Catalogue) -> Outcome {
-    let job = setup::job(&args.recipe, &args.work, catalogue)?;
-    print_report(args.work.format, &job.check()?, text::check)?;
+    setup::use_threads(&args.work);
+    let (recipe, catalogue) = setup::trusted_recipe(&args.recipe, catalogue)?;
+    let format = args.work.format;
+    let report = Job::new(recipe.clone(), &catalogue).and_then(|job| job.check());
+    match report {
+        Ok(report) => print_report(format, &report, text::check)?,
+        Err(error) => {
+            print_part(format, &recipe, &catalogue, &error)?;
+            return Err(error.into());
+        }
+    }
     Ok(Status::Holds)
+}
+
+/// Prints what is known of the part of a refused recipe; nothing where its surface is what is wrong.
+fn print_part(
+    format: Format,
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    error: &Error,
+) -> Result<(), Failure> {
+    match (error, refused_check(recipe, catalogue, error)) {
+        (Error::Refused { .. }, Ok(report)) => print_report(format, &report, text::refused_check),
+        _ => Ok(()),
+    }
 }

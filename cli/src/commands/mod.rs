@@ -3,6 +3,7 @@
 mod ablate;
 mod check;
 mod explain;
+mod import;
 mod list;
 mod output;
 mod plots;
@@ -14,6 +15,7 @@ mod verify;
 pub use ablate::ablate;
 pub use check::check;
 pub use explain::explain;
+pub use import::import;
 pub use list::list;
 pub use run::run;
 pub use sag::sag;

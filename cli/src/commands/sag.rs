@@ -1,30 +1,87 @@
-//! `turnpath sag`: the surface on a grid.
+//! `turnpath sag`: the surface on a grid, and against a map.
 
 use std::io::{BufWriter, ErrorKind};
+use std::path::Path;
 
-use turnpath::{Catalogue, Error, write_sag, write_sag_to};
+use turnpath::report::text;
+use turnpath::{
+    Catalogue, Error, MapFormat, MapSource, Recipe, compare_with_map, length_unit, write_sag,
+    write_sag_to,
+};
+use turnpath_core::Quantity;
 
-use super::output::is_standard;
+use super::output::{is_standard, refuse_output};
 use super::setup;
-use crate::args::SagArgs;
+use crate::args::{Format, SagArgs};
 use crate::failure::Failure;
-use crate::print::Output;
+use crate::print::{Output, print_report};
 use crate::{Outcome, Status};
 
-/// Writes the recipe's surface on a grid over the square around the aperture.
+/// Writes the recipe's surface on a grid over the square around the aperture, or compares a map with
+/// it.
 pub fn sag(args: &SagArgs, catalogue: Catalogue) -> Outcome {
+    let against = args.against.as_deref().map(|file| source(args, file));
+    let against = against.transpose()?;
+    if against.is_some() {
+        refuse_output(args.output.as_deref(), "-o")?;
+    }
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
-    let count = args.grid as usize;
-    if !is_standard(&args.output) {
-        write_sag(&recipe, &catalogue, count, &args.output)?;
+    if let Some(source) = against {
+        let report = compare_with_map(&recipe, &catalogue, &source, args.output.as_deref())?;
+        print_report(
+            args.format.unwrap_or(Format::Human),
+            &report,
+            text::map_comparison,
+        )?;
         return Ok(Status::Holds);
     }
-    let mut output = BufWriter::new(Output);
-    match write_sag_to(&recipe, &catalogue, count, &mut output, &args.output) {
+    match (args.grid, args.output.as_deref()) {
+        (Some(count), Some(output)) => write(&recipe, &catalogue, count as usize, output),
+        // The arguments require both where there is no map.
+        _ => Err(Failure::Call("give --grid and -o, or --against".to_owned())),
+    }
+}
+
+fn write(recipe: &Recipe, catalogue: &Catalogue, count: usize, output: &Path) -> Outcome {
+    if !is_standard(output) {
+        write_sag(recipe, catalogue, count, output)?;
+        return Ok(Status::Holds);
+    }
+    let mut writer = BufWriter::new(Output);
+    match write_sag_to(recipe, catalogue, count, &mut writer, output) {
         // A reader that has gone, such as `head`, is no failure.
         Err(Error::File(error)) if error.error.kind() == ErrorKind::BrokenPipe => {}
         Err(Error::File(error)) => return Err(Failure::Output(error.error)),
         answer => answer?,
     }
     Ok(Status::Holds)
+}
+
+/// The map that the arguments name.
+fn source(args: &SagArgs, file: &Path) -> Result<MapSource, Failure> {
+    let map = &args.map;
+    let pitch = map.pitch.as_deref().map(|text| {
+        let parsed = Quantity::Length.parse(text);
+        parsed.map_err(|error| Failure::Call(format!("--pitch: {error}")))
+    });
+    let format = map.map_format.as_deref().and_then(MapFormat::of_word);
+    Ok(MapSource {
+        file: file.to_owned(),
+        format,
+        xy_unit: unit("--xy-unit", map.xy_unit.as_deref())?,
+        z_unit: unit("--z-unit", map.z_unit.as_deref())?,
+        pitch: pitch.transpose()?,
+        flip_x: map.flip_x,
+    })
+}
+
+fn unit(option: &str, name: Option<&str>) -> Result<Option<f64>, Failure> {
+    let found = name.map(|name| {
+        length_unit(name).ok_or_else(|| {
+            Failure::Call(format!(
+                "{option}: the unit `{name}` is unknown: m, cm, mm, um, nm and in are known"
+            ))
+        })
+    });
+    found.transpose()
 }

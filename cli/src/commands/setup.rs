@@ -100,12 +100,21 @@ fn refuse_commands(recipe: &Recipe) -> Result<(), Error> {
     }
 }
 
-/// The job of a recipe.
-pub fn job(args: &RecipeArgs, work: &WorkArgs, catalogue: Catalogue) -> Result<Job, Failure> {
-    use_threads(work);
+/// A recipe whose own header and footer are trusted or need no trust, with the catalogue.
+pub fn trusted_recipe(
+    args: &RecipeArgs,
+    catalogue: Catalogue,
+) -> Result<(Recipe, Catalogue), Failure> {
     let (recipe, catalogue) = recipe(args, catalogue)?;
     if !args.trust_recipe {
         refuse_commands(&recipe)?;
     }
+    Ok((recipe, catalogue))
+}
+
+/// The job of a recipe.
+pub fn job(args: &RecipeArgs, work: &WorkArgs, catalogue: Catalogue) -> Result<Job, Failure> {
+    use_threads(work);
+    let (recipe, catalogue) = trusted_recipe(args, catalogue)?;
     Ok(Job::new(recipe, &catalogue)?)
 }

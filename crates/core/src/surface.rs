@@ -1,6 +1,7 @@
 //! Surface models: the formula that an author writes, and the batches that everything else uses.
 
 use std::array::from_fn;
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +15,13 @@ use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
 pub trait Surface: Send + Sync {
     /// The height at (x, y).
     fn sag<S: Scalar>(&self, x: S, y: S) -> S;
+
+    /// Why there is no height or no slope at (x, y), if a part of a parameter's text says so. Most
+    /// surfaces have no such text: the default is `None`.
+    fn gap(&self, x: f64, y: f64) -> Option<SurfaceGap> {
+        let _ = (x, y);
+        None
+    }
 }
 
 /// Where [`SurfaceModel::gradient`] writes the height and the slopes. Each slice has one element
@@ -67,6 +75,26 @@ pub trait SurfaceModel: Send + Sync {
     fn data(&self) -> Result<Option<SurfaceData>> {
         Ok(None)
     }
+
+    /// Why there is no height or no slope at (x, y), if a part of a parameter's text says so; `None`
+    /// otherwise, which is the default.
+    fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> {
+        let _ = (x, y);
+        Ok(None)
+    }
+}
+
+/// Why a surface has no height or no slope at a place.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SurfaceGap {
+    /// The number of the surface in a sum, else 0.
+    pub entry: usize,
+    /// The parameter whose text says so, by its key in the recipe.
+    pub param: String,
+    /// The bytes of the text.
+    pub place: Range<usize>,
+    /// What happens there, as in "the root of a negative number".
+    pub reason: String,
 }
 
 /// What a surface was made from, for reports.
@@ -138,6 +166,10 @@ impl<T: Surface> SurfaceModel for T {
             (*z, *zx, *zy) = (sag.map(|c| c.value), sag.map(|c| c.dx), sag.map(|c| c.dy));
         }
         Ok(())
+    }
+
+    fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> {
+        Ok(Surface::gap(self, x, y))
     }
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {

@@ -24,4 +24,10 @@ impl Format {
         ("gsf", Self::Gsf),
         ("metropro", Self::MetroPro),
     ];
+
+    /// The format of this word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        let found = Self::WORDS.into_iter().find(|(known, _)| *known == word);
+        found.map(|(_, format)| format)
+    }
 }

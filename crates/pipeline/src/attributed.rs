@@ -8,7 +8,7 @@ use std::sync::Arc;
 use turnpath_core::interference::Interference;
 use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, GradientSeries, Gradients, Radial, RadialRange, Rates,
-    Result, Series, Slot, StrategyError, SurfaceData, SurfaceModel,
+    Result, Series, Slot, StrategyError, SurfaceData, SurfaceGap, SurfaceModel,
 };
 
 use crate::Link;
@@ -95,6 +95,12 @@ impl SurfaceModel for NamedSurface {
 
     fn data(&self) -> Result<Option<SurfaceData>> {
         self.name.attribute(self.surface.data())
+    }
+
+    fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> {
+        let gap = self.name.attribute(self.surface.gap(x, y))?;
+        let entry = self.name.entry;
+        Ok(gap.map(|gap| SurfaceGap { entry, ..gap }))
     }
 }
 

@@ -135,10 +135,14 @@ fn locate_block(
     depths: &[u8],
 ) -> Result<NodeBlock> {
     let revolutions = sampled.revolutions();
+    // A sampler need not know where the path ends, nor the controller's steps of time.
+    let has_no_step =
+        |node: f64| plan.is_last(index) && plan.on_time(node).1 >= plan.on_time(end).1;
+    let is_too_late = |node: f64| end - node < CLOSEST_NODES || has_no_step(node);
     let too_late = revolutions
         .iter()
         .rev()
-        .take_while(|node| end - **node < CLOSEST_NODES);
+        .take_while(|node| is_too_late(**node));
     let kept = &revolutions[..revolutions.len() - too_late.count()];
     let (mut nodes, mut owner) = (NodeList::default(), Vec::new());
     for (i, from) in kept.iter().enumerate() {

@@ -8,7 +8,8 @@
 //! With a spline, the error of a long segment rises when its neighbour is halved. Where all
 //! segments are near the tolerance, halving only those beyond it would move the border between
 //! short and long segments by one segment a round. So a halving spreads from a segment that is
-//! beyond the tolerance over its neighbours that are near it, four times as far every round.
+//! beyond the tolerance over its neighbours that are near it, four times as far every round. It
+//! passes over a calm segment between them.
 
 use std::ops::Range;
 
@@ -29,6 +30,11 @@ pub const MOST_ROUNDS: u32 = 12;
 /// Rounds before halvings spread. Fewer would add points to paths that need no spreading; more would
 /// leave too few rounds for long borders to move.
 const PLAIN_ROUNDS: u32 = 5;
+/// Over how many calm segments in a row a halving spreads. Where the rounds before halved every second
+/// segment, each long one lies between two that are calm, and its error still rises by some hundredths
+/// when the next long one is halved. Over more calm segments the rise is some thousandths, and
+/// halvings would go far over paths that need none.
+const GAP: usize = 1;
 /// Smallest segment that refinement makes, s. Controllers take some 0.4 ms for a servo cycle; none
 /// can follow a tenth of a millisecond.
 pub const SMALLEST_SEGMENT: f64 = 1e-4;
@@ -95,29 +101,48 @@ fn reach(dependence: Dependence, round: u32) -> usize {
 
 /// Spreads halvings forward and backward along the path, over block borders.
 fn spread(states: &mut [Vec<SegmentState>], reach: usize) {
-    let mut left = 0;
+    let mut halving = Halving::default();
     for state in states.iter_mut().flatten() {
-        left = spread_to(state, left, reach);
+        halving = halving.onto(state, reach);
     }
-    left = 0;
+    halving = Halving::default();
     for state in states
         .iter_mut()
         .rev()
         .flat_map(|block| block.iter_mut().rev())
     {
-        left = spread_to(state, left, reach);
+        halving = halving.onto(state, reach);
     }
 }
 
-/// Over how many further segments the halving spreads after this one.
-fn spread_to(state: &mut SegmentState, left: usize, reach: usize) -> usize {
-    match *state {
-        SegmentState::Beyond => reach,
-        SegmentState::Near | SegmentState::Reached if left > 0 => {
-            *state = SegmentState::Reached;
-            left - 1
+/// A halving on its way along the path.
+#[derive(Debug, Clone, Copy, Default)]
+struct Halving {
+    /// Over how many further segments it spreads.
+    left: usize,
+    /// Over how many calm segments in a row it may still pass.
+    gap: usize,
+}
+
+impl Halving {
+    /// Goes on to the next segment.
+    fn onto(self, state: &mut SegmentState, reach: usize) -> Self {
+        let left = self.left.saturating_sub(1);
+        match *state {
+            SegmentState::Beyond => Self {
+                left: reach,
+                gap: GAP,
+            },
+            SegmentState::Near | SegmentState::Reached if self.left > 0 => {
+                *state = SegmentState::Reached;
+                Self { left, gap: GAP }
+            }
+            SegmentState::Calm if self.left > 0 && self.gap > 0 => Self {
+                left,
+                gap: self.gap - 1,
+            },
+            _ => Self::default(),
         }
-        _ => 0,
     }
 }
 
@@ -243,6 +268,19 @@ mod tests {
         let mut depths = vec![Depths::new(); 2];
         assert_eq!(halve(&mut depths, &mut states), [0, 1]);
         assert_eq!(depths, [vec![0, 0, 0, 1], vec![1, 1, 1, 0]]);
+    }
+
+    /// Where every second segment is halved already, a halving passes over the calm ones between.
+    #[test]
+    fn a_halving_spreads_over_one_calm_segment_at_a_time() {
+        use SegmentState::{Beyond, Calm, Near, Reached};
+        let mut states = vec![vec![Beyond, Calm, Near, Calm, Near, Calm, Calm, Near]];
+        spread(&mut states, 16);
+        let expected = [Beyond, Calm, Reached, Calm, Reached, Calm, Calm, Near];
+        assert_eq!(states[0], expected);
+        let mut states = vec![vec![Near, Calm], vec![Near, Calm, Beyond]];
+        spread(&mut states, 3);
+        assert_eq!(states, [vec![Near, Calm], vec![Reached, Calm, Beyond]]);
     }
 
     #[test]

@@ -68,8 +68,8 @@ pub mod prelude {
         NamedConstant, NodeList, NodeOffset, Nodes, Pace, Param, ParamInfo, Params, Part, Path,
         Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler,
         SamplerPlan, Scalar, Series, Setup, SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw,
-        Strategy, StrategyError, Surface, SurfaceData, SurfaceModel, Task, Taylor, Tolerance, Tool,
-        Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
+        Strategy, StrategyError, Surface, SurfaceData, SurfaceGap, SurfaceModel, Task, Taylor,
+        Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
     };
 }
 

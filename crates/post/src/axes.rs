@@ -92,6 +92,14 @@ pub(crate) fn steps_of(time: i128, steps_per_unit: i64, longest: i64) -> Option<
     steps.filter(|steps| (1..=longest).contains(steps))
 }
 
+/// The times that a segment may take, for messages: from a step to the longest, in a unit that has
+/// `steps_per_unit` steps.
+pub(crate) fn times(steps_per_unit: i64, longest: i64, unit: &str) -> String {
+    let in_units = |steps: i64| steps as f64 / steps_per_unit as f64;
+    let (shortest, longest) = (in_units(1), in_units(longest));
+    format!("{shortest} {unit} to {longest} {unit}")
+}
+
 /// The position of the first point, which must give all axes.
 fn first_position(words: &AxisWords, absolute: [bool; 3]) -> Result<[i128; 3], String> {
     let mut first = [0; 3];

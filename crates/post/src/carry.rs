@@ -44,6 +44,13 @@ impl DigitSegment {
     pub fn steps(&self) -> i64 {
         self.to.steps - self.from.steps
     }
+
+    /// Time in s and C of the path in deg where it ends.
+    pub(crate) fn end(&self, format: &ProgramFormat) -> (f64, f64) {
+        let c = self.to.position[0] as f64 / 10u64.pow(format.position_decimals) as f64;
+        let t = self.to.steps as f64 / format.steps_per_s as f64;
+        (t, format.c_sign() * c)
+    }
 }
 
 /// A move of a program.
@@ -271,6 +278,16 @@ impl Trail {
             to,
             steps_before: self.steps,
         };
+        if segment.steps() < format.shortest {
+            let ms = |steps: i64| 1e3 * steps as f64 / format.steps_per_s as f64;
+            let (t, c_deg) = segment.end(format);
+            return Err(ProgramError::ShorterThanSaid {
+                t,
+                c_deg,
+                ms: ms(segment.steps()),
+                shortest_ms: ms(format.shortest),
+            });
+        }
         write(Move::Segment(&segment));
         self.steps = Some(segment.steps());
         self.digits = Some(to);
@@ -336,9 +353,18 @@ impl Digits {
     /// The control point that has these digits.
     fn point(&self, format: &ProgramFormat) -> ControlPoint {
         let one = |decimals: u32| 10u64.pow(decimals) as f64;
-        let [c, x, z] = self
-            .position
-            .map(|p| p as f64 / one(format.position_decimals));
+        let position = |p: i64| p as f64 / one(format.position_decimals);
+        let held = |p: i64| match format.mantissa_bits {
+            Some(bits) if !format.incremental => held(position(p), bits),
+            _ => position(p),
+        };
+        let [c, x, z] = self.position;
+        let turns_apart = match format.c_wrapped {
+            true => c.div_euclid(turn(format)) * turn(format),
+            false => 0,
+        };
+        let c = position(turns_apart) + held(c - turns_apart);
+        let [x, z] = [x, z].map(held);
         let velocity = one(format.velocity_decimals) * format.velocity_time();
         let [vc, vx, vz] = self.velocity.map(|v| v as f64 / velocity);
         let to_angle = format.c_sign() * DEG;
@@ -352,6 +378,13 @@ impl Digits {
             vz,
         }
     }
+}
+
+/// A number with so many bits of its size, rounded: the other bits of the double's 53 are cut.
+fn held(value: f64, bits: u32) -> f64 {
+    let cut = f64::MANTISSA_DIGITS.saturating_sub(bits);
+    let half = (1_u64 << cut) >> 1;
+    f64::from_bits((value.to_bits() + half) >> cut << cut)
 }
 
 /// A value in last digits, if it fits.

@@ -9,7 +9,7 @@ use crate::carry::{Move, carried, carry, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
-use crate::program_format::{Chords, ProgramFormat, mark};
+use crate::program_format::{Chords, END_MARK, ProgramFormat, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
 
@@ -57,6 +57,16 @@ impl Layout {
         in_time.map(|()| Lines { text, points })
     }
 
+    /// The lines between the last segment of a path of so many points and the footer: what the dialect
+    /// writes there, and the end mark.
+    pub(crate) fn end(&self, points: u64) -> Vec<u8> {
+        let mut text = Vec::new();
+        self.post.dialect.write_last(&mut text, &self.format);
+        let mark = format!("{} {END_MARK}: {points} points --\n", self.post.comment);
+        text.extend_from_slice(mark.as_bytes());
+        text
+    }
+
     /// A part of the path as a reader finds it in the program: on the controller's times, and in the
     /// program's digits. C is unwrapped, and begins [`Layout::turns_left_out`] later.
     ///
@@ -94,8 +104,8 @@ impl Layout {
         ProgramReader::new(reader, path.into(), grammar, self.post)
     }
 
-    /// The same layout with one line for each segment, however slow.
-    fn without_chords(&self) -> Self {
+    /// The same layout with one line for each segment, of any time.
+    fn without_limits(&self) -> Self {
         let chords = self.format.chords.map(|chords| Chords {
             deviation: f64::INFINITY,
             shortest: 1,
@@ -103,6 +113,7 @@ impl Layout {
             ..chords
         });
         let format = ProgramFormat {
+            shortest: 1,
             chords,
             ..self.format
         };
@@ -127,6 +138,7 @@ impl Layout {
                 vz: half(radius) * speed,
             }
         };
+        let layout = self.without_limits();
         let mut block = PathBlock::default();
         block.push(point(1));
         block.push(point(2));
@@ -136,7 +148,6 @@ impl Layout {
             before: &[point(0)],
             points: &block,
         };
-        let layout = self.without_chords();
         let bytes = layout.lines(&stretch).map_or(0, |lines| lines.text.len());
         points * bytes as f64 / 2.0
     }

@@ -6,6 +6,7 @@ use turnpath_core::ParamInfo;
 use turnpath_core::toolpath::{ControlPoint, SegmentShape};
 
 use crate::carry::{DigitSegment, Digits};
+use crate::comment::code_before_comment;
 use crate::program_error::ProgramError;
 use crate::program_format::ProgramFormat;
 
@@ -34,6 +35,14 @@ pub struct Post {
     pub steps_per_s: i64,
     /// The longest segment, in steps. A longer one is divided.
     pub longest: i64,
+    /// Bits of the size of a number that the controller holds, where it holds less than a double.
+    pub mantissa_bits: Option<u32>,
+    /// Whether the controller keeps the speed of C within a segment, and lets X and Z follow C. The curve
+    /// is then the path's, and the speeds step at control points.
+    pub c_is_even: bool,
+    /// Decimals of positions that the controller keeps as it is delivered, where it rounds positions to
+    /// them whatever the program has.
+    pub delivered_decimals: Option<u32>,
     /// How it writes and reads lines.
     pub dialect: &'static dyn Dialect,
 }
@@ -57,6 +66,8 @@ pub trait Dialect: Debug + Send + Sync {
     ) -> Result<(), ProgramError> {
         Ok(())
     }
+    /// Writes the lines behind the last segment, before the end mark.
+    fn write_last(&self, _text: &mut Vec<u8>, _format: &ProgramFormat) {}
 
     /// A reader of lines, at the beginning of a program.
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar>;
@@ -69,6 +80,10 @@ pub trait Dialect: Debug + Send + Sync {
     fn leaves_program_open(&self, _header: &str) -> bool {
         true
     }
+
+    /// Whether a command ends the program in which it stands, or halts it: in a header, the path then
+    /// does not run.
+    fn ends_program(&self, command: &str) -> bool;
 }
 
 /// Reads the lines of a program in their order.
@@ -82,6 +97,11 @@ pub trait Grammar: Send + Sync {
     /// # Errors
     /// When the line is not of the dialect: what is wrong with it.
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String>;
+
+    /// Whether a point waits for the line behind it: the first of those that are known next.
+    fn holds_point(&self) -> bool {
+        false
+    }
 
     /// The control point that waits for a line behind it, at the end of the path.
     fn finish(&mut self) -> Option<ControlPoint> {
@@ -100,16 +120,16 @@ pub struct Command {
     pub harmless: bool,
 }
 
-/// The commands of a template whose comments begin at `comment`, and whose other lines are judged one
-/// by one.
+/// The commands of a template: its lines without their comments, which begin with one of `comments`.
+/// Each is judged by itself.
 pub(crate) fn commands_of(
     template: &str,
-    code_of: impl Fn(&str) -> &str,
+    comments: &[&str],
     is_harmless: impl Fn(&str) -> bool,
 ) -> Vec<Command> {
     let lines = template.lines().zip(1..);
     let commands = lines.filter_map(|(line_text, line)| {
-        let code = code_of(line_text).trim();
+        let code = code_before_comment(line_text, comments).trim();
         (!code.is_empty()).then(|| Command {
             line,
             text: code.to_owned(),

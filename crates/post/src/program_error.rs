@@ -1,5 +1,7 @@
 //! The errors of a path that a program cannot carry.
 
+use turnpath_core::ParamInfo;
+
 /// Why a program cannot carry a path, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProgramError {
@@ -13,6 +15,21 @@ pub enum ProgramError {
         t: f64,
         /// C at its end, deg.
         c_deg: f64,
+    },
+    /// A segment is shorter than the shortest one that the recipe says the controller plays.
+    #[error(
+        "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes {ms:.4} ms, and \
+         shortest_segment = {shortest_ms:.4} ms"
+    )]
+    ShorterThanSaid {
+        /// The time of its end, s.
+        t: f64,
+        /// C at its end, deg.
+        c_deg: f64,
+        /// Its time, ms.
+        ms: f64,
+        /// The shortest time, ms.
+        shortest_ms: f64,
     },
     /// A value has more digits than doubles hold.
     #[error("{axis} = {value} at {t:.6} s has too many digits with {decimals} decimals")]
@@ -92,11 +109,24 @@ pub enum ProgramError {
 }
 
 impl ProgramError {
-    /// What the user can do.
-    pub fn help(&self) -> &'static str {
+    /// What the user can do with these keys, which a post has.
+    pub fn help(&self, keys: &[ParamInfo]) -> &'static str {
+        let has = |key: &str| keys.iter().any(|info| info.name == key);
         match self {
-            Self::Short { .. } => "place points farther apart, or turn the spindle slower",
-            Self::Digits { .. } => "write fewer decimals, or c_wrap = \"0-360\"",
+            Self::ShorterThanSaid { .. } if has("chord_share") => {
+                "turn the spindle slower, or give more tolerance of interpolation, so that lines are \
+                 longer"
+            }
+            Self::Short { .. } | Self::ShorterThanSaid { .. } => {
+                "place points farther apart, or turn the spindle slower"
+            }
+            Self::Digits { axis: 'C', .. } if has("c_wrap") => {
+                "write a smaller position_decimals, or c_wrap = \"0-360\""
+            }
+            Self::Digits { .. } if has("velocity_decimals") => {
+                "write a smaller position_decimals or velocity_decimals"
+            }
+            Self::Digits { .. } => "write a smaller position_decimals",
             Self::HalfTurn { .. } => {
                 "place points closer together, or write c_wrap = \"unwrapped\""
             }
@@ -112,6 +142,32 @@ impl ProgramError {
                 "place points closer together, or give more tolerance of interpolation"
             }
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::POSTS;
+
+    #[test]
+    fn help_on_digits_names_keys_that_the_post_has() {
+        let keys = ["position_decimals", "velocity_decimals", "c_wrap"];
+        for post in POSTS {
+            for axis in ['C', 'X'] {
+                let error = ProgramError::Digits {
+                    axis,
+                    value: 1e9,
+                    decimals: 12,
+                    t: 0.0,
+                };
+                let help = error.help(post.keys);
+                let has = |key: &&str| post.keys.iter().any(|info| info.name == *key);
+                let named = keys.iter().filter(|key| help.contains(**key));
+                assert!(named.clone().count() > 0, "{help}");
+                assert!(named.clone().all(has), "{}: {help}", post.name);
+            }
         }
     }
 }

@@ -62,6 +62,8 @@ pub struct Chords {
 pub struct ProgramFormat {
     /// Steps of time in a second: every segment takes a whole number of them.
     pub steps_per_s: i64,
+    /// Shortest segment, in steps. A shorter one is refused.
+    pub shortest: i64,
     /// Longest segment, in steps. A longer one is divided.
     pub longest: i64,
     /// Decimals of positions, in mm and deg.
@@ -79,6 +81,9 @@ pub struct ProgramFormat {
     pub c_wrapped: bool,
     /// Distances from point to point instead of positions.
     pub incremental: bool,
+    /// Bits of the size of a number that the controller holds, where it holds less than a double. It
+    /// rounds absolute positions to them; distances are small, and their rounding counts for nothing.
+    pub mantissa_bits: Option<u32>,
     /// Z of the path − Z of the program, mm: the nose radius where the program's Z is the tip's.
     pub z_above: f64,
     /// Chords in place of cubics: the program has no velocities. `None` where it plays cubics.
@@ -102,6 +107,17 @@ impl ProgramFormat {
     /// The seconds that velocities refer to.
     pub fn velocity_time(&self) -> f64 {
         if self.per_minute { 60.0 } else { 1.0 }
+    }
+
+    /// The most by which the controller's numbers move a position of this size, in its unit; `None` where
+    /// they hold all digits of a double, or where the program says distances.
+    pub fn held_rounding(&self, position: f64) -> Option<f64> {
+        let bits = self.mantissa_bits.filter(|_| !self.incremental)?;
+        let mut quantum = 1.0 / (1_u64 << bits.min(53)) as f64;
+        while quantum * ((1_u64 << bits.min(53)) as f64) <= position.abs() {
+            quantum *= 2.0;
+        }
+        Some(0.5 * quantum)
     }
 
     /// 1, or −1 if the program's C runs against the path's.

@@ -39,6 +39,8 @@ pub struct ProgramReader<R = File> {
     found_points: u64,
     /// What gives points their velocities, where the program has none.
     rates: Option<ForwardRates>,
+    /// The section of the point that the grammar holds back until it has read the line behind it.
+    held: Option<Section>,
     read_count: ReadCount,
 }
 
@@ -57,6 +59,7 @@ impl<R: Read> ProgramReader<R> {
             last: None,
             found_points: 0,
             rates: has_rates.then(ForwardRates::default),
+            held: None,
             read_count: ReadCount::default(),
         }
     }
@@ -107,11 +110,11 @@ impl<R: Read> ProgramReader<R> {
         })
     }
 
-    /// Reads a comment, which may be a mark.
-    fn read_comment(&mut self, said: &[u8]) -> Result<(), String> {
+    /// Reads a comment, which may be a mark; says whether it is one.
+    fn read_comment(&mut self, said: &[u8]) -> Result<bool, String> {
         let text = String::from_utf8_lossy(said).trim().to_ascii_lowercase();
         if !text.starts_with("--") {
-            return Ok(());
+            return Ok(false);
         }
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
@@ -122,16 +125,18 @@ impl<R: Read> ProgramReader<R> {
                 ));
             }
             self.section = Some(section);
-        } else if self.section.is_some() && text.starts_with(END_MARK) {
-            let digits: String = text.chars().filter(char::is_ascii_digit).collect();
-            let points: u64 = digits
-                .parse()
-                .map_err(|_| "the end mark must give the number of points".to_owned())?;
-            self.said_points = Some(points);
+            return Ok(true);
+        }
+        let Some(said) = text.strip_prefix(END_MARK) else {
+            return Ok(false);
+        };
+        if self.section.is_some() {
+            let points = said_points(said);
+            self.said_points = Some(points.ok_or("the end mark must give the number of points")?);
             let last = self.grammar.finish();
             self.wait(last);
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Reads a line of the path.
@@ -140,13 +145,18 @@ impl<R: Read> ProgramReader<R> {
         let mut points = Vec::new();
         self.grammar.read(code, &mut points)?;
         self.wait(points);
+        if self.grammar.holds_point() {
+            self.held = self.held.or(self.section);
+        }
         Ok(())
     }
 
+    /// Takes points. The first of them may have been held back since a line of an earlier section.
     fn wait(&mut self, points: impl IntoIterator<Item = ControlPoint>) {
-        if let Some(section) = self.section {
-            let points = points.into_iter().map(|point| (point, section));
-            self.waiting.extend(points);
+        for point in points {
+            if let Some(section) = self.held.take().or(self.section) {
+                self.waiting.push_back((point, section));
+            }
         }
     }
 
@@ -167,7 +177,11 @@ impl<R: Read> ProgramReader<R> {
         let (code, comment) = self.grammar.split_comment(text);
         if let Some(comment) = comment {
             let read = self.read_comment(comment);
-            read.map_err(|what| self.wrong(what))?;
+            let is_mark = read.map_err(|what| self.wrong(what))?;
+            if is_mark && !code.trim_ascii().is_empty() {
+                let what = "code stands before a mark of the path: a mark has a line of its own";
+                return Err(self.wrong(what.to_owned()));
+            }
         }
         // The lines before the path belong to the header, and those after it to the footer.
         if self.section.is_some() && self.said_points.is_none() {
@@ -175,6 +189,17 @@ impl<R: Read> ProgramReader<R> {
         }
         Ok(true)
     }
+}
+
+/// The points that an end mark says, by what stands behind its first words: `: 12 points`, and two
+/// dashes that may be missing.
+fn said_points(said: &str) -> Option<u64> {
+    let number = said.trim_start().strip_prefix(':')?.trim_start();
+    let end = number.find(|c: char| !c.is_ascii_digit())?;
+    let (digits, rest) = number.split_at(end);
+    let points = rest.trim_start().strip_prefix("points")?;
+    let is_whole = matches!(points.trim_start(), "" | "--");
+    digits.parse().ok().filter(|_| is_whole)
 }
 
 impl<R: Read> ProgramReader<R> {

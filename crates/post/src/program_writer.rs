@@ -1,30 +1,34 @@
 //! Writes a program: first the path, then the header and the footer around it.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, Seek, Write};
 
 use turnpath_files::{Draft, FileError, Scratch};
 
-use crate::layout::Lines;
-use crate::program_format::END_MARK;
+use crate::layout::{Layout, Lines};
 
-/// Writes a program to a file or to memory. The header reports what is known only at the end, so the
-/// body waits until then: in a file without a name, or in memory.
+/// Writes a program to a file or to memory. The header reports what is known only when the path was
+/// measured on its own text, so the path waits until then: in a file without a name, or in memory.
 ///
 /// ```
-/// use turnpath_post::{Lines, ProgramWriter};
+/// use turnpath_core::Params;
+/// use turnpath_post::{Layout, Lines, ProgramWriter, post_named};
 ///
-/// let mut writer = ProgramWriter::in_memory(";");
+/// let post = post_named("pmac-pvt").ok_or("no such post")?;
+/// let format = post.format(&Params::new(), 0.0, 1e-4);
+/// let mut writer = ProgramWriter::in_memory(Layout { post, format });
 /// let text = b"; -- cutting --\n".to_vec();
 /// writer.append(&Lines { text, points: 0 })?;
-/// let program = writer.assemble_in_memory("OPEN PROG 1 CLEAR\n", "CLOSE\n");
-/// assert!(program.ends_with(b"; -- end of path: 0 points --\nCLOSE\n"));
-/// # Ok::<(), std::io::Error>(())
+/// let path = writer.close();
+/// assert!(path.text().ends_with(b"; -- end of path: 0 points --\n"));
+/// let program = path.assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n");
+/// assert!(program.starts_with(b"OPEN PROG 1 CLEAR\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct ProgramWriter<B = ProgramFileBody> {
     body: B,
-    /// What begins a comment.
-    comment: &'static str,
+    layout: Layout,
     points: u64,
 }
 
@@ -36,18 +40,33 @@ pub struct ProgramFileBody {
     draft: Draft,
 }
 
+/// A whole path of a program with its end mark, which still lacks header and footer.
+#[derive(Debug)]
+pub struct ProgramPath {
+    lines: File,
+    draft: Draft,
+    points: u64,
+}
+
+/// The same in memory.
+#[derive(Debug)]
+pub struct ProgramPathInMemory {
+    text: Vec<u8>,
+    points: u64,
+}
+
 impl ProgramWriter {
     /// Begins the program that the draft will be.
     ///
     /// # Errors
     /// When no file can be created in the draft's folder.
-    pub fn begin(draft: Draft, comment: &'static str) -> Result<Self, FileError> {
+    pub fn begin(draft: Draft, layout: Layout) -> Result<Self, FileError> {
         match Scratch::in_folder(draft.folder()) {
             Ok(lines) => {
                 let body = ProgramFileBody { lines, draft };
                 Ok(Self {
                     body,
-                    comment,
+                    layout,
                     points: 0,
                 })
             }
@@ -55,40 +74,99 @@ impl ProgramWriter {
         }
     }
 
+    /// Ends the path.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn close(self) -> Result<ProgramPath, FileError> {
+        let (end, points) = (self.layout.end(self.points), self.points);
+        let ProgramFileBody { mut lines, draft } = self.body;
+        let mut write = || lines.write_all(&end);
+        match write().and_then(|()| lines.into_reader()) {
+            Ok(lines) => Ok(ProgramPath {
+                lines,
+                draft,
+                points,
+            }),
+            Err(error) => Err(FileError::of(draft.path())(error)),
+        }
+    }
+}
+
+impl ProgramPath {
+    /// The control points, with those of divided segments.
+    pub fn points(&self) -> u64 {
+        self.points
+    }
+
+    /// The path that the whole program will have.
+    pub fn file(&self) -> &std::path::Path {
+        self.draft.path()
+    }
+
+    /// The path's text from its beginning.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn text(&mut self) -> Result<&mut File, FileError> {
+        match self.lines.rewind() {
+            Ok(()) => Ok(&mut self.lines),
+            Err(error) => Err(FileError::of(self.draft.path())(error)),
+        }
+    }
+
     /// The complete program as a file that still lacks its name.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn assemble(self, header: &str, footer: &str) -> Result<Draft, FileError> {
-        let end = self.end(footer);
-        let ProgramFileBody { lines, mut draft } = self.body;
-        let write = || -> io::Result<()> {
-            let mut body = lines.into_reader()?;
-            draft.write_all(header.as_bytes())?;
-            io::copy(&mut body, &mut draft)?;
-            draft.write_all(end.as_bytes())
+    pub fn assemble(mut self, header: &str, footer: &str) -> Result<Draft, FileError> {
+        let mut write = || -> io::Result<()> {
+            self.lines.rewind()?;
+            self.draft.write_all(header.as_bytes())?;
+            io::copy(&mut self.lines, &mut self.draft)?;
+            self.draft.write_all(footer.as_bytes())
         };
         match write() {
-            Ok(()) => Ok(draft),
-            Err(error) => Err(FileError::of(draft.path())(error)),
+            Ok(()) => Ok(self.draft),
+            Err(error) => Err(FileError::of(self.draft.path())(error)),
         }
     }
 }
 
 impl ProgramWriter<Vec<u8>> {
     /// Begins a program in memory.
-    pub fn in_memory(comment: &'static str) -> Self {
+    pub fn in_memory(layout: Layout) -> Self {
         Self {
             body: Vec::new(),
-            comment,
+            layout,
             points: 0,
         }
     }
 
+    /// Ends the path.
+    pub fn close(self) -> ProgramPathInMemory {
+        let end = self.layout.end(self.points);
+        ProgramPathInMemory {
+            text: [self.body, end].concat(),
+            points: self.points,
+        }
+    }
+}
+
+impl ProgramPathInMemory {
+    /// The control points, with those of divided segments.
+    pub fn points(&self) -> u64 {
+        self.points
+    }
+
+    /// The path's text.
+    pub fn text(&self) -> &[u8] {
+        &self.text
+    }
+
     /// The complete program.
-    pub fn assemble_in_memory(self, header: &str, footer: &str) -> Vec<u8> {
-        let end = self.end(footer);
-        [header.as_bytes(), &self.body, end.as_bytes()].concat()
+    pub fn assemble(self, header: &str, footer: &str) -> Vec<u8> {
+        [header.as_bytes(), &self.text, footer.as_bytes()].concat()
     }
 }
 
@@ -100,19 +178,6 @@ impl<B: Write> ProgramWriter<B> {
     pub fn append(&mut self, lines: &Lines) -> io::Result<()> {
         self.points += lines.points as u64;
         self.body.write_all(&lines.text)
-    }
-}
-
-impl<B> ProgramWriter<B> {
-    /// The control points so far, with those of divided segments.
-    pub fn points(&self) -> u64 {
-        self.points
-    }
-
-    /// The lines after the path.
-    fn end(&self, footer: &str) -> String {
-        let (comment, points) = (self.comment, self.points);
-        format!("{comment} {END_MARK}: {points} points --\n{footer}")
     }
 }
 

@@ -100,6 +100,14 @@ pub(crate) const FEED_MEANING: Param<Choice> = Param::choice(
     "what F says of a line under `G93`: one over its minutes, or its seconds",
 )
 .default("1/min");
+pub(crate) const SHORTEST_SEGMENT: Param<Option<Time>> = Param::time(
+    "shortest_segment",
+    "the shortest segment that your controller plays, or the time in which it reads one; left out: a \
+     step of its time",
+)
+.positive()
+.example("0.5 ms")
+.optional();
 /// The template of the header.
 pub const HEADER: Param<Option<Text>> = Param::text(
     "header",
@@ -114,6 +122,12 @@ pub const FOOTER: Param<Option<Text>> = Param::text(
 .optional();
 
 impl Post {
+    /// Whether its programs have velocities, whose decimals are a setting.
+    pub fn writes_velocities(&self) -> bool {
+        let mut keys = self.keys.iter();
+        keys.any(|info| info.name == VELOCITY_DECIMALS.info().name)
+    }
+
     /// The format that the keys of its table give. A key that it does not have counts as absolute
     /// positions, C unwrapped and growing, 7 decimals, velocities per second; a key that has no value
     /// counts as its default. `z_above` is Z of the path − Z of the program, mm; `tolerance` is that of
@@ -130,6 +144,9 @@ impl Post {
         let wrap = wrap.or(self.default_text(C_WRAP.name()));
         ProgramFormat {
             steps_per_s: self.steps_per_s,
+            shortest: settings.find(SHORTEST_SEGMENT).flatten().map_or(1, |time| {
+                ((time * self.steps_per_s as f64).ceil() as i64).max(1)
+            }),
             longest: self.longest,
             position_decimals,
             velocity_decimals: velocity_decimals.map_or(to_match, decimals),
@@ -137,6 +154,7 @@ impl Post {
             c_reversed: settings.find(C_SIGN).is_some_and(|sign| sign < 0.0),
             c_wrapped: wrap == Some(WRAPPED),
             incremental: settings.find(POSITIONING) == Some(INCREMENTAL),
+            mantissa_bits: self.mantissa_bits,
             z_above,
             chords: (self.shape == SegmentShape::Linear)
                 .then(|| self.chords(settings, position_decimals, tolerance)),

@@ -1,5 +1,7 @@
 //! Headers and footers: text with placeholders.
 
+use crate::comment::code_before_comment;
+
 /// The names that may appear in braces.
 pub const PLACEHOLDERS: &[&str] = &[
     "name",
@@ -16,6 +18,11 @@ pub const PLACEHOLDERS: &[&str] = &[
     "ix90",
     "ends",
     "f_means",
+    "increments",
+    "interpolation_error_nm",
+    "form_error_nm",
+    "lead_clearance_nm",
+    "verified",
 ];
 
 /// Placeholders whose values are words of a person. They are allowed only in comments, which no
@@ -51,6 +58,12 @@ pub enum TemplateError {
     /// A reader would take a line for a mark of the path.
     #[error("a comment that begins with `--` would be taken for a mark of the path")]
     Mark,
+    /// A reader would take a line for a mark of the path once its placeholders have their values.
+    #[error(
+        "with the values of its placeholders, the comment of the line `{0}` begins with `--` and \
+         would be taken for a mark of the path"
+    )]
+    FilledMark(String),
     /// A brace has no partner.
     #[error("a single brace; write a literal brace twice: `{{{{` or `}}}}`")]
     SingleBrace,
@@ -86,7 +99,8 @@ impl Template {
             if let Part::Placeholder(name) = &part {
                 let read = text.len() - rest.len() + before.len();
                 let line = text[..read].rsplit('\n').next().unwrap_or_default();
-                if FREE_TEXT.contains(&name.as_str()) && !line.contains(comment) {
+                let is_code = code_before_comment(line, &[comment]) == line;
+                if FREE_TEXT.contains(&name.as_str()) && is_code {
                     let name = name.clone();
                     return Err(TemplateError::OutsideComment { name, comment });
                 }
@@ -96,6 +110,18 @@ impl Template {
         }
         parts.push(Part::Text(rest.to_owned()));
         Ok(Self(parts))
+    }
+
+    /// Checks the text with these values of its placeholders.
+    ///
+    /// # Errors
+    /// When a reader would take one of its lines for a mark of the path.
+    pub fn check(&self, value: impl Fn(&str) -> String) -> Result<(), TemplateError> {
+        let filled = self.fill(value);
+        match filled.lines().find(|line| is_mark(line)) {
+            None => Ok(()),
+            Some(line) => Err(TemplateError::FilledMark(line.to_owned())),
+        }
     }
 
     /// The text with the values of its placeholders and a line end. Line ends and characters beyond
@@ -134,7 +160,7 @@ fn part(text: &str) -> Result<(Part, &str), TemplateError> {
 }
 
 /// What begins a comment in some dialect; a reader may know more than one.
-const COMMENTS: [&str; 2] = [";", "//"];
+const COMMENTS: [&str; 3] = [";", "//", "("];
 
 /// Whether a reader of any dialect would take a comment of the line for a mark.
 fn is_mark(line: &str) -> bool {
@@ -203,13 +229,32 @@ mod tests {
             comment: ";",
         };
         assert_eq!(Template::parse("CLOSE\n{name}", ";"), Err(outside));
-        for (text, comment) in [("; -- cutting --", ";"), ("end // -- x", "//")] {
+        for (text, comment) in [
+            ("; -- cutting --", ";"),
+            ("end // -- x", "//"),
+            ("(-- cutting --)", ";"),
+        ] {
             assert_eq!(Template::parse(text, comment), Err(TemplateError::Mark));
         }
         assert_eq!(
             Template::parse("CLOSE ;-- end of path --", ";"),
             Err(TemplateError::Mark)
         );
+        // A semicolon within quotes begins no comment.
+        for text in ["MSG(\"; {name}\")", "MSG(\"{name}\")", "MSG(\"a\" ; {name}"] {
+            let outside = Template::parse(text, ";");
+            let refused = matches!(outside, Err(TemplateError::OutsideComment { .. }));
+            assert_eq!(refused, !text.contains("\"a\""), "{text}: {outside:?}");
+        }
+        for (text, name) in [("; -{name}-", "- cutting -"), (";\u{1}{name}-", "-- x")] {
+            let filled = Template::parse(text, ";")
+                .unwrap()
+                .check(|_| name.to_owned());
+            let refused = matches!(filled, Err(TemplateError::FilledMark(_)));
+            assert_eq!(refused, text.starts_with("; -"), "{text}: {filled:?}");
+        }
+        let control = Template::parse(";\u{1}-- cutting --", ";").unwrap();
+        assert!(control.check(|_| String::new()).is_err());
         let filled = Template::parse("; {name}\n", ";")
             .unwrap()
             .fill(|_| format!("-- cutting --\nOPEN{}", "x".repeat(1000)));

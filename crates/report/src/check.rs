@@ -6,6 +6,7 @@ use crate::feed_cap::FeedCap;
 use crate::form::FormReport;
 use crate::format::FORMAT;
 use crate::machine::MachineLimits;
+use crate::part_shape::PartShape;
 use crate::program::ControllerCommand;
 use crate::remark::Remark;
 use crate::tool_fit::ToolFit;
@@ -19,6 +20,9 @@ pub struct CheckReport {
     pub format: u32,
     /// The job's name.
     pub name: String,
+    /// The part's own shape; `None` in reports of earlier versions.
+    #[serde(default)]
+    pub part: Option<PartShape>,
     /// What the part asks of the tool.
     #[serde(flatten)]
     pub tool_fit: ToolFit,

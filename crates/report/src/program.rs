@@ -41,13 +41,13 @@ pub struct ProgramReport {
     /// Largest interpolation error, mm.
     #[serde(rename = "interpolation_error_nm", with = "unit::nm")]
     pub interpolation_error: f64,
+    /// By how much the program's straight lines, digits and times raise the largest interpolation error
+    /// above that of the path, mm. It is below zero where rounding happens to be of use; `None` in a report of a version
+    /// that did not say it.
+    #[serde(default, rename = "raised_by_nm", with = "unit::nm")]
+    pub raised_by: Option<f64>,
     /// Whether that holds the interpolation tolerance; `None` without one.
     pub within_interpolation: Option<bool>,
-    /// The largest interpolation error of the program minus that of the path, mm: what digits, times
-    /// and straight lines add. It may be negative, by less than they add elsewhere. `None` in a report
-    /// of an older version.
-    #[serde(default, rename = "added_error_nm", with = "unit::nm")]
-    pub added_error: Option<f64>,
     /// The straight lines; `None` where the program plays cubics.
     #[serde(default)]
     pub straight_lines: Option<StraightLines>,
@@ -58,6 +58,10 @@ pub struct ProgramReport {
     /// Whether that holds the tolerance of form; `None` without one.
     #[serde(default)]
     pub within_form: Option<bool>,
+    /// The largest step of C's speed at a control point, rad/s, where the controller keeps it within a
+    /// segment; `None` where it plays the path's cubics in time.
+    #[serde(default, rename = "c_speed_step_deg_per_s", with = "unit::deg")]
+    pub c_speed_step: Option<f64>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
     #[serde(rename = "lead_clearance_nm", with = "unit::nm")]
     pub lead_clearance: Option<f64>,
@@ -71,6 +75,11 @@ pub struct ProgramReport {
 pub struct ProgramFigures {
     /// Largest interpolation error, mm.
     pub interpolation_error: f64,
+    /// Largest interpolation error of the path that it carries, mm.
+    pub path_error: f64,
+    /// The largest step of C's speed at a control point, rad/s, where the controller keeps it within a
+    /// segment.
+    pub c_speed_step: Option<f64>,
     /// Peak to valley of the machined surface, mm, where it was measured.
     pub form_error: Option<f64>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
@@ -84,6 +93,8 @@ impl ProgramReport {
     pub fn new(file: String, post: &str, figures: &ProgramFigures, tolerance: &Tolerances) -> Self {
         let ProgramFigures {
             interpolation_error,
+            path_error,
+            c_speed_step,
             form_error,
             lead_clearance,
             lines,
@@ -93,8 +104,9 @@ impl ProgramReport {
             file,
             post: post.to_owned(),
             interpolation_error,
+            raised_by: Some(interpolation_error - path_error),
+            c_speed_step,
             within_interpolation: holds(interpolation_error, tolerance.interpolation),
-            added_error: None,
             straight_lines: lines.map(|lines| StraightLines {
                 lines,
                 per_segment: f64::NAN,
@@ -107,15 +119,14 @@ impl ProgramReport {
         }
     }
 
-    /// The same beside its path: the path's largest interpolation error, mm, and its segments.
+    /// The same beside its path of so many segments.
     #[must_use]
-    pub fn beside_path(self, error: f64, segments: u64) -> Self {
+    pub fn beside_path(self, segments: u64) -> Self {
         let straight_lines = self.straight_lines.map(|straight| StraightLines {
             per_segment: straight.lines as f64 / segments.max(1) as f64,
             ..straight
         });
         Self {
-            added_error: Some(self.interpolation_error - error),
             straight_lines,
             ..self
         }

@@ -56,6 +56,9 @@ pub enum Remark {
     },
     /// The decimals of a program's positions take much of the interpolation tolerance.
     CoarseDigits {
+        /// The post; empty in a report of a version that looked at one program alone.
+        #[serde(default)]
+        post: String,
         /// Decimals of positions.
         position_decimals: u32,
         /// The most by which they move a position, mm.
@@ -65,8 +68,37 @@ pub enum Remark {
         #[serde(rename = "tolerance_nm", with = "unit::nm")]
         tolerance: f64,
     },
+    /// The controller's numbers have too few bits for a C of so many turns.
+    CoarseNumbers {
+        /// The post.
+        post: String,
+        /// C at the end of the path, rad.
+        #[serde(rename = "c_deg", with = "unit::deg")]
+        c: f64,
+        /// The most by which C is moved there, rad.
+        #[serde(rename = "c_rounding_deg", with = "unit::deg")]
+        c_rounding: f64,
+        /// The most by which this moves the tool along the rim, mm.
+        #[serde(rename = "rounding_nm", with = "unit::nm")]
+        rounding: f64,
+        /// The interpolation tolerance, mm.
+        #[serde(rename = "tolerance_nm", with = "unit::nm")]
+        tolerance: f64,
+    },
+    /// The machine must keep more digits than controllers of this kind have on delivery.
+    NeedsDigits {
+        /// The post.
+        post: String,
+        /// Decimals of positions in the program.
+        position_decimals: u32,
+        /// Decimals of positions that the controller has on delivery.
+        delivered_decimals: u32,
+    },
     /// The decimals of a program's velocities take much of the interpolation tolerance.
     CoarseVelocityDigits {
+        /// The post; empty in a report of a version that looked at one program alone.
+        #[serde(default)]
+        post: String,
         /// Decimals of velocities.
         velocity_decimals: u32,
         /// The most by which they move the middle of a segment of mean time, mm.
@@ -107,16 +139,24 @@ pub enum Remark {
 /// The decimals of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramDigits {
+    /// The post that writes it.
+    pub post: &'static str,
     /// Decimals of positions, mm.
     pub position_decimals: u32,
-    /// Decimals of velocities, mm per [`velocity_time`](Self::velocity_time).
-    pub velocity_decimals: u32,
+    /// Decimals of velocities, mm per [`velocity_time`](Self::velocity_time); `None` where the program
+    /// writes no velocities.
+    pub velocity_decimals: Option<u32>,
     /// The time that velocities refer to, s.
     pub velocity_time: f64,
+    /// C at the end of the path, rad, and the most by which the controller's numbers move it there, rad;
+    /// `None` where they hold all digits of a double.
+    pub held_c: Option<(f64, f64)>,
+    /// Decimals of positions that the controller has on delivery, where it rounds positions to them.
+    pub delivered_decimals: Option<u32>,
 }
 
 /// What remarks are made on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RemarkSubject {
     /// The aperture's diameter, mm.
     pub aperture: f64,
@@ -132,8 +172,8 @@ pub struct RemarkSubject {
     pub segment_time: f64,
     /// The largest acceleration of Z, mm/s², where it is known and the machine has no limit for it.
     pub free_z_acceleration: Option<f64>,
-    /// The decimals of a program, where there is one.
-    pub digits: Option<ProgramDigits>,
+    /// The decimals of each program.
+    pub digits: Vec<ProgramDigits>,
 }
 
 impl RemarkSubject {
@@ -155,39 +195,68 @@ impl RemarkSubject {
             (aperture < SMALLEST_APERTURE).then_some(Remark::SmallAperture { aperture }),
             acceleration.map(|acceleration| Remark::FastZ { acceleration }),
             (cutting_time > LONGEST_CUT).then_some(Remark::LongCut { cutting_time }),
-            self.coarse_digits(),
-            self.coarse_velocity_digits(),
         ];
-        remarks.into_iter().flatten().collect()
+        let of_program = |digits: &ProgramDigits| {
+            [
+                self.coarse_digits(digits),
+                self.coarse_velocity_digits(digits),
+                self.coarse_numbers(digits),
+                needs_digits(digits),
+            ]
+        };
+        let of_programs = self.digits.iter().flat_map(of_program);
+        remarks.into_iter().chain(of_programs).flatten().collect()
     }
 
-    fn coarse_digits(&self) -> Option<Remark> {
-        let position_decimals = self.digits?.position_decimals;
+    fn coarse_digits(&self, digits: &ProgramDigits) -> Option<Remark> {
+        let position_decimals = digits.position_decimals;
         let rounding = half_digit(position_decimals);
         let tolerance = self.interpolation;
-        (rounding > LARGEST_ROUNDING * tolerance).then_some(Remark::CoarseDigits {
+        (rounding > LARGEST_ROUNDING * tolerance).then(|| Remark::CoarseDigits {
+            post: digits.post.to_owned(),
             position_decimals,
             rounding,
             tolerance,
         })
     }
 
-    fn coarse_velocity_digits(&self) -> Option<Remark> {
-        let ProgramDigits {
-            velocity_decimals,
-            velocity_time,
-            ..
-        } = self.digits?;
+    fn coarse_numbers(&self, digits: &ProgramDigits) -> Option<Remark> {
+        let (c, c_rounding) = digits.held_c?;
+        let rounding = 0.5 * self.aperture * c_rounding;
+        let tolerance = self.interpolation;
+        (rounding > LARGEST_ROUNDING * tolerance).then(|| Remark::CoarseNumbers {
+            post: digits.post.to_owned(),
+            c,
+            c_rounding,
+            rounding,
+            tolerance,
+        })
+    }
+
+    fn coarse_velocity_digits(&self, digits: &ProgramDigits) -> Option<Remark> {
+        let velocity_time = digits.velocity_time;
+        let velocity_decimals = digits.velocity_decimals?;
         let (segment_time, tolerance) = (self.segment_time, self.interpolation);
         let velocity = half_digit(velocity_decimals) / velocity_time;
         let rounding = VELOCITY_SHARE * velocity * segment_time;
-        (rounding > LARGEST_ROUNDING * tolerance).then_some(Remark::CoarseVelocityDigits {
+        (rounding > LARGEST_ROUNDING * tolerance).then(|| Remark::CoarseVelocityDigits {
+            post: digits.post.to_owned(),
             velocity_decimals,
             rounding,
             segment_time,
             tolerance,
         })
     }
+}
+
+fn needs_digits(digits: &ProgramDigits) -> Option<Remark> {
+    let position_decimals = digits.position_decimals;
+    let delivered_decimals = digits.delivered_decimals?;
+    (position_decimals > delivered_decimals).then(|| Remark::NeedsDigits {
+        post: digits.post.to_owned(),
+        position_decimals,
+        delivered_decimals,
+    })
 }
 
 /// Half a unit of the last of so many decimals.
@@ -207,17 +276,24 @@ mod tests {
         cutting_time: 600.0,
         segment_time: 0.01,
         free_z_acceleration: Some(1000.0),
-        digits: Some(DIGITS),
+        digits: Vec::new(),
     };
     const DIGITS: ProgramDigits = ProgramDigits {
+        post: "a-post",
         position_decimals: 7,
-        velocity_decimals: 7,
+        velocity_decimals: Some(7),
         velocity_time: 1.0,
+        held_c: None,
+        delivered_decimals: None,
     };
 
     #[test]
     fn there_is_no_remark_on_a_usual_cut() {
-        assert_eq!(USUAL.remarks(), []);
+        let subject = RemarkSubject {
+            digits: vec![DIGITS; 2],
+            ..USUAL
+        };
+        assert_eq!(subject.remarks(), []);
     }
 
     #[test]
@@ -252,10 +328,10 @@ mod tests {
     fn a_remark_on_digits_follows_the_tolerance() {
         let digits = |position_decimals, interpolation| {
             let subject = RemarkSubject {
-                digits: Some(ProgramDigits {
+                digits: vec![ProgramDigits {
                     position_decimals,
                     ..DIGITS
-                }),
+                }],
                 interpolation,
                 ..USUAL
             };
@@ -274,12 +350,12 @@ mod tests {
     fn a_remark_on_the_digits_of_velocities_follows_the_time_of_a_segment() {
         let rounding = |velocity_decimals, velocity_time, segment_time| {
             let digits = ProgramDigits {
-                velocity_decimals,
+                velocity_decimals: Some(velocity_decimals),
                 velocity_time,
                 ..DIGITS
             };
             let subject = RemarkSubject {
-                digits: Some(digits),
+                digits: vec![digits],
                 segment_time,
                 ..USUAL
             };
@@ -295,6 +371,44 @@ mod tests {
         assert_eq!(rounding(2, 1.0, 0.01), Some(0.25 * 0.5e-2 * 0.01));
         assert_eq!(rounding(2, 60.0, 0.01), None);
         assert_eq!(rounding(7, 1.0, 4.0), None);
+    }
+
+    /// Each program has its own, with its post's name; one without velocities has none on them.
+    #[test]
+    fn each_program_has_remarks_of_its_own() {
+        let coarse = |post, velocity_decimals| ProgramDigits {
+            post,
+            position_decimals: 5,
+            velocity_decimals,
+            ..DIGITS
+        };
+        let held = ProgramDigits {
+            post: "held",
+            held_c: Some((6e4, 1e-6)),
+            delivered_decimals: Some(3),
+            ..DIGITS
+        };
+        let subject = RemarkSubject {
+            digits: vec![coarse("one", Some(0)), DIGITS, coarse("two", None), held],
+            ..USUAL
+        };
+        let found = subject.remarks();
+        let said: Vec<&str> = found
+            .iter()
+            .map(|remark| match remark {
+                Remark::CoarseDigits { post, .. }
+                | Remark::CoarseVelocityDigits { post, .. }
+                | Remark::NeedsDigits { post, .. } => post.as_str(),
+                // 1e-6 rad at 2.5 mm.
+                Remark::CoarseNumbers { post, rounding, .. }
+                    if (rounding - 2.5e-6).abs() < 1e-15 =>
+                {
+                    post
+                }
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(said, ["one", "one", "two", "held", "held"]);
     }
 
     /// The path of a form may be made for a larger residual than the form, where the recipe's own feed

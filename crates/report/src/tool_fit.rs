@@ -45,7 +45,8 @@ pub struct NoseMargin {
     /// The difference, mm.
     #[serde(rename = "margin_mm", with = "unit::mm")]
     pub margin: Option<f64>,
-    /// What limits it; `None` where nothing does.
+    /// What limits it; `None` where nothing does, and where the surface ends within the reach of a
+    /// larger nose.
     pub at: Option<ContactPlace>,
 }
 

@@ -12,11 +12,10 @@ use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::figures::{self, machine_source};
 use crate::job::Job;
+use crate::part_shape;
+use crate::region::region;
 use crate::remarks::PathSubject;
 use crate::sizes::toolpath_bytes;
-
-/// A place is on the part up to this much beyond its edges, mm.
-const ON_PART: f64 = 1e-9;
 
 impl Job {
     /// What the part asks of the tool, and what the path will be, without making it.
@@ -27,6 +26,7 @@ impl Job {
         let failed = |error| of_pipeline(&self.recipe, error);
         let expected = estimate(&self.chain, &self.path_preparation()).map_err(failed)?;
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
+        let part = self.preparation.task.part;
         let radius = self.preparation.task.range.outer;
         let programs = self.programs.iter();
         let programs = programs.map(|program| report::ProgramEstimate {
@@ -36,12 +36,14 @@ impl Job {
         let path = PathSubject {
             tolerance: self.preparation.task.tolerance,
             cutting_time: expected.cutting_time,
+            revolutions: expected.revolutions,
             control_points: expected.control_points,
             z_acceleration: None,
         };
         let report = CheckReport {
             format: report::FORMAT,
             name: self.recipe.name.clone(),
+            part: Some(part_shape::shape(&self.recipe, &self.chain.surface, &part)?),
             tool_fit: self.tool_fit(&nose),
             machine: self.machine_limits(),
             unreached: self.unreached()?,
@@ -125,7 +127,10 @@ fn margins(found: &Interference, nose: &LargestNose, tool: &Tool, part: &Part) -
             given: tool.nose_radius,
             most,
             margin: most.map(|most| most - tool.nose_radius),
-            at: most.map(|_| place(&nose.at, part)),
+            // Where the surface ends within the reach of a larger nose, no place limits it.
+            at: most
+                .filter(|_| nose.at.value.is_finite())
+                .map(|_| place(&nose.at, part)),
         },
         included_angle: angle(tool.included_angle, least_included(found), contact),
         clearance_angle: angle(tool.clearance_angle, cut.value, cut),
@@ -151,17 +156,11 @@ fn sections(found: &Interference, part: &Part) -> report::Sections {
 
 fn place(extreme: &Extreme, part: &Part) -> report::ContactPlace {
     let (at, rho) = (extreme.position(), extreme.rho);
-    let inside = rho < part.inner_radius - ON_PART;
-    let outside = rho > part.aperture_radius + ON_PART;
     report::ContactPlace {
         x: at.x,
         y: at.y,
         rho,
         c: extreme.theta.rem_euclid(360.0 * DEG),
-        on: if inside || outside {
-            report::Region::Overrun
-        } else {
-            report::Region::Part
-        },
+        on: region(rho, part),
     }
 }

@@ -44,6 +44,12 @@ fn found(recipe: &Recipe) -> impl Iterator<Item = TemplateCommand<'_>> {
 
 fn of_template<'a>(post: &Post, name: &str, own: &'a Spanned<String>) -> Vec<TemplateCommand<'a>> {
     let mut commands = post.dialect.commands(&own.value);
+    if name == HEADER {
+        // The path's lines follow, and the controller does not come to them.
+        for command in &mut commands {
+            command.harmless &= !post.dialect.ends_program(&command.text);
+        }
+    }
     if name == HEADER && !post.dialect.leaves_program_open(&own.value) {
         // The path's lines follow, and go wherever this one leaves the controller.
         if let Some(last) = commands.last_mut() {

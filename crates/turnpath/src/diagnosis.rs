@@ -3,14 +3,17 @@
 use std::ops::Range;
 
 use turnpath_core::interference::Conflict;
-use turnpath_core::{Misfit, Overrun, Slot, StrategyError};
+use turnpath_core::{Misfit, Overrun, Scalar, Slot, StrategyError};
 use turnpath_pipeline::{Excess, PathSize, PipelineError};
+use turnpath_post::post_named;
 use turnpath_recipe::{Choice, Diagnostic, Diagnostics, Recipe, Spanned, SurfaceEntry};
+use turnpath_report::Region;
 use turnpath_report::text::{millimetres, nose_radius};
 
 use crate::data_files::DataFileError;
 use crate::error::Error;
 use crate::posts::NotCarried;
+use crate::region::region;
 
 /// A feed below this part of the nose radius leaves cusps of less than a thousandth of a nanometre
 /// under any usual nose: the residual makes such a path long, and not the part.
@@ -117,7 +120,7 @@ pub fn not_carried(recipe: &Recipe, not_carried: NotCarried) -> Error {
     let post = posts.find(|post| post.value == name);
     let span = post.map_or_else(|| recipe.nearest_span("output"), |post| post.span.clone());
     let title = format!("the post `{name}` cannot carry this path: {error}");
-    let help = [error.help().to_owned()];
+    let help = post_named(name).map(|post| error.help(post.keys).to_owned());
     Error::refused_by(recipe.diagnostic(span, title, "chosen here", help), error)
 }
 
@@ -203,9 +206,8 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         Conflict::NoseRadius { largest, at } if *largest < SHARPEST_NOSE => (
             "tool.nose_radius",
             format!(
-                "no nose reaches the bottom of the crease at x = {}, y = {}",
-                millimetres(at.x, 2),
-                millimetres(at.y, 2)
+                "no nose reaches the bottom of the crease at {}",
+                place(recipe, [at.x, at.y])
             ),
             match recipe.tool.misfit {
                 Misfit::Refuse => {
@@ -218,22 +220,19 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         Conflict::NoseRadius { largest, at } => (
             "tool.nose_radius",
             format!(
-                "nose radius {} exceeds the smallest concave radius {}, at x = {}, y = {} in the \
-                 radial direction",
+                "nose radius {} exceeds the smallest concave radius {}, at {} in the radial direction",
                 nose_radius(recipe.tool.nose_radius),
                 nose_radius(*largest),
-                millimetres(at.x, 2),
-                millimetres(at.y, 2)
+                place(recipe, [at.x, at.y])
             ),
             "choose a smaller tool or a smaller aperture",
         ),
         Conflict::IncludedAngle { least, at } => (
             "tool.included_angle",
             format!(
-                "the contact leaves the edge: at x = {}, y = {} the profile is so steep that \
-                 it takes an included angle of {:.2} deg",
-                millimetres(at.x, 2),
-                millimetres(at.y, 2),
+                "the contact leaves the edge: at {} the profile is so steep that it takes an \
+                 included angle of {:.2} deg",
+                place(recipe, [at.x, at.y]),
                 least.to_degrees()
             ),
             "choose a tool with a larger included angle, or a smaller aperture",
@@ -241,9 +240,8 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         Conflict::Clearance { least, at, uphill } => (
             "tool.clearance_angle",
             format!(
-                "the flank rubs: at x = {}, y = {} the surface {} along the cut by {:.2} deg",
-                millimetres(at.x, 2),
-                millimetres(at.y, 2),
+                "the flank rubs: at {} the surface {} along the cut by {:.2} deg",
+                place(recipe, [at.x, at.y]),
                 if *uphill { "rises" } else { "falls" },
                 least.to_degrees()
             ),
@@ -258,6 +256,16 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
     }
     let span = recipe.nearest_span(key);
     recipe.diagnostic(span, title, "does not fit", [help.to_owned()])
+}
+
+/// A place, and whether it is on the part or on its overrun.
+fn place(recipe: &Recipe, [x, y]: [f64; 2]) -> String {
+    let on = match region(Scalar::hypot(x, y), &recipe.part) {
+        Region::Part => "part",
+        Region::Overrun => "overrun",
+    };
+    let (x, y) = (millimetres(x, 2), millimetres(y, 2));
+    format!("x = {x}, y = {y} ({on})")
 }
 
 /// The message for a compensator that would gouge where it should leave something standing.

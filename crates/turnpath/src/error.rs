@@ -48,6 +48,20 @@ pub enum Error {
         /// Why.
         source: DataFileError,
     },
+    /// A file that the caller names could not be read.
+    #[error("cannot read {}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file is there already, and is not to be replaced.
+    #[error("{} is there already", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
     /// A plugin could not be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -123,14 +137,16 @@ impl Error {
     /// Whose fault it is.
     pub fn fault(&self) -> Fault {
         match self {
-            Self::Recipe(RecipeError::Wrong(_)) | Self::Refused { .. } | Self::Plot(_) => {
-                Fault::Request
-            }
+            Self::Recipe(RecipeError::Wrong(_))
+            | Self::Refused { .. }
+            | Self::Plot(_)
+            | Self::Exists { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
             Self::Load(error) => fault_of_load(error),
             Self::ListedPlugin { source, .. } => fault_of_load(source),
             Self::Recipe(RecipeError::File { .. })
             | Self::DataFile { .. }
+            | Self::Unreadable { .. }
             | Self::File(_)
             | Self::Folder(_)
             | Self::Read(_)
@@ -183,6 +199,7 @@ impl Error {
         match self {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
+            Self::Exists { .. } => Some("`--force` replaces it"),
             _ => None,
         }
     }

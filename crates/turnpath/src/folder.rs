@@ -12,7 +12,7 @@ use turnpath_report::{ProgramReport, ResultFile};
 use crate::error::Error;
 use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
-use crate::program::Program;
+use crate::program::{Program, ProgramText};
 
 use crate::sinks::SinkError;
 use crate::sizes::{bytes_while_assembled, check_room, toolpath_bytes};
@@ -89,8 +89,8 @@ impl<'a> FolderSink<'a> {
         }
         for program in self.programs {
             let draft = self.draft(&program.file)?;
-            let comment = program.layout.post.comment;
-            files.programs.push(ProgramWriter::begin(draft, comment)?);
+            let writer = ProgramWriter::begin(draft, program.layout)?;
+            files.programs.push(writer);
         }
         Ok(files)
     }
@@ -99,7 +99,8 @@ impl<'a> FolderSink<'a> {
         self.folder.draft(&self.folder.path().join(name))
     }
 
-    /// Puts the programs together, reads each back and measures it on its own text.
+    /// Measures each program on the text of its path, puts it together with its figures in the header, and
+    /// reads it as a whole.
     pub fn read_back(
         &mut self,
         job: &Job,
@@ -111,15 +112,24 @@ impl<'a> FolderSink<'a> {
         };
         let mut reports = Vec::new();
         for (program, writer) in self.programs.iter().zip(files.programs.drain(..)) {
-            let points = writer.points();
-            let frame = program.frame(&job.recipe, outcome, points);
-            let mut draft = writer.assemble(&frame.header, &frame.footer)?;
-            let name = draft.path().to_owned();
-            let reader = program.layout.open(draft.readable()?);
-            let mut reader = reader.map_err(|error| error.named(&name))?.named(&name);
+            let mut path = writer.close()?;
+            let (points, name) = (path.points(), path.file().to_owned());
+            let mut reader = program.layout.read(path.text()?, &name);
+            let text = ProgramText {
+                reader: &mut reader,
+                name: &name,
+                points,
+            };
             let touch = job.preparation.touch.clone();
-            let recipe = &job.recipe;
-            reports.push(program.measure(&mut reader, &name, recipe, touch, points, observer)?);
+            let path_error = outcome.figures.playback.max();
+            let report = program.measure(text, (&job.recipe, touch), path_error, observer)?;
+            drop(reader);
+            let frame = program.frame(&job.recipe, outcome, points, &report);
+            let mut draft = path.assemble(&frame.header, &frame.footer)?;
+            let whole = program.layout.open(draft.readable()?);
+            let mut whole = whole.map_err(|error| error.named(&name))?.named(&name);
+            program.read_whole(&mut whole, &name, points)?;
+            reports.push(report);
             files.drafts.push(draft);
         }
         Ok(reports)

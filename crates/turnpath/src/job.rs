@@ -12,9 +12,10 @@ use turnpath_report::Overrun;
 
 use crate::chain::chain;
 use crate::data_files::DataFiles;
-use crate::diagnosis::{needs_exact_rates, not_carried, of_pipeline};
+use crate::diagnosis::{needs_exact_rates, not_carried};
 use crate::error::Error;
 use crate::figures::form_scope;
+use crate::gap::of_preparation;
 use crate::named_files::UsedFile;
 use crate::posts::NotCarried;
 use crate::program::{Program, programs};
@@ -62,7 +63,8 @@ impl Job {
             spindle_speed: recipe.spindle_speed,
             machine: recipe.machine,
         };
-        let preparation = prepare(&chain, spec).map_err(|error| of_pipeline(&recipe, error))?;
+        let preparation = prepare(&chain, spec)
+            .map_err(|error| of_preparation(&recipe, &chain.surface, error))?;
         let programs = programs(&recipe, chain.compensator.strategy.compensates_nose())?;
         let job = Self {
             recipe,

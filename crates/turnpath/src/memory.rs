@@ -36,7 +36,7 @@ impl<'a> MemorySink<'a> {
 }
 
 fn begin(program: &Program) -> ProgramWriter<Vec<u8>> {
-    ProgramWriter::in_memory(program.layout.post.comment)
+    ProgramWriter::in_memory(program.layout)
 }
 
 impl Sink for MemorySink<'_> {

@@ -7,7 +7,8 @@ use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, Stage};
 use turnpath_post::{FeedMeaning, Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
 use turnpath_recipe::{Recipe, Spanned, ZReference};
-use turnpath_report::{ProgramFigures, ProgramReport};
+use turnpath_report::text::verified_figures;
+use turnpath_report::{ProgramFigures, ProgramReport, Tolerances};
 use turnpath_verify::FirstTouch;
 
 use crate::diagnosis::of_measure;
@@ -15,6 +16,7 @@ use crate::error::Error;
 use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, PathMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
+use crate::speed_steps::SpeedSteps;
 
 /// A program that a recipe asks for.
 #[derive(Clone)]
@@ -25,6 +27,16 @@ pub struct Program {
     pub file: String,
     header: Template,
     footer: Template,
+}
+
+/// The text of a program's path, as it is read back.
+pub struct ProgramText<'a> {
+    /// Reads it.
+    pub reader: &'a mut dyn ReadPath,
+    /// The program's file, for messages.
+    pub name: &'a Path,
+    /// The points that were written.
+    pub points: u64,
 }
 
 /// What stands around the lines of a program.
@@ -71,11 +83,19 @@ impl Program {
         self.layout.expected_bytes(radius, time, c, points)
     }
 
-    /// Header and footer with the figures of a path, of which the program has so many points.
-    pub fn frame(&self, recipe: &Recipe, outcome: &Outcome, points: u64) -> Frame {
+    /// Header and footer with the figures of a path and those of its program.
+    pub fn frame(
+        &self,
+        recipe: &Recipe,
+        outcome: &Outcome,
+        points: u64,
+        report: &ProgramReport,
+    ) -> Frame {
         let value = |placeholder: &str| match placeholder {
             "points" => points.to_string(),
-            other => self.value(other, recipe, outcome),
+            other => verified_value(other, report, &tolerances(recipe))
+                .or_else(|| of_recipe(other, recipe))
+                .unwrap_or_else(|| self.value(other, recipe, outcome)),
         };
         Frame {
             header: self.header.fill(value),
@@ -92,14 +112,7 @@ impl Program {
         let tip = recipe.output.z_reference == ZReference::Tip;
         let lead = outcome.lead.as_ref();
         let with_leads = |cut: f64, leads: fn(&Leads) -> f64| cut + lead.map_or(0.0, leads);
-        let file = || recipe.path().file_name().unwrap_or_default();
         match placeholder {
-            "name" => recipe.name.clone(),
-            "recipe" => file().to_string_lossy().into_owned(),
-            "sha256" => sha256_hex(recipe.text().as_bytes()),
-            "changes" if recipe.sets().is_empty() => "nothing".to_owned(),
-            "changes" => recipe.sets().join(", "),
-            "turnpath" => env!("CARGO_PKG_VERSION").to_owned(),
             "revolutions" => {
                 let turns = with_leads(outcome.revolutions, |l| l.turns_in + l.turns_out);
                 format!("{turns:.2}")
@@ -114,6 +127,7 @@ impl Program {
             "velocity_unit" => either(format.per_minute, "min", "s"),
             "f_means" => either(self.says_seconds(), "s", "1/min"),
             "ix90" => format.velocity_ms().to_string(),
+            "increments" => 10_u64.pow(format.position_decimals).to_string(),
             _ => String::new(),
         }
     }
@@ -124,19 +138,44 @@ impl Program {
         chords.is_some_and(|chords| chords.feed == FeedMeaning::Seconds)
     }
 
-    /// Measures the program on its own text, which `reader` reads back; `name` is for messages.
-    pub fn measure(
+    /// Reads a whole program to its end. Its path was measured; header and footer must not hide any of it.
+    pub fn read_whole(
         &self,
         reader: &mut dyn ReadPath,
         name: &Path,
-        recipe: &Recipe,
-        touch: FirstTouch,
-        points: u64,
+        expected: u64,
+    ) -> Result<(), Error> {
+        while reader.next_point()?.is_some() {}
+        let found = reader.read_count().points();
+        match found == expected {
+            true => Ok(()),
+            false => Err(Error::PointsLost {
+                file: name.to_owned(),
+                found,
+                expected,
+            }),
+        }
+    }
+
+    /// Measures the program on the text of its path, which `text` reads; `path_error` is the largest
+    /// interpolation error of the path that it carries.
+    pub fn measure(
+        &self,
+        text: ProgramText<'_>,
+        (recipe, touch): (&Recipe, FirstTouch),
+        path_error: f64,
         observer: &dyn Observer,
     ) -> Result<ProgramReport, Error> {
+        let ProgramText {
+            reader,
+            name,
+            points,
+        } = text;
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = PathMeters::new(recipe, touch);
-        let measured = measure(recipe, meters, self.layout.format.shape(), reader, observer)?;
+        let mut reader = SpeedSteps::new(reader);
+        let shape = self.layout.format.shape();
+        let measured = measure(recipe, meters, shape, &mut reader, observer)?;
         let found = reader.read_count().points();
         if found != points {
             return Err(Error::PointsLost {
@@ -151,6 +190,8 @@ impl Program {
         let lead_clearance = measured.lead.figures().map(|lead| lead.clearance);
         let figures = ProgramFigures {
             interpolation_error: figures.playback.max(),
+            path_error,
+            c_speed_step: self.layout.post.c_is_even.then(|| reader.largest()),
             form_error: form_error(form.as_ref(), lead_clearance),
             lead_clearance,
             lines: (self.layout.format.shape() == SegmentShape::Linear)
@@ -166,6 +207,38 @@ impl Program {
     }
 }
 
+/// A recipe's own words and those of turnpath: what is known before there is a path.
+fn of_recipe(placeholder: &str, recipe: &Recipe) -> Option<String> {
+    let file = || recipe.path().file_name().unwrap_or_default();
+    Some(match placeholder {
+        "name" => recipe.name.clone(),
+        "recipe" => file().to_string_lossy().into_owned(),
+        "sha256" => sha256_hex(recipe.text().as_bytes()),
+        "changes" if recipe.sets().is_empty() => "nothing".to_owned(),
+        "changes" => recipe.sets().join(", "),
+        "turnpath" => env!("CARGO_PKG_VERSION").to_owned(),
+        _ => return None,
+    })
+}
+
+/// What was measured on the program's own text.
+fn verified_value(
+    placeholder: &str,
+    report: &ProgramReport,
+    tolerances: &Tolerances,
+) -> Option<String> {
+    let nm = |length: Option<f64>| {
+        length.map_or_else(|| "none".to_owned(), |mm| format!("{:.2}", 1e6 * mm))
+    };
+    Some(match placeholder {
+        "interpolation_error_nm" => nm(Some(report.interpolation_error)),
+        "form_error_nm" => nm(report.form_error),
+        "lead_clearance_nm" => nm(report.lead_clearance),
+        "verified" => verified_figures(report, tolerances),
+        _ => return None,
+    })
+}
+
 /// A template of the recipe, or the post's own.
 fn template(
     recipe: &Recipe,
@@ -174,7 +247,12 @@ fn template(
     comment: &'static str,
 ) -> Result<Template, Error> {
     let text = given.map_or(own, |given| &given.value);
-    Template::parse(text, comment).map_err(|error| {
+    let template = Template::parse(text, comment).and_then(|template| {
+        // Numbers are no marks of a path; a recipe's own words may be a part of one.
+        template.check(|name| of_recipe(name, recipe).unwrap_or_else(|| "0".to_owned()))?;
+        Ok(template)
+    });
+    template.map_err(|error| {
         let span = given.map_or_else(|| recipe.nearest_span("output"), |given| given.span.clone());
         let known = format!("placeholders: {{{}}}", PLACEHOLDERS.join("}, {"));
         let diagnostic = recipe.diagnostic(span, error.to_string(), "in this template", [known]);

@@ -1,14 +1,13 @@
 //! What is allowed in a recipe but seldom meant.
 
-use turnpath_core::{Axis, Derivative, Tolerance};
-use turnpath_post::ProgramFormat;
+use std::f64::consts::TAU;
+
+use turnpath_core::{Axis, DEG, Derivative, Tolerance};
+use turnpath_post::Layout;
 use turnpath_recipe::Recipe;
 use turnpath_report::{ProgramDigits, Remark, RemarkSubject};
 
 use crate::posts::{layout, posts};
-
-/// Decimals of velocities that are never too few.
-const NOT_COARSE: u32 = 12;
 
 /// What remarks are made on besides the recipe: its path, or what is expected of it.
 pub struct PathSubject {
@@ -16,6 +15,8 @@ pub struct PathSubject {
     pub tolerance: Tolerance,
     /// Time of the cutting section, s.
     pub cutting_time: f64,
+    /// Revolutions of the cutting section.
+    pub revolutions: f64,
     /// Control points of the cutting section.
     pub control_points: f64,
     /// The largest acceleration of Z where it is known, mm/s².
@@ -29,8 +30,7 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         .limits()
         .any(|limit| limit.axis == Axis::Z && limit.derivative == Derivative::Acceleration);
     // The digits do not depend on the nose.
-    let formats = posts(recipe).map(|post| layout(recipe, post, true).format);
-    let formats: Vec<ProgramFormat> = formats.collect();
+    let layouts = posts(recipe).map(|post| layout(recipe, post, true));
     let subject = RemarkSubject {
         aperture: 2.0 * recipe.part.aperture_radius,
         residual: path.tolerance.residual,
@@ -39,19 +39,22 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         cutting_time: path.cutting_time,
         segment_time: path.cutting_time / path.control_points.max(1.0),
         free_z_acceleration: path.z_acceleration.filter(|_| !limited),
-        digits: digits(&formats),
+        digits: layouts.map(|layout| digits(&layout, path)).collect(),
     };
     subject.remarks()
 }
 
-/// The coarsest digits of these programs. Those of straight lines have no velocities.
-fn digits(formats: &[ProgramFormat]) -> Option<ProgramDigits> {
-    let position_decimals = formats.iter().map(|one| one.position_decimals).min()?;
-    let cubics = formats.iter().filter(|one| one.chords.is_none());
-    let coarsest = cubics.min_by_key(|one| one.velocity_decimals);
-    Some(ProgramDigits {
-        position_decimals,
-        velocity_decimals: coarsest.map_or(NOT_COARSE, |one| one.velocity_decimals),
-        velocity_time: coarsest.map_or(1.0, ProgramFormat::velocity_time),
-    })
+fn digits(layout: &Layout, path: &PathSubject) -> ProgramDigits {
+    let Layout { post, format } = layout;
+    let c = TAU * path.revolutions;
+    let largest = if format.c_wrapped { c.min(TAU) } else { c };
+    let rounding = format.held_rounding(largest / DEG);
+    ProgramDigits {
+        post: post.name,
+        position_decimals: format.position_decimals,
+        velocity_decimals: post.writes_velocities().then_some(format.velocity_decimals),
+        velocity_time: format.velocity_time(),
+        held_c: rounding.map(|rounding| (c, DEG * rounding)),
+        delivered_decimals: post.delivered_decimals,
+    }
 }

@@ -22,6 +22,7 @@ use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
+use crate::program::ProgramText;
 use crate::remarks::PathSubject;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
@@ -117,14 +118,22 @@ impl Job {
         let rows = sink.toolpath.len() as u64;
         let (mut reports, mut programs) = (Vec::new(), Vec::new());
         for (program, writer) in self.programs.iter().zip(sink.writers) {
-            let points = writer.points();
-            let frame = program.frame(&self.recipe, &outcome, points);
-            let text = writer.assemble_in_memory(&frame.header, &frame.footer);
-            let mut reader = program.layout.read(Cursor::new(&text), &program.file);
+            let path = writer.close();
+            let (points, name) = (path.points(), Path::new(&program.file));
+            let mut reader = program.layout.read(Cursor::new(path.text()), name);
+            let text = ProgramText {
+                reader: &mut reader,
+                name,
+                points,
+            };
             let touch = self.preparation.touch.clone();
-            let name = Path::new(&program.file);
-            let recipe = &self.recipe;
-            reports.push(program.measure(&mut reader, name, recipe, touch, points, observer)?);
+            let path_error = outcome.figures.playback.max();
+            let report = program.measure(text, (&self.recipe, touch), path_error, observer)?;
+            let frame = program.frame(&self.recipe, &outcome, points, &report);
+            let text = path.assemble(&frame.header, &frame.footer);
+            let mut whole = program.layout.read(Cursor::new(&text), name);
+            program.read_whole(&mut whole, name, points)?;
+            reports.push(report);
             programs.push((program.file.clone(), text));
         }
         Ok(RunResult {
@@ -190,15 +199,15 @@ impl Job {
         let subject = PathSubject {
             tolerance: made_for.unwrap_or(self.preparation.task.tolerance),
             cutting_time: outcome.cutting_time,
+            revolutions: outcome.revolutions,
             control_points: outcome.control_points as f64,
             z_acceleration: Some(path.axes.z.acceleration.max),
         };
         if let Some(form) = &mut path.form {
             form.split = split;
         }
-        let path_error = outcome.figures.playback.max();
-        let beside_path =
-            |program: ProgramReport| program.beside_path(path_error, rows.saturating_sub(1));
+        let segments = rows.saturating_sub(1);
+        let beside_path = |program: ProgramReport| program.beside_path(segments);
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),

@@ -15,6 +15,7 @@ mod corners;
 mod coverage;
 mod cusp;
 mod cutting_speed;
+mod edge_crossings;
 mod instants;
 mod lead;
 mod limits;

@@ -15,7 +15,8 @@
 //!
 //! The heights go up and down with the angle like a saw tooth that jumps where the path ends. So the
 //! search goes from section to section first, and then closes in on the largest between sections
-//! and on both sides of the path's ends.
+//! and on both sides of the path's ends. Between sections all passes count that cut the edge there
+//! ([`crate::edge_crossings`]).
 
 use std::f64::consts::TAU;
 
@@ -24,14 +25,13 @@ use turnpath_core::{Result, Tool};
 
 use crate::closing;
 use crate::cusp::Point;
+use crate::edge_crossings::{EdgeCrossings, PassNumber};
 use crate::profiles::Profiles;
 use crate::residual::{self, Pass, Passes, SECTIONS, angle_of, crossing};
 use crate::touch::FirstTouch;
 
 /// Sections of a revolution.
 const TURN: usize = SECTIONS as usize;
-/// Sections of half a revolution.
-const HALF_TURN: usize = TURN / 2;
 /// Width of a section, rad.
 const WIDTH: f64 = TAU / SECTIONS as f64;
 /// How many of the sections with the largest heights the search closes in on.
@@ -59,6 +59,8 @@ pub(crate) struct PartEdge {
     radius: f64,
     /// The passes that leave least on each section; empty if nothing was measured.
     sections: Vec<LowestPasses<NearPass>>,
+    /// The passes that cut the edge between each section and the next one.
+    crossings: Vec<Vec<NearPass>>,
     /// C of both ends of the path so far, rad.
     ends: Option<[f64; 2]>,
 }
@@ -104,27 +106,34 @@ impl PartEdge {
     ) -> Result<Self> {
         let tool = touch.subject().tool;
         let mut sections = vec![LowestPasses::NONE; TURN];
+        let mut crossings = Vec::new();
         let comes_near = |pass: &Pass| (pass.centre.x.abs() - radius).abs() < tool.reach();
         if passes.passes.iter().any(comes_near) {
             let theta: Vec<f64> = (0..SECTIONS).map(angle_of).collect();
             let ring = ring(touch, &theta, radius)?;
             for (number, pass) in (passes.first..).zip(&passes.passes) {
-                let section = number.rem_euclid(SECTIONS) as usize;
-                let across = (section + HALF_TURN) % TURN;
-                let (own, opposite) = (pass.centre, pass.mirrored().centre);
-                sections[section].offer(own, &ring[section], &tool, (number, false));
-                sections[across].offer(opposite, &ring[across], &tool, (number, true));
+                for (mirrored, centre) in [(false, pass.centre), (true, pass.mirrored().centre)] {
+                    let pass = PassNumber { number, mirrored };
+                    let section = pass.section();
+                    sections[section].offer(centre, &ring[section], &tool, pass);
+                }
             }
+            crossings = EdgeCrossings::new(touch, radius)?.of(passes);
         }
         let track = Track::new(points);
-        let near = |(number, mirrored)| track.around(number as f64 * WIDTH, mirrored);
+        let near = |pass: PassNumber| track.around(pass.number as f64 * WIDTH, pass.mirrored);
         let sections = sections.into_iter().map(|passes| passes.map(near));
         let sections = sections.collect();
+        let mut between = vec![Vec::new(); TURN];
+        for pass in crossings {
+            between[pass.section()].push(near(pass));
+        }
         let ends = points.c.first().zip(points.c.last());
         let ends = ends.map(|(first, last)| [*first, *last]);
         Ok(Self {
             radius,
             sections,
+            crossings: between,
             ends,
         })
     }
@@ -137,6 +146,9 @@ impl PartEdge {
         }
         for (own, next) in self.sections.iter_mut().zip(&next.sections) {
             own.append(next);
+        }
+        for (own, next) in self.crossings.iter_mut().zip(&next.crossings) {
+            own.extend_from_slice(next);
         }
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
@@ -187,7 +199,8 @@ impl PartEdge {
         Ok(largest)
     }
 
-    /// The height at each angle. Between sections, the passes of both sections around it count.
+    /// The height at each angle. Between sections, the passes of both sections around it count, and
+    /// those that cut the edge between them.
     fn heights(&self, touch: &FirstTouch, angles: &[EdgeAngle]) -> Result<Vec<UncutHeight>> {
         let mut theta: Vec<f64> = angles.iter().map(|angle| angle.theta).collect();
         let ring = ring(touch, &theta, self.radius)?;
@@ -228,24 +241,17 @@ impl PartEdge {
                 section,
                 off,
             } = *angle;
-            let sides = match off == 0.0 {
-                true => vec![(section, 0.0)],
-                false => vec![(section, off), ((section + 1) % TURN, off - WIDTH)],
-            };
-            for (section, off) in sides {
-                let passes = self.sections.get(section).into_iter();
-                for pass in passes.flat_map(LowestPasses::all) {
-                    let Some(played) = pass.x(off, ends) else {
-                        continue;
-                    };
-                    let turned = match pass.mirrored {
-                        true => at + 0.5 * TAU,
-                        false => at,
-                    };
-                    of.push((index, pass.mirrored));
-                    theta.push(turned.rem_euclid(TAU));
-                    x.push(played);
-                }
+            for (pass, off) in self.passes(section, off) {
+                let Some(played) = pass.x(off, ends) else {
+                    continue;
+                };
+                let turned = match pass.mirrored {
+                    true => at + 0.5 * TAU,
+                    false => at,
+                };
+                of.push((index, pass.mirrored));
+                theta.push(turned.rem_euclid(TAU));
+                x.push(played);
             }
         }
         let passes = residual::passes_at(touch, &theta, &x)?;
@@ -254,6 +260,21 @@ impl PartEdge {
             false => (index, pass.centre),
         };
         Ok(of.into_iter().zip(passes).map(centre).collect())
+    }
+
+    /// The passes that count so far behind a section, each with how far that is off its own section.
+    fn passes(&self, section: usize, off: f64) -> impl Iterator<Item = (&NearPass, f64)> {
+        let lowest = |section: usize, off: f64| {
+            let passes = self.sections.get(section).into_iter();
+            let passes = passes.flat_map(LowestPasses::all);
+            passes.map(move |pass| (pass, off))
+        };
+        let between = (off != 0.0).then(|| {
+            let crossings = self.crossings.get(section).into_iter().flatten();
+            let crossings = crossings.map(move |pass| (pass, off));
+            lowest((section + 1) % TURN, off - WIDTH).chain(crossings)
+        });
+        lowest(section, off).chain(between.into_iter().flatten())
     }
 }
 

@@ -3,6 +3,7 @@
 use turnpath_plugin::prelude::*;
 
 use crate::complaint::{Complaint, Mistake};
+use crate::gap::Source;
 use crate::graph::{MOST_NODES, Refusal};
 use crate::names::is_taken;
 use crate::parser::parse;
@@ -14,7 +15,11 @@ use crate::tape::{MOST_REGISTERS, Tape};
 /// Beyond the aperture the formula goes on. Where it has no value, such as the root of a negative
 /// number, z is NaN.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Formula(Tape);
+pub struct Formula {
+    tape: Tape,
+    /// The formula as it was read, to say where it has no value.
+    source: Box<Source>,
+}
 
 const Z: Param<Text> = Param::text(
     "z",
@@ -42,27 +47,37 @@ impl Strategy for Formula {
                 constant.name
             )));
         }
-        tape(params.get(Z), constants)
-            .map(Self)
-            .map_err(|complaint| {
-                let message = complaint.to_string();
-                Z.refused_at(complaint.place, message)
-            })
+        formula(params.get(Z), constants).map_err(|complaint| {
+            let message = complaint.to_string();
+            Z.refused_at(complaint.place, message)
+        })
     }
 }
 
-fn tape(text: &str, constants: &[NamedConstant]) -> std::result::Result<Tape, Complaint> {
-    let (graph, root) = parse(text, constants)?;
+fn formula(text: &str, constants: &[NamedConstant]) -> std::result::Result<Formula, Complaint> {
+    let source = Box::new(parse(text, constants)?);
     let whole = || 0..text.len();
-    let (graph, root) = resolved(&graph, root).map_err(|refusal| match refusal {
+    let (graph, root) = resolved(&source.graph, source.root).map_err(|refusal| match refusal {
         Refusal::TooLarge => Mistake::TooLarge(MOST_NODES).at(whole()),
         Refusal::NoFiniteValue => Mistake::NoFiniteValue.at(whole()),
     })?;
-    Tape::new(&graph, root).ok_or_else(|| Mistake::TooWide(MOST_REGISTERS).at(whole()))
+    let tape = Tape::new(&graph, root);
+    let tape = tape.ok_or_else(|| Mistake::TooWide(MOST_REGISTERS).at(whole()))?;
+    Ok(Formula { tape, source })
 }
 
 impl Surface for Formula {
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
-        self.0.run(x, y)
+        self.tape.run(x, y)
+    }
+
+    fn gap(&self, x: f64, y: f64) -> Option<SurfaceGap> {
+        let (place, reason) = self.source.gap(x, y)?;
+        Some(SurfaceGap {
+            entry: 0,
+            param: Z.info().name.to_owned(),
+            place,
+            reason: reason.to_owned(),
+        })
     }
 }

@@ -42,6 +42,23 @@ pub enum Node {
     Two(PairFunction, Id, Id),
 }
 
+impl Node {
+    /// The nodes that it is made of.
+    pub fn operands(self) -> [Option<Id>; 2] {
+        match self {
+            Self::Variable(_) | Self::Constant(_) => [None, None],
+            Self::Sum(a, b)
+            | Self::Difference(a, b)
+            | Self::Product(a, b)
+            | Self::Quotient(a, b)
+            | Self::Two(_, a, b) => [Some(a), Some(b)],
+            Self::Negative(a) | Self::Power(a, _) | Self::RealPower(a, _) | Self::One(_, a) => {
+                [Some(a), None]
+            }
+        }
+    }
+}
+
 /// Why a node cannot be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
@@ -52,7 +69,7 @@ pub enum Refusal {
 }
 
 /// The nodes of a formula.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Graph {
     nodes: Vec<Node>,
     numbers: BTreeMap<Node, Id>,
@@ -201,10 +218,28 @@ impl Graph {
             {
                 self.power(base, f64::from(inner) * exponent)
             }
+            (true, Node::Product(one, two)) => match (self.number(one), self.number(two)) {
+                (Some(number), _) => self.scaled_power(number, two, exponent),
+                (_, Some(number)) => self.scaled_power(number, one, exponent),
+                _ => self.put(Node::Power(a, exponent as i32)),
+            },
             (true, _) => self.put(Node::Power(a, exponent as i32)),
             (false, _) if exponent == 0.5 => self.one(Function::Sqrt, a),
             (false, _) => self.put(Node::RealPower(a, exponent.to_bits())),
         }
+    }
+
+    /// (number·a)ⁿ. The number leaves the power, so that ρ/edge to some power is a power of ρ.
+    fn scaled_power(&mut self, number: f64, a: Id, exponent: f64) -> Result<Id, Refusal> {
+        let factor = Scalar::powi(number, exponent as i32);
+        if factor.is_normal() {
+            let power = self.power(a, exponent)?;
+            let factor = self.constant(factor)?;
+            return self.product(power, factor);
+        }
+        let factor = self.constant(number)?;
+        let base = self.put(Node::Product(a.min(factor), a.max(factor)))?;
+        self.put(Node::Power(base, exponent as i32))
     }
 
     /// A function of one value.

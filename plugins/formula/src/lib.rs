@@ -8,6 +8,7 @@
 mod complaint;
 mod dimension;
 mod formula;
+mod gap;
 mod graph;
 mod lexer;
 mod names;

@@ -9,6 +9,7 @@ use turnpath_plugin::prelude::NamedConstant;
 
 use crate::complaint::{Complaint, Mistake};
 use crate::dimension::Dimension;
+use crate::gap::Source;
 use crate::graph::{Graph, Id, MOST_NODES, Refusal};
 use crate::lexer::{Kind, Token, tokens};
 use crate::names::{Call, FUNCTIONS, Function, PairFunction, RADIUS, VALUES, VARIABLES};
@@ -32,11 +33,12 @@ struct Operand {
     place: Range<usize>,
 }
 
-/// The graph of a formula, and its last node: the height in mm.
+/// The graph of a formula, and its last node: the height in mm. Each subexpression has its place in
+/// the text.
 ///
 /// # Errors
 /// If the text is no formula, or not that of a length.
-pub fn parse(text: &str, constants: &[NamedConstant]) -> Result<(Graph, Id), Complaint> {
+pub fn parse(text: &str, constants: &[NamedConstant]) -> Result<Source, Complaint> {
     if text.len() > MOST_BYTES {
         return Err(Mistake::TooLong(MOST_BYTES).at(0..text.len()));
     }
@@ -49,11 +51,16 @@ pub fn parse(text: &str, constants: &[NamedConstant]) -> Result<(Graph, Id), Com
         tokens: tokens(text)?,
         next: 0,
         graph: Graph::default(),
+        places: Vec::new(),
     };
     let height = parser.expression(0, 0)?;
     parser.at_end()?;
     match height.dimension.common(Dimension::LENGTH) {
-        Some(_) => Ok((parser.graph, height.id)),
+        Some(_) => Ok(Source {
+            graph: parser.graph,
+            places: parser.places,
+            root: height.id,
+        }),
         None => Err(Mistake::NotALength(height.dimension).at(height.place)),
     }
 }
@@ -64,6 +71,8 @@ struct Parser<'a> {
     tokens: Vec<Token>,
     next: usize,
     graph: Graph,
+    /// The place of each node in the text.
+    places: Vec<Option<Range<usize>>>,
 }
 
 impl Parser<'_> {
@@ -147,7 +156,7 @@ impl Parser<'_> {
                 let inner = self.expression(SIGN, level + 1)?;
                 let place = token.place.start..inner.place.end;
                 let made = self.graph.negative(inner.id);
-                finished(made, inner.dimension, place)
+                self.finished(made, inner.dimension, place)
             }
             Kind::Sign(_) | Kind::End => Err(Mistake::NoValue.at(token.place)),
         }
@@ -174,7 +183,7 @@ impl Parser<'_> {
         place: Range<usize>,
     ) -> Result<Operand, Complaint> {
         let made = self.graph.constant(number);
-        finished(made, dimension, place)
+        self.finished(made, dimension, place)
     }
 
     fn named(&mut self, place: &Range<usize>, level: usize) -> Result<Operand, Complaint> {
@@ -199,7 +208,7 @@ impl Parser<'_> {
         match VARIABLES.iter().find(|(known, ..)| *known == long) {
             Some((_, variable, dimension)) => {
                 let made = self.graph.variable(*variable);
-                finished(made, *dimension, place)
+                self.finished(made, *dimension, place)
             }
             None => Err(self.unknown(name).at(place)),
         }
@@ -266,7 +275,7 @@ impl Parser<'_> {
             _ => return Err(Mistake::NotPure(argument.dimension).at(argument.place.clone())),
         };
         let made = self.graph.one(function, argument.id);
-        finished(made, dimension, place)
+        self.finished(made, dimension, place)
     }
 
     fn two(
@@ -282,7 +291,7 @@ impl Parser<'_> {
             PairFunction::Hypot | PairFunction::Min | PairFunction::Max => common,
         };
         let made = self.graph.two(function, first.id, second.id);
-        finished(made, dimension, place)
+        self.finished(made, dimension, place)
     }
 
     fn combined(
@@ -310,27 +319,35 @@ impl Parser<'_> {
                 (self.graph.power(a, exponent), left.dimension.to(exponent))
             }
         };
-        finished(made, dimension, place)
+        self.finished(made, dimension, place)
+    }
+
+    /// An operand that was put into the graph. The graph keeps its first place in the text.
+    fn finished(
+        &mut self,
+        made: Result<Id, Refusal>,
+        dimension: Dimension,
+        place: Range<usize>,
+    ) -> Result<Operand, Complaint> {
+        let id = match made {
+            Ok(id) => id,
+            Err(Refusal::TooLarge) => return Err(Mistake::TooLarge(MOST_NODES).at(place)),
+            Err(Refusal::NoFiniteValue) => return Err(Mistake::NoFiniteValue.at(place)),
+        };
+        let nodes = self.graph.nodes().len();
+        self.places.resize(nodes.max(self.places.len()), None);
+        if let Some(known) = self.places.get_mut(usize::from(id)) {
+            known.get_or_insert_with(|| place.clone());
+        }
+        Ok(Operand {
+            id,
+            dimension,
+            place,
+        })
     }
 }
 
 fn common(left: &Operand, right: &Operand, place: &Range<usize>) -> Result<Dimension, Complaint> {
     let common = left.dimension.common(right.dimension);
     common.ok_or_else(|| Mistake::Unlike(left.dimension, right.dimension).at(place.clone()))
-}
-
-fn finished(
-    made: Result<Id, Refusal>,
-    dimension: Dimension,
-    place: Range<usize>,
-) -> Result<Operand, Complaint> {
-    match made {
-        Ok(id) => Ok(Operand {
-            id,
-            dimension,
-            place,
-        }),
-        Err(Refusal::TooLarge) => Err(Mistake::TooLarge(MOST_NODES).at(place)),
-        Err(Refusal::NoFiniteValue) => Err(Mistake::NoFiniteValue.at(place)),
-    }
 }

@@ -66,14 +66,25 @@ impl Resolution<'_> {
             Node::Product(a, b) => self.product(a, b),
             Node::Quotient(a, b) => self.new.quotient(self.id(a), self.id(b)),
             Node::Negative(a) => self.new.negative(self.id(a)),
-            Node::Power(a, exponent) => {
-                let base = self.id(a);
-                self.power(base, exponent)
-            }
+            Node::Power(a, exponent) => self.power_of(a, exponent),
             Node::RealPower(a, bits) => self.new.power(self.id(a), f64::from_bits(bits)),
             Node::One(function, a) => self.new.one(function, self.id(a)),
             Node::Two(function, a, b) => self.new.two(function, self.id(a), self.id(b)),
         }
+    }
+
+    /// A power of a node of the old graph. That of a product with ρ in it is the product of its factors
+    /// as often.
+    fn power_of(&mut self, a: Id, exponent: i32) -> Result<Id, Refusal> {
+        let mut factors = Vec::new();
+        self.factors(a, &mut factors);
+        let count = usize::try_from(exponent).unwrap_or(0);
+        let few = count > 0 && factors.len() * count <= MOST_PARTS;
+        if factors.len() > 1 && few && self.has_rho(&factors) {
+            return self.product_of(&factors.repeat(count), MOST_PARTS);
+        }
+        let base = self.id(a);
+        self.power(base, exponent)
     }
 
     /// A power; that of ρ is one of x² + y², times ρ if it is odd.

@@ -6,22 +6,34 @@ use std::hint::black_box;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use turnpath_core::{
-    GradientSeries, Gradients, ParamValue, Params, Result, Scalar, Series, Strategy, SurfaceModel,
+    GradientSeries, Gradients, NamedConstant, ParamValue, Params, Result, Scalar, Series, Strategy,
+    StrategyError, SurfaceModel,
 };
+use turnpath_formula::Formula;
+use turnpath_grid::GridSag;
+use turnpath_maps::Map;
 use turnpath_polynomials::{Chebyshev, ForbesQ2d, ForbesQbfs, ForbesQcon, Zernike};
 use turnpath_surfaces::{
-    Biconic, Conic, EvenAsphere, LensletArray, OddAsphere, OffAxisConic, ToroidYz, XyPolynomial,
+    Astigmatic, Biconic, Conic, EvenAsphere, LensletArray, OddAsphere, OffAxisConic,
+    OffAxisParaboloid, SinusoidalArray, Toric, ToroidYz, XyPolynomial,
 };
 
 /// Points of a call, as of a block of a path.
 const COUNT: usize = 1024;
+/// Points along a side of the map.
+const SIDE: usize = 256;
 /// Radius of the part, mm.
 const RADIUS: f64 = 10.0;
 
 /// The models, with as many terms as parts have: four even powers, the first eleven polynomials of
-/// a disc, products up to the fourth degree.
-const MODELS: [&str; 13] = [
+/// a disc, products up to the fourth degree. The formula and the map of 256² points are those of the
+/// conic.
+const MODELS: [&str; 19] = [
     "conic",
+    "astigmatic",
+    "sinusoidal-array",
+    "toric",
+    "off-axis-paraboloid",
     "even-asphere",
     "odd-asphere",
     "biconic",
@@ -34,6 +46,8 @@ const MODELS: [&str; 13] = [
     "forbes-qcon",
     "forbes-q2d",
     "chebyshev",
+    "formula",
+    "grid-sag",
 ];
 
 fn main() {
@@ -57,6 +71,7 @@ fn params(model: &str) -> Params {
         "radius_x",
         "radius_y",
         "radius_rotation",
+        "radius_base",
         "vertex_radius",
     ] {
         params = params.with(length, 80.0);
@@ -67,7 +82,9 @@ fn params(model: &str) -> Params {
     for number in ["conic_x", "conic_y"] {
         params = params.with(number, -0.5);
     }
-    params = params.with("off_axis_distance", 30.0);
+    params = params.with("off_axis_distance", 30.0).with("k", 1e-3);
+    params = params.with("amplitude_x", 5e-3).with("frequency_x", 0.4);
+    params.set("form", ParamValue::Text("sum".to_owned()));
     params.set("layout", ParamValue::Text("hexagonal".to_owned()));
     params.set("indexing", ParamValue::Text("noll".to_owned()));
     let coefficients = match model {
@@ -86,9 +103,45 @@ fn boxed<T: Strategy + SurfaceModel + 'static>(model: &str) -> Result<Box<dyn Su
     Ok(Box::new(T::new(&params(model))?))
 }
 
+/// The conic as a formula.
+fn formula() -> Result<Box<dyn SurfaceModel>> {
+    let constant = |(name, value, length_power): (&str, f64, i32)| NamedConstant {
+        name: name.to_owned(),
+        value,
+        length_power,
+    };
+    let constants = [("c", 1.0 / 80.0, -1), ("K", -0.5, 0)].map(constant);
+    let mut params = Params::new();
+    let z = "c*rho^2/(1 + sqrt(1 - (1 + K)*c^2*rho^2))";
+    params.set("z", ParamValue::Text(z.to_owned()));
+    params.set("constants", ParamValue::Constants(constants.to_vec()));
+    Ok(Box::new(Formula::new(&params)?))
+}
+
+/// The conic as a map of [`SIDE`]² points.
+fn map() -> Result<Box<dyn SurfaceModel>> {
+    let conic = Conic::new(&params("conic"))?;
+    let half = 1.2 * RADIUS;
+    let pitch = 2.0 * half / (SIDE - 1) as f64;
+    let place = |k: usize| pitch * k as f64 - half;
+    let x: Vec<f64> = (0..SIDE * SIDE).map(|k| place(k % SIDE)).collect();
+    let y: Vec<f64> = (0..SIDE * SIDE).map(|k| place(k / SIDE)).collect();
+    let mut z = vec![0.0; x.len()];
+    conic.heights(&x, &y, &mut z)?;
+    let map = Map::new(SIDE, SIDE, pitch, pitch, z);
+    let map = map.map_err(|error| StrategyError::failed(error.to_string()))?;
+    Ok(Box::new(GridSag::of(map, None)?))
+}
+
 fn surface(model: &str) -> Box<dyn SurfaceModel> {
     let made = match model {
         "conic" => boxed::<Conic>(model),
+        "astigmatic" => boxed::<Astigmatic>(model),
+        "sinusoidal-array" => boxed::<SinusoidalArray>(model),
+        "toric" => boxed::<Toric>(model),
+        "off-axis-paraboloid" => boxed::<OffAxisParaboloid>(model),
+        "formula" => formula(),
+        "grid-sag" => map(),
         "even-asphere" => boxed::<EvenAsphere>(model),
         "odd-asphere" => boxed::<OddAsphere>(model),
         "biconic" => boxed::<Biconic>(model),

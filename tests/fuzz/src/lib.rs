@@ -10,6 +10,7 @@
 
 pub mod csv;
 pub mod formula;
+pub mod lens;
 pub mod library;
 pub mod map;
 pub mod pmac;
@@ -30,7 +31,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 8] = [
+pub const TARGETS: [Target; 9] = [
     Target {
         name: "recipe",
         read: recipe::read,
@@ -55,6 +56,11 @@ pub const TARGETS: [Target; 8] = [
         name: "template",
         read: template::read,
         words: template::WORDS,
+    },
+    Target {
+        name: "lens",
+        read: lens::read,
+        words: lens::WORDS,
     },
     Target {
         name: "library",

@@ -60,6 +60,10 @@ fn read_for(post: &'static Post, text: &str) {
         "name" | "recipe" | "changes" => WORDS_OF_A_PERSON.to_owned(),
         _ => "1".to_owned(),
     };
+    if template.check(words).is_err() {
+        // A person's words and the template's own make a mark together: such a template is refused.
+        return;
+    }
     if !text.contains(CODE) {
         for line in template.fill(words).lines() {
             let code = line.split(post.comment).next().unwrap_or_default();

@@ -1,5 +1,5 @@
 //! Damaged files through the whole program: data files and programs that `verify` reads, summaries
-//! beside them, records of an ablation, and data files that a strategy reads.
+//! beside them, records of an ablation, data files that a strategy reads, and lens designs.
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
@@ -15,6 +15,7 @@ use crate::fuzz;
 use crate::support::bench::Bench;
 use crate::support::fixtures::plugin_folder;
 use crate::support::recipe::{SADDLE, saddle_with};
+use crate::support::repository;
 
 const SEED: u64 = 3_000_017;
 /// Files of each kind in every run of the tests, and under `cargo xtask long`.
@@ -232,4 +233,44 @@ fn damaged_data_files_of_a_strategy_are_read_or_refused() {
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_five_hundred_damaged_data_files_of_a_strategy_are_read_or_refused() {
     try_data_files(MANY_CASES);
+}
+
+/// A lens design, and the recipe that `import` makes of it.
+fn design_outcome(bench: &Bench, case: u64) -> Outcome {
+    let mut random = SeededNumbers::of_case(SEED, case);
+    let folder = repository().join("tests/reference/lens/files");
+    let read = |name: &str| fs::read(folder.join(name)).expect("a design");
+    let (first, second) = (read("zernike.zmx"), read("off-axis-asphere.zmx"));
+    let bytes = damaged(&first, &second, fuzz::lens::WORDS, &mut random);
+    bench.write("design.zmx", &bytes);
+    let call = Call::new(bench, &words("import design.zmx -o recipe.toml"));
+    let complaint = call.complaint().or_else(|| match call.end {
+        End::Status(2) => None,
+        // A recipe that is made is one that the program takes.
+        End::Status(0) => {
+            let check = Call::new(bench, &words("sag recipe.toml --grid 3 -o sag.csv"));
+            let reads = matches!(check.end, End::Status(0 | 2));
+            check
+                .complaint()
+                .or_else(|| (!reads).then(|| format!("not read: {check}")))
+        }
+        _ => Some(format!("neither imported nor refused: {call}")),
+    });
+    Outcome {
+        end: call.end,
+        complaint,
+    }
+}
+
+#[test]
+fn damaged_designs_are_imported_or_refused() {
+    try_all("design", 0..CASES, design_outcome);
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_five_hundred_damaged_designs_are_imported_or_refused() {
+    let tally = try_all("design", 0..MANY_CASES, design_outcome);
+    let (made, refused) = (tally.count(End::Status(0)), tally.count(End::Status(2)));
+    assert!(made > 10 && refused > 50, "{tally}");
 }

@@ -1,7 +1,8 @@
 """Writes formula.json: formulas with their slopes and order-4 series, by mpmath.
 
 Each formula stands here twice: as a recipe has it, and in mpmath. rho and theta are mpmath's own
-root and atan2. Derivatives are made as in series.py.
+root and atan2. Derivatives are made as in series.py. At the axis, where mpmath's root and atan2 have no
+derivatives, the second form has none of them: it is a polynomial in x and y instead.
 
 Run: python formula.py > formula.json
 """
@@ -58,13 +59,32 @@ FORMULAS = [
      + (x if x.real > y.real else y) * rho(x, y) ** 3 / k["s"] ** 3
      + (x if x.real < 2 * y.real else 2 * y) * y / k["s"]),
 ]
+# The same at the axis.
+AT_AXIS = [
+    (FORMULAS[0][0], FORMULAS[0][1],
+     lambda k, x, y: k["c"] * (x * x + y * y)
+     / (1 + sqrt(1 - (1 + k["K"]) * k["c"] ** 2 * (x * x + y * y)))
+     + k["A4"] * (x * x + y * y) ** 2 + k["A6"] * (x * x + y * y) ** 3),
+    FORMULAS[1],
+    FORMULAS[2],
+    ("k*rho^2*(1 + 0.25*cos(2*theta)) + 0.5*k*rho^4/R^2*sin(4*(theta - t)) + k*rho^3/R*cos(3*theta)",
+     {"k": [0.002, -1], "R": [9, 1], "t": [0.3125, 0]},
+     lambda k, x, y: k["k"] * (x * x + y * y + (x * x - y * y) / 4)
+     + k["k"] / 2 / k["R"] ** 2 * ((4 * x**3 * y - 4 * x * y**3) * cos(4 * k["t"])
+                                   - (x**4 - 6 * x * x * y * y + y**4) * sin(4 * k["t"]))
+     + k["k"] / k["R"] * (x**3 - 3 * x * y * y)),
+    FORMULAS[4],
+    FORMULAS[5],
+]
 APERTURE = 8.0
 
 
 def cases():
-    for text, constants, of in FORMULAS:
+    placed = [(formula, PLACES) for formula in FORMULAS]
+    placed += [(formula, [(0.0, 0.0)]) for formula in AT_AXIS]
+    for (text, constants, of), places in placed:
         values = {name: value for name, (value, _) in constants.items()}
-        for place_x, place_y in PLACES:
+        for place_x, place_y in places:
             for shape_x, shape_y in SHAPES:
                 x = [APERTURE * place_x, *(STRIDE * APERTURE * c for c in shape_x)]
                 y = [APERTURE * place_y, *(STRIDE * APERTURE * c for c in shape_y)]

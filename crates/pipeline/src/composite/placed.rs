@@ -4,7 +4,8 @@ use std::array::from_fn;
 use std::sync::Arc;
 
 use turnpath_core::{
-    GradientSeries, Gradients, ORDER, Placement, Result, Scalar, Series, SurfaceData, SurfaceModel,
+    GradientSeries, Gradients, ORDER, Placement, Result, Scalar, Series, SurfaceData, SurfaceGap,
+    SurfaceModel,
 };
 
 use super::rooms::{CURVES, POINTS, ranges, same_lengths};
@@ -164,5 +165,11 @@ impl SurfaceModel for PlacedSurface {
 
     fn data(&self) -> Result<Option<SurfaceData>> {
         self.surface.data()
+    }
+
+    fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> {
+        let mut own = [[0.0; POINTS]; 2];
+        self.own_points(&[x], &[y], &mut own);
+        self.surface.gap(own[0][0], own[1][0])
     }
 }

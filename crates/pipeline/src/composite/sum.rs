@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use turnpath_core::{GradientSeries, Gradients, ORDER, Result, Series, SurfaceData, SurfaceModel};
+use turnpath_core::{
+    GradientSeries, Gradients, ORDER, Result, Series, SurfaceData, SurfaceGap, SurfaceModel,
+};
 
 use super::rooms::{CURVES, POINTS, ranges, same_lengths};
 
@@ -151,5 +153,15 @@ impl SurfaceModel for SurfaceSum {
             }
         }
         Ok(sum)
+    }
+
+    /// That of the first surface that knows a reason.
+    fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> {
+        for surface in &self.surfaces {
+            if let Some(gap) = surface.gap(x, y)? {
+                return Ok(Some(gap));
+            }
+        }
+        Ok(None)
     }
 }

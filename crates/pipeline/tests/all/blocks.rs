@@ -232,6 +232,36 @@ fn a_node_just_after_the_start_is_the_start() {
     assert_eq!(outcome.control_points, 4);
 }
 
+/// A sampler knows neither where the path ends nor the controller's steps of time. Its last node may be
+/// closer to the end than a step.
+#[test]
+fn a_node_within_a_step_of_time_of_the_paths_end_is_the_end() {
+    let steps = 4_096_000.0;
+    for rpm in [433.0, 60.0, 977.0] {
+        // A step is less than 4e-6 revolutions.
+        for before in [1e-9, 1e-8, 1e-7, 1e-6] {
+            let nodes = move |_: &Path<'_>, _: Revolutions| vec![0.0, 0.5, 1.5, 2.0 - before];
+            let task = Task {
+                feed: inward(2.0),
+                rpm,
+                time_steps: Some(steps),
+                sampler: Arc::new(Nodes(nodes)),
+                velocity: Arc::new(Exact),
+                ..Task::default()
+            };
+            let (path, _) = task.path();
+            assert!(path.len() == 4 || path.len() == 5, "{:?}", path.t);
+            assert!(
+                path.t.windows(2).all(|pair| pair[0] < pair[1]),
+                "{:?}",
+                path.t
+            );
+            let end = path.c[path.len() - 1] / TAU;
+            assert!((2.0 - end).abs() <= rpm / 60.0 / steps, "{end}");
+        }
+    }
+}
+
 /// The largest error of a path of contacts, measured in one piece.
 fn measured_whole(path: &PathBlock) -> f64 {
     let subject = Subject {

@@ -2,7 +2,9 @@
 
 use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
-use turnpath_core::{GradientSeries, Gradients, Result, Series, SurfaceData, SurfaceModel};
+use turnpath_core::{
+    GradientSeries, Gradients, Result, Series, SurfaceData, SurfaceGap, SurfaceModel,
+};
 
 use super::declaration::prelude::*;
 use super::loan::{composite, crossing};
@@ -26,6 +28,7 @@ declare! {
         fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()>
             = { distance.into_mut_slice().fill(0.0); Ok(()) };
         fn data(&self) -> Result<Option<SurfaceData>> = Ok(None);
+        fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> = Ok(None);
     }
     owned by OwnedSurface
 }
@@ -40,6 +43,19 @@ impl Returned for Option<SurfaceData> {
 
     fn receive(text: RString) -> Result<Self> {
         text::read(&text, "data of a surface")
+    }
+}
+
+/// Why a surface has no height crosses as text.
+impl Returned for Option<SurfaceGap> {
+    type Wire = RString;
+
+    fn send(self) -> RString {
+        text::write(&self)
+    }
+
+    fn receive(text: RString) -> Result<Self> {
+        text::read(&text, "gap of a surface")
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! // -- cutting --
+//! SetupTaskDistanceUnits(DistanceUnits.Primary)
 //! SetupTaskTimeUnits(TimeUnits.Seconds)
 //! SetupTaskTargetMode(TargetMode.Absolute)
 //! MovePvt([C, X, Z], [0, 2.5, 1.5], [3000, -0.2003846, 0], 1)
@@ -26,14 +27,16 @@ mod tests;
 mod write;
 
 use read::AeroScript;
-use write::{push_first, push_segment};
+use write::{push_first, push_last, push_segment};
 
 use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::ProgramFormat;
-use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, VELOCITY_DECIMALS};
+use crate::settings::{
+    C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, SHORTEST_SEGMENT, VELOCITY_DECIMALS,
+};
 
 /// Programs for Aerotech Automation1.
 pub(crate) const AUTOMATION1_PVT: Post = Post {
@@ -47,6 +50,7 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
         VELOCITY_DECIMALS.info(),
         C_SIGN.info(),
         POSITIONING.info(),
+        SHORTEST_SEGMENT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -57,11 +61,15 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
 // turnpath {turnpath}, post automation1-pvt: {points} points, {revolutions} revolutions, {time_s} s
 // X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}
 // the path begins and ends {ends}
+// verified on this text: {verified}
 ",
     footer: "",
     shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
+    mantissa_bits: None,
+    c_is_even: false,
+    delivered_decimals: None,
     dialect: &MovePvt,
 };
 
@@ -76,6 +84,7 @@ const HARMLESS: &[&str] = &[
     "SetupTaskTargetMode(TargetMode.Absolute)",
     "SetupTaskTargetMode(TargetMode.Incremental)",
     "SetupTaskTimeUnits(TimeUnits.Seconds)",
+    "SetupTaskDistanceUnits(DistanceUnits.Primary)",
 ];
 
 impl Dialect for MovePvt {
@@ -87,16 +96,19 @@ impl Dialect for MovePvt {
         push_segment(text, format, segment);
     }
 
+    fn write_last(&self, text: &mut Vec<u8>, format: &ProgramFormat) {
+        push_last(text, format);
+    }
+
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(AeroScript::new(format))
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
-        let code_of = |line: &str| line.find("//").unwrap_or(line.len());
-        commands_of(
-            template,
-            |line| line.get(..code_of(line)).unwrap_or(line),
-            |code| HARMLESS.contains(&code),
-        )
+        commands_of(template, &["//"], |code| HARMLESS.contains(&code))
+    }
+
+    fn ends_program(&self, command: &str) -> bool {
+        command.split_whitespace().any(|word| word == "end")
     }
 }

@@ -3,7 +3,7 @@
 
 use turnpath_core::toolpath::ControlPoint;
 
-use crate::axes::{Axes, AxisWords, NAMES, steps_of};
+use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
 use crate::fixed_point::{ONE, number};
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
@@ -17,6 +17,8 @@ pub(super) struct AeroScript {
     absolute: Option<bool>,
     /// Whether times are in seconds, as the program must say.
     in_seconds: bool,
+    /// Whether distances are in the primary units of the axes, as the program must say.
+    in_primary_units: bool,
 }
 
 impl AeroScript {
@@ -27,6 +29,7 @@ impl AeroScript {
             axes: Axes::new(*format),
             absolute: None,
             in_seconds: false,
+            in_primary_units: false,
         }
     }
 
@@ -38,8 +41,13 @@ impl AeroScript {
         let words = axis_words(&axes, &positions, &velocities)?;
         let steps = steps_of(time, self.steps_per_s, self.longest).ok_or_else(|| {
             let s = time as f64 / ONE as f64;
-            format!("a segment cannot take {s} s, only 1 ns to 1000 s")
+            let range = times(self.steps_per_s, self.longest, "s");
+            format!("a segment cannot take {s} s, only {range}")
         })?;
+        if !self.in_primary_units {
+            let units = "SetupTaskDistanceUnits(DistanceUnits.Primary)";
+            return Err(format!("a move before `{units}`"));
+        }
         if !self.in_seconds {
             return Err("a move before `SetupTaskTimeUnits(TimeUnits.Seconds)`".to_owned());
         }
@@ -72,6 +80,9 @@ impl Grammar for AeroScript {
             Some(("SetupTaskTargetMode", "TargetMode.Absolute")) => self.absolute = Some(true),
             Some(("SetupTaskTargetMode", "TargetMode.Incremental")) => self.absolute = Some(false),
             Some(("SetupTaskTimeUnits", "TimeUnits.Seconds")) => self.in_seconds = true,
+            Some(("SetupTaskDistanceUnits", "DistanceUnits.Primary")) => {
+                self.in_primary_units = true;
+            }
             _ => {
                 let shown: String = code.chars().take(40).collect();
                 return Err(format!("`{shown}` is not a call of a PVT path"));

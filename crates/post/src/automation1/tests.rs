@@ -16,6 +16,7 @@ fn the_program_looks_like_this() {
     let expected = [
         "OPEN PROG 1 CLEAR",
         "// -- cutting --",
+        "SetupTaskDistanceUnits(DistanceUnits.Primary)",
         "SetupTaskTimeUnits(TimeUnits.Seconds)",
         "SetupTaskTargetMode(TargetMode.Absolute)",
         "MovePvt([C, X, Z], [0, 2.5, 0], [2864.7889757, 0, -0.3333333], 1)",
@@ -37,65 +38,71 @@ fn refusal(line: usize, new: &str) -> String {
 #[test]
 fn damaged_lines_are_refused_with_their_number() {
     for (line, new, says) in [
-        (3, "", "line 5: a move before `SetupTaskTimeUnits"),
-        (4, "", "line 5: a move before `SetupTaskTargetMode"),
-        (
-            4,
-            "SetupTaskTargetMode(TargetMode.Incremental)",
-            "line 5: the first point must be a position",
-        ),
+        (3, "", "line 6: a move before `SetupTaskDistanceUnits"),
         (
             3,
-            "SetupTaskTimeUnits(TimeUnits.Minutes)",
-            "line 3: `SetupTask",
+            "SetupTaskDistanceUnits(DistanceUnits.Secondary)",
+            "line 3: `SetupTaskDistance",
         ),
+        (4, "", "line 6: a move before `SetupTaskTimeUnits"),
+        (5, "", "line 6: a move before `SetupTaskTargetMode"),
         (
             5,
+            "SetupTaskTargetMode(TargetMode.Incremental)",
+            "line 6: the first point must be a position",
+        ),
+        (
+            4,
+            "SetupTaskTimeUnits(TimeUnits.Minutes)",
+            "line 4: `SetupTask",
+        ),
+        (
+            6,
             "MovePvt([C, X], [0, 1], [0, 1], 1)",
-            "line 5: the first point does not give Z",
+            "line 6: the first point does not give Z",
         ),
         (
-            6,
+            7,
             "MovePvt([C, X, Z], [9, 2, 1], [1, 2], 0.1)",
-            "line 6: `MovePvt` needs",
+            "line 7: `MovePvt` needs",
         ),
         (
-            6,
+            7,
             "MovePvt([C, C], [9, 2], [1, 2], 0.1)",
-            "line 6: C appears twice",
+            "line 7: C appears twice",
         ),
         (
-            6,
+            7,
             "MovePvt([C, Y], [9, 2], [1, 2], 0.1)",
-            "line 6: `Y` is not an axis",
+            "line 7: `Y` is not an axis",
         ),
         (
-            6,
+            7,
             "MovePvt([C], [1e3], [1], 0.1)",
-            "line 6: the position of C has no number",
+            "line 7: the position of C has no number",
         ),
         (
-            6,
+            7,
             "MovePvt([C], [9], [], 0.1)",
-            "line 6: the velocity of C has no number",
+            "line 7: the velocity of C has no number",
         ),
         (
-            6,
+            7,
             "MovePvt([C], [9], [1] 0.1)",
-            "line 6: a comma is missing",
+            "line 7: a comma is missing",
         ),
         (
-            6,
+            7,
             "MovePvt([C], [9], [1], 0)",
-            "line 6: a segment cannot take 0 s",
+            "line 7: a segment cannot take 0 s",
         ),
         (
-            6,
+            7,
             "MovePvt([C], [9], [1], -1)",
-            "line 6: a segment cannot take -1 s",
+            "line 7: a segment cannot take -1 s",
         ),
-        (6, "MoveLinear([C], [9])", "line 6: `MoveLinear"),
-        (6, "MovePvt(C, 9, 1, 0.1)", "line 6: `MovePvt` takes axes"),
+        (7, "MoveLinear([C], [9])", "line 7: `MoveLinear"),
+        (7, "MovePvt(C, 9, 1, 0.1)", "line 7: `MovePvt` takes axes"),
     ] {
         let message = refusal(line, new);
         assert!(message.contains(says), "{new}: {message}");

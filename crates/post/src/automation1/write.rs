@@ -11,6 +11,7 @@ const TIME_DECIMALS: u32 = 9;
 
 /// The first point: a place, also where distances follow.
 pub(super) fn push_first(text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
+    text.extend_from_slice(b"SetupTaskDistanceUnits(DistanceUnits.Primary)\n");
     text.extend_from_slice(b"SetupTaskTimeUnits(TimeUnits.Seconds)\n");
     text.extend_from_slice(b"SetupTaskTargetMode(TargetMode.Absolute)\n");
     let steps = ENTRY_S * 10i64.pow(TIME_DECIMALS);
@@ -23,6 +24,13 @@ pub(super) fn push_first(text: &mut Vec<u8>, format: &ProgramFormat, point: &Dig
     );
     if format.incremental {
         text.extend_from_slice(b"SetupTaskTargetMode(TargetMode.Incremental)\n");
+    }
+}
+
+/// Behind the last segment: targets are positions again, whatever follows.
+pub(super) fn push_last(text: &mut Vec<u8>, format: &ProgramFormat) {
+    if format.incremental {
+        text.extend_from_slice(b"SetupTaskTargetMode(TargetMode.Absolute)\n");
     }
 }
 

@@ -2,11 +2,12 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
+use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
 use super::timing::{check_time, is_dwell};
 use super::write::{push_dwell, push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
-use crate::post::{Command, Dialect, Grammar, Post, commands_of};
+use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
 use crate::program_format::ProgramFormat;
 use crate::settings::{
@@ -36,11 +37,15 @@ pub(crate) const LINUXCNC_G93: Post = Post {
 ; turnpath {turnpath}, post linuxcnc-g93: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, X a radius, Z of the {z_reference}; C in deg, {c_range}; F in 1/min: G93
 ; the path begins and ends {ends}
+; verified on this text: {verified}
 ",
     footer: "M2\n",
     shape: SegmentShape::Linear,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
+    mantissa_bits: None,
+    c_is_even: false,
+    delivered_decimals: None,
     dialect: &LinuxCnc,
 };
 
@@ -85,11 +90,10 @@ impl Dialect for LinuxCnc {
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
-        let is_harmless = |code: &str| code.split_whitespace().all(|word| HARMLESS.contains(&word));
-        commands_of(
-            template,
-            |line| line.split(';').next().unwrap_or(line),
-            is_harmless,
-        )
+        commands(template, HARMLESS)
+    }
+
+    fn ends_program(&self, command: &str) -> bool {
+        ends_program(command)
     }
 }

@@ -17,6 +17,7 @@
 //!
 //! The first line brings the axes from wherever they are to the first control point, within a second.
 
+mod commands;
 mod linuxcnc;
 mod nanotech;
 mod read;

@@ -6,13 +6,15 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
+use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
 use super::write::{push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
-use crate::post::{Command, Dialect, Grammar, Post, commands_of};
+use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::ProgramFormat;
 use crate::settings::{
-    C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SIX_DECIMALS,
+    C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SHORTEST_SEGMENT,
+    SIX_DECIMALS,
 };
 
 /// Programs for Moore Nanotech machines.
@@ -28,6 +30,7 @@ pub(crate) const NANOTECH_G93: Post = Post {
         FEED_MEANING.info(),
         C_SIGN.info(),
         C_WITHIN_TURN.info(),
+        SHORTEST_SEGMENT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -38,6 +41,7 @@ pub(crate) const NANOTECH_G93: Post = Post {
 ; turnpath {turnpath}, post nanotech-g93: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; F in {f_means}: G93
 ; the path begins and ends {ends}
+; verified on this text: {verified}
 G52 G63 G71 G103 G40 G18 G90
 G54
 T0202
@@ -46,6 +50,9 @@ T0202
     shape: SegmentShape::Linear,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
+    mantissa_bits: None,
+    c_is_even: false,
+    delivered_decimals: None,
     dialect: &Nanotech,
 };
 
@@ -80,11 +87,10 @@ impl Dialect for Nanotech {
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
-        let is_harmless = |code: &str| code.split_whitespace().all(|word| HARMLESS.contains(&word));
-        commands_of(
-            template,
-            |line| line.split(';').next().unwrap_or(line),
-            is_harmless,
-        )
+        commands(template, HARMLESS)
+    }
+
+    fn ends_program(&self, command: &str) -> bool {
+        ends_program(command)
     }
 }

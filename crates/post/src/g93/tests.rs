@@ -175,7 +175,11 @@ fn a_flat_part_at_60_rpm_and_1_um_a_turn_is_refused_with_its_place() {
         ),
         "{said}"
     );
-    assert!(error.help().contains("lowest_rate = \"0 mm/min\""));
+    assert!(
+        error
+            .help(LINUXCNC_G93.keys)
+            .contains("lowest_rate = \"0 mm/min\"")
+    );
     assert_eq!(flat(1.7e-3, 0.1), Ok(100));
     // LinuxCNC from 2.9.0 on.
     assert_eq!(flat(1e-3, 0.0), Ok(100));
@@ -397,4 +401,29 @@ fn words_of_a_recipe_that_may_move_something_are_told() {
         told(&NANOTECH_G93),
         [(2, false), (3, false), (4, true), (5, true)]
     );
+}
+
+#[test]
+fn each_line_of_a_segment_counts_against_the_shortest_one() {
+    let points = path();
+    let mut block = PathBlock::default();
+    points.iter().for_each(|point| block.push(*point));
+    let stretch = SectionBlock {
+        section: Section::Cutting,
+        opens_section: true,
+        before: &[],
+        points: &block,
+    };
+    // The segments take 3 ms.
+    let lines = |tolerance: f64| {
+        let mut layout = within(&NANOTECH_G93, tolerance);
+        layout.format.shortest = 3_000_000;
+        layout.lines(&stretch)
+    };
+    assert_eq!(lines(f64::INFINITY).unwrap().points, 3);
+    let error = lines(1e-5).unwrap_err();
+    let is_line = matches!(error, ProgramError::ShorterThanSaid { ms, .. } if ms < 1.5);
+    assert!(is_line, "{error}");
+    let help = error.help(NANOTECH_G93.keys);
+    assert!(help.contains("more tolerance of interpolation"), "{help}");
 }

@@ -33,7 +33,7 @@ pub(super) fn check_time(
     let Some(chords) = format.chords else {
         return Ok(());
     };
-    let (t, c_deg) = place(format, segment);
+    let (t, c_deg) = segment.end(format);
     if segment.steps() < chords.shortest {
         let ms = |steps: i64| 1e3 * steps as f64 / format.steps_per_s as f64;
         let (took, least) = (ms(segment.steps()), ms(chords.shortest));
@@ -91,11 +91,4 @@ fn check_rate(
         t,
         c_deg,
     })
-}
-
-/// Time in s and C in deg of the segment's end.
-fn place(format: &ProgramFormat, segment: &DigitSegment) -> (f64, f64) {
-    let c = segment.to.position[0] as f64 / 10u64.pow(format.position_decimals) as f64;
-    let t = segment.to.steps as f64 / format.steps_per_s as f64;
-    (t, format.c_sign() * c)
 }

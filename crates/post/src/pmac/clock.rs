@@ -7,6 +7,4 @@ pub(crate) struct Clock {
     pub(crate) steps_per_ms: i64,
     /// Decimals of milliseconds with which every step is exact.
     pub(crate) decimals: u32,
-    /// The times that a segment may take, for messages.
-    pub(crate) range: &'static str,
 }

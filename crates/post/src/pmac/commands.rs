@@ -1,6 +1,5 @@
 //! What a header or a footer tells the controller besides the path.
 
-use super::scan::split_comment;
 use crate::post::{Command, commands_of};
 
 /// The first of the programs 1000 to 1003, which the controller runs as G, M, T and D codes. To fill
@@ -14,13 +13,14 @@ const FIRST_OF_CODES: u32 = 1000;
 /// `DELAY` with a number, which wait; `RETURN` and `STOP`, which end. Any other word may move an axis,
 /// set a variable, or start what does.
 pub(crate) fn commands(template: &str) -> Vec<Command> {
-    commands_of(template, code_of, is_harmless)
+    commands_of(template, &[";", "//"], is_harmless)
 }
 
-/// The line without its comment.
-fn code_of(line: &str) -> &str {
-    let (code, _) = split_comment(line.as_bytes());
-    line.get(..code.len()).unwrap_or(line)
+/// Whether a command ends the program in which it stands, or halts it.
+pub(crate) fn ends_program(command: &str) -> bool {
+    let code = command.to_uppercase();
+    let mut words = code.split(|c: char| !c.is_ascii_alphabetic());
+    words.any(|word| matches!(word, "RETURN" | "RET" | "STOP"))
 }
 
 /// Whether a program is open after a header, so that the path's lines go into it. A header of comments

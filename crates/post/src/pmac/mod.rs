@@ -41,9 +41,9 @@ use turnpath_core::ParamInfo;
 
 pub(crate) use clock::Clock;
 
-use commands::{commands, leaves_program_open};
+use commands::{commands, ends_program, leaves_program_open};
 use read::PvtGrammar;
-use write::{push_first, push_segment};
+use write::{push_first, push_last, push_segment};
 
 use turnpath_core::toolpath::SegmentShape;
 
@@ -51,14 +51,14 @@ use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::ProgramFormat;
 use crate::settings::{
-    C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, VELOCITY_DECIMALS, VELOCITY_PER,
+    C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, SHORTEST_SEGMENT,
+    VELOCITY_DECIMALS, VELOCITY_PER,
 };
 
 /// Turbo PMAC with I42 = 0: 24 bits, 12 of them fraction.
 pub(crate) const TURBO_CLOCK: Clock = Clock {
     steps_per_ms: 4096,
     decimals: 12,
-    range: "1/4096 ms to 4095.9998 ms",
 };
 
 /// Programs for Turbo PMAC.
@@ -77,6 +77,7 @@ pub(crate) const PMAC_PVT: Post = Post {
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Ix90 = {ix90}
 ; segment times in steps of 1/4096 ms: I42 = 0
 ; the path begins and ends {ends}
+; verified on this text: {verified}
 CLOSE
 OPEN PROG 1 CLEAR
 ",
@@ -84,6 +85,9 @@ OPEN PROG 1 CLEAR
     shape: SegmentShape::Cubic,
     steps_per_s: 4_096_000,
     longest: (1 << 24) - 1,
+    mantissa_bits: Some(35),
+    c_is_even: false,
+    delivered_decimals: None,
     dialect: &Pvt { clock: TURBO_CLOCK },
 };
 
@@ -95,6 +99,7 @@ pub(crate) const PVT_KEYS: &[ParamInfo] = &[
     C_SIGN.info(),
     C_WRAP.info(),
     POSITIONING.info(),
+    SHORTEST_SEGMENT.info(),
     HEADER.info(),
     FOOTER.info(),
 ];
@@ -114,6 +119,10 @@ impl Dialect for Pvt {
         push_segment(text, self.clock, format, segment);
     }
 
+    fn write_last(&self, text: &mut Vec<u8>, format: &ProgramFormat) {
+        push_last(text, format);
+    }
+
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(PvtGrammar::new(self.clock, format))
     }
@@ -124,5 +133,9 @@ impl Dialect for Pvt {
 
     fn leaves_program_open(&self, header: &str) -> bool {
         leaves_program_open(header)
+    }
+
+    fn ends_program(&self, command: &str) -> bool {
+        ends_program(command)
     }
 }

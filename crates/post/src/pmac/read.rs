@@ -4,7 +4,7 @@ use turnpath_core::toolpath::ControlPoint;
 
 use super::clock::Clock;
 use super::scan::{Axis, Word, split_comment, words};
-use crate::axes::{Axes, AxisWords, NAMES, steps_of};
+use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
 use crate::fixed_point::ONE;
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
@@ -14,6 +14,8 @@ pub(super) struct PvtGrammar {
     clock: Clock,
     longest: i64,
     axes: Axes,
+    /// Bits of the size of a number that the controller holds; `None`: as many as a double has.
+    mantissa_bits: Option<u32>,
     /// Whether each axis has positions instead of distances. `None` until the program sets it, because
     /// a controller begins with the mode of the program before.
     absolute: [Option<bool>; 3],
@@ -27,6 +29,11 @@ impl PvtGrammar {
             clock,
             longest: format.longest,
             axes: Axes::new(*format),
+            mantissa_bits: if format.incremental {
+                None
+            } else {
+                format.mantissa_bits
+            },
             absolute: [None; 3],
             time: None,
         }
@@ -34,9 +41,10 @@ impl PvtGrammar {
 
     /// A time in steps, from 10⁻¹² ms.
     fn steps(&self, time: i128) -> Result<i64, String> {
-        steps_of(time, self.clock.steps_per_ms, self.longest).ok_or_else(|| {
+        let steps_per_ms = self.clock.steps_per_ms;
+        steps_of(time, steps_per_ms, self.longest).ok_or_else(|| {
             let ms = time as f64 / ONE as f64;
-            let range = self.clock.range;
+            let range = times(steps_per_ms, self.longest, "ms");
             format!("a segment cannot take {ms} ms, only {range}")
         })
     }
@@ -71,9 +79,37 @@ impl Grammar for PvtGrammar {
         let [Some(c), Some(x), Some(z)] = self.absolute else {
             return Err("a move before `ABS` or `INC`".to_owned());
         };
-        points.push(self.axes.go_to(&line, [c, x, z], time)?);
+        let absolute = [c, x, z];
+        for (word, absolute) in line.iter_mut().zip(absolute) {
+            if let (Some((position, _)), true, Some(bits)) = (word, absolute, self.mantissa_bits) {
+                *position = held(*position, bits);
+            }
+        }
+        points.push(self.axes.go_to(&line, absolute, time)?);
         Ok(())
     }
+}
+
+/// A number of 10⁻¹² as the controller holds it: its size is a whole number of less than `bits` bits
+/// times a power of two.
+fn held(value: i128, bits: u32) -> i128 {
+    let size = value.unsigned_abs();
+    if size == 0 {
+        return 0;
+    }
+    let one = ONE.unsigned_abs();
+    // The quantum is 2^−fraction: as many of them as the bits can count.
+    let mut fraction = bits;
+    while fraction > 0 && size << fraction >= one << bits {
+        fraction -= 1;
+    }
+    while size << (fraction + 1) < one << bits {
+        fraction += 1;
+    }
+    let nearest = |value: u128, by: u128| (value + by / 2) / by;
+    let count = nearest(size << fraction, one);
+    let size = nearest(count * one, 1 << fraction);
+    i128::try_from(size).map_or(value, |size| value.signum() * size)
 }
 
 fn add_move(
@@ -92,4 +128,28 @@ fn add_move(
     }
     line[k] = Some((position, velocity));
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ONE, held};
+
+    /// 35 bits count to 3.4e10: a number from 2^15 to 2^16 has steps of 2^-19.
+    #[test]
+    fn a_number_has_steps_that_follow_its_size() {
+        let step = ONE >> 19;
+        for (value, of_one) in [(36_000 * ONE, 19), (3_600_000 * ONE, 13), (ONE / 10, 38)] {
+            for off in [0, 1, 77, step / 3, -step / 3, 5 * step + 9] {
+                let exact = value + off;
+                let found = held(exact, 35);
+                let quantum = ONE as f64 / f64::from(of_one).exp2();
+                let half = 0.5 * quantum + 1.0;
+                assert!(((exact - found) as f64).abs() <= half, "{exact} {found}");
+                let whole = (found as f64 / quantum).round() * quantum;
+                assert!((found as f64 - whole).abs() <= 0.6, "{exact} {found}");
+                assert_eq!(held(-exact, 35), -found);
+            }
+        }
+        assert_eq!((held(0, 35), held(1, 35)), (0, 1));
+    }
 }

@@ -20,6 +20,13 @@ pub(super) fn push_first(text: &mut Vec<u8>, format: &ProgramFormat, point: &Dig
     }
 }
 
+/// Behind the last segment: numbers are positions again, whatever follows.
+pub(super) fn push_last(text: &mut Vec<u8>, format: &ProgramFormat) {
+    if format.incremental {
+        text.extend_from_slice(b"ABS\n");
+    }
+}
+
 /// A segment: its time where it changes, and a line with its end.
 pub(super) fn push_segment(
     text: &mut Vec<u8>,

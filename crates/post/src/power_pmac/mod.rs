@@ -16,7 +16,6 @@ use crate::post::Post;
 const CLOCK: Clock = Clock {
     steps_per_ms: 1_000_000,
     decimals: 6,
-    range: "0.000001 ms to 1000 s",
 };
 
 /// Programs for Power PMAC.
@@ -34,6 +33,7 @@ pub(crate) const POWER_PMAC_PVT: Post = Post {
 // turnpath {turnpath}, post power-pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
 // X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Coord[x].FeedTime = {ix90}
 // the path begins and ends {ends}
+// verified on this text: {verified}
 close
 open prog 1
 ",
@@ -41,5 +41,8 @@ open prog 1
     shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
+    mantissa_bits: None,
+    c_is_even: false,
+    delivered_decimals: None,
     dialect: &Pvt { clock: CLOCK },
 };

@@ -45,12 +45,13 @@ fn extreme_points_come_back(layout: &Layout, seed: u64, blocks: usize) {
             let duration = points[k.max(1)].t - points[k.max(1) - 1].t;
             let of_coefficients = coefficient_rounding(layout, duration);
             // A program of straight lines has no velocities.
-            let said = if format.chords.is_some() { 4 } else { 7 };
+            let said = if format.chords.is_some() { 3 } else { 6 };
+            let held = |size: f64| format.held_rounding(size).unwrap_or(0.0);
+            let c = other.c / DEG + left_out;
             let pairs = [
-                (one.t, other.t, 0.0),
-                (one.c / DEG, other.c / DEG + left_out, 0.0),
-                (one.x, other.x, 0.0),
-                (one.z, other.z, 0.0),
+                (one.c / DEG, c, held(one.c / DEG)),
+                (one.x, other.x, held(one.x)),
+                (one.z, other.z, held(one.z)),
                 (one.vc / DEG, other.vc / DEG, of_coefficients),
                 (one.vx, other.vx, of_coefficients),
                 (one.vz, other.vz, of_coefficients),

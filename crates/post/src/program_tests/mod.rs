@@ -87,10 +87,12 @@ pub(crate) fn program(layout: &Layout, points: &[ControlPoint]) -> String {
 pub(crate) fn assembled(layout: &Layout, lines: &Lines) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.pmc");
-    let mut writer =
-        ProgramWriter::begin(Draft::begin(&path).unwrap(), layout.post.comment).unwrap();
+    let mut writer = ProgramWriter::begin(Draft::begin(&path).unwrap(), *layout).unwrap();
     writer.append(lines).unwrap();
-    let draft = writer.assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n").unwrap();
+    let path_text = writer.close().unwrap();
+    let draft = path_text
+        .assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n")
+        .unwrap();
     draft.complete().unwrap();
     std::fs::read_to_string(path).unwrap()
 }
@@ -135,11 +137,9 @@ fn half_unit(decimals: u32, size: f64) -> f64 {
 /// By how much a velocity may differ beyond its digits where a post writes it as coefficients of twelve
 /// decimals, over a segment of some seconds.
 fn coefficient_rounding(layout: &Layout, duration: f64) -> f64 {
-    let as_coefficients = layout.post.name.ends_with("-poly");
-    if as_coefficients {
-        1e-12 / duration
-    } else {
-        0.0
+    match layout.post.writes_velocities() {
+        true => 0.0,
+        false => 1e-12 / duration,
     }
 }
 
@@ -167,7 +167,8 @@ fn assert_same(layout: &Layout, points: &[ControlPoint], read: &[ControlPoint]) 
             + of_instant
             + of_coefficients
     };
-    let position = |size: f64| half_unit(format.position_decimals, size);
+    let held = |size: f64| format.held_rounding(size.abs() + 2.0).unwrap_or(0.0);
+    let position = |size: f64| half_unit(format.position_decimals, size) + held(size);
     for (k, (written, read)) in points.iter().zip(read).enumerate() {
         assert!(
             (read.t - written.t).abs() <= half_step,

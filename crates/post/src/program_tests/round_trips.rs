@@ -88,6 +88,8 @@ proptest! {
             let next = points.get(k.max(1)).map_or(f64::INFINITY, |point| point.t);
             let duration = next - points[k.max(1) - 1].t;
             let of_coefficients = coefficient_rounding(&layout, duration);
+            // A reader counts in 10⁻¹², also where the controller holds binary numbers.
+            let of_steps = if layout.format.mantissa_bits.is_some() { 0.6e-12 } else { 0.0 };
             let mut pairs = vec![
                 (carried.t - carried_start(&layout, &points), read.t),
                 (carried.c - left_out, read.c),
@@ -103,7 +105,7 @@ proptest! {
                 pairs.extend(velocities);
             }
             for (one, other) in pairs {
-                prop_assert!((one - other).abs() <= 1e-14 * (1.0 + other.abs()) + of_coefficients, "{} {}", one, other);
+                prop_assert!((one - other).abs() <= 1e-14 * (1.0 + other.abs()) + of_coefficients + of_steps, "{} {}", one, other);
             }
         }
     }
@@ -151,8 +153,11 @@ proptest! {
         steps in prop::collection::vec(step(), 1..60),
     ) {
         let points = path_of(&steps);
+        // What the text says, apart from what the controller holds of it.
         let positions = plain(&POSTS[post]);
-        let format = ProgramFormat { incremental: true, ..positions.format };
+        let format = ProgramFormat { mantissa_bits: None, ..positions.format };
+        let positions = Layout { format, ..positions };
+        let format = ProgramFormat { incremental: true, ..format };
         let distances = Layout { format, ..positions };
         prop_assert_eq!(
             read(&positions, program(&positions, &points).as_bytes()),
@@ -166,6 +171,148 @@ proptest! {
         text in "((;|//) -- cutting --\n)?(G21G90G93G1)?([-ABSINCPVTXZcxzFGN0-9.:;(),\\[\\]MovePvt \n]|\\PC){0,80}",
     ) {
         let _ = read(&plain(&POSTS[post]), text.as_bytes());
+    }
+
+    /// Words of each dialect in any order, with numbers of any size.
+    #[test]
+    fn no_words_of_its_dialect_make_a_reader_panic(
+        post in 0..POSTS.len(),
+        words in prop::collection::vec((0..40usize, "-?[0-9]{0,16}(\\.[0-9]{0,14})?"), 1..60),
+    ) {
+        let post = &POSTS[post];
+        let first = program(&plain(post), &path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]]));
+        let (path, _) = first.split_once(" -- end of path").unwrap();
+        let (path, _) = path.rsplit_once('\n').unwrap();
+        let mut text = format!("{path}\n");
+        let all = words_of(post.name);
+        for (word, number) in words {
+            text += &all[word % all.len()].replace('#', &number);
+        }
+        text += &format!("\n{} -- end of path: 2 points --\n", post.comment);
+        let _ = read(&plain(post), text.as_bytes());
+    }
+}
+
+/// The words of a dialect; `#` stands for a number.
+fn words_of(post: &str) -> &'static [&'static str] {
+    match post {
+        "siemens-840d-poly" => &[
+            " PO[C]=(#)",
+            " PO[X]=(#,#)",
+            " PO[Z]=(#,#,#)",
+            " PO[C]=(#,#,#)",
+            " F#\n",
+            " F0.06\n",
+            " F60000000000\n",
+            " POLY",
+            " G1",
+            " X#",
+            "\n",
+            "N#",
+            " UPATH",
+            " G71",
+        ],
+        "automation1-pvt" => &[
+            "MovePvt([C, X, Z], [#, #, #], [#, #, #], #)\n",
+            "MovePvt([C], [#], [#], 1000)\n",
+            "MovePvt([X",
+            "])\n",
+            ", #",
+            "SetupTaskTargetMode(TargetMode.Incremental)\n",
+            "SetupTaskTargetMode(TargetMode.Absolute)\n",
+        ],
+        "nanotech-g93" | "linuxcnc-g93" => &[
+            " C#",
+            " X#",
+            " Z#",
+            " F#",
+            " P#",
+            "\n",
+            " G1",
+            " G4",
+            " G#",
+            " N#",
+            " (",
+            ") ",
+            " G4 P0.5\n",
+            " C# F60\n",
+        ],
+        _ => &[
+            " C#",
+            " X#:#",
+            " Z#",
+            "\n",
+            " PVT#",
+            "\nPVT0.25\n",
+            " INC",
+            " ABS",
+            " INC(C)",
+            " TM#",
+            " N#",
+            ":#",
+            " ABS(",
+        ],
+    }
+}
+
+/// The shortest path on which a point that waited for the line behind it had the section of that line.
+#[test]
+fn a_single_cutting_point_after_a_single_point_of_the_lead_keeps_its_section() {
+    for post in POSTS {
+        let layout = plain(post);
+        let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
+        for cut in [1..2, 1..5, 2..3, 0..1] {
+            let text = assembled(
+                &layout,
+                &lines_in_sections(&layout, &points, &[], cut.clone()),
+            );
+            let (_, sections) = read_sections(&layout, text.as_bytes()).unwrap();
+            let expected = (0..5).map(|k| match k {
+                _ if k < cut.start => Section::LeadIn,
+                _ if k < cut.end => Section::Cutting,
+                _ => Section::LeadOut,
+            });
+            assert_eq!(sections, expected.collect::<Vec<_>>(), "{}", post.name);
+        }
+    }
+}
+
+/// What stands before a mark on its line is code that no reader of the path reads.
+#[test]
+fn code_before_a_mark_is_refused_and_an_end_mark_has_one_form() {
+    for post in POSTS {
+        let layout = plain(post);
+        let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
+        let (comment, good) = (post.comment, program(&layout, &points));
+        let spoiled = |from: &str, to: &str| {
+            let (from, to) = (format!("{comment} {from}"), to.replace(';', comment));
+            assert!(good.contains(&from));
+            read(&layout, good.replace(&from, &to).as_bytes())
+        };
+        let end = "-- end of path: 5 points --";
+        for mark in [end, "-- cutting --"] {
+            let said = spoiled(mark, &format!("C3600:0 X0:0 Z-50:0 ; {mark}")).unwrap_err();
+            assert!(said.contains("code stands before a mark"), "{said}");
+            assert!(spoiled(mark, &format!("  ; {mark}")).is_ok());
+        }
+        for wrong in [
+            "5 0",
+            "0 5",
+            "05 points 5",
+            "5, points",
+            "5.0 points",
+            "",
+            "points",
+        ] {
+            let said = spoiled(end, &format!("; -- end of path: {wrong} --")).unwrap_err();
+            assert!(
+                said.contains("must give the number of points"),
+                "{wrong}: {said}"
+            );
+        }
+        for right in ["-- end of path: 5 points", "-- End of Path : 5 points--"] {
+            assert!(spoiled(end, &format!("; {right}")).is_ok(), "{right}");
+        }
     }
 }
 
@@ -213,9 +360,43 @@ fn a_program_in_memory_has_the_bytes_of_its_file() {
         let points = path_of(&[[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4]);
         let lines = lines(&layout, &points, &[]);
         let file = assembled(&layout, &lines);
-        let mut writer = ProgramWriter::in_memory(post.comment);
+        let mut writer = ProgramWriter::in_memory(layout);
         writer.append(&lines).unwrap();
-        let memory = writer.assemble_in_memory("OPEN PROG 1 CLEAR\n", "CLOSE\n");
+        let memory = writer.close().assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n");
         assert_eq!(String::from_utf8(memory).unwrap(), file);
+    }
+}
+
+#[test]
+fn a_segment_that_is_shorter_than_the_recipe_says_is_refused_with_its_place() {
+    for post in POSTS {
+        let steps = [
+            [0.003, 9.0, 2.5, 1.0, -0.2, 5.0],
+            [0.001, 3.0, 2.5, 1.0, -0.2, 5.0],
+        ];
+        let points = path_of(&steps);
+        let mut block = PathBlock::default();
+        points.iter().for_each(|point| block.push(*point));
+        let stretch = SectionBlock {
+            section: Section::Cutting,
+            opens_section: true,
+            before: &[],
+            points: &block,
+        };
+        let lines = |shortest: i64| {
+            let plain = plain(post);
+            let format = ProgramFormat {
+                shortest,
+                ..plain.format
+            };
+            Layout { format, ..plain }.lines(&stretch)
+        };
+        let step = post.steps_per_s / 1000;
+        assert!(lines(step).is_ok(), "{}", post.name);
+        let said = lines(2 * step).unwrap_err().to_string();
+        assert!(
+            said.contains("ends at 0.004000 s, C = 12.000 deg takes 1.0000 ms"),
+            "{said}"
+        );
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! ; -- cutting --
-//! G90 G93 G64 FGROUP(C) UPATH
+//! G71 G90 G93 G64 FGROUP()
 //! G1 C0 X2.5 Z1.5 F60
+//! FGROUP(C) UPATH
 //! POLY PO[C]=(9) PO[X]=(2.4993989) PO[Z]=(1.6544085,0.0023,-0.0001) F20000
 //! PO[C]=(18) PO[X]=(2.4987978) PO[Z]=(1.8,0.0021,-0.0001) F20000
 //! …
@@ -19,7 +20,9 @@
 //! F refers, and `UPATH` makes X and Z follow C by the parameter p. So X and Z belong to their C as
 //! the recipe has it, whatever the speed at which C is played. Within a segment the controller keeps
 //! the speed of the path, which is that of C: where the spindle's speed changes, C is right at the
-//! control points and linear in time between them. A reader takes C as the polynomial says.
+//! control points and linear in time between them, and the speeds of all axes step there. A reader
+//! takes C as the polynomial says: the curve in C, X and Z is the same. What is measured on it in
+//! space is true; [`c_is_even`](crate::Post::c_is_even) makes the run say how far C's speed steps.
 //!
 //! Facts on the language: Siemens, SINUMERIK Job Planning (6FC5398-2BP40), "Polynomial interpolation
 //! (POLY, POLYPATH, PO, PL)" and "Settable path reference (SPATH, UPATH)".
@@ -41,7 +44,7 @@ use turnpath_core::toolpath::SegmentShape;
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::ProgramFormat;
-use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS};
+use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT};
 
 /// Programs for Siemens Sinumerik 840D.
 pub(crate) const SIEMENS_840D_POLY: Post = Post {
@@ -53,7 +56,8 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
     keys: &[
         POSITION_DECIMALS.info(),
         C_SIGN.info(),
-        HEADER.info(),
+        SHORTEST_SEGMENT.info(),
+    HEADER.info(),
         FOOTER.info(),
     ],
     header: "\
@@ -62,13 +66,17 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
 ; changed by --set: {changes}
 ; turnpath {turnpath}, post siemens-840d-poly: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; F in 1/min: G93
+; the machine must keep its digits: MD10200 and MD10210 = {increments} or more
 ; the path begins and ends {ends}
-G71
+; verified on this text: {verified}
 ",
     footer: "M30\n",
     shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
+    mantissa_bits: None,
+    c_is_even: true,
+    delivered_decimals: Some(3),
     dialect: &Poly,
 };
 
@@ -80,6 +88,8 @@ struct Poly;
 const HARMLESS: &[&str] = &[
     "G71", "G710", "G90", "G93", "G64", "M0", "M2", "M17", "M30", "UPATH",
 ];
+/// Words that end a program.
+const ENDS: &[&str] = &["M2", "M02", "M17", "M30", "RET"];
 
 impl Dialect for Poly {
     fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
@@ -96,10 +106,11 @@ impl Dialect for Poly {
 
     fn commands(&self, template: &str) -> Vec<Command> {
         let is_harmless = |code: &str| code.split_whitespace().all(|word| HARMLESS.contains(&word));
-        commands_of(
-            template,
-            |line| line.split(';').next().unwrap_or(line),
-            is_harmless,
-        )
+        commands_of(template, &[";"], is_harmless)
+    }
+
+    fn ends_program(&self, command: &str) -> bool {
+        let command = command.to_ascii_uppercase();
+        command.split_whitespace().any(|word| ENDS.contains(&word))
     }
 }

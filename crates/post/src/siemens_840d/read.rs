@@ -3,7 +3,7 @@
 
 use turnpath_core::toolpath::ControlPoint;
 
-use crate::axes::{Axes, AxisWords, NAMES};
+use crate::axes::{Axes, AxisWords, NAMES, times};
 use crate::fixed_point::number;
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
@@ -11,7 +11,7 @@ use crate::program_format::ProgramFormat;
 /// By how much a polynomial may begin with another velocity than the one before ends with, as a way in
 /// its time, in 10⁻¹² mm or deg. Control points have one velocity; a larger jump is a path that they
 /// cannot say.
-const LARGEST_JUMP: i128 = 1000;
+const LARGEST_JUMP: u128 = 1000;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
@@ -20,10 +20,24 @@ pub(super) struct PolyGrammar {
     format: ProgramFormat,
     /// The axes, once the first block said where they stand.
     state: Option<State>,
-    /// Whether the program has said all of `G90`, `G93`, `FGROUP(C)` and `UPATH`.
-    modes: [bool; 4],
+    modes: Modes,
     /// Whether `POLY` is on.
     poly: bool,
+}
+
+/// What the program has said of its numbers. A controller begins with what the program before has left.
+#[derive(Default)]
+struct Modes {
+    /// `G71` or `G710`: lengths are in mm.
+    metric: bool,
+    /// `G90`: positions.
+    absolute: bool,
+    /// `G93`: F is one over minutes.
+    inverse_time: bool,
+    /// `FGROUP(C)`: C alone is the path to which F refers.
+    c_is_path: bool,
+    /// `UPATH`: the other axes follow the parameter.
+    by_parameter: bool,
 }
 
 /// Where the axes are, in 10⁻¹² mm or deg.
@@ -43,7 +57,7 @@ impl PolyGrammar {
         Self {
             format: *format,
             state: None,
-            modes: [false; 4],
+            modes: Modes::default(),
             poly: false,
         }
     }
@@ -54,18 +68,18 @@ impl PolyGrammar {
         if steps.round() >= 1.0 && steps.round() <= self.format.longest as f64 {
             return Ok(steps.round() as i64);
         }
+        let range = times(self.format.steps_per_s, self.format.longest, "s");
         Err(format!(
-            "F{feed} is no segment that the controller plays: 60/F must be 1 ns to 1000 s"
+            "F{feed} is no segment that the controller plays: 60/F must be {range}"
         ))
     }
 
     fn straight(&mut self, words: &[(usize, i128)]) -> Result<(), String> {
-        if self.state.is_some() {
-            return Err("a straight line within a path of polynomials".to_owned());
-        }
         let mut position = [None; 3];
         for (k, value) in words {
-            position[*k] = Some(*value);
+            if position[*k].replace(*value).is_some() {
+                return Err(twice(NAMES[*k]));
+            }
         }
         let missing = position.iter().position(Option::is_none);
         if let Some(k) = missing {
@@ -92,6 +106,8 @@ impl PolyGrammar {
         for (k, polynomial) in found.into_iter().enumerate() {
             let from = state.position[k];
             // An axis without a polynomial stays where it is.
+            // Numbers have 15 digits before the point at the most, so these sums are far from the end of
+            // 128 bits.
             let [to, square, cube] = polynomial.unwrap_or([from, 0, 0]);
             begin[k] = to - from - square - cube;
             end[k] = begin[k] + 2 * square + 3 * cube;
@@ -101,9 +117,12 @@ impl PolyGrammar {
             None => points.push(state.go_to(state.position, begin, steps, steps_per_s)?),
             Some((last, of_last)) => {
                 for (k, name) in NAMES.into_iter().enumerate() {
-                    let expected = last[k] * i128::from(steps) / i128::from(of_last);
-                    let finer = LARGEST_JUMP.max(i128::from(8 * (steps / of_last)));
-                    if (begin[k] - expected).abs() > finer {
+                    let way = last[k].checked_mul(i128::from(steps));
+                    let way = way.ok_or_else(|| too_many_digits(name))?;
+                    let expected = way / i128::from(of_last);
+                    let finer =
+                        LARGEST_JUMP.max(u128::from((8 * (steps / of_last)).unsigned_abs()));
+                    if begin[k].abs_diff(expected) > finer {
                         return Err(format!(
                             "the polynomial of {name} does not begin with the velocity with which \
                              the one before ends"
@@ -131,7 +150,7 @@ impl State {
         let mut words: AxisWords = [None; 3];
         for (k, word) in words.iter_mut().enumerate() {
             let velocity = way[k].checked_mul(i128::from(steps_per_s));
-            let velocity = velocity.ok_or("a velocity has too many digits")?;
+            let velocity = velocity.ok_or_else(|| too_many_digits(NAMES[k]))?;
             *word = Some((position[k], Some(rounded(velocity, steps))));
         }
         self.axes.go_to(&words, [true; 3], steps)
@@ -147,25 +166,36 @@ impl Grammar for PolyGrammar {
     }
 
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
+        // The language has capital letters and others alike.
+        let code = code.to_ascii_uppercase();
         let (mut straight, mut found, mut feed) = (Vec::new(), [None; 3], None);
         let mut is_straight = false;
-        for word in code.split_whitespace() {
+        for word in without_number(&code)?.split_whitespace() {
             match word {
-                "G90" => self.modes[0] = true,
-                "G93" => self.modes[1] = true,
-                "FGROUP(C)" => self.modes[2] = true,
-                "UPATH" => self.modes[3] = true,
+                "G71" | "G710" => self.modes.metric = true,
+                "G90" => self.modes.absolute = true,
+                "G93" => self.modes.inverse_time = true,
+                "FGROUP(C)" => self.modes.c_is_path = true,
+                "FGROUP()" => self.modes.c_is_path = false,
+                "UPATH" => self.modes.by_parameter = true,
                 "G64" => {}
+                "G1" if self.state.is_some() => {
+                    return Err("`G1` ends the path of polynomials".to_owned());
+                }
                 "G1" => is_straight = true,
                 "POLY" => self.poly = true,
                 word => match word.as_bytes() {
                     [b'P', b'O', b'[', ..] => {
                         let (k, polynomial) = polynomial(word)?;
                         if found[k].replace(polynomial).is_some() {
-                            return Err(format!("{} appears twice on this line", NAMES[k]));
+                            return Err(twice(NAMES[k]));
                         }
                     }
-                    [b'F', ..] => feed = Some(feed_of(word)?),
+                    [b'F', ..] => {
+                        if feed.replace(feed_of(word)?).is_some() {
+                            return Err(twice("F"));
+                        }
+                    }
                     _ => straight.push(axis_word(word)?),
                 },
             }
@@ -174,8 +204,12 @@ impl Grammar for PolyGrammar {
         if !moves && straight.is_empty() {
             return Ok(());
         }
-        if self.modes != [true; 4] {
-            return Err("a move before `G90`, `G93`, `FGROUP(C)` and `UPATH`".to_owned());
+        let modes = &self.modes;
+        if !(modes.metric && modes.absolute && modes.inverse_time) {
+            return Err("a move before `G71`, `G90` and `G93`".to_owned());
+        }
+        if moves && !(modes.c_is_path && modes.by_parameter) {
+            return Err("a polynomial before `FGROUP(C)` and `UPATH`".to_owned());
         }
         let steps = self.steps(feed.ok_or("a move without F, which `G93` needs")?)?;
         match (is_straight, moves) {
@@ -187,6 +221,12 @@ impl Grammar for PolyGrammar {
                 Err("this block is neither a straight line to the path nor polynomials".to_owned())
             }
         }
+    }
+
+    fn holds_point(&self) -> bool {
+        self.state
+            .as_ref()
+            .is_some_and(|state| state.last.is_none())
     }
 
     fn finish(&mut self) -> Option<ControlPoint> {
@@ -236,6 +276,29 @@ fn feed_of(word: &str) -> Result<f64, String> {
     let is_number = digits.bytes().all(|b| b.is_ascii_digit() || b == b'.');
     let feed = digits.parse::<f64>().ok().filter(|_| is_number);
     feed.ok_or_else(|| not_a_word(word))
+}
+
+/// The words of a block behind its number, `N10`, which need not be there.
+fn without_number(code: &str) -> Result<&str, String> {
+    let code = code.trim_start();
+    let Some(numbered) = code.strip_prefix('N') else {
+        return Ok(code);
+    };
+    let end = numbered.find(|c: char| !c.is_ascii_digit());
+    let (digits, rest) = numbered.split_at(end.unwrap_or(numbered.len()));
+    let is_number = !digits.is_empty() && !rest.starts_with(|c: char| !c.is_whitespace());
+    is_number.then_some(rest).ok_or_else(|| {
+        let word = code.split_whitespace().next().unwrap_or_default();
+        not_a_word(word)
+    })
+}
+
+fn twice(word: &str) -> String {
+    format!("{word} appears twice on this line")
+}
+
+fn too_many_digits(axis: &str) -> String {
+    format!("the velocity of {axis} has too many digits")
 }
 
 fn not_a_word(word: &str) -> String {

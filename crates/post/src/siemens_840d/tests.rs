@@ -25,8 +25,9 @@ fn the_program_looks_like_this() {
     let expected = [
         "OPEN PROG 1 CLEAR",
         "; -- cutting --",
-        "G90 G93 G64 FGROUP(C) UPATH",
+        "G71 G90 G93 G64 FGROUP()",
         "G1 C0 X2.5 Z-0 F60",
+        "FGROUP(C) UPATH",
         "POLY PO[C]=(9) PO[X]=(2.499,-0.0024,0.0014) PO[Z]=(1,2.9869999998,-1.9859999999) F20000",
         "PO[C]=(18) PO[X]=(2.498,-0.0012,0.0008) PO[Z]=(1,-0.045,0.03) F20000",
         "; -- end of path: 3 points --",
@@ -37,7 +38,8 @@ fn the_program_looks_like_this() {
 }
 
 /// A path that an independent script has played from the definition of the manual; the program and
-/// what was played are in tests/reference/programs.
+/// what was played are in tests/reference/programs. The points are those of the cubics: where C is, X
+/// and Z are the same, whether C is even in time within a block or not.
 #[test]
 fn an_independent_evaluation_of_the_polynomials_plays_the_same_path() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/programs");
@@ -55,7 +57,10 @@ fn an_independent_evaluation_of_the_polynomials_plays_the_same_path() {
             let [t, c, x, z] = row[..] else {
                 panic!("{row:?}")
             };
-            assert!((segment.start + s * segment.duration - t).abs() < 1e-9);
+            // Where C has its speed of the whole block, it is there at this time, and X and Z with it.
+            let c_at = |s: f64| segment.c.value(s);
+            let share = (c_at(s) - c_at(0.0)) / (c_at(1.0) - c_at(0.0));
+            assert!((segment.start + share * segment.duration - t).abs() < 1e-9);
             for (own, other) in [
                 (segment.c.value(s) / DEG, c),
                 (segment.x.value(s), x),
@@ -79,48 +84,97 @@ fn refusal(line: usize, new: &str) -> String {
 #[test]
 fn damaged_lines_are_refused_with_their_number() {
     for (line, new, says) in [
-        (3, "G90 G94 FGROUP(C) UPATH", "line 3: `G94` is not a word"),
-        (3, "G90 G93 UPATH", "line 4: a move before `G90`"),
+        (3, "G71 G90 G94", "line 3: `G94` is not a word"),
+        (3, "G90 G93", "line 4: a move before `G71`, `G90` and `G93`"),
+        (3, "G71 G90", "line 4: a move before `G71`, `G90` and `G93`"),
+        (5, "", "line 6: a polynomial before `FGROUP(C)` and `UPATH`"),
+        (5, "FGROUP(C)", "line 6: a polynomial before `FGROUP(C)`"),
+        (5, "FGROUP(C) UPATH FGROUP()", "line 6: a polynomial before"),
         (
             4,
             "G1 C0 X2.5 F60",
             "line 4: the first point does not give Z",
         ),
-        (4, "", "line 5: a polynomial before the first point"),
-        (5, "PO[C]=(9) F20000", "line 5: this block is neither"),
-        (5, "POLY PO[C]=(9)", "line 5: a move without F"),
-        (5, "POLY PO[C]=(9) F0", "line 5: F0 is no segment"),
-        (
-            5,
-            "POLY PO[C]=(9,1,1,1) F20000",
-            "line 5: the polynomial of C is no cubic",
-        ),
-        (
-            5,
-            "POLY PO[Y]=(9) F20000",
-            "line 5: `PO[Y]=(9)` is not a word",
-        ),
-        (
-            5,
-            "POLY PO[C]=(9) PO[C]=(9) F20000",
-            "line 5: C appears twice",
-        ),
-        (
-            5,
-            "POLY PO[C]=(9 F20000",
-            "line 5: `PO[C]=(9` is not a word",
-        ),
-        (5, "POLY PO[C]=(9e1) F20000", "line 5: C has no number"),
-        (6, "G1 C18 X2 Z1 F20000", "line 6: a straight line within"),
+        (4, "", "line 6: a polynomial before the first point"),
+        (6, "PO[C]=(9) F20000", "line 6: this block is neither"),
+        (6, "POLY PO[C]=(9)", "line 6: a move without F"),
+        (6, "POLY PO[C]=(9) F0", "line 6: F0 is no segment"),
         (
             6,
+            "POLY PO[C]=(9,1,1,1) F20000",
+            "line 6: the polynomial of C is no cubic",
+        ),
+        (
+            6,
+            "POLY PO[Y]=(9) F20000",
+            "line 6: `PO[Y]=(9)` is not a word",
+        ),
+        (
+            6,
+            "POLY PO[C]=(9) PO[C]=(9) F20000",
+            "line 6: C appears twice",
+        ),
+        (
+            6,
+            "POLY PO[C]=(9 F20000",
+            "line 6: `PO[C]=(9` is not a word",
+        ),
+        (6, "POLY PO[C]=(9e1) F20000", "line 6: C has no number"),
+        (7, "G1 C18 X2 Z1 F20000", "line 7: `G1` ends the path"),
+        (7, "G90 UPATH G1", "line 7: `G1` ends the path"),
+        (4, "G1 C0 X2.5 Z0 X2 F60", "line 4: X appears twice"),
+        (6, "POLY PO[C]=(9) F20000 F60", "line 6: F appears twice"),
+        (6, "N POLY PO[C]=(9) F20000", "line 6: `N` is not a word"),
+        (
+            6,
+            "N10POLY PO[C]=(9) F20000",
+            "line 6: `N10POLY` is not a word",
+        ),
+        (
+            6,
+            "N+1 POLY PO[C]=(9) F20000",
+            "line 6: `N+1` is not a word",
+        ),
+        (
+            7,
             "PO[C]=(18) PO[X]=(2.498,-0.0012,0.0008) PO[Z]=(1,-0.0451,0.03) F20000",
-            "line 6: the polynomial of Z does not begin with the velocity",
+            "line 7: the polynomial of Z does not begin with the velocity",
         ),
     ] {
         let message = refusal(line, new);
         assert!(message.contains(says), "{new}: {message}");
     }
+}
+
+#[test]
+fn block_numbers_and_small_letters_are_read() {
+    let layout = plain(&SIEMENS_840D_POLY);
+    let numbered = good()
+        .replace("G71 G90 ", "N10 g71 G90 ")
+        .replace("POLY PO[C]", "n20 poly po[c]")
+        .replace("PO[C]=(18)", "  N030 PO[c]=(18)");
+    assert_eq!(
+        read(&layout, numbered.as_bytes()),
+        read(&layout, good().as_bytes())
+    );
+}
+
+/// The velocities of such a program do not fit into the numbers of the reader.
+#[test]
+fn coefficients_of_any_size_are_refused_with_their_line() {
+    let huge = "999999999999999";
+    let poly = format!("POLY PO[X]=(0.48,{huge},{huge}) F60000000000");
+    let lines = [
+        "; -- lead-in --",
+        "G71 G90 G93 G64 FGROUP(C) UPATH",
+        "G1 C0 X2.5 Z0 F60",
+        &poly,
+        "PO[X]=(0.48) F0.06",
+        "; -- end of path: 3 points --",
+    ];
+    let message = read(&plain(&SIEMENS_840D_POLY), lines.join("\n").as_bytes()).unwrap_err();
+    let says = "line 5: the velocity of X has too many digits";
+    assert!(message.contains(says), "{message}");
 }
 
 #[test]

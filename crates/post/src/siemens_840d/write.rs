@@ -10,15 +10,16 @@ const COEFFICIENT_DECIMALS: u32 = 12;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
-/// The first point: a straight line that takes a second.
+/// The first point: a straight line that takes a second, before C alone is the path: C may stand there
+/// already.
 pub(super) fn push_first(text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
-    text.extend_from_slice(b"G90 G93 G64 FGROUP(C) UPATH\nG1");
+    text.extend_from_slice(b"G71 G90 G93 G64 FGROUP()\nG1");
     for (axis, place) in AXES.into_iter().zip(said_place(format, point)) {
         text.push(b' ');
         text.push(axis as u8);
         push(text, place, format.position_decimals);
     }
-    text.extend_from_slice(b" F60\n");
+    text.extend_from_slice(b" F60\nFGROUP(C) UPATH\n");
 }
 
 /// A segment.

@@ -8,6 +8,7 @@ use super::commands::commands;
 use super::form::first_split;
 use super::machine::limits;
 use super::numbers::{bytes, duration, grouped, line};
+use super::part_shape::part_shape;
 use super::remark::{feed_cap, remarks};
 use super::tool_fit::tool_fit;
 use super::unreached::unreached;
@@ -15,6 +16,7 @@ use super::unreached::unreached;
 /// The text on a check.
 pub fn check(report: &CheckReport) -> String {
     let mut text = format!("{}\n", printable_line(&report.name));
+    text += &report.part.as_ref().map(part_shape).unwrap_or_default();
     text += &tool_fit(&report.tool_fit);
     text += &unreached(report.unreached.as_ref());
     if let Some(machine) = &report.machine {

@@ -8,7 +8,9 @@ mod file;
 mod form;
 mod lead;
 mod machine;
+mod map_comparison;
 mod numbers;
+mod part_shape;
 mod path;
 mod remark;
 mod run;
@@ -18,5 +20,7 @@ mod unreached;
 
 pub use check::check;
 pub use file::file;
+pub use map_comparison::map_comparison;
 pub use numbers::{bytes, grouped, millimetres, nose_radius};
-pub use run::run;
+pub use part_shape::refused_check;
+pub use run::{run, verified_figures};

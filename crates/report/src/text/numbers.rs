@@ -6,7 +6,7 @@ use crate::place::PathPlace;
 use crate::unit;
 
 /// Column at which values begin.
-const LABEL: usize = 16;
+pub const LABEL: usize = 16;
 /// Seconds in a minute.
 const MINUTE: f64 = 60.0;
 
@@ -60,6 +60,12 @@ pub fn small_length(mm: f64) -> String {
         v if v < 1e6 => format!("{:.2} um", v / 1e3),
         v => millimetres(v / 1e6, 3),
     }
+}
+
+/// The same with its sign.
+pub fn signed_length(mm: f64) -> String {
+    let sign = if mm < 0.0 { "-" } else { "" };
+    format!("{sign}{}", small_length(mm.abs()))
 }
 
 /// Lengths from which a power of ten reads better than all digits, mm.

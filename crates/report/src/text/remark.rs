@@ -39,17 +39,45 @@ fn sentence(remark: &Remark) -> String {
             )
         }
         Remark::CoarseDigits {
+            post,
             position_decimals,
             rounding,
             tolerance,
         } => {
             let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
             format!(
-                "position_decimals = {position_decimals} rounds positions by up to {rounding}, and \
-                 the interpolation tolerance is {tolerance}"
+                "{}position_decimals = {position_decimals} rounds positions by up to {rounding}, and \
+                 the interpolation tolerance is {tolerance}",
+                of_post(post)
             )
         }
+        Remark::CoarseNumbers {
+            post,
+            c,
+            c_rounding,
+            rounding,
+            tolerance,
+        } => {
+            let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
+            let (c, c_rounding) = (c / DEG, significant(c_rounding / DEG));
+            format!(
+                "{}the controller knows C = {c:.0} deg to {c_rounding} deg, which moves the tool by up \
+                 to {rounding} along the rim, and the interpolation tolerance is {tolerance}; write \
+                 c_wrap = \"0-360\" or positioning = \"incremental\"",
+                of_post(post)
+            )
+        }
+        Remark::NeedsDigits {
+            post,
+            position_decimals,
+            delivered_decimals,
+        } => format!(
+            "{}the program has {position_decimals} decimals, and the controller keeps \
+             {delivered_decimals} on delivery; the program's header says what the machine needs",
+            of_post(post)
+        ),
         Remark::CoarseVelocityDigits {
+            post,
             velocity_decimals,
             rounding,
             segment_time,
@@ -58,8 +86,9 @@ fn sentence(remark: &Remark) -> String {
             let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
             let time = significant(segment_time * 1e3);
             format!(
-                "velocity_decimals = {velocity_decimals} moves the middle of a segment of {time} ms \
-                 by up to {rounding}, and the interpolation tolerance is {tolerance}"
+                "{}velocity_decimals = {velocity_decimals} moves the middle of a segment of {time} ms \
+                 by up to {rounding}, and the interpolation tolerance is {tolerance}",
+                of_post(post)
             )
         }
         Remark::FilledPoints { filled, points } => {
@@ -80,6 +109,14 @@ fn sentence(remark: &Remark) -> String {
                  C = {angle:.1} deg; there it goes on {continuation}"
             )
         }
+    }
+}
+
+/// A post's name before what is said of its program.
+fn of_post(post: &str) -> String {
+    match post {
+        "" => String::new(),
+        post => format!("{post}: "),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use turnpath_core::printable_line;
+use turnpath_core::{DEG, printable_line};
 
 use crate::errors::Tolerances;
 use crate::program::ProgramReport;
@@ -10,7 +10,7 @@ use crate::run::RunReport;
 
 use super::commands::commands;
 use super::lead::lead;
-use super::numbers::{against_any, duration, grouped, line, small_length};
+use super::numbers::{LABEL, against_any, duration, grouped, line, significant, small_length};
 use super::path::path;
 use super::remark::{feed_cap, remarks};
 use super::servo::servo;
@@ -54,12 +54,50 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     text
 }
 
+/// The line of a post; a long name has a line of its own.
+fn post_line(post: &str, text: &str) -> String {
+    match post.len() < LABEL {
+        true => line(post, text),
+        false => format!("  {post}\n") + &line("", text),
+    }
+}
+
+/// The figures that a program's header says, with their limits: they are those of its report.
+pub fn verified_figures(program: &ProgramReport, tolerance: &Tolerances) -> String {
+    let figure = |what: &str, value: f64, limit: Option<f64>| {
+        let limit = limit.map(|limit| format!(" of {}", small_length(limit)));
+        format!(
+            "{what} {}{}",
+            small_length(value),
+            limit.unwrap_or_default()
+        )
+    };
+    let interpolation = figure(
+        "interpolation error",
+        program.interpolation_error,
+        tolerance.interpolation,
+    );
+    let form = program.form_error;
+    let form = form.map(|form| figure("form error", form, tolerance.form));
+    let clearance = program.lead_clearance;
+    let clearance = clearance.map(|height| figure("lead clearance", height, None));
+    let all = [Some(interpolation), form, clearance];
+    all.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
 /// The lines on a program: its errors against their tolerances.
 fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
     let (error, holds) = (program.interpolation_error, program.within_interpolation);
     let limit = against_any(error, tolerance.interpolation, holds);
-    let mut text = line(&program.post, limit);
+    let mut text = post_line(&program.post, &limit);
     text += &cost(program);
+    if let Some(step) = program.c_speed_step {
+        let step = significant(step / DEG);
+        text += &line(
+            "",
+            format!("C keeps its speed within a segment: it steps by up to {step} deg/s"),
+        );
+    }
     if let Some(holds) = program.within_form {
         let limit = against_any(
             program.form_error.unwrap_or(f64::NAN),
@@ -78,23 +116,27 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
     text
 }
 
-/// The line on what the program costs beside its path.
+/// The lines on what the program costs beside its path.
 fn cost(program: &ProgramReport) -> String {
-    let Some(added) = program.added_error else {
-        return String::new();
-    };
-    let added = small_length(added.max(0.0));
-    let Some(straight) = &program.straight_lines else {
-        return line("", format!("digits and times add {added}"));
-    };
-    let (lines, each) = (grouped(straight.lines), straight.per_segment);
-    line(
-        "",
-        format!(
-            "straight lines, digits and times add {added}; {lines} lines, {each:.1} for each segment \
-             of the path"
-        ),
-    )
+    let straight = program.straight_lines.as_ref();
+    let mut text = String::new();
+    if let Some(raised) = program.raised_by {
+        let what = match straight {
+            None => "digits and times",
+            Some(_) => "straight lines, digits and times",
+        };
+        let how = if raised < 0.0 { "lower" } else { "raise" };
+        let by = small_length(raised.abs());
+        text += &line("", format!("{what} {how} the error by {by}"));
+    }
+    if let Some(straight) = straight {
+        let (lines, each) = (grouped(straight.lines), straight.per_segment);
+        text += &line(
+            "",
+            format!("{lines} straight lines, {each:.1} for each segment of the path"),
+        );
+    }
+    text
 }
 
 fn points(report: &RunReport) -> String {

@@ -134,7 +134,7 @@ fn write_map(draft: Draft, plot: &MapPlot, map: &Map, name: &str) -> Result<Draf
         let title = format!("{name}: surface error");
         let mut writer = GsfWriter::begin(draft, &title, count, half)?;
         for row in rows {
-            writer.row(map.row(row))?;
+            writer.row(map.row(row).map(f64::from))?;
         }
         return Ok(writer.whole());
     }

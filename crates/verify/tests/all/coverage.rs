@@ -133,6 +133,22 @@ fn a_path_to_the_aperture_leaves_67_um_at_the_rim_of_ast_5() {
     assert!(from_valley < 1.5 * DEG, "{}", rim.at_theta / DEG);
 }
 
+/// Within a degree, X from which the nose touches the rim of AST-5 moves by up to seven of these
+/// feeds. Wherever the rim is, a pass lies within half a feed of it, so no more than a cusp stays.
+#[test]
+fn a_rim_whose_contact_moves_by_many_feeds_a_degree_keeps_no_more_than_a_cusp() {
+    let feed = 2e-3;
+    let touch = touch_on(AST5, 2.5, 1.0, true);
+    let path = bare_spiral(400.0, |n| 2.874 - feed * n);
+    let rim = coverage(&touch, &path).rim.unwrap();
+    // The cusp is the highest where the rim rises outward by 0.4, hollow with 0.16/mm. The contact
+    // there moves by feed / (1 − κR) along x, and the cusp of a nose of 1 mm is (1 − κR)s²/8.
+    let slant: f64 = 1.0 + 0.4 * 0.4;
+    let hollow = 0.16 / (slant * slant.sqrt());
+    let cusp = feed * feed * slant / (8.0 * (1.0 - hollow));
+    assert!((rim.height / cusp - 1.0).abs() < 0.01, "{rim:?}, {cusp}");
+}
+
 #[test]
 fn passes_of_the_opposite_half_count_where_they_reach() {
     // The path stands still at X = −0.3 on one half. It cuts the opposite rim of a part of 0.3 mm.

@@ -1,6 +1,6 @@
 //! The axis is a point like any other where the formula has all derivatives there.
 
-use turnpath_core::{Gradients, SurfaceModel};
+use turnpath_core::{Gradients, Series, SurfaceModel};
 
 use crate::common::{formula, points};
 
@@ -15,8 +15,18 @@ fn gradient(z: &str, x: f64, y: f64) -> [f64; 3] {
     [height[0], zx[0], zy[0]]
 }
 
+/// The series of the height along a curve through a point.
+fn series(z: &str, x: f64, y: f64) -> Series {
+    let mut height = [[f64::NAN; 5]];
+    let (x, y) = ([x, 0.5, -0.25, 0.125, 0.0], [y, 0.75, 0.5, 0.0, -0.125]);
+    formula(z, &[])
+        .height_series(&[x], &[y], &mut height)
+        .unwrap();
+    height[0]
+}
+
 /// Each pair is the same surface, in ρ and θ, and in x and y.
-const PAIRS: [(&str, &str); 8] = [
+const PAIRS: [(&str, &str); 13] = [
     ("rho*cos(theta)", "x"),
     ("rho*sin(theta)", "y"),
     ("rho*cos(-theta) + rho*sin(-theta)", "x - y"),
@@ -31,6 +41,14 @@ const PAIRS: [(&str, &str); 8] = [
         "(0.5*(x^2 - y^2) + sqrt(3)*x*y)/mm",
     ),
     ("rho^4*cos(theta)^2*sin(theta)^2/mm^3", "x^2*y^2/mm^3"),
+    ("mm*(rho/(2*mm))^2", "(x^2 + y^2)/(4*mm)"),
+    ("mm*exp(-(rho/(3*mm))^2)", "mm*exp(-(x^2 + y^2)/(9*mm^2))"),
+    (
+        "mm*(rho/(2*mm))^3*cos(3*theta)",
+        "0.125*(x^3 - 3*x*y^2)/mm^2",
+    ),
+    ("(rho*x)^2/mm^3", "(x^2 + y^2)*x^2/mm^3"),
+    ("(rho*cos(theta))^3/mm^2", "x^3/mm^2"),
 ];
 
 #[test]
@@ -42,6 +60,14 @@ fn waves_on_the_turn_are_polynomials() {
                 let off = (a - b).abs();
                 assert!(
                     off <= 1e-13 * (1.0 + b.abs()),
+                    "{polar} at {x}, {y}: {found:?} {expected:?}"
+                );
+            }
+            let (found, expected) = (series(polar, x, y), series(straight, x, y));
+            for (a, b) in found.into_iter().zip(expected) {
+                let off = (a - b).abs();
+                assert!(
+                    off <= 1e-12 * (1.0 + b.abs()),
                     "{polar} at {x}, {y}: {found:?} {expected:?}"
                 );
             }

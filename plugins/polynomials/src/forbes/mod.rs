@@ -6,6 +6,7 @@ mod q2d_basis;
 mod qbfs;
 mod qbfs_basis;
 mod qcon;
+mod round_terms;
 
 pub use self::q2d::ForbesQ2d;
 pub use self::qbfs::ForbesQbfs;

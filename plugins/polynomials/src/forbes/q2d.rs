@@ -4,6 +4,7 @@
 use turnpath_plugin::prelude::*;
 
 use super::best_fit_sphere::{LARGEST_DEGREE, RADIUS, sphere, with_departure};
+use super::round_terms::put;
 use super::{q2d_basis, qbfs_basis};
 use crate::harmonics::{AngularTerm, Harmonics};
 use crate::recurrence::Family;
@@ -54,8 +55,7 @@ impl Strategy for ForbesQ2d {
                 )));
             }
             if order == 0 {
-                round.resize(round.len().max(radial + 1), 0.0);
-                round[radial] = coefficient;
+                put(&mut round, radial, coefficient);
             } else {
                 angular.push(AngularTerm {
                     radial,

@@ -2,10 +2,11 @@
 
 use turnpath_plugin::prelude::*;
 
-use super::best_fit_sphere::{LARGEST_DEGREE, RADIUS, sphere, with_departure};
+use super::best_fit_sphere::{RADIUS, sphere, with_departure};
 use super::qbfs_basis::{change, family};
+use super::round_terms::{COEFFICIENTS, round_coefficients};
 use crate::recurrence::Family;
-use crate::terms::{NORMALIZATION_RADIUS, degree, terms};
+use crate::terms::NORMALIZATION_RADIUS;
 
 /// z = cρ² / (1 + cos φ) + u²(1 − u²)/cos φ · Σ a_n Q_n(u²), cos φ = sqrt(1 − c²ρ²), with u = 1 at
 /// the normalisation radius.
@@ -21,10 +22,6 @@ pub struct ForbesQbfs {
     coefficients: Vec<f64>,
 }
 
-const COEFFICIENTS: Param<Coefficients> =
-    Param::length_coefficients("coefficients", 1, "a_n of Q_n under n, from 0 on")
-        .example("{ 0 = \"2 um\", 1 = \"-150 nm\" }");
-
 impl Strategy for ForbesQbfs {
     const NAME: &'static str = "forbes-qbfs";
     const SUMMARY: &'static str = "a best-fit sphere with Forbes' slope-orthogonal polynomials";
@@ -37,12 +34,7 @@ impl Strategy for ForbesQbfs {
     ];
 
     fn new(params: &Params) -> Result<Self> {
-        let mut dense = Vec::new();
-        for ([n], coefficient) in terms::<1>(params, COEFFICIENTS) {
-            let n = degree(COEFFICIENTS, "degree", n, LARGEST_DEGREE)?;
-            dense.resize(dense.len().max(n + 1), 0.0);
-            dense[n] = coefficient;
-        }
+        let dense = round_coefficients(params)?;
         Ok(Self {
             sphere: sphere(params)?,
             normalization_radius: params.get(NORMALIZATION_RADIUS),

@@ -2,10 +2,10 @@
 
 use turnpath_plugin::prelude::*;
 
-use super::best_fit_sphere::LARGEST_DEGREE;
+use super::round_terms::{COEFFICIENTS, round_coefficients};
 use crate::jacobi::jacobi;
 use crate::recurrence::Family;
-use crate::terms::{NORMALIZATION_RADIUS, degree, terms};
+use crate::terms::NORMALIZATION_RADIUS;
 
 /// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)) + u⁴ Σ a_n Q_n(u²), with u = 1 at the normalisation
 /// radius.
@@ -28,9 +28,6 @@ const RADIUS: Param<Option<Length>> = Param::length(
 .optional();
 const CONIC: Param<Number> =
     Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0);
-const COEFFICIENTS: Param<Coefficients> =
-    Param::length_coefficients("coefficients", 1, "a_n of Q_n under n, from 0 on")
-        .example("{ 0 = \"2 um\", 1 = \"-150 nm\" }");
 
 impl Strategy for ForbesQcon {
     const NAME: &'static str = "forbes-qcon";
@@ -45,12 +42,7 @@ impl Strategy for ForbesQcon {
     ];
 
     fn new(params: &Params) -> Result<Self> {
-        let mut dense = Vec::new();
-        for ([n], coefficient) in terms::<1>(params, COEFFICIENTS) {
-            let n = degree(COEFFICIENTS, "degree", n, LARGEST_DEGREE)?;
-            dense.resize(dense.len().max(n + 1), 0.0);
-            dense[n] = coefficient;
-        }
+        let dense = round_coefficients(params)?;
         let base = Conicoid::new(params.get(RADIUS), params.get(CONIC));
         Ok(Self {
             base: base.ok_or_else(|| {

@@ -1,25 +1,29 @@
-//! The surface of a recipe on a grid, as CSV.
+//! The surface of a recipe on a grid of its own.
 
 use std::io;
 use std::path::Path;
 
 use turnpath_core::{Gradients, StrategyError, SurfaceModel};
-use turnpath_files::{Draft, FileError};
+use turnpath_files::Draft;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::Link;
+use turnpath_post::GridPoints;
 use turnpath_recipe::Recipe;
 
+use super::grid_file::{GridForm, GridWriter, not_written};
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::plots::check_grid;
 use crate::surface::surface;
 
-/// Writes the recipe's surface and its slopes at `count` × `count` points of the square around the
-/// aperture, its edges included. A point where the surface has no height is NaN.
+/// Writes the recipe's surface at `count` × `count` points of the square around the aperture, its
+/// edges included. The ending of the file's name chooses the form: `.gsf`, `.DAT` (Zemax), or CSV
+/// with slopes for all others. A point where the surface has no height is NaN, in `.DAT` a hole.
 ///
 /// # Errors
-/// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there or fails, or when the file cannot be written.
+/// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there or
+/// fails, or when the file cannot be written.
 pub fn write_sag(
     recipe: &Recipe,
     catalogue: &Catalogue,
@@ -27,13 +31,30 @@ pub fn write_sag(
     file: &Path,
 ) -> Result<(), Error> {
     check_grid(count)?;
-    let mut draft = Draft::begin(file)?;
-    write_sag_to(recipe, catalogue, count, &mut draft, file)?;
-    draft.complete()?;
-    Ok(())
+    let form = GridForm::of(file);
+    if form == GridForm::Csv {
+        let mut draft = Draft::begin(file)?;
+        write_sag_to(recipe, catalogue, count, &mut draft, file)?;
+        draft.complete()?;
+        return Ok(());
+    }
+    let (surface, grid) = (
+        surface(recipe, catalogue, &DataFiles::default())?,
+        Grid::new(recipe, count),
+    );
+    let title = format!("{}: surface", recipe.name);
+    let Some(mut writer) = GridWriter::begin(form, file, &title, &grid.points())? else {
+        return Ok(());
+    };
+    for j in (0..count).rev() {
+        let row = grid.row(j, &surface);
+        let row = row.map_err(|error| of_pipeline(recipe, surface.failed("on the grid", error)))?;
+        writer.row(row.into_iter().map(|[_, _, z, _, _]| z))?;
+    }
+    Ok(writer.complete()?)
 }
 
-/// Writes the same into `output`; errors name it `name`.
+/// Writes the same as CSV into `output`; errors name it `name`.
 ///
 /// # Errors
 /// Those of [`write_sag`].
@@ -46,26 +67,20 @@ pub fn write_sag_to(
 ) -> Result<(), Error> {
     check_grid(count)?;
     let surface = surface(recipe, catalogue, &DataFiles::default())?;
-    let grid = Grid {
-        half: recipe.part.aperture_radius,
-        count,
-    };
+    let grid = Grid::new(recipe, count);
     let mut rows = csv::Writer::from_writer(output);
-    let not_written = |error: io::Error| FileError {
-        path: name.to_owned(),
-        error,
-    };
     rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"])
-        .map_err(|error| not_written(error.into()))?;
+        .map_err(|error| not_written(name, error))?;
     for j in 0..grid.count {
         let row = grid.row(j, &surface);
         let row = row.map_err(|error| of_pipeline(recipe, surface.failed("on the grid", error)))?;
         for point in row {
             let written = rows.serialize(point);
-            written.map_err(|error| not_written(error.into()))?;
+            written.map_err(|error| not_written(name, error))?;
         }
     }
-    rows.flush().map_err(|error| not_written(error).into())
+    let flushed = rows.flush();
+    Ok(flushed.map_err(|error| not_written(name, error))?)
 }
 
 /// A square grid around the axis, its edges included.
@@ -75,6 +90,21 @@ struct Grid {
 }
 
 impl Grid {
+    fn new(recipe: &Recipe, count: usize) -> Self {
+        let half = recipe.part.aperture_radius;
+        Self { half, count }
+    }
+
+    fn points(&self) -> GridPoints {
+        let pitch = 2.0 * self.half / (self.count - 1) as f64;
+        GridPoints {
+            columns: self.count,
+            rows: self.count,
+            pitch: [pitch; 2],
+            middle: [0.0; 2],
+        }
+    }
+
     fn at(&self, index: usize) -> f64 {
         let last = (self.count - 1) as f64;
         self.half * (2.0 * index as f64 - last) / last

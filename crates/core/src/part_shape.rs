@@ -1,0 +1,285 @@
+//! The shape of a part by itself: how high, how steep and how curved it is, whatever tool cuts it.
+
+use crate::extreme::{self, Extreme};
+use crate::surface::GradientSeries;
+use crate::{RadialRange, Result, Scalar, Series, StrategyError, SurfaceModel};
+
+/// The extremes of a surface over a part, each with its position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartShape {
+    /// Lowest z, mm.
+    pub lowest: Extreme,
+    /// Highest z, mm; z points to the tool.
+    pub highest: Extreme,
+    /// Largest angle of the surface to the horizontal, in whatever direction, rad.
+    pub steepest: Extreme,
+    /// Largest principal curvature, 1/mm; positive in a hollow. On a seam there is none: the figure
+    /// is that of the faces beside it.
+    pub most_hollow: Extreme,
+    /// Smallest principal curvature, 1/mm; negative on a dome.
+    pub most_domed: Extreme,
+}
+
+/// Looks for the extremes of a surface within `region`: first on a grid, then closer and closer
+/// around its highest points.
+///
+/// # Errors
+/// If the surface has no height, slope or curvature somewhere in `region`.
+///
+/// ```
+/// use turnpath_core::{RadialRange, Scalar, Surface, part_shape};
+/// struct Saddle;
+/// impl Surface for Saddle {
+///     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+///         x * y * 0.2
+///     }
+/// }
+/// let region = RadialRange { inner: 0.0, outer: 2.0 };
+/// let shape = part_shape::of(&Saddle, region)?;
+/// assert!((shape.highest.value - 0.4).abs() < 1e-12);
+/// assert!((shape.steepest.value - Scalar::atan(0.4)).abs() < 1e-12);
+/// assert!((shape.most_hollow.value - 0.2).abs() < 1e-12);
+/// # turnpath_core::Result::Ok(())
+/// ```
+pub fn of(surface: &dyn SurfaceModel, region: RadialRange) -> Result<PartShape> {
+    let mut room = Room::default();
+    let found = extreme::largest(region, &mut |theta, rho, out: &mut [[f64; 5]]| {
+        room.measure(surface, theta, rho, out)
+    })?;
+    let [low, highest, steepest, most_hollow, dome] = found;
+    let opposite = |extreme: Extreme| Extreme {
+        value: -extreme.value,
+        ..extreme
+    };
+    Ok(PartShape {
+        lowest: opposite(low),
+        highest,
+        steepest,
+        most_hollow,
+        most_domed: opposite(dome),
+    })
+}
+
+/// What a batch of points needs.
+#[derive(Default)]
+struct Room {
+    along_x: [Vec<Series>; 2],
+    along_y: [Vec<Series>; 2],
+    z: Vec<Series>,
+    /// z_x and z_y along x.
+    of_x: [Vec<Series>; 2],
+    /// z_x and z_y along y.
+    of_y: [Vec<Series>; 2],
+}
+
+impl Room {
+    /// −z, z, the angle of the steepest slope, the largest principal curvature, and the smallest one
+    /// with the other sign.
+    fn measure(
+        &mut self,
+        surface: &dyn SurfaceModel,
+        theta: &[f64],
+        rho: &[f64],
+        out: &mut [[f64; 5]],
+    ) -> Result<()> {
+        let places: Vec<(f64, f64)> = theta
+            .iter()
+            .zip(rho)
+            .map(|(theta, rho)| {
+                let (sin, cos) = Scalar::sin_cos(*theta);
+                (rho * cos, rho * sin)
+            })
+            .collect();
+        self.place(&places);
+        for ([x, y], [zx, zy]) in [
+            (&self.along_x, &mut self.of_x),
+            (&self.along_y, &mut self.of_y),
+        ] {
+            let z = &mut self.z;
+            surface.series(x, y, GradientSeries { z, zx, zy })?;
+        }
+        for (i, out) in out.iter_mut().enumerate() {
+            let [slope_x, slope_y] = [self.of_x[0][i], self.of_x[1][i]];
+            let bends = [slope_x[1], slope_y[1], self.of_y[1][i][1]];
+            let [most, least] = principal([slope_x[0], slope_y[0]], bends);
+            let steepest = Scalar::atan(Scalar::hypot(slope_x[0], slope_y[0]));
+            let height = self.z[i][0];
+            *out = [-height, height, steepest, most, -least];
+            if out.iter().any(|value| !value.is_finite()) {
+                return Err(no_height(places[i]));
+            }
+        }
+        Ok(())
+    }
+
+    /// Straight lines along x and along y through each place.
+    fn place(&mut self, places: &[(f64, f64)]) {
+        let line = |from: f64, rate: f64| [from, rate, 0.0, 0.0, 0.0];
+        for (curves, rate_x, rate_y) in
+            [(&mut self.along_x, 1.0, 0.0), (&mut self.along_y, 0.0, 1.0)]
+        {
+            let [x, y] = curves;
+            x.clear();
+            x.extend(places.iter().map(|place| line(place.0, rate_x)));
+            y.clear();
+            y.extend(places.iter().map(|place| line(place.1, rate_y)));
+        }
+        self.z.resize(places.len(), [0.0; 5]);
+        for column in self.of_x.iter_mut().chain(&mut self.of_y) {
+            column.resize(places.len(), [0.0; 5]);
+        }
+    }
+}
+
+/// The principal curvatures, the larger one first, from the slopes z_x, z_y and from z_xx, z_xy, z_yy.
+///
+/// In the frame of the steepest slope p = |∇z| the shape has the curvatures z_uu/w³ along it and
+/// z_vv/w across, and z_uv/w² between them, with w² = 1 + p².
+fn principal([zx, zy]: [f64; 2], [xx, xy, yy]: [f64; 3]) -> [f64; 2] {
+    let steep = Scalar::hypot(zx, zy);
+    let (cos, sin) = match steep > 0.0 {
+        true => (zx / steep, zy / steep),
+        false => (1.0, 0.0),
+    };
+    let w = Scalar::sqrt(1.0 + steep * steep);
+    let along = (xx * cos * cos + 2.0 * xy * cos * sin + yy * sin * sin) / (w * w * w);
+    let across = (xx * sin * sin - 2.0 * xy * cos * sin + yy * cos * cos) / w;
+    let between = ((yy - xx) * cos * sin + xy * (cos * cos - sin * sin)) / (w * w);
+    let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
+    let off = Scalar::hypot(half, between);
+    [mean + off, mean - off]
+}
+
+fn no_height((x, y): (f64, f64)) -> StrategyError {
+    StrategyError::failed(format!(
+        "the surface has no height, slope or curvature at x = {x:.4} mm, y = {y:.4} mm; choose a \
+         smaller aperture"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Surface;
+
+    const REGION: RadialRange = RadialRange {
+        inner: 0.0,
+        outer: 6.0,
+    };
+
+    #[track_caller]
+    fn near(found: f64, expected: f64) {
+        let within = (found - expected).abs() <= 1e-11 * (1.0 + expected.abs());
+        assert!(within, "{found}, not {expected}");
+    }
+
+    fn shape(surface: &impl Surface) -> PartShape {
+        of(surface, REGION).unwrap()
+    }
+
+    /// z = cρ²/(1 + sqrt(1 − (1 + K)c²ρ²)).
+    struct Conic {
+        c: f64,
+        k: f64,
+    }
+
+    impl Surface for Conic {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let square = x.squared() + y.squared();
+            let root = (-(square * ((1.0 + self.k) * self.c * self.c)) + 1.0).sqrt();
+            square * self.c / (root + 1.0)
+        }
+    }
+
+    #[test]
+    fn a_sphere_is_curved_alike_everywhere() {
+        let sphere = shape(&Conic { c: 0.1, k: 0.0 });
+        near(sphere.lowest.value, 0.0);
+        near(sphere.highest.value, 10.0 - 8.0);
+        near(sphere.steepest.value, Scalar::asin(0.6));
+        near(sphere.most_hollow.value, 0.1);
+        near(sphere.most_domed.value, 0.1);
+        let dome = shape(&Conic { c: -0.1, k: 0.0 });
+        near(dome.lowest.value, -2.0);
+        near(dome.most_hollow.value, -0.1);
+        near(dome.most_domed.value, -0.1);
+    }
+
+    /// The curvatures of a conicoid are c(1 − Kc²ρ²)^(−3/2) along the radius, with the same root to
+    /// the first power across.
+    #[test]
+    fn a_conicoid_is_most_curved_at_its_vertex_or_at_its_rim() {
+        for k in [-2.5, -1.0, 0.7] {
+            let (c, found) = (0.08, shape(&Conic { c: 0.08, k }));
+            let q = 1.0 - k * c * c * 36.0;
+            let rim = [c / (q * Scalar::sqrt(q)), c / Scalar::sqrt(q)];
+            near(found.most_hollow.value, c.max(rim[0]).max(rim[1]));
+            near(found.most_domed.value, c.min(rim[0]).min(rim[1]));
+            let root = Scalar::sqrt(1.0 - (1.0 + k) * c * c * 36.0);
+            near(found.highest.value, c * 36.0 / (1.0 + root));
+            near(found.highest.rho, 6.0);
+            near(found.steepest.value, Scalar::atan(c * 6.0 / root));
+        }
+    }
+
+    /// A trough along a line that is turned by 0.3 rad.
+    struct Cylinder;
+
+    impl Surface for Cylinder {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let across = x * Scalar::cos(0.3) + y * Scalar::sin(0.3);
+            -(-across.squared() + 100.0).sqrt() + 10.0
+        }
+    }
+
+    #[test]
+    fn a_cylinder_is_curved_across_alone() {
+        let cylinder = shape(&Cylinder);
+        near(cylinder.most_hollow.value, 0.1);
+        near(cylinder.most_domed.value, 0.0);
+        near(cylinder.highest.value, 2.0);
+        near(cylinder.steepest.value, Scalar::asin(0.6));
+        let turned = cylinder.steepest.theta.rem_euclid(std::f64::consts::PI);
+        assert!((turned - 0.3).abs() < 1e-6, "{turned}");
+    }
+
+    /// A torus about an axis parallel to y: R − sqrt((R − a + sqrt(a² − y²))² − x²).
+    struct Torus;
+
+    impl Surface for Torus {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let from_axis = (-y.squared() + 8.0 * 8.0).sqrt() + (20.0 - 8.0);
+            -(from_axis.squared() - x.squared()).sqrt() + 20.0
+        }
+    }
+
+    /// The tube is curved by 1/a everywhere, and about the axis by cos φ over the distance from it,
+    /// where sin φ = y/a on the tube.
+    #[test]
+    fn a_torus_has_the_curvatures_of_its_tube_and_of_its_axis() {
+        let torus = shape(&Torus);
+        near(torus.most_hollow.value, 1.0 / 8.0);
+        let cos = Scalar::sqrt(1.0 - 0.75 * 0.75);
+        near(torus.most_domed.value, cos / (12.0 + 8.0 * cos));
+        near(torus.highest.value, 8.0 - 8.0 * cos);
+        near(torus.steepest.value, Scalar::asin(0.75));
+    }
+
+    /// A hole keeps out what lies in it.
+    #[test]
+    fn only_the_ring_of_a_part_with_a_hole_counts() {
+        let ring = RadialRange {
+            inner: 3.0,
+            outer: 6.0,
+        };
+        let found = of(&Conic { c: 0.1, k: 0.0 }, ring).unwrap();
+        near(found.lowest.value, 10.0 - Scalar::sqrt(91.0));
+        near(found.lowest.rho, 3.0);
+    }
+
+    #[test]
+    fn a_part_beyond_its_surface_is_an_error_with_the_place() {
+        let error = of(&Conic { c: 0.2, k: 0.0 }, REGION).unwrap_err();
+        assert!(error.to_string().contains("at x = "), "{error}");
+    }
+}
