@@ -136,6 +136,10 @@ pub struct RunArgs {
     /// Where the files go; `out/<name>` unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Write a dry run beside each program: it stops at C = 0, 90, 180 and 270 deg with the tool high
+    /// above the rim, and says how high the part is there
+    #[arg(long)]
+    pub dry_run: bool,
     #[command(flatten)]
     pub plots: PlotArgs,
     #[command(flatten)]

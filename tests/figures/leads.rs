@@ -345,8 +345,14 @@ fn programs_carry_the_leads_and_read_back_with_all_points() {
         assert!(program.contains("; the path begins and ends at rest\n"));
         let marks: Vec<&str> = program.lines().filter(|l| l.starts_with("; --")).collect();
         assert_eq!(
-            marks[..3],
-            ["; -- lead-in --", "; -- cutting --", "; -- lead-out --"]
+            marks[..5],
+            [
+                "; -- approach --",
+                "; -- lead-in --",
+                "; -- cutting --",
+                "; -- lead-out --",
+                "; -- retreat --"
+            ]
         );
         // The first move goes to rest.
         let first = program

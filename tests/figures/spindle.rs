@@ -144,6 +144,49 @@ fn the_fewest_points_hold_the_tolerance_at_the_speed_that_is_played() {
     }
 }
 
+/// With these jerks of C longer changes of the speed pay, or none at all.
+#[test]
+fn no_schedule_takes_longer_than_the_fastest_constant_speed() {
+    for (recipe, jerk, part) in [
+        (SADDLE, 10.0, 0.62),
+        (ARRAY, 10.0, 0.64),
+        (ARRAY, 0.1, 1.001),
+    ] {
+        let spindle = Spindle { jerk, ..SLOW };
+        Case::with_atpg(recipe, spindle).takes_at_most(part);
+    }
+}
+
+/// `speed` is a bound and nothing else. However far beyond the limits it is, they hold.
+#[test]
+fn a_speed_far_beyond_the_limits_gives_a_schedule_within_them() {
+    let case = Case::with_atpg("astigmatic-50mm", SLOW);
+    let gentle = "[machine]\nz_acceleration = \"50 mm/s^2\"\n";
+    let spindle = "use = \"per-revolution\"\nspeed = \"1e6 rpm\"";
+    let recipe = case.recipe(spindle).replace(SLIDES, gentle);
+    let recipe = recipe.replace("c_velocity = \"1000 rpm\"\n", "");
+    let said = Bench::with(&recipe).line("run recipe.toml -o out --format json");
+    let found = said.ends(0).json();
+    assert_eq!(found["within"]["machine"], true);
+}
+
+/// Refinement adds points to this chain after the schedule was made, and they ask more of Z.
+#[test]
+fn limits_hold_with_the_points_that_refinement_adds() {
+    let recipe = "format = 1\nname = \"Ring of a torus\"\n\n[part]\naperture = \"9.878 mm\"\n\
+        inner = \"0.508 mm\"\n\n[surface]\nuse = \"toric\"\nradius_rotation = \"37.872 mm\"\n\
+        radius_base = \"68.458 mm\"\n\n[tool]\nnose_radius = \"0.355 mm\"\n\n[compensator]\n\
+        use = \"normal\"\n\n[tolerance]\ninterpolation = \"560 nm\"\nresidual = \"452 nm\"\n\n\
+        [spindle]\nuse = \"per-revolution\"\nspeed = \"230 rpm\"\n\n[machine]\n\
+        c_acceleration = \"14.13 rad/s^2\"\nz_acceleration = \"9.27 mm/s^2\"\n\n[path]\n\
+        direction = \"outward\"\n\n[feed]\nuse = \"fft-adaptive\"\n\n[sampler]\nuse = \"atpg\"\n\n\
+        [velocity]\nuse = \"analytic\"\n\n[output]\ndata = []\n";
+    let found = Bench::with(recipe).line("run recipe.toml -o out --format json");
+    let found = found.ends(0).json();
+    assert!(number(&found, "/points_added_by_refine") > 100.0);
+    assert_eq!(found["within"]["machine"], true);
+}
+
 /// Under the first limits the flat part runs at the spindle's own largest speed all along.
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]

@@ -1,7 +1,7 @@
 //! The largest spoke of a path, against a measurement apart and in closed form.
 //!
 //! `tests/reference/spokes/spokes.py` plays each path and averages its error over the turns of each
-//! band. It shares no code with turnpath.
+//! window. It shares no code with turnpath.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::PI;
@@ -52,7 +52,7 @@ fn spokes_measure_like_the_reference() {
 /// On a plane of slope a, Z = aρ cos θ along a turn. Even steps h leave the error
 /// −Z⁗h⁴u²(1 − u)²/24, and u²(1 − u)² = 1/30 − 3/π⁴ Σ cos(2πqu)/q⁴. So N steps a turn leave the
 /// harmonics N ∓ 1 with half of aρh⁴/24 · 3/π⁴, times 1 ± 4/3N since Z⁗ changes along a step. A
-/// band has the mean of its radii.
+/// window has the mean of its radii.
 #[test]
 fn even_steps_on_a_plane_leave_spokes_in_closed_form() {
     let set = [
@@ -74,6 +74,26 @@ fn even_steps_on_a_plane_leave_spokes_in_closed_form() {
     );
     assert_eq!(number(&found, "/spokes/per_turn"), 23.0);
     assert!(number(&found, "/spokes/to_mm") > 29.0);
+}
+
+/// Off the axis by so little, the largest step decides on all of the part, whatever it is. Steps up to
+/// 60 deg come round within 64 turns; longer ones would take more points for it than wandering may.
+#[test]
+fn largest_steps_that_wander_leave_little_of_the_spoke() {
+    let run = |max_step: u32, wander: bool| {
+        let sampler = format!(
+            "sampler={{ use = \"minimax\", max_step = \"{max_step} deg\", wander = {wander} }}"
+        );
+        let set = ["surface.decentre_x=0.1 mm", sampler.as_str()];
+        let found = summary("tests/reference/spokes/conic.toml", &set);
+        ["/control_points", "/spokes/amplitude_nm"].map(|pointer| number(&found, pointer))
+    };
+    for (max_step, most) in [(30, 0.02), (40, 0.02), (60, 0.06), (72, 0.26), (90, 0.5)] {
+        let (still, wandering) = (run(max_step, false), run(max_step, true));
+        let what = format!("{max_step} deg: {still:?} {wandering:?}");
+        assert!(wandering[1] < most * still[1], "{what}");
+        assert!(wandering[0] <= 1.005 * still[0], "{what}");
+    }
 }
 
 /// Near the axis the largest step decides, here on all of the part: every turn has eight steps, and

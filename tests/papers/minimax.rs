@@ -74,6 +74,31 @@ fn compare(found: &Value, with_atpg: &Value, what: &str) {
     assert!(jerk <= 1.0, "{what}: Z jerk {jerk}");
 }
 
+/// Where X decides, both samplers take nearly the same steps, and the jerk differs by what their ends
+/// make of it.
+fn same_motion(found: &Value, with_atpg: &Value) {
+    for (pointer, most) in [
+        ("/axes/z/max_acceleration_mm_per_s2", 1.05),
+        ("/axes/z/max_jerk_mm_per_s3", 1.01),
+    ] {
+        let ratio = number(found, pointer) / number(with_atpg, pointer);
+        assert!(ratio <= most, "{pointer}: {ratio}");
+    }
+}
+
+/// X moves within the turn by the feed and by the compensator, and its own error decides. Nodes
+/// beside the path would shake Z and gain nothing.
+#[test]
+fn with_the_feed_ats_and_normal_compensation_z_moves_as_with_atpg() {
+    let set = ["compensator={ use = \"normal\" }", "feed={ use = \"ats\" }"];
+    let with_atpg = run(AST_5, &atpg(45), &set);
+    for states in [3, 7, 25] {
+        let found = run(AST_5, &minimax(states, 45), &set);
+        assert!(points(&found) < points(&with_atpg), "{states} states");
+        same_motion(&found, &with_atpg);
+    }
+}
+
 /// Recipe, largest step, points at most with one state and with seven.
 const AT_MOST: &[(&str, u32, f64, Option<f64>)] = &[
     (AST_5, 45, 1510.0, Some(1272.0)),
@@ -96,8 +121,9 @@ fn fewer_points_than_the_bound_at_the_same_tolerance() {
     }
 }
 
-/// Here the largest step decides nearly everywhere, so wandering has its full price: one
-/// step in 514.
+/// Here the largest step decides nearly everywhere, so wandering has its full price: one step in each
+/// of the 45 blocks of 64 turns, which without it have 512 steps of exactly 45 deg. With it the path
+/// has 8 points more than the 22,990 that it keeps to without.
 #[test]
 fn steps_of_45_deg_on_ast_50_wander_for_a_quarter_of_a_percent() {
     let still = format!("{}, wander = false", minimax(1, 45));
@@ -127,8 +153,10 @@ fn long_fewer_points_on_the_large_paraboloid() {
 #[test]
 fn with_normal_compensation_x_may_err_by_a_thousandth_of_the_feed() {
     let normal = ["compensator={ use = \"normal\" }"];
-    for sampler in [atpg(45), minimax(7, 45)] {
-        let found = run(AST_5, &sampler, &normal);
+    let with_atpg = run(AST_5, &atpg(45), &normal);
+    let found = run(AST_5, &minimax(7, 45), &normal);
+    same_motion(&found, &with_atpg);
+    for found in [with_atpg, found] {
         assert!(points(&found) <= 0.60 * 4238.0, "{}", points(&found));
         let residual = number(&found, "/residual/max_nm");
         assert!(residual <= 99.967 + 0.2, "{residual}");

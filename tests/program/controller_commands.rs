@@ -132,3 +132,33 @@ fn the_posts_own_templates_and_unused_ones_are_not_named() {
     let said = unused.line("run recipe.toml -o out").ends(0);
     assert!(!said.stdout.contains("M1=1"), "{said}");
 }
+
+#[test]
+fn a_rotary_buffer_that_a_recipe_asks_for_needs_trust_and_the_path_stays_the_same() {
+    let bench = bench("buffer = \"rotary\"");
+    let said = bench.line("run recipe.toml -o out").ends(2);
+    assert!(
+        said.stderr
+            .contains("it tells the controller `OPEN ROTARY`"),
+        "{said}"
+    );
+    bench.line("run recipe.toml -o out --trust-recipe").ends(0);
+    let rotary = bench.read("out/recipe.pmc");
+    assert!(
+        rotary.contains("CLOSE\nOPEN ROTARY\n; -- cutting --\n"),
+        "{rotary:.900}"
+    );
+    let own = [
+        "run",
+        "recipe.toml",
+        "-o",
+        "own",
+        "--set",
+        "output.pmac-pvt.buffer=program",
+    ];
+    bench.call(own).ends(0);
+    let program = bench.read("own/recipe.pmc");
+    let path = |text: &str| text.split_once("; -- cutting").unwrap().1.to_owned();
+    assert_eq!(path(&rotary), path(&program));
+    bench.line("verify recipe.toml out/recipe.pmc").ends(0);
+}

@@ -203,12 +203,12 @@ fn files_that_are_no_map_end_with_status_2_and_the_line() {
         (
             "short.DAT",
             half.into(),
-            "short.DAT: the file has 299 points, and its grid has 625",
+            "short.DAT: line 300: the file has 299 points, and its grid has 625",
         ),
         (
             "nan.DAT",
             good.replacen("\n", "\nNaN 0 0 0\n", 1).into(),
-            "nan.DAT: line 2: `NaN` is no number",
+            "nan.DAT: line 2: `NaN` is no height; a hole has a number and `nodata` 1",
         ),
         (
             "large.DAT",
@@ -226,7 +226,7 @@ fn files_that_are_no_map_end_with_status_2_and_the_line() {
                 .map(|k| format!("{} {} 0\n", (k % 8) * (k % 8), k / 8))
                 .collect::<String>()
                 .into(),
-            "uneven.xyz: the points lie on no regular grid",
+            "uneven.xyz: line 2: the points lie on no regular grid",
         ),
         (
             "map.png",

@@ -14,12 +14,17 @@ const RANDOM_CASES: u32 = 256;
 
 /// The interpreter for which Debian builds LinuxCNC's module `gcode`.
 const SYSTEM_PYTHON: &str = "/usr/bin/python3";
+/// How long random recipes are measured, s: a sample of them, some seconds each.
+const MEASURING_S: &str = "300";
 
 const OTHER_CHECKS: &str = "\
 random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
+random recipes: tests/reference/playback/measure_random.py, those of the test of five hundred
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
 linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
+columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
+dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
@@ -42,10 +47,15 @@ pub fn run_checks() -> Vec<Step> {
                 run(script("tests/reference/playback/selftest.py", &[]))
             })
         }),
+        Step::run("random recipes", || {
+            with_packages(&["numpy"], random_recipes)
+        }),
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
         Step::run("linuxcnc", || {
             with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
         }),
+        Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
+        Step::run("dry runs", dry_runs),
         Step::run("programs", || with_packages(&[], programs)),
     ];
     steps.extend(fuzz::run_targets(&[]));
@@ -85,6 +95,50 @@ fn linuxcnc() -> Outcome {
     run(command(SYSTEM_PYTHON, &[&script, &program, &kept]))
 }
 
+/// A run of the saddle with these changes, into a folder of the target folder.
+fn saddle(folder: &str, changes: &[&str]) -> Result<PathBuf, Outcome> {
+    let folder = target().join("long").join(folder);
+    let mut turnpath = std::process::Command::new(program()?);
+    turnpath
+        .current_dir(repository())
+        .args(["run", "tests/reference/programs/saddle.toml"])
+        .args(changes)
+        .arg("-o")
+        .arg(&folder);
+    match run(turnpath) {
+        Outcome::Passed => Ok(folder),
+        failed => Err(failed),
+    }
+}
+
+/// toolpath.parquet and toolpath.npz, opened by pyarrow and numpy.
+fn columns() -> Outcome {
+    let data = "output.data=[\"csv\", \"parquet\", \"npz\"]";
+    match saddle("columns", &["--set", data]) {
+        Ok(folder) => run(script("tests/reference/data/columns.py", &[&folder])),
+        Err(outcome) => outcome,
+    }
+}
+
+/// The dry runs of all posts, by an independent reader.
+fn dry_runs() -> Outcome {
+    let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"nanotech-g93\", \"linuxcnc-g93\"]";
+    let changes = ["--dry-run", "--set", "path.lead=true", "--set", posts];
+    let folder = match saddle("dry-runs", &changes) {
+        Ok(folder) => folder,
+        Err(outcome) => return outcome,
+    };
+    let files = ["pmc", "ppmc", "ascript", "mpf", "nc", "ngc"].map(|end| {
+        let name = format!("saddle-dry-run.{end}");
+        folder.join(name)
+    });
+    let table = folder.join("toolpath.csv");
+    let (nose, clearance) = (PathBuf::from("1"), PathBuf::from("5"));
+    let mut arguments: Vec<&Path> = vec![&table, &nose, &clearance];
+    arguments.extend(files.iter().map(PathBuf::as_path));
+    run(script("tests/reference/programs/dry_run.py", &arguments))
+}
+
 /// The table beside the script is what the script makes of the program beside it.
 fn programs() -> Outcome {
     let folder = Path::new("tests/reference/programs");
@@ -93,6 +147,23 @@ fn programs() -> Outcome {
         "tests/reference/programs/siemens_840d.py",
         &[&files[0], &files[1]],
     ))
+}
+
+/// The recipes that the ignored tests leave in their scratch folder, measured with the playback apart,
+/// as many as the time allows.
+fn random_recipes() -> Outcome {
+    let recipes = target().join("tmp").join("fewest-points");
+    match program() {
+        Ok(program) => {
+            let mut measure = script(
+                "tests/reference/playback/measure_random.py",
+                &[&program, &recipes],
+            );
+            measure.args(["--seconds", MEASURING_S]);
+            run(measure)
+        }
+        Err(outcome) => outcome,
+    }
 }
 
 fn maps() -> Outcome {

@@ -20,7 +20,9 @@ pub fn run(args: &RunArgs, catalogue: Catalogue) -> Outcome {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(job.recipe().folder_name()),
     };
-    let outputs = Outputs::in_folder(folder).with_plots(plots::request(&args.plots)?);
+    let outputs = Outputs::in_folder(folder)
+        .with_plots(plots::request(&args.plots)?)
+        .with_dry_run(args.dry_run);
     let bar = Bar::new();
     let result = job.run(outputs, &bar);
     bar.clear();

@@ -225,7 +225,14 @@ fn no_height(theta: f64, rho: f64) -> StrategyError {
     }
     .position();
     let position = format!("x = {:.4} mm, y = {:.4} mm", at.x, at.y);
+    // No aperture leaves the axis out.
+    let advice = match rho == 0.0 {
+        true => {
+            "that is the axis of rotation: choose a surface that is smooth there, or a hole (`inner`)"
+        }
+        false => "choose a smaller aperture",
+    };
     StrategyError::failed(format!(
-        "the surface has no height, slope or curvature at {position}; choose a smaller aperture"
+        "the surface has no height, slope or curvature at {position}; {advice}"
     ))
 }

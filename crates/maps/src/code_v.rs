@@ -11,7 +11,7 @@
 use crate::conventions::Conventions;
 use crate::error::{MapError, MapProblem};
 use crate::map::{Map, Size, turn_rows};
-use crate::text::{count, lines, number, shown, text, words};
+use crate::text::{count, length, lines, number, shown, text, words};
 
 /// A wavelength's unit, mm.
 const MICROMETRE: f64 = 1e-3;
@@ -61,19 +61,22 @@ pub fn read(bytes: &[u8], conventions: &Conventions) -> Result<Map, MapError> {
     }
     let unit = wavelength / scale * MICROMETRE;
     let mut heights = Vec::with_capacity(wanted);
+    let mut last = line;
     for (line, word) in numbers(text, line) {
+        last = line;
         if heights.len() == wanted {
             return Err(MapError::at_line(line, MapProblem::TooLong { wanted }));
         }
         let number = number(line, word)?;
         heights.push(match header.no_data == Some(number) {
             true => f64::NAN,
-            false => number * unit,
+            false => length(line, number * unit)?,
         });
     }
     if heights.len() < wanted {
         let found = heights.len();
-        return Err(MapError::of_file(MapProblem::TooShort { found, wanted }));
+        let problem = MapProblem::TooShort { found, wanted };
+        return Err(MapError::at_line(last, problem));
     }
     turn_rows(size.columns, &mut heights);
     Ok(Map::around_origin(size, pitch, heights))

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use crate::limits::{LEAST_POINTS, MOST_POINTS};
+use crate::limits::{LARGEST_LENGTH, LEAST_PITCH, LEAST_POINTS, MOST_POINTS};
 
 /// Why a file could not be read as a map, and where in the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -96,10 +96,18 @@ pub enum MapProblem {
     #[error("the file does not say how far its points are apart: give `pitch_x` and `pitch_y`")]
     NoPitch,
     /// The distance of points is no distance.
-    #[error("the distance of neighbouring points is {pitch}; it must be above zero")]
+    #[error(
+        "the distance of neighbouring points is {} mm; it lies between {LEAST_PITCH:e} and {LARGEST_LENGTH:e} mm", Short(*.pitch)
+    )]
     Pitch {
-        /// The distance.
+        /// The distance, mm.
         pitch: f64,
+    },
+    /// A height or a place that no part has.
+    #[error("a length of {} mm is not that of a part; the largest is {LARGEST_LENGTH:e} mm", Short(*.length))]
+    Length {
+        /// The length, mm.
+        length: f64,
     },
     /// The grid is too small.
     #[error(
@@ -144,6 +152,20 @@ pub enum MapProblem {
     NoPoints,
 }
 
+/// A number with six digits at the most, for messages.
+pub(crate) struct Short(pub(crate) f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = format!("{:.5e}", self.0);
+        let short = digits.parse().unwrap_or(self.0);
+        match short != 0.0 && !(1e-5..1e7).contains(&f64::abs(short)) {
+            true => write!(f, "{short:e}"),
+            false => write!(f, "{short}"),
+        }
+    }
+}
+
 impl MapError {
     pub(crate) fn of_file(problem: MapProblem) -> Self {
         let place = Place::File;
@@ -158,6 +180,14 @@ impl MapError {
     pub(crate) fn at_byte(byte: usize, problem: MapProblem) -> Self {
         let place = Place::Byte(byte);
         Self { place, problem }
+    }
+
+    /// The same error at a place of the file, where it is one of a pitch that the file has.
+    pub(crate) fn placed(self, place: Place) -> Self {
+        match self.problem {
+            MapProblem::Pitch { .. } => Self { place, ..self },
+            _ => self,
+        }
     }
 
     pub(crate) fn header(line: usize, message: impl Into<Cow<'static, str>>) -> Self {

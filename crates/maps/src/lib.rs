@@ -15,6 +15,7 @@
 //! # Ok::<(), turnpath_maps::MapError>(())
 //! ```
 
+mod axis;
 mod code_v;
 mod conventions;
 mod detection;
@@ -32,7 +33,7 @@ pub use conventions::{Conventions, Origin, length_unit};
 pub use detection::format_of;
 pub use error::{MapError, MapProblem, Place};
 pub use format::Format;
-pub use limits::{LEAST_POINTS, MOST_POINTS};
+pub use limits::{LARGEST_LENGTH, LEAST_PITCH, LEAST_POINTS, MOST_POINTS};
 pub use map::Map;
 
 /// Reads a map. The name of the file tells the format where neither the conventions nor the bytes

@@ -1,7 +1,7 @@
 //! Heights on a regular grid.
 
 use crate::error::{MapError, MapProblem};
-use crate::limits::{LEAST_POINTS, MOST_POINTS};
+use crate::limits::{LARGEST_LENGTH, LEAST_PITCH, LEAST_POINTS, MOST_POINTS};
 
 /// Heights on a regular grid, in mm. Columns lie along x, rows along y. Column 0 has the least x,
 /// row 0 the least y. A height that is NaN is a hole.
@@ -60,8 +60,8 @@ impl Map {
     /// rows from the bottom, each from the left, in mm. The middle lies at the origin.
     ///
     /// # Errors
-    /// When the size is too small or too large, or does not fit the heights, or a pitch is not
-    /// above zero.
+    /// When the size is too small or too large, or does not fit the heights, or a pitch is
+    /// none.
     pub fn new(
         columns: usize,
         rows: usize,
@@ -164,9 +164,17 @@ impl Map {
 
 /// A pitch that a grid may have, mm.
 pub(crate) fn check_pitch(pitch: f64) -> Result<f64, MapProblem> {
-    match pitch.is_finite() && pitch > 0.0 {
+    match (LEAST_PITCH..=LARGEST_LENGTH).contains(&pitch) {
         true => Ok(pitch),
         false => Err(MapProblem::Pitch { pitch }),
+    }
+}
+
+/// A height or a coordinate that a map may have, mm.
+pub(crate) fn check_length(length: f64) -> Result<f64, MapProblem> {
+    match length.abs() <= LARGEST_LENGTH {
+        true => Ok(length),
+        false => Err(MapProblem::Length { length }),
     }
 }
 

@@ -7,8 +7,8 @@
 //! and R the number of phases in a wave, which follows from the resolution.
 
 use crate::conventions::Conventions;
-use crate::error::{MapError, MapProblem};
-use crate::map::{Map, Size, turn_rows};
+use crate::error::{MapError, MapProblem, Place};
+use crate::map::{Map, Size, check_length, turn_rows};
 
 /// The first bytes of the three editions of the format.
 const MAGIC: [[u8; 4]; 3] = [
@@ -69,21 +69,25 @@ pub fn read(bytes: &[u8], conventions: &Conventions) -> Result<Map, MapError> {
     let unit = unit(bytes)?;
     let lateral = f64::from(f32_at(bytes, LATERAL)?) * METRE;
     let lateral = Some(lateral).filter(|lateral| lateral.is_finite() && *lateral > 0.0);
-    let pitch = conventions.pitch([lateral, lateral])?;
+    let pitch = conventions.pitch([lateral, lateral]);
+    let pitch = pitch.map_err(|error| error.placed(Place::Byte(LATERAL)))?;
     let (phases, rest) = bytes.get(start..).unwrap_or_default().as_chunks::<BYTES>();
     let (found, wanted) = (phases.len(), size.points());
     if found < wanted {
-        return Err(MapError::of_file(MapProblem::TooShort { found, wanted }));
+        let problem = MapProblem::TooShort { found, wanted };
+        return Err(MapError::at_byte(bytes.len(), problem));
     }
     if found > wanted || !rest.is_empty() {
         let at = start + wanted * BYTES;
         return Err(MapError::at_byte(at, MapProblem::TooLong { wanted }));
     }
-    let height = |bytes: &[u8; BYTES]| match i32::from_be_bytes(*bytes) {
-        NO_PHASE.. => f64::NAN,
-        phase => f64::from(phase) * unit,
+    let height = |(number, bytes): (usize, &[u8; BYTES])| match i32::from_be_bytes(*bytes) {
+        NO_PHASE.. => Ok(f64::NAN),
+        phase => check_length(f64::from(phase) * unit)
+            .map_err(|problem| MapError::at_byte(start + number * BYTES, problem)),
     };
-    let mut heights: Vec<f64> = phases.iter().map(height).collect();
+    let heights: Result<Vec<f64>, MapError> = phases.iter().enumerate().map(height).collect();
+    let mut heights = heights?;
     turn_rows(columns, &mut heights);
     Ok(Map::around_origin(size, pitch, heights))
 }

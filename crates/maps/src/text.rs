@@ -1,6 +1,7 @@
 //! Texts of numbers, line by line.
 
 use crate::error::{MapError, MapProblem};
+use crate::map::check_length;
 
 /// Longest part of a file that a message repeats.
 const SHOWN: usize = 24;
@@ -38,8 +39,14 @@ pub fn words(line: &str) -> impl Iterator<Item = &str> {
 pub fn number(line: usize, word: &str) -> Result<f64, MapError> {
     match word.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(no_number(line, word, "number")),
+        Ok(_) => Err(no_number(line, word, "finite number")),
+        Err(_) => Err(no_number(line, word, "number")),
     }
+}
+
+/// A length in mm that a map may have.
+pub fn length(line: usize, length: f64) -> Result<f64, MapError> {
+    check_length(length).map_err(|problem| MapError::at_line(line, problem))
 }
 
 /// A whole number of points.

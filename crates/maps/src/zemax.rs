@@ -10,9 +10,9 @@
 //! of degree 5 through the heights has better ones.
 
 use crate::conventions::Conventions;
-use crate::error::{MapError, MapProblem};
+use crate::error::{MapError, MapProblem, Place};
 use crate::map::{Map, Size, turn_rows};
-use crate::text::{count, lines, no_number, number, shown, text, words};
+use crate::text::{count, length, lines, no_number, number, shown, text, words};
 
 /// Least bytes of a point: a digit and the end of its line.
 const LEAST_BYTES: usize = 2;
@@ -47,21 +47,30 @@ pub fn read(bytes: &[u8], conventions: &Conventions) -> Result<Map, MapError> {
         conventions.xy_unit(Some(header.unit))?,
         conventions.z_unit(Some(header.unit))?,
     );
-    let pitch = conventions.pitch(header.pitch.map(|pitch| Some(pitch * xy)))?;
+    let pitch = conventions.pitch(header.pitch.map(|pitch| Some(pitch * xy)));
+    let pitch = pitch.map_err(|error| error.placed(Place::Line(line)))?;
+    let [middle_x, middle_y] = header.middle.map(|middle| length(line, middle * xy));
+    let (middle_x, middle_y) = (middle_x?, middle_y?);
     let mut heights = Vec::with_capacity(wanted);
+    let mut last = line;
     for (line, text) in lines {
+        last = line;
         if heights.len() == wanted {
             return Err(MapError::at_line(line, MapProblem::TooLong { wanted }));
         }
-        heights.push(height(line, text)? * z);
+        heights.push(match height(line, text)? {
+            Some(height) => length(line, height * z)?,
+            None => f64::NAN,
+        });
     }
     if heights.len() < wanted {
         let found = heights.len();
-        return Err(MapError::of_file(MapProblem::TooShort { found, wanted }));
+        let problem = MapProblem::TooShort { found, wanted };
+        return Err(MapError::at_line(last, problem));
     }
     turn_rows(header.size.columns, &mut heights);
     let mut map = Map::around_origin(header.size, pitch, heights);
-    map.shift(header.middle[0] * xy, header.middle[1] * xy);
+    map.shift(middle_x, middle_y);
     Ok(map)
 }
 
@@ -105,10 +114,20 @@ fn unit(line: usize, flag: &str) -> Result<f64, MapError> {
     })
 }
 
-/// The height of a point; NaN in a hole.
-fn height(line: usize, text: &str) -> Result<f64, MapError> {
+/// The height of a point; `None` in a hole.
+fn height(line: usize, text: &str) -> Result<Option<f64>, MapError> {
     let mut words = words(text);
-    let height = number(line, words.next().unwrap_or_default())?;
+    let first = words.next().unwrap_or_default();
+    let height = match first.parse::<f64>() {
+        Ok(height) if height.is_nan() => {
+            return Err(no_number(
+                line,
+                first,
+                "height; a hole has a number and `nodata` 1",
+            ));
+        }
+        _ => number(line, first)?,
+    };
     for word in words.by_ref().take(3) {
         // Most are zero: programs that estimate them write so.
         if word != "0" {
@@ -124,8 +143,8 @@ fn height(line: usize, text: &str) -> Result<f64, MapError> {
         ));
     }
     match flag {
-        None | Some("0") => Ok(height),
-        Some("1") => Ok(f64::NAN),
+        None | Some("0") => Ok(Some(height)),
+        Some("1") => Ok(None),
         Some(word) => Err(no_number(line, word, "flag `nodata`: 0 or 1")),
     }
 }

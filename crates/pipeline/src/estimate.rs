@@ -1,9 +1,8 @@
 //! How long a path will be, before it is made.
 
+use crate::Result;
 use crate::feed_cap::{FeedCap, feed_cap};
-use crate::observer::SilentObserver;
 use crate::plan::Plan;
-use crate::{Chain, Preparation, Result, schedule};
 
 /// About how many blocks are sampled to estimate the count of control points.
 const SAMPLED_BLOCKS: usize = 8;
@@ -32,16 +31,6 @@ impl Estimate {
             feed_cap: feed_cap(plan.preparation, &plan.law)?,
         })
     }
-}
-
-/// Estimates the path from the chain's law and a few blocks of its sampler.
-///
-/// # Errors
-/// When a strategy fails.
-pub fn estimate(chain: &Chain, preparation: &Preparation) -> Result<Estimate> {
-    let plan = schedule::plan(chain, preparation, &SilentObserver)?;
-    let nodes = nodes_per_revolution(&plan)?;
-    Estimate::of(&plan, nodes)
 }
 
 /// Mean count of the sampler's nodes on a revolution, from a few blocks.

@@ -1,19 +1,15 @@
 //! Before there is a path: the range of ρ, and whether the tool fits.
 
-use std::f64::consts::TAU;
-
 use turnpath_core::interference::{Conflict, Interference};
-use turnpath_core::{Compensator, Misfit, Overrun, Part, Scalar, Task, Tool, ToolLocus};
+use turnpath_core::{Compensator, Misfit, Overrun, Task, Tool, ToolLocus};
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::contact::contact_range;
 use crate::fit::Fit;
 use crate::job_spec::JobSpec;
+use crate::on_part::{check_data, check_heights};
 use crate::size::check_part;
 use crate::{Chain, PipelineError, Result};
-
-/// Points on the part's inner ring at which the surface is looked for.
-const RING_POINTS: usize = 8;
 
 /// A task whose tool fits its part.
 #[derive(Clone)]
@@ -34,7 +30,7 @@ pub struct Preparation {
 ///
 /// # Errors
 /// When the tool does not fit, when the surface has no height somewhere on the part or on its
-/// overrun, or when a strategy fails.
+/// overrun, when its map lies elsewhere, or when a strategy fails.
 pub fn prepare(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     check_part(&spec)?;
     if spec.tool.misfit == Misfit::Refuse {
@@ -55,7 +51,8 @@ fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     let fit = Fit::new(chain, part, tool, overrun);
     let (surface, compensator) = (fit.surface.clone(), fit.compensator.clone());
     let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
-    require_heights(chain, &part)?;
+    check_heights(chain, &part)?;
+    check_data(chain, &part)?;
     // How far the contact goes beyond the rim is known only if the nose fits the part itself.
     let on_part = fit.interference(tool, fit.whole_part())?;
     let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });
@@ -78,23 +75,6 @@ fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
         interference,
         touch,
     })
-}
-
-/// Refuses a surface that has no height anywhere on the part's inner ring: that is the plugin's
-/// fault, not the recipe's.
-fn require_heights(chain: &Chain, part: &Part) -> Result<()> {
-    let radius = part.inner_radius;
-    let turn = |i: usize| -> (f64, f64) { Scalar::sin_cos(TAU * i as f64 / RING_POINTS as f64) };
-    let x: Vec<f64> = (0..RING_POINTS).map(|i| radius * turn(i).1).collect();
-    let y: Vec<f64> = (0..RING_POINTS).map(|i| radius * turn(i).0).collect();
-    let mut z = vec![f64::NAN; x.len()];
-    let answer = chain.surface.strategy.heights(&x, &y, &mut z);
-    answer.map_err(|error| chain.surface.failed("at the middle of the part", error))?;
-    if z.iter().any(|z| z.is_finite()) {
-        return Ok(());
-    }
-    let what = format!("no number for z anywhere at radius {radius} mm");
-    Err(chain.surface.bad_answer(what))
 }
 
 /// In which ways the tool does not fit. Where the recipe says to cut what fits and the compensator

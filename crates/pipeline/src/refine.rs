@@ -57,12 +57,18 @@ enum SegmentState {
 }
 
 /// Halves segments until the played error is below the aim everywhere, or no segment can be halved
-/// any more. Gives how often each sampler segment is halved.
-pub fn refine(plan: &Plan<'_>, batch: usize, observer: &dyn Observer) -> Result<Vec<Depths>> {
+/// any more. Gives how often each sampler segment is halved. Only the `chosen` blocks are refined, in
+/// their order; of the others nothing is halved.
+pub fn refine(
+    plan: &Plan<'_>,
+    batch: usize,
+    chosen: &[usize],
+    observer: &dyn Observer,
+) -> Result<Vec<Depths>> {
     let dependence = plan.chain.velocity.strategy.dependence();
     let mut depths: Vec<Depths> = vec![Depths::new(); plan.blocks()];
     let mut states: Vec<Vec<SegmentState>> = vec![Vec::new(); plan.blocks()];
-    let mut dirty: Vec<usize> = (0..plan.blocks()).collect();
+    let mut dirty: Vec<usize> = chosen.to_vec();
     let mut counts = vec![0; plan.blocks()];
     for round in 1..=MOST_ROUNDS {
         observer.begin(Stage::Refine(round), dirty.len() as u64);
@@ -83,6 +89,7 @@ pub fn refine(plan: &Plan<'_>, batch: usize, observer: &dyn Observer) -> Result<
             break;
         }
         dirty = affected(dependence, &counts, halved.into_iter());
+        dirty.retain(|index| chosen.binary_search(index).is_ok());
     }
     Ok(depths)
 }

@@ -82,10 +82,19 @@ impl<'a> ReadyPath<'a> {
         let estimate = Estimate::of(&plan, nodes)?;
         sink.expect(&estimate).map_err(RunError::Sink)?;
         let batch = batch_size(&plan, nodes);
-        let depths = match options.refine {
-            true => refine(&plan, batch, observer)?,
-            false => Vec::new(),
+        let refined = |plan: &Plan<'_>| match options.refine {
+            true => {
+                let all: Vec<usize> = (0..plan.blocks()).collect();
+                refine(plan, batch, &all, observer)
+            }
+            false => Ok(Vec::new()),
         };
+        let mut depths = refined(&plan)?;
+        let is_slower = schedule::slow_down_refined(&mut plan, &depths, observer)?;
+        if is_slower && plan.time_steps.is_some() {
+            // At another speed the points lie on other steps of the controller's time.
+            depths = refined(&plan)?;
+        }
         stop_if_cancelled(observer)?;
         let leads = options
             .lead

@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
+use turnpath_core::Machine;
 use turnpath_core::toolpath::PathBlock;
 use turnpath_verify::AxesMotion;
 
-use crate::make::{BlockPoints, first_state, make};
+use crate::make::{BlockPoints, Depths, first_state, make};
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::plan::Plan;
 use crate::{Chain, Preparation, Result, spindle};
@@ -25,10 +26,13 @@ const ENOUGH: f64 = 0.9999;
 const CLOSE: f64 = 0.999;
 /// The whole schedule is not slowed down by more than this.
 const LITTLE: f64 = 0.98;
+/// For points of refinement the whole schedule is slowed down to this part at the least. Points that
+/// ask for less stand at a jump, which no speed brings within the limits.
+const LEAST_REFINED: f64 = 0.5;
 /// An excess below this part is the rounding of points. By so much more a schedule is slowed down.
 const ROUNDING: f64 = 1e-9;
-/// The smallest factor that the host asks for. A jump between two points asks for next to nothing,
-/// and a strategy divides by factors.
+/// The host asks for no less than this part of the speed that was planned first. A jump between two
+/// points asks for next to nothing, and a strategy divides by factors.
 const LEAST: f64 = 1e-3;
 /// Blocks that are made at a time.
 const BATCH: usize = 16;
@@ -55,43 +59,90 @@ pub fn plan<'a>(
 /// its nodes again, and these ask for factors of their own. Gives the least headroom.
 fn hold_limits(plan: &mut Plan<'_>, observer: &dyn Observer) -> Result<f64> {
     let takes_all = plan.chain.sampler.strategy.needs_exact_rates();
-    let mut factors = vec![1.0; half_turns(plan.law.end())];
-    let (mut least, mut is_another) = follow(plan, &mut factors, observer)?;
+    let mut asked = Asked::new(plan);
+    let (mut least, mut is_another) = follow(plan, &mut asked, observer)?;
     for _ in 0..PLACEMENTS {
         if !(takes_all && is_another) {
             break;
         }
         plan.place_again(observer)?;
-        (least, is_another) = follow(plan, &mut factors, observer)?;
+        (least, is_another) = follow(plan, &mut asked, observer)?;
     }
     Ok(least)
 }
 
-/// Plans the schedule again for the present nodes, and lowers `factors` where they ask for it. Gives
+/// What the host asks of a strategy, for each half turn, as parts of the largest speed.
+struct Asked {
+    factors: Vec<f64>,
+    /// The smallest factors that are asked for.
+    least: Vec<f64>,
+}
+
+impl Asked {
+    /// Nothing yet.
+    fn new(plan: &Plan<'_>) -> Self {
+        let speed = plan.preparation.task.spindle_speed;
+        let halves = half_turns(plan.law.end());
+        let least = |half: usize| LEAST * fastest(plan, half) / speed;
+        Self {
+            factors: vec![1.0; halves],
+            least: (0..halves).map(least).collect(),
+        }
+    }
+
+    /// Lowers the factors where the present schedule leaves no headroom.
+    fn lower(&mut self, plan: &Plan<'_>, headroom: &[f64]) {
+        let speed = plan.preparation.task.spindle_speed;
+        let factors = self.factors.iter_mut().zip(&self.least);
+        for (half, ((factor, least), headroom)) in factors.zip(headroom).enumerate() {
+            if *headroom < ENOUGH {
+                let asked = headroom * fastest(plan, half) / speed;
+                *factor = factor.min(asked).max(*least);
+            }
+        }
+    }
+}
+
+/// Plans the schedule again for the present nodes, and asks for less where they need it. Gives
 /// the least headroom, and whether the schedule is another one.
-fn follow(
-    plan: &mut Plan<'_>,
-    factors: &mut [f64],
-    observer: &dyn Observer,
-) -> Result<(f64, bool)> {
+fn follow(plan: &mut Plan<'_>, asked: &mut Asked, observer: &dyn Observer) -> Result<(f64, bool)> {
     let mut round = 0;
     loop {
-        let headroom = headroom(plan, observer)?;
+        let headroom = headroom(plan, &[], observer)?;
         let least = headroom.iter().copied().fold(1.0, f64::min);
         if least >= CLOSE || round == ROUNDS {
             return Ok((least, round > 0));
         }
         round += 1;
-        let speed = plan.preparation.task.spindle_speed;
-        for (half, (factor, headroom)) in factors.iter_mut().zip(headroom).enumerate() {
-            if headroom < ENOUGH {
-                let asked = headroom * fastest(plan, half) / speed;
-                *factor = f64::min(*factor, asked).max(LEAST);
-            }
-        }
-        let law = spindle::plan(plan.chain, plan.preparation, &plan.law, factors)?;
+        asked.lower(plan, &headroom);
+        let law = spindle::plan(plan.chain, plan.preparation, &plan.law, &asked.factors)?;
         plan.take_spindle(law);
     }
+}
+
+/// Slows the whole schedule down by what the points of refinement ask for beyond it: they were not
+/// there when it was planned. Whether it did. The cubics stay as they are in the angle, so they keep
+/// the tolerance. An excess that is not small stays, and the verdict shows it.
+///
+/// # Errors
+/// If a block cannot be made, or the observer cancels the run.
+pub fn slow_down_refined(
+    plan: &mut Plan<'_>,
+    depths: &[Depths],
+    observer: &dyn Observer,
+) -> Result<bool> {
+    let is_refined = depths.iter().flatten().any(|depth| *depth > 0);
+    let has_limits = plan.preparation.task.machine.has_limits();
+    if !(is_refined && has_limits && plan.chain.spindle.strategy.follows_factors()) {
+        return Ok(false);
+    }
+    let headroom = headroom(plan, depths, observer)?;
+    let least = headroom.into_iter().fold(1.0, f64::min);
+    if !(LEAST_REFINED..1.0 - ROUNDING).contains(&least) {
+        return Ok(false);
+    }
+    plan.take_spindle(plan.spindle.scaled(least * (1.0 - ROUNDING)));
+    Ok(true)
 }
 
 /// Slows the whole schedule down by the little that is left of an excess. The motion of all axes
@@ -114,8 +165,8 @@ fn fastest(plan: &Plan<'_>, half: usize) -> f64 {
 }
 
 /// For each half turn, by which factor its present speed may grow, or must fall, to reach the limits
-/// of the machine: on the path as played, without refinement.
-fn headroom(plan: &Plan<'_>, observer: &dyn Observer) -> Result<Vec<f64>> {
+/// of the machine: on the path as played, with its segments halved so often.
+fn headroom(plan: &Plan<'_>, depths: &[Depths], observer: &dyn Observer) -> Result<Vec<f64>> {
     let mut all = vec![f64::INFINITY; half_turns(plan.law.end())];
     let mut state = first_state(plan);
     let mut from = 0;
@@ -123,16 +174,26 @@ fn headroom(plan: &Plan<'_>, observer: &dyn Observer) -> Result<Vec<f64>> {
         stop_if_cancelled(observer)?;
         let range = from..(from + BATCH).min(plan.blocks());
         from = range.end;
-        for block in make(plan, range, &[], state.as_mut())? {
+        for block in make(plan, range, depths, state.as_mut())? {
             include(plan, &block, &mut all);
         }
     }
     Ok(all)
 }
 
+/// The limits that a speed can be asked for. A constant speed has no acceleration and no jerk, and what
+/// the rounding of its points leaves of them follows no speed.
+fn limits(plan: &Plan<'_>) -> Machine {
+    let mut machine = plan.preparation.task.machine;
+    if plan.spindle.is_constant() {
+        (machine.c.acceleration, machine.c.jerk) = (None, None);
+    }
+    machine
+}
+
 /// Includes the half turns of a block. A segment across the border of two counts for both.
 fn include(plan: &Plan<'_>, block: &BlockPoints, all: &mut [f64]) {
-    let (machine, points) = (&plan.preparation.task.machine, &block.points);
+    let (machine, points) = (&limits(plan), &block.points);
     let (Some(first), Some(last)) = (points.c.first(), points.c.last()) else {
         return;
     };

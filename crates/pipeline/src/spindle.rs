@@ -11,6 +11,9 @@ use crate::{Chain, Preparation, Result};
 const END_SLACK: f64 = 1e-9;
 /// By how much t may jump at a knot, as a part of a revolution's time.
 const TIME_JUMP: f64 = 1e-9;
+/// By how much t may jump at a knot, as a part of itself: its rounding. At high speeds it is more than
+/// the part of a revolution's time.
+const TIME_ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// By how much the speed may jump at a knot, or exceed its bound, as a part of itself.
 const SPEED_JUMP: f64 = 1e-9;
 /// By how much the change of the speed over a revolution may jump at a knot, as a part of the speed.
@@ -130,7 +133,8 @@ impl SpindleCheck<'_> {
         }
         let (before, after) = (self.time.series_before(n), self.time.series(n));
         let jump = |order: usize| (after[order] - before[order]).abs();
-        if !within(jump(0), TIME_JUMP * self.least_period()) {
+        let rounding = TIME_ROUNDING * before[0].abs();
+        if !within(jump(0), TIME_JUMP * self.least_period() + rounding) {
             return Err(format!(
                 "t jumps from {} s to {} s {}",
                 before[0],
@@ -369,6 +373,20 @@ mod tests {
         refused(&speed, &["from 240.0000 rpm to 120.0000 rpm at 5.000"]);
         let bend = two([1.25, PERIOD, 0.01, 0.0, 0.0, 0.0]);
         refused(&bend, &["acceleration of the spindle jumps at 5.000"]);
+    }
+
+    /// After 5000 s a double has steps of 9e-13 s, far more than a billionth of a short turn.
+    #[test]
+    fn a_jump_by_the_rounding_of_t_passes_at_any_largest_speed() {
+        let next = f64::from_bits(5000f64.to_bits() + 1);
+        let of = |t| law([(5.0, straight(0.0, 1000.0)), (5.0, straight(t, 1000.0))]);
+        let check = |time: &PiecewisePolynomial| {
+            let speed = TAU / 1e-7;
+            let end = 10.0;
+            SpindleCheck { time, end, speed }.check()
+        };
+        assert_eq!(check(&of(next)), Ok(()));
+        assert!(check(&of(5000.0 + 1e-9)).is_err());
     }
 
     #[test]

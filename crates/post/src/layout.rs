@@ -9,9 +9,10 @@ use crate::carry::{Move, carried, carry, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
-use crate::program_format::{Chords, END_MARK, ProgramFormat, mark};
+use crate::program_format::{APPROACH_MARK, Chords, END_MARK, ProgramFormat, RETREAT_MARK, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
+use crate::travel::{Extent, Travel};
 
 /// A post with the format of one recipe.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +30,8 @@ pub struct Lines {
     pub text: Vec<u8>,
     /// The control points in it: more than those of the path where segments were divided.
     pub points: usize,
+    /// From where to where they go; `None` without points.
+    pub extent: Option<Extent>,
 }
 
 impl Layout {
@@ -45,23 +48,64 @@ impl Layout {
             text.extend_from_slice(opening.as_bytes());
         }
         let mut in_time = Ok(());
-        let points = carry(format, stretch, &mut |step| match step {
-            Move::Start(digits) => post.dialect.write_first(&mut text, format, digits),
-            Move::Segment(segment) => {
-                if in_time.is_ok() {
-                    in_time = post.dialect.check_time(format, segment);
+        let mut extent: Option<Extent> = None;
+        let points = carry(format, stretch, &mut |step| {
+            let point = match step {
+                Move::Start(digits) => {
+                    post.dialect.write_first(&mut text, format, digits);
+                    digits
                 }
-                post.dialect.write_segment(&mut text, format, segment);
-            }
+                Move::Segment(segment) => {
+                    if in_time.is_ok() {
+                        in_time = post.dialect.check_time(format, segment);
+                    }
+                    post.dialect.write_segment(&mut text, format, segment);
+                    &segment.to
+                }
+            };
+            let here = Extent::of(point, stretch.section);
+            extent = Some(extent.map_or(here, |before| before.and(here)));
         })?;
-        in_time.map(|()| Lines { text, points })
+        in_time.map(|()| Lines {
+            text,
+            points,
+            extent,
+        })
+    }
+
+    /// The lines between the header and a path of this extent.
+    pub(crate) fn approach(&self, extent: Option<&Extent>) -> Vec<u8> {
+        let moves = extent.map(|extent| extent.approach(&self.format));
+        self.marked_travel(APPROACH_MARK, &moves.unwrap_or_default())
+    }
+
+    fn marked_travel(&self, mark: &str, moves: &[Travel]) -> Vec<u8> {
+        if moves.is_empty() {
+            return Vec::new();
+        }
+        let mut text = format!("{} {mark}\n", self.post.comment).into_bytes();
+        text.extend(self.travel_lines(moves));
+        text
+    }
+
+    /// The lines of moves before or after a path.
+    pub(crate) fn travel_lines(&self, moves: &[Travel]) -> Vec<u8> {
+        let mut text = Vec::new();
+        for one in moves {
+            self.post
+                .dialect
+                .write_travel(&mut text, &self.format, *one);
+        }
+        text
     }
 
     /// The lines between the last segment of a path of so many points and the footer: what the dialect
     /// writes there, and the end mark.
-    pub(crate) fn end(&self, points: u64) -> Vec<u8> {
+    pub(crate) fn end(&self, points: u64, extent: Option<&Extent>) -> Vec<u8> {
         let mut text = Vec::new();
         self.post.dialect.write_last(&mut text, &self.format);
+        let moves = extent.map(|extent| extent.retreat(&self.format));
+        text.extend(self.marked_travel(RETREAT_MARK, &moves.unwrap_or_default()));
         let mark = format!("{} {END_MARK}: {points} points --\n", self.post.comment);
         text.extend_from_slice(mark.as_bytes());
         text
@@ -100,8 +144,7 @@ impl Layout {
     /// Reads a program of this layout from `reader`, for example from bytes in memory. Errors name
     /// `path`.
     pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
-        let grammar = self.post.dialect.grammar(&self.format);
-        ProgramReader::new(reader, path.into(), grammar, self.post)
+        ProgramReader::new(reader, path.into(), self.post, &self.format)
     }
 
     /// The same layout with one line for each segment, of any time.

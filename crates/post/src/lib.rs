@@ -9,11 +9,15 @@ mod automation1;
 mod axes;
 mod carry;
 mod chord;
+mod column_files;
+mod columns;
 mod comment;
 mod decimal;
+mod dry_run;
 mod fixed_point;
 mod forward_rates;
 mod g93;
+mod g_code;
 mod layout;
 mod maps;
 mod ordinary_file;
@@ -37,10 +41,18 @@ mod siemens_840d;
 mod template;
 #[cfg(test)]
 mod tests;
+mod travel;
+mod travel_check;
 mod turn;
 mod write_csv;
+#[cfg(feature = "npz")]
+mod write_npz;
+#[cfg(feature = "parquet")]
+mod write_parquet;
 
 pub use carry::{DigitSegment, Digits};
+pub use columns::{ColumnFormat, Columns, WriteColumns};
+pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use path_reader::{ReadCount, ReadPath};
@@ -53,6 +65,9 @@ pub use program_writer::{ProgramFileBody, ProgramPath, ProgramPathInMemory, Prog
 pub use read_csv::PathReader;
 pub use read_error::ReadError;
 pub use row::HEADER;
-pub use settings::{C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY};
+pub use settings::{
+    APPROACH_FEED, APPROACH_HEIGHT, C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY,
+};
 pub use template::{PLACEHOLDERS, Template, TemplateError};
+pub use travel::{Extent, Places, Travel, TravelModes};
 pub use write_csv::PathWriter;

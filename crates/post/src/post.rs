@@ -2,13 +2,15 @@
 
 use std::fmt::Debug;
 
-use turnpath_core::ParamInfo;
 use turnpath_core::toolpath::{ControlPoint, SegmentShape};
+use turnpath_core::{ParamInfo, Params};
 
 use crate::carry::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
+use crate::g_code;
 use crate::program_error::ProgramError;
 use crate::program_format::ProgramFormat;
+use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
 #[derive(Debug, Clone, Copy)]
@@ -66,6 +68,7 @@ pub trait Dialect: Debug + Send + Sync {
     ) -> Result<(), ProgramError> {
         Ok(())
     }
+
     /// Writes the lines behind the last segment, before the end mark.
     fn write_last(&self, _text: &mut Vec<u8>, _format: &ProgramFormat) {}
 
@@ -74,6 +77,26 @@ pub trait Dialect: Debug + Send + Sync {
 
     /// The commands of a template, line by line. Comments and empty lines are none.
     fn commands(&self, template: &str) -> Vec<Command>;
+
+    /// Writes a statement before or after the path. Unless a dialect says otherwise, these are words of
+    /// G code.
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        g_code::push_travel(text, format, "", travel);
+    }
+
+    /// Reads a line before or after the path: the places that it gives to the axes.
+    ///
+    /// # Errors
+    /// When the line is not of the dialect: what is wrong with it.
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        g_code::read_travel(code, modes)
+    }
+
+    /// The template of the header that these settings ask for in place of the post's own, if they do,
+    /// behind the name of the key that asks.
+    fn other_header(&self, _settings: &Params) -> Option<(&'static str, &'static str)> {
+        None
+    }
 
     /// Whether the path's lines go into a program after a header. Where a file is a program as it is,
     /// they always do.

@@ -7,6 +7,15 @@ pub(crate) const TURN_DEG: i64 = 360;
 /// The beginning of the line after the path, in its comment.
 pub(crate) const END_MARK: &str = "-- end of path";
 
+/// The mark before the approach.
+pub(crate) const APPROACH_MARK: &str = "-- approach --";
+/// The mark before the retreat.
+pub(crate) const RETREAT_MARK: &str = "-- retreat --";
+
+/// The mark before the moves of a dry run.
+pub(crate) const DRY_RUN_MARK: &str = "-- dry run --";
+/// The mark after them.
+pub(crate) const END_OF_DRY_RUN_MARK: &str = "-- end of dry run --";
 /// What the F of a straight line says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FeedMeaning {
@@ -88,6 +97,10 @@ pub struct ProgramFormat {
     pub z_above: f64,
     /// Chords in place of cubics: the program has no velocities. `None` where it plays cubics.
     pub chords: Option<Chords>,
+    /// How far above the highest place of the path X and C move before it, mm.
+    pub approach_height: f64,
+    /// How fast Z goes down to the path's first point, mm/min.
+    pub approach_feed: f64,
 }
 
 impl ProgramFormat {
@@ -107,6 +120,12 @@ impl ProgramFormat {
     /// The seconds that velocities refer to.
     pub fn velocity_time(&self) -> f64 {
         if self.per_minute { 60.0 } else { 1.0 }
+    }
+
+    /// The height of the approach in last digits, rounded up.
+    pub(crate) fn approach_digits(&self) -> i64 {
+        let one = 10u64.pow(self.position_decimals) as f64;
+        (self.approach_height * one).ceil() as i64
     }
 
     /// The most by which the controller's numbers move a position of this size, in its unit; `None` where

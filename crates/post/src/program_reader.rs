@@ -10,8 +10,9 @@ use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 use crate::forward_rates::ForwardRates;
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
-use crate::program_format::{END_MARK, mark};
+use crate::program_format::{APPROACH_MARK, END_MARK, ProgramFormat, RETREAT_MARK, mark};
 use crate::read_error::ReadError;
+use crate::travel_check::TravelCheck;
 use crate::turn::check_turn;
 
 /// Longest line that is read, bytes: far longer than any line of a program, so that a file that is no
@@ -24,11 +25,14 @@ const BUFFER: usize = 1 << 18;
 pub struct ProgramReader<R = File> {
     lines: BufReader<R>,
     path: PathBuf,
+    post: &'static Post,
+    format: ProgramFormat,
     grammar: Box<dyn Grammar>,
-    /// What begins a comment, for messages.
-    comment: &'static str,
     line: u64,
+    part: Part,
     section: Option<Section>,
+    /// The moves before and after the path.
+    travel: TravelCheck,
     /// The points that the end mark says, after it was read.
     said_points: Option<u64>,
     /// Points that were read and not given yet.
@@ -44,16 +48,34 @@ pub struct ProgramReader<R = File> {
     read_count: ReadCount,
 }
 
+/// The part of a program that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Header,
+    Approach,
+    Path,
+    Retreat,
+    Footer,
+}
+
 impl<R: Read> ProgramReader<R> {
-    pub(crate) fn new(reader: R, path: PathBuf, grammar: Box<dyn Grammar>, post: &Post) -> Self {
+    pub(crate) fn new(
+        reader: R,
+        path: PathBuf,
+        post: &'static Post,
+        format: &ProgramFormat,
+    ) -> Self {
         let has_rates = post.shape == SegmentShape::Linear;
         Self {
             lines: BufReader::with_capacity(BUFFER, reader),
             path,
-            grammar,
-            comment: post.comment,
+            post,
+            format: *format,
+            grammar: post.dialect.grammar(format),
             line: 0,
+            part: Part::Header,
             section: None,
+            travel: TravelCheck::default(),
             said_points: None,
             waiting: VecDeque::new(),
             last: None,
@@ -98,7 +120,7 @@ impl<R: Read> ProgramReader<R> {
 
     /// The error of a file that ends too early.
     fn incomplete(&self) -> ReadError {
-        let comment = self.comment;
+        let comment = self.post.comment;
         self.wrong(match self.section {
             None => format!(
                 "there is no path: the line `{comment} {}` is missing",
@@ -118,14 +140,33 @@ impl<R: Read> ProgramReader<R> {
         }
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
-            if self.section.is_some_and(|last| section <= last) {
+            let is_late = self.part == Part::Retreat;
+            if is_late || self.section.is_some_and(|last| section <= last) {
                 return Err(format!(
                     "`{} {text}` is out of order: the sections are lead-in, cutting, lead-out",
-                    self.comment
+                    self.post.comment
                 ));
             }
             self.section = Some(section);
+            self.part = Part::Path;
             return Ok(true);
+        }
+        if text == APPROACH_MARK && self.part == Part::Header {
+            self.part = Part::Approach;
+            return Ok(true);
+        }
+        if text == RETREAT_MARK && self.part == Part::Path {
+            self.part = Part::Retreat;
+            self.travel.begin_retreat();
+            let last = self.grammar.finish();
+            self.wait(last);
+            return Ok(true);
+        }
+        if text == APPROACH_MARK || text == RETREAT_MARK {
+            let comment = self.post.comment;
+            return Err(format!(
+                "`{comment} {text}` is out of order: it is approach, path, retreat"
+            ));
         }
         let Some(said) = text.strip_prefix(END_MARK) else {
             return Ok(false);
@@ -133,8 +174,11 @@ impl<R: Read> ProgramReader<R> {
         if self.section.is_some() {
             let points = said_points(said);
             self.said_points = Some(points.ok_or("the end mark must give the number of points")?);
-            let last = self.grammar.finish();
-            self.wait(last);
+            if self.part == Part::Path {
+                let last = self.grammar.finish();
+                self.wait(last);
+            }
+            self.part = Part::Footer;
         }
         Ok(true)
     }
@@ -142,6 +186,11 @@ impl<R: Read> ProgramReader<R> {
     /// Reads a line of the path.
     fn read_code(&mut self, code: &[u8]) -> Result<(), String> {
         let code = std::str::from_utf8(code).map_err(|_| "this is not text".to_owned())?;
+        if matches!(self.part, Part::Approach | Part::Retreat) {
+            let modes = &mut self.travel.modes;
+            let places = self.post.dialect.read_travel(code.trim(), modes)?;
+            return self.travel.go_to(&places, self.line);
+        }
         let mut points = Vec::new();
         self.grammar.read(code, &mut points)?;
         self.wait(points);
@@ -160,12 +209,23 @@ impl<R: Read> ProgramReader<R> {
         }
     }
 
+    /// Checks the moves around the whole path.
+    fn check_heights(&mut self) -> Result<bool, ReadError> {
+        match self.travel.finish() {
+            Ok(()) => Ok(false),
+            Err((line, what)) => {
+                self.line = line;
+                Err(self.wrong(what))
+            }
+        }
+    }
+
     /// Reads the next line; `false` at the end of the path.
     fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
             let count = self.found_points;
             return match said == count {
-                true => Ok(false),
+                true => self.check_heights(),
                 false => Err(self.wrong(format!(
                     "the path has {count} points, but its end mark says {said}"
                 ))),
@@ -184,7 +244,7 @@ impl<R: Read> ProgramReader<R> {
             }
         }
         // The lines before the path belong to the header, and those after it to the footer.
-        if self.section.is_some() && self.said_points.is_none() {
+        if !matches!(self.part, Part::Header | Part::Footer) {
             self.read_code(code).map_err(|what| self.wrong(what))?;
         }
         Ok(true)
@@ -214,7 +274,9 @@ impl<R: Read> ProgramReader<R> {
         let Some((point, section)) = self.waiting.pop_front() else {
             return Ok(None);
         };
-        check_turn(self.last.as_ref(), &point, section).map_err(|what| self.wrong(what))?;
+        let checked = check_turn(self.last.as_ref(), &point, section)
+            .and_then(|()| self.travel.pass(&point, &self.format));
+        checked.map_err(|what| self.wrong(what))?;
         self.last = Some((point, section));
         self.found_points += 1;
         Ok(self.last)

@@ -6,6 +6,7 @@ use std::io::{self, Seek, Write};
 use turnpath_files::{Draft, FileError, Scratch};
 
 use crate::layout::{Layout, Lines};
+use crate::travel::Extent;
 
 /// Writes a program to a file or to memory. The header reports what is known only when the path was
 /// measured on its own text, so the path waits until then: in a file without a name, or in memory.
@@ -18,7 +19,7 @@ use crate::layout::{Layout, Lines};
 /// let format = post.format(&Params::new(), 0.0, 1e-4);
 /// let mut writer = ProgramWriter::in_memory(Layout { post, format });
 /// let text = b"; -- cutting --\n".to_vec();
-/// writer.append(&Lines { text, points: 0 })?;
+/// writer.append(&Lines { text, ..Lines::default() })?;
 /// let path = writer.close();
 /// assert!(path.text().ends_with(b"; -- end of path: 0 points --\n"));
 /// let program = path.assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n");
@@ -30,6 +31,7 @@ pub struct ProgramWriter<B = ProgramFileBody> {
     body: B,
     layout: Layout,
     points: u64,
+    extent: Option<Extent>,
 }
 
 /// The body of a program that will become a file.
@@ -45,13 +47,17 @@ pub struct ProgramFileBody {
 pub struct ProgramPath {
     lines: File,
     draft: Draft,
+    /// The approach, which stands behind the header.
+    approach: Vec<u8>,
     points: u64,
+    extent: Option<Extent>,
 }
 
 /// The same in memory.
 #[derive(Debug)]
 pub struct ProgramPathInMemory {
     text: Vec<u8>,
+    approach: Vec<u8>,
     points: u64,
 }
 
@@ -64,11 +70,7 @@ impl ProgramWriter {
         match Scratch::in_folder(draft.folder()) {
             Ok(lines) => {
                 let body = ProgramFileBody { lines, draft };
-                Ok(Self {
-                    body,
-                    layout,
-                    points: 0,
-                })
+                Ok(Self::new(body, layout))
             }
             Err(error) => Err(FileError::of(draft.path())(error)),
         }
@@ -79,14 +81,18 @@ impl ProgramWriter {
     /// # Errors
     /// When it cannot be written.
     pub fn close(self) -> Result<ProgramPath, FileError> {
-        let (end, points) = (self.layout.end(self.points), self.points);
+        let (points, extent) = (self.points, self.extent);
+        let end = self.layout.end(points, extent.as_ref());
+        let approach = self.layout.approach(extent.as_ref());
         let ProgramFileBody { mut lines, draft } = self.body;
         let mut write = || lines.write_all(&end);
         match write().and_then(|()| lines.into_reader()) {
             Ok(lines) => Ok(ProgramPath {
                 lines,
                 draft,
+                approach,
                 points,
+                extent,
             }),
             Err(error) => Err(FileError::of(draft.path())(error)),
         }
@@ -97,6 +103,11 @@ impl ProgramPath {
     /// The control points, with those of divided segments.
     pub fn points(&self) -> u64 {
         self.points
+    }
+
+    /// From where to where the path goes; `None` without points.
+    pub fn extent(&self) -> Option<Extent> {
+        self.extent
     }
 
     /// The path that the whole program will have.
@@ -123,6 +134,7 @@ impl ProgramPath {
         let mut write = || -> io::Result<()> {
             self.lines.rewind()?;
             self.draft.write_all(header.as_bytes())?;
+            self.draft.write_all(&self.approach)?;
             io::copy(&mut self.lines, &mut self.draft)?;
             self.draft.write_all(footer.as_bytes())
         };
@@ -136,18 +148,16 @@ impl ProgramPath {
 impl ProgramWriter<Vec<u8>> {
     /// Begins a program in memory.
     pub fn in_memory(layout: Layout) -> Self {
-        Self {
-            body: Vec::new(),
-            layout,
-            points: 0,
-        }
+        Self::new(Vec::new(), layout)
     }
 
     /// Ends the path.
     pub fn close(self) -> ProgramPathInMemory {
-        let end = self.layout.end(self.points);
+        let end = self.layout.end(self.points, self.extent.as_ref());
+        let approach = self.layout.approach(self.extent.as_ref());
         ProgramPathInMemory {
             text: [self.body, end].concat(),
+            approach,
             points: self.points,
         }
     }
@@ -166,7 +176,8 @@ impl ProgramPathInMemory {
 
     /// The complete program.
     pub fn assemble(self, header: &str, footer: &str) -> Vec<u8> {
-        [header.as_bytes(), &self.text, footer.as_bytes()].concat()
+        let Self { text, approach, .. } = self;
+        [header.as_bytes(), &approach, &text, footer.as_bytes()].concat()
     }
 }
 
@@ -177,7 +188,22 @@ impl<B: Write> ProgramWriter<B> {
     /// When they cannot be written.
     pub fn append(&mut self, lines: &Lines) -> io::Result<()> {
         self.points += lines.points as u64;
+        self.extent = match (self.extent, lines.extent) {
+            (Some(before), Some(next)) => Some(before.and(next)),
+            (before, next) => before.or(next),
+        };
         self.body.write_all(&lines.text)
+    }
+}
+
+impl<B> ProgramWriter<B> {
+    fn new(body: B, layout: Layout) -> Self {
+        Self {
+            body,
+            layout,
+            points: 0,
+            extent: None,
+        }
     }
 }
 

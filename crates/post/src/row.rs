@@ -19,6 +19,13 @@ pub const HEADER: [&str; 8] = [
     "section",
 ];
 
+/// Columns of numbers; the last column has the sections.
+pub(crate) const NUMBERS: usize = HEADER.len() - 1;
+/// The units of the columns.
+#[cfg(feature = "parquet")]
+pub(crate) const UNITS: [&str; HEADER.len()] =
+    ["s", "deg", "mm", "mm", "deg/s", "mm/s", "mm/s", "1"];
+
 /// One control point as the file has it. Numbers have the fewest digits from which the same double
 /// is read back.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -46,6 +53,19 @@ impl Row {
             vz_mm_per_s: point.vz,
             section: section as u8,
         }
+    }
+
+    /// Its numbers, in the order of [`HEADER`].
+    pub fn numbers(&self) -> [f64; NUMBERS] {
+        [
+            self.time_s,
+            self.c_deg,
+            self.x_mm,
+            self.z_mm,
+            self.vc_deg_per_s,
+            self.vx_mm_per_s,
+            self.vz_mm_per_s,
+        ]
     }
 
     /// The control point of a row.

@@ -12,6 +12,13 @@ const DECIMALS: u64 = 7;
 /// Most decimals: with more, a position does not fit into 64 bits.
 const MOST_DECIMALS: u64 = 12;
 
+/// How far above the highest place of the path X and C move before it if the recipe does not say, mm:
+/// more than the rest of a mount stands above a part, and a second's way of a slow Z.
+pub const APPROACH_HEIGHT: f64 = 5.0;
+/// How fast Z goes down to the path if the recipe does not say, mm/min: a person sees a millimetre in
+/// a second, and can stop it.
+pub const APPROACH_FEED: f64 = 60.0;
+
 const PER_MINUTE: &str = "min";
 const WRAPPED: &str = "0-360";
 const INCREMENTAL: &str = "incremental";
@@ -50,6 +57,14 @@ pub(crate) const VELOCITY_PER: Param<Choice> = Param::choice(
     "velocities per second or per minute",
 )
 .default("s");
+pub(crate) const ROTARY: &str = "rotary";
+/// Where the lines of a program go.
+pub(crate) const BUFFER: Param<Choice> = Param::choice(
+    "buffer",
+    &["program", ROTARY],
+    "a motion program in the controller, or its rotary buffer, for programs that do not fit",
+)
+.default("program");
 /// The sign of C.
 pub const C_SIGN: Param<Number> = Param::number(
     "c_sign",
@@ -156,6 +171,8 @@ impl Post {
             incremental: settings.find(POSITIONING) == Some(INCREMENTAL),
             mantissa_bits: self.mantissa_bits,
             z_above,
+            approach_height: APPROACH_HEIGHT,
+            approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)
                 .then(|| self.chords(settings, position_decimals, tolerance)),
         }

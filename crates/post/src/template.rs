@@ -112,6 +112,19 @@ impl Template {
         Ok(Self(parts))
     }
 
+    /// Characters of its own text: about the length of the filled one.
+    pub fn len(&self) -> usize {
+        let parts = self.0.iter().map(|part| match part {
+            Part::Text(text) | Part::Placeholder(text) => text.len(),
+        });
+        parts.sum()
+    }
+
+    /// Whether there is nothing in it.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Checks the text with these values of its placeholders.
     ///
     /// # Errors
@@ -175,6 +188,11 @@ fn is_mark(line: &str) -> bool {
 fn harmless(value: &str) -> String {
     let short: String = value.chars().take(LONGEST_VALUE).map(plain).collect();
     short.replace("--", "- -")
+}
+
+/// A person's words in ASCII, on one line.
+pub(crate) fn plain_text(text: &str) -> String {
+    harmless(text)
 }
 
 fn plain(c: char) -> char {

@@ -52,7 +52,19 @@ fn numbers(key: &str, indices: usize) -> Option<Vec<f64>> {
 }
 
 fn wrong_key(name: &str, entry: &Entry, indices: usize) -> Diagnostic {
+    // A key that is whole is too large then.
+    let is_digits = |part: &str| {
+        let part = part.trim();
+        let digits = part.strip_prefix(['-', '+']).unwrap_or(part);
+        !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    let parts = entry.key.split(',');
+    let is_whole = parts.clone().count() == indices && parts.clone().all(is_digits);
     let (title, label) = match indices {
+        _ if is_whole => (
+            "is too large",
+            format!("a number up to {LARGEST_INDEX} belongs here"),
+        ),
         1 => (
             "is not a whole number",
             "a whole number belongs here".to_owned(),
@@ -68,6 +80,17 @@ fn wrong_key(name: &str, entry: &Entry, indices: usize) -> Diagnostic {
 
 fn coefficient(name: &str, entry: &Entry, quantity: Option<Quantity>) -> Result<f64, Diagnostic> {
     let key = format!("{name}.{}", entry.key);
+    if let Value::Table(table) = &entry.node.value
+        && let Some(inner) = table.entries().first()
+    {
+        let (number, decimals) = (&entry.key, &inner.key);
+        let title = format!(
+            "`{name}`: the key {} is not a whole number",
+            quoted(&format!("{number}.{decimals}"))
+        );
+        return Err(Diagnostic::new(entry.span.clone(), title)
+            .with_label("TOML reads a point in a key as a table within a table"));
+    }
     match quantity {
         Some(quantity) => value::quantity(&key, &entry.node, quantity, quantity.example()),
         None => value::number(&key, &entry.node),

@@ -66,6 +66,8 @@ pub struct Recipe {
     pub post_settings: Vec<PostSettings>,
     /// Folders and libraries to load plugins from, as the recipe gives them, relative to the recipe.
     pub plugins: Vec<Spanned<String>>,
+    /// The name and the allowance, mm, where this is the recipe of a rough path.
+    pub(crate) rough: Option<(String, f64)>,
     choices: [Choice; 6],
     document: Table,
     sets: Vec<String>,
@@ -286,9 +288,23 @@ impl Recipe {
         &self.path
     }
 
-    /// The recipe's file name without its extension; `recipe` if it has none.
+    /// The beginning of the names of its programs: the recipe's file name without its extension, `recipe`
+    /// if it has none, and the name of the rough path.
     pub fn stem(&self) -> String {
-        stem(&self.path)
+        match &self.rough {
+            Some((rough, _)) => format!("{}-{rough}", stem(&self.path)),
+            None => stem(&self.path),
+        }
+    }
+
+    /// What the path leaves on the wanted surface, along z, mm: zero but for a rough path.
+    pub fn allowance(&self) -> f64 {
+        self.rough.as_ref().map_or(0.0, |(_, allowance)| *allowance)
+    }
+
+    /// The name of the rough path whose recipe this is.
+    pub fn rough_name(&self) -> Option<&str> {
+        self.rough.as_ref().map(|(name, _)| name.as_str())
     }
 
     /// The recipe's name as the name of a folder, with characters that Linux, macOS and Windows allow.
@@ -457,6 +473,7 @@ pub(crate) fn build(
         output,
         post_settings,
         plugins: top.plugins,
+        rough: None,
         choices: [surface?, feed?, sampler?, compensator?, velocity?, spindle?],
         document,
         sets,

@@ -47,7 +47,8 @@ pub struct CheckReport {
     pub controller_commands: Vec<ControllerCommand>,
 }
 
-/// What a path will be, before refinement.
+/// What a path will be. Revolutions, time and points are those before refinement and without leads;
+/// the sizes of files are those of the whole path.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Revolutions of the cutting section.

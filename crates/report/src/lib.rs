@@ -36,6 +36,7 @@ mod program;
 mod reach;
 mod remark;
 mod result_check;
+mod rough_path;
 mod run;
 #[cfg(test)]
 mod sample;
@@ -72,6 +73,7 @@ pub use program::{ControllerCommand, ProgramFigures, ProgramReport, StraightLine
 pub use reach::{Radial, Radii, Reach};
 pub use remark::{ProgramDigits, Remark, RemarkSubject};
 pub use result_check::ResultCheck;
+pub use rough_path::{Left, RoughPathReport};
 pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
 };

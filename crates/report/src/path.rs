@@ -102,6 +102,7 @@ impl PathReport {
             result: None,
             whole: None,
             programs: None,
+            passes: None,
         }
     }
 }

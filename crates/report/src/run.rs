@@ -8,6 +8,7 @@ use crate::format::FORMAT;
 use crate::path::PathReport;
 use crate::program::{ControllerCommand, ProgramReport};
 use crate::remark::Remark;
+use crate::rough_path::RoughPathReport;
 use crate::unit;
 use crate::unreached::Unreached;
 use crate::verdict::Verdict;
@@ -51,6 +52,9 @@ pub struct RunReport {
     pub unreached: Option<Unreached>,
     /// The motion programs.
     pub programs: Vec<ProgramReport>,
+    /// The paths before the finishing one, in their order.
+    #[serde(default, rename = "passes", skip_serializing_if = "Vec::is_empty")]
+    pub rough_paths: Vec<RoughPathReport>,
     /// What the recipe's own header and footer put into the programs.
     #[serde(default)]
     pub controller_commands: Vec<ControllerCommand>,
@@ -160,6 +164,10 @@ impl RunReport {
         if !self.programs.is_empty() {
             let holds = self.programs.iter().all(ProgramReport::holds);
             self.within.programs = Some(holds);
+        }
+        if !self.rough_paths.is_empty() {
+            let holds = self.rough_paths.iter().all(|rough| rough.within.holds());
+            self.within.passes = Some(holds);
         }
         crate::format::rounded_for_files(self)
     }

@@ -47,6 +47,9 @@ pub struct Verdict {
     /// The tolerances of the programs, each on its own text; `None` without programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub programs: Option<bool>,
+    /// All that the paths before the finishing one are held to; `None` without such paths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passes: Option<bool>,
 }
 
 impl Verdict {
@@ -69,6 +72,7 @@ impl Verdict {
             result,
             whole,
             programs,
+            passes,
         } = *self;
         [
             ("interpolation", interpolation),
@@ -82,6 +86,7 @@ impl Verdict {
             ("result", result),
             ("whole", whole),
             ("programs", programs),
+            ("passes", passes),
         ]
         .into_iter()
     }
@@ -109,6 +114,7 @@ mod tests {
         result: None,
         whole: None,
         programs: Some(true),
+        passes: None,
     };
 
     #[test]

@@ -3,19 +3,23 @@
 use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::{DEG, Part, Tolerance, Tool};
-use turnpath_pipeline::{estimate, largest_nose};
+use turnpath_files::FileError;
+use turnpath_pipeline::{PathSample, largest_nose, sample_path};
+use turnpath_post::PathWriter;
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
 
 use crate::commands::controller_commands;
-use crate::diagnosis::of_pipeline;
+use crate::diagnosis::{not_carried, of_pipeline};
 use crate::error::Error;
 use crate::figures::{self, machine_source};
 use crate::job::Job;
 use crate::part_shape;
+use crate::posts::NotCarried;
+use crate::program::Program;
 use crate::region::region;
 use crate::remarks::PathSubject;
-use crate::sizes::toolpath_bytes;
+use crate::sizes::sampled_bytes;
 
 impl Job {
     /// What the part asks of the tool, and what the path will be, without making it.
@@ -24,15 +28,18 @@ impl Job {
     /// When a strategy fails.
     pub fn check(&self) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
-        let expected = estimate(&self.chain, &self.path_preparation()).map_err(failed)?;
+        let (expected, sample) =
+            sample_path(&self.chain, &self.path_preparation(), self.options()).map_err(failed)?;
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
         let part = self.preparation.task.part;
-        let radius = self.preparation.task.range.outer;
-        let programs = self.programs.iter();
-        let programs = programs.map(|program| report::ProgramEstimate {
-            file: program.file.clone(),
-            bytes: program.expected_bytes(radius, &expected) as u64,
-        });
+        let size = |program: &Program| -> Result<report::ProgramEstimate, NotCarried> {
+            Ok(report::ProgramEstimate {
+                file: program.file.clone(),
+                bytes: program.sampled_bytes(&sample)? as u64,
+            })
+        };
+        let programs: Result<Vec<_>, _> = self.programs.iter().map(size).collect();
+        let programs = programs.map_err(|error| not_carried(&self.recipe, error))?;
         let path = PathSubject {
             tolerance: self.preparation.task.tolerance,
             cutting_time: expected.cutting_time,
@@ -52,14 +59,23 @@ impl Job {
                 revolutions: expected.revolutions,
                 cutting_time: expected.cutting_time,
                 control_points: expected.control_points.round() as u64,
-                toolpath_bytes: toolpath_bytes(&expected) as u64,
-                programs: programs.collect(),
+                toolpath_bytes: self.toolpath_bytes(&sample)? as u64,
+                programs,
             },
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
             remarks: self.remarks(&path)?,
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
+    }
+
+    /// Bytes of the table of the path, from a sample of it.
+    fn toolpath_bytes(&self, sample: &PathSample) -> Result<f64, Error> {
+        let bytes = sampled_bytes(sample, |block| {
+            PathWriter::rows(block.section, block.points).map(|rows| rows.len())
+        });
+        let path = self.recipe.path().to_owned();
+        Ok(bytes.map_err(|error| FileError { path, error })?)
     }
 
     /// The tolerance of form, with what the first path is made for.

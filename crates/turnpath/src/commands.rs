@@ -10,9 +10,9 @@ use crate::posts::posts;
 const HEADER: &str = "header";
 
 /// A command with the span of its template.
-struct TemplateCommand<'a> {
+struct TemplateCommand {
     command: ControllerCommand,
-    span: &'a Span,
+    span: Span,
 }
 
 /// What the recipe's own header and footer tell the controller besides the path. The post's own
@@ -26,23 +26,36 @@ pub fn controller_commands(recipe: &Recipe) -> Vec<ControllerCommand> {
 pub fn commands_to_trust(recipe: &Recipe) -> Vec<(ControllerCommand, Span)> {
     found(recipe)
         .filter(|found| !found.command.harmless && found.span.source().rank == 0)
-        .map(|found| (found.command, found.span.clone()))
+        .map(|found| (found.command, found.span))
         .collect()
 }
 
-fn found(recipe: &Recipe) -> impl Iterator<Item = TemplateCommand<'_>> {
+fn found(recipe: &Recipe) -> impl Iterator<Item = TemplateCommand> {
     posts(recipe).flat_map(|post| {
         let settings = recipe.settings_of(post.name);
         let header = settings.and_then(|settings| settings.header.as_ref());
         let footer = settings.and_then(|settings| settings.footer.as_ref());
-        let templates = [(HEADER, header), ("footer", footer)];
+        let other = other_header(recipe, post).filter(|_| header.is_none());
+        let templates = [
+            (HEADER, other.or(header.cloned())),
+            ("footer", footer.cloned()),
+        ];
         let own = templates.into_iter();
         own.filter_map(|(name, own)| Some((name, own?)))
-            .flat_map(|(name, own)| of_template(post, name, own))
+            .flat_map(|(name, own)| of_template(post, name, &own))
     })
 }
 
-fn of_template<'a>(post: &Post, name: &str, own: &'a Spanned<String>) -> Vec<TemplateCommand<'a>> {
+/// The header that a setting of the recipe asks for in place of the post's usual one.
+fn other_header(recipe: &Recipe, post: &Post) -> Option<Spanned<String>> {
+    let settings = recipe.settings_of(post.name)?;
+    let (key, text) = post.dialect.other_header(&settings.params)?;
+    let span = recipe.nearest_span(&format!("{}.{key}", post.table));
+    let value = text.to_owned();
+    Some(Spanned { value, span })
+}
+
+fn of_template(post: &Post, name: &str, own: &Spanned<String>) -> Vec<TemplateCommand> {
     let mut commands = post.dialect.commands(&own.value);
     if name == HEADER {
         // The path's lines follow, and the controller does not come to them.
@@ -64,7 +77,7 @@ fn of_template<'a>(post: &Post, name: &str, own: &'a Spanned<String>) -> Vec<Tem
             command: command.text,
             harmless: command.harmless,
         },
-        span: &own.span,
+        span: own.span.clone(),
     });
     found.collect()
 }

@@ -6,7 +6,7 @@ use turnpath_core::StrategyError;
 use turnpath_files::{FileError, FolderError};
 use turnpath_host::LoadError;
 use turnpath_pipeline::PipelineError;
-use turnpath_post::ReadError;
+use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
@@ -101,6 +101,17 @@ pub enum Error {
         /// Points of the path.
         expected: u64,
     },
+    /// A dry run does not stay above its part.
+    #[error("the dry run {file} is not written")]
+    DryRun {
+        /// Its file.
+        file: String,
+        /// Why.
+        source: DryRunError,
+    },
+    /// A dry run was asked for, and no program.
+    #[error("a dry run is that of a program, and the recipe asks for none: write [output] posts")]
+    NoProgram,
     /// A report could not be put into a file.
     #[error("the report cannot be put into {form}")]
     Report {
@@ -139,6 +150,7 @@ impl Error {
         match self {
             Self::Recipe(RecipeError::Wrong(_))
             | Self::Refused { .. }
+            | Self::NoProgram
             | Self::Plot(_)
             | Self::Exists { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
@@ -152,6 +164,7 @@ impl Error {
             | Self::Read(_)
             | Self::NothingCut { .. }
             | Self::PointsLost { .. }
+            | Self::DryRun { .. }
             | Self::Report { .. } => Fault::Files,
             Self::Threads(_) => Fault::Request,
             Self::Cancelled => Fault::Cancelled,

@@ -2,11 +2,15 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
 use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
-use turnpath_post::{Lines, PathReader, PathWriter, ProgramWriter};
+use turnpath_post::{
+    ColumnFormat, Columns, Lines, PathReader, PathWriter, ProgramWriter, WriteColumns,
+};
+use turnpath_recipe::DataFormat;
 use turnpath_report::{ProgramReport, ResultFile};
 
 use crate::error::Error;
@@ -15,7 +19,7 @@ use crate::plots::{PlayedPath, Plots, draw};
 use crate::program::{Program, ProgramText};
 
 use crate::sinks::SinkError;
-use crate::sizes::{bytes_while_assembled, check_room, toolpath_bytes};
+use crate::sizes::{bytes_while_assembled, check_room, column_bytes, toolpath_bytes};
 use crate::summary::SUMMARY;
 
 /// The table of the path.
@@ -25,10 +29,45 @@ const TOOLPATH: &str = "toolpath.csv";
 ///
 /// # Errors
 /// When another run has it, or something is in the way that would stop this one only at its end.
-pub fn open_folder(folder: &Path, job: &Job) -> Result<ResultFolder, FolderError> {
-    let names = job.programs.iter().map(|program| program.file.as_str());
-    nothing_in_the_way(folder, names.chain([TOOLPATH, SUMMARY]))?;
+pub fn open_folder(folder: &Path, job: &Job, dry_run: bool) -> Result<ResultFolder, FolderError> {
+    let names = job.file_names(dry_run);
+    let names = names.iter().map(String::as_str);
+    nothing_in_the_way(folder, names.chain([SUMMARY]))?;
     ResultFolder::open(folder)
+}
+
+impl Job {
+    /// The names of the files of its path.
+    pub(crate) fn file_names(&self, dry_run: bool) -> Vec<String> {
+        let programs = self.programs.iter().map(|program| program.file.clone());
+        let dry_runs = self.programs.iter().filter(|_| dry_run);
+        let table = std::iter::once(self.toolpath_file());
+        let columns = self.column_files().into_iter().map(|(_, name)| name);
+        let programs = programs.chain(dry_runs.map(Program::dry_run_file));
+        programs.chain(table).chain(columns).collect()
+    }
+
+    /// The files of its path's columns, with their names.
+    fn column_files(&self) -> Vec<(ColumnFormat, String)> {
+        let table = self.toolpath_file();
+        let stem = table.trim_end_matches(".csv");
+        let formats = self.recipe.output.data.iter();
+        let file = |format: &DataFormat| match format {
+            DataFormat::Csv => None,
+            DataFormat::Columns(format) => {
+                Some((*format, format!("{stem}.{}", format.extension())))
+            }
+        };
+        formats.filter_map(file).collect()
+    }
+
+    /// The name of the table of its path.
+    fn toolpath_file(&self) -> String {
+        match self.recipe.rough_name() {
+            Some(rough) => format!("toolpath-{rough}.csv"),
+            None => TOOLPATH.to_owned(),
+        }
+    }
 }
 
 /// The files of a path, in the making. A path that fails leaves none of them.
@@ -36,6 +75,10 @@ pub struct FolderSink<'a> {
     files: Option<Files>,
     folder: &'a ResultFolder,
     writes_toolpath: bool,
+    /// The files of columns, with their names.
+    column_files: Vec<(ColumnFormat, String)>,
+    /// The name of the table of the path.
+    toolpath: String,
     programs: &'a [Program],
     /// The outer end of the range of ρ, mm.
     radius: f64,
@@ -46,6 +89,8 @@ pub struct FolderSink<'a> {
 #[derive(Default)]
 struct Files {
     toolpath: Option<PathWriter>,
+    /// Behind a lock since threads share the sink; only one of them writes.
+    columns: Mutex<Vec<Box<dyn WriteColumns>>>,
     programs: Vec<ProgramWriter>,
     /// Files that are whole, and still without their names.
     drafts: Vec<Draft>,
@@ -61,6 +106,7 @@ pub struct WholeResult {
 /// A block in the form of each file.
 pub struct FileBlock {
     rows: Option<Vec<u8>>,
+    columns: Option<Columns>,
     lines: Vec<Lines>,
 }
 
@@ -69,7 +115,9 @@ impl<'a> FolderSink<'a> {
     pub fn new(folder: &'a ResultFolder, job: &'a Job) -> Self {
         Self {
             folder,
-            writes_toolpath: !job.recipe.output.data.is_empty(),
+            writes_toolpath: job.recipe.output.data.contains(&DataFormat::Csv),
+            column_files: job.column_files(),
+            toolpath: job.toolpath_file(),
             programs: &job.programs,
             radius: job.preparation.task.range.outer,
             files: None,
@@ -85,8 +133,13 @@ impl<'a> FolderSink<'a> {
     fn begin(&self) -> Result<Files, FileError> {
         let mut files = Files::default();
         if self.writes_toolpath {
-            files.toolpath = Some(PathWriter::begin(self.draft(TOOLPATH)?)?);
+            files.toolpath = Some(PathWriter::begin(self.draft(&self.toolpath)?)?);
         }
+        let mut columns = Vec::new();
+        for (format, name) in &self.column_files {
+            columns.extend(format.begin(self.draft(name)?)?);
+        }
+        files.columns = Mutex::new(columns);
         for program in self.programs {
             let draft = self.draft(&program.file)?;
             let writer = ProgramWriter::begin(draft, program.layout)?;
@@ -105,6 +158,7 @@ impl<'a> FolderSink<'a> {
         &mut self,
         job: &Job,
         outcome: &Outcome,
+        dry_run: bool,
         observer: &dyn Observer,
     ) -> Result<Vec<ProgramReport>, Error> {
         let Some(files) = &mut self.files else {
@@ -125,6 +179,13 @@ impl<'a> FolderSink<'a> {
             let report = program.measure(text, (&job.recipe, touch), path_error, observer)?;
             drop(reader);
             let frame = program.frame(&job.recipe, outcome, points, &report);
+            if let Some(extent) = path.extent().filter(|_| dry_run) {
+                let text = job.dry_run(program, &frame, &extent)?;
+                let file = self.folder.path().join(program.dry_run_file());
+                let mut draft = self.folder.draft(&file)?;
+                draft.write_all(&text).map_err(FileError::of(&file))?;
+                files.drafts.push(draft);
+            }
             let mut draft = path.assemble(&frame.header, &frame.footer)?;
             let whole = program.layout.open(draft.readable()?);
             let mut whole = whole.map_err(|error| error.named(&name))?.named(&name);
@@ -147,7 +208,7 @@ impl<'a> FolderSink<'a> {
             return Ok(());
         };
         if let Some(toolpath) = &mut files.toolpath {
-            let name = self.folder.path().join(TOOLPATH);
+            let name = self.folder.path().join(&self.toolpath);
             let reader = PathReader::open(toolpath.readable()?);
             let mut reader = reader.map_err(|error| error.named(&name))?;
             let played = PlayedPath {
@@ -168,9 +229,14 @@ impl<'a> FolderSink<'a> {
     pub fn finish(self) -> Result<Vec<WholeFile>, FileError> {
         let Files {
             toolpath,
+            columns,
             programs: _,
-            drafts,
+            mut drafts,
         } = self.files.unwrap_or_default();
+        let columns = columns.into_inner().unwrap_or_else(PoisonError::into_inner);
+        for columns in columns {
+            drafts.push(columns.whole()?);
+        }
         let drafts = drafts.into_iter().chain(toolpath.map(PathWriter::whole));
         drafts.map(Draft::finish).collect()
     }
@@ -242,7 +308,8 @@ impl Sink for FolderSink<'_> {
         } else {
             0.0
         };
-        check_room(self.folder.path(), toolpath + programs)?;
+        let columns = column_bytes(expected) * self.column_files.len() as f64;
+        check_room(self.folder.path(), toolpath + columns + programs)?;
         Ok(())
     }
 
@@ -251,12 +318,14 @@ impl Sink for FolderSink<'_> {
             .writes_toolpath
             .then(|| PathWriter::rows(block.section, block.points));
         let rows = rows.transpose().map_err(|error| FileError {
-            path: self.folder.path().join(TOOLPATH),
+            path: self.folder.path().join(&self.toolpath),
             error,
         })?;
+        let has_columns = !self.column_files.is_empty();
         let lines = self.programs.iter().map(|program| program.lines(block));
         Ok(FileBlock {
             rows,
+            columns: has_columns.then(|| Columns::of(block.section, block.points)),
             lines: lines.collect::<Result<_, _>>()?,
         })
     }
@@ -275,7 +344,14 @@ impl Sink for FolderSink<'_> {
         };
         if let Some((toolpath, rows)) = files.toolpath.as_mut().zip(block.rows) {
             let appended = toolpath.append(&rows);
-            appended.map_err(|error| not_written(TOOLPATH, error))?;
+            appended.map_err(|error| not_written(&self.toolpath, error))?;
+        }
+        let writers = files.columns.get_mut();
+        let writers = writers.unwrap_or_else(PoisonError::into_inner);
+        let column_files = self.column_files.iter().zip(writers);
+        for ((_, name), writer) in column_files {
+            let appended = block.columns.as_ref().map_or(Ok(()), |c| writer.append(c));
+            appended.map_err(|error| not_written(name, error))?;
         }
         let programs = self.programs.iter().zip(&mut files.programs);
         for ((program, writer), lines) in programs.zip(&block.lines) {

@@ -7,7 +7,7 @@ use turnpath_pipeline::{
     Chain, JobSpec, LeadLimits, LeadSettings, PathOptions, Preparation, prepare,
 };
 use turnpath_post::ProgramError;
-use turnpath_recipe::Recipe;
+use turnpath_recipe::{DataFormat, Recipe};
 use turnpath_report::Overrun;
 
 use crate::chain::chain;
@@ -51,6 +51,7 @@ impl Job {
         catalogue: &Catalogue,
         files: &DataFiles,
     ) -> Result<Self, Error> {
+        recipe.rough_paths().map_err(Error::refused)?;
         let chain = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;
@@ -75,6 +76,7 @@ impl Job {
             programs,
             split: None,
         };
+        job.refuse_formats_left_out()?;
         job.refuse_straight_lines()?;
         Ok(job)
     }
@@ -106,6 +108,25 @@ impl Job {
             preparation.task.tolerance.interpolation *= 1.0 - share;
         }
         preparation
+    }
+
+    /// A build may have been made without a format of data files.
+    fn refuse_formats_left_out(&self) -> Result<(), Error> {
+        let left_out = |format: &&DataFormat| match format {
+            DataFormat::Csv => false,
+            DataFormat::Columns(format) => !format.is_built_in(),
+        };
+        let Some(DataFormat::Columns(format)) = self.recipe.output.data.iter().find(left_out)
+        else {
+            return Ok(());
+        };
+        let title = format!("this build of turnpath writes no .{}", format.extension());
+        let help = "leave it out of `data`, or build turnpath with its feature";
+        let span = self.recipe.nearest_span("output.data");
+        let diagnostic = self
+            .recipe
+            .diagnostic(span, title, "asked for here", [help.to_owned()]);
+        Err(Error::refused(diagnostic))
     }
 
     /// Programs that play cubics cannot carry a path of straight lines.

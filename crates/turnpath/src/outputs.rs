@@ -9,6 +9,8 @@ use crate::plots::PlotRequest;
 pub struct Outputs {
     pub(crate) destination: Destination,
     pub(crate) plots: PlotRequest,
+    /// Whether each program has its dry run beside it.
+    pub(crate) dry_run: bool,
 }
 
 /// The kinds of outputs.
@@ -46,10 +48,17 @@ impl Outputs {
         Self { plots, ..self }
     }
 
+    /// With a dry run beside each program. It needs a folder.
+    #[must_use]
+    pub fn with_dry_run(self, dry_run: bool) -> Self {
+        Self { dry_run, ..self }
+    }
+
     fn to(destination: Destination) -> Self {
         Self {
             destination,
             plots: PlotRequest::default(),
+            dry_run: false,
         }
     }
 }

@@ -1,8 +1,11 @@
 //! The posts of a recipe, and how it lays out what they write.
 
 use turnpath_core::Params;
-use turnpath_post::{Layout, Post, ProgramError, post_named};
+use turnpath_post::{Layout, Post, ProgramError, ProgramFormat, post_named};
 use turnpath_recipe::{Recipe, ZReference};
+
+/// Seconds of a minute: a format has the feed of its approach per minute.
+const MINUTE: f64 = 60.0;
 
 /// A path that the program of a post cannot carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +30,11 @@ pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> L
     let settings = recipe.settings_of(post.name);
     let none = Params::new();
     let params = settings.map_or(&none, |settings| &settings.params);
-    Layout {
-        post,
-        format: post.format(params, z_above, recipe.tolerance.interpolation),
-    }
+    let output = &recipe.output;
+    let format = ProgramFormat {
+        approach_height: output.approach_height,
+        approach_feed: output.approach_feed * MINUTE,
+        ..post.format(params, z_above, recipe.tolerance.interpolation)
+    };
+    Layout { post, format }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use turnpath_core::toolpath::{SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
-use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, Stage};
+use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
 use turnpath_post::{FeedMeaning, Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
@@ -16,6 +16,7 @@ use crate::error::Error;
 use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, PathMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
+use crate::sizes::sampled_bytes;
 use crate::speed_steps::SpeedSteps;
 
 /// A program that a recipe asks for.
@@ -59,12 +60,20 @@ impl Program {
         let settings = recipe.settings_of(post.name);
         let header = settings.and_then(|settings| settings.header.as_ref());
         let footer = settings.and_then(|settings| settings.footer.as_ref());
+        let other = settings.and_then(|settings| post.dialect.other_header(&settings.params));
+        let own_header = other.map_or(post.header, |(_, text)| text);
         Ok(Self {
             layout: layout(recipe, post, compensates_nose),
             file: format!("{}.{}", recipe.stem(), post.extension),
-            header: template(recipe, header, post.header, post.comment)?,
+            header: template(recipe, header, own_header, post.comment)?,
             footer: template(recipe, footer, post.footer, post.comment)?,
         })
+    }
+
+    /// The name of the file with its dry run.
+    pub fn dry_run_file(&self) -> String {
+        let stem = self.file.rsplit_once('.').map_or("", |(stem, _)| stem);
+        format!("{stem}-dry-run.{}", self.layout.post.extension)
     }
 
     /// A block of the path as program lines.
@@ -76,7 +85,16 @@ impl Program {
         })
     }
 
-    /// Bytes that the program will take.
+    /// Bytes that the program will take, from a sample of its path: within some percent.
+    pub fn sampled_bytes(&self, sample: &PathSample) -> Result<f64, NotCarried> {
+        let lines = sampled_bytes(sample, |block| {
+            self.lines(block).map(|lines| lines.text.len())
+        })?;
+        let frame = self.header.len() + self.footer.len();
+        Ok(lines + frame as f64)
+    }
+
+    /// A rough estimate of the bytes that the program will take, to see whether a disk has room.
     pub fn expected_bytes(&self, radius: f64, expected: &Estimate) -> f64 {
         let c = std::f64::consts::TAU * expected.revolutions;
         let (time, points) = (expected.cutting_time, expected.control_points);

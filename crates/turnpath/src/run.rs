@@ -24,6 +24,7 @@ use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
 use crate::program::ProgramText;
 use crate::remarks::PathSubject;
+use crate::rough_paths::can_be_in_result;
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -69,7 +70,7 @@ impl Job {
             Destination::Memory => self.run_in_memory(observer),
             Destination::Folder(folder) => {
                 let plots = Plots::new(&outputs.plots, &self.recipe.part, folder)?;
-                self.run_in_folder(folder, &plots, observer)
+                self.run_in_folder(folder, &plots, outputs.dry_run, observer)
             }
         }
     }
@@ -147,11 +148,23 @@ impl Job {
         &self,
         folder: &Path,
         plots: &Plots,
+        dry_run: bool,
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
         plots.need_toolpath(&self.recipe)?;
+        if dry_run && self.programs.is_empty() {
+            return Err(Error::NoProgram);
+        }
         plots.can_be_in_result(folder)?;
-        let result = open_folder(folder, self)?;
+        let rough_paths = self.rough_jobs()?;
+        can_be_in_result(folder, &rough_paths, dry_run)?;
+        let result = open_folder(folder, self, dry_run)?;
+        let (mut of_rough, mut files) = (Vec::new(), Vec::new());
+        for rough in &rough_paths {
+            let (report, whole) = rough.run(&result, dry_run, observer)?;
+            of_rough.push(report);
+            files.extend(whole);
+        }
         let path = search_split(self, observer, |job| {
             let mut sink = FolderSink::new(&result, self);
             let outcome = job.run_into(&mut sink, observer)?;
@@ -162,14 +175,17 @@ impl Job {
             outcome,
             split,
         } = path;
-        let reports = sink.read_back(self, &outcome, observer)?;
+        let reports = sink.read_back(self, &outcome, dry_run, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
         let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
-        let whole = WholeResult::new(sink.finish()?, result);
+        files.extend(sink.finish()?);
+        let whole = WholeResult::new(files, result);
         let report = RunReport {
             files: Some(whole.listed()),
+            rough_paths: of_rough,
             ..report
         };
+        let report = report.with_verdict();
         let files = whole.commit(&report::to_json(&report))?;
         Ok(RunResult {
             files,
@@ -230,6 +246,7 @@ impl Job {
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),
             unreached: self.unreached()?,
             programs: programs.into_iter().map(beside_path).collect(),
+            rough_paths: Vec::new(),
             controller_commands: controller_commands(&self.recipe),
             plugins: self.plugin_sources(),
             data_files: self.data_sources(),

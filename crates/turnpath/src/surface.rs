@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use turnpath_core::{Slot, SurfaceModel};
+use turnpath_core::{Placement, Slot, SurfaceModel};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Link, NamedSurface, PlacedSurface, PoseError, PosedSurface, SurfaceSum};
 use turnpath_recipe::{Diagnostics, Recipe, SurfaceEntry};
@@ -13,7 +13,29 @@ use crate::error::Error;
 use crate::strategies::link;
 
 /// The recipe's surface. A single one that stays as it is is the strategy itself.
+///
+/// The path of a rough path is made for a surface that is lifted by what it leaves.
 pub fn surface(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<Link<dyn SurfaceModel>, Error> {
+    let wanted = wanted_surface(recipe, catalogue, files)?;
+    let piston = recipe.allowance();
+    if piston == 0.0 {
+        return Ok(wanted);
+    }
+    let place = Placement {
+        piston,
+        ..Placement::PLAIN
+    };
+    Ok(Link {
+        strategy: Arc::new(PlacedSurface::new(wanted.strategy.clone(), place)),
+        ..wanted
+    })
+}
+
+fn wanted_surface(
     recipe: &Recipe,
     catalogue: &Catalogue,
     files: &DataFiles,

@@ -1,6 +1,6 @@
 //! One revolution of the path on an even grid of angles, with the step that each point allows.
 
-use turnpath_plugin::hermite::SHORTEST;
+use turnpath_plugin::hermite::{MAX_STEP, SHORTEST};
 use turnpath_plugin::prelude::*;
 
 use crate::rule::{Bend, Rule};
@@ -109,7 +109,7 @@ pub fn no_bend(n: f64, rho: f64) -> StrategyError {
 
 /// The error of steps below the shortest.
 pub fn too_short(path: &Path<'_>, turn: Turn, least: f64) -> StrategyError {
-    StrategyError::failed(format!(
+    MAX_STEP.refused(format!(
         "the tolerance needs steps of {:.2e} deg in revolution {:.0}, ρ = {:.4} mm, but the \
          shortest allowed step is {:.3} deg: choose a larger interpolation tolerance, or another sampler",
         least / DEG,

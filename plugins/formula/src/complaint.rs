@@ -88,6 +88,17 @@ pub enum Mistake {
     /// The height is not a length.
     #[error("z is {0}, and must be a length; give the numbers their units, as in 0.01/mm")]
     NotALength(Dimension),
+    /// The height is not the same on both sides of a ray from the axis.
+    #[error(
+        "the height jumps by {jump:.3e} mm across the ray at theta = {angle}: this angle ends there; put it \
+         into sin or cos of a whole multiple, as in cos(2*theta)"
+    )]
+    Jump {
+        /// By how much, mm.
+        jump: f64,
+        /// Where the ray lies, in words.
+        angle: &'static str,
+    },
     /// A part without x and y that has no value.
     #[error("this has no finite value")]
     NoFiniteValue,

@@ -5,6 +5,8 @@ use turnpath_plugin::prelude::*;
 use crate::complaint::{Complaint, Mistake};
 use crate::gap::Source;
 use crate::graph::{MOST_NODES, Refusal};
+use crate::jump::jump;
+use crate::lexer::names;
 use crate::names::is_taken;
 use crate::parser::parse;
 use crate::polar::resolved;
@@ -47,11 +49,25 @@ impl Strategy for Formula {
                 constant.name
             )));
         }
-        formula(params.get(Z), constants).map_err(|complaint| {
+        let made = formula(params.get(Z), constants).map_err(|complaint| {
             let message = complaint.to_string();
             Z.refused_at(complaint.place, message)
-        })
+        })?;
+        match unused(params.get(Z), constants) {
+            None => Ok(made),
+            Some(constant) => Err(CONSTANTS.refused(format!(
+                "the formula does not use `{}`; leave it out",
+                constant.name
+            ))),
+        }
     }
+}
+
+/// The first constant that stands nowhere in a formula.
+fn unused<'a>(text: &str, constants: &'a [NamedConstant]) -> Option<&'a NamedConstant> {
+    let names = names(text)?;
+    let is_used = |constant: &&NamedConstant| names.contains(&constant.name.as_str());
+    constants.iter().find(|constant| !is_used(constant))
 }
 
 fn formula(text: &str, constants: &[NamedConstant]) -> std::result::Result<Formula, Complaint> {
@@ -63,7 +79,10 @@ fn formula(text: &str, constants: &[NamedConstant]) -> std::result::Result<Formu
     })?;
     let tape = Tape::new(&graph, root);
     let tape = tape.ok_or_else(|| Mistake::TooWide(MOST_REGISTERS).at(whole()))?;
-    Ok(Formula { tape, source })
+    match jump(&graph, &tape) {
+        None => Ok(Formula { tape, source }),
+        Some(jump) => Err(jump.complaint(text)),
+    }
 }
 
 impl Surface for Formula {

@@ -9,8 +9,12 @@ use crate::names::{Function, PairFunction, Variable};
 /// Most nodes of a formula.
 pub const MOST_NODES: usize = 4096;
 
-/// Largest whole exponent that is worked out by multiplications.
-const LARGEST_POWER: f64 = 64.0;
+/// Largest whole exponent, which is worked out by multiplications. Rounding grows with it: a thousand
+/// takes three digits.
+const LARGEST_EXPONENT: f64 = 1000.0;
+
+/// How deep a power of ρ is looked for.
+const LEVELS: usize = 8;
 
 /// The number of a node. Nodes stand after those that they use.
 pub type Id = u16;
@@ -202,7 +206,7 @@ impl Graph {
 
     /// aⁿ. Whole exponents are worked out by multiplications, which is right for every a.
     pub fn power(&mut self, a: Id, exponent: f64) -> Result<Id, Refusal> {
-        let whole = exponent.fract() == 0.0 && exponent.abs() <= LARGEST_POWER;
+        let whole = exponent.fract() == 0.0 && exponent.abs() <= LARGEST_EXPONENT;
         if let Some(number) = self.number(a) {
             let value = match whole {
                 true => Scalar::powi(number, exponent as i32),
@@ -214,9 +218,14 @@ impl Graph {
             (true, _) if exponent == 0.0 => self.constant(1.0),
             (true, _) if exponent == 1.0 => Ok(a),
             (true, Node::Power(base, inner))
-                if (f64::from(inner) * exponent).abs() <= LARGEST_POWER =>
+                if (f64::from(inner) * exponent).abs() <= LARGEST_EXPONENT =>
             {
                 self.power(base, f64::from(inner) * exponent)
+            }
+            (true, Node::RealPower(base, bits))
+                if self.node(base) == Node::Variable(Variable::Rho) =>
+            {
+                self.power(base, f64::from_bits(bits) * exponent)
             }
             (true, Node::Product(one, two)) => match (self.number(one), self.number(two)) {
                 (Some(number), _) => self.scaled_power(number, two, exponent),
@@ -224,8 +233,83 @@ impl Graph {
                 _ => self.put(Node::Power(a, exponent as i32)),
             },
             (true, _) => self.put(Node::Power(a, exponent as i32)),
-            (false, _) if exponent == 0.5 => self.one(Function::Sqrt, a),
-            (false, _) => self.put(Node::RealPower(a, exponent.to_bits())),
+            (false, Node::Variable(Variable::Rho)) if exponent != 0.5 => {
+                self.put(Node::RealPower(a, exponent.to_bits()))
+            }
+            (false, _) => self.real_power(a, exponent),
+        }
+    }
+
+    /// A power of what is not negative. One of c·ρⁿ is one of ρ, since ρ itself is not negative.
+    fn real_power(&mut self, a: Id, exponent: f64) -> Result<Id, Refusal> {
+        match self.power_of_rho(a) {
+            Some((factor, power)) if factor > 0.0 && (power, exponent) != (1.0, 0.5) => {
+                let rho = self.variable(Variable::Rho)?;
+                let power = self.power(rho, power * exponent)?;
+                let factor = self.constant(Scalar::powf(factor, exponent))?;
+                self.product(factor, power)
+            }
+            _ if exponent == 0.5 => self.put(Node::One(Function::Sqrt, a)),
+            _ => self.put(Node::RealPower(a, exponent.to_bits())),
+        }
+    }
+
+    /// c and n of a subexpression that is c·ρⁿ.
+    pub fn power_of_rho(&self, id: Id) -> Option<(f64, f64)> {
+        self.power_of_rho_in(id, LEVELS)
+    }
+
+    fn power_of_rho_in(&self, id: Id, levels: usize) -> Option<(f64, f64)> {
+        let next = levels.checked_sub(1)?;
+        let of = |id: Id| self.power_of_rho_in(id, next);
+        match self.node(id) {
+            Node::Variable(Variable::Rho) => Some((1.0, 1.0)),
+            Node::Negative(a) => of(a).map(|(c, n)| (-c, n)),
+            Node::Product(a, b) => match (self.number(a), self.number(b)) {
+                (Some(factor), _) => of(b).map(|(c, n)| (c * factor, n)),
+                (None, Some(factor)) => of(a).map(|(c, n)| (c * factor, n)),
+                (None, None) => {
+                    let ((c, n), (d, m)) = (of(a)?, of(b)?);
+                    Some((c * d, n + m))
+                }
+            },
+            Node::Power(a, exponent) => {
+                of(a).map(|(c, n)| (Scalar::powi(c, exponent), n * f64::from(exponent)))
+            }
+            Node::RealPower(a, bits) if self.node(a) == Node::Variable(Variable::Rho) => {
+                Some((1.0, f64::from_bits(bits)))
+            }
+            Node::Sum(a, b) => match (self.square(a)?, self.square(b)?) {
+                ((Variable::X, c), (Variable::Y, d)) | ((Variable::Y, c), (Variable::X, d))
+                    if c == d =>
+                {
+                    Some((c, 2.0))
+                }
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The variable and the factor of its square, where a node is c·x² or (c·x)².
+    fn square(&self, id: Id) -> Option<(Variable, f64)> {
+        let scaled = |id: Id| match self.node(id) {
+            Node::Product(a, b) => match (self.number(a), self.number(b)) {
+                (Some(factor), _) => (factor, b),
+                (None, Some(factor)) => (factor, a),
+                (None, None) => (1.0, id),
+            },
+            _ => (1.0, id),
+        };
+        let (factor, power) = scaled(id);
+        let Node::Power(base, 2) = self.node(power) else {
+            return None;
+        };
+        match (scaled(base), self.node(scaled(base).1)) {
+            ((of_base, _), Node::Variable(variable)) => {
+                Some((variable, factor * of_base * of_base))
+            }
+            _ => None,
         }
     }
 
@@ -246,9 +330,7 @@ impl Graph {
     pub fn one(&mut self, function: Function, a: Id) -> Result<Id, Refusal> {
         match self.number(a) {
             Some(number) => self.constant(function.of(number)),
-            None if function == Function::Sqrt && self.is_square_of_rho(a) => {
-                self.variable(Variable::Rho)
-            }
+            None if function == Function::Sqrt => self.real_power(a, 0.5),
             None => self.put(Node::One(function, a)),
         }
     }
@@ -272,7 +354,8 @@ impl Graph {
         match (self.number(a), self.number(b)) {
             (Some(one), Some(two)) => self.constant(function.of(one, two)),
             _ => match (function, self.node(a), self.node(b)) {
-                (PairFunction::Hypot, Node::Variable(Variable::X), Node::Variable(Variable::Y)) => {
+                (PairFunction::Hypot, Node::Variable(Variable::X), Node::Variable(Variable::Y))
+                | (PairFunction::Hypot, Node::Variable(Variable::Y), Node::Variable(Variable::X)) => {
                     self.variable(Variable::Rho)
                 }
                 (PairFunction::Atan2, Node::Variable(Variable::Y), Node::Variable(Variable::X)) => {
@@ -302,8 +385,31 @@ impl Function {
             Self::Sinh => Scalar::sinh(a),
             Self::Cosh => Scalar::cosh(a),
             Self::Tanh => a.tanh(),
+            Self::CosOfRoot => of_root(a, -1.0),
+            Self::CoshOfRoot => of_root(a, 1.0),
         }
     }
+}
+
+/// Terms of the series of cos √a below 1: what is left out is below 1/22!.
+const TERMS: u32 = 10;
+
+/// cos √a where `sign` is −1, and cosh √a where it is 1: both are power series in a, so that they have
+/// all derivatives at 0.
+fn of_root<S: Scalar>(a: S, sign: f64) -> S {
+    let is_small = a.less(S::constant(1.0));
+    let small = S::select(is_small, a, S::constant(0.0));
+    let one = S::constant(1.0);
+    let series = (1..=TERMS).rev().fold(one, |sum, k| {
+        let divisor = f64::from(2 * k * (2 * k - 1));
+        sum * small * (sign / divisor) + 1.0
+    });
+    let root = S::select(is_small, one, a).sqrt();
+    let far = match sign < 0.0 {
+        true => Scalar::cos(root),
+        false => Scalar::cosh(root),
+    };
+    S::select(is_small, series, far)
 }
 
 impl PairFunction {

@@ -51,6 +51,13 @@ pub fn tokens(text: &str) -> Result<Vec<Token>, Complaint> {
     Ok(tokens)
 }
 
+/// The names of a text; `None` if it is no formula.
+pub fn names(text: &str) -> Option<Vec<&str>> {
+    let tokens = tokens(text).ok()?;
+    let names = tokens.into_iter().filter(|token| token.kind == Kind::Name);
+    Some(names.filter_map(|token| text.get(token.place)).collect())
+}
+
 fn kind(word: &str, first: char) -> Result<Kind, Mistake> {
     match first {
         '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => Ok(Kind::Sign(first)),

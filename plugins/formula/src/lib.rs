@@ -3,13 +3,14 @@
 //! The text is read once. `parser` turns it into a `graph` in which every subexpression stands
 //! once, and checks that the dimensions (`dimension`) fit. `polar` turns ρ and θ into x and y, such
 //! that the axis is a point like any other. `tape` puts the graph into a list of steps, which runs
-//! on every number type.
+//! on every number type. `jump` refuses heights that jump where θ ends.
 
 mod complaint;
 mod dimension;
 mod formula;
 mod gap;
 mod graph;
+mod jump;
 mod lexer;
 mod names;
 mod parser;

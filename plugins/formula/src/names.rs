@@ -7,14 +7,16 @@ use turnpath_plugin::prelude::{DEG, NM, UM};
 use crate::dimension::Dimension;
 
 /// A name that stands for a number: units, and π.
-pub const VALUES: [(&str, f64, Dimension); 9] = [
+pub const VALUES: [(&str, f64, Dimension); 10] = [
     ("pi", PI, Dimension::PURE),
     ("rad", 1.0, Dimension::PURE),
     ("mrad", 1e-3, Dimension::PURE),
     ("deg", DEG, Dimension::PURE),
     ("mm", 1.0, Dimension::LENGTH),
     ("um", UM, Dimension::LENGTH),
-    ("µm", UM, Dimension::LENGTH),
+    // The micro sign and the Greek letter look alike.
+    ("\u{b5}m", UM, Dimension::LENGTH),
+    ("\u{3bc}m", UM, Dimension::LENGTH),
     ("nm", NM, Dimension::LENGTH),
     ("inch", 25.4, Dimension::LENGTH),
 ];
@@ -32,7 +34,7 @@ pub enum Variable {
     Theta,
 }
 
-/// The variables. `r` is a second name of `rho`, unless a constant has that name.
+/// The variables. [`RADIUS`] is a second name of `rho`.
 pub const VARIABLES: [(&str, Variable, Dimension); 4] = [
     ("x", Variable::X, Dimension::LENGTH),
     ("y", Variable::Y, Dimension::LENGTH),
@@ -72,6 +74,10 @@ pub enum Function {
     Cosh,
     /// Hyperbolic tangent.
     Tanh,
+    /// cos √a: no name of formulas, but what cos cρ is in terms of ρ².
+    CosOfRoot,
+    /// cosh √a.
+    CoshOfRoot,
 }
 
 /// A function of two values.
@@ -119,7 +125,8 @@ pub const FUNCTIONS: [(&str, Call); 17] = [
 
 /// Whether every formula knows this name already, so that no constant may have it.
 pub fn is_taken(name: &str) -> bool {
-    VALUES.iter().any(|(known, ..)| *known == name)
+    name == RADIUS
+        || VALUES.iter().any(|(known, ..)| *known == name)
         || VARIABLES.iter().any(|(known, ..)| *known == name)
         || FUNCTIONS.iter().any(|(known, _)| *known == name)
 }

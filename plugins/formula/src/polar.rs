@@ -1,7 +1,7 @@
 //! ρ and θ as functions of x and y, such that the axis is a point like any other where it can be.
 //!
 //! An even power of ρ is a power of x² + y². A product of ρᵐ with cos nθ or sin nθ, m ≥ n, has the
-//! real or the imaginary part of (x + iy)ⁿ. What is left of ρ and θ has derivatives only beside the
+//! real or the imaginary part of (x + iy)ⁿ. cos cρ and cosh cρ are functions of ρ². What is left of ρ and θ has derivatives only beside the
 //! axis: [`crate::run`] says what holds there.
 
 use turnpath_plugin::prelude::Scalar;
@@ -68,9 +68,36 @@ impl Resolution<'_> {
             Node::Negative(a) => self.new.negative(self.id(a)),
             Node::Power(a, exponent) => self.power_of(a, exponent),
             Node::RealPower(a, bits) => self.new.power(self.id(a), f64::from_bits(bits)),
-            Node::One(function, a) => self.new.one(function, self.id(a)),
+            Node::One(function, a) => self.one(function, a),
             Node::Two(function, a, b) => self.new.two(function, self.id(a), self.id(b)),
         }
+    }
+
+    /// A function of one value. cos and cosh of c·ρⁿ with an odd n are functions of ρ²ⁿ.
+    fn one(&mut self, function: Function, a: Id) -> Result<Id, Refusal> {
+        let of_root = match function {
+            Function::Cos => Function::CosOfRoot,
+            Function::Cosh => Function::CoshOfRoot,
+            _ => return self.new.one(function, self.id(a)),
+        };
+        match self.old.power_of_rho(a) {
+            Some((factor, power)) if power > 0.0 && power % 2.0 == 1.0 => {
+                let square = self.square_of_rho()?;
+                let argument = self.new.power(square, power)?;
+                let factor = self.new.constant(factor * factor)?;
+                let argument = self.new.product(factor, argument)?;
+                self.new.one(of_root, argument)
+            }
+            _ => self.new.one(function, self.id(a)),
+        }
+    }
+
+    /// x² + y².
+    fn square_of_rho(&mut self) -> Result<Id, Refusal> {
+        let x = self.new.variable(Variable::X)?;
+        let y = self.new.variable(Variable::Y)?;
+        let (xx, yy) = (self.new.power(x, 2.0)?, self.new.power(y, 2.0)?);
+        self.new.sum(xx, yy)
     }
 
     /// A power of a node of the old graph. That of a product with ρ in it is the product of its factors
@@ -92,10 +119,7 @@ impl Resolution<'_> {
         if self.new.node(base) != Node::Variable(Variable::Rho) {
             return self.new.power(base, f64::from(exponent));
         }
-        let x = self.new.variable(Variable::X)?;
-        let y = self.new.variable(Variable::Y)?;
-        let (xx, yy) = (self.new.power(x, 2.0)?, self.new.power(y, 2.0)?);
-        let square = self.new.sum(xx, yy)?;
+        let square = self.square_of_rho()?;
         let even = self.new.power(square, f64::from(exponent.div_euclid(2)))?;
         match exponent.rem_euclid(2) {
             0 => Ok(even),

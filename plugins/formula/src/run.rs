@@ -63,6 +63,7 @@ fn apply<S: Scalar, const N: usize>(step: &Step, r: &mut [S; N]) {
         Operation::Number(number) => r[out] = S::constant(number),
         Operation::NumberOver(number) => r[out] = over(number, r[a]),
         Operation::Rho => r[out] = rho(r[x], r[y]),
+        Operation::RealPowerOfRho(exponent) => r[out] = power_of_rho(r[x], r[y], exponent),
         Operation::Theta => r[out] = theta(r[x], r[y]),
         Operation::One(function) => r[out] = one(function, r[a]),
         Operation::Two(function) => r[out] = two(function, r[a], r[b]),
@@ -96,6 +97,15 @@ fn rho<S: Scalar>(x: S, y: S) -> S {
     let square = x.squared() + y.squared();
     let at_axis = square.less(S::constant(AXIS));
     let beside = S::select(at_axis, S::constant(1.0), square).sqrt();
+    S::select(at_axis, S::constant(0.0), beside)
+}
+
+/// Its derivatives at the axis count as 0, as those of ρ do.
+#[inline(never)]
+fn power_of_rho<S: Scalar>(x: S, y: S, exponent: f64) -> S {
+    let square = x.squared() + y.squared();
+    let at_axis = square.less(S::constant(AXIS));
+    let beside = S::select(at_axis, S::constant(1.0), square).powf(0.5 * exponent);
     S::select(at_axis, S::constant(0.0), beside)
 }
 

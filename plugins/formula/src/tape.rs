@@ -44,6 +44,8 @@ pub enum Operation {
     SquareOfRho,
     /// ρ of x and y.
     Rho,
+    /// A real power of ρ, above 0, of x and y.
+    RealPowerOfRho(f64),
     /// θ of x and y.
     Theta,
     /// A function of a.
@@ -159,6 +161,11 @@ fn action(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
         Node::Negative(a) => one(Operation::Negative, a),
         Node::Power(a, 2) => one(Operation::Square, a),
         Node::Power(a, exponent) => one(Operation::Power(exponent), a),
+        Node::RealPower(a, bits)
+            if graph.node(a) == Node::Variable(Variable::Rho) && f64::from_bits(bits) > 0.0 =>
+        {
+            none(Operation::RealPowerOfRho(f64::from_bits(bits)))
+        }
         Node::RealPower(a, bits) => one(Operation::RealPower(f64::from_bits(bits)), a),
         Node::One(function, a) => one(Operation::One(function), a),
         Node::Two(function, a, b) => two(Operation::Two(function), a, b),

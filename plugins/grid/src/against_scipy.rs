@@ -3,10 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use serde_json::Value;
-use turnpath_plugin::prelude::Series;
+use turnpath_maps::Map;
+use turnpath_plugin::prelude::{Gradients, Series, SurfaceModel};
 
 use crate::sheet::Sheet;
 use crate::spline::Spline;
+use crate::surface::GridSag;
 
 /// Bound of heights, mm.
 const HEIGHT: f64 = 1e-12;
@@ -18,14 +20,23 @@ const RELATIVE: f64 = 1e-11;
 
 fn cases() -> Vec<Value> {
     let text = include_str!("../../../tests/reference/grids/splines.json");
-    serde_json::from_str(text).unwrap()
+    let all: Value = serde_json::from_str(text).unwrap();
+    all["cases"].as_array().unwrap().clone()
+}
+
+fn pair(case: &Value, key: &str) -> [f64; 2] {
+    [0, 1].map(|axis| case[key][axis].as_f64().unwrap())
+}
+
+fn heights(case: &Value) -> Vec<Vec<f64>> {
+    serde_json::from_value(case["heights"].clone()).unwrap()
 }
 
 /// The spline through the heights of a case.
 fn spline(case: &Value) -> Spline {
     let count = |key: &str| case[key].as_u64().unwrap() as usize;
-    let pair = |key: &str| [0, 1].map(|axis| case[key][axis].as_f64().unwrap());
-    let heights: Vec<Vec<f64>> = serde_json::from_value(case["heights"].clone()).unwrap();
+    let pair = |key: &str| pair(case, key);
+    let heights = heights(case);
     let heights = Sheet {
         columns: count("columns"),
         rows: count("rows"),
@@ -47,6 +58,45 @@ fn heights_and_slopes_are_those_of_scipy() {
                 assert!(far <= bound, "{place} {k}: {} off by {far}", found[k]);
             }
             assert_eq!(spline.height(x, y), found[0]);
+        }
+    }
+}
+
+/// The surface as a recipe gets it: where a map is smooth it is the spline of scipy, up to the edges.
+#[test]
+fn a_smooth_map_is_the_spline_of_scipy_as_a_surface() {
+    let all = cases();
+    let smooth: Vec<&Value> = all.iter().filter(|case| case["noise"] == 0).collect();
+    assert_eq!(smooth.len(), 1);
+    for case in smooth {
+        let ([pitch_x, pitch_y], [left, bottom]) = (pair(case, "pitch"), pair(case, "first"));
+        let heights = heights(case);
+        let (columns, rows) = (heights[0].len(), heights.len());
+        let map = Map::new(columns, rows, pitch_x, pitch_y, heights.concat()).unwrap();
+        let surface = GridSag::of(map, None).unwrap();
+        // A map of its own lies around the origin.
+        let middle = [
+            left + 0.5 * pitch_x * (columns as f64 - 1.0),
+            bottom + 0.5 * pitch_y * (rows as f64 - 1.0),
+        ];
+        for place in case["places"].as_array().unwrap() {
+            let [x, y] = ["x", "y"].map(|axis| place[axis].as_f64().unwrap());
+            let (mut z, mut zx, mut zy) = ([0.0], [0.0], [0.0]);
+            let out = Gradients {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            };
+            surface
+                .gradient(&[x - middle[0]], &[y - middle[1]], out)
+                .unwrap();
+            for (found, (k, bound)) in [z, zx, zy]
+                .iter()
+                .zip([HEIGHT, SLOPE, SLOPE].into_iter().enumerate())
+            {
+                let far = (found[0] - place["z_zx_zy"][k].as_f64().unwrap()).abs();
+                assert!(far <= bound, "{place} {k}: off by {far}");
+            }
         }
     }
 }

@@ -4,7 +4,8 @@
 //!
 //! 1. `trend`: the quadratic of best fit is taken away, so that what follows works on what is
 //!    left, and added again at the end.
-//! 2. `low_pass`: with `smooth`, what is shorter than the cutoff is removed.
+//! 2. `low_pass`: with `smooth`, what is shorter than the cutoff is removed,
+//!    after `blocks` of points were averaged where a map is much finer.
 //! 3. `bending`: holes, and a margin around the map, are filled so that the bend changes least.
 //! 4. `interpolation`: the coefficients of a tensor B-spline of degree 5 through all points.
 //! 5. `edges`: where the map is smooth, its own spline counts up to its edge.
@@ -15,6 +16,7 @@ mod against_scipy;
 mod banded;
 mod basis;
 mod bending;
+mod blocks;
 mod cells;
 mod edges;
 mod interpolation;

@@ -5,17 +5,16 @@
 //! edges and beside holes this follows a slope, where a mean would not. Holes count nothing and stay
 //! holes.
 //!
-//! A map that is much finer than the cutoff is averaged in blocks first.
+//! A map that is much finer than the cutoff is averaged in [`Blocks`] first. Each block weighs as many
+//! times as it has numbers, and stands where their middle lies: so no number is lost where a map has
+//! many holes.
 
 use std::f64::consts::{LN_2, PI};
 
 use turnpath_plugin::prelude::Scalar;
 
+use crate::blocks::Blocks;
 use crate::sheet::Sheet;
-
-/// Blocks in a cutoff, at least. More take more time. Fewer would let the blocks themselves filter:
-/// with 12 of them a wave as long as the cutoff loses one hundredth by the mean over a block.
-const BLOCKS: f64 = 12.0;
 
 /// The Gaussian ends at this distance, in cutoffs, where its weight is 6.5e-7.
 const END: f64 = 1.0;
@@ -23,49 +22,18 @@ const END: f64 = 1.0;
 /// The share of the full determinant below which neighbours lie on a line, and give a mean alone.
 const FLAT: f64 = 1e-9;
 
-/// How many points of a map along one axis go into a block.
-pub fn block(cutoff: f64, pitch: f64) -> usize {
-    ((cutoff / pitch / BLOCKS) as usize).max(1)
-}
-
-/// The means of blocks of `wide` × `high` numbers. What remains at the edges is left out on both
-/// sides alike. A block with fewer than half of its numbers is a hole.
-pub fn in_blocks(sheet: &Sheet, wide: usize, high: usize) -> Sheet {
-    let (columns, rows) = (sheet.columns / wide, sheet.rows / high);
-    let (left, top) = ((sheet.columns % wide) / 2, (sheet.rows % high) / 2);
-    let mut means = Sheet::of(columns, rows, 0.0);
-    let mut counts = vec![0_usize; columns * rows];
-    let lines = sheet.lines().skip(top).take(rows * high).enumerate();
-    for (number, line) in lines {
-        let first = number / high * columns;
-        let blocks = line[left..].chunks_exact(wide).zip(first..);
-        for (block, place) in blocks.take(columns) {
-            for value in block.iter().filter(|value| !value.is_nan()) {
-                means.values[place] += value;
-                counts[place] += 1;
-            }
-        }
-    }
-    for (mean, count) in means.values.iter_mut().zip(counts) {
-        *mean = match 2 * count >= wide * high {
-            true => *mean / count as f64,
-            false => f64::NAN,
-        };
-    }
-    means
-}
-
-/// Filters a sheet. `cutoff` is in columns and in rows.
-pub fn filter(sheet: &Sheet, cutoff: [f64; 2]) -> Sheet {
+/// Filters the means of blocks. `cutoff` is in columns and in rows of blocks.
+pub fn filter(blocks: &Blocks, cutoff: [f64; 2]) -> Sheet {
     let [along_x, along_y] = cutoff.map(Gaussian::new);
-    let full = Full::of(sheet);
+    let sheet = &blocks.means;
+    let full = Full::of(blocks);
     let mut filtered = spread(sheet, &along_x, &along_y);
     for (place, value) in filtered.values.iter_mut().enumerate() {
         let (column, row) = (place % sheet.columns, place / sheet.columns);
         if sheet.values[place].is_nan() {
             *value = f64::NAN;
         } else if !full.around(column, row, along_x.reach, along_y.reach) {
-            *value = of_plane(sheet, (column, row), &along_x, &along_y);
+            *value = of_plane(blocks, (column, row), &along_x, &along_y);
         }
     }
     filtered
@@ -133,7 +101,7 @@ fn spread_down(sheet: &Sheet, along: &Gaussian) -> Sheet {
     sums
 }
 
-/// Sums of numbers that are there, from the corner on.
+/// Sums of whole blocks, from the corner on.
 struct Full {
     columns: usize,
     rows: usize,
@@ -141,13 +109,14 @@ struct Full {
 }
 
 impl Full {
-    fn of(sheet: &Sheet) -> Self {
+    fn of(blocks: &Blocks) -> Self {
+        let sheet = &blocks.means;
         let wide = sheet.columns + 1;
         let mut sums = vec![0_u32; wide * (sheet.rows + 1)];
         for (row, line) in sheet.lines().enumerate() {
             let mut of_row = 0;
-            for (column, value) in line.iter().enumerate() {
-                of_row += u32::from(!value.is_nan());
+            for column in 0..line.len() {
+                of_row += u32::from(blocks.is_whole(row * sheet.columns + column));
                 let above = sums[row * wide + column + 1];
                 sums[(row + 1) * wide + column + 1] = above + of_row;
             }
@@ -159,7 +128,7 @@ impl Full {
         }
     }
 
-    /// Whether all numbers are there that are not farther away.
+    /// Whether all blocks are whole that are not farther away.
     fn around(&self, column: usize, row: usize, far_x: usize, far_y: usize) -> bool {
         let inside = |at: usize, far: usize, count: usize| at >= far && at + far < count;
         if !inside(column, far_x, self.columns) || !inside(row, far_y, self.rows) {
@@ -175,7 +144,7 @@ impl Full {
 
 /// The height, at a place, of the plane that fits its neighbours best.
 fn of_plane(
-    sheet: &Sheet,
+    blocks: &Blocks,
     (column, row): (usize, usize),
     along_x: &Gaussian,
     along_y: &Gaussian,
@@ -183,19 +152,20 @@ fn of_plane(
     // Weights, and weights times x, y, x², xy, y²; then heights, and heights times x, y.
     let (mut w, mut h) = ([0.0; 6], [0.0; 3]);
     let first = |at: usize, reach: usize| at.saturating_sub(reach);
+    let sheet = &blocks.means;
     let (top, left) = (first(row, along_y.reach), first(column, along_x.reach));
     let lines = sheet.lines().enumerate().skip(top);
     for (other, line) in lines.take(row + along_y.reach + 1 - top) {
-        let (y, of_row) = (other as f64 - row as f64, along_y.at(row, other));
+        let of_row = along_y.at(row, other);
         let values = line.iter().enumerate().skip(left);
         for (place, value) in values.take(column + along_x.reach + 1 - left) {
             if value.is_nan() {
                 continue;
             }
-            let (x, weight) = (
-                place as f64 - column as f64,
-                of_row * along_x.at(column, place),
-            );
+            let middle = blocks.middle(other * sheet.columns + place);
+            let x = place as f64 - column as f64 + middle.x;
+            let y = other as f64 - row as f64 + middle.y;
+            let weight = middle.share * of_row * along_x.at(column, place);
             for (sum, term) in w.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
                 *sum += weight * term;
             }
@@ -235,7 +205,7 @@ mod tests {
         let (cutoff_x, cutoff_y) = (10.0, 7.0);
         for length in [5.0, 10.0, 20.0, 40.0] {
             let wave = sheet(121, 60, |u, _| Scalar::cos(TAU * (u - 60.0) / length));
-            let filtered = filter(&wave, [cutoff_x, cutoff_y]);
+            let filtered = filter(&Blocks::of(&wave, 1, 1), [cutoff_x, cutoff_y]);
             let share: f64 = cutoff_x / length;
             let wanted = Scalar::exp(-LN_2 * share * share);
             let found = filtered.values[30 * 121 + 60];
@@ -252,7 +222,7 @@ mod tests {
             30,
             |u, v| if hole(u, v) { f64::NAN } else { plane(u, v) },
         );
-        let filtered = filter(&holed, [6.0, 4.5]);
+        let filtered = filter(&Blocks::of(&holed, 1, 1), [6.0, 4.5]);
         for (place, (found, given)) in filtered.values.iter().zip(&holed.values).enumerate() {
             assert_eq!(found.is_nan(), given.is_nan());
             let far = (found - given).abs() > 1e-11;
@@ -260,20 +230,28 @@ mod tests {
         }
     }
 
+    /// Nine points in 64 have a number, and blocks of 4 × 3 points have few or none.
     #[test]
-    fn blocks_have_the_means_and_lie_in_the_middle() {
-        let mut fine = sheet(11, 7, |u, v| u + 10.0 * v);
-        // Columns 1 to 3 and rows 0 to 1 make the first block.
-        for place in [1, 2, 3, 12] {
-            fine.values[place] = f64::NAN;
+    fn a_plane_stays_where_a_block_has_few_numbers() {
+        let is_there =
+            |u: f64, v: f64| (u * 37.0 + v * 101.0 + u * v * 13.0).rem_euclid(64.0) < 9.0;
+        let plane = |u: f64, v: f64| 1.0 + 0.3 * u - 0.2 * v;
+        let sparse = sheet(160, 120, |u, v| match is_there(u, v) {
+            true => plane(u, v),
+            false => f64::NAN,
+        });
+        let blocks = Blocks::of(&sparse, 4, 3);
+        let filtered = filter(&blocks, [12.0, 14.0]);
+        let mut found = 0;
+        for (place, value) in filtered.values.iter().enumerate() {
+            let (column, row) = ((place % 40) as f64, (place / 40) as f64);
+            let wanted = plane(4.0 * column + 1.5, 3.0 * row + 1.0);
+            assert!(
+                value.is_nan() || (value - wanted).abs() < 1e-11,
+                "{value} {wanted}"
+            );
+            found += usize::from(!value.is_nan());
         }
-        fine.values[4] = f64::NAN;
-        let means = in_blocks(&fine, 3, 2);
-        assert_eq!((means.columns, means.rows), (3, 3));
-        assert!(means.values[0].is_nan());
-        // 5, 6, 14, 15, 16 of 4, 5, 6, 14, 15, 16.
-        assert!((means.values[1] - 56.0 / 5.0).abs() < 1e-12);
-        assert!((means.values[3] - 27.0).abs() < 1e-12);
-        assert_eq!((block(1.0, 0.1), block(2.5, 0.1)), (1, 2));
+        assert!((600..1600).contains(&found), "{found}");
     }
 }

@@ -4,6 +4,7 @@ use turnpath_maps::{Conventions, Format, Map, Origin, length_unit};
 use turnpath_plugin::prelude::*;
 
 use crate::bending;
+use crate::blocks::{Blocks, block};
 use crate::cells::Cells;
 use crate::low_pass;
 use crate::sheet::Sheet;
@@ -21,7 +22,10 @@ pub struct GridSag {
     data: SurfaceData,
 }
 
-const FILE: Param<File> = Param::file("file", "the map: .DAT, .INT, .xyz, .gsf");
+const FILE: Param<File> = Param::file(
+    "file",
+    "the map: .DAT, .INT, .xyz, .gsf, or .dat of MetroPro",
+);
 const FORMAT: Param<Choice> = Param::choice(
     "format",
     &["auto", "zemax", "code-v", "xyz", "gsf", "metropro"],
@@ -161,13 +165,13 @@ impl GridSag {
         // Where the first point lies among those of the file, and how far apart points are there.
         let (mut start, mut step) = ([0.0; 2], [1.0; 2]);
         if let Some(cutoff) = cutoff {
-            let [wide, high] = pitch.map(|pitch| low_pass::block(cutoff, pitch));
+            let [wide, high] = pitch.map(|pitch| block(cutoff, pitch));
             start = [
                 middle_of_block(sheet.columns, wide),
                 middle_of_block(sheet.rows, high),
             ];
             step = [wide as f64, high as f64];
-            let blocks = low_pass::in_blocks(&sheet, wide, high);
+            let blocks = Blocks::of(&sheet, wide, high);
             let cutoff = [0, 1].map(|axis| cutoff / (pitch[axis] * step[axis]));
             sheet = low_pass::filter(&blocks, cutoff);
         }

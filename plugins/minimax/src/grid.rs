@@ -1,6 +1,6 @@
 //! The exact path at places that are as dense as steps are short.
 
-use turnpath_plugin::hermite::SHORTEST;
+use turnpath_plugin::hermite::{MAX_STEP, SHORTEST};
 use turnpath_plugin::prelude::*;
 
 /// Cells on a revolution. The number is a prime, so that no ring of equal features has all its
@@ -192,7 +192,7 @@ fn no_value(n: f64, rho: f64) -> StrategyError {
 
 /// The error that the path needs steps below the shortest.
 pub fn too_short(n: f64, natural: f64) -> StrategyError {
-    StrategyError::failed(format!(
+    MAX_STEP.refused(format!(
         "the tolerance needs steps of {:.2e} deg at C = {:.3} deg, but the shortest allowed step \
          is {:.3} deg: the tool centre's path is not smooth there; choose a larger interpolation \
          tolerance, a smaller tool, or another sampler",

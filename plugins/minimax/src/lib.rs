@@ -20,11 +20,12 @@
 //! - **Aim.** Steps aim at 0.98 of the tolerance. Refinement stays behind them.
 
 mod grid;
+mod natural_steps;
 mod place;
 mod reach;
 mod room;
 mod sampler;
-mod scale;
+
 mod search;
 mod segment;
 mod spans;

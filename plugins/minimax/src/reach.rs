@@ -1,7 +1,7 @@
 //! The longest step from one node to a node in a given state.
 
+use crate::natural_steps::NaturalSteps;
 use crate::place::Place;
-use crate::scale::Scale;
 use crate::segment::{Node, holds};
 use crate::state::State;
 use crate::table::Table;
@@ -23,12 +23,23 @@ pub struct Precision {
     pub halvings: usize,
 }
 
+/// Which steps between two states count, in revolutions.
+#[derive(Debug, Clone, Copy)]
+pub struct StepRange {
+    /// The shortest.
+    pub least: f64,
+    /// The longest.
+    pub most: f64,
+    /// The last step between the same two states.
+    pub last: f64,
+}
+
 /// The steps of one span.
 pub struct Reach<'a> {
     /// The path.
     pub table: &'a Table<'a>,
     /// The natural steps.
-    pub scale: &'a Scale,
+    pub natural: &'a NaturalSteps,
     /// How closely steps are found.
     pub precision: Precision,
 }
@@ -36,21 +47,21 @@ pub struct Reach<'a> {
 impl Reach<'_> {
     /// The node in this state at a place.
     pub fn node(&self, place: Place, state: State) -> Node {
-        let allowed = self.table.limits.allowed;
+        let offset = self.table.limits.allowed * self.natural.part_at(place.n);
         let dz_rate = match state.slope {
             0.0 => 0.0,
-            slope => slope * allowed * place.c_rate / self.scale_in_radians(place.n),
+            slope => slope * offset * place.c_rate / self.natural_in_radians(place.n),
         };
         Node {
             place,
-            dz: state.height * allowed,
+            dz: state.height * offset,
             dz_rate,
         }
     }
 
     /// The natural step at `n`, rad.
-    pub fn scale_in_radians(&self, n: f64) -> f64 {
-        std::f64::consts::TAU * self.scale.at(n)
+    fn natural_in_radians(&self, n: f64) -> f64 {
+        std::f64::consts::TAU * self.natural.at(n)
     }
 
     /// Whether the step of `length` revolutions to a node in state `to` holds, and where it ends.
@@ -59,43 +70,53 @@ impl Reach<'_> {
         holds(self.table, from, &self.node(place, to)).then_some(place)
     }
 
-    /// The end of the longest step to a node in state `to` that is no longer than `limit`
-    /// revolutions; `None` if there is none, or none that gets further than `best`. `last` is the
-    /// last step between the same two states.
+    /// The end of the longest step in `range` to a node in state `to`; `None` if there is none, or
+    /// none that gets further than `best`.
     pub fn longest(
         &self,
         from: &Node,
         to: State,
-        (limit, last): (f64, f64),
+        range: StepRange,
         best: Option<f64>,
     ) -> Option<Place> {
-        let first = match best {
-            Some(best) => {
-                let length = best + GAIN * self.scale.at(best) - from.place.n;
-                let held = (length <= limit).then(|| self.step(from, to, length));
-                (length, held.flatten()?)
-            }
-            None => self.shrink(from, to, (BEGIN * last).min(limit))?,
+        let beyond = best.map(|best| best + GAIN * self.natural.at(best));
+        let first = match beyond.map(|beyond| beyond - from.place.n) {
+            Some(length) if length > range.most => return None,
+            Some(length) if length >= range.least => (length, self.step(from, to, length)?),
+            _ => self.first(from, to, range)?,
         };
-        Some(self.grow(from, to, first, limit))
+        let place = self.grow(from, to, first, range.most);
+        beyond
+            .is_none_or(|beyond| place.n >= beyond)
+            .then_some(place)
     }
 
-    /// The first step from `length` downwards that holds.
-    fn shrink(&self, from: &Node, to: State, mut length: f64) -> Option<(f64, Place)> {
+    /// A step that holds, near the last one between the same two states.
+    fn first(&self, from: &Node, to: State, range: StepRange) -> Option<(f64, Place)> {
+        // Where the largest step decides, it is all that is tried.
+        if range.last >= range.most
+            && let Some(place) = self.step(from, to, range.most)
+        {
+            return Some((range.most, place));
+        }
+        let mut length = (BEGIN * range.last).min(range.most).max(range.least);
         for _ in 0..=MOST_SHRINKS {
             if let Some(place) = self.step(from, to, length) {
                 return Some((length, place));
             }
-            length *= SHRINK;
+            if length <= range.least {
+                return None;
+            }
+            length = (SHRINK * length).max(range.least);
         }
         None
     }
 
     /// Lengthens a step that holds until it no longer does, and halves the last interval.
-    fn grow(&self, from: &Node, to: State, first: (f64, Place), limit: f64) -> Place {
+    fn grow(&self, from: &Node, to: State, first: (f64, Place), most: f64) -> Place {
         let (mut length, mut place) = first;
-        while length < limit {
-            let longer = (self.precision.growth * length).min(limit);
+        while length < most {
+            let longer = (self.precision.growth * length).min(most);
             match self.step(from, to, longer) {
                 Some(end) => (length, place) = (longer, end),
                 None => return self.halve(from, to, (length, place), longer),

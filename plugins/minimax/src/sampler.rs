@@ -4,8 +4,8 @@ use turnpath_plugin::hermite::{FEED_PART, MAX_STEP, WANDER, largest_step};
 use turnpath_plugin::prelude::*;
 
 use crate::grid::Grid;
+use crate::natural_steps::NaturalSteps;
 use crate::reach::{Precision, Reach};
-use crate::scale::Scale;
 use crate::search::Search;
 use crate::spans::spans;
 use crate::state::{State, states};
@@ -99,11 +99,11 @@ impl Chains {
     ) -> Result<()> {
         let samples = Grid::new(path, span, limits.allowed)?.into_samples()?;
         let table = Table::new(path, &samples, limits)?;
-        let scale = Scale::new(&samples, limits.allowed, limits.max_step);
+        let natural = NaturalSteps::new(&samples, &table);
         drop(samples);
         let reach = Reach {
             table: &table,
-            scale: &scale,
+            natural: &natural,
             precision: match self.states.len() {
                 1 => ON_LOCUS,
                 _ => AMONG_STATES,

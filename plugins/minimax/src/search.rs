@@ -5,15 +5,25 @@ use turnpath_plugin::prelude::*;
 
 use crate::grid::{LEAST_NEAR_SEAMS, too_short};
 use crate::place::Place;
-use crate::reach::Reach;
-use crate::segment::holds;
+use crate::reach::{Reach, StepRange};
+use crate::segment::{Node, holds};
 use crate::state::{ON_LOCUS, State};
 
-/// Inner nodes stay this part of a natural step away from the span's end. Otherwise a node could lie
-/// beside the end, with absurd accelerations between the two.
-const CLEAR_OF_END: f64 = 0.4;
+/// A step to or from a node beside the locus is no shorter than this part of a natural step, and
+/// inner nodes stay so far away from the span's end. Otherwise nodes could lie beside each other with
+/// absurd accelerations between them.
+const LEAST: f64 = 0.4;
+/// A step from the locus to the locus is looked for down to this part of a natural step. Where the
+/// path has a kink, a step may be shorter.
+const LEAST_ON_LOCUS: f64 = 0.02;
+/// Nodes beside the locus are tried where a natural step takes more than this part of the tolerance
+/// on both sides. Elsewhere a step between two nodes on the locus takes a fifth of it at the most, and
+/// the largest step or X decides.
+const WORTH: f64 = 0.5;
 /// A step that must be found is halved no further than this part of the shortest one.
 const HALF: f64 = 0.5;
+/// By this part a step may exceed the largest one at the end of a span: rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Where a chain of steps has got to in one state.
 #[derive(Debug, Clone, Copy)]
@@ -26,12 +36,17 @@ struct Front {
 /// One number of nodes: how far the chains get in each state.
 type Layer = Vec<Option<Front>>;
 
+/// A node of a chain: where it is, and the state of the node before.
+type Past = Option<(f64, u8)>;
+
 /// The search along one span.
 pub struct Search<'a> {
     reach: &'a Reach<'a>,
     states: &'static [State],
+    /// The shortest step, in revolutions.
+    shortest: f64,
     misfit: Misfit,
-    layers: Vec<Layer>,
+    layers: Vec<Box<[Past]>>,
     /// The last step from each state to each other, in revolutions.
     last: Vec<f64>,
 }
@@ -40,12 +55,17 @@ impl<'a> Search<'a> {
     /// A search with these states, the first of which is on the locus.
     pub fn new(reach: &'a Reach<'a>, states: &'static [State], misfit: Misfit) -> Self {
         let first = reach.table.n.first().copied().unwrap_or_default();
+        let shortest = match misfit {
+            Misfit::Refuse => SHORTEST,
+            Misfit::CutWhatFits => SHORTEST.min(LEAST_NEAR_SEAMS),
+        };
         Self {
             reach,
             states,
+            shortest: shortest / TAU,
             misfit,
             layers: Vec::new(),
-            last: vec![reach.scale.at(first); states.len() * states.len()],
+            last: vec![reach.natural.at(first); states.len() * states.len()],
         }
     }
 
@@ -57,18 +77,20 @@ impl<'a> Search<'a> {
         let table = self.reach.table;
         let start = table.border(table.n.first().copied().unwrap_or_default())?;
         let end = table.border(table.end())?;
+        // Every step is longer than half of the shortest one, so no chain has more nodes.
+        let most = ((end.n - start.n) / (HALF * self.shortest)).ceil() as usize + 1;
         let mut layer: Layer = vec![None; self.states.len()];
         layer[0] = Some(Front {
             place: start,
             from: 0,
         });
-        loop {
+        while self.layers.len() <= most {
             let ending = self.ending(&layer, end);
             let next = match ending {
                 Some(_) => Layer::new(),
                 None => self.next(&layer, end)?,
             };
-            self.layers.push(layer);
+            self.layers.push(past(&layer));
             match ending {
                 Some(state) => {
                     self.trace(state, nodes);
@@ -77,19 +99,20 @@ impl<'a> Search<'a> {
                 None => layer = next,
             }
         }
+        Err(too_short(end.n, TAU * self.shortest))
     }
 
-    fn node(&self, front: &Front, state: usize) -> crate::segment::Node {
+    fn node(&self, front: &Front, state: usize) -> Node {
         self.reach.node(front.place, self.states[state])
     }
 
     /// The first state from which one step ends the span.
     fn ending(&self, layer: &Layer, end: Place) -> Option<usize> {
         let last = self.reach.node(end, ON_LOCUS);
-        let limits = self.reach.table.limits;
+        let most = self.reach.table.limits.max_step * (1.0 + ROUNDING);
         let ends = |(state, front): (usize, &Option<Front>)| {
             let front = front.as_ref()?;
-            let near = end.n - front.place.n <= limits.max_step;
+            let near = end.n - front.place.n <= most;
             (near && holds(self.reach.table, &self.node(front, state), &last)).then_some(state)
         };
         layer.iter().enumerate().find_map(ends)
@@ -97,7 +120,7 @@ impl<'a> Search<'a> {
 
     /// The fronts with one node more.
     fn next(&mut self, layer: &Layer, end: Place) -> Result<Layer> {
-        let clear = end.n - CLEAR_OF_END * self.reach.scale.at(end.n);
+        let clear = end.n - LEAST * self.reach.natural.at(end.n);
         let mut next: Layer = vec![None; self.states.len()];
         for (to, slot) in next.iter_mut().enumerate() {
             for (from, front) in layer.iter().enumerate() {
@@ -111,8 +134,9 @@ impl<'a> Search<'a> {
         let furthest = next.iter().flatten().map(|front| front.place.n);
         match furthest.reduce(f64::max) {
             Some(furthest) => {
-                let least = furthest - self.reach.scale.at(furthest);
-                for slot in &mut next {
+                let least = furthest - self.reach.natural.at(furthest);
+                // The front on the locus stays: from there a step of any length may go on.
+                for slot in &mut next[1..] {
                     *slot = slot.filter(|front| front.place.n >= least);
                 }
             }
@@ -129,26 +153,44 @@ impl<'a> Search<'a> {
         clear: f64,
         best: Option<&Front>,
     ) -> Option<Place> {
-        let limit = self.reach.table.limits.max_step.min(clear - front.place.n);
-        if limit <= 0.0 {
+        let natural = self.reach.natural;
+        let step = natural.at(front.place.n);
+        let ahead = front.place.n + step;
+        if to != 0 && natural.part_at(ahead) < WORTH {
+            return None;
+        }
+        let least = step.min(natural.at(ahead));
+        let room = clear - front.place.n;
+        if room < LEAST * least {
             return None;
         }
         let pair = from * self.states.len() + to;
+        let range = StepRange {
+            least: match (from, to) {
+                (0, 0) => (LEAST_ON_LOCUS * least).max(self.shortest),
+                _ => LEAST * least,
+            },
+            most: self.reach.table.limits.max_step.min(room),
+            last: self.last[pair],
+        };
+        if range.most < range.least {
+            return None;
+        }
         let best = best.map(|best| best.place.n);
         let node = self.node(front, from);
-        let range = (limit, self.last[pair]);
         let place = self.reach.longest(&node, self.states[to], range, best)?;
         self.last[pair] = place.n - front.place.n;
         Some(place)
     }
 
-    /// A step to the locus from the furthest front, as short as it takes. Only where the path has a
-    /// kink no other step is left.
+    /// A step to the locus, as short as it takes. Only where the path has a kink no other step is
+    /// left. It begins on the locus if a front lies there: beside it a short step shakes Z.
     fn forced(&self, layer: &Layer, end: Place) -> Result<Front> {
         let fronts = layer.iter().enumerate();
         let fronts = fronts.filter_map(|(from, front)| front.map(|front| (from, front)));
         let furthest = fronts.max_by(|a, b| a.1.place.n.total_cmp(&b.1.place.n));
-        let Some((from, front)) = furthest else {
+        let on_locus = layer[0].map(|front| (0, front));
+        let Some((from, front)) = on_locus.or(furthest) else {
             return Err(StrategyError::failed("no step can be found"));
         };
         let node = self.node(&front, from);
@@ -156,7 +198,8 @@ impl<'a> Search<'a> {
             Misfit::Refuse => SHORTEST,
             Misfit::CutWhatFits => LEAST_NEAR_SEAMS,
         } / TAU;
-        let mut length = (HALF * (end.n - front.place.n)).min(self.reach.scale.at(front.place.n));
+        let room = HALF * (end.n - front.place.n);
+        let mut length = room.min(self.reach.natural.at(front.place.n));
         loop {
             let place = self.reach.table.place(front.place.n + length);
             if holds(self.reach.table, &node, &self.reach.node(place, ON_LOCUS)) {
@@ -176,14 +219,11 @@ impl<'a> Search<'a> {
     fn trace(&self, mut state: usize, nodes: &mut NodeList) {
         let mut chain = Vec::with_capacity(self.layers.len());
         for layer in self.layers.iter().rev() {
-            let Some(front) = &layer[state] else { break };
-            let node = self.node(front, state);
-            let offset = NodeOffset {
-                dz: node.dz,
-                dz_dc: node.dz_rate / front.place.c_rate,
+            let Some(Some((n, from))) = layer.get(state) else {
+                break;
             };
-            chain.push((front.place.n, offset));
-            state = front.from;
+            chain.push((*n, self.offset(*n, state)));
+            state = usize::from(*from);
         }
         for (n, offset) in chain.into_iter().rev() {
             match offset == NodeOffset::default() {
@@ -192,4 +232,23 @@ impl<'a> Search<'a> {
             }
         }
     }
+
+    fn offset(&self, n: f64, state: usize) -> NodeOffset {
+        if state == 0 {
+            return NodeOffset::default();
+        }
+        let place = self.reach.table.place(n);
+        let node = self.reach.node(place, self.states[state]);
+        NodeOffset {
+            dz: node.dz,
+            dz_dc: node.dz_rate / place.c_rate,
+        }
+    }
+}
+
+/// What of a layer the way back needs.
+fn past(layer: &Layer) -> Box<[Past]> {
+    let last = layer.iter().rposition(Option::is_some).unwrap_or_default();
+    let past = |front: &Option<Front>| front.map(|front| (front.place.n, front.from as u8));
+    layer.iter().take(last + 1).map(past).collect()
 }

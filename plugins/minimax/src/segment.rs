@@ -133,9 +133,15 @@ fn holds_between(table: &Table<'_>, played: &Played, from: &Node, to: &Node) -> 
         let truth = table.place(from.place.n + part * length);
         let t = truth.t - played.start;
         let [slope, along, weight] = table.coupling_near(truth.next);
-        let off_x = played.x.at(t) - truth.x;
-        let off_c = played.c.at(t) - truth.c;
-        let error = played.z.at(t) - truth.z - slope * off_x - along * off_c;
+        let mut error = played.z.at(t) - truth.z;
+        if table.speed_varies {
+            error -= along * (played.c.at(t) - truth.c);
+        }
+        let mut off_x = 0.0;
+        if table.x_matters {
+            off_x = played.x.at(t) - truth.x;
+            error -= slope * off_x;
+        }
         let x_within = !played.holds_x || off_x.abs() * weight <= 1.0;
         error.abs() <= played.limit && x_within
     })

@@ -150,7 +150,9 @@ impl<'a> Table<'a> {
         let rate = self.path.law.rate(n);
         let x_rate = x_theta[0] + x_rho[0] * rate / TAU;
         place.is_kink = self.path.law.series(n)[1] != rate;
-        place.x_rate = place.c_rate * x_rate;
+        if self.x_matters {
+            place.x_rate = place.c_rate * x_rate;
+        }
         place.z_rate = place.c_rate * (z_theta[0] + z_x[0] * x_rate);
         Ok(place)
     }

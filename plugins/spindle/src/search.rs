@@ -13,10 +13,17 @@ use crate::smooth::Smoother;
 const ACCELERATIONS: [f64; 7] = [0.1, 0.15, 0.22, 0.32, 0.46, 0.68, 1.0];
 /// Turns on either side over which the time of a turn is averaged.
 const REACHES: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
+/// While the best schedule has the largest of the reaches or the smallest of the accelerations, twice
+/// the one and half the other are tried, so often at the most. A spindle that may hardly change its
+/// speed needs many turns for it.
+const MOST_EXTENSIONS: usize = 10;
 /// How often a schedule is lowered where it is beyond a limit.
 const ROUNDS: usize = 4;
 /// How many of the first schedules are lowered in this way: the fastest ones.
 const FINALISTS: usize = 4;
+/// A schedule is taken if it saves this part of the time at a constant speed. Below it the speed
+/// would change by next to nothing, and rounding would stand against C's limits.
+const WORTH: f64 = 1e-3;
 /// The spindle stays below its largest speed by this part, for rounding.
 const ROUNDING: f64 = 1e-11;
 /// A cell counts as within its limits up to this part of its speed.
@@ -49,23 +56,72 @@ struct Schedule {
 }
 
 impl Conditions<'_> {
-    /// The fastest schedule that is nowhere faster than `speeds`, rad/s.
+    /// The fastest schedule that is nowhere faster than `speeds`, rad/s. It is never slower than the
+    /// slowest of them all the way.
     pub fn fastest(&self, speeds: Vec<f64>) -> SpindleLaw {
-        if speeds.iter().all(|speed| *speed >= self.speed) {
+        let least = speeds.iter().copied().fold(self.speed, f64::min);
+        if least >= self.speed {
             return SpindleLaw::constant(self.speed);
         }
         let mut first: Vec<Schedule> = self
             .smoothers()
             .map(|smoother| self.schedule(smoother, speeds.clone()).0)
             .collect();
+        self.extend(&mut first, &speeds);
         first.sort_by(|one, other| one.time.total_cmp(&other.time));
         first.truncate(FINALISTS);
         let finished = first.into_iter().map(|schedule| self.lowered(schedule));
         let fastest = finished.min_by(|one, other| one.time.total_cmp(&other.time));
-        fastest.map_or_else(
-            || SpindleLaw::constant(self.speed),
-            |schedule| schedule.law.into_spindle(schedule.factor),
-        )
+        let constant = TAU * self.grid.end / least;
+        match fastest.filter(|schedule| schedule.time < (1.0 - WORTH) * constant) {
+            Some(schedule) => schedule.law.into_spindle(schedule.factor),
+            None => SpindleLaw::constant(least),
+        }
+    }
+
+    /// Adds schedules with larger reaches and smaller accelerations, as long as they are the fastest.
+    fn extend(&self, schedules: &mut Vec<Schedule>, speeds: &[f64]) {
+        let acceleration = |schedule: &Schedule| schedule.smoother.acceleration;
+        let least = schedules
+            .iter()
+            .map(acceleration)
+            .fold(f64::INFINITY, f64::min);
+        let largest = REACHES.into_iter().fold(0.0, f64::max);
+        for _ in 0..MOST_EXTENSIONS {
+            let fastest = schedules.iter().min_by(|a, b| a.time.total_cmp(&b.time));
+            let Some(Schedule { smoother, time, .. }) = fastest else {
+                return;
+            };
+            let (
+                Smoother {
+                    acceleration,
+                    reach,
+                },
+                time,
+            ) = (*smoother, *time);
+            let mut more = Vec::new();
+            if reach >= largest && 2.0 * reach <= self.grid.end {
+                more.push(Smoother {
+                    acceleration,
+                    reach: 2.0 * reach,
+                });
+            }
+            if acceleration <= least && acceleration.is_finite() {
+                more.push(Smoother {
+                    acceleration: 0.5 * acceleration,
+                    reach,
+                });
+            }
+            let more = more
+                .into_iter()
+                .map(|smoother| self.schedule(smoother, speeds.to_vec()).0);
+            let more: Vec<Schedule> = more.collect();
+            let is_faster = more.iter().any(|schedule| schedule.time < time);
+            schedules.extend(more);
+            if !is_faster {
+                return;
+            }
+        }
     }
 
     fn smoothers(&self) -> impl Iterator<Item = Smoother> {

@@ -135,6 +135,30 @@ fn all_limits_hold_and_one_of_them_binds_nearly_everywhere() {
     assert!(end < 0.56 * constant, "{end} s of {constant} s");
 }
 
+/// However little the spindle may change its speed. The constant speed is that at which Z's
+/// acceleration at the rim is the limit.
+#[test]
+fn no_schedule_is_slower_than_the_fastest_constant_speed() {
+    let turns = 90.3;
+    let constant = TAU * turns / (500.0 / (4.0 * K * RIM * RIM)).sqrt();
+    let mut machine = MACHINE;
+    for acceleration in [100.0, 1.0, 1e-3] {
+        for jerk in [1000.0, 10.0, 1.0, 1e-3, 1e-6] {
+            machine.c.acceleration = Some(acceleration);
+            machine.c.jerk = Some(jerk);
+            let law = plan(&PerRevolution, machine, turns, &[]).unwrap();
+            let part = law.time_at(turns) / constant;
+            assert!(
+                part <= 1.001,
+                "{acceleration} rad/s², {jerk} rad/s³: {part}"
+            );
+            if acceleration > 99.0 && jerk > 9.0 {
+                assert!(part <= 0.65, "{jerk} rad/s³: {part}");
+            }
+        }
+    }
+}
+
 /// What the played path asks for, a part of the speed in some half turns, is kept there.
 #[test]
 fn the_factors_of_the_played_path_are_kept() {

@@ -2,10 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::powers;
-
-/// Largest power of x or y: far more than optics use, and small enough for dense coefficients.
-const LARGEST_POWER: usize = 40;
+use crate::powers::{self, LARGEST_POWER};
 
 /// z = Σ c·xⁱ·yʲ, or Σ c·(x/r)ⁱ·(y/r)ʲ with a normalisation radius r, by Horner's rule.
 ///

@@ -59,12 +59,15 @@ pub fn read(bytes: &[u8]) {
     let formula = formula.expect("the surface is built in");
     let mut params = Params::new();
     params.set("z", ParamValue::Text(text.to_owned()));
-    let constants = vec![NamedConstant {
-        name: "k".to_owned(),
-        value: 0.05,
-        length_power: -1,
-    }];
-    params.set("constants", ParamValue::Constants(constants));
+    // A constant that the formula does not use is refused.
+    if text.contains('k') {
+        let constants = vec![NamedConstant {
+            name: "k".to_owned(),
+            value: 0.05,
+            length_power: -1,
+        }];
+        params.set("constants", ParamValue::Constants(constants));
+    }
     let surface = match formula.offer().surface(&params) {
         Ok(surface) => surface,
         Err(StrategyError::Parameter {
@@ -73,6 +76,7 @@ pub fn read(bytes: &[u8]) {
             assert!(text.get(*place.clone()).is_some(), "no place: {place:?}");
             return;
         }
+        Err(StrategyError::Parameter { name, .. }) if name == "constants" => return,
         Err(error) => panic!("{error}"),
     };
     // Nine points go as eight together and one alone: each is what it is alone.

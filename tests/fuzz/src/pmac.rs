@@ -11,6 +11,12 @@ const FILE: &str = "part.program";
 pub const WORDS: &[&str] = &[
     "; -- lead-in --\n",
     "; -- cutting --\n",
+    "; -- approach --\n",
+    "; -- retreat --\n",
+    "ABS\nRAPID\nZ6.5\nX2.5\nC0\nLINEAR TM5000\nZ1.5\nDWELL0\n",
+    "G90 G94 G60\nG0 Z6.5\nG0 X2.5\nG0 C0\nG1 Z1.5 F60\n",
+    "MoveRapid([Z], [6.5])\n",
+    "MoveLinear([Z], [1.5], 1)\n",
     "; -- lead-out --\n",
     "; -- end of path: 1 points --\n",
     "ABS\n",

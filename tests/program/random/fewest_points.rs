@@ -30,6 +30,13 @@ const FEEDS: &[&[&str]] = &[
     &["ats", "inward = \"backwards\""],
     &["fft-adaptive", "chord = \"full\"", "angles = 90"],
 ];
+/// How many times the motion of Z may be that with `atpg`. On the papers' parts it is 1.05 at the most.
+/// Here tolerances reach a tenth of a wave's height: a path that leaves the wave by as much has a third
+/// more of its acceleration. A step that is a sliver has hundreds of times as much.
+const MOTION: [(&str, f64); 2] = [
+    ("max_acceleration_mm_per_s2", 2.0),
+    ("max_jerk_mm_per_s3", 2.0),
+];
 const STATES: [u32; 4] = [1, 3, 7, 25];
 const MAX_STEPS: [&str; 4] = ["10 deg", "45 deg", "60 deg", "90 deg"];
 
@@ -133,8 +140,9 @@ fn outcome(bench: &Bench, number: u64, kept: Option<&Path>) -> Outcome {
     let run = call("run recipe.toml -o out --threads 1 --format json");
     let complaint = run.complaint().or_else(|| match run.end {
         End::Status(0 | 1) => of_path(bench, &case, &run, call),
-        // A refusal, with a message.
-        _ => None,
+        // A refusal of the recipe, with a message.
+        End::Status(2) => None,
+        _ => Some(format!("neither held nor refused: {run}")),
     });
     Outcome {
         end: run.end,
@@ -157,7 +165,9 @@ fn of_path(bench: &Bench, case: &Case, run: &Call, call: impl Fn(&str) -> Call) 
     let bound = call(&line);
     let (found, with_atpg) = (report(run), report(&bound));
     let broken = broken(&found, &with_atpg);
-    broken.or_else(|| more_points(&found, &with_atpg).map(|wrong| format!("{wrong}: {bound}")))
+    let broken = broken.or_else(|| untold_limits(bench, &found));
+    let worse = || more_points(&found, &with_atpg).or_else(|| shaken(&found, &with_atpg));
+    broken.or_else(|| worse().map(|wrong| format!("{wrong}: {bound}")))
 }
 
 fn report(call: &Call) -> Value {
@@ -193,6 +203,34 @@ fn broken(summary: &Value, with_atpg: &Value) -> Option<String> {
             summary["residual"]["max_nm"]
         )
     })
+}
+
+/// The limits that a lead exceeds and the text does not name.
+fn untold_limits(bench: &Bench, summary: &Value) -> Option<String> {
+    let limits = summary.pointer("/lead/limits").and_then(Value::as_array);
+    let beyond = limits.into_iter().flatten().filter(|l| l["holds"] == false);
+    if beyond.count() == 0 {
+        return None;
+    }
+    let text = Call::new(
+        bench,
+        &words("run recipe.toml -o told --set output.data=[]"),
+    );
+    let told = |line: &str| line.contains("lead ") && line.contains("EXCEEDED");
+    (!text.stdout.lines().any(told)).then(|| format!("untold: {text}"))
+}
+
+/// Whether Z is shaken more than with `atpg`, at a constant speed. A changing one has its own limits.
+fn shaken(summary: &Value, with_atpg: &Value) -> Option<String> {
+    if summary["chain"]["spindle"] != "constant" {
+        return None;
+    }
+    let wrong = |(key, most): &(&str, f64)| {
+        let of = |summary: &Value| summary["axes"]["z"][key].as_f64();
+        let ratio = of(summary)? / of(with_atpg)?;
+        (ratio > *most).then(|| format!("{key} is {ratio} of that with atpg"))
+    };
+    MOTION.iter().find_map(wrong)
 }
 
 /// Whether a run has more points than `atpg` and one more for each block.

@@ -137,6 +137,8 @@ def main():
     recipe.sag = wanted
     figures["without_the_error_nm"] = surface_error(recipe, path, 20)
     print(json.dumps(figures, indent=2))
+    if said.returncode != 0:
+        raise SystemExit(f"the run ended with status {said.returncode}")
     rms = figures["machined_plus_error_minus_wanted_nm"]["rms"]
     if rms > 15:
         raise SystemExit(f"{rms} nm RMS are left")

@@ -2,13 +2,14 @@
 
 All maps sample one surface that has no symmetry, so that a wrong order of rows, a mirrored axis or
 exchanged axes show. Each format is written here from its description, by code that shares nothing
-with turnpath. prysm 0.21.1 reads the binary file again, as a check of this script.
+with turnpath. prysm reads the binary file again, as a check of this script.
 
-    python files.py         # needs numpy and prysm 0.21.1; writes into files/
+    python files.py         # needs numpy and prysm; writes into files/
 """
 
 import json
 import struct
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -181,5 +182,8 @@ if __name__ == "__main__":
         metropro("metropro-3.dat", 0x881B0371, 4096, 2, 131072),
     ]
     check(found)
-    text = "[\n" + ",\n".join(json.dumps(one) for one in found) + "\n]\n"
+    packages = ", ".join(f"{name} {version(name)}" for name in ["numpy", "prysm"])
+    made = {"script": "tests/reference/grids/files.py", "packages": packages}
+    text = ",\n".join(json.dumps(one) for one in found)
+    text = f'{{"made_by": {json.dumps(made)}, "files": [\n{text}\n]}}\n'
     (FOLDER / "files.json").write_text(text)

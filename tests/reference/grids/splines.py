@@ -12,6 +12,7 @@ The first are held against the second here.
 """
 
 import json
+from importlib.metadata import version
 
 import numpy as np
 from mpmath import lu_solve, matrix, mp, mpf, taylor
@@ -111,11 +112,12 @@ def slope(at, u, v, axis):
     return taylor(lambda s: at(u, v + s), 0, 1)[1]
 
 
-def case(chance, columns, rows, pitch, first, places):
+def case(chance, columns, rows, pitch, first, places, noise=2e-3):
     x = first[0] + pitch[0] * np.arange(columns)
     y = first[1] + pitch[1] * np.arange(rows)
     heights = 0.05 * np.sin(1.3 * x[None, :]) * np.cos(0.9 * y[:, None]) + 0.01 * x[None, :] * y[:, None]
-    heights += chance.normal(0, 2e-3, heights.shape)
+    if noise:
+        heights += chance.normal(0, noise, heights.shape)
     scipy_at, _ = scipy_spline(x, y, heights)
     exact = exact_spline(x, y, heights) if columns * rows < 200 else None
     result = {
@@ -123,6 +125,7 @@ def case(chance, columns, rows, pitch, first, places):
         "rows": rows,
         "pitch": list(pitch),
         "first": list(first),
+        "noise": noise,
         "heights": heights.tolist(),
         "places": [],
         "curves": [],
@@ -166,5 +169,10 @@ if __name__ == "__main__":
         case(chance, 7, 9, (0.25, 0.4), (-1.0, 0.5), 10),
         case(chance, 13, 11, (0.5, 0.3), (-3.0, -1.5), 20),
         case(chance, 60, 45, (0.1, 0.1), (-3.0, -2.2), 60),
+        # Without noise the whole surface is this spline, up to the edges.
+        case(chance, 60, 45, (0.1, 0.1), (-3.0, -2.2), 60, noise=0),
     ]
-    print("[\n" + ",\n".join(json.dumps(one) for one in cases) + "\n]")
+    packages = ", ".join(f"{name} {version(name)}" for name in ["numpy", "scipy", "mpmath"])
+    made = {"script": "tests/reference/grids/splines.py", "packages": packages}
+    text = ",\n".join(json.dumps(one) for one in cases)
+    print(f'{{"made_by": {json.dumps(made)}, "cases": [\n{text}\n]}}')

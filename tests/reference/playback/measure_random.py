@@ -6,8 +6,9 @@
 FOLDER has the recipes; `cargo test -p turnpath-cli --test program -- --ignored five_hundred` writes
 them to `fewest-points` in the tests' scratch folder, CARGO_TARGET_TMPDIR. For each recipe playback.py
 measures the interpolation error and the residual of the path. A complaint is a figure that differs
-from the summary's by more than 2 %, or that is beyond its tolerance while turnpath says it holds.
-With --seconds no recipe is begun after that time. The status is 1 if there is a complaint.
+from the summary's by more than 2 %, or that is beyond its tolerance while turnpath says it holds, or a
+status that is neither that of a path nor that of a refused recipe. With --seconds no recipe is begun
+after that time. The status is 1 if there is a complaint, or if nothing was measured.
 """
 
 import argparse
@@ -26,6 +27,7 @@ AGREES = 0.02
 ROUNDING_NM = 1e-3
 ALLOWED = 1.001  # a tolerance holds up to this times itself
 HELD, EXCEEDED = 0, 1  # turnpath's exit status when there is a path
+REFUSED = 2  # when it refuses the recipe
 INSTANTS, SECTIONS, SCAN = 48, 90, 129
 
 
@@ -54,7 +56,8 @@ def judge(program, until, file):
         command = [program, "run", file, "-o", folder, "--threads", "1"]
         run = subprocess.run(command, capture_output=True, text=True)
         if run.returncode not in (HELD, EXCEEDED):
-            return file.name, run.returncode, []
+            wrong = [] if run.returncode == REFUSED else [f"status {run.returncode}"]
+            return file.name, run.returncode, wrong
         summary = json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8"))
         recipe, path = Recipe.read(file), ToolPath.read(Path(folder) / "toolpath.csv")
         scan = SEAM_SCAN if recipe.cuts_what_fits else SCAN
@@ -80,13 +83,13 @@ def main():
     with ProcessPoolExecutor() as pool:
         for name, status, found in pool.map(partial(judge, program, until), files):
             measured += status in (HELD, EXCEEDED)
-            refused += status not in (HELD, EXCEEDED, None)
+            refused += status == REFUSED
             wrong += bool(found)
             for complaint in found:
                 print(f"{name}: {complaint}", flush=True)
     print(f"{len(files)} recipes: {measured} measured, {refused} refused, "
-          f"{len(files) - measured - refused} not begun; {wrong} with complaints")
-    sys.exit(1 if wrong else 0)
+          f"{len(files) - measured - refused} not begun or failed; {wrong} with complaints")
+    sys.exit(1 if wrong or not measured else 0)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,8 @@ fn folder() -> &'static Path {
 
 fn entries() -> Vec<Value> {
     let text = std::fs::read_to_string(folder().join("files.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
+    let all: Value = serde_json::from_str(&text).unwrap();
+    all["files"].as_array().unwrap().clone()
 }
 
 fn conventions(entry: &Value) -> Conventions {
@@ -122,4 +123,66 @@ fn an_origin_in_the_middle_and_mirrored_axes() {
     mirrored.flip_y();
     assert_eq!(mirrored.height(1, 0), as_is.height(1, as_is.rows() - 1));
     assert!((mirrored.y(0) + as_is.y(as_is.rows() - 1)).abs() < 1e-12);
+}
+
+/// Columns whose coordinates are rounded to some decimals are still the columns of the grid.
+#[test]
+fn an_xyz_of_a_thousand_rounded_columns_is_even() {
+    let conventions = Conventions {
+        xy_unit: Some(1.0),
+        z_unit: Some(1.0),
+        ..Conventions::default()
+    };
+    for pitch in [0.010377, 0.03307, 0.10533] {
+        for decimals in [3, 4, 5] {
+            let (columns, rows) = (1000, 7);
+            let mut text = String::new();
+            for row in 0..rows {
+                // Two columns in a row, and 40 in a row, have no point.
+                for column in (0..columns).filter(|k| !matches!(k, 17 | 18 | 400..440)) {
+                    let x = pitch * (column as f64 - 499.5);
+                    let y = pitch * (row as f64 - 3.0);
+                    text.push_str(&format!("{x:.decimals$} {y:.decimals$} {column}{row}\n"));
+                }
+            }
+            let map = read("a.xyz", text.as_bytes(), &conventions).unwrap();
+            assert_eq!(
+                (map.columns(), map.rows()),
+                (columns, rows),
+                "{pitch} {decimals}"
+            );
+            assert_eq!(map.height(999, 3), 9993.0);
+            assert!(map.height(418, 3).is_nan());
+            let digit: f64 = format!("1e-{decimals}").parse().unwrap();
+            let off = [map.x(0) + 499.5 * pitch, map.x(999) - 499.5 * pitch];
+            // Rounding takes up to half of a digit from each column.
+            assert!(off.iter().all(|off| off.abs() < digit), "{off:?}");
+        }
+    }
+}
+
+/// Gwyddion leaves an offset of zero out: one that is there alone counts, with the other as zero.
+#[test]
+fn one_offset_of_a_gsf_is_enough() {
+    let field = |offsets: &str| {
+        let sides = "XReal = 0.006\nYReal = 0.003\nXYUnits = m\nZUnits = m\n";
+        let mut bytes = format!("Gwyddion Simple Field 1.0\nXRes = 12\nYRes = 6\n{sides}{offsets}")
+            .into_bytes();
+        bytes.extend(vec![0; 4 - bytes.len() % 4]);
+        bytes.extend(1_f32.to_le_bytes().repeat(72));
+        let map = read("a.gsf", &bytes, &Conventions::default()).unwrap();
+        // The edges of the field, half a pitch beyond its points.
+        [map.x(0) - 0.25, -(map.y(5) + 0.25)]
+    };
+    let near = |found: [f64; 2], wanted: [f64; 2]| {
+        let off = [found[0] - wanted[0], found[1] - wanted[1]];
+        assert!(
+            off.iter().all(|off| off.abs() < 1e-12),
+            "{found:?} {wanted:?}"
+        );
+    };
+    near(field(""), [-3.0, -1.5]);
+    near(field("XOffset = -0.004\n"), [-4.0, 0.0]);
+    near(field("YOffset = -0.0025\n"), [0.0, -2.5]);
+    near(field("XOffset = -0.004\nYOffset = 0.001\n"), [-4.0, 1.0]);
 }

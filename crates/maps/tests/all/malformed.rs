@@ -65,11 +65,11 @@ fn zemax() {
     );
     says(
         &self::sag("6 6 0 1 0 0 0", "1", 36),
-        "the distance of neighbouring points is 0",
+        "line 1: the distance of neighbouring points is 0 mm",
     );
     says(
         &self::sag(HEADER, "1 0 0", 35),
-        "the file has 35 points, and its grid has 36",
+        "line 36: the file has 35 points, and its grid has 36",
     );
     says(
         &self::sag(HEADER, "1 0 0 0", 37),
@@ -77,11 +77,11 @@ fn zemax() {
     );
     says(
         &self::sag(HEADER, "NaN 0 0 0", 36),
-        "line 37: `NaN` is no number",
+        "line 37: `NaN` is no height; a hole has a number and `nodata` 1",
     );
     says(
         &self::sag(HEADER, "1e999 0 0 0", 36),
-        "line 37: `1e999` is no number",
+        "line 37: `1e999` is no finite number",
     );
     says(
         &self::sag(HEADER, "1 0 x 0", 36),
@@ -130,7 +130,7 @@ fn code_v() {
     says(b"", "line 1: the file has no header");
     says(
         &file(HEADER, 35),
-        "the file has 35 points, and its grid has 36",
+        "line 4: the file has 35 points, and its grid has 36",
     );
     says(
         &file(HEADER, 37),
@@ -201,25 +201,34 @@ fn xyz() {
     says(b"", "no point of the map has a height");
     says(b"1 2\n", "line 1: the line has 2 numbers in place of 3");
     says(b"# x\n1 2 3 4\n", "line 2: the line has 4 numbers");
-    says(b"1 NaN 3\n", "line 1: `NaN` is no number");
-    says(b"1 2 inf\n", "line 1: `inf` is no number");
+    says(b"1 NaN 3\n", "line 1: `NaN` is no finite number");
+    says(b"1 2 inf\n", "line 1: `inf` is no number, nor `NaN`");
     says(b"1 2 three\n", "line 1: `three` is no number");
     // One column is off by a tenth of the pitch.
     let uneven = |i: usize, j: usize| (if i == 3 { 1.55 } else { 0.5 * i as f64 }, 0.25 * j as f64);
-    says(&grid(&uneven), "the points lie on no regular grid: along x");
+    says(
+        &grid(&uneven),
+        "line 19: the points lie on no regular grid: along x 1.55 lies off its place",
+    );
     // Distances that grow.
     let growing = |i: usize, j: usize| ((i * i) as f64 * 0.1, j as f64);
-    says(&grid(&growing), "the points lie on no regular grid: ");
+    says(
+        &grid(&growing),
+        "line 7: the points lie on no regular grid: along x",
+    );
     // Turned by a degree.
     let turned = |i: usize, j: usize| (i as f64 - 0.0175 * j as f64, j as f64 + 0.0175 * i as f64);
-    says(&grid(&turned), "the points lie on no regular grid: ");
+    says(
+        &grid(&turned),
+        "line 42: the points lie on no regular grid: along x",
+    );
     let mut twice = grid(&even);
     twice.extend(b"0.5 0.5 3\n");
     says(&twice, "line 43: this place has a height already");
     let line = |i: usize, _: usize| (i as f64, 0.0);
     says(
         &grid(&line),
-        "the points lie on no regular grid: along y all points",
+        "line 1: the points lie on no regular grid: along y all points",
     );
     let bytes = grid(&even);
     self::says(
@@ -254,7 +263,7 @@ fn gwyddion() {
     );
     says(
         &gsf(HEADER, 35),
-        "the file has 35 points, and its grid has 36",
+        "byte 236: the file has 35 points, and its grid has 36",
     );
     says(
         &gsf(HEADER, 37),
@@ -276,11 +285,11 @@ fn gwyddion() {
     );
     says(
         &gsf(&HEADER.replace("0.01", "-1"), 36),
-        "the distance of neighbouring points is -166",
+        "line 4: the distance of neighbouring points is -166.667 mm",
     );
     says(
         &gsf(&HEADER.replace("= 6", "= 100000"), 36),
-        "the grid has 100000 × 100000 points; a map may have",
+        "line 2: the grid has 100000 × 100000 points; a map may have",
     );
     let given = Conventions {
         z_unit: length_unit("um"),
@@ -319,7 +328,7 @@ fn metropro() {
     );
     says(
         &file(&|bytes| bytes.truncate(900)),
-        "the file has 16 points, and its grid has 36",
+        "byte 900: the file has 16 points, and its grid has 36",
     );
     says(
         &file(&|bytes| bytes.push(0)),
@@ -343,12 +352,73 @@ fn metropro() {
     );
     says(
         &file(&|bytes| bytes[6..10].fill(0xff)),
-        "the file has 0 points",
+        "byte 978: the file has 0 points",
     );
     says(
         &file(&|bytes| bytes[9] = 0),
         "byte 6: a header of 768 bytes is too short",
     );
+}
+
+/// Lengths that no part has would become infinite in a spline.
+#[test]
+fn lengths_that_no_part_has() {
+    let own = Conventions::default();
+    let zemax = |header: &str, point: &str| {
+        let mut file = self::sag(header, "1", 20);
+        file.extend(format!("\n{point}\n").bytes());
+        file.extend("0 0 0 0 0\n".repeat(15).bytes());
+        file
+    };
+    const HEADER: &str = "6 6 1 1 0 0 0";
+    assert!(read("a.DAT", &zemax(HEADER, "1"), &own).is_ok());
+    let says = |name: &str, bytes: &[u8], wanted: &str| self::says(name, bytes, &own, wanted);
+    says(
+        "a.DAT",
+        &zemax(HEADER, "-1e308"),
+        "line 22: a length of -1e308 mm",
+    );
+    // A thousand kilometres in metres.
+    let metres = zemax("6 6 1e-3 1e-3 3 0 0", "1.1e6");
+    says("a.DAT", &metres, "line 22: a length of 1.1e9 mm");
+    says(
+        "a.DAT",
+        &zemax("6 6 1 1 0 0 1e300", "1"),
+        "line 1: a length of 1e300 mm",
+    );
+    let tiny = zemax("6 6 1e-300 1 0 0 0", "1");
+    says(
+        "a.DAT",
+        &tiny,
+        "line 1: the distance of neighbouring points is 1e-300 mm",
+    );
+    let header = "XRes = 6\nYRes = 6\nXReal = 1\nYReal = 1\nXYUnits = m\nZUnits = m\n";
+    let offset = format!("{header}YOffset = 1e12\n");
+    says("a.gsf", &gsf(&offset, 36), "line 8: a length of 1e15 mm");
+    let mut field = gsf(header, 36);
+    let at = field.len() - 4 * 30;
+    field[at..at + 4].copy_from_slice(&1e30_f32.to_le_bytes());
+    says("a.gsf", &field, &format!("byte {at}: a length of 1e33 mm"));
+    let numbers = "1 2 3 4 5 6\n".repeat(6);
+    let code_v = format!("title\nGRD 6 6 SUR WVL 1e300 SSZ 1\n{numbers}");
+    let given = Conventions {
+        pitch_x: Some(1.0),
+        pitch_y: Some(1.0),
+        ..own
+    };
+    self::says(
+        "a.int",
+        code_v.as_bytes(),
+        &given,
+        "line 3: a length of 1e297 mm",
+    );
+    self::says(
+        "a.xyz",
+        b"1 2 3\n1 1e10 3\n",
+        &MM,
+        "line 2: a length of 1e10 mm",
+    );
+    self::says("a.xyz", b"1 2 -1e10\n", &MM, "line 1: a length of -1e10 mm");
 }
 
 #[test]

@@ -24,9 +24,13 @@
 mod read;
 #[cfg(test)]
 mod tests;
+mod travel_read;
+mod travel_write;
 mod write;
 
 use read::AeroScript;
+use travel_read::read_travel;
+use travel_write::push_travel;
 use write::{push_first, push_last, push_segment};
 
 use turnpath_core::toolpath::SegmentShape;
@@ -37,6 +41,7 @@ use crate::program_format::ProgramFormat;
 use crate::settings::{
     C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, SHORTEST_SEGMENT, VELOCITY_DECIMALS,
 };
+use crate::travel::{Places, Travel, TravelModes};
 
 /// Programs for Aerotech Automation1.
 pub(crate) const AUTOMATION1_PVT: Post = Post {
@@ -102,6 +107,14 @@ impl Dialect for MovePvt {
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(AeroScript::new(format))
+    }
+
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        push_travel(text, format, travel);
+    }
+
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        read_travel(code, modes)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

@@ -5,6 +5,7 @@ use turnpath_core::toolpath::SegmentShape;
 use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
 use super::timing::{check_time, is_dwell};
+use super::travel::{push_for_linuxcnc, read_for_linuxcnc};
 use super::write::{push_dwell, push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
@@ -13,6 +14,7 @@ use crate::program_format::ProgramFormat;
 use crate::settings::{
     C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, POSITION_DECIMALS, SERVO_PERIOD,
 };
+use crate::travel::{Places, Travel, TravelModes};
 
 /// Programs for LinuxCNC.
 pub(crate) const LINUXCNC_G93: Post = Post {
@@ -87,6 +89,14 @@ impl Dialect for LinuxCnc {
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(LineGrammar::new(format, WORDS))
+    }
+
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        push_for_linuxcnc(text, format, travel);
+    }
+
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        read_for_linuxcnc(code, modes)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

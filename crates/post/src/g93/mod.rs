@@ -15,6 +15,8 @@
 //! line, or its seconds. Times are in steps of a nanosecond, and the time since the start is rounded,
 //! so that rounding errors do not add up.
 //!
+//! Before and after the path the feed is per minute: `G94`. So the first line of a path says `G93` again.
+//!
 //! The first line brings the axes from wherever they are to the first control point, within a second.
 
 mod commands;
@@ -24,6 +26,7 @@ mod read;
 #[cfg(test)]
 mod tests;
 mod timing;
+mod travel;
 mod write;
 
 pub(crate) use linuxcnc::LINUXCNC_G93;

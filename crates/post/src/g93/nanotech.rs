@@ -8,6 +8,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
+use super::travel;
 use super::write::{push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
@@ -16,6 +17,7 @@ use crate::settings::{
     C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SHORTEST_SEGMENT,
     SIX_DECIMALS,
 };
+use crate::travel::{Places, TravelModes};
 
 /// Programs for Moore Nanotech machines.
 pub(crate) const NANOTECH_G93: Post = Post {
@@ -84,6 +86,10 @@ impl Dialect for Nanotech {
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(LineGrammar::new(format, WORDS))
+    }
+
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        travel::read(code, modes)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

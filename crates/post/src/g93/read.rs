@@ -251,7 +251,7 @@ fn played_minutes(
 }
 
 /// The code of a line in capitals, without spaces and without comments in parentheses.
-fn without_comments(code: &str) -> Result<String, String> {
+pub(super) fn without_comments(code: &str) -> Result<String, String> {
     let mut kept = String::with_capacity(code.len());
     let mut inside = false;
     for c in code.chars() {

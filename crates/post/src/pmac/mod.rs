@@ -35,14 +35,18 @@ mod read;
 mod scan;
 #[cfg(test)]
 mod tests;
+mod travel_read;
+mod travel_write;
 mod write;
 
-use turnpath_core::ParamInfo;
+use turnpath_core::{ParamInfo, Params};
 
 pub(crate) use clock::Clock;
 
 use commands::{commands, ends_program, leaves_program_open};
 use read::PvtGrammar;
+use travel_read::read_travel;
+use travel_write::push_travel;
 use write::{push_first, push_last, push_segment};
 
 use turnpath_core::toolpath::SegmentShape;
@@ -51,9 +55,10 @@ use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::ProgramFormat;
 use crate::settings::{
-    C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, SHORTEST_SEGMENT,
-    VELOCITY_DECIMALS, VELOCITY_PER,
+    BUFFER, C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, ROTARY,
+    SHORTEST_SEGMENT, VELOCITY_DECIMALS, VELOCITY_PER,
 };
+use crate::travel::{Places, Travel, TravelModes};
 
 /// Turbo PMAC with I42 = 0: 24 bits, 12 of them fraction.
 pub(crate) const TURBO_CLOCK: Clock = Clock {
@@ -68,7 +73,18 @@ pub(crate) const PMAC_PVT: Post = Post {
     extension: "pmc",
     summary: "the layout of the programs of the post `pmac-pvt`",
     comment: ";",
-    keys: PVT_KEYS,
+    keys: &[
+        POSITION_DECIMALS.info(),
+        VELOCITY_DECIMALS.info(),
+        VELOCITY_PER.info(),
+        C_SIGN.info(),
+        C_WRAP.info(),
+        POSITIONING.info(),
+        BUFFER.info(),
+        SHORTEST_SEGMENT.info(),
+        HEADER.info(),
+        FOOTER.info(),
+    ],
     header: "\
 ; {name}
 ; recipe {recipe}, SHA-256 {sha256}
@@ -90,6 +106,21 @@ OPEN PROG 1 CLEAR
     delivered_decimals: None,
     dialect: &Pvt { clock: TURBO_CLOCK },
 };
+
+/// The header of a program for the rotary buffer. The buffer is number 0, and has no loops and no jumps:
+/// the path's lines have none.
+const ROTARY_HEADER: &str = "\
+; {name}
+; recipe {recipe}, SHA-256 {sha256}
+; changed by --set: {changes}
+; turnpath {turnpath}, post pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
+; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Ix90 = {ix90}
+; segment times in steps of 1/4096 ms: I42 = 0
+; the path begins and ends {ends}
+; for the rotary buffer: DEFINE ROTARY n once, B0 R to run it, and this file sent as the buffer empties
+CLOSE
+OPEN ROTARY
+";
 
 /// The keys of this family of controllers.
 pub(crate) const PVT_KEYS: &[ParamInfo] = &[
@@ -125,6 +156,19 @@ impl Dialect for Pvt {
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(PvtGrammar::new(self.clock, format))
+    }
+
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        push_travel(text, format, travel);
+    }
+
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        read_travel(code, modes)
+    }
+
+    fn other_header(&self, settings: &Params) -> Option<(&'static str, &'static str)> {
+        let is_rotary = settings.find(BUFFER) == Some(ROTARY);
+        is_rotary.then_some((BUFFER.name(), ROTARY_HEADER))
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

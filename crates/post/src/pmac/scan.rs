@@ -39,9 +39,7 @@ pub(super) fn split_comment(line: &[u8]) -> (&[u8], Option<&[u8]>) {
 
 /// The words of a line's code.
 pub(super) fn words(code: &str) -> Result<Vec<Word>, String> {
-    let mut scanner = Scanner {
-        rest: code.trim_start(),
-    };
+    let mut scanner = Scanner::new(code);
     let mut words = Vec::new();
     while !scanner.rest.is_empty() {
         words.extend(scanner.word()?);
@@ -49,15 +47,32 @@ pub(super) fn words(code: &str) -> Result<Vec<Word>, String> {
     Ok(words)
 }
 
-struct Scanner<'a> {
+/// What is still to be read of a line.
+pub(super) struct Scanner<'a> {
     rest: &'a str,
 }
 
 impl<'a> Scanner<'a> {
+    pub(super) fn new(code: &'a str) -> Self {
+        let rest = code.trim_start();
+        Self { rest }
+    }
+
+    /// What is left, from the next word on; `None` at the end.
+    pub(super) fn rest_unless_empty(&mut self) -> Option<&'a str> {
+        self.rest = self.rest.trim_start();
+        Some(self.rest).filter(|rest| !rest.is_empty())
+    }
+
+    /// The letters that come next, as capitals; empty if there are none.
+    pub(super) fn letters(&mut self) -> String {
+        self.take_while(|c| c.is_ascii_alphabetic()).to_uppercase()
+    }
+
     /// The next word; `None` for a line's label, `N10`.
     fn word(&mut self) -> Result<Option<Word>, String> {
         let start = self.rest;
-        let letters = self.take_while(|c| c.is_ascii_alphabetic()).to_uppercase();
+        let letters = self.letters();
         match letters.as_str() {
             "ABS" => Ok(Some(Word::Absolute(true, self.axes()?))),
             "INC" => Ok(Some(Word::Absolute(false, self.axes()?))),
@@ -90,7 +105,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The axes in parentheses; all axes if there are no parentheses.
-    fn axes(&mut self) -> Result<[bool; 3], String> {
+    pub(super) fn axes(&mut self) -> Result<[bool; 3], String> {
         self.rest = self.rest.trim_start();
         let Some(inside) = self.rest.strip_prefix('(') else {
             return Ok([true; 3]);
@@ -112,7 +127,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Reads a constant, `-12.5`, and the spaces around it.
-    fn number(&mut self, name: &str) -> Result<i128, String> {
+    pub(super) fn number(&mut self, name: &str) -> Result<i128, String> {
         self.rest = self.rest.trim_start();
         let negative = self.rest.starts_with('-');
         self.rest = self.rest.strip_prefix(['-', '+']).unwrap_or(self.rest);

@@ -11,6 +11,7 @@ mod drift;
 mod extremes;
 mod numbers;
 mod round_trips;
+mod travel;
 
 /// A path from random steps: time in s, angle in deg, the rest in the units used inside.
 pub(crate) fn path_of(steps: &[[f64; 6]]) -> Vec<ControlPoint> {
@@ -75,6 +76,10 @@ fn lines_in_sections(
         let lines = layout.lines(&stretch).unwrap();
         all.text.extend(lines.text);
         all.points += lines.points;
+        all.extent = match (all.extent, lines.extent) {
+            (Some(before), Some(next)) => Some(before.and(next)),
+            (before, next) => before.or(next),
+        };
         begin = end;
     }
     all

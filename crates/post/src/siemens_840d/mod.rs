@@ -42,9 +42,11 @@ use write::{push_first, push_segment};
 use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
+use crate::g_code::push_travel;
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::ProgramFormat;
 use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT};
+use crate::travel::Travel;
 
 /// Programs for Siemens Sinumerik 840D.
 pub(crate) const SIEMENS_840D_POLY: Post = Post {
@@ -57,7 +59,7 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
         POSITION_DECIMALS.info(),
         C_SIGN.info(),
         SHORTEST_SEGMENT.info(),
-    HEADER.info(),
+        HEADER.info(),
         FOOTER.info(),
     ],
     header: "\
@@ -102,6 +104,11 @@ impl Dialect for Poly {
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(PolyGrammar::new(format))
+    }
+
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        // `G60`: exact stop, so that no corner is rounded.
+        push_travel(text, format, " G60", travel);
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

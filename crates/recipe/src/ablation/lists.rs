@@ -55,11 +55,12 @@ impl List {
 }
 
 /// Tables and keys that cannot vary, and why.
-const FIXED: [(&str, &str); 5] = [
+const FIXED: [(&str, &str); 6] = [
     ("format", "it says how the recipe is read"),
     ("name", "it does not change the path"),
     ("plugins", "all runs choose from the same plugins"),
     ("output", "an ablation writes neither paths nor programs"),
+    ("passes", "an ablation makes the finishing path alone"),
     ("ablation", "it cannot vary itself"),
 ];
 

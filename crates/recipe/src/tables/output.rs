@@ -1,8 +1,8 @@
 //! `[output]`: the files to write.
 
 use turnpath_core::Param;
-use turnpath_core::kind::{Choice, List};
-use turnpath_post::POST_NAMES;
+use turnpath_core::kind::{Choice, Length, List, Velocity};
+use turnpath_post::{APPROACH_FEED, APPROACH_HEIGHT, ColumnFormat, POST_NAMES};
 
 use crate::diagnostic::Diagnostic;
 use crate::read::Section;
@@ -10,13 +10,18 @@ use crate::span::Spanned;
 use crate::suggest::{did_you_mean, listed, quoted};
 use crate::table_info::TableInfo;
 
-const DATA: &[&str] = &["csv"];
+const CSV: &str = "csv";
+const DATA: &[&str] = &[CSV, "parquet", "npz"];
 const CENTRE: &str = "centre";
 
 const POSTS_KEY: Param<List> =
     Param::list("posts", POST_NAMES, "the programs to write, each once").default(&[]);
-const DATA_KEY: Param<List> =
-    Param::list("data", DATA, "the data files to write; csv: `toolpath.csv`").default(DATA);
+const DATA_KEY: Param<List> = Param::list(
+    "data",
+    DATA,
+    "the data files to write, as `toolpath.csv`, `toolpath.parquet`, `toolpath.npz`",
+)
+.default(&[CSV]);
 const Z_REFERENCE: Param<Choice> = Param::choice(
     "z_reference",
     &["tip", CENTRE],
@@ -24,11 +29,37 @@ const Z_REFERENCE: Param<Choice> = Param::choice(
 )
 .default("tip");
 
+/// Seconds of a minute.
+const MINUTE: f64 = 60.0;
+/// The largest height of an approach, mm: no lathe for optics has a longer travel of Z.
+const REACH: f64 = 1e3;
+const APPROACH_HEIGHT_KEY: Param<Length> = Param::length(
+    "approach_height",
+    "how far above the highest place of the path X and C move before and after it",
+)
+.positive()
+.max(REACH)
+.default(APPROACH_HEIGHT)
+.example("5 mm");
+const APPROACH_FEED_KEY: Param<Velocity> = Param::velocity(
+    "approach_feed",
+    "how fast Z goes down to the first point of the path",
+)
+.positive()
+.default(APPROACH_FEED / MINUTE)
+.example("60 mm/min");
+
 pub(super) const OUTPUT: TableInfo = TableInfo {
     name: "output",
     summary: "the files to write",
     required: false,
-    keys: &[POSTS_KEY.info(), DATA_KEY.info(), Z_REFERENCE.info()],
+    keys: &[
+        POSTS_KEY.info(),
+        DATA_KEY.info(),
+        Z_REFERENCE.info(),
+        APPROACH_HEIGHT_KEY.info(),
+        APPROACH_FEED_KEY.info(),
+    ],
 };
 
 /// A data file.
@@ -36,6 +67,8 @@ pub(super) const OUTPUT: TableInfo = TableInfo {
 pub enum DataFormat {
     /// `toolpath.csv`.
     Csv,
+    /// `toolpath.parquet` or `toolpath.npz`.
+    Columns(ColumnFormat),
 }
 
 /// The point of the tool whose Z a program gives.
@@ -56,6 +89,10 @@ pub struct Output {
     pub data: Vec<DataFormat>,
     /// The point of the tool whose Z the programs give.
     pub z_reference: ZReference,
+    /// How far above the highest place of the path X and C move before and after it, mm.
+    pub approach_height: f64,
+    /// How fast Z goes down to the first point of the path, mm/s.
+    pub approach_feed: f64,
 }
 
 /// Reads `[output]`.
@@ -72,6 +109,10 @@ pub(crate) fn output(section: &mut Section<'_>) -> Output {
         posts,
         data: data(section),
         z_reference,
+        approach_height: params.find(APPROACH_HEIGHT_KEY).unwrap_or(APPROACH_HEIGHT),
+        approach_feed: params
+            .find(APPROACH_FEED_KEY)
+            .unwrap_or(APPROACH_FEED / MINUTE),
     }
 }
 
@@ -86,11 +127,19 @@ fn data(section: &mut Section<'_>) -> Vec<DataFormat> {
         .map(|name| unknown_name("data format", name, DATA))
         .collect();
     section.diagnostics.extend(messages);
-    if names.is_empty() {
-        Vec::new()
-    } else {
-        vec![DataFormat::Csv]
+    let format = |name: &Spanned<String>| match name.value.as_str() {
+        CSV => Some(DataFormat::Csv),
+        "parquet" => Some(DataFormat::Columns(ColumnFormat::Parquet)),
+        "npz" => Some(DataFormat::Columns(ColumnFormat::Npz)),
+        _ => None,
+    };
+    let mut formats: Vec<DataFormat> = Vec::new();
+    for format in names.iter().filter_map(format) {
+        if !formats.contains(&format) {
+            formats.push(format);
+        }
     }
+    formats
 }
 
 fn unknown_name(what: &str, name: &Spanned<String>, known: &[&str]) -> Diagnostic {

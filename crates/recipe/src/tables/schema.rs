@@ -3,7 +3,7 @@
 use crate::read::Schema;
 use crate::table_info::TableInfo;
 
-use super::{ablation, cutting, machine, output, path, pose, post, servo, work};
+use super::{ablation, cutting, machine, output, passes, path, pose, post, servo, work};
 
 /// The tables with fixed keys.
 pub(crate) const SCHEMA: Schema = &{
@@ -33,4 +33,9 @@ const BEFORE_POSTS: [TableInfo; 7] = [
     output::OUTPUT,
 ];
 
-const BEHIND_POSTS: [TableInfo; 3] = [machine::MACHINE, servo::SERVO, ablation::ABLATION];
+const BEHIND_POSTS: [TableInfo; 4] = [
+    machine::MACHINE,
+    servo::SERVO,
+    passes::PASSES,
+    ablation::ABLATION,
+];

@@ -274,6 +274,8 @@ bind_says! {
     coefficient_without_unit: "spacing = \"10 um\"\nheights = { 4 = \"1 um\", 11 = 0.2 }";
     coefficient_with_a_unit: "spacing = \"10 um\"\npowers = { \"2,0\" = \"1 um\" }";
     coefficient_under_a_word: "spacing = \"10 um\"\nheights = { Z4 = \"1 um\" }";
+    coefficient_under_a_number_too_large: "spacing = \"10 um\"\nheights = { 99999999999 = \"1 um\" }";
+    coefficient_under_a_broken_number: "spacing = \"10 um\"\nheights = { 4.5 = \"1 um\" }";
     coefficient_under_one_number_of_two: "spacing = \"10 um\"\npowers = { 2 = 0.5 }";
     coefficient_twice: "spacing = \"10 um\"\npowers = { \"2,0\" = 0.5, \"2, 0\" = 0.25 }";
     several_params: "spacng = \"10 um\"\nsmooth = 1";

@@ -30,13 +30,10 @@ pub fn check(report: &CheckReport) -> String {
     text += &line("cutting time", duration(expected.cutting_time));
     text += &feed_cap(&report.feed_cap);
     let size = bytes(expected.toolpath_bytes as f64);
-    text += &line("toolpath.csv", format!("about {size}, before refinement"));
+    text += &line("toolpath.csv", format!("about {size}"));
     for program in &expected.programs {
         let (size, file) = (bytes(program.bytes as f64), &program.file);
-        text += &line(
-            "program",
-            format!("about {size}, before refinement: {file}"),
-        );
+        text += &line("program", format!("about {size}: {file}"));
     }
     text += &commands(&report.controller_commands);
     text + &remarks(&report.remarks)

@@ -13,6 +13,7 @@ mod numbers;
 mod part_shape;
 mod path;
 mod remark;
+mod rough_path;
 mod run;
 mod servo;
 mod tool_fit;

@@ -13,6 +13,7 @@ use super::lead::lead;
 use super::numbers::{LABEL, against_any, duration, grouped, line, significant, small_length};
 use super::path::path;
 use super::remark::{feed_cap, remarks};
+use super::rough_path::rough_path;
 use super::servo::servo;
 use super::unreached::unreached;
 
@@ -45,6 +46,9 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     text += &unreached(report.unreached.as_ref());
     for one in &report.programs {
         text += &program(one, tolerance);
+    }
+    for one in &report.rough_paths {
+        text += &rough_path(one);
     }
     text += &commands(&report.controller_commands);
     text += &remarks(&report.remarks);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::{DEG, Part};
 use turnpath_files::{Draft, FileError, FolderError, ResultFolder};
-use turnpath_recipe::Recipe;
+use turnpath_recipe::{DataFormat, Recipe};
 use turnpath_verify::machined::Grid;
 
 use super::request::{MapGrid, MapRequest, PlotError, PlotRequest, check_grid};
@@ -101,7 +101,7 @@ impl Plots {
 
     /// Refuses plots of a run that writes no `toolpath.csv`.
     pub fn need_toolpath(&self, recipe: &Recipe) -> Result<(), PlotError> {
-        match !self.is_empty() && recipe.output.data.is_empty() {
+        match !self.is_empty() && !recipe.output.data.contains(&DataFormat::Csv) {
             true => Err(PlotError::NoToolPath),
             false => Ok(()),
         }

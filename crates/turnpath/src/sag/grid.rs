@@ -3,10 +3,10 @@
 use std::io;
 use std::path::Path;
 
-use turnpath_core::{Gradients, StrategyError, SurfaceModel};
+use turnpath_core::{Gradients, Scalar, StrategyError, SurfaceModel};
 use turnpath_files::Draft;
 use turnpath_host::Catalogue;
-use turnpath_pipeline::Link;
+use turnpath_pipeline::{Link, PipelineError};
 use turnpath_post::GridPoints;
 use turnpath_recipe::Recipe;
 
@@ -19,11 +19,12 @@ use crate::surface::surface;
 
 /// Writes the recipe's surface at `count` × `count` points of the square around the aperture, its
 /// edges included. The ending of the file's name chooses the form: `.gsf`, `.DAT` (Zemax), or CSV
-/// with slopes for all others. A point where the surface has no height is NaN, in `.DAT` a hole.
+/// with slopes for all others. A point beyond the part where the surface has no height is NaN, in
+/// `.DAT` a hole.
 ///
 /// # Errors
-/// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there or
-/// fails, or when the file cannot be written.
+/// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there, has no
+/// height at a point of the part, or fails, or when the file cannot be written.
 pub fn write_sag(
     recipe: &Recipe,
     catalogue: &Catalogue,
@@ -48,7 +49,7 @@ pub fn write_sag(
     };
     for j in (0..count).rev() {
         let row = grid.row(j, &surface);
-        let row = row.map_err(|error| of_pipeline(recipe, surface.failed("on the grid", error)))?;
+        let row = row.map_err(|error| of_pipeline(recipe, error))?;
         writer.row(row.into_iter().map(|[_, _, z, _, _]| z))?;
     }
     Ok(writer.complete()?)
@@ -73,7 +74,7 @@ pub fn write_sag_to(
         .map_err(|error| not_written(name, error))?;
     for j in 0..grid.count {
         let row = grid.row(j, &surface);
-        let row = row.map_err(|error| of_pipeline(recipe, surface.failed("on the grid", error)))?;
+        let row = row.map_err(|error| of_pipeline(recipe, error))?;
         for point in row {
             let written = rows.serialize(point);
             written.map_err(|error| not_written(name, error))?;
@@ -86,13 +87,18 @@ pub fn write_sag_to(
 /// A square grid around the axis, its edges included.
 struct Grid {
     half: f64,
+    /// The radius of the part's hole, mm.
+    hole: f64,
     count: usize,
 }
 
 impl Grid {
     fn new(recipe: &Recipe, count: usize) -> Self {
-        let half = recipe.part.aperture_radius;
-        Self { half, count }
+        Self {
+            half: recipe.part.aperture_radius,
+            hole: recipe.part.inner_radius,
+            count,
+        }
     }
 
     fn points(&self) -> GridPoints {
@@ -115,7 +121,7 @@ impl Grid {
         &self,
         j: usize,
         surface: &Link<dyn SurfaceModel>,
-    ) -> Result<Vec<[f64; 5]>, StrategyError> {
+    ) -> Result<Vec<[f64; 5]>, PipelineError> {
         let x: Vec<f64> = (0..self.count).map(|i| self.at(i)).collect();
         let y = vec![self.at(j); self.count];
         let mut z = vec![f64::NAN; self.count];
@@ -125,7 +131,19 @@ impl Grid {
             zx: &mut zx,
             zy: &mut zy,
         };
-        surface.strategy.gradient(&x, &y, out)?;
+        let answer = surface.strategy.gradient(&x, &y, out);
+        answer.map_err(|error| surface.failed("on the grid", error))?;
+        let is_missing = |(place, z): (&f64, &f64)| {
+            let radius = Scalar::hypot(*place, self.at(j));
+            z.is_nan() && (self.hole..=self.half).contains(&radius)
+        };
+        if let Some(i) = x.iter().zip(&z).position(is_missing) {
+            let what = format!(
+                "the surface has no height at x = {:.4} mm, y = {:.4} mm",
+                x[i], y[i]
+            );
+            return Err(PipelineError::NoSurface(StrategyError::failed(what)));
+        }
         Ok((0..self.count)
             .map(|i| [x[i], y[i], z[i], zx[i], zy[i]])
             .collect())

@@ -26,7 +26,7 @@ fn series(z: &str, x: f64, y: f64) -> Series {
 }
 
 /// Each pair is the same surface, in ρ and θ, and in x and y.
-const PAIRS: [(&str, &str); 13] = [
+const PAIRS: [(&str, &str); 17] = [
     ("rho*cos(theta)", "x"),
     ("rho*sin(theta)", "y"),
     ("rho*cos(-theta) + rho*sin(-theta)", "x - y"),
@@ -41,6 +41,13 @@ const PAIRS: [(&str, &str); 13] = [
         "(0.5*(x^2 - y^2) + sqrt(3)*x*y)/mm",
     ),
     ("rho^4*cos(theta)^2*sin(theta)^2/mm^3", "x^2*y^2/mm^3"),
+    ("0.01/mm*hypot(y, x)^2", "0.01/mm*(x^2 + y^2)"),
+    (
+        "0.01/mm*sqrt((x^2 + y^2)*(4*x^2 + 4*y^2))",
+        "0.02/mm*(x^2 + y^2)",
+    ),
+    ("0.01/mm*(9*x^2 + 9*y^2)^0.5*rho", "0.03/mm*(x^2 + y^2)"),
+    ("mm*(rho/(2*mm))^66", "mm*((x^2 + y^2)/(4*mm^2))^33"),
     ("mm*(rho/(2*mm))^2", "(x^2 + y^2)/(4*mm)"),
     ("mm*exp(-(rho/(3*mm))^2)", "mm*exp(-(x^2 + y^2)/(9*mm^2))"),
     (
@@ -82,13 +89,60 @@ fn nothing_at_the_axis_is_nan() {
         "rho",
         "rho^3/mm^2",
         "rho*cos(3*theta)",
-        "mm*theta",
-        "rho*theta",
+        "rho^2.5/mm^1.5",
+        "(x^2 + y^2)^1.5/mm^2",
+        "(rho/mm)^3.5*mm",
+        "sqrt(rho^5/mm^3)",
         "hypot(x, y)",
         "sqrt(y^2 + x^2)",
-        "mm*atan2(y, x)",
+        "mm*cos(theta)*rho/mm*sin(3*theta)",
     ] {
         assert_eq!(gradient(z, 0.0, 0.0), [0.0; 3], "{z}");
     }
     assert_eq!(gradient("0*x", 1.0, 1.0), [0.0; 3]);
+}
+
+/// cos kρ and cosh kρ are smooth: at the axis their second derivatives are ∓k².
+#[test]
+fn even_functions_of_rho_have_their_derivatives_at_the_axis() {
+    for (z, sign) in [
+        ("mm*cos(20*rho/mm)", -1.0),
+        ("mm*cosh(-20*rho/mm)", 1.0),
+        ("mm*cos(20*hypot(y, x)/mm)", -1.0),
+    ] {
+        let surface = formula(z, &[]);
+        // Along (0.6 t, 0.8 t), ρ² is t².
+        let (x, y) = ([0.0, 0.6, 0.0, 0.0, 0.0], [0.0, 0.8, 0.0, 0.0, 0.0]);
+        let mut found = [[0.0; 5]];
+        surface.height_series(&[x], &[y], &mut found).unwrap();
+        let wanted = [1.0, 0.0, sign * 200.0, 0.0, 160_000.0 / 24.0];
+        for (found, wanted) in found[0].iter().zip(wanted) {
+            assert!(
+                (found - wanted).abs() <= 1e-12 * wanted.abs(),
+                "{z}: {found} {wanted}"
+            );
+        }
+        // Beside the axis, near and far, it is the function itself.
+        for rho in [1e-6, 0.03, 0.0499, 0.0501, 0.2] {
+            let wanted = match sign < 0.0 {
+                true => libm::cos(20.0 * rho),
+                false => libm::cosh(20.0 * rho),
+            };
+            let [height, slope, _] = gradient(z, rho, 0.0);
+            let of_slope = match sign < 0.0 {
+                true => -20.0 * libm::sin(20.0 * rho),
+                false => 20.0 * libm::sinh(20.0 * rho),
+            };
+            assert!(
+                (height - wanted).abs() < 1e-14 * wanted.abs().max(1.0),
+                "{z} {rho}"
+            );
+            assert!(
+                (slope - of_slope).abs() < 1e-13 * of_slope.abs(),
+                "{z} {rho}"
+            );
+        }
+    }
+    // A power of 64 and more is that of multiplications: negative bases have one too.
+    assert_eq!(gradient("mm*(x/mm)^67", -1.0, 0.5), [-1.0, 67.0, 0.0]);
 }

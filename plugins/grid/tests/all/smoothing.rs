@@ -11,7 +11,7 @@ use turnpath_maps::Map;
 const COUNT: usize = 201;
 const PITCH: f64 = 0.05;
 
-fn map(height: impl Fn(f64, f64) -> f64) -> Map {
+fn map(mut height: impl FnMut(f64, f64) -> f64) -> Map {
     let place = |k: usize| PITCH * k as f64 - 5.0;
     let heights = (0..COUNT * COUNT).map(|k| height(place(k % COUNT), place(k / COUNT)));
     Map::new(COUNT, COUNT, PITCH, PITCH, heights.collect()).unwrap()
@@ -64,6 +64,33 @@ fn a_paraboloid_stays_and_noise_goes() {
     let rms = (square / count).sqrt();
     // A Gaussian of cutoff L over a pitch p leaves √(0.66)·p/L of white noise: 0.14 nm here.
     assert!(rms < 0.3e-6, "{rms}");
+}
+
+/// At three points in ten, at random, a filter on blocks keeps of a wave what the cutoff says.
+#[test]
+fn a_map_with_few_points_is_filtered_as_the_cutoff_says() {
+    let wave = |x: f64, y: f64| Scalar::cos(TAU * x / 6.0) * Scalar::cos(TAU * y / 6.0);
+    let mut state = 1_u64;
+    let sparse = |x: f64, y: f64| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        match state >> 32 < u64::from(u32::MAX) * 3 / 10 {
+            true => 1e-3 * wave(x, y),
+            false => f64::NAN,
+        }
+    };
+    let map = map(sparse);
+    let share = map.valid() as f64 / (COUNT * COUNT) as f64;
+    assert!((0.28..0.32).contains(&share), "{share}");
+    let surface = GridSag::of(map, Some(2.4)).unwrap();
+    // Two waves of 6 mm, one along each axis.
+    let kept = Scalar::exp(-2.0 * LN_2 * 0.16);
+    for (x, y) in [(0.0, 0.0), (1.5, 0.0), (-1.0, 0.7), (0.0, 2.0)] {
+        let found = height(&surface, x, y) / 1e-3;
+        let wanted = kept * wave(x, y);
+        assert!((found - wanted).abs() < 0.01, "{x} {y}: {found} {wanted}");
+    }
 }
 
 /// Up to the edge and beside holes a slope is followed.

@@ -4,4 +4,5 @@ mod common;
 
 mod borders;
 mod held;
+mod motion;
 mod points;

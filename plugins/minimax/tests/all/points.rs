@@ -86,6 +86,7 @@ fn steps_that_wander_leave_the_angles_of_the_turn_before() {
     };
     let (still, wandering) = (of(false), of(true));
     assert!(coherence(&still) > 0.999, "{}", coherence(&still));
-    assert!(coherence(&wandering) < 0.8, "{}", coherence(&wandering));
+    // 513 nodes on evenly spread angles cancel.
+    assert!(coherence(&wandering) < 0.01, "{}", coherence(&wandering));
     assert!(count(&wandering) as f64 <= 1.01 * count(&still) as f64);
 }

@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 
 pub use planned::{Case, ast_5, mla_5};
 use turnpath_atpg::{AtpgFeed, AtpgSampler};
+use turnpath_ats::AtsFeed;
 use turnpath_core::{
     CentreBuffers, CentreSeries, DEG, Locus, NodeList, NodeOffset, ParamValue, Params, Path,
     Result, Revolutions, Sampler, Series, SpiralLaw, Strategy, angle, per_radian,
@@ -48,6 +49,13 @@ pub fn smooth_law(case: &Case) -> SpiralLaw {
         params.set(name, ParamValue::Text(word.to_owned()));
     }
     case.law(&AtpgFeed::new(&params).unwrap()).unwrap()
+}
+
+/// The law of the feed `ats`, which follows the angle.
+pub fn ats_law(case: &Case) -> SpiralLaw {
+    let mut params = Params::new();
+    params.set("inward", ParamValue::Text("recursion".to_owned()));
+    case.law(&AtsFeed::new(&params).unwrap()).unwrap()
 }
 
 /// The nodes of a sampler between these revolutions, block by block.
@@ -132,6 +140,34 @@ fn points(case: &Case, law: &SpiralLaw, nodes: &[(f64, NodeOffset)]) -> Vec<Poin
     nodes.iter().enumerate().map(point).collect()
 }
 
+/// All nodes with their offsets, and the path's end.
+fn with_offsets(blocks: &[NodeList], end: f64) -> Vec<(f64, NodeOffset)> {
+    let every = blocks.iter().flat_map(|nodes| {
+        let n = nodes.revolutions().iter().copied().enumerate();
+        n.map(|(i, n)| (n, nodes.offset(i)))
+    });
+    let mut every: Vec<(f64, NodeOffset)> = every.collect();
+    every.push((end, NodeOffset::default()));
+    every
+}
+
+/// The largest acceleration and jerk of Z as played, mm/s² and mm/s³.
+pub fn motion_of_z(case: &Case, law: &SpiralLaw, blocks: &[NodeList]) -> [f64; 2] {
+    let points = points(case, law, &with_offsets(blocks, law.end()));
+    let mut largest = [0.0_f64; 2];
+    for pair in points.windows(2) {
+        let h = pair[1].t - pair[0].t;
+        let [[from, rate], [to, end_rate]] = [pair[0].axes[2], pair[1].axes[2]];
+        let mean = (to - from) / h;
+        let jerk = 6.0 * (rate + end_rate - 2.0 * mean) / (h * h);
+        let start = (6.0 * mean - 4.0 * rate - 2.0 * end_rate) / h;
+        let end = start + jerk * h;
+        largest[0] = largest[0].max(start.abs()).max(end.abs());
+        largest[1] = largest[1].max(jerk.abs());
+    }
+    largest
+}
+
 /// The largest |played − true| along z of a path that ends at `end`, mm. The truth comes from
 /// `truth`, whose ρ is the nose centre's X.
 pub fn largest_error(
@@ -140,13 +176,7 @@ pub fn largest_error(
     blocks: &[NodeList],
     end: f64,
 ) -> f64 {
-    let every = blocks.iter().flat_map(|nodes| {
-        let n = nodes.revolutions().iter().copied().enumerate();
-        n.map(|(i, n)| (n, nodes.offset(i)))
-    });
-    let mut every: Vec<(f64, NodeOffset)> = every.collect();
-    every.push((end, NodeOffset::default()));
-    let points = points(played, law, &every);
+    let points = points(played, law, &with_offsets(blocks, end));
     let (mut theta, mut x, mut z) = (Vec::new(), Vec::new(), Vec::new());
     for pair in points.windows(2) {
         let h = pair[1].t - pair[0].t;

@@ -1,0 +1,43 @@
+//! Reads the lines before and after a path. This follows the manual's description of motion programs,
+//! and shares nothing with the writer.
+
+use super::scan::{Axis, Scanner};
+use crate::travel::{Places, TravelModes};
+
+/// The positions that a line gives.
+pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+    let mut places: Places = [None; 3];
+    let mut scanner = Scanner::new(code);
+    while let Some(start) = scanner.rest_unless_empty() {
+        let letters = scanner.letters();
+        let axis = match letters.as_str() {
+            "C" => Axis::C,
+            "X" => Axis::X,
+            "Z" => Axis::Z,
+            "ABS" => {
+                modes.absolute = scanner.axes()? == [true; 3] || modes.absolute;
+                continue;
+            }
+            "RAPID" | "RPD" | "LINEAR" | "LIN" | "STOP" => continue,
+            "TM" | "DWELL" | "N" => {
+                scanner.number(&letters)?;
+                continue;
+            }
+            _ => {
+                let word: String = start.split_whitespace().take(1).collect();
+                let shown: String = word.chars().take(40).collect();
+                return Err(format!(
+                    "`{shown}` is not a word of an approach or a retreat"
+                ));
+            }
+        };
+        let place = scanner.number(&letters)?;
+        if places[axis as usize].replace(place).is_some() {
+            return Err(format!("{letters} appears twice on this line"));
+        }
+    }
+    if !modes.absolute && places.iter().any(Option::is_some) {
+        return Err("a move before `ABS`".to_owned());
+    }
+    Ok(places)
+}

@@ -1,0 +1,312 @@
+//! The moves before and after a path: written for every post, and refused where they could collide.
+
+use turnpath_core::toolpath::Section;
+
+use super::*;
+use crate::{POSTS, ProgramFormat};
+
+/// A path from rest to rest 1.5 mm above the cut, whose middle is the cut.
+fn with_leads() -> Vec<ControlPoint> {
+    let at = |k: u32, z: f64, vz: f64| ControlPoint {
+        t: 0.5 * f64::from(k),
+        c: f64::from(k) * 90.0 * DEG,
+        x: 2.5 - 0.01 * f64::from(k),
+        z,
+        vz,
+        ..ControlPoint::default()
+    };
+    vec![
+        at(4, 1.5, 0.0),
+        at(5, 1.0, -1.0),
+        at(6, 0.25, 0.0),
+        at(7, 0.0, 0.0),
+        at(8, 1.5, 0.0),
+    ]
+}
+
+fn text(layout: &Layout) -> String {
+    let points = with_leads();
+    assembled(layout, &lines_in_sections(layout, &points, &[], 2..4))
+}
+
+fn good(post: &str) -> String {
+    text(&plain(crate::post_named(post).unwrap()))
+}
+
+/// The lines between two others.
+fn between<'a>(text: &'a str, begin: &str, end: &str) -> Vec<&'a str> {
+    let lines = text.lines().skip_while(|line| *line != begin).skip(1);
+    lines.take_while(|line| !line.starts_with(end)).collect()
+}
+
+#[test]
+fn z_goes_up_before_x_and_c_move_and_down_at_a_feed_of_its_own() {
+    let pmac = good("pmac-pvt");
+    assert_eq!(
+        between(&pmac, "; -- approach --", "; -- lead-in"),
+        [
+            "ABS",
+            "RAPID",
+            "Z6.5",
+            "X2.46",
+            "C360",
+            "LINEAR TM5000",
+            "Z1.5",
+            "DWELL0"
+        ]
+    );
+    assert_eq!(
+        between(&pmac, "; -- retreat --", "; -- end"),
+        ["ABS", "RAPID", "Z6.5"]
+    );
+    let siemens = good("siemens-840d-poly");
+    assert_eq!(
+        between(&siemens, "; -- approach --", "; -- lead-in"),
+        [
+            "G90 G94 G60",
+            "G0 Z6.5",
+            "G0 X2.46",
+            "G0 C360",
+            "G1 Z1.5 F60"
+        ]
+    );
+    let nanotech = good("nanotech-g93");
+    assert_eq!(
+        between(&nanotech, "; -- approach --", "; -- lead-in"),
+        ["G90 G94", "G0 Z6.5", "G0 X2.46", "G0 C0", "G1 Z1.5 F60"]
+    );
+    assert_eq!(
+        between(&nanotech, "; -- lead-in --", "; -- cutting")[..2],
+        ["G90 G93", "G1 C0 X2.46 Z1.5 F60"]
+    );
+    let linuxcnc = good("linuxcnc-g93");
+    assert_eq!(
+        between(&linuxcnc, "; -- approach --", "; -- lead-in"),
+        [
+            "G90 G94 G8 G21 G40 G61",
+            "G0 Z6.5",
+            "G0 X2.46",
+            "G0 C360",
+            "G1 Z1.5 F60"
+        ]
+    );
+    assert_eq!(
+        between(&linuxcnc, "; -- lead-in --", "; -- cutting")[..2],
+        ["G8 G21 G40 G64 G90 G93", "G1 C360 X2.46 Z1.5 F60"]
+    );
+    assert_eq!(
+        between(&linuxcnc, "; -- retreat --", "; -- end"),
+        ["G90 G94 G8 G21 G40 G61", "G0 Z6.5"]
+    );
+    let aerotech = good("automation1-pvt");
+    assert_eq!(
+        between(&aerotech, "// -- approach --", "// -- lead-in")[3..],
+        [
+            "MoveRapid([Z], [6.5])",
+            "MoveRapid([X], [2.46])",
+            "MoveRapid([C], [360])",
+            "MoveLinear([Z], [1.5], 1)",
+        ]
+    );
+}
+
+#[test]
+fn a_path_with_leads_has_an_approach_and_a_retreat_in_every_layout_and_comes_back() {
+    for post in POSTS {
+        for flags in 0..8 {
+            let plain = plain(post);
+            let has = |key: &str| post.keys.iter().any(|info| info.name == key);
+            let format = ProgramFormat {
+                c_reversed: flags & 1 > 0 && has("c_sign"),
+                c_wrapped: flags & 2 > 0 && has("c_wrap"),
+                incremental: flags & 4 > 0 && has("positioning"),
+                z_above: 0.75,
+                approach_height: 12.3456,
+                ..plain.format
+            };
+            let layout = Layout { format, ..plain };
+            let text = text(&layout);
+            assert!(text.contains("-- approach --") && text.contains("-- retreat --"));
+            assert!(
+                text.contains("Z13.0956") || text.contains("[13.0956]"),
+                "{text}"
+            );
+            let read = read(&layout, text.as_bytes()).unwrap();
+            assert_eq!(read.len(), with_leads().len());
+        }
+    }
+}
+
+#[test]
+fn a_path_in_motion_has_neither() {
+    for post in POSTS {
+        let text = program(&plain(post), &with_leads());
+        assert!(
+            !text.contains("approach") && !text.contains("retreat"),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn moves_that_could_collide_are_refused_with_their_line() {
+    let pmac = || good("pmac-pvt");
+    let siemens = || good("siemens-840d-poly");
+    let linuxcnc = || good("linuxcnc-g93");
+    let aerotech = || good("automation1-pvt");
+    for (text, from, to, says) in [
+        (
+            pmac(),
+            "RAPID\nZ6.5\nX2.46\n",
+            "RAPID\nZ1.4\nX2.46\n",
+            "line 6: C or X moves at Z = 1.4 mm",
+        ),
+        (
+            pmac(),
+            "Z6.5\nX2.46\n",
+            "X2.46\nZ6.5\n",
+            "line 5: X moves before Z has gone up",
+        ),
+        (
+            pmac(),
+            "Z6.5\nX2.46\n",
+            "Z6.5 X2.46\n",
+            "line 5: more than one axis moves",
+        ),
+        (
+            pmac(),
+            "C360\nLINEAR",
+            "C36\nLINEAR",
+            "the approach does not end at the path's first C",
+        ),
+        (
+            pmac(),
+            "TM5000\nZ1.5\n",
+            "TM5000\nZ1.6\n",
+            "does not end at the path's first Z",
+        ),
+        (
+            pmac(),
+            "ABS\nRAPID\nZ6.5\nX",
+            "RAPID\nZ6.5\nX",
+            "line 4: a move before `ABS`",
+        ),
+        (
+            pmac(),
+            "RAPID\nZ6.5\n; -- end",
+            "RAPID\nZ1.2\n; -- end",
+            "Z goes below the highest place",
+        ),
+        (
+            pmac(),
+            "RAPID\nZ6.5\n; -- end",
+            "RAPID\nX3\n; -- end",
+            "X moves before Z has gone up",
+        ),
+        (
+            pmac(),
+            "X2.46\n",
+            "X2.46 HOME1\n",
+            "`HOME1` is not a word of an approach",
+        ),
+        (
+            siemens(),
+            "G0 Z6.5\nG0 X",
+            "G0 Z1\nG0 X",
+            "line 5: C or X moves at Z = 1 mm",
+        ),
+        (
+            siemens(),
+            "G0 C360",
+            "G0 C361",
+            "does not end at the path's first C",
+        ),
+        (siemens(), "G90 G94", "G94", "a move before `G90`"),
+        (
+            siemens(),
+            "G0 C360",
+            "G0 C360 M3",
+            "`M3` is not a word of an approach",
+        ),
+        (
+            linuxcnc(),
+            "G94 G8 G21 ",
+            "G94 G8 ",
+            "line 4: a move before `G21`",
+        ),
+        (
+            linuxcnc(),
+            "G0 Z6.5\nG0 X",
+            "G0 Z1\nG0 X",
+            "line 5: C or X moves at Z = 1 mm",
+        ),
+        (
+            linuxcnc(),
+            "G8 G21 G40 G64 G90 G93",
+            "G8 G21 G40 G64 G90",
+            "a move before `G93`",
+        ),
+        (
+            aerotech(),
+            "MoveRapid([Z], [6.5])\nM",
+            "MoveRapid([Z], [1])\nM",
+            "moves at Z = 1 mm",
+        ),
+        (
+            aerotech(),
+            "MoveRapid([X]",
+            "MoveAbsolute([X]",
+            "is not a call of an approach",
+        ),
+        (
+            aerotech(),
+            "MoveRapid([X]",
+            "MoveRapid([X, Z]",
+            "`X, Z` is not one axis",
+        ),
+    ] {
+        assert!(text.contains(from), "{from}: {text}");
+        let spoiled = text.replacen(from, to, 1);
+        let name = ["; ", "// "].map(|comment| text.contains(&format!("{comment}-- approach")));
+        let post = POSTS.iter().find(|post| match (name, post.name) {
+            ([_, true], name) => name == "automation1-pvt",
+            _ if text.contains("RAPID") => post.name == "pmac-pvt",
+            _ if text.contains("G61") => post.name == "linuxcnc-g93",
+            (_, name) => name == "siemens-840d-poly",
+        });
+        let said = read(&plain(post.unwrap()), spoiled.as_bytes()).unwrap_err();
+        assert!(said.contains(says), "{to}: {said}");
+    }
+}
+
+#[test]
+fn marks_out_of_order_are_refused() {
+    let text = good("pmac-pvt");
+    let swapped = text.replace("-- retreat --", "-- approach --");
+    let said = read(&plain(&POSTS[0]), swapped.as_bytes()).unwrap_err();
+    assert!(said.contains("out of order"), "{said}");
+    let early = text.replacen("; -- cutting --", "; -- retreat --\n; -- cutting --", 1);
+    assert!(read(&plain(&POSTS[0]), early.as_bytes()).is_err());
+}
+
+/// A program of a version without an approach, or one by hand, is read as before.
+#[test]
+fn a_program_without_an_approach_is_read() {
+    let text = good("pmac-pvt");
+    let (head, rest) = text.split_once("; -- approach --").unwrap();
+    let (_, path) = rest.split_once("; -- lead-in").unwrap();
+    let bare = format!("{head}; -- lead-in{path}");
+    let layout = plain(&POSTS[0]);
+    assert_eq!(
+        read(&layout, bare.as_bytes()).unwrap(),
+        read(&layout, text.as_bytes()).unwrap()
+    );
+}
+
+#[test]
+fn the_sections_of_a_path_stay_as_they_are() {
+    let layout = plain(&POSTS[0]);
+    let (_, sections) = read_sections(&layout, text(&layout).as_bytes()).unwrap();
+    use Section::{Cutting, LeadIn, LeadOut};
+    assert_eq!(sections, [LeadIn, LeadIn, Cutting, Cutting, LeadOut]);
+}

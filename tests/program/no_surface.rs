@@ -1,0 +1,94 @@
+//! Parts on which the surface is not there: the recipe is wrong, and no strategy is to blame.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use crate::support::bench::Bench;
+use crate::support::recipe::{saddle_with, with_table};
+
+/// What `check` and `run` say of the saddle with another surface: both refuse it alike.
+#[track_caller]
+fn refused(surface: &str, more: &[(&str, &str)]) -> String {
+    let mut recipe = saddle_with("surface", surface);
+    for (table, lines) in more {
+        recipe = with_table(&recipe, table, lines);
+    }
+    let bench = Bench::with(&recipe);
+    let said = bench.line("run recipe.toml -o out").ends(2);
+    assert!(!said.stderr.contains("built in"), "{surface}: {said}");
+    assert!(!bench.path("out").exists());
+    said.stderr.clone()
+}
+
+#[test]
+fn a_formula_without_a_height_at_the_axis() {
+    for z in [
+        "mm*ln(x/mm)",
+        "mm^2/rho",
+        "mm*sin(rho/mm)/(rho/mm)",
+        "mm*(rho/mm)^-0.5",
+    ] {
+        let said = refused(&format!("use = \"formula\"\nz = \"{z}\""), &[]);
+        let place = "at x = 0.0000 mm, y = 0.0000 mm";
+        assert!(said.contains(place), "{z}: {said}");
+        assert!(!said.contains("smaller aperture"), "{z}: {said}");
+    }
+}
+
+#[test]
+fn heights_that_no_part_has() {
+    let said = refused("use = \"even-asphere\"\ncoefficients = { 4 = 1e300 }", &[]);
+    assert!(said.contains("the surface has a height of"), "{said}");
+    assert!(said.contains("at x = 0.3125 mm, y = 0.0000 mm"), "{said}");
+    // The formula has no value beside the axis either, and that is said first.
+    let said = refused("use = \"formula\"\nz = \"mm^2/x\"", &[]);
+    assert!(said.contains("a division by 0 at x = 0.0000 mm"), "{said}");
+}
+
+/// A map of zeros, 8 mm wide.
+fn flat_map(middle: f64) -> String {
+    format!("9 9 1 1 0 {middle} 0\n{}", "0.001 0 0 0\n".repeat(81))
+}
+
+#[test]
+fn a_map_that_lies_beside_the_part() {
+    let recipe = saddle_with("surface", "use = \"grid-sag\"\nfile = \"map.DAT\"");
+    let bench = Bench::with(&recipe);
+    bench.write("map.DAT", flat_map(100.0));
+    for command in ["check recipe.toml", "run recipe.toml -o out"] {
+        let said = bench.line(command).ends(2);
+        // The last cell ends at 100 − 4.5 mm, and the part at 2.5 mm.
+        let what = "the map lies beside the part: the nearest of its points that has a height is \
+                    93.0000 mm away";
+        assert!(said.stderr.contains(what), "{said}");
+    }
+    bench.write("map.DAT", flat_map(6.0));
+    bench.line("check recipe.toml").ends(0);
+}
+
+/// The nose hangs on a sharp tip under `z-direction`: the path is not smooth, and the sampler cannot
+/// help it. `normal` makes a path, and the report says that the cusps beside the tip are too high.
+#[test]
+fn a_sharp_tip_that_no_step_follows() {
+    let surface = "use = \"odd-asphere\"\ncoefficients = { 1 = -0.01 }";
+    for sampler in ["atpg", "minimax"] {
+        let sampler = format!("use = \"{sampler}\"");
+        let analytic = ("velocity", "use = \"analytic\"");
+        let said = refused(surface, &[("sampler", &sampler), analytic]);
+        assert!(said.contains("the tolerance needs steps of"), "{said}");
+    }
+    let recipe = saddle_with("surface", surface);
+    let recipe = with_table(&recipe, "sampler", "use = \"atpg\"");
+    let recipe = with_table(&recipe, "compensator", "use = \"normal\"");
+    let bench = Bench::with(&recipe);
+    let said = bench.line("run recipe.toml -o out").ends(1);
+    assert!(said.stdout.contains("EXCEEDED"), "{said}");
+}
+
+#[test]
+fn the_points_of_sag_on_the_part_have_heights() {
+    let recipe = saddle_with("surface", "use = \"conic\"\nradius = \"2 mm\"");
+    let bench = Bench::with(&recipe);
+    let said = bench.line("sag recipe.toml --grid 11 -o sag.csv").ends(2);
+    let place = "the surface has no height at x = 0.0000 mm, y = -2.5000 mm";
+    assert!(said.stderr.contains(place), "{said}");
+    assert!(!bench.path("sag.csv").exists());
+}

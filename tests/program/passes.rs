@@ -1,0 +1,182 @@
+//! `[passes]`: paths before the finishing one, each with what it leaves and with values of its own.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use serde_json::Value;
+
+use crate::support::bench::Bench;
+use crate::support::recipe::{SADDLE, changed};
+
+const PASSES: &str = r#"
+[passes.rough]
+allowance = "30 um"
+tolerance = { residual = "2 um", interpolation = "500 nm" }
+spindle.speed = "300 rpm"
+
+[passes.middle]
+allowance = "5 um"
+feed = { use = "constant", feed = "40 um/rev" }
+tolerance.residual = "400 nm"
+"#;
+
+/// The saddle with leads and programs of two posts.
+fn saddle() -> String {
+    let recipe = changed(SADDLE, "lead = false", "lead = true");
+    let recipe = changed(&recipe, "overrun = \"none\"", "overrun = \"contact\"");
+    format!("{recipe}\n[output]\nposts = [\"pmac-pvt\", \"automation1-pvt\"]\n")
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("{pointer} of {value}"))
+}
+
+fn summary(bench: &Bench) -> Value {
+    serde_json::from_str(&bench.read("out/summary.json")).unwrap()
+}
+
+/// A program without the line that has the hash of its recipe's text.
+fn without_hash(text: &str) -> Vec<&str> {
+    let lines = text.lines();
+    lines.filter(|line| !line.contains("SHA-256")).collect()
+}
+
+#[test]
+fn the_finishing_path_has_the_bytes_of_the_recipe_without_passes() {
+    let alone = Bench::with(&saddle());
+    alone.line("run recipe.toml -o out").ends(0);
+    let all = Bench::with(&format!("{}{PASSES}", saddle()));
+    all.line("run recipe.toml -o out").ends(0);
+    assert_eq!(all.read("out/toolpath.csv"), alone.read("out/toolpath.csv"));
+    for file in ["out/recipe.pmc", "out/recipe.ascript"] {
+        let (all, alone) = (all.read(file), alone.read(file));
+        assert_eq!(without_hash(&all), without_hash(&alone));
+    }
+}
+
+/// `verify` measures the rough path against the wanted surface, and not against the lifted one for which
+/// it was made.
+#[test]
+fn a_rough_path_leaves_what_it_says() {
+    let bench = Bench::with(&format!("{}{PASSES}", saddle()));
+    bench.line("run recipe.toml -o out").ends(0);
+    let summary = summary(&bench);
+    for (at, name, allowance_nm, tolerance_nm) in
+        [(0, "rough", 30_000.0, 500.0), (1, "middle", 5_000.0, 100.0)]
+    {
+        let rough = &summary["passes"][at];
+        assert_eq!(rough["name"], name);
+        assert_eq!(number(rough, "/allowance_um") * 1e3, allowance_nm);
+        for file in [format!("toolpath-{name}.csv"), format!("recipe-{name}.pmc")] {
+            let said = bench.line(&format!("verify recipe.toml out/{file} --format json"));
+            let found = said.json();
+            let lowest = number(&found, "/surface_error/lowest/error_nm");
+            let highest = number(&found, "/surface_error/highest/error_nm");
+            let mean = number(&found, "/surface_error/mean_nm");
+            assert!(
+                (lowest - allowance_nm).abs() < tolerance_nm,
+                "{file}: {lowest}"
+            );
+            assert!(
+                highest > lowest && mean > allowance_nm - tolerance_nm,
+                "{file}"
+            );
+            for (key, figure) in [("least", lowest), ("mean", mean), ("most", highest)] {
+                let left = number(rough, &format!("/left/{key}_um")) * 1e3;
+                assert!((left - figure).abs() < 0.5, "{file}: {key} {left} {figure}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rough_path_has_its_own_values_and_the_files_are_in_the_result() {
+    let bench = Bench::with(&format!("{}{PASSES}", saddle()));
+    let said = bench.line("run recipe.toml -o out").ends(0);
+    assert!(said.stdout.contains("pass rough"), "{said}");
+    let summary = summary(&bench);
+    assert_eq!(summary["within"]["passes"], true);
+    let turns = |pointer: &str| number(&summary, pointer);
+    // Cusps of 2 um in place of 0.1 um: the feed is the root of twenty times as large.
+    let ratio = turns("/revolutions") / turns("/passes/0/revolutions");
+    assert!((4.0..5.0).contains(&ratio), "{ratio}");
+    // 2.5 mm at 40 um a turn, and what the contact needs at both ends.
+    let middle = turns("/passes/1/revolutions");
+    assert!((62.0..75.0).contains(&middle), "{middle}");
+    let slow = turns("/passes/0/cutting_time_s") / turns("/passes/0/revolutions");
+    assert!((slow - 0.2).abs() < 1e-3, "{slow}");
+    let listed: Vec<&str> = summary["files"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|file| file["file"].as_str())
+        .collect();
+    for file in [
+        "recipe-rough.pmc",
+        "recipe-middle.ascript",
+        "toolpath-rough.csv",
+    ] {
+        assert!(listed.contains(&file), "{listed:?}");
+    }
+    let program = bench.read("out/recipe-rough.pmc");
+    assert!(program.starts_with("; Saddle, rough\n"), "{program:.200}");
+}
+
+#[test]
+fn a_set_changes_a_key_of_a_rough_path() {
+    let bench = Bench::with(&format!("{}{PASSES}", saddle()));
+    let said = bench.call([
+        "run",
+        "recipe.toml",
+        "-o",
+        "out",
+        "--set",
+        "passes.rough.allowance=12 um",
+    ]);
+    said.ends(0);
+    assert_eq!(number(&summary(&bench), "/passes/0/allowance_um"), 12.0);
+}
+
+#[test]
+fn a_rough_path_that_holds_no_limit_makes_the_status_1() {
+    let limit = "\n[machine]\nz_velocity = \"45 mm/s\"\n";
+    let recipe = format!("{}{PASSES}{limit}", saddle());
+    let fast = changed(&recipe, "300 rpm", "900 rpm");
+    let bench = Bench::with(&changed(
+        &fast,
+        "speed = \"500 rpm\"",
+        "speed = \"200 rpm\"",
+    ));
+    let said = bench.line("run recipe.toml -o out").ends(1);
+    assert!(said.stdout.contains("EXCEEDED: machine"), "{said}");
+    assert_eq!(summary(&bench)["within"]["passes"], false);
+}
+
+#[test]
+fn wrong_passes_are_underlined() {
+    for (lines, says) in [
+        ("[passes.rough]\n", "lacks `allowance`"),
+        ("[passes.rough]\nallowance = \"-1 um\"\n", "allowance"),
+        ("[passes]\nrough = 3\n", "`passes.rough` must be a table"),
+        (
+            "[passes.rough]\nallowance = \"1 um\"\nsurface = { k = 2 }\n",
+            "[passes.rough] has no key",
+        ),
+        (
+            "[passes.dry-run]\nallowance = \"1 um\"\n",
+            "cannot be the end of a file's name",
+        ),
+        (
+            "[passes.rough]\nallowance = \"1 um\"\ntolerance.residual = \"1 deg\"\n",
+            "is an angle",
+        ),
+        (
+            "[passes.rough]\nallowance = \"1 um\"\nfeed = { use = \"constent\" }\n",
+            "constent",
+        ),
+    ] {
+        let bench = Bench::with(&format!("{}\n{lines}", saddle()));
+        let said = bench.line("run recipe.toml -o out").ends(2);
+        assert!(said.stderr.contains(says), "{lines}: {said}");
+        assert_eq!(bench.files(), ["recipe.toml"]);
+    }
+}

@@ -1,0 +1,120 @@
+//! The sizes that `check` says, held against the files that `run` writes.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use serde_json::Value;
+
+use crate::support::bench::Bench;
+use crate::support::recipe::{SADDLE, changed, saddle_with};
+
+/// By which part of a size `check` may be wrong.
+const PART: f64 = 0.05;
+
+const OUTPUT: &str = r#"
+[output]
+posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly"]
+"#;
+
+/// Programs of straight lines: several for each segment of the path.
+const LINES: &str = r#"
+[output]
+posts = ["nanotech-g93", "linuxcnc-g93"]
+
+[output.linuxcnc-g93]
+servo_period = "0.1 ms"
+"#;
+
+/// The same four programs with other digits, and distances in place of positions.
+const SHORT: &str = r#"
+[output]
+posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly"]
+
+[output.pmac-pvt]
+position_decimals = 6
+c_wrap = "0-360"
+
+[output.power-pmac-pvt]
+positioning = "incremental"
+velocity_per = "min"
+
+[output.automation1-pvt]
+velocity_decimals = 4
+positioning = "incremental"
+
+[output.siemens-840d-poly]
+position_decimals = 9
+"#;
+
+#[track_caller]
+fn sizes_are_right(recipe: &str, output: &str) {
+    let bench = Bench::with(&format!("{recipe}{output}"));
+    let said = bench.line("check recipe.toml --format json").ends(0);
+    let expected = &said.json()["expected"];
+    let said = bench.line("run recipe.toml -o out");
+    assert!(matches!(said.status, Some(0 | 1)), "{said}");
+    let is_right = |file: &str, bytes: &Value| {
+        let written = std::fs::metadata(bench.path(format!("out/{file}")))
+            .unwrap()
+            .len() as f64;
+        let bytes = bytes.as_f64().unwrap();
+        let part = bytes / written - 1.0;
+        assert!(part.abs() < PART, "{file}: {bytes} of {written}, {part:.3}");
+    };
+    is_right("toolpath.csv", &expected["toolpath_bytes"]);
+    let programs = expected["programs"].as_array().unwrap();
+    let posts = output.lines().find(|line| line.starts_with("posts = "));
+    assert_eq!(
+        Some(programs.len()),
+        posts.map(|posts| posts.split(", ").count())
+    );
+    for program in programs {
+        is_right(program["file"].as_str().unwrap(), &program["bytes"]);
+    }
+}
+
+fn with_leads(recipe: &str) -> String {
+    changed(recipe, "lead = false", "lead = true")
+}
+
+#[test]
+fn the_sizes_of_an_even_path_are_right() {
+    sizes_are_right(SADDLE, OUTPUT);
+    sizes_are_right(SADDLE, SHORT);
+    sizes_are_right(SADDLE, LINES);
+}
+
+#[test]
+fn the_sizes_of_a_path_with_leads_are_right() {
+    sizes_are_right(&with_leads(SADDLE), OUTPUT);
+    sizes_are_right(&with_leads(SADDLE), LINES);
+}
+
+#[test]
+fn the_sizes_of_a_path_that_refinement_makes_longer_are_right() {
+    let coarse = saddle_with("sampler", "use = \"equal-angle\"\nstep = \"40 deg\"");
+    sizes_are_right(&with_leads(&coarse), OUTPUT);
+}
+
+#[test]
+fn the_sizes_of_a_path_with_uneven_steps_are_right() {
+    let uneven = saddle_with("sampler", "use = \"atpg\"");
+    let uneven = changed(&uneven, "residual = \"100 nm\"", "residual = \"10 nm\"");
+    sizes_are_right(&with_leads(&uneven), OUTPUT);
+    sizes_are_right(&with_leads(&uneven), SHORT);
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_the_sizes_of_the_recipes_of_the_documentation_are_right() {
+    for name in [
+        "astigmatic-5mm",
+        "conic-50mm",
+        "toric-40mm",
+        "xy-polynomial-20mm",
+        "sinusoidal-array-10mm",
+    ] {
+        let file = format!("{}/../docs/recipes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let recipe = std::fs::read_to_string(file).unwrap();
+        let own = recipe.split("\n[output").next().unwrap();
+        sizes_are_right(&format!("{own}\n"), OUTPUT);
+    }
+}
