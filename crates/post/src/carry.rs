@@ -8,7 +8,7 @@ use turnpath_core::toolpath::{
 
 use crate::chord::chords_within;
 use crate::program_error::ProgramError;
-use crate::program_format::{ProgramFormat, TURN_DEG};
+use crate::program_format::{ProgramFormat, Slowest, TURN_DEG};
 
 /// Beyond this a double times a power of ten is not exact.
 const LARGEST_UNITS: f64 = 9e15;
@@ -37,6 +37,25 @@ pub struct DigitSegment {
     pub to: Digits,
     /// The steps of the segment before; `None` for the first segment.
     pub steps_before: Option<i64>,
+}
+
+/// A line between a lead and the cut begins or ends on the finer steps of the cut. So X and Z may be left
+/// with a way that is too short for the slowest motion.
+impl Slowest {
+    /// Whether X and Z move in a line of a lead, and both by less than a step of leads.
+    fn is_slow(&self, from: &Digits, to: &Digits) -> bool {
+        let way = |k: usize| to.position[k].abs_diff(from.position[k]);
+        let is_short = |k: usize| way(k) < self.lead_steps[k].unsigned_abs();
+        way(1) + way(2) > 0 && is_short(1) && is_short(2)
+    }
+
+    /// Moves a place of a lead away from the part, by a step or two, so that the line to it is not slow.
+    fn lift(&self, from: &Digits, to: &mut Digits) {
+        let step = self.lead_steps[2];
+        while self.is_slow(from, to) {
+            to.position[2] += step;
+        }
+    }
 }
 
 impl DigitSegment {
@@ -113,6 +132,7 @@ pub(crate) fn turns_left_out(
         arrival: *first,
         segment: None,
         in_lead: false,
+        grid: [0; 3],
     };
     let digits = Digits::at(format, &place, steps_of(format, first))?;
     let left_out = match format.c_wrapped {
@@ -177,6 +197,7 @@ impl Trail {
             arrival: self.arrival(point, segment.as_ref()),
             segment: segment.as_ref(),
             in_lead,
+            grid: [0; 3],
         };
         let end = Digits::at(format, &place, steps_of(format, point))?;
         match self.digits.zip(segment.as_ref()) {
@@ -188,14 +209,25 @@ impl Trail {
                     return Err(ProgramError::Short { t, c_deg });
                 }
                 let of_lead = in_lead || self.in_lead;
+                let slowest = format.chords.and_then(|chords| chords.slowest);
+                let slowest = slowest.filter(|_| of_lead);
                 let parts = self.parts(format, segment, (steps, of_lead), point)?;
+                let parts = match slowest.is_some_and(|slowest| slowest.is_slow(&from, &end)) {
+                    // There must be a place between the ends that is far enough from both.
+                    true => parts.max(2).min(steps),
+                    false => parts,
+                };
                 let middle = Place {
                     in_lead: of_lead,
+                    grid: end.position,
                     ..place
                 };
                 for part in 1..parts {
                     let at = from.steps + steps / parts * part + steps % parts * part / parts;
-                    let middle = Digits::at(format, &middle, at)?;
+                    let mut middle = Digits::at(format, &middle, at)?;
+                    if let Some((slowest, from)) = slowest.zip(self.digits) {
+                        slowest.lift(&from, &mut middle);
+                    }
                     self.write_segment(format, point, middle, write)?;
                 }
                 self.write_segment(format, point, end, write)?;
@@ -304,6 +336,8 @@ struct Place<'a> {
     segment: Option<&'a Segment>,
     /// Whether it is of a lead.
     in_lead: bool,
+    /// A position from which places are multiples of their steps away.
+    grid: [i64; 3],
 }
 
 /// The time of a point in steps.
@@ -338,7 +372,8 @@ impl Digits {
                 })
             };
             let digits = units(positions[k], format.position_decimals)?;
-            position[k] = nearest_multiple(digits, multiples[k]);
+            let origin = place.grid[k];
+            position[k] = origin + nearest_multiple(digits - origin, multiples[k]);
             if has_velocities {
                 velocity[k] = units(velocities[k], format.velocity_decimals)?;
             }

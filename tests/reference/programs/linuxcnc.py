@@ -4,8 +4,9 @@
     linuxcnc.py saddle.ngc > linuxcnc.csv
     linuxcnc.py saddle.ngc linuxcnc.csv     (compares; status 1 if they differ)
 
-prints t, C, X, Z at the end of each line, in s, deg and mm. saddle.ngc is what turnpath wrote for
-saddle.toml with `--set output.posts=["linuxcnc-g93"]`.
+prints t, C, X, Z at the end of each line, in s, deg and mm. The path of saddle.ngc is what turnpath
+writes for saddle.toml with `--set output.posts=["linuxcnc-g93"]`. The file stands without the moves
+before and after it, of which the script knows nothing.
 
 The interpreter is the module `gcode` of Debian's package linuxcnc-uspace (2.9.0~pre1+git20230208),
 which belongs to the system's python3. It gives the ends of lines in inches and deg, and the feed rate

@@ -373,6 +373,65 @@ fn linuxcncs_own_interpreter_reads_the_same_positions_and_times() {
     }
 }
 
+/// X rests between the steps of leads, and Z is at rest where the cut begins and ends: the finer steps of
+/// the cut would leave ways of some 0.1 nm in lines that are too slow.
+#[test]
+fn a_lead_at_rest_meets_the_cut_in_lines_that_are_not_too_slow() {
+    let layout = within(&LINUXCNC_G93, 1e-4);
+    let at = |k: u32, z: f64| ControlPoint {
+        t: 0.01 * f64::from(k),
+        c: f64::from(k) * DEG,
+        x: 0.05,
+        z,
+        vc: 100.0 * DEG,
+        ..ControlPoint::default()
+    };
+    let path = [
+        at(0, 1e-3),
+        at(1, 0.0),
+        at(2, 0.0),
+        at(3, 0.0),
+        at(4, 2e-4),
+        at(5, 0.0),
+        at(6, 0.0),
+        at(7, 1e-3),
+    ];
+    let mut text = Vec::new();
+    let mut count = 0;
+    for (section, points) in [
+        (Section::LeadIn, 0..3),
+        (Section::Cutting, 3..6),
+        (Section::LeadOut, 6..8),
+    ] {
+        let mut block = PathBlock::default();
+        path[points.clone()]
+            .iter()
+            .for_each(|point| block.push(*point));
+        let stretch = SectionBlock {
+            section,
+            opens_section: true,
+            before: &path[points.start.saturating_sub(2)..points.start],
+            points: &block,
+        };
+        let lines = layout.lines(&stretch).unwrap();
+        text.extend(lines.text);
+        count += lines.points;
+    }
+    let text = String::from_utf8(text).unwrap();
+    let text = format!("{text}; -- end of path: {count} points --\n");
+    // The reader proves every line by the interpreter's rule.
+    let found = read(&layout, text.as_bytes()).unwrap();
+    for point in &path[3..6] {
+        let same = |one: &&ControlPoint| (one.t - point.t).abs() < 1e-9;
+        let carried = found.iter().find(same).unwrap();
+        assert!((carried.x - point.x).abs() < 1e-9 && (carried.z - point.z).abs() < 1e-9);
+    }
+    // The tool is lifted and never lowered.
+    assert!(found.iter().all(|point| point.z >= 0.0), "{text}");
+    let moved = found.iter().filter(|point| point.x != 0.05);
+    assert!(moved.count() > 2, "{text}");
+}
+
 #[test]
 fn a_program_by_hand_is_read() {
     let text = "(a header)\n%\n( -- cutting -- )\nn10 g90g93 g21 (modes) g1\n\
