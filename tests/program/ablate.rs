@@ -559,7 +559,7 @@ fn a_narrow_terminal_gets_narrow_tables() {
 }
 
 /// Every column but those of what this recipe does not ask for: a hole, limits, a nose that does
-/// not fit, tolerances of form and servo.
+/// not fit, tolerances of form and servo, rough paths.
 #[test]
 fn every_figure_of_a_run_has_its_column() {
     let recipe = changed(SADDLE, "lead = false", "lead = true");
@@ -588,6 +588,7 @@ fn every_figure_of_a_run_has_its_column() {
         "within_coverage",
         "within_machine",
         "within_servo",
+        "within_passes",
         "reason",
     ];
     assert_eq!(empty, expected);
