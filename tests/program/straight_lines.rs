@@ -54,6 +54,8 @@ fn a_flat_part_is_refused_where_its_feed_runs_out_with_leads_and_without() {
             ))
             .ends(2);
         assert!(said.stderr.contains("no line below 0.1 mm/min"), "{said}");
+        // The line is one of the cut, and not that of the lead before it.
+        assert!(said.stderr.contains("at 0.00096 mm/min"), "{said}");
         assert!(!bench.path("out").exists());
     }
     for lead in [false, true] {
