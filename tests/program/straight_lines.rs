@@ -2,7 +2,7 @@
 //! as they are.
 
 use crate::support::bench::Bench;
-use crate::support::recipe::SADDLE;
+use crate::support::recipe::{SADDLE, changed};
 
 /// A small flat part with a program for LinuxCNC, at 60 rpm and a feed.
 fn flat(feed: &str) -> Bench {
@@ -62,5 +62,39 @@ fn a_flat_part_is_refused_where_its_feed_runs_out_with_leads_and_without() {
         bench
             .line(&format!("{RUN} --set path.lead={lead}").replace("-o out", &format!("-o {lead}")))
             .ends(0);
+    }
+}
+
+/// A rough path leaves lines their share of its own tolerance, and not of the finishing path's.
+#[test]
+fn a_rough_path_leaves_straight_lines_their_share_of_its_own_tolerance() {
+    let coarse = changed(SADDLE, "step = \"9 deg\"", "step = \"40 deg\"");
+    let rough = "[passes.rough]\nallowance = \"30 um\"\ntolerance.interpolation = \"400 nm\"";
+    let bench = Bench::with(&format!(
+        "{coarse}\n{rough}\n\n[output]\nposts = [\"nanotech-g93\"]\n"
+    ));
+    let report = bench
+        .line("run recipe.toml -o out --format json")
+        .ends(0)
+        .json();
+    let nm = |error: &serde_json::Value| error.as_f64().unwrap();
+    for (path, program, tolerance) in [
+        (
+            &report["interpolation_error"]["max_nm"],
+            &report["programs"][0],
+            100.0,
+        ),
+        (
+            &report["passes"][0]["interpolation_error_nm"],
+            &report["passes"][0]["programs"][0],
+            400.0,
+        ),
+    ] {
+        // Half of it is the lines'. Refinement halves segments until the path holds the rest.
+        let half = 0.5 * tolerance;
+        assert!((0.5 * half..=half).contains(&nm(path)), "{path}");
+        let played = nm(&program["interpolation_error_nm"]);
+        assert!((half..=tolerance).contains(&played), "{program}");
+        assert!(program["straight_lines"]["per_segment"].as_f64() > Some(1.0));
     }
 }
