@@ -6,19 +6,26 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::Value;
-use turnpath_post::{POST_NAMES, POSTS};
+use turnpath_core::toolpath::SegmentShape;
+use turnpath_post::{POST_NAMES, POSTS, Post};
 
 use crate::support::repository;
 
-/// The largest difference between the error of a program and that of the path, nm: the cost of 7
-/// decimals.
+/// The largest difference between the error of a program of cubics and that of the path, nm: the cost
+/// of 7 decimals.
 const COST_NM: f64 = 0.3;
+/// The part of the tolerance of interpolation that straight lines may take, by default.
+const CHORD_SHARE: f64 = 0.5;
 
 fn call(command: &str, recipe: &Path, rest: &[&str]) -> Output {
     let mut call = Command::new(env!("CARGO_BIN_EXE_turnpath"));
     call.arg(command).arg(recipe).args(rest);
     let posts = POST_NAMES.join("\", \"");
     call.args(["--set", &format!("output.posts=[\"{posts}\"]")]);
+    // LinuxCNC of today on a fast machine: what it refuses is tested in tests/program.
+    for word in ["lowest_rate=0mm/min", "servo_period=10us"] {
+        call.args(["--set", &format!("output.linuxcnc-g93.{word}")]);
+    }
     call.output().unwrap()
 }
 
@@ -47,18 +54,19 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
     let summary = fs::read_to_string(out.join("summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&summary).unwrap();
     let path = number(&summary, "/interpolation_error/max_nm");
+    let tolerance = number(&summary, "/tolerance/interpolation_nm");
     let programs = summary["programs"].as_array().unwrap();
+    let within = summary["within"].as_object().unwrap();
+    let path_holds = within
+        .iter()
+        .all(|(what, holds)| what == "programs" || *holds != Value::Bool(false));
     assert_eq!(programs.len(), POSTS.len());
     for (program, post) in programs.iter().zip(POSTS) {
         assert_eq!(program["post"], post.name);
         let error = number(program, "/interpolation_error_nm");
-        assert!(
-            (error - path).abs() < COST_NM,
-            "{}: {error} {path}",
-            post.name
-        );
         let raised = number(program, "/raised_by_nm");
-        assert!((raised - (error - path)).abs() < 1e-6, "{raised}");
+        assert!((error - path - raised).abs() < 1e-6, "{program} {path}");
+        assert_cost(program, post, tolerance);
         let exceeded = program["within_interpolation"] == Value::Bool(false);
         assert!(!exceeded || status == Some(1), "{program}");
         let file = out.join(program["file"].as_str().unwrap());
@@ -72,7 +80,9 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
             recipe,
             &[&[file.to_str().unwrap(), "--format", "json"], rest].concat(),
         );
-        assert_eq!(verify.status.code(), status, "{}", post.name);
+        // One program may be beyond its tolerance where the path and the others hold theirs.
+        let judged = i32::from(exceeded || !path_holds);
+        assert_eq!(verify.status.code(), Some(judged), "{}", post.name);
         let report: Value = serde_json::from_slice(&verify.stdout).unwrap();
         assert_eq!(
             number(&report, "/interpolation_error/max_nm"),
@@ -85,6 +95,24 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
             "{}: {}",
             post.name, report["anomalies"]
         );
+    }
+}
+
+/// A program of cubics costs its digits. One of straight lines takes no more than its share of the
+/// tolerance, and has some lines for each segment.
+fn assert_cost(program: &Value, post: &Post, tolerance: f64) {
+    let raised = number(program, "/raised_by_nm");
+    let name = post.name;
+    match post.shape {
+        SegmentShape::Cubic => {
+            assert!(raised.abs() < COST_NM, "{name}: {raised}");
+            assert!(program["straight_lines"].is_null(), "{program}");
+        }
+        SegmentShape::Linear => {
+            assert!(raised < CHORD_SHARE * tolerance, "{name}: {raised}");
+            let each = number(program, "/straight_lines/per_segment");
+            assert!((1.0..100.0).contains(&each), "{name}: {each}");
+        }
     }
 }
 

@@ -30,6 +30,7 @@ mod results;
 mod sag;
 mod same_bytes;
 mod sizes;
+mod straight_lines;
 mod sums;
 mod telescope_mirror;
 mod terminal;

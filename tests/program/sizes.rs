@@ -14,6 +14,15 @@ const OUTPUT: &str = r#"
 posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly"]
 "#;
 
+/// Programs of straight lines: several for each segment of the path.
+const LINES: &str = r#"
+[output]
+posts = ["nanotech-g93", "linuxcnc-g93"]
+
+[output.linuxcnc-g93]
+servo_period = "0.1 ms"
+"#;
+
 /// The same four programs with other digits, and distances in place of positions.
 const SHORT: &str = r#"
 [output]
@@ -52,7 +61,11 @@ fn sizes_are_right(recipe: &str, output: &str) {
     };
     is_right("toolpath.csv", &expected["toolpath_bytes"]);
     let programs = expected["programs"].as_array().unwrap();
-    assert_eq!(programs.len(), 4);
+    let posts = output.lines().find(|line| line.starts_with("posts = "));
+    assert_eq!(
+        Some(programs.len()),
+        posts.map(|posts| posts.split(", ").count())
+    );
     for program in programs {
         is_right(program["file"].as_str().unwrap(), &program["bytes"]);
     }
@@ -66,11 +79,13 @@ fn with_leads(recipe: &str) -> String {
 fn the_sizes_of_an_even_path_are_right() {
     sizes_are_right(SADDLE, OUTPUT);
     sizes_are_right(SADDLE, SHORT);
+    sizes_are_right(SADDLE, LINES);
 }
 
 #[test]
 fn the_sizes_of_a_path_with_leads_are_right() {
     sizes_are_right(&with_leads(SADDLE), OUTPUT);
+    sizes_are_right(&with_leads(SADDLE), LINES);
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::commands::{cargo, repository, run, target};
-use crate::python::{script, with_packages};
+use crate::commands::{cargo, command, repository, run, target};
+use crate::python::{script, with_packages, with_packages_of};
 use crate::step::{Outcome, Step};
 use crate::{deny, fuzz, msrv};
 
@@ -12,6 +12,8 @@ use crate::{deny, fuzz, msrv};
 /// A larger `PROPTEST_CASES` in the environment counts.
 const RANDOM_CASES: u32 = 256;
 
+/// The interpreter for which Debian builds LinuxCNC's module `gcode`.
+const SYSTEM_PYTHON: &str = "/usr/bin/python3";
 /// How long random recipes are measured, s: a sample of them, some seconds each.
 const MEASURING_S: &str = "300";
 
@@ -20,6 +22,7 @@ random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
 random recipes: tests/reference/playback/measure_random.py, those of the test of five hundred
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
+linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
 columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
@@ -48,6 +51,9 @@ pub fn run_checks() -> Vec<Step> {
             with_packages(&["numpy"], random_recipes)
         }),
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
+        Step::run("linuxcnc", || {
+            with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
+        }),
         Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
         Step::run("dry runs", dry_runs),
         Step::run("programs", || with_packages(&[], programs)),
@@ -81,6 +87,14 @@ fn random_input() -> Outcome {
     run(tests)
 }
 
+/// The kept output of LinuxCNC's interpreter is what it says of the program that turnpath writes.
+fn linuxcnc() -> Outcome {
+    let folder = "tests/reference/programs";
+    let [script, program, kept] =
+        ["linuxcnc.py", "saddle.ngc", "linuxcnc.csv"].map(|file| format!("{folder}/{file}"));
+    run(command(SYSTEM_PYTHON, &[&script, &program, &kept]))
+}
+
 /// A run of the saddle with these changes, into a folder of the target folder.
 fn saddle(folder: &str, changes: &[&str]) -> Result<PathBuf, Outcome> {
     let folder = target().join("long").join(folder);
@@ -108,13 +122,13 @@ fn columns() -> Outcome {
 
 /// The dry runs of all posts, by an independent reader.
 fn dry_runs() -> Outcome {
-    let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\"]";
+    let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"nanotech-g93\", \"linuxcnc-g93\"]";
     let changes = ["--dry-run", "--set", "path.lead=true", "--set", posts];
     let folder = match saddle("dry-runs", &changes) {
         Ok(folder) => folder,
         Err(outcome) => return outcome,
     };
-    let files = ["pmc", "ppmc", "ascript", "mpf"].map(|end| {
+    let files = ["pmc", "ppmc", "ascript", "mpf", "nc", "ngc"].map(|end| {
         let name = format!("saddle-dry-run.{end}");
         folder.join(name)
     });

@@ -20,11 +20,19 @@ pub fn script(file: &str, rest: &[&Path]) -> Command {
 
 /// Runs the body if Python and these packages are installed.
 pub fn with_packages(packages: &[&str], body: impl FnOnce() -> Outcome) -> Outcome {
-    let python = interpreter();
-    if !succeeds(command(&python, &["--version"])) {
+    with_packages_of(&interpreter(), packages, body)
+}
+
+/// Runs the body if this interpreter and these packages are installed.
+pub fn with_packages_of(
+    python: &str,
+    packages: &[&str],
+    body: impl FnOnce() -> Outcome,
+) -> Outcome {
+    if !succeeds(command(python, &["--version"])) {
         return Outcome::Skipped(format!("`{python}` is not installed"));
     }
-    let has = |package: &str| succeeds(command(&python, &["-c", &format!("import {package}")]));
+    let has = |package: &str| succeeds(command(python, &["-c", &format!("import {package}")]));
     let missing: Vec<&str> = packages.iter().copied().filter(|one| !has(one)).collect();
     if missing.is_empty() {
         return body();

@@ -2,13 +2,18 @@
 //! dialects share.
 
 use turnpath_core::DEG;
-use turnpath_core::toolpath::{ControlPoint, PathBlock, SectionBlock, Segment};
+use turnpath_core::toolpath::{
+    ControlPoint, PathBlock, Section, SectionBlock, Segment, SegmentShape,
+};
 
+use crate::chord::chords_within;
 use crate::program_error::ProgramError;
-use crate::program_format::{ProgramFormat, TURN_DEG};
+use crate::program_format::{ProgramFormat, Slowest, TURN_DEG};
 
 /// Beyond this a double times a power of ten is not exact.
 const LARGEST_UNITS: f64 = 9e15;
+/// Most chords of a segment: far more than any path needs that a machine can play.
+const MOST_CHORDS: i64 = 1_000_000;
 /// The program's axes, in the order in which they are written.
 pub(crate) const AXES: [char; 3] = ['C', 'X', 'Z'];
 
@@ -19,7 +24,7 @@ pub struct Digits {
     pub steps: i64,
     /// C, X, Z in last digits; C unwrapped.
     pub position: [i64; 3],
-    /// Their velocities in last digits.
+    /// Their velocities in last digits; zero in a program without velocities.
     pub velocity: [i64; 3],
 }
 
@@ -34,10 +39,36 @@ pub struct DigitSegment {
     pub steps_before: Option<i64>,
 }
 
+/// A line between a lead and the cut begins or ends on the finer steps of the cut. So X and Z may be left
+/// with a way that is too short for the slowest motion.
+impl Slowest {
+    /// Whether X and Z move in a line of a lead, and both by less than a step of leads.
+    fn is_slow(&self, from: &Digits, to: &Digits) -> bool {
+        let way = |k: usize| to.position[k].abs_diff(from.position[k]);
+        let is_short = |k: usize| way(k) < self.lead_steps[k].unsigned_abs();
+        way(1) + way(2) > 0 && is_short(1) && is_short(2)
+    }
+
+    /// Moves a place of a lead away from the part, by a step or two, so that the line to it is not slow.
+    fn lift(&self, from: &Digits, to: &mut Digits) {
+        let step = self.lead_steps[2];
+        while self.is_slow(from, to) {
+            to.position[2] += step;
+        }
+    }
+}
+
 impl DigitSegment {
     /// The steps that it takes.
     pub fn steps(&self) -> i64 {
         self.to.steps - self.from.steps
+    }
+
+    /// Time in s and C of the path in deg where it ends.
+    pub(crate) fn end(&self, format: &ProgramFormat) -> (f64, f64) {
+        let c = self.to.position[0] as f64 / 10u64.pow(format.position_decimals) as f64;
+        let t = self.to.steps as f64 / format.steps_per_s as f64;
+        (t, format.c_sign() * c)
     }
 }
 
@@ -56,13 +87,16 @@ pub(crate) fn carry(
     stretch: &SectionBlock<'_>,
     write: &mut dyn FnMut(Move<'_>),
 ) -> Result<usize, ProgramError> {
-    let mut trail = Trail::default();
+    let mut trail = Trail::new(stretch.points.shape);
+    let in_lead = stretch.section != Section::Cutting;
+    // The section before a cut is the lead-in, and that before a lead-out is the cut.
+    let before_in_lead = in_lead != stretch.opens_section;
     for point in stretch.before {
-        trail.go_to(format, point, &mut |_| {})?;
+        trail.go_to(format, point, before_in_lead, &mut |_| {})?;
     }
     let mut points = 0;
     for point in stretch.points.points() {
-        trail.go_to(format, &point, &mut |step| {
+        trail.go_to(format, &point, in_lead, &mut |step| {
             points += 1;
             write(step);
         })?;
@@ -77,7 +111,7 @@ pub(crate) fn carried(
     stretch: &SectionBlock<'_>,
 ) -> Result<PathBlock, ProgramError> {
     let mut carried = PathBlock {
-        shape: stretch.points.shape,
+        shape: format.shape(),
         ..PathBlock::default()
     };
     carry(format, stretch, &mut |step| {
@@ -94,7 +128,13 @@ pub(crate) fn turns_left_out(
     format: &ProgramFormat,
     first: &ControlPoint,
 ) -> Result<f64, ProgramError> {
-    let digits = Digits::of(format, first, None)?;
+    let place = Place {
+        arrival: *first,
+        segment: None,
+        in_lead: false,
+        grid: [0; 3],
+    };
+    let digits = Digits::at(format, &place, steps_of(format, first))?;
     let left_out = match format.c_wrapped {
         true => digits.position[0].div_euclid(turn(format)),
         false => 0,
@@ -122,53 +162,131 @@ pub(crate) fn said_place(format: &ProgramFormat, digits: &Digits) -> [i64; 3] {
 }
 
 /// What the lines before have left.
-#[derive(Default)]
 struct Trail {
+    /// What the path plays between its points.
+    shape: SegmentShape,
     point: Option<ControlPoint>,
+    /// Whether that point is of a lead.
+    in_lead: bool,
     digits: Option<Digits>,
     /// The steps of the segment before.
     steps: Option<i64>,
 }
 
 impl Trail {
-    /// Goes on to the next point.
+    fn new(shape: SegmentShape) -> Self {
+        Self {
+            shape,
+            point: None,
+            in_lead: false,
+            digits: None,
+            steps: None,
+        }
+    }
+
+    /// Goes on to the next point, which may be of a lead.
     fn go_to(
         &mut self,
         format: &ProgramFormat,
         point: &ControlPoint,
+        in_lead: bool,
         write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
-        let end = Digits::of(format, point, self.point.as_ref())?;
-        match self.digits {
+        let segment = self.point.map(|before| self.segment(&before, point));
+        let place = Place {
+            arrival: self.arrival(point, segment.as_ref()),
+            segment: segment.as_ref(),
+            in_lead,
+            grid: [0; 3],
+        };
+        let end = Digits::at(format, &place, steps_of(format, point))?;
+        match self.digits.zip(segment.as_ref()) {
             None => write(Move::Start(&end)),
-            Some(from) => {
+            Some((from, segment)) => {
                 let steps = end.steps - from.steps;
                 let (t, c_deg) = (point.t, point.c / DEG);
                 if steps < 1 {
                     return Err(ProgramError::Short { t, c_deg });
                 }
-                if steps < format.shortest {
-                    let ms = |steps: i64| 1e3 * steps as f64 / format.steps_per_s as f64;
-                    return Err(ProgramError::ShorterThanSaid {
-                        t,
-                        c_deg,
-                        ms: ms(steps),
-                        shortest_ms: ms(format.shortest),
-                    });
-                }
-                // Rounded up, without a sum that could be too large.
-                let parts = (steps - 1) / format.longest + 1;
+                let of_lead = in_lead || self.in_lead;
+                let slowest = format.chords.and_then(|chords| chords.slowest);
+                let slowest = slowest.filter(|_| of_lead);
+                let parts = self.parts(format, segment, (steps, of_lead), point)?;
+                let parts = match slowest.is_some_and(|slowest| slowest.is_slow(&from, &end)) {
+                    // There must be a place between the ends that is far enough from both.
+                    true => parts.max(2).min(steps),
+                    false => parts,
+                };
+                let middle = Place {
+                    in_lead: of_lead,
+                    grid: end.position,
+                    ..place
+                };
                 for part in 1..parts {
                     let at = from.steps + steps / parts * part + steps % parts * part / parts;
-                    let middle = Digits::at(format, point, self.point.as_ref(), at)?;
+                    let mut middle = Digits::at(format, &middle, at)?;
+                    if let Some((slowest, from)) = slowest.zip(self.digits) {
+                        slowest.lift(&from, &mut middle);
+                    }
                     self.write_segment(format, point, middle, write)?;
                 }
                 self.write_segment(format, point, end, write)?;
             }
         }
         self.point = Some(*point);
+        self.in_lead = in_lead;
         self.digits = Some(end);
         Ok(())
+    }
+
+    /// What the path plays from one point to the next.
+    fn segment(&self, before: &ControlPoint, point: &ControlPoint) -> Segment {
+        match self.shape {
+            SegmentShape::Cubic => Segment::between(before, point),
+            SegmentShape::Linear => Segment::straight(before, point),
+        }
+    }
+
+    /// A point with the velocities at which it is reached. Between straight lines, its own are those
+    /// of the line behind it.
+    fn arrival(&self, point: &ControlPoint, segment: Option<&Segment>) -> ControlPoint {
+        match segment.filter(|_| self.shape == SegmentShape::Linear) {
+            None => *point,
+            Some(segment) => ControlPoint {
+                vc: segment.c.slope(1.0) / segment.duration,
+                vx: segment.x.slope(1.0) / segment.duration,
+                vz: segment.z.slope(1.0) / segment.duration,
+                ..*point
+            },
+        }
+    }
+
+    /// How many lines a segment of so many steps becomes.
+    fn parts(
+        &self,
+        format: &ProgramFormat,
+        segment: &Segment,
+        (steps, of_lead): (i64, bool),
+        point: &ControlPoint,
+    ) -> Result<i64, ProgramError> {
+        // Rounded up, without a sum that could be too large.
+        let of_time = |longest: i64| (steps - 1) / longest + 1;
+        let parts = of_time(format.longest);
+        let Some(chords) = &format.chords else {
+            return Ok(parts);
+        };
+        let slowest = chords.slowest.filter(|_| of_lead);
+        let in_lead = slowest.map_or(1, |slowest| of_time(slowest.longest_in_lead));
+        let needed = match self.shape {
+            SegmentShape::Cubic => chords_within(chords.deviation, segment),
+            SegmentShape::Linear => 1.0,
+        };
+        if needed > MOST_CHORDS as f64 || needed.is_nan() {
+            let (t, c_deg) = (point.t, point.c / DEG);
+            let most = MOST_CHORDS;
+            return Err(ProgramError::ManyChords { most, t, c_deg });
+        }
+        Ok(parts.max(in_lead).max(needed as i64).min(steps))
     }
 
     /// Writes one segment, or a part of one; `point` is the end of the whole, for messages.
@@ -192,6 +310,16 @@ impl Trail {
             to,
             steps_before: self.steps,
         };
+        if segment.steps() < format.shortest {
+            let ms = |steps: i64| 1e3 * steps as f64 / format.steps_per_s as f64;
+            let (t, c_deg) = segment.end(format);
+            return Err(ProgramError::ShorterThanSaid {
+                t,
+                c_deg,
+                ms: ms(segment.steps()),
+                shortest_ms: ms(format.shortest),
+            });
+        }
         write(Move::Segment(&segment));
         self.steps = Some(segment.steps());
         self.digits = Some(to);
@@ -199,27 +327,39 @@ impl Trail {
     }
 }
 
-impl Digits {
-    fn of(
-        format: &ProgramFormat,
-        point: &ControlPoint,
-        before: Option<&ControlPoint>,
-    ) -> Result<Self, ProgramError> {
-        let steps = (point.t * format.steps_per_s as f64).round() as i64;
-        Self::at(format, point, before, steps)
-    }
+/// A place on the path at or near a control point.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    /// The point with the velocities at which it is reached.
+    arrival: ControlPoint,
+    /// What is played up to the point; `None` at the path's first point.
+    segment: Option<&'a Segment>,
+    /// Whether it is of a lead.
+    in_lead: bool,
+    /// A position from which places are multiples of their steps away.
+    grid: [i64; 3],
+}
 
-    /// The digits at a step of time on the cubic that ends at a point.
-    fn at(
-        format: &ProgramFormat,
-        point: &ControlPoint,
-        before: Option<&ControlPoint>,
-        steps: i64,
-    ) -> Result<Self, ProgramError> {
-        let moved = at_time(point, before, steps as f64 / format.steps_per_s as f64);
+/// The time of a point in steps.
+fn steps_of(format: &ProgramFormat, point: &ControlPoint) -> i64 {
+    (point.t * format.steps_per_s as f64).round() as i64
+}
+
+impl Digits {
+    /// The digits at a step of time at or near a place.
+    fn at(format: &ProgramFormat, place: &Place<'_>, steps: i64) -> Result<Self, ProgramError> {
+        let point = &place.arrival;
+        let moved = at_time(
+            point,
+            place.segment,
+            steps as f64 / format.steps_per_s as f64,
+        );
         let (sign, per) = (format.c_sign(), format.velocity_time());
         let positions = [sign * moved.c / DEG, moved.x, moved.z - format.z_above];
         let velocities = [sign * moved.vc / DEG, moved.vx, moved.vz].map(|v| v * per);
+        let has_velocities = format.shape() == SegmentShape::Cubic;
+        let slowest = format.chords.and_then(|chords| chords.slowest);
+        let multiples = slowest.map_or([1; 3], |slowest| slowest.steps(place.in_lead));
         let (mut position, mut velocity) = ([0; 3], [0; 3]);
         for (k, axis) in AXES.into_iter().enumerate() {
             let units = |value: f64, decimals: u32| {
@@ -231,8 +371,12 @@ impl Digits {
                     t,
                 })
             };
-            position[k] = units(positions[k], format.position_decimals)?;
-            velocity[k] = units(velocities[k], format.velocity_decimals)?;
+            let digits = units(positions[k], format.position_decimals)?;
+            let origin = place.grid[k];
+            position[k] = origin + nearest_multiple(digits - origin, multiples[k]);
+            if has_velocities {
+                velocity[k] = units(velocities[k], format.velocity_decimals)?;
+            }
         }
         Ok(Self {
             steps,
@@ -284,11 +428,15 @@ fn units(value: f64, decimals: u32) -> Option<i64> {
     (scaled.abs() <= LARGEST_UNITS).then_some(scaled as i64)
 }
 
-/// The point of the cubic that ends at `point`, at a time in or near the segment.
-fn at_time(point: &ControlPoint, before: Option<&ControlPoint>, time: f64) -> ControlPoint {
+/// The multiple of `step` next to a value.
+fn nearest_multiple(value: i64, step: i64) -> i64 {
+    (value + step / 2).div_euclid(step) * step
+}
+
+/// The point at a time in or near the segment that ends at `point` with the velocities of the point.
+fn at_time(point: &ControlPoint, segment: Option<&Segment>, time: f64) -> ControlPoint {
     let by = time - point.t;
-    let bends = before.map_or([(0.0, 0.0); 3], |before| {
-        let segment = Segment::between(before, point);
+    let bends = segment.map_or([(0.0, 0.0); 3], |segment| {
         let h = segment.duration;
         [&segment.c, &segment.x, &segment.z]
             .map(|axis| (axis.bend(1.0) / (h * h), axis.jerk() / (h * h * h)))

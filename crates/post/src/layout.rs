@@ -9,7 +9,7 @@ use crate::carry::{Move, carried, carry, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
-use crate::program_format::{APPROACH_MARK, END_MARK, ProgramFormat, RETREAT_MARK, mark};
+use crate::program_format::{APPROACH_MARK, Chords, END_MARK, ProgramFormat, RETREAT_MARK, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
 use crate::travel::{Extent, Travel};
@@ -47,6 +47,7 @@ impl Layout {
             let opening = format!("{} {}\n", post.comment, mark(stretch.section));
             text.extend_from_slice(opening.as_bytes());
         }
+        let mut in_time = Ok(());
         let mut extent: Option<Extent> = None;
         let points = carry(format, stretch, &mut |step| {
             let point = match step {
@@ -55,6 +56,9 @@ impl Layout {
                     digits
                 }
                 Move::Segment(segment) => {
+                    if in_time.is_ok() {
+                        in_time = post.dialect.check_time(format, segment);
+                    }
                     post.dialect.write_segment(&mut text, format, segment);
                     &segment.to
                 }
@@ -62,7 +66,7 @@ impl Layout {
             let here = Extent::of(point, stretch.section);
             extent = Some(extent.map_or(here, |before| before.and(here)));
         })?;
-        Ok(Lines {
+        in_time.map(|()| Lines {
             text,
             points,
             extent,
@@ -143,6 +147,22 @@ impl Layout {
         ProgramReader::new(reader, path.into(), self.post, &self.format)
     }
 
+    /// The same layout with one line for each segment, of any time.
+    fn without_limits(&self) -> Self {
+        let chords = self.format.chords.map(|chords| Chords {
+            deviation: f64::INFINITY,
+            shortest: 1,
+            slowest: None,
+            ..chords
+        });
+        let format = ProgramFormat {
+            shortest: 1,
+            chords,
+            ..self.format
+        };
+        Self { format, ..*self }
+    }
+
     /// A rough estimate of the bytes of a program with so many points. It is made from invented points
     /// in the middle of the path, which have all digits and one common time. If every point has a time
     /// of its own, the program may be larger by half.
@@ -161,12 +181,7 @@ impl Layout {
                 vz: half(radius) * speed,
             }
         };
-        // An estimate has segments of any time.
-        let format = ProgramFormat {
-            shortest: 1,
-            ..self.format
-        };
-        let layout = Self { format, ..*self };
+        let layout = self.without_limits();
         let mut block = PathBlock::default();
         block.push(point(1));
         block.push(point(2));

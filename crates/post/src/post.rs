@@ -2,12 +2,13 @@
 
 use std::fmt::Debug;
 
-use turnpath_core::toolpath::ControlPoint;
+use turnpath_core::toolpath::{ControlPoint, SegmentShape};
 use turnpath_core::{ParamInfo, Params};
 
 use crate::carry::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
 use crate::g_code;
+use crate::program_error::ProgramError;
 use crate::program_format::ProgramFormat;
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -30,6 +31,8 @@ pub struct Post {
     pub header: &'static str,
     /// The template of what stands after the path.
     pub footer: &'static str,
+    /// What its controller plays between two points: cubics, or straight lines that stand for them.
+    pub shape: SegmentShape,
     /// Steps of time in a second.
     pub steps_per_s: i64,
     /// The longest segment, in steps. A longer one is divided.
@@ -53,6 +56,18 @@ pub trait Dialect: Debug + Send + Sync {
 
     /// Writes the lines of a segment.
     fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment);
+
+    /// Proves that the controller plays a segment in its time.
+    ///
+    /// # Errors
+    /// When it takes another time for it.
+    fn check_time(
+        &self,
+        _format: &ProgramFormat,
+        _segment: &DigitSegment,
+    ) -> Result<(), ProgramError> {
+        Ok(())
+    }
 
     /// Writes the lines behind the last segment, before the end mark.
     fn write_last(&self, _text: &mut Vec<u8>, _format: &ProgramFormat) {}

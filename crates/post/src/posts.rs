@@ -1,13 +1,21 @@
 //! The posts, by their names.
 
 use crate::automation1::AUTOMATION1_PVT;
+use crate::g93::{LINUXCNC_G93, NANOTECH_G93};
 use crate::pmac::PMAC_PVT;
 use crate::post::Post;
 use crate::power_pmac::POWER_PMAC_PVT;
 use crate::siemens_840d::SIEMENS_840D_POLY;
 
 /// All posts. A new one is a folder of this crate, and a line here.
-pub const POSTS: &[Post] = &[PMAC_PVT, POWER_PMAC_PVT, AUTOMATION1_PVT, SIEMENS_840D_POLY];
+pub const POSTS: &[Post] = &[
+    PMAC_PVT,
+    POWER_PMAC_PVT,
+    AUTOMATION1_PVT,
+    SIEMENS_840D_POLY,
+    NANOTECH_G93,
+    LINUXCNC_G93,
+];
 
 /// The names of all posts, in their order.
 pub const POST_NAMES: &[&str] = &{

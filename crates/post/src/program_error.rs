@@ -54,6 +54,52 @@ pub enum ProgramError {
         /// C at its end, deg.
         c_deg: f64,
     },
+    /// The controller does not play a motion as slowly as the path has it.
+    #[error(
+        "{axes} at {rate:.5} {unit}/min in the line that ends at {t:.6} s, C = {c_deg:.3} deg; with \
+         `G93` this controller plays no line below {lowest} {unit}/min, and would come too early"
+    )]
+    Slow {
+        /// What moves.
+        axes: &'static str,
+        /// Its rate.
+        rate: f64,
+        /// The lowest rate.
+        lowest: f64,
+        /// mm or deg.
+        unit: &'static str,
+        /// The time of the end of the line, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
+    /// The controller plays no line in so short a time.
+    #[error(
+        "the line that ends at {t:.6} s, C = {c_deg:.3} deg takes {took:.3} ms; this controller plays \
+         no line in less than {least} ms, and would come too late"
+    )]
+    ShortLine {
+        /// What it takes, ms.
+        took: f64,
+        /// The least, ms.
+        least: f64,
+        /// The time of the end of the line, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
+    /// Straight lines that stand for a cubic would be too many.
+    #[error(
+        "the segment that ends at {t:.6} s, C = {c_deg:.3} deg takes more than {most} straight lines"
+    )]
+    ManyChords {
+        /// Most lines of a segment.
+        most: i64,
+        /// The time of its end, s.
+        t: f64,
+        /// C at its end, deg.
+        c_deg: f64,
+    },
     /// The path goes straight from point to point.
     #[error(
         "the path goes straight from point to point, but this program plays cubics: it cannot carry \
@@ -67,6 +113,10 @@ impl ProgramError {
     pub fn help(&self, keys: &[ParamInfo]) -> &'static str {
         let has = |key: &str| keys.iter().any(|info| info.name == key);
         match self {
+            Self::ShorterThanSaid { .. } if has("chord_share") => {
+                "turn the spindle slower, or give more tolerance of interpolation, so that lines are \
+                 longer"
+            }
             Self::Short { .. } | Self::ShorterThanSaid { .. } => {
                 "place points farther apart, or turn the spindle slower"
             }
@@ -79,6 +129,17 @@ impl ProgramError {
             Self::Digits { .. } => "write a smaller position_decimals",
             Self::HalfTurn { .. } => {
                 "place points closer together, or write c_wrap = \"unwrapped\""
+            }
+            Self::Slow { .. } => {
+                "feed faster, or turn the spindle faster; LinuxCNC from 2.9.0 on has no lowest rate: \
+                 write lowest_rate = \"0 mm/min\" for it"
+            }
+            Self::ShortLine { .. } => {
+                "turn the spindle slower, or give more tolerance of interpolation, so that lines are \
+                 longer; servo_period says what the machine has"
+            }
+            Self::ManyChords { .. } => {
+                "place points closer together, or give more tolerance of interpolation"
             }
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
         }

@@ -1,6 +1,6 @@
 //! The numbers of a program: what its writer and its reader must agree on.
 
-use turnpath_core::toolpath::Section;
+use turnpath_core::toolpath::{Section, SegmentShape};
 
 /// Degrees of a revolution.
 pub(crate) const TURN_DEG: i64 = 360;
@@ -16,6 +16,55 @@ pub(crate) const RETREAT_MARK: &str = "-- retreat --";
 pub(crate) const DRY_RUN_MARK: &str = "-- dry run --";
 /// The mark after them.
 pub(crate) const END_OF_DRY_RUN_MARK: &str = "-- end of dry run --";
+/// What the F of a straight line says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FeedMeaning {
+    /// One over its minutes.
+    PerMinute,
+    /// Its seconds.
+    Seconds,
+}
+
+/// The slowest motion that a controller plays in the time that F says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slowest {
+    /// The lowest rate of X and Z together, mm/min, and of C where they stand still, deg/min. Zero:
+    /// any.
+    pub rate: f64,
+    /// Largest way of X and of Z that the controller takes for none, in last digits.
+    pub still: i64,
+    /// On leads, positions of C, X and Z are multiples of these, in last digits. So each axis stands
+    /// still or is not too slow.
+    pub lead_steps: [i64; 3],
+    /// The longest line of a lead, in steps of time.
+    pub longest_in_lead: i64,
+}
+
+impl Slowest {
+    /// What positions of C, X and Z are multiples of, in last digits.
+    pub(crate) fn steps(&self, in_lead: bool) -> [i64; 3] {
+        match in_lead {
+            true => self.lead_steps,
+            // X and Z stand still, or move by more than counts as none.
+            false => [1, self.still + 1, self.still + 1],
+        }
+    }
+}
+
+/// How chords stand for cubics, where a controller goes straight from point to point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chords {
+    /// The part of the tolerance of interpolation that is theirs; the path's cubics get the rest.
+    pub share: f64,
+    /// Largest distance of a chord from its cubic along z, mm.
+    pub deviation: f64,
+    /// What F says.
+    pub feed: FeedMeaning,
+    /// The shortest line that the controller plays in its time, in steps.
+    pub shortest: i64,
+    /// The slowest motion; `None` where every line takes its time.
+    pub slowest: Option<Slowest>,
+}
 
 /// How a program writes times, positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +95,8 @@ pub struct ProgramFormat {
     pub mantissa_bits: Option<u32>,
     /// Z of the path − Z of the program, mm: the nose radius where the program's Z is the tip's.
     pub z_above: f64,
+    /// Chords in place of cubics: the program has no velocities. `None` where it plays cubics.
+    pub chords: Option<Chords>,
     /// How far above the highest place of the path X and C move before it, mm.
     pub approach_height: f64,
     /// How fast Z goes down to the path's first point, mm/min.
@@ -53,6 +104,14 @@ pub struct ProgramFormat {
 }
 
 impl ProgramFormat {
+    /// What the controller plays between two points of the program.
+    pub fn shape(&self) -> SegmentShape {
+        match self.chords {
+            Some(_) => SegmentShape::Linear,
+            None => SegmentShape::Cubic,
+        }
+    }
+
     /// The milliseconds that velocities refer to, which Turbo PMAC has in Ix90.
     pub fn velocity_ms(&self) -> u32 {
         if self.per_minute { 60_000 } else { 1000 }

@@ -5,8 +5,9 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use turnpath_core::toolpath::{ControlPoint, Section};
+use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 
+use crate::forward_rates::ForwardRates;
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
 use crate::program_format::{APPROACH_MARK, END_MARK, ProgramFormat, RETREAT_MARK, mark};
@@ -36,6 +37,12 @@ pub struct ProgramReader<R = File> {
     said_points: Option<u64>,
     /// Points that were read and not given yet.
     waiting: VecDeque<(ControlPoint, Section)>,
+    /// The last point that was read from a line.
+    last: Option<(ControlPoint, Section)>,
+    /// Points that were read from lines.
+    found_points: u64,
+    /// What gives points their velocities, where the program has none.
+    rates: Option<ForwardRates>,
     /// The section of the point that the grammar holds back until it has read the line behind it.
     held: Option<Section>,
     read_count: ReadCount,
@@ -58,6 +65,7 @@ impl<R: Read> ProgramReader<R> {
         post: &'static Post,
         format: &ProgramFormat,
     ) -> Self {
+        let has_rates = post.shape == SegmentShape::Linear;
         Self {
             lines: BufReader::with_capacity(BUFFER, reader),
             path,
@@ -70,6 +78,9 @@ impl<R: Read> ProgramReader<R> {
             travel: TravelCheck::default(),
             said_points: None,
             waiting: VecDeque::new(),
+            last: None,
+            found_points: 0,
+            rates: has_rates.then(ForwardRates::default),
             held: None,
             read_count: ReadCount::default(),
         }
@@ -212,7 +223,7 @@ impl<R: Read> ProgramReader<R> {
     /// Reads the next line; `false` at the end of the path.
     fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
-            let count = self.read_count.points();
+            let count = self.found_points;
             return match said == count {
                 true => self.check_heights(),
                 false => Err(self.wrong(format!(
@@ -251,8 +262,9 @@ fn said_points(said: &str) -> Option<u64> {
     digits.parse().ok().filter(|_| is_whole)
 }
 
-impl<R: Read> ReadPath for ProgramReader<R> {
-    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+impl<R: Read> ProgramReader<R> {
+    /// The next point with the velocities that its line says.
+    fn next_found(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
         let mut text = Vec::new();
         while self.waiting.is_empty() {
             if !self.read_on(&mut text)? {
@@ -262,11 +274,38 @@ impl<R: Read> ReadPath for ProgramReader<R> {
         let Some((point, section)) = self.waiting.pop_front() else {
             return Ok(None);
         };
-        let checked = check_turn(self.read_count.last(), &point, section)
+        let checked = check_turn(self.last.as_ref(), &point, section)
             .and_then(|()| self.travel.pass(&point, &self.format));
         checked.map_err(|what| self.wrong(what))?;
-        self.read_count.add(point, section);
-        Ok(Some((point, section)))
+        self.last = Some((point, section));
+        self.found_points += 1;
+        Ok(self.last)
+    }
+
+    /// The next point with its velocities.
+    fn next_with_rates(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+        loop {
+            let found = self.next_found()?;
+            let Some(rates) = &mut self.rates else {
+                return Ok(found);
+            };
+            let Some(found) = found else {
+                return Ok(rates.finish());
+            };
+            if let Some(before) = rates.push(found) {
+                return Ok(Some(before));
+            }
+        }
+    }
+}
+
+impl<R: Read> ReadPath for ProgramReader<R> {
+    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+        let next = self.next_with_rates()?;
+        if let Some((point, section)) = next {
+            self.read_count.add(point, section);
+        }
+        Ok(next)
     }
 
     fn read_count(&self) -> &ReadCount {

@@ -16,7 +16,7 @@ use crate::travel::Extent;
 /// use turnpath_post::{Layout, Lines, ProgramWriter, post_named};
 ///
 /// let post = post_named("pmac-pvt").ok_or("no such post")?;
-/// let format = post.format(&Params::new(), 0.0);
+/// let format = post.format(&Params::new(), 0.0, 1e-4);
 /// let mut writer = ProgramWriter::in_memory(Layout { post, format });
 /// let text = b"; -- cutting --\n".to_vec();
 /// writer.append(&Lines { text, ..Lines::default() })?;

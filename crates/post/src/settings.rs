@@ -1,10 +1,11 @@
 //! The settings of posts: keys that dialects may have in their tables, and the format that they give.
 
-use turnpath_core::kind::{Choice, Count, Number, Text, Time};
-use turnpath_core::{Param, Params};
+use turnpath_core::kind::{Choice, Count, Number, Text, Time, Velocity};
+use turnpath_core::toolpath::SegmentShape;
+use turnpath_core::{Param, ParamDefault, Params};
 
 use crate::post::Post;
-use crate::program_format::ProgramFormat;
+use crate::program_format::{Chords, FeedMeaning, ProgramFormat, Slowest};
 
 /// Decimals of positions if the recipe gives none: the last one is 0.1 nm.
 const DECIMALS: u64 = 7;
@@ -21,6 +22,23 @@ pub const APPROACH_FEED: f64 = 60.0;
 const PER_MINUTE: &str = "min";
 const WRAPPED: &str = "0-360";
 const INCREMENTAL: &str = "incremental";
+const SECONDS: &str = "s";
+
+/// The part of their share that chords are placed for. The rest is for slopes that change within a
+/// segment.
+const CHORD_AIM: f64 = 0.95;
+/// The least part of their share that chords are placed for, where digits take more of it.
+const LEAST_CHORD_AIM: f64 = 0.25;
+/// The longest line of a lead where a controller plays no slow line, s. A longer one makes the steps
+/// coarser in which the leads move, a shorter one makes more lines: at 0.1 mm/min it is 7 nm.
+const LONGEST_IN_LEAD: f64 = 4e-3;
+/// Largest way of X and of Z, mm, that a controller with a lowest rate takes for none.
+const STILL: f64 = 1e-7;
+/// The shortest line of LinuxCNC in periods of its servo thread (TP_MIN_SEGMENT_CYCLES in
+/// src/emc/tp/tp_types.h).
+const SHORTEST_PERIODS: f64 = 1.02;
+/// Seconds of a minute.
+const MINUTE: f64 = 60.0;
 
 pub(crate) const POSITION_DECIMALS: Param<Count> =
     Param::count("position_decimals", "decimals of positions, mm and deg")
@@ -65,6 +83,38 @@ pub(crate) const POSITIONING: Param<Choice> = Param::choice(
     "positions, or distances from point to point",
 )
 .default("absolute");
+/// Positions of a controller that reads millionths of a millimetre.
+pub(crate) const SIX_DECIMALS: Param<Count> = POSITION_DECIMALS.default(6);
+/// C of a controller that reads angles of one revolution.
+pub(crate) const C_WITHIN_TURN: Param<Choice> = C_WRAP.default(WRAPPED);
+/// The chords' share of the tolerance of interpolation.
+pub const CHORD_SHARE: Param<Number> = Param::number(
+    "chord_share",
+    "what the straight lines may take of `tolerance.interpolation`; the path gets the rest. Less \
+     gives more lines and fewer control points",
+)
+.default(0.5)
+.positive()
+.below(1.0);
+pub(crate) const LOWEST_RATE: Param<Velocity> = Param::velocity(
+    "lowest_rate",
+    "slowest motion that the controller plays in its time: 0.1 mm/min up to LinuxCNC 2.8, and none, \
+     \"0 mm/min\", from 2.9.0 on",
+)
+.default(0.1 / MINUTE)
+.min(0.0);
+pub(crate) const SERVO_PERIOD: Param<Time> = Param::time(
+    "servo_period",
+    "`SERVO_PERIOD` of the machine: LinuxCNC plays no line in less than 1.02 of it",
+)
+.default(1e-3)
+.positive();
+pub(crate) const FEED_MEANING: Param<Choice> = Param::choice(
+    "f_means",
+    &["1/min", SECONDS],
+    "what F says of a line under `G93`: one over its minutes, or its seconds",
+)
+.default("1/min");
 pub(crate) const SHORTEST_SEGMENT: Param<Option<Time>> = Param::time(
     "shortest_segment",
     "the shortest segment that your controller plays, or the time in which it reads one; left out: a \
@@ -93,14 +143,20 @@ impl Post {
         keys.any(|info| info.name == VELOCITY_DECIMALS.info().name)
     }
 
-    /// The format that the keys of its table give. A key that it does not have, or that has no value,
-    /// counts as absolute positions, C unwrapped and growing, 7 decimals, velocities per second.
-    /// `z_above` is Z of the path − Z of the program, mm.
-    pub fn format(&self, settings: &Params, z_above: f64) -> ProgramFormat {
+    /// The format that the keys of its table give. A key that it does not have counts as absolute
+    /// positions, C unwrapped and growing, 7 decimals, velocities per second; a key that has no value
+    /// counts as its default. `z_above` is Z of the path − Z of the program, mm; `tolerance` is that of
+    /// interpolation, mm, of which chords have a share.
+    pub fn format(&self, settings: &Params, z_above: f64, tolerance: f64) -> ProgramFormat {
         let per_minute = settings.find(VELOCITY_PER) == Some(PER_MINUTE);
-        let position_decimals = decimals(settings.find(POSITION_DECIMALS).unwrap_or(DECIMALS));
+        let position_decimals = settings.find(POSITION_DECIMALS);
+        let own_decimals = self.default_number(POSITION_DECIMALS.name());
+        let position_decimals = position_decimals.or(own_decimals.map(|own| own as u64));
+        let position_decimals = decimals(position_decimals.unwrap_or(DECIMALS));
         let to_match = position_decimals.saturating_sub(u32::from(per_minute));
         let velocity_decimals = settings.find(VELOCITY_DECIMALS).flatten();
+        let wrap = settings.find(C_WRAP);
+        let wrap = wrap.or(self.default_text(C_WRAP.name()));
         ProgramFormat {
             steps_per_s: self.steps_per_s,
             shortest: settings.find(SHORTEST_SEGMENT).flatten().map_or(1, |time| {
@@ -111,12 +167,79 @@ impl Post {
             velocity_decimals: velocity_decimals.map_or(to_match, decimals),
             per_minute,
             c_reversed: settings.find(C_SIGN).is_some_and(|sign| sign < 0.0),
-            c_wrapped: settings.find(C_WRAP) == Some(WRAPPED),
+            c_wrapped: wrap == Some(WRAPPED),
             incremental: settings.find(POSITIONING) == Some(INCREMENTAL),
             mantissa_bits: self.mantissa_bits,
             z_above,
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
+            chords: (self.shape == SegmentShape::Linear)
+                .then(|| self.chords(settings, position_decimals, tolerance)),
+        }
+    }
+
+    fn chords(&self, settings: &Params, decimals: u32, tolerance: f64) -> Chords {
+        let own = || self.default_number(CHORD_SHARE.name());
+        let part = settings.find(CHORD_SHARE).or_else(own).unwrap_or(0.0);
+        let share = part * tolerance;
+        let one = 10u64.pow(decimals) as f64;
+        let seconds = settings.find(FEED_MEANING) == Some(SECONDS);
+        let lowest = self.default_number(LOWEST_RATE.name());
+        let rate = lowest.map(|own| settings.find(LOWEST_RATE).unwrap_or(own));
+        let slowest = rate.map(|rate| self.slowest(rate * MINUTE, decimals));
+        // Positions are rounded to multiples of this.
+        let rounded_to = slowest.map_or(1, |slowest| slowest.still + 1) as f64 / one;
+        Chords {
+            share: part,
+            deviation: (CHORD_AIM * share - rounded_to).max(LEAST_CHORD_AIM * share),
+            feed: match seconds {
+                true => FeedMeaning::Seconds,
+                false => FeedMeaning::PerMinute,
+            },
+            shortest: self.shortest(settings),
+            slowest,
+        }
+    }
+
+    /// The shortest line, in steps.
+    fn shortest(&self, settings: &Params) -> i64 {
+        let own = self.default_number(SERVO_PERIOD.name());
+        let period = own.map(|own| settings.find(SERVO_PERIOD).unwrap_or(own));
+        let shortest = period.map(|period| SHORTEST_PERIODS * period * self.steps_per_s as f64);
+        shortest.map_or(1, |steps| (steps.round() as i64).max(1))
+    }
+
+    /// The slowest motion at so many mm or deg in a minute.
+    fn slowest(&self, rate: f64, decimals: u32) -> Slowest {
+        let one = 10u64.pow(decimals) as f64;
+        let of_rate = (rate / MINUTE * LONGEST_IN_LEAD * one).ceil();
+        let still = (STILL * one * (1.0 + 1e-9)).floor() as i64;
+        let linear = (of_rate as i64).max(still + 1);
+        Slowest {
+            rate,
+            still,
+            lead_steps: [(of_rate as i64).max(1), linear, linear],
+            longest_in_lead: (LONGEST_IN_LEAD * self.steps_per_s as f64) as i64,
+        }
+    }
+
+    /// The default of a key; `None` if there is none.
+    fn default_of(&self, name: &str) -> Option<ParamDefault> {
+        let key = self.keys.iter().find(|key| key.name == name)?;
+        Some(key.default)
+    }
+
+    fn default_number(&self, name: &str) -> Option<f64> {
+        match self.default_of(name) {
+            Some(ParamDefault::Number(number)) => Some(number),
+            _ => None,
+        }
+    }
+
+    fn default_text(&self, name: &str) -> Option<&'static str> {
+        match self.default_of(name) {
+            Some(ParamDefault::Text(text)) => Some(text),
+            _ => None,
         }
     }
 }

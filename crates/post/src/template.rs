@@ -17,6 +17,7 @@ pub const PLACEHOLDERS: &[&str] = &[
     "velocity_unit",
     "ix90",
     "ends",
+    "f_means",
     "increments",
     "interpolation_error_nm",
     "form_error_nm",
@@ -172,7 +173,7 @@ fn part(text: &str) -> Result<(Part, &str), TemplateError> {
 }
 
 /// What begins a comment in some dialect; a reader may know more than one.
-const COMMENTS: [&str; 2] = [";", "//"];
+const COMMENTS: [&str; 3] = [";", "//", "("];
 
 /// Whether a reader of any dialect would take a comment of the line for a mark.
 fn is_mark(line: &str) -> bool {
@@ -246,7 +247,11 @@ mod tests {
             comment: ";",
         };
         assert_eq!(Template::parse("CLOSE\n{name}", ";"), Err(outside));
-        for (text, comment) in [("; -- cutting --", ";"), ("end // -- x", "//")] {
+        for (text, comment) in [
+            ("; -- cutting --", ";"),
+            ("end // -- x", "//"),
+            ("(-- cutting --)", ";"),
+        ] {
             assert_eq!(Template::parse(text, comment), Err(TemplateError::Mark));
         }
         assert_eq!(

@@ -47,6 +47,8 @@ pub enum Travel {
 pub struct TravelModes {
     /// Whether the program has said that numbers are positions.
     pub absolute: bool,
+    /// Whether it has said that they are mm, on a controller that also reads inches.
+    pub metric: bool,
 }
 
 /// The positions that one line of such moves gives to C, X and Z, in 10⁻¹² mm or deg.

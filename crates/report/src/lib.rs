@@ -69,7 +69,7 @@ pub use map_comparison::{MapComparison, MapPlace};
 pub use part_shape::{PartCurvature, PartHeight, PartPlace, PartShape, PartSlope, RefusedCheck};
 pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
-pub use program::{ControllerCommand, ProgramFigures, ProgramReport};
+pub use program::{ControllerCommand, ProgramFigures, ProgramReport, StraightLines};
 pub use reach::{Radial, Radii, Reach};
 pub use remark::{ProgramDigits, Remark, RemarkSubject};
 pub use result_check::ResultCheck;

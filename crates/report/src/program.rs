@@ -22,6 +22,15 @@ pub struct ControllerCommand {
     pub harmless: bool,
 }
 
+/// The straight lines of a program that plays no cubics.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct StraightLines {
+    /// How many there are.
+    pub lines: u64,
+    /// How many stand for one segment of the path, on average.
+    pub per_segment: f64,
+}
+
 /// A motion program, measured on its own text as it was read back.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProgramReport {
@@ -32,13 +41,16 @@ pub struct ProgramReport {
     /// Largest interpolation error, mm.
     #[serde(rename = "interpolation_error_nm", with = "unit::nm")]
     pub interpolation_error: f64,
-    /// By how much the program's digits and times raise the largest interpolation error above that of the
-    /// path, mm. It is below zero where rounding happens to be of use; `None` in a report of a version
+    /// By how much the program's straight lines, digits and times raise the largest interpolation error
+    /// above that of the path, mm. It is below zero where rounding happens to be of use; `None` in a report of a version
     /// that did not say it.
     #[serde(default, rename = "raised_by_nm", with = "unit::nm")]
     pub raised_by: Option<f64>,
     /// Whether that holds the interpolation tolerance; `None` without one.
     pub within_interpolation: Option<bool>,
+    /// The straight lines; `None` where the program plays cubics.
+    #[serde(default)]
+    pub straight_lines: Option<StraightLines>,
     /// Peak to valley of the machined surface, mm; `None` without a tolerance of form, or where
     /// nothing is cut.
     #[serde(default, rename = "form_error_nm", with = "unit::nm")]
@@ -72,6 +84,8 @@ pub struct ProgramFigures {
     pub form_error: Option<f64>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
     pub lead_clearance: Option<f64>,
+    /// Straight lines; `None` where the program plays cubics.
+    pub lines: Option<u64>,
 }
 
 impl ProgramReport {
@@ -83,6 +97,7 @@ impl ProgramReport {
             c_speed_step,
             form_error,
             lead_clearance,
+            lines,
         } = *figures;
         let holds = |figure: f64, limit: Option<f64>| limit.map(|limit| within(figure, limit));
         Self {
@@ -92,11 +107,28 @@ impl ProgramReport {
             raised_by: Some(interpolation_error - path_error),
             c_speed_step,
             within_interpolation: holds(interpolation_error, tolerance.interpolation),
+            straight_lines: lines.map(|lines| StraightLines {
+                lines,
+                per_segment: f64::NAN,
+            }),
             form_error,
             within_form: holds(form_error.unwrap_or(f64::INFINITY), tolerance.form),
             lead_clearance,
             within_lead: lead_clearance
                 .and_then(|clearance| holds(-clearance, tolerance.deepest())),
+        }
+    }
+
+    /// The same beside its path of so many segments.
+    #[must_use]
+    pub fn beside_path(self, segments: u64) -> Self {
+        let straight_lines = self.straight_lines.map(|straight| StraightLines {
+            per_segment: straight.lines as f64 / segments.max(1) as f64,
+            ..straight
+        });
+        Self {
+            straight_lines,
+            ..self
         }
     }
 

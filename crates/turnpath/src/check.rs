@@ -29,7 +29,7 @@ impl Job {
     pub fn check(&self) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
         let (expected, sample) =
-            sample_path(&self.chain, &self.preparation, self.options()).map_err(failed)?;
+            sample_path(&self.chain, &self.path_preparation(), self.options()).map_err(failed)?;
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
         let part = self.preparation.task.part;
         let size = |program: &Program| -> Result<report::ProgramEstimate, NotCarried> {

@@ -97,6 +97,19 @@ impl Job {
         job
     }
 
+    /// What the path is made from. Where programs go straight from point to point, the path's cubics
+    /// leave them their share of the tolerance of interpolation.
+    pub(crate) fn path_preparation(&self) -> Preparation {
+        let programs = self.programs.iter();
+        let chords = programs.filter_map(|program| program.layout.format.chords);
+        let share = chords.map(|chords| chords.share).fold(0.0, f64::max);
+        let mut preparation = self.preparation.clone();
+        if !self.plays_straight_lines() {
+            preparation.task.tolerance.interpolation *= 1.0 - share;
+        }
+        preparation
+    }
+
     /// A build may have been made without a format of data files.
     fn refuse_formats_left_out(&self) -> Result<(), Error> {
         let left_out = |format: &&DataFormat| match format {
@@ -116,9 +129,11 @@ impl Job {
         Err(Error::refused(diagnostic))
     }
 
-    /// The programs play cubics; a path of straight lines is another one.
+    /// Programs that play cubics cannot carry a path of straight lines.
     fn refuse_straight_lines(&self) -> Result<(), Error> {
-        match self.programs.first() {
+        let plays_cubics =
+            |program: &&Program| program.layout.format.shape() == SegmentShape::Cubic;
+        match self.programs.iter().find(plays_cubics) {
             Some(program) if self.plays_straight_lines() => {
                 let (post, error) = (program.layout.post.name, ProgramError::Straight);
                 Err(not_carried(&self.recipe, NotCarried { post, error }))

@@ -34,7 +34,7 @@ pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> L
     let format = ProgramFormat {
         approach_height: output.approach_height,
         approach_feed: output.approach_feed * MINUTE,
-        ..post.format(params, z_above)
+        ..post.format(params, z_above, recipe.tolerance.interpolation)
     };
     Layout { post, format }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use turnpath_core::toolpath::{SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
-use turnpath_post::{Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
+use turnpath_post::{FeedMeaning, Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
 use turnpath_report::{ProgramFigures, ProgramReport, Tolerances};
@@ -143,10 +143,17 @@ impl Program {
             "z_reference" => either(tip, "tool tip", "nose centre"),
             "c_range" => either(format.c_wrapped, "within 0 to 360", "unwrapped"),
             "velocity_unit" => either(format.per_minute, "min", "s"),
+            "f_means" => either(self.says_seconds(), "s", "1/min"),
             "ix90" => format.velocity_ms().to_string(),
             "increments" => 10_u64.pow(format.position_decimals).to_string(),
             _ => String::new(),
         }
+    }
+
+    /// Whether F is the seconds of a line.
+    fn says_seconds(&self) -> bool {
+        let chords = self.layout.format.chords;
+        chords.is_some_and(|chords| chords.feed == FeedMeaning::Seconds)
     }
 
     /// Reads a whole program to its end. Its path was measured; header and footer must not hide any of it.
@@ -185,7 +192,8 @@ impl Program {
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = PathMeters::new(recipe, touch);
         let mut reader = SpeedSteps::new(reader);
-        let measured = measure(recipe, meters, SegmentShape::Cubic, &mut reader, observer)?;
+        let shape = self.layout.format.shape();
+        let measured = measure(recipe, meters, shape, &mut reader, observer)?;
         let found = reader.read_count().points();
         if found != points {
             return Err(Error::PointsLost {
@@ -204,6 +212,8 @@ impl Program {
             c_speed_step: self.layout.post.c_is_even.then(|| reader.largest()),
             form_error: form_error(form.as_ref(), lead_clearance),
             lead_clearance,
+            lines: (self.layout.format.shape() == SegmentShape::Linear)
+                .then(|| points.saturating_sub(1)),
         };
         let tolerances = tolerances(recipe);
         Ok(ProgramReport::new(

@@ -87,7 +87,7 @@ impl Job {
     {
         let outcome = run_pipeline(
             &self.chain,
-            &self.preparation,
+            &self.path_preparation(),
             self.options(),
             sink,
             observer,
@@ -222,6 +222,8 @@ impl Job {
         if let Some(form) = &mut path.form {
             form.split = split;
         }
+        let segments = rows.saturating_sub(1);
+        let beside_path = |program: ProgramReport| program.beside_path(segments);
         let report = RunReport {
             format: report::FORMAT,
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),
@@ -243,7 +245,7 @@ impl Job {
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),
             unreached: self.unreached()?,
-            programs,
+            programs: programs.into_iter().map(beside_path).collect(),
             rough_paths: Vec::new(),
             controller_commands: controller_commands(&self.recipe),
             plugins: self.plugin_sources(),

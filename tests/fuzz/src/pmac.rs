@@ -67,6 +67,13 @@ pub const WORDS: &[&str] = &[
     "SetupTaskDistanceUnits(DistanceUnits.Primary)\n",
     "F20000",
     "POLY ",
+    "G8 G21 G40 G64 G90 G93\n",
+    "G1 C0 X2.5 Z0 F60\n",
+    "C9 X2.499 Z1 F20000\n",
+    "G4 P0.003\n",
+    "( -- cutting -- )\n",
+    "F0.003",
+    " F",
 ];
 
 /// Reads a program as one of each post, in each layout that changes what its numbers mean.
@@ -79,7 +86,7 @@ pub fn read(bytes: &[u8]) {
                 per_minute: bit(0),
                 c_reversed: bit(1),
                 c_wrapped: bit(2),
-                ..post.format(&Params::new(), z_above)
+                ..post.format(&Params::new(), z_above, 1e-4)
             };
             read_one(&Layout { post, format }, bytes);
         }

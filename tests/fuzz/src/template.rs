@@ -71,7 +71,7 @@ fn read_for(post: &'static Post, text: &str) {
         }
     }
     let filled = template.fill(words);
-    let format = post.format(&Params::new(), 0.0);
+    let format = post.format(&Params::new(), 0.0, 1e-4);
     let mut reader = Layout { post, format }.read(filled.as_bytes(), "part.program");
     let read = reader.next_point();
     let said = read.expect_err("a header has no path").to_string();

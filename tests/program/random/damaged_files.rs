@@ -6,6 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use turnpath_post::POST_NAMES;
+
 use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::damage::damaged;
 use super::seeded::SeededNumbers;
@@ -58,8 +60,27 @@ const SIEMENS: Kind = Kind {
     words: fuzz::pmac::WORDS,
     line: "verify recipe.toml out/recipe.mpf --format json --threads 2",
 };
+const NANOTECH: Kind = Kind {
+    name: "program for Nanotech machines",
+    file: "out/recipe.nc",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.nc --format json --threads 2",
+};
+const LINUXCNC: Kind = Kind {
+    name: "program for LinuxCNC",
+    file: "out/recipe.ngc",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.ngc --format json --threads 2",
+};
 /// A program of each post.
-const PROGRAMS: [&Kind; 4] = [&PROGRAM, &POWER_PMAC, &AUTOMATION1, &SIEMENS];
+const PROGRAMS: [&Kind; 6] = [
+    &PROGRAM,
+    &POWER_PMAC,
+    &AUTOMATION1,
+    &SIEMENS,
+    &NANOTECH,
+    &LINUXCNC,
+];
 const SUMMARY: Kind = Kind {
     name: "summary.json",
     file: "out/summary.json",
@@ -91,10 +112,10 @@ fn originals() -> &'static Path {
             .replace("lead = false", "lead = true")
             .replace("\"9 deg\"", "\"30 deg\"");
         let bench = Bench::empty();
-        let posts = r#""pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly""#;
+        let posts = POST_NAMES.join("\", \"");
         bench.write(
             "recipe.toml",
-            format!("{recipe}\n[output]\nposts = [{posts}]\n"),
+            format!("{recipe}\n[output]\nposts = [\"{posts}\"]\n"),
         );
         let lists = "[ablation]\ncompensator = [{ use = \"none\" }]\n";
         bench.write("ablation.toml", format!("{recipe}\n{lists}"));

@@ -33,6 +33,8 @@ use travel_read::read_travel;
 use travel_write::push_travel;
 use write::{push_first, push_last, push_segment};
 
+use turnpath_core::toolpath::SegmentShape;
+
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::ProgramFormat;
@@ -67,6 +69,7 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
 // verified on this text: {verified}
 ",
     footer: "",
+    shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

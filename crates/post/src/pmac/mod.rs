@@ -49,6 +49,8 @@ use travel_read::read_travel;
 use travel_write::push_travel;
 use write::{push_first, push_last, push_segment};
 
+use turnpath_core::toolpath::SegmentShape;
+
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::ProgramFormat;
@@ -96,6 +98,7 @@ CLOSE
 OPEN PROG 1 CLEAR
 ",
     footer: "CLOSE\n",
+    shape: SegmentShape::Cubic,
     steps_per_s: 4_096_000,
     longest: (1 << 24) - 1,
     mantissa_bits: Some(35),

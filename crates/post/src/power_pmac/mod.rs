@@ -7,6 +7,8 @@
 //! What is not known from a manual: whether the controller has a longest segment. Segments of more
 //! than 1000 s are divided.
 
+use turnpath_core::toolpath::SegmentShape;
+
 use crate::pmac::{Clock, PVT_KEYS, Pvt};
 use crate::post::Post;
 
@@ -36,6 +38,7 @@ close
 open prog 1
 ",
     footer: "close\n",
+    shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

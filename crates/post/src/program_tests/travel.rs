@@ -70,6 +70,34 @@ fn z_goes_up_before_x_and_c_move_and_down_at_a_feed_of_its_own() {
             "G1 Z1.5 F60"
         ]
     );
+    let nanotech = good("nanotech-g93");
+    assert_eq!(
+        between(&nanotech, "; -- approach --", "; -- lead-in"),
+        ["G90 G94", "G0 Z6.5", "G0 X2.46", "G0 C0", "G1 Z1.5 F60"]
+    );
+    assert_eq!(
+        between(&nanotech, "; -- lead-in --", "; -- cutting")[..2],
+        ["G90 G93", "G1 C0 X2.46 Z1.5 F60"]
+    );
+    let linuxcnc = good("linuxcnc-g93");
+    assert_eq!(
+        between(&linuxcnc, "; -- approach --", "; -- lead-in"),
+        [
+            "G90 G94 G8 G21 G40 G61",
+            "G0 Z6.5",
+            "G0 X2.46",
+            "G0 C360",
+            "G1 Z1.5 F60"
+        ]
+    );
+    assert_eq!(
+        between(&linuxcnc, "; -- lead-in --", "; -- cutting")[..2],
+        ["G8 G21 G40 G64 G90 G93", "G1 C360 X2.46 Z1.5 F60"]
+    );
+    assert_eq!(
+        between(&linuxcnc, "; -- retreat --", "; -- end"),
+        ["G90 G94 G8 G21 G40 G61", "G0 Z6.5"]
+    );
     let aerotech = good("automation1-pvt");
     assert_eq!(
         between(&aerotech, "// -- approach --", "// -- lead-in")[3..],
@@ -124,6 +152,7 @@ fn a_path_in_motion_has_neither() {
 fn moves_that_could_collide_are_refused_with_their_line() {
     let pmac = || good("pmac-pvt");
     let siemens = || good("siemens-840d-poly");
+    let linuxcnc = || good("linuxcnc-g93");
     let aerotech = || good("automation1-pvt");
     for (text, from, to, says) in [
         (
@@ -200,6 +229,24 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             "`M3` is not a word of an approach",
         ),
         (
+            linuxcnc(),
+            "G94 G8 G21 ",
+            "G94 G8 ",
+            "line 4: a move before `G21`",
+        ),
+        (
+            linuxcnc(),
+            "G0 Z6.5\nG0 X",
+            "G0 Z1\nG0 X",
+            "line 5: C or X moves at Z = 1 mm",
+        ),
+        (
+            linuxcnc(),
+            "G8 G21 G40 G64 G90 G93",
+            "G8 G21 G40 G64 G90",
+            "a move before `G93`",
+        ),
+        (
             aerotech(),
             "MoveRapid([Z], [6.5])\nM",
             "MoveRapid([Z], [1])\nM",
@@ -224,6 +271,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
         let post = POSTS.iter().find(|post| match (name, post.name) {
             ([_, true], name) => name == "automation1-pvt",
             _ if text.contains("RAPID") => post.name == "pmac-pvt",
+            _ if text.contains("G61") => post.name == "linuxcnc-g93",
             (_, name) => name == "siemens-840d-poly",
         });
         let said = read(&plain(post.unwrap()), spoiled.as_bytes()).unwrap_err();

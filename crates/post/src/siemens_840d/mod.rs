@@ -39,6 +39,8 @@ mod write;
 use read::PolyGrammar;
 use write::{push_first, push_segment};
 
+use turnpath_core::toolpath::SegmentShape;
+
 use crate::carry::{DigitSegment, Digits};
 use crate::g_code::push_travel;
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
@@ -57,7 +59,7 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
         POSITION_DECIMALS.info(),
         C_SIGN.info(),
         SHORTEST_SEGMENT.info(),
-    HEADER.info(),
+        HEADER.info(),
         FOOTER.info(),
     ],
     header: "\
@@ -71,6 +73,7 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
 ; verified on this text: {verified}
 ",
     footer: "M30\n",
+    shape: SegmentShape::Cubic,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

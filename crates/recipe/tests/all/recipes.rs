@@ -179,7 +179,7 @@ fn programs_have_the_layout_of_the_recipe_or_the_default() {
     let settings = plain.settings_of("pmac-pvt").unwrap();
     assert!(settings.header.is_none() && settings.footer.is_none());
     let post = post_named("pmac-pvt").unwrap();
-    let plain = post.format(&settings.params, 0.0);
+    let plain = post.format(&settings.params, 0.0, 1e-4);
     assert_eq!((plain.position_decimals, plain.velocity_decimals), (7, 7));
     assert!(!plain.per_minute && !plain.c_reversed && !plain.c_wrapped && !plain.incremental);
     let table = "[output.pmac-pvt]\nposition_decimals = 6\nvelocity_per = \"min\"\nc_sign = -1\n\
@@ -187,7 +187,7 @@ fn programs_have_the_layout_of_the_recipe_or_the_default() {
     let text = FULL.replace("posts = []", "posts = [\"pmac-pvt\"]") + table;
     let recipe = parse(&text, &["output.pmac-pvt.footer=\"M30\""]);
     let settings = recipe.settings_of("pmac-pvt").unwrap();
-    let layout = post.format(&settings.params, 0.0);
+    let layout = post.format(&settings.params, 0.0, 1e-4);
     assert_eq!((layout.position_decimals, layout.velocity_decimals), (6, 5));
     assert!(layout.per_minute && layout.c_reversed && layout.c_wrapped && layout.incremental);
     assert_eq!(settings.header.as_ref().unwrap().value, "; {name}");

@@ -94,11 +94,7 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
     let (error, holds) = (program.interpolation_error, program.within_interpolation);
     let limit = against_any(error, tolerance.interpolation, holds);
     let mut text = post_line(&program.post, &limit);
-    if let Some(raised) = program.raised_by {
-        let how = if raised < 0.0 { "lower" } else { "raise" };
-        let by = small_length(raised.abs());
-        text += &line("", format!("digits and times {how} the error by {by}"));
-    }
+    text += &cost(program);
     if let Some(step) = program.c_speed_step {
         let step = significant(step / DEG);
         text += &line(
@@ -119,6 +115,29 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
         text += &line(
             "",
             format!("EXCEEDED: a lead plunges {depth} below first touch"),
+        );
+    }
+    text
+}
+
+/// The lines on what the program costs beside its path.
+fn cost(program: &ProgramReport) -> String {
+    let straight = program.straight_lines.as_ref();
+    let mut text = String::new();
+    if let Some(raised) = program.raised_by {
+        let what = match straight {
+            None => "digits and times",
+            Some(_) => "straight lines, digits and times",
+        };
+        let how = if raised < 0.0 { "lower" } else { "raise" };
+        let by = small_length(raised.abs());
+        text += &line("", format!("{what} {how} the error by {by}"));
+    }
+    if let Some(straight) = straight {
+        let (lines, each) = (grouped(straight.lines), straight.per_segment);
+        text += &line(
+            "",
+            format!("{lines} straight lines, {each:.1} for each segment of the path"),
         );
     }
     text

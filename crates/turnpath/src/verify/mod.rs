@@ -35,7 +35,7 @@ use remake::{Comparison, compare};
 use source::SourceFile;
 use whole::{EndRow, wholeness};
 
-/// Measures the tool path in a file: a `toolpath.csv`, or a program of the post `pmac-pvt`. Plots go
+/// Measures the tool path in a file: a `toolpath.csv`, or a program of a post. Plots go
 /// to `folder`.
 ///
 /// # Errors
@@ -103,7 +103,8 @@ impl<'a> Target<'a> {
             .with_servo(recipe)
             .with_anomalies(recipe);
         observer.begin(Stage::Measure, 0);
-        let meters = measure(recipe, meters, self.shape, reader.as_mut(), observer)?;
+        let shape = file.shape(self.shape);
+        let meters = measure(recipe, meters, shape, reader.as_mut(), observer)?;
         let (meter, read) = (&meters.cut, reader.read_count());
         let range = meter.reach(self.radial).map_err(failed)?;
         let Some(range) = range.filter(|_| read.cutting_points() >= 2) else {
@@ -126,7 +127,7 @@ impl<'a> Target<'a> {
         let played = PlayedPath {
             recipe,
             touch: meter.touch(),
-            shape: self.shape,
+            shape,
             largest_error: figures.playback.max(),
             points: read.points(),
         };
@@ -159,7 +160,8 @@ impl<'a> Target<'a> {
     ) -> Result<Option<report::Wholeness>, Error> {
         let ends = file.first_row()?.zip(last.copied());
         let digit = file.velocity_digit();
-        Ok(ends.and_then(|ends| wholeness(self.recipe, self.shape, digit, ends)))
+        let shape = file.shape(self.shape);
+        Ok(ends.and_then(|ends| wholeness(self.recipe, shape, digit, ends)))
     }
 
     /// The rows that are not as the recipe gives them; else those that stand out among their

@@ -58,11 +58,15 @@ pub fn compare(
             file,
             rows,
             turns: None,
-            comparison: RowComparison::new(touch.clone(), job.shape(), file.half_digits()),
+            comparison: RowComparison::new(
+                touch.clone(),
+                file.shape(job.shape()),
+                file.half_digits(),
+            ),
         };
         let made = make_unmeasured(
             &job.chain,
-            &job.preparation,
+            &job.path_preparation(),
             job.options(),
             &mut sink,
             &RemakeObserver(observer),

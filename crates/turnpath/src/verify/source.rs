@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use turnpath_core::DEG;
-use turnpath_core::toolpath::{ControlPoint, Section};
+use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 use turnpath_post::{Layout, PathReader, ReadError, ReadPath, post_of_extension};
 use turnpath_recipe::Recipe;
 use turnpath_verify::HalfDigits;
@@ -43,6 +43,11 @@ impl SourceFile {
         self.open()?.next_point()
     }
 
+    /// What is played between its rows: `own` is what the recipe's path plays.
+    pub fn shape(&self, own: SegmentShape) -> SegmentShape {
+        self.program.map_or(own, |layout| layout.format.shape())
+    }
+
     /// The last digit of its velocities, mm/s or deg/s; zero if it has all digits of a double.
     pub fn velocity_digit(&self) -> f64 {
         self.program.map_or(0.0, |Layout { format, .. }| {
@@ -56,7 +61,11 @@ impl SourceFile {
             return HalfDigits::default();
         };
         let position = 0.5 * one_in(format.position_decimals);
-        let velocity = 0.5 * self.velocity_digit();
+        // A program of straight lines has no velocities to compare.
+        let velocity = match format.shape() {
+            SegmentShape::Cubic => 0.5 * self.velocity_digit(),
+            SegmentShape::Linear => f64::INFINITY,
+        };
         HalfDigits {
             time: 0.5 / format.steps_per_s as f64,
             position,

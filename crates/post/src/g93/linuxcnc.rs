@@ -1,0 +1,109 @@
+//! The post for LinuxCNC.
+
+use turnpath_core::toolpath::SegmentShape;
+
+use super::commands::{commands, ends_program};
+use super::read::{LineGrammar, Words};
+use super::timing::{check_time, is_dwell};
+use super::travel::{push_for_linuxcnc, read_for_linuxcnc};
+use super::write::{push_dwell, push_first, push_line};
+use crate::carry::{DigitSegment, Digits};
+use crate::post::{Command, Dialect, Grammar, Post};
+use crate::program_error::ProgramError;
+use crate::program_format::ProgramFormat;
+use crate::settings::{
+    C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, POSITION_DECIMALS, SERVO_PERIOD,
+};
+use crate::travel::{Places, Travel, TravelModes};
+
+/// Programs for LinuxCNC.
+pub(crate) const LINUXCNC_G93: Post = Post {
+    name: "linuxcnc-g93",
+    table: "output.linuxcnc-g93",
+    extension: "ngc",
+    summary: "the layout of the programs of the post `linuxcnc-g93`",
+    comment: ";",
+    keys: &[
+        POSITION_DECIMALS.info(),
+        CHORD_SHARE.info(),
+        LOWEST_RATE.info(),
+        SERVO_PERIOD.info(),
+        C_SIGN.info(),
+        HEADER.info(),
+        FOOTER.info(),
+    ],
+    header: "\
+; {name}
+; recipe {recipe}, SHA-256 {sha256}
+; changed by --set: {changes}
+; turnpath {turnpath}, post linuxcnc-g93: {points} points, {revolutions} revolutions, {time_s} s
+; X, Z in mm, X a radius, Z of the {z_reference}; C in deg, {c_range}; F in 1/min: G93
+; the path begins and ends {ends}
+; verified on this text: {verified}
+",
+    footer: "M2\n",
+    shape: SegmentShape::Linear,
+    steps_per_s: 1_000_000_000,
+    longest: 1_000_000_000_000,
+    mantissa_bits: None,
+    c_is_even: false,
+    delivered_decimals: None,
+    dialect: &LinuxCnc,
+};
+
+/// Lines for LinuxCNC.
+#[derive(Debug)]
+struct LinuxCnc;
+
+/// X is a radius, units are mm, the tool's radius is not compensated, corners are not stopped at,
+/// numbers are positions, F is one over minutes.
+const MODES: &str = "G8 G21 G40 G64 G90 G93";
+/// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
+const HARMLESS: &[&str] = &["G8", "G21", "G40", "G64", "G90", "G93", "M2", "M30", "%"];
+/// The words of a path.
+const WORDS: Words = Words {
+    needed: &["G21", "G90", "G93"],
+    allowed: &["G8", "G40", "G64"],
+    dwells: true,
+};
+
+impl Dialect for LinuxCnc {
+    fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
+        push_first(text, format, MODES, point);
+    }
+
+    fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment) {
+        match is_dwell(segment) {
+            true => push_dwell(text, segment.steps()),
+            false => push_line(text, format, segment),
+        }
+    }
+
+    fn check_time(
+        &self,
+        format: &ProgramFormat,
+        segment: &DigitSegment,
+    ) -> Result<(), ProgramError> {
+        check_time(format, segment)
+    }
+
+    fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
+        Box::new(LineGrammar::new(format, WORDS))
+    }
+
+    fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+        push_for_linuxcnc(text, format, travel);
+    }
+
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        read_for_linuxcnc(code, modes)
+    }
+
+    fn commands(&self, template: &str) -> Vec<Command> {
+        commands(template, HARMLESS)
+    }
+
+    fn ends_program(&self, command: &str) -> bool {
+        ends_program(command)
+    }
+}

@@ -1,0 +1,100 @@
+//! Programs of straight lines: what their controller plays too fast is refused, and straight paths go
+//! as they are.
+
+use crate::support::bench::Bench;
+use crate::support::recipe::{SADDLE, changed};
+
+/// A small flat part with a program for LinuxCNC, at 60 rpm and a feed.
+fn flat(feed: &str) -> Bench {
+    let recipe = SADDLE.replace("\"5 mm\"", "\"0.1 mm\"").replace(
+        "use = \"constant\"",
+        &format!("use = \"constant\"\nfeed = \"{feed}\""),
+    );
+    Bench::with(&format!("{recipe}\n[output]\nposts = [\"linuxcnc-g93\"]\n"))
+}
+
+const RUN: &str = "run recipe.toml -o out --set surface.k=1e-12/mm --set spindle.speed=60rpm";
+
+#[test]
+fn a_flat_part_at_60_rpm_and_1_um_a_turn_is_refused_with_its_place() {
+    let bench = flat("1 um/rev");
+    let said = bench.line(RUN).ends(2);
+    insta::assert_snapshot!(bench.shown(&said));
+    assert!(!bench.path("out").exists());
+    // LinuxCNC from 2.9.0 on plays it.
+    let newer = format!("{RUN} --set output.linuxcnc-g93.lowest_rate=0mm/min");
+    bench.line(&newer).ends(0);
+}
+
+#[test]
+fn a_path_of_straight_lines_is_carried_as_it_is() {
+    let bench = flat("5 um/rev");
+    let said = bench
+        .line(&format!("{RUN} --set velocity.use=linear --format json"))
+        .ends(0);
+    let report = said.json();
+    let program = &report["programs"][0];
+    assert_eq!(program["straight_lines"]["per_segment"], 1.0);
+    // Programs of cubics cannot carry it.
+    let said = bench
+        .line(&format!(
+            "{RUN} --set velocity.use=linear --set output.posts=[\"linuxcnc-g93\",\"pmac-pvt\"]"
+        ))
+        .ends(2);
+    assert!(said.stderr.contains("`pmac-pvt` cannot carry"), "{said}");
+}
+
+#[test]
+fn a_flat_part_is_refused_where_its_feed_runs_out_with_leads_and_without() {
+    let bench = flat("5 um/rev");
+    for lead in [false, true] {
+        let said = bench
+            .line(&format!(
+                "{RUN} --set path.lead={lead} --set path.overrun=contact"
+            ))
+            .ends(2);
+        assert!(said.stderr.contains("no line below 0.1 mm/min"), "{said}");
+        // The line is one of the cut, and not that of the lead before it.
+        assert!(said.stderr.contains("at 0.00096 mm/min"), "{said}");
+        assert!(!bench.path("out").exists());
+    }
+    for lead in [false, true] {
+        bench
+            .line(&format!("{RUN} --set path.lead={lead}").replace("-o out", &format!("-o {lead}")))
+            .ends(0);
+    }
+}
+
+/// A rough path leaves lines their share of its own tolerance, and not of the finishing path's.
+#[test]
+fn a_rough_path_leaves_straight_lines_their_share_of_its_own_tolerance() {
+    let coarse = changed(SADDLE, "step = \"9 deg\"", "step = \"40 deg\"");
+    let rough = "[passes.rough]\nallowance = \"30 um\"\ntolerance.interpolation = \"400 nm\"";
+    let bench = Bench::with(&format!(
+        "{coarse}\n{rough}\n\n[output]\nposts = [\"nanotech-g93\"]\n"
+    ));
+    let report = bench
+        .line("run recipe.toml -o out --format json")
+        .ends(0)
+        .json();
+    let nm = |error: &serde_json::Value| error.as_f64().unwrap();
+    for (path, program, tolerance) in [
+        (
+            &report["interpolation_error"]["max_nm"],
+            &report["programs"][0],
+            100.0,
+        ),
+        (
+            &report["passes"][0]["interpolation_error_nm"],
+            &report["passes"][0]["programs"][0],
+            400.0,
+        ),
+    ] {
+        // Half of it is the lines'. Refinement halves segments until the path holds the rest.
+        let half = 0.5 * tolerance;
+        assert!((0.5 * half..=half).contains(&nm(path)), "{path}");
+        let played = nm(&program["interpolation_error_nm"]);
+        assert!((half..=tolerance).contains(&played), "{program}");
+        assert!(program["straight_lines"]["per_segment"].as_f64() > Some(1.0));
+    }
+}
