@@ -10,6 +10,7 @@
 //! ```
 
 mod args;
+mod background;
 mod commands;
 mod crash;
 mod failure;
