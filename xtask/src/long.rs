@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::commands::{cargo, command, repository, run, target};
 use crate::python::{script, with_packages, with_packages_of};
 use crate::step::{Outcome, Step};
-use crate::{deny, fuzz, msrv};
+use crate::{deny, fuzz, msrv, python_package};
 
 /// How many cases each test on random input tries; `.cargo/config.toml` has the number of `.ci/run`.
 /// A larger `PROPTEST_CASES` in the environment counts.
@@ -28,7 +28,8 @@ dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
-deny: `cargo xtask deny`";
+deny: `cargo xtask deny`
+python: `cargo xtask python`, the wheel of the Python package in an empty environment";
 
 /// What `run` would do, a line each.
 pub fn list() -> String {
@@ -61,6 +62,7 @@ pub fn run_checks() -> Vec<Step> {
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
     steps.extend(deny::run_checks());
+    steps.extend(python_package::run_checks());
     steps
 }
 

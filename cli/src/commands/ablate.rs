@@ -31,6 +31,7 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
             .work
             .threads
             .and_then(|count| NonZero::new(usize::from(count))),
+        program: None,
     };
     let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new())?;
     print_report(args.work.format, &result.report, |report| {

@@ -111,9 +111,10 @@ pub struct PluginSource {
     pub name: String,
     /// The package's version.
     pub version: String,
-    /// The library's path; `None` for one that is built in.
+    /// The library's path, or where the source of the program's own strategies is; `None` for one
+    /// that is built in.
     pub file: Option<String>,
-    /// SHA-256 of the library.
+    /// SHA-256 of the library, or of that source.
     pub sha256: Option<String>,
 }
 

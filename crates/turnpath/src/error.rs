@@ -329,6 +329,8 @@ mod tests {
             version: "1.0.0".to_owned(),
             file: None,
             sha256: None,
+            source: None,
+            inexact: Vec::new(),
         });
         let error = Error::from(LoadError::TwoOfOneName {
             slot: turnpath_core::Slot::Feed,

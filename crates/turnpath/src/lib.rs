@@ -76,7 +76,8 @@ pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
 pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
-    Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
+    Admission, Catalogue, LibraryFile, LoadError, OwnPlugin, OwnStrategy, Plugin, Refusal,
+    Strategy, calls,
 };
 pub use turnpath_lens::Side;
 pub use turnpath_maps::{Format as MapFormat, length_unit};

@@ -287,7 +287,10 @@ impl Job {
         let source = sources.map(|plugin| report::PluginSource {
             name: plugin.name.clone(),
             version: plugin.version.clone(),
-            file: plugin.file.as_ref().map(|file| file.display().to_string()),
+            file: match &plugin.file {
+                Some(file) => Some(file.display().to_string()),
+                None => plugin.source.clone(),
+            },
             sha256: plugin.sha256.clone(),
         });
         source.collect()

@@ -476,6 +476,7 @@ impl SurfaceModel for PlaneOfData {
             points: 100,
             filled: 7,
             continuation: "straight on".into(),
+            fit_error: Some(2e-6),
         }))
     }
 }

@@ -5,6 +5,7 @@
 //! the job's name, or on what else the ablation varies.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde_json::{Map, Value as Json, json};
 use turnpath_host::{Catalogue, sha256_hex, sha256_hex_of_file};
@@ -42,8 +43,10 @@ pub struct Keys<'a> {
 
 impl<'a> Keys<'a> {
     /// Plugins are looked up in the catalogue, and data files are read unless they were before.
-    pub fn new(catalogue: &'a Catalogue, files: &'a DataFiles) -> Self {
-        let program = std::env::current_exe().and_then(|path| sha256_hex_of_file(&path));
+    /// `program` is the file that stands for the program, unless it is the one that runs.
+    pub fn new(catalogue: &'a Catalogue, files: &'a DataFiles, program: Option<&Path>) -> Self {
+        let program = program.map_or_else(std::env::current_exe, |path| Ok(path.to_owned()));
+        let program = program.and_then(|path| sha256_hex_of_file(&path));
         Self {
             catalogue,
             files,
@@ -160,7 +163,7 @@ use = "analytic"
 
     fn key(text: &str, files: &[UsedFile]) -> Key {
         let recipe = Recipe::parse(text, "recipe.toml", &[]).unwrap();
-        Keys::new(&Catalogue::new(), &DataFiles::default()).of(&recipe, files)
+        Keys::new(&Catalogue::new(), &DataFiles::default(), None).of(&recipe, files)
     }
 
     #[test]

@@ -39,6 +39,9 @@ pub struct AblationOptions {
     pub fresh: bool,
     /// How many runs are made at a time; as many as there are cores unless given.
     pub threads: Option<NonZero<usize>>,
+    /// The file whose hash stands for the program in the keys of runs; the one that runs unless
+    /// given. A library inside of another program gives its own.
+    pub program: Option<PathBuf>,
 }
 
 /// What an ablation gave.
@@ -69,7 +72,7 @@ pub fn ablate(
     let variants = recipe.variants()?;
     refuse_wrong_choices(&variants, catalogue)?;
     let data = DataFiles::default();
-    let keys = Keys::new(catalogue, &data).of_all(&variants)?;
+    let keys = Keys::new(catalogue, &data, options.program.as_deref()).of_all(&variants)?;
     let files = AblationFiles::new(&options.folder)?;
     let records = Records::new(files.folder())?;
     let recorded = recorded(options, &records, &keys, observer);

@@ -1,0 +1,169 @@
+//! Strategies that Python declares, as strategies of the program's own.
+
+use std::sync::Arc;
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use turnpath::{Catalogue, LoadError, OwnPlugin, OwnStrategy};
+use turnpath_core::toolpath::SegmentShape;
+use turnpath_core::{Params, Radial, StrategyError};
+
+use crate::declared::{Declaration, arguments, declaration};
+use crate::failure::asked;
+use crate::strategies::{
+    Callable, PyCompensator, PyFeed, PySampler, PySpindle, PyVelocity, option, surface,
+};
+
+/// Strategies of one module, as `turnpath._strategies` gives them.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Module<'py> {
+    name: String,
+    version: String,
+    /// Where its source is.
+    place: String,
+    sha256: String,
+    strategies: Vec<Declared<'py>>,
+}
+
+/// One strategy of a module.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Declared<'py> {
+    slot: String,
+    /// Name, summary and parameters as JSON.
+    declaration: String,
+    /// Binds parameters: it gives a callable, or what a surface is made of.
+    bind: Py<PyAny>,
+    /// Whether its answers have the same bytes on every machine.
+    exact: bool,
+    /// What the decorator said besides.
+    options: Bound<'py, PyDict>,
+}
+
+/// The strategies that are built in, and those of these modules.
+///
+/// # Errors
+/// When a declaration is wrong, or a name is there already.
+pub fn catalogue(modules: &[Module<'_>]) -> PyResult<Result<Catalogue, LoadError>> {
+    let mut owns = Vec::new();
+    for module in modules {
+        let mut own = OwnPlugin::new(&module.name, &module.version)
+            .with_source(&module.place, &module.sha256);
+        for declared in &module.strategies {
+            own = own.with(strategy(declared)?);
+        }
+        owns.push(own);
+    }
+    let catalogue = Catalogue::linked();
+    Ok(catalogue.and_then(|linked| owns.into_iter().try_fold(linked, Catalogue::with_own)))
+}
+
+fn strategy(declared: &Declared<'_>) -> PyResult<OwnStrategy> {
+    let own = declaration(&declared.declaration)?;
+    let strategy = of_slot(declared, own)?;
+    let strategy = strategy.with_summary(own.summary).with_params(own.params);
+    Ok(match declared.exact {
+        true => strategy,
+        false => strategy.differs_between_machines(),
+    })
+}
+
+fn of_slot(declared: &Declared<'_>, own: Declaration) -> PyResult<OwnStrategy> {
+    let options = declared.options.as_any();
+    let bind = Arc::new(declared.bind.clone_ref(options.py()));
+    let bound = move |params: &Params| bound(&bind, params, own);
+    Ok(match declared.slot.as_str() {
+        "surface" => OwnStrategy::surface(own.name, move |params| {
+            surface(|_| bound(params).map_err(raised))
+        }),
+        "feed" => OwnStrategy::feed(own.name, move |params| {
+            Ok(Box::new(PyFeed(callable(bound(params)?))))
+        }),
+        "sampler" => {
+            let needs_exact_rates = option(options, "needs_exact_rates", false)?;
+            OwnStrategy::sampler(own.name, move |params| {
+                let call = callable(bound(params)?);
+                Ok(Box::new(PySampler {
+                    call,
+                    needs_exact_rates,
+                }))
+            })
+        }
+        "compensator" => {
+            let radial = radial(&option(options, "radial", String::from("contact"))?)?;
+            let compensates_nose = option(options, "compensates_nose", true)?;
+            OwnStrategy::compensator(own.name, move |params| {
+                let call = callable(bound(params)?);
+                Ok(Box::new(PyCompensator {
+                    call,
+                    radial,
+                    compensates_nose,
+                }))
+            })
+        }
+        "velocity" => {
+            let overlap = option(options, "overlap", 0)?;
+            let segments = segments(&option(options, "segments", String::from("cubic"))?)?;
+            let exact_rates = option(options, "exact_rates", false)?;
+            OwnStrategy::velocity(own.name, move |params| {
+                let call = callable(bound(params)?);
+                Ok(Box::new(PyVelocity {
+                    call,
+                    overlap,
+                    segments,
+                    exact_rates,
+                }))
+            })
+        }
+        "spindle" => {
+            let follows_factors = option(options, "follows_factors", false)?;
+            OwnStrategy::spindle(own.name, move |params| {
+                let call = callable(bound(params)?);
+                Ok(Box::new(PySpindle {
+                    call,
+                    follows_factors,
+                }))
+            })
+        }
+        other => return Err(no_word("slot", other)),
+    })
+}
+
+/// What Python makes of a strategy with these parameters.
+fn bound(bind: &Py<PyAny>, params: &Params, own: Declaration) -> Result<Py<PyAny>, StrategyError> {
+    asked(|py| {
+        let arguments = arguments(py, params, own.params)?;
+        bind.call1(py, (arguments,))
+    })
+}
+
+fn callable(bound: Py<PyAny>) -> Callable {
+    Arc::new(bound)
+}
+
+/// A failure that goes through Python once more.
+fn raised(error: StrategyError) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+fn radial(word: &str) -> PyResult<Radial> {
+    match word {
+        "contact" => Ok(Radial::Contact),
+        "centre" => Ok(Radial::Centre),
+        other => Err(no_word("radial", other)),
+    }
+}
+
+fn segments(word: &str) -> PyResult<SegmentShape> {
+    match word {
+        "cubic" => Ok(SegmentShape::Cubic),
+        "linear" => Ok(SegmentShape::Linear),
+        other => Err(no_word("segments", other)),
+    }
+}
+
+fn no_word(what: &str, word: &str) -> PyErr {
+    PyValueError::new_err(format!("there is no {what} `{word}`"))
+}
