@@ -124,7 +124,9 @@ class Session:
                 "this process was forked while turnpath worked; start it with `spawn` instead of `fork`"
             )
         done: dict[str, Any] = {}
-        thread = threading.Thread(target=self._body, args=(command, done), daemon=True)
+        thread = threading.Thread(
+            target=self._body, args=(command, done), name="turnpath", daemon=True
+        )
         thread.start()
         stop = self._wait(thread, progress)
         if thread.is_alive():
@@ -149,9 +151,9 @@ class Session:
     def _wait(
         self, thread: threading.Thread, progress: Callable[[str, int, int], Any] | None
     ) -> BaseException | None:
-        """Waits until the work has ended, or does not hear. Gives what stopped it from here."""
+        """Waits until the work has ended, or a strategy does not hear. Gives what stopped it from here;
+        a second Ctrl-C waits no longer."""
         stop: BaseException | None = None
-        stopped = 0.0
         told: tuple[str, int, int] | None = None
         while thread.is_alive():
             try:
@@ -162,15 +164,13 @@ class Session:
             except BaseException as error:  # noqa: B902: Ctrl-C, or what `progress` raises
                 if stop is not None:
                     return error
-                stop, stopped = error, time.monotonic()
+                stop = error
                 self.control.cancel()
                 self._end_calls(Interrupted, lambda call: True)
             now = time.monotonic()
             if self.time_limit is not None:
                 limit = self.time_limit
                 self._end_calls(TimeLimit, lambda call: now - call.started > limit)
-            if stop is not None and now - stopped > GRACE:
-                return stop
             if self._overdue(now):
                 return stop
         return stop
