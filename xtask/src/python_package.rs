@@ -14,7 +14,8 @@ const PACKAGE: &str = "crates/python";
 /// Builds and tests the package.
 pub fn run_checks() -> Vec<Step> {
     let Some(builder) = environment("builder", &["maturin>=1.16,<2"]) else {
-        let missing = "python3 with `venv`, and a package index with maturin, are not there".to_owned();
+        let missing =
+            "python3 with `venv`, and a package index with maturin, are not there".to_owned();
         return vec![Step::run("python package", || Outcome::Skipped(missing))];
     };
     let lints = Step::run("python package, lints", lints);
@@ -53,7 +54,13 @@ fn pip(python: &Path) -> Command {
 
 fn lints() -> Outcome {
     let manifest = format!("{PACKAGE}/Cargo.toml");
-    let words = ["clippy", "--locked", "--release", "--manifest-path", &manifest];
+    let words = [
+        "clippy",
+        "--locked",
+        "--release",
+        "--manifest-path",
+        &manifest,
+    ];
     let mut clippy = cargo(&words);
     clippy.args(["--", "-D", "warnings"]);
     run(clippy)
@@ -73,7 +80,9 @@ fn build(builder: &Path) -> Outcome {
 }
 
 fn test() -> Outcome {
-    let wheels = std::fs::read_dir(folder().join("wheels")).into_iter().flatten();
+    let wheels = std::fs::read_dir(folder().join("wheels"))
+        .into_iter()
+        .flatten();
     let mut wheels = wheels.flatten().map(|entry| entry.path());
     let Some(wheel) = wheels.next() else {
         return Outcome::Failed("maturin left no wheel".to_owned());

@@ -51,7 +51,9 @@ impl Strategy {
     pub(crate) fn new(offer: Offer, plugin: Arc<Plugin>) -> Self {
         let info = offer.info();
         let text = format!("the {} `{}` of {plugin}", info.slot.noun(), info.name);
-        let callee = Callee::new(printable_line(&text).into_owned(), plugin.file.is_some());
+        // What the program brings is as little known as a library.
+        let is_foreign = plugin.file.is_some() || plugin.source.is_some();
+        let callee = Callee::new(printable_line(&text).into_owned(), is_foreign);
         let offer = offer.named(callee);
         Self { offer, plugin }
     }

@@ -36,6 +36,12 @@ def lab_step(x, y, depth: turnpath.Length):
 
 
 @turnpath.sampler
+def lab_endless(path, block):
+    while True:
+        pass
+
+
+@turnpath.sampler
 def lab_wrong(path, block):
     raise ValueError("not today")
 '''
@@ -105,6 +111,13 @@ def test_the_program_names_a_strategy_that_raises(lab, tmp_path, part):
     assert ran.returncode == 3, text
     assert "`lab-wrong`" in text and "ValueError: not today" in text
     assert "lab_strategies.py, line" in text
+
+
+def test_the_program_ends_where_a_strategy_does_not_come_back(lab, tmp_path, part):
+    name = recipe(part, tmp_path, sampler={"use": "lab-endless"})
+    ran = program(lab, tmp_path, "run", name, "-o", "out", "--plugin-time-limit", "1 s")
+    text = " ".join(ran.stderr.split())
+    assert ran.returncode == 3 and "`lab-endless`" in text, text
 
 
 def test_wrong_arguments_have_status_two(lab, tmp_path):
