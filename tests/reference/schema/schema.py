@@ -78,7 +78,8 @@ def main():
             if passes(schema, file)[0]:
                 wrong.append(f"{damage}: not found")
     print(f"{len(recipes)} recipes, {len(DAMAGES)} damages")
-    sys.exit("\n".join(wrong))
+    if wrong:
+        sys.exit("\n".join(wrong))
 
 
 main()
