@@ -190,11 +190,36 @@ pub struct AblateArgs {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     #[arg(value_parser = PossibleValuesParser::new(comparison::names()))]
     pub columns: Vec<String>,
+    /// Sort the rows by this column, the best first
+    #[arg(long, value_name = "NAME")]
+    #[arg(value_parser = PossibleValuesParser::new(comparison::names()))]
+    pub sort: Option<String>,
+    /// Leave out the ratios to the first run
+    #[arg(long)]
+    pub no_ratio: bool,
+    /// Print the table alone, for a paper or a page
+    #[arg(long, value_enum, value_name = "LANGUAGE", conflicts_with_all = ["format", "quiet"])]
+    pub table: Option<TableLanguage>,
+    /// Refine every variant until it holds its tolerance, as with `refine = true`: then the points
+    /// and the times compare chains of the same accuracy
+    #[arg(long)]
+    pub equal_tolerance: bool,
     /// Make all runs anew, also those that were made before
     #[arg(long)]
     pub fresh: bool,
     #[command(flatten)]
     pub work: WorkArgs,
+}
+
+/// The language of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableLanguage {
+    /// With bars
+    Markdown,
+    /// A tabular with the rules of booktabs
+    Latex,
+    /// Comma-separated values with all digits
+    Csv,
 }
 
 #[derive(Debug, Args)]
