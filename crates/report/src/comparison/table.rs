@@ -63,14 +63,8 @@ fn legend(columns: &[FigureColumn], widest: usize) -> String {
         of_kind.any(|one| one.cells.iter().any(|cell| cell.is_best))
     };
     let marks = [
-        (
-            best(Best::Smallest),
-            "* smallest, or within 1 % of it",
-        ),
-        (
-            best(Best::Largest),
-            "* largest speed, or within 1 % of it",
-        ),
+        (best(Best::Smallest), "* smallest, or within 1 % of it"),
+        (best(Best::Largest), "* largest speed, or within 1 % of it"),
         (any(|cell| cell.exceeds), "! exceeds its tolerance"),
         (
             any(|cell| !cell.ratio.is_empty()),
