@@ -1,5 +1,6 @@
 //! Strategies that Python declares, as strategies of the program's own.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::exceptions::PyValueError;
@@ -15,10 +16,15 @@ use crate::strategies::{
     Callable, PyCompensator, PyFeed, PySampler, PySpindle, PyVelocity, option, surface,
 };
 
+/// What a command may choose from besides what is built in: the strategies of modules, and folders and
+/// libraries of plugins.
+#[derive(FromPyObject)]
+pub struct Sources<'py>(Vec<Module<'py>>, Vec<PathBuf>);
+
 /// Strategies of one module, as `turnpath._strategies` gives them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct Module<'py> {
+struct Module<'py> {
     name: String,
     version: String,
     /// Where its source is.
@@ -42,11 +48,12 @@ struct Declared<'py> {
     options: Bound<'py, PyDict>,
 }
 
-/// The strategies that are built in, and those of these modules.
+/// The strategies that are built in, and those of these sources.
 ///
 /// # Errors
-/// When a declaration is wrong, or a name is there already.
-pub fn catalogue(modules: &[Module<'_>]) -> PyResult<Result<Catalogue, LoadError>> {
+/// When a declaration is wrong; then when a library cannot be loaded, or a name is there already.
+pub fn catalogue(sources: &Sources<'_>) -> PyResult<Result<Catalogue, LoadError>> {
+    let Sources(modules, libraries) = sources;
     let mut owns = Vec::new();
     for module in modules {
         let mut own = OwnPlugin::new(&module.name, &module.version)
@@ -56,8 +63,19 @@ pub fn catalogue(modules: &[Module<'_>]) -> PyResult<Result<Catalogue, LoadError
         }
         owns.push(own);
     }
-    let catalogue = Catalogue::linked();
-    Ok(catalogue.and_then(|linked| owns.into_iter().try_fold(linked, Catalogue::with_own)))
+    let catalogue = Catalogue::linked().and_then(|linked| {
+        let with_libraries = libraries.iter().try_fold(linked, with_library);
+        owns.into_iter()
+            .try_fold(with_libraries?, Catalogue::with_own)
+    });
+    Ok(catalogue)
+}
+
+fn with_library(catalogue: Catalogue, path: &PathBuf) -> Result<Catalogue, LoadError> {
+    match path.is_dir() {
+        true => catalogue.with_folder(path),
+        false => catalogue.with_file(path),
+    }
 }
 
 fn strategy(declared: &Declared<'_>) -> PyResult<OwnStrategy> {
@@ -75,9 +93,7 @@ fn of_slot(declared: &Declared<'_>, own: Declaration) -> PyResult<OwnStrategy> {
     let bind = Arc::new(declared.bind.clone_ref(options.py()));
     let bound = move |params: &Params| bound(&bind, params, own);
     Ok(match declared.slot.as_str() {
-        "surface" => OwnStrategy::surface(own.name, move |params| {
-            surface(|_| bound(params).map_err(raised))
-        }),
+        "surface" => OwnStrategy::surface(own.name, move |params| surface(&bound(params)?)),
         "feed" => OwnStrategy::feed(own.name, move |params| {
             Ok(Box::new(PyFeed(callable(bound(params)?))))
         }),
@@ -141,11 +157,6 @@ fn bound(bind: &Py<PyAny>, params: &Params, own: Declaration) -> Result<Py<PyAny
 
 fn callable(bound: Py<PyAny>) -> Callable {
     Arc::new(bound)
-}
-
-/// A failure that goes through Python once more.
-fn raised(error: StrategyError) -> PyErr {
-    PyValueError::new_err(error.to_string())
 }
 
 fn radial(word: &str) -> PyResult<Radial> {

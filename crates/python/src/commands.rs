@@ -17,7 +17,7 @@ use turnpath::{
 
 use turnpath_core::Overrun;
 
-use crate::catalogue::{Module, catalogue};
+use crate::catalogue::{Sources, catalogue};
 use crate::failure::exception;
 use crate::observer::Control;
 
@@ -37,11 +37,11 @@ impl RecipeText {
 /// Does the work of a command on threads of its own, without the interpreter's lock.
 fn work<R: Send>(
     py: Python<'_>,
-    modules: &[Module<'_>],
+    sources: &Sources<'_>,
     threads: usize,
     work: impl FnOnce(&Catalogue) -> Result<R, Error> + Send,
 ) -> PyResult<R> {
-    let catalogue = catalogue(modules)?;
+    let catalogue = catalogue(sources)?;
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
     let done = py.detach(move || {
@@ -53,11 +53,11 @@ fn work<R: Send>(
 
 /// Makes a path, measures it, and gives report, files, columns and programs.
 #[pyfunction]
-#[pyo3(signature = (recipe, modules, control, *, folder=None, map=None, threads=0))]
+#[pyo3(signature = (recipe, sources, control, *, folder=None, map=None, threads=0))]
 pub fn run<'py>(
     py: Python<'py>,
     recipe: RecipeText,
-    modules: Vec<Module<'py>>,
+    sources: Sources<'py>,
     control: Control,
     folder: Option<PathBuf>,
     map: Option<(PathBuf, usize)>,
@@ -68,7 +68,7 @@ pub fn run<'py>(
     Option<Bound<'py, PyDict>>,
     Vec<(String, Vec<u8>)>,
 )> {
-    let result = work(py, &modules, threads, |catalogue| {
+    let result = work(py, &sources, threads, |catalogue| {
         let outputs = match folder {
             Some(folder) => Outputs::in_folder(folder),
             None => Outputs::in_memory(),
@@ -122,14 +122,14 @@ fn columns(py: Python<'_>, path: ToolPath) -> PyResult<Bound<'_, PyDict>> {
 
 /// Checks a recipe without making its path: the report.
 #[pyfunction]
-#[pyo3(signature = (recipe, modules, *, threads=0))]
+#[pyo3(signature = (recipe, sources, *, threads=0))]
 pub fn check(
     py: Python<'_>,
     recipe: RecipeText,
-    modules: Vec<Module<'_>>,
+    sources: Sources<'_>,
     threads: usize,
 ) -> PyResult<String> {
-    let report = work(py, &modules, threads, |catalogue| {
+    let report = work(py, &sources, threads, |catalogue| {
         Job::new(recipe.read()?, catalogue)?.check()
     })?;
     Ok(to_json(&report))
@@ -137,17 +137,17 @@ pub fn check(
 
 /// Measures the tool path in a file: the report.
 #[pyfunction]
-#[pyo3(signature = (recipe, modules, control, file, *, map=None, threads=0))]
+#[pyo3(signature = (recipe, sources, control, file, *, map=None, threads=0))]
 pub fn verify(
     py: Python<'_>,
     recipe: RecipeText,
-    modules: Vec<Module<'_>>,
+    sources: Sources<'_>,
     control: Control,
     file: PathBuf,
     map: Option<(PathBuf, usize)>,
     threads: usize,
 ) -> PyResult<String> {
-    let report = work(py, &modules, threads, |catalogue| {
+    let report = work(py, &sources, threads, |catalogue| {
         let request = map.map(|(file, cells)| map_request(file, cells));
         let folder = file.parent().unwrap_or(Path::new("."));
         let request = request.unwrap_or_default();
@@ -165,18 +165,18 @@ pub fn verify(
 
 /// Makes the variants of a recipe: report, files, how many were there already, and why runs failed.
 #[pyfunction]
-#[pyo3(signature = (recipe, modules, control, folder, *, program, fresh=false, threads=0))]
+#[pyo3(signature = (recipe, sources, control, folder, *, program, fresh=false, threads=0))]
 pub fn ablate(
     py: Python<'_>,
     recipe: RecipeText,
-    modules: Vec<Module<'_>>,
+    sources: Sources<'_>,
     control: Control,
     folder: PathBuf,
     program: PathBuf,
     fresh: bool,
     threads: usize,
 ) -> PyResult<(String, Vec<PathBuf>, usize, Vec<(usize, String)>)> {
-    let result = work(py, &modules, 1, |catalogue| {
+    let result = work(py, &sources, 1, |catalogue| {
         let options = AblationOptions {
             folder,
             fresh,
@@ -215,9 +215,9 @@ pub fn reach(recipe: RecipeText) -> Option<(f64, f64)> {
 #[pyfunction]
 pub fn strategies(
     py: Python<'_>,
-    modules: Vec<Module<'_>>,
+    sources: Sources<'_>,
 ) -> PyResult<Vec<(String, String, String, String)>> {
-    let catalogue = catalogue(&modules)?.map_err(|error| exception(py, &error.into()))?;
+    let catalogue = catalogue(&sources)?.map_err(|error| exception(py, &error.into()))?;
     let all = catalogue.strategies().map(|strategy| {
         let info = strategy.info();
         let from = strategy.plugin().to_string();
@@ -233,8 +233,8 @@ pub fn strategies(
 
 /// The whole command line: its exit status. This is for the whole of a process.
 #[pyfunction]
-pub fn main(py: Python<'_>, arguments: Vec<String>, modules: Vec<Module<'_>>) -> PyResult<u8> {
-    let catalogue = catalogue(&modules)?;
+pub fn main(py: Python<'_>, arguments: Vec<String>, sources: Sources<'_>) -> PyResult<u8> {
+    let catalogue = catalogue(&sources)?;
     let status = py.detach(|| turnpath_cli::main_with(arguments, catalogue));
     let number = (0..=u8::MAX).find(|number| ExitCode::from(*number) == status);
     Ok(number.unwrap_or(u8::MAX))

@@ -52,6 +52,23 @@ def test_changes_take_the_places_of_values(part):
     assert finer.report["revolutions"] > 2 * turnpath.run(part).report["revolutions"]
 
 
+def test_changes_of_every_kind_are_written_as_a_recipe_has_them(part):
+    tomllib = pytest.importorskip("tomllib")
+
+    written = turnpath._recipe._written
+    value = {
+        "use": 'a "quoted" text with a \\ and µ',
+        "list": [1, 2.5, True, {"k": "1 mm", "long": "x" * 200}],
+        "array": np.array([0.1, 0.2]),
+        "4,0": np.float64(1e-9),
+    }
+    found = tomllib.loads("v = " + written(value))["v"]
+    assert found == {**value, "array": [0.1, 0.2]}
+    assert written("5 mm") == "5 mm"
+    with pytest.raises(TypeError, match="holds no"):
+        written({"k": None})
+
+
 def test_a_folder_gets_the_result_and_verify_measures_it(part, tmp_path):
     part["output"] = {"data": ["csv"], "posts": ["pmac-pvt"]}
     result = turnpath.run(part, folder=tmp_path / "out")
@@ -61,7 +78,7 @@ def test_a_folder_gets_the_result_and_verify_measures_it(part, tmp_path):
     assert len(result.toolpath.t) == result.report["rows"]
     assert len(result.programs) == 1 and b"PVT" in next(iter(result.programs.values()))
     measured = turnpath.verify(part, tmp_path / "out" / "toolpath.csv")
-    assert measured.holds
+    assert measured.holds and measured.verdict["interpolation"] is True
 
 
 def test_a_map_is_the_cusps_of_the_feed(part):

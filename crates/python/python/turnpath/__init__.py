@@ -14,6 +14,7 @@ if not getattr(_sys, "_is_gil_enabled", lambda: True)():
     raise ImportError("turnpath does not serve free-threaded interpreters: start Python with its lock")
 
 from ._commands import (
+    Judgement,
     Map,
     Report,
     Result,

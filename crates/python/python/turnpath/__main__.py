@@ -8,7 +8,7 @@ from pathlib import Path
 from . import _turnpath
 from ._recipe import Recipe
 from ._session import Session
-from ._strategies import modules
+from ._strategies import sources
 
 
 def main() -> int:
@@ -20,7 +20,7 @@ def main() -> int:
         reach = _turnpath.reach(Recipe(recipe)._native())
         if reach is not None:
             session.half_width, session.fit_error = reach
-    return _turnpath.main(["turnpath", *arguments], modules((), session))
+    return _turnpath.main(["turnpath", *arguments], sources((), (), session))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ import numpy as np
 from . import _turnpath
 from ._recipe import Recipe, RecipeLike, as_recipe
 from ._session import TIME_LIMIT, Session
-from ._strategies import modules
+from ._strategies import sources
 
 Progress = Callable[[str, int, int], Any]
 PathLike = str | os.PathLike[str]
@@ -65,10 +65,14 @@ class Report:
         self.report: dict[str, Any] = json.loads(text)
         self.notes = tuple(session.notes)
 
+
+class Judgement(Report):
+    """A report on a path that was measured, with its verdict."""
+
     @property
     def verdict(self) -> dict[str, bool | None]:
         """Which tolerances and limits hold; ``None`` for what the recipe does not ask for."""
-        return self.report.get("within", {})
+        return self.report["within"]
 
     @property
     def holds(self) -> bool:
@@ -83,7 +87,7 @@ def _entries(verdict: Any) -> Iterable[Any]:
     return [verdict]
 
 
-class Result(Report):
+class Result(Judgement):
     """What a run gave.
 
     Attributes:
@@ -140,10 +144,16 @@ class _Run:
     """What a run is made from, so that it can be made again."""
 
     def __init__(
-        self, recipe: Recipe, strategies: Iterable[Any], session: Session, threads: int
+        self,
+        recipe: Recipe,
+        strategies: Iterable[Any],
+        plugins: Iterable[PathLike],
+        session: Session,
+        threads: int,
     ) -> None:
         self.recipe = recipe
         self.strategies = list(strategies)
+        self.plugins = list(plugins)
         self.session = session
         self.threads = threads
 
@@ -156,7 +166,7 @@ class _Run:
     ) -> Result:
         native = as_recipe(self.recipe, changes)._native()
         self.session = _session(native, self.session.time_limit)
-        found = modules(self.strategies, self.session)
+        found = sources(self.strategies, self.plugins, self.session)
         session = self.session
         answer = session.work(
             lambda: _turnpath.run(
@@ -181,6 +191,7 @@ def run(
     set: Mapping[str, Any] | None = None,
     strategies: Iterable[Any] = (),
     *,
+    plugins: Iterable[PathLike] = (),
     folder: PathLike | None = None,
     progress: Progress | None = None,
     threads: int = 0,
@@ -194,6 +205,7 @@ def run(
         recipe: a :class:`Recipe`, the path of a file, or a dict.
         set: values in the places of the recipe's own: ``{"tolerance.residual": "50 nm"}``.
         strategies: strategies of Python, or modules of them, beside those that are built in or installed.
+        plugins: folders and libraries of plugins: native code with your rights.
         folder: where the files of the result go; nowhere unless given.
         progress: is called with the stage, how many blocks of it are done, and of how many.
         threads: how many threads work; as many as there are cores for 0.
@@ -204,7 +216,7 @@ def run(
         StrategyError: when a strategy fails.
         FileError: when a file cannot be read or written.
     """
-    made = _Run(as_recipe(recipe, set), strategies, Session(time_limit), threads)
+    made = _Run(as_recipe(recipe, set), strategies, plugins, Session(time_limit), threads)
     return made.again(None if folder is None else Path(folder), None, None, progress)
 
 
@@ -213,6 +225,7 @@ def check(
     set: Mapping[str, Any] | None = None,
     strategies: Iterable[Any] = (),
     *,
+    plugins: Iterable[PathLike] = (),
     threads: int = 0,
     time_limit: float | None = TIME_LIMIT,
 ) -> Report:
@@ -220,7 +233,7 @@ def check(
     :func:`run`."""
     native = as_recipe(recipe, set)._native()
     session = _session(native, time_limit)
-    found = modules(strategies, session)
+    found = sources(strategies, plugins, session)
     return Report(
         session.work(lambda: _turnpath.check(native, found, threads=threads)), session
     )
@@ -232,20 +245,21 @@ def verify(
     set: Mapping[str, Any] | None = None,
     strategies: Iterable[Any] = (),
     *,
+    plugins: Iterable[PathLike] = (),
     progress: Progress | None = None,
     threads: int = 0,
     time_limit: float | None = TIME_LIMIT,
-) -> Report:
+) -> Judgement:
     """Measures the tool path in a file, a ``toolpath.csv`` or a motion program, against a recipe. The
     other arguments are those of :func:`run`."""
     native = as_recipe(recipe, set)._native()
     session = _session(native, time_limit)
-    found = modules(strategies, session)
+    found = sources(strategies, plugins, session)
     text = session.work(
         lambda: _turnpath.verify(native, found, session.control, Path(file), threads=threads),
         progress,
     )
-    return Report(text, session)
+    return Judgement(text, session)
 
 
 class Rows(list[dict[str, Any]]):
@@ -270,6 +284,7 @@ def ablate(
     set: Mapping[str, Any] | None = None,
     strategies: Iterable[Any] = (),
     *,
+    plugins: Iterable[PathLike] = (),
     folder: PathLike | None = None,
     fresh: bool = False,
     progress: Progress | None = None,
@@ -291,7 +306,7 @@ def ablate(
     changes |= {f"ablation.{key}": value for key, value in (vary or {}).items()}
     native = as_recipe(recipe, changes)._native()
     session = _session(native, time_limit)
-    found = modules(strategies, session)
+    found = sources(strategies, plugins, session)
     with tempfile.TemporaryDirectory(prefix="turnpath-") as scratch:
         answer = session.work(
             lambda: _turnpath.ablate(
@@ -331,8 +346,10 @@ def _cell(text: str) -> Any:
         return text
 
 
-def strategies(own: Iterable[Any] = ()) -> list[dict[str, str]]:
-    """All strategies, those of ``own`` among them: dicts with ``slot``, ``name``, ``summary`` and
+def strategies(
+    own: Iterable[Any] = (), *, plugins: Iterable[PathLike] = ()
+) -> list[dict[str, str]]:
+    """All strategies, those of ``own`` and of ``plugins`` among them: dicts with ``slot``, ``name``, ``summary`` and
     ``plugin``."""
-    found = _turnpath.strategies(modules(own, Session()))
+    found = _turnpath.strategies(sources(own, plugins, Session()))
     return [dict(zip(("slot", "name", "summary", "plugin"), row)) for row in found]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -64,24 +65,29 @@ def _plain(value: Any) -> Any:
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
-    return value.item() if hasattr(value, "item") else value
+    # Arrays and numbers of numpy.
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _written(value: Any) -> str:
-    """A value as ``--set`` takes it."""
+    """A value as ``--set`` takes it: a text as it is, else TOML on one line."""
     value = _plain(value)
+    return value if isinstance(value, str) else _on_one_line(value)
+
+
+def _on_one_line(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, (int, float)):
+        return repr(value)
     if isinstance(value, str):
-        return value
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, list):
+        return "[" + ", ".join(_on_one_line(item) for item in value) + "]"
     if isinstance(value, Mapping):
-        items = ", ".join(f"{key} = {_quoted(item)}" for key, item in value.items())
-        return "{ " + items + " }"
-    return _quoted(value)
-
-
-def _quoted(value: Any) -> str:
-    if isinstance(value, Mapping):
-        return _written(value)
-    return tomli_w.dumps({"v": value}, indent=0).removeprefix("v = ").strip().replace("\n", " ")
+        items = (f"{json.dumps(key)} = {_on_one_line(item)}" for key, item in value.items())
+        return "{ " + ", ".join(items) + " }"
+    raise TypeError(f"a recipe holds no {type(value).__name__}")
 
 
 RecipeLike = Union[Recipe, str, os.PathLike, Mapping[str, Any]]

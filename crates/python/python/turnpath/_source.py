@@ -45,11 +45,12 @@ def _add(hash: Any, function: Callable[..., Any], seen: set[int]) -> None:
     except (TypeError, ValueError):
         return
     for name, value in sorted({**outside.globals, **outside.nonlocals}.items()):
-        if inspect.isfunction(value):
+        inner = inspect.unwrap(value) if callable(value) else value
+        if inspect.isfunction(inner):
             hash.update(name.encode())
             # The source of another module is its own affair; a value in a closure is not.
-            if value.__module__ == function.__module__ or name in outside.nonlocals:
-                _add(hash, value, seen)
+            if inner.__module__ == function.__module__ or name in outside.nonlocals:
+                _add(hash, inner, seen)
         else:
             hash.update(f"{name}={_value(value)}".encode())
 

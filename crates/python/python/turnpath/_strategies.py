@@ -7,6 +7,7 @@ import hashlib
 import importlib.metadata
 import inspect
 import json
+import os
 import warnings
 from collections.abc import Iterable
 from pathlib import Path
@@ -284,16 +285,19 @@ def installed() -> tuple[Strategy, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def modules(strategies: Iterable[Any], session: Session) -> list[dict[str, Any]]:
-    """The given strategies and the installed ones, by their files, for the native part. A given one
-    takes the place of an installed one of its name."""
+def sources(
+    strategies: Iterable[Any], plugins: Iterable[str | os.PathLike[str]], session: Session
+) -> tuple[list[dict[str, Any]], list[Path]]:
+    """The given strategies and the installed ones, by their files, and the plugins, for the native
+    part. A given one takes the place of an installed one of its name."""
     given = list(dict.fromkeys(flat(strategies)))
     taken = {(one.slot, one.name) for one in given}
     given += [one for one in installed() if (one.slot, one.name) not in taken]
     files: dict[str, list[Strategy]] = {}
     for strategy in given:
         files.setdefault(_source.file_of(strategy.function), []).append(strategy)
-    return [_module(file, of_file, session) for file, of_file in files.items()]
+    modules = [_module(file, of_file, session) for file, of_file in files.items()]
+    return modules, [Path(plugin) for plugin in plugins]
 
 
 def _module(file: str, strategies: list[Strategy], session: Session) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 _Column = NDArray[np.float64]
 _Recipe = tuple[str, str, list[str]]
-_Modules = Sequence[dict[str, Any]]
 _File = str | PathLike[str]
+_Sources = tuple[Sequence[dict[str, Any]], Sequence[_File]]
 
 version: str
 
@@ -147,17 +147,17 @@ def subdivide(start: float, end: float, steps: float) -> _Column:
 def reach(recipe: _Recipe) -> tuple[float, float] | None: ...
 def run(
     recipe: _Recipe,
-    modules: _Modules,
+    sources: _Sources,
     control: Control,
     *,
     folder: _File | None = None,
     map: tuple[_File, int] | None = None,
     threads: int = 0,
 ) -> tuple[str, list[_File], dict[str, NDArray[Any]] | None, list[tuple[str, bytes]]]: ...
-def check(recipe: _Recipe, modules: _Modules, *, threads: int = 0) -> str: ...
+def check(recipe: _Recipe, sources: _Sources, *, threads: int = 0) -> str: ...
 def verify(
     recipe: _Recipe,
-    modules: _Modules,
+    sources: _Sources,
     control: Control,
     file: _File,
     *,
@@ -166,7 +166,7 @@ def verify(
 ) -> str: ...
 def ablate(
     recipe: _Recipe,
-    modules: _Modules,
+    sources: _Sources,
     control: Control,
     folder: _File,
     *,
@@ -174,5 +174,5 @@ def ablate(
     fresh: bool = False,
     threads: int = 0,
 ) -> tuple[str, list[_File], int, list[tuple[int, str]]]: ...
-def strategies(modules: _Modules) -> list[tuple[str, str, str, str]]: ...
-def main(arguments: list[str], modules: _Modules) -> int: ...
+def strategies(sources: _Sources) -> list[tuple[str, str, str, str]]: ...
+def main(arguments: list[str], sources: _Sources) -> int: ...

@@ -31,11 +31,9 @@ enum Made {
 /// A step: its name, the numbers of the steps that it takes, and a number of its own.
 type Step = (String, Vec<usize>, f64);
 
-/// The surface that a call of Python makes.
-pub fn surface(
-    make: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>,
-) -> Result<Box<dyn SurfaceModel>> {
-    let made: Made = asked(|py| make(py)?.extract(py))?;
+/// The surface of what Python made.
+pub fn surface(made: &Py<PyAny>) -> Result<Box<dyn SurfaceModel>> {
+    let made: Made = asked(|py| made.extract(py))?;
     match made {
         Made::Steps(steps) => {
             let formula = formula(&steps);
