@@ -100,9 +100,12 @@ fn of_slot(declared: &Declared<'_>, own: Declaration) -> PyResult<OwnStrategy> {
         "sampler" => {
             let needs_exact_rates = option(options, "needs_exact_rates", false)?;
             OwnStrategy::sampler(own.name, move |params| {
-                let call = callable(bound(params)?);
+                let bound = bound(params)?;
+                let (place, plan) =
+                    asked(|py| bound.extract::<(Py<PyAny>, Option<Py<PyAny>>)>(py))?;
                 Ok(Box::new(PySampler {
-                    call,
+                    place: callable(place),
+                    plan: plan.map(callable),
                     needs_exact_rates,
                 }))
             })

@@ -83,6 +83,29 @@ def test_a_run_with_an_untraced_strategy_is_marked(part):
     assert [mark["strategies"] for mark in marks] == [["sampler even-arc"]]
 
 
+def the_whole_path(path, count):
+    """The largest ρ, and how often it was looked for."""
+    the_whole_path.calls += 1
+    return np.abs(path.radius_at(np.linspace(0, path.end, 1000))).max(), path.end
+
+
+@turnpath.sampler(plan=the_whole_path)
+def planned(path, block, plan, count: int = 60):
+    """As many points on each turn as its part of the largest radius."""
+    largest, end = plan
+    turns = [turnpath.subdivide(*turn, count) for turn in block.turns()]
+    assert path.radius_at([block.start])[0] <= largest + 1e-9 and block.end <= end
+    return np.concatenate(turns)
+
+
+def test_a_sampler_may_look_at_the_whole_path_once(part):
+    the_whole_path.calls = 0
+    own = turnpath.run(dict(part, sampler={"use": "planned"}), strategies=[planned])
+    assert the_whole_path.calls == 1
+    native = turnpath.run(dict(part, sampler={"use": "equal-angle", "step": "6 deg"}))
+    assert len(own.toolpath.t) == len(native.toolpath.t)
+
+
 # What a wrong strategy raises.
 
 
@@ -201,6 +224,23 @@ def test_a_compensator_in_python_places_the_nose_like_the_built_in_one(part):
     mine = turnpath.run(own, strategies=[along_z])
     native = turnpath.run(dict(own, compensator={"use": "normal"}))
     assert np.abs(mine.toolpath.z - native.toolpath.z).max() < 1e-9
+
+
+def test_two_runs_at_a_time_give_what_each_gives_alone(part):
+    own = [dict(part, sampler={"use": "even-arc", "spacing": size}) for size in ("0.1 mm", "0.3 mm")]
+    alone = [turnpath.run(one, strategies=[even_arc]).toolpath for one in own]
+    found = [None, None]
+
+    def run(number):
+        found[number] = turnpath.run(own[number], strategies=[even_arc], threads=3).toolpath
+
+    threads = [threading.Thread(target=run, args=(number,)) for number in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for one, other in zip(alone, found):
+        assert all(np.array_equal(a, b) for a, b in zip(one, other))
 
 
 # The other slots.

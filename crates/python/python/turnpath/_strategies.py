@@ -87,6 +87,11 @@ class Strategy:
 
         return {param["name"]: value(param) for param in self.params}
 
+    def digest(self) -> str:
+        """Slot, name, and the SHA-256 of the sources of its functions."""
+        functions = [self.function, *filter(callable, self.options.values())]
+        return " ".join([self.slot, self.name, *map(_source.digest, functions)])
+
     def is_exact(self) -> bool:
         """Whether its answers have the same bytes on every machine: it is a surface, and all of it
         is a formula."""
@@ -99,17 +104,29 @@ class Strategy:
 
     def _native(self, session: Session) -> dict[str, Any]:
         session.strategies.append(self)
-        bind = self._surface if self.slot == "surface" else self._callable
+        own = {"surface": self._surface, "sampler": self._sampler}
+        bind = own.get(self.slot, self._callable)
         return {
             "slot": self.slot,
             "declaration": self.declaration,
             "bind": session.guard(self, functools.partial(bind, session)),
             "exact": self.is_exact(),
-            "options": {k: v for k, v in self.options.items() if v is not None},
+            "options": {
+                key: value
+                for key, value in self.options.items()
+                if isinstance(value, (bool, int, str))
+            },
         }
 
     def _callable(self, session: Session, parameters: dict[str, Any]) -> Callable[..., Any]:
         return session.guard(self, functools.partial(self.function, **parameters))
+
+    def _sampler(self, session: Session, parameters: dict[str, Any]) -> tuple[Any, Any]:
+        """What places the nodes of a block, and what plans them, if anything does."""
+        plan = self.options["plan"]
+        if plan is not None:
+            plan = session.guard(self, functools.partial(plan, **parameters))
+        return self._callable(session, parameters), plan
 
     def _surface(self, session: Session, parameters: dict[str, Any]) -> Any:
         """The steps of the formula, or a function to fit, its half width and the error to reach."""
@@ -187,7 +204,11 @@ def feed(function: Any = None, *, name: str | None = None) -> Any:
 
 
 def sampler(
-    function: Any = None, *, name: str | None = None, needs_exact_rates: bool = False
+    function: Any = None,
+    *,
+    name: str | None = None,
+    plan: Callable[..., Any] | None = None,
+    needs_exact_rates: bool = False,
 ) -> Any:
     """Makes a sampler of a function ``f(path, block, **parameters) -> revolutions``.
 
@@ -195,8 +216,14 @@ def sampler(
     increasing revolutions from ``block.start`` (included) to ``block.end`` (excluded). Or it is a
     tuple of three columns: revolutions, how far each node lies above the locus in mm, and what it adds to
     dZ/dθ in mm/rad; then ``needs_exact_rates`` must be true.
+
+    Args:
+        plan: a function ``plan(path, **parameters)`` that looks at the whole path once, before any block.
+            What it gives is the third argument of ``f``: ``f(path, block, plan, **parameters)``.
+        needs_exact_rates: whether the nodes hold the tolerance only with the exact rates of the path.
     """
-    return _decorator("sampler", 2, function, name, needs_exact_rates=needs_exact_rates)
+    options = {"plan": plan, "needs_exact_rates": needs_exact_rates}
+    return _decorator("sampler", 2 if plan is None else 3, function, name, **options)
 
 
 def compensator(
@@ -301,7 +328,7 @@ def sources(
 
 
 def _module(file: str, strategies: list[Strategy], session: Session) -> dict[str, Any]:
-    hashes = sorted(f"{one.slot} {one.name} {_source.digest(one.function)}" for one in strategies)
+    hashes = sorted(one.digest() for one in strategies)
     name = strategies[0].function.__module__
     return {
         "name": Path(file).stem if name == "__main__" else name,

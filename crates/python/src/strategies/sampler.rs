@@ -12,17 +12,26 @@ use crate::loan::lend_locus;
 use crate::views::path::{BlockView, PathView};
 
 /// A sampler that Python asks for the nodes of each block.
-#[derive(Clone)]
 pub struct PySampler {
-    /// Takes a path and a block.
-    pub call: Callable,
+    /// Takes a path, a block, and the plan where there is one.
+    pub place: Callable,
+    /// Takes the whole path, and gives the plan.
+    pub plan: Option<Callable>,
     /// Whether its nodes hold the tolerance only with exact rates.
     pub needs_exact_rates: bool,
 }
 
 impl Sampler for PySampler {
-    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-        Ok(Box::new(Plan(self.call.clone())))
+    fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        let make = |plan: &Callable| {
+            lend_locus(path.locus, |locus| {
+                asked(|py| plan.call1(py, (PathView::new(path, locus),)))
+            })
+        };
+        Ok(Box::new(Plan {
+            place: self.place.clone(),
+            plan: self.plan.as_ref().map(make).transpose()?,
+        }))
     }
 
     fn needs_exact_rates(&self) -> bool {
@@ -30,14 +39,23 @@ impl Sampler for PySampler {
     }
 }
 
-struct Plan(Callable);
+struct Plan {
+    place: Callable,
+    /// What the sampler found on the whole path.
+    plan: Option<Py<PyAny>>,
+}
 
 impl SamplerPlan for Plan {
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
         let placed = lend_locus(path.locus, |locus| {
             asked(|py| {
-                let arguments = (PathView::new(path, locus), BlockView(block));
-                node_list(&self.0.bind(py).call1(arguments)?)
+                let (path, block) = (PathView::new(path, locus), BlockView(block));
+                let place = self.place.bind(py);
+                let given = match &self.plan {
+                    Some(plan) => place.call1((path, block, plan)),
+                    None => place.call1((path, block)),
+                };
+                node_list(&given?)
             })
         })?;
         nodes.append(placed);

@@ -81,26 +81,30 @@ impl PathView {
 
     /// ρ, mm, after each of `n` revolutions: a column.
     fn radius_at<'py>(&self, py: Python<'py>, n: Column<'_>) -> Bound<'py, PyAny> {
-        let radii = values(&n).into_iter().map(|n| self.law.value(n));
-        array(py, radii.collect())
+        let n = values(&n);
+        let radii = py.detach(|| n.into_iter().map(|n| self.law.value(n)).collect());
+        array(py, radii)
     }
 
     /// The time, s, after each of `n` revolutions: a column.
     fn time_at<'py>(&self, py: Python<'py>, n: Column<'_>) -> Bound<'py, PyAny> {
-        let times = values(&n).into_iter().map(|n| self.spindle.time_at(n));
-        array(py, times.collect())
+        let n = values(&n);
+        let times = py.detach(|| n.into_iter().map(|n| self.spindle.time_at(n)).collect());
+        array(py, times)
     }
 
     /// The speed of the spindle, rad/s, after each of `n` revolutions: a column.
     fn speed_at<'py>(&self, py: Python<'py>, n: Column<'_>) -> Bound<'py, PyAny> {
-        let speeds = values(&n).into_iter().map(|n| self.spindle.speed_at(n));
-        array(py, speeds.collect())
+        let n = values(&n);
+        let speeds = py.detach(|| n.into_iter().map(|n| self.spindle.speed_at(n)).collect());
+        array(py, speeds)
     }
 
     /// The revolutions between `start` and `end` at which the law goes from one piece to the next: a
     /// column.
     fn knots<'py>(&self, py: Python<'py>, start: f64, end: f64) -> Bound<'py, PyAny> {
-        array(py, self.law.knots(start, end).collect())
+        let knots = py.detach(|| self.law.knots(start, end).collect());
+        array(py, knots)
     }
 
     /// The series in θ of the nose centre's x and z along the spiral at each of `n` revolutions: two
