@@ -24,6 +24,7 @@ mod no_surface;
 mod own_sampler;
 mod passes;
 mod plugins_lock;
+mod queues;
 mod random;
 mod readme;
 mod remarks;

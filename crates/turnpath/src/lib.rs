@@ -59,7 +59,10 @@ mod surface;
 mod toolpath;
 mod verify;
 
-pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
+pub use ablation::{
+    AblationObserver, AblationOptions, AblationPlan, AblationResult, FIGURES, RunPlan, RunState,
+    ablate, merge_ablation, plan_ablation, run_of_ablation,
+};
 pub use commands::{commands_to_trust, controller_commands};
 pub use data_files::DataFileError;
 pub use error::{Error, Fault};
