@@ -247,7 +247,10 @@ fn line(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
             factor: 1.0,
             number,
         } => Operation::PlusNumber(number),
-        Line { factor, number } if number == 0.0 => Operation::TimesNumber(factor),
+        Line {
+            factor,
+            number: 0.0,
+        } => Operation::TimesNumber(factor),
         line => Operation::Line(line),
     };
     (operation, [Some(a), None])
