@@ -9,7 +9,7 @@ use crate::carry::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
 use crate::g_code;
 use crate::program_error::ProgramError;
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
@@ -33,6 +33,8 @@ pub struct Post {
     pub footer: &'static str,
     /// What its controller plays between two points: cubics, or straight lines that stand for them.
     pub shape: SegmentShape,
+    /// What F says of a straight line, where its table has no key for it.
+    pub feed: FeedMeaning,
     /// Steps of time in a second.
     pub steps_per_s: i64,
     /// The longest segment, in steps. A longer one is divided.

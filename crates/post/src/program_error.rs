@@ -100,6 +100,17 @@ pub enum ProgramError {
         /// C at its end, deg.
         c_deg: f64,
     },
+    /// C does not turn within a segment, on a controller that takes its time from C.
+    #[error(
+        "C stands still in the segment that ends at {t:.6} s, C = {c_deg:.3} deg: this controller \
+         takes the time of a segment from C, and would not know it"
+    )]
+    StillC {
+        /// The time of its end, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
     /// The path goes straight from point to point.
     #[error(
         "the path goes straight from point to point, but this program plays cubics: it cannot carry \
@@ -141,6 +152,7 @@ impl ProgramError {
             Self::ManyChords { .. } => {
                 "place points closer together, or give more tolerance of interpolation"
             }
+            Self::StillC { .. } => "write a larger position_decimals, or choose another post",
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
         }
     }

@@ -183,7 +183,7 @@ impl Post {
         let part = settings.find(CHORD_SHARE).or_else(own).unwrap_or(0.0);
         let share = part * tolerance;
         let one = 10u64.pow(decimals) as f64;
-        let seconds = settings.find(FEED_MEANING) == Some(SECONDS);
+        let seconds = settings.find(FEED_MEANING).map(|means| means == SECONDS);
         let lowest = self.default_number(LOWEST_RATE.name());
         let rate = lowest.map(|own| settings.find(LOWEST_RATE).unwrap_or(own));
         let slowest = rate.map(|rate| self.slowest(rate * MINUTE, decimals));
@@ -193,8 +193,9 @@ impl Post {
             share: part,
             deviation: (CHORD_AIM * share - rounded_to).max(LEAST_CHORD_AIM * share),
             feed: match seconds {
-                true => FeedMeaning::Seconds,
-                false => FeedMeaning::PerMinute,
+                Some(true) => FeedMeaning::Seconds,
+                Some(false) => FeedMeaning::PerMinute,
+                None => self.feed,
             },
             shortest: self.shortest(settings),
             slowest,

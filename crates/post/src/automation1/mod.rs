@@ -37,7 +37,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
     C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, SHORTEST_SEGMENT, VELOCITY_DECIMALS,
 };
@@ -70,6 +70,7 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
 ",
     footer: "",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

@@ -10,7 +10,7 @@ use super::write::{push_dwell, push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
     C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, POSITION_DECIMALS, SERVO_PERIOD,
 };
@@ -43,6 +43,7 @@ pub(crate) const LINUXCNC_G93: Post = Post {
 ",
     footer: "M2\n",
     shape: SegmentShape::Linear,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

@@ -12,7 +12,7 @@ use super::travel;
 use super::write::{push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
     C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SHORTEST_SEGMENT,
     SIX_DECIMALS,
@@ -50,6 +50,7 @@ T0202
 ",
     footer: "M30\n",
     shape: SegmentShape::Linear,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

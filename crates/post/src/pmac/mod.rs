@@ -53,7 +53,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
     BUFFER, C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, ROTARY,
     SHORTEST_SEGMENT, VELOCITY_DECIMALS, VELOCITY_PER,
@@ -99,6 +99,7 @@ OPEN PROG 1 CLEAR
 ",
     footer: "CLOSE\n",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 4_096_000,
     longest: (1 << 24) - 1,
     mantissa_bits: Some(35),

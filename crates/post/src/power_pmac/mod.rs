@@ -11,6 +11,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::pmac::{Clock, PVT_KEYS, Pvt};
 use crate::post::Post;
+use crate::program_format::FeedMeaning;
 
 /// Times in steps of a nanosecond.
 const CLOCK: Clock = Clock {
@@ -39,6 +40,7 @@ open prog 1
 ",
     footer: "close\n",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

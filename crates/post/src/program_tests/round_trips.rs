@@ -221,7 +221,7 @@ fn words_of(post: &str) -> &'static [&'static str] {
             "SetupTaskTargetMode(TargetMode.Incremental)\n",
             "SetupTaskTargetMode(TargetMode.Absolute)\n",
         ],
-        "nanotech-g93" | "linuxcnc-g93" => &[
+        "beckhoff-g93" | "nanotech-g93" | "linuxcnc-g93" => &[
             " C#",
             " X#",
             " Z#",
