@@ -310,6 +310,7 @@ impl Trail {
             to,
             steps_before: self.steps,
         };
+        refuse_beyond_c(format, &segment)?;
         if segment.steps() < format.shortest {
             let ms = |steps: i64| 1e3 * steps as f64 / format.steps_per_s as f64;
             let (t, c_deg) = segment.end(format);
@@ -324,6 +325,23 @@ impl Trail {
         self.steps = Some(segment.steps());
         self.digits = Some(to);
         Ok(())
+    }
+}
+
+/// Refuses a C that the axis does not reach. A C within a turn is that of an axis without an end.
+fn refuse_beyond_c(format: &ProgramFormat, segment: &DigitSegment) -> Result<(), ProgramError> {
+    let limit = format.c_limit.filter(|_| !format.c_wrapped);
+    let c = segment.to.position[0];
+    match limit.filter(|limit| c.unsigned_abs() > limit.unsigned_abs()) {
+        None => Ok(()),
+        Some(limit) => {
+            let one = 10u64.pow(format.position_decimals) as f64;
+            Err(ProgramError::BeyondC {
+                c_deg: c as f64 / one,
+                limit_deg: limit as f64 / one,
+                t: segment.end(format).0,
+            })
+        }
     }
 }
 

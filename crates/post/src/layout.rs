@@ -1,7 +1,7 @@
 //! A program of one recipe: its post, and how it is laid out.
 
-use std::io::Read;
-use std::path::PathBuf;
+use std::io::{self, Cursor, Read};
+use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
@@ -23,6 +23,9 @@ pub struct Layout {
     pub format: ProgramFormat,
 }
 
+/// A file of a program, or bytes in place of one.
+pub type OpenFile = Box<dyn Read + Send + Sync>;
+
 /// Lines of a program.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Lines {
@@ -32,6 +35,10 @@ pub struct Lines {
     pub points: usize,
     /// From where to where they go; `None` without points.
     pub extent: Option<Extent>,
+}
+
+fn open_file(path: &Path) -> io::Result<OpenFile> {
+    Ok(Box::new(ordinary_file::open(path)?))
 }
 
 impl Layout {
@@ -133,10 +140,26 @@ impl Layout {
     ///
     /// # Errors
     /// When the file cannot be opened.
-    pub fn open(&self, path: impl Into<PathBuf>) -> Result<ProgramReader, ReadError> {
+    pub fn open(&self, path: impl Into<PathBuf>) -> Result<ProgramReader<OpenFile>, ReadError> {
         let path = path.into();
-        match ordinary_file::open(&path) {
-            Ok(file) => Ok(self.read(file, path)),
+        let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        self.open_with(path, Box::new(move |name| folder.join(name)))
+    }
+
+    /// Opens a program of this layout whose parts are the files that `place` gives for their names.
+    ///
+    /// # Errors
+    /// When the file cannot be opened.
+    pub fn open_with(
+        &self,
+        path: impl Into<PathBuf>,
+        place: Box<dyn Fn(&str) -> PathBuf + Send + Sync>,
+    ) -> Result<ProgramReader<OpenFile>, ReadError> {
+        let path = path.into();
+        match open_file(&path) {
+            Ok(file) => Ok(self
+                .read(file, path)
+                .with_parts(Box::new(move |name| open_file(&place(name))))),
             Err(error) => Err(ReadError::File { path, error }),
         }
     }
@@ -145,6 +168,20 @@ impl Layout {
     /// `path`.
     pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
         ProgramReader::new(reader, path.into(), self.post, &self.format)
+    }
+
+    /// Reads a program of several files in memory. The first one is the main program.
+    pub fn read_files(&self, files: Vec<(String, Vec<u8>)>) -> ProgramReader<OpenFile> {
+        let main = files.first().cloned().unwrap_or_default();
+        let open = move |name: &str| -> io::Result<OpenFile> {
+            let found = files.iter().find(|(file, _)| file == name);
+            let text = found.map(|(_, text)| text.clone());
+            let text = text.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
+            Ok(Box::new(Cursor::new(text)))
+        };
+        let (name, text) = main;
+        let reader: OpenFile = Box::new(Cursor::new(text));
+        self.read(reader, name).with_parts(Box::new(open))
     }
 
     /// The same layout with one line for each segment, of any time.

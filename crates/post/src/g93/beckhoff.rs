@@ -20,10 +20,11 @@ use super::read::{LineGrammar, Words};
 use super::travel::{push_for_beckhoff, read_for_beckhoff};
 use super::write::{push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
+use crate::parts::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT,
+C_LIMIT, MEMORY, SEGMENTS_PER_SECOND, SPLIT,     C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -40,6 +41,10 @@ pub(crate) const BECKHOFF_G93: Post = Post {
         C_SIGN.info(),
         C_WRAP.info(),
         SHORTEST_SEGMENT.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        SPLIT.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -101,6 +106,20 @@ impl Dialect for Beckhoff {
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
         read_for_beckhoff(code, modes)
+    }
+
+    fn part_lines(&self, part: &PartName) -> Option<PartLines> {
+        Some(PartLines {
+            call: format!("L {}", part.file),
+            begin: String::new(),
+            end: "M17\n".to_owned(),
+        })
+    }
+
+    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+        // The blank is a part of the call.
+        let name = code.trim().strip_prefix("L ")?.trim();
+        Some(name.to_owned())
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

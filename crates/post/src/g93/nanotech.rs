@@ -14,7 +14,7 @@ use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SHORTEST_SEGMENT,
+C_LIMIT, MEMORY, SEGMENTS_PER_SECOND,     C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SHORTEST_SEGMENT,
     SIX_DECIMALS,
 };
 use crate::travel::{Places, TravelModes};
@@ -33,6 +33,9 @@ pub(crate) const NANOTECH_G93: Post = Post {
         C_SIGN.info(),
         C_WITHIN_TURN.info(),
         SHORTEST_SEGMENT.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],

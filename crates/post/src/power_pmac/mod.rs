@@ -9,7 +9,7 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
-use crate::pmac::{Clock, PVT_KEYS, Pvt};
+use crate::pmac::{Clock, PmacDialect, PVT_KEYS, Pvt};
 use crate::post::Post;
 use crate::program_format::FeedMeaning;
 
@@ -46,5 +46,8 @@ open prog 1
     mantissa_bits: None,
     c_is_even: false,
     delivered_decimals: None,
-    dialect: &Pvt { clock: CLOCK },
+    dialect: &Pvt {
+        clock: CLOCK,
+        dialect: PmacDialect::Power,
+    },
 };

@@ -6,7 +6,7 @@ use super::*;
 use crate::{POSTS, ProgramFormat};
 
 /// A path from rest to rest 1.5 mm above the cut, whose middle is the cut.
-fn with_leads() -> Vec<ControlPoint> {
+pub(super) fn with_leads() -> Vec<ControlPoint> {
     let at = |k: u32, z: f64, vz: f64| ControlPoint {
         t: 0.5 * f64::from(k),
         c: f64::from(k) * 90.0 * DEG,

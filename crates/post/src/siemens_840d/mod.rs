@@ -44,10 +44,11 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
 use crate::g_code::push_travel;
+use crate::parts::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
-use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT};
+use crate::settings::{C_LIMIT, MEMORY, SEGMENTS_PER_SECOND, SPLIT, C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT};
 use crate::travel::{C, Places, Travel, TravelModes};
 
 /// Programs for Siemens Sinumerik 840D.
@@ -61,6 +62,10 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
         POSITION_DECIMALS.info(),
         C_SIGN.info(),
         SHORTEST_SEGMENT.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        SPLIT.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -134,6 +139,19 @@ impl Dialect for Poly {
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
         travel::read(code, modes)
+    }
+
+    fn part_lines(&self, part: &PartName) -> Option<PartLines> {
+        Some(PartLines {
+            call: format!("EXTCALL(\"{}\")", part.file),
+            begin: String::new(),
+            // `RET` ends a subprogram without an end of the continuous path.
+            end: "RET\n".to_owned(),
+        })
+    }
+
+    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+        travel::called_part(code)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

@@ -1,4 +1,4 @@
-//! Reads the moves before and after a path.
+//! Reads what stands around a path: the moves before and after it, and the calls of its parts.
 
 use crate::g_code;
 use crate::travel::{Places, TravelModes};
@@ -24,6 +24,15 @@ pub(super) fn read(code: &str, modes: &mut TravelModes) -> Result<Places, String
         true => Err("a move before `G71` or `G710`".to_owned()),
         false => Ok(places),
     }
+}
+
+/// The file of `EXTCALL("file")`.
+pub(super) fn called_part(code: &str) -> Option<String> {
+    let code = code.trim();
+    let word = code.get(..7).filter(|word| word.eq_ignore_ascii_case("EXTCALL"))?;
+    let rest = code.get(word.len()..)?.trim_start();
+    let name = rest.strip_prefix("(\"")?.strip_suffix("\")")?;
+    Some(name.to_owned())
 }
 
 #[cfg(test)]

@@ -106,6 +106,10 @@ fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Err
 /// The split in the summary beside a file, if the summary is that of this recipe with these changes,
 /// and if it says a split that a run may find.
 fn split_beside(recipe: &Recipe, file: &Path) -> Option<Tolerance> {
+    // The summary has the split of the finishing path, and none of the others'.
+    if recipe.rough_name().is_some() {
+        return None;
+    }
     // The file may be spoiled; the split is then still that of the path that it was.
     let FolderSummary::Read(summary) = FolderSummary::of(&folder_of(file)) else {
         return None;
