@@ -18,6 +18,7 @@ mod dry_run;
 mod ending_plugins;
 mod frozen_boundary;
 mod import;
+mod long_programs;
 mod maps;
 mod no_surface;
 mod own_sampler;

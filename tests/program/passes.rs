@@ -113,8 +113,8 @@ fn verify_compares_a_file_of_a_pass_with_its_own_path() {
     let mut cells: Vec<String> = rows[middle].split(',').map(str::to_owned).collect();
     cells[3] = (cells[3].parse::<f64>().unwrap() + 2e-3).to_string();
     rows[middle] = cells.join(",");
-    bench.write("spoiled/toolpath-rough.csv", &rows.join("\n"));
-    let line = "verify recipe.toml spoiled/toolpath-rough.csv --format json";
+    bench.write("toolpath-rough.csv", &rows.join("\n"));
+    let line = "verify recipe.toml toolpath-rough.csv --format json";
     let found = bench.line(line).ends(1).json();
     assert_eq!(found["anomalies"]["count"], 1);
 }

@@ -135,7 +135,17 @@ mod tests {
             assert_eq!(text.parse(), Ok(amount), "{text}");
             assert_eq!(amount.to_string().parse(), Ok(amount), "{amount}");
         }
-        for text in ["", "100", "MB", "0 MB", "-1 MB", "0.5 blocks", "1 mb", "1e3 MB", "1e20 GB"] {
+        for text in [
+            "",
+            "100",
+            "MB",
+            "0 MB",
+            "-1 MB",
+            "0.5 blocks",
+            "1 mb",
+            "1e3 MB",
+            "1e20 GB",
+        ] {
             assert!(text.parse::<Amount>().is_err(), "{text}");
         }
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
-use crate::carry::{Move, carried, carry, turns_left_out};
+use crate::carry::{CarriedPoints, Move, carried, carry, leads_into_cut, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
@@ -50,19 +50,28 @@ impl Layout {
     pub fn lines(&self, stretch: &SectionBlock<'_>) -> Result<Lines, ProgramError> {
         let Self { post, format } = self;
         let mut text = Vec::new();
-        if stretch.opens_section {
-            let opening = format!("{} {}\n", post.comment, mark(stretch.section));
+        let opening = format!("{} {}\n", post.comment, mark(stretch.section));
+        let mut opening = stretch.opens_section.then_some(opening);
+        // Lines between a lead-in and the cut belong to the lead-in: the cut begins at its first point.
+        if let Some(opening) = opening.take_if(|_| !leads_into_cut(stretch)) {
             text.extend_from_slice(opening.as_bytes());
         }
         let mut in_time = Ok(());
         let mut extent: Option<Extent> = None;
         let points = carry(format, stretch, &mut |step| {
+            let reaches_point = match &step {
+                Move::Start(_) => true,
+                Move::Segment { reaches_point, .. } => *reaches_point,
+            };
+            if let Some(opening) = opening.take_if(|_| reaches_point) {
+                text.extend_from_slice(opening.as_bytes());
+            }
             let point = match step {
                 Move::Start(digits) => {
                     post.dialect.write_first(&mut text, format, digits);
                     digits
                 }
-                Move::Segment(segment) => {
+                Move::Segment { segment, .. } => {
                     if in_time.is_ok() {
                         in_time = post.dialect.check_time(format, segment);
                     }
@@ -123,7 +132,7 @@ impl Layout {
     ///
     /// # Errors
     /// When a program cannot carry the path.
-    pub fn carried(&self, stretch: &SectionBlock<'_>) -> Result<PathBlock, ProgramError> {
+    pub fn carried(&self, stretch: &SectionBlock<'_>) -> Result<CarriedPoints, ProgramError> {
         carried(&self.format, stretch)
     }
 

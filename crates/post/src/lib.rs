@@ -54,7 +54,7 @@ mod write_npz;
 mod write_parquet;
 
 pub use amount::{Amount, AmountError, TextSize};
-pub use carry::{DigitSegment, Digits};
+pub use carry::{CarriedPoints, DigitSegment, Digits};
 pub use columns::{ColumnFormat, Columns, WriteColumns};
 pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines, OpenFile};

@@ -48,7 +48,9 @@ impl<R: Read> PartCalls<R> {
 
     /// Takes the mark of the main program that says how many parts it has.
     pub(crate) fn begin(&mut self, mark: &str) -> bool {
-        let number = mark.strip_prefix("-- ").and_then(|rest| rest.strip_suffix(" parts --"));
+        let number = mark
+            .strip_prefix("-- ")
+            .and_then(|rest| rest.strip_suffix(" parts --"));
         let Some(parts) = number.and_then(|number| number.parse().ok()) else {
             return false;
         };
@@ -73,7 +75,9 @@ impl<R: Read> PartCalls<R> {
         let Some(rest) = ends.or(begins).filter(|_| self.caller.is_some()) else {
             return Ok(false);
         };
-        let number = rest.strip_suffix(" --").and_then(|number| number.parse().ok());
+        let number = rest
+            .strip_suffix(" --")
+            .and_then(|number| number.parse().ok());
         let (from, to) = match ends {
             Some(_) => (Place::Within, Place::Behind),
             None => (Place::Before, Place::Within),

@@ -101,9 +101,7 @@ pub enum ProgramError {
         c_deg: f64,
     },
     /// C goes beyond the end of its axis.
-    #[error(
-        "C of the program is {c_deg:.3} deg at {t:.6} s, and c_limit is {limit_deg} deg"
-    )]
+    #[error("C of the program is {c_deg:.3} deg at {t:.6} s, and c_limit is {limit_deg} deg")]
     BeyondC {
         /// C of the program, deg.
         c_deg: f64,

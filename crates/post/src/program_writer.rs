@@ -143,7 +143,12 @@ impl ProgramPath {
 
     /// The size of the complete program as one file.
     pub fn size(&self, header: &str, footer: &str) -> TextSize {
-        let around = [header.as_bytes(), &self.approach, &self.end, footer.as_bytes()];
+        let around = [
+            header.as_bytes(),
+            &self.approach,
+            &self.end,
+            footer.as_bytes(),
+        ];
         let sizes = around.map(TextSize::of).into_iter();
         sizes.fold(self.size, TextSize::and)
     }
@@ -229,7 +234,12 @@ impl ProgramPathInMemory {
 
     /// The size of the complete program as one file.
     pub fn size(&self, header: &str, footer: &str) -> TextSize {
-        let around = [header.as_bytes(), &self.approach, &self.end, footer.as_bytes()];
+        let around = [
+            header.as_bytes(),
+            &self.approach,
+            &self.end,
+            footer.as_bytes(),
+        ];
         let sizes = around.map(TextSize::of).into_iter();
         sizes.fold(self.size, TextSize::and)
     }

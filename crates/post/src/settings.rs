@@ -199,9 +199,10 @@ impl Post {
             incremental: settings.find(POSITIONING) == Some(INCREMENTAL),
             mantissa_bits: self.mantissa_bits,
             z_above,
-            c_limit: settings.find(C_LIMIT).flatten().map(|limit| {
-                (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64
-            }),
+            c_limit: settings
+                .find(C_LIMIT)
+                .flatten()
+                .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)

@@ -200,7 +200,9 @@ impl<'a> FolderSink<'a> {
                 files.drafts.push(draft);
             }
             let assembled = assemble((job, program), path, &frame, self.folder)?;
-            files.drafts.extend(whole_program(program, assembled, &name, points)?);
+            files
+                .drafts
+                .extend(whole_program(program, assembled, &name, points)?);
             reports.push(report);
         }
         Ok(reports)

@@ -7,8 +7,8 @@ use turnpath_core::toolpath::{PathBlock, Section, SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
 use turnpath_post::{
-    Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartsError, Post, ProgramError, ReadPath,
-    SEGMENTS_PER_SECOND, SPLIT, Template, TextSize,
+    Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartsError, Post, ProgramError,
+    ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize,
 };
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
@@ -146,7 +146,7 @@ impl Program {
         };
         let mut rate = SegmentRate::default();
         let carried = self.carried(self.layout.carried(&stretch))?;
-        carried.points().for_each(|point| rate.pass(&point));
+        carried.points.points().for_each(|point| rate.pass(&point));
         Ok(rate)
     }
 
@@ -375,8 +375,7 @@ fn amount(recipe: &Recipe, post: &Post, text: Option<&str>) -> Result<Option<Amo
         text.parse::<Amount>().map_err(|error| {
             let span = recipe.nearest_span(post.table);
             let help = "write \"100 MB\" (B, kB, MB, GB) or \"200000 blocks\"".to_owned();
-            let diagnostic =
-                recipe.diagnostic(span, error.to_string(), "in this table", [help]);
+            let diagnostic = recipe.diagnostic(span, error.to_string(), "in this table", [help]);
             Error::refused_by(diagnostic, error)
         })
     };

@@ -24,7 +24,11 @@ impl SegmentRate {
     /// Takes the next point.
     pub fn pass(&mut self, point: &ControlPoint) {
         self.times.push_back(point.t);
-        while self.times.front().is_some_and(|time| *time <= point.t - WINDOW) {
+        while self
+            .times
+            .front()
+            .is_some_and(|time| *time <= point.t - WINDOW)
+        {
             self.times.pop_front();
         }
         let count = self.times.len() as u64;
@@ -93,7 +97,10 @@ mod tests {
     fn the_busiest_second_is_found_with_its_place() {
         let mut rate = SegmentRate::default();
         // Ten in a second, then forty in a second, then ten again.
-        let steps = (0..20).map(|_| 0.1).chain((0..60).map(|_| 0.025)).chain((0..20).map(|_| 0.1));
+        let steps = (0..20)
+            .map(|_| 0.1)
+            .chain((0..60).map(|_| 0.025))
+            .chain((0..20).map(|_| 0.1));
         let mut t = 0.0;
         for step in steps {
             t += step;
@@ -105,7 +112,10 @@ mod tests {
         }
         assert!(rate.within(None).is_ok() && rate.within(Some(41.0)).is_ok());
         let error = rate.within(Some(30.0)).unwrap_err();
-        let ProgramError::FastSegments { segments, t, c_deg, .. } = error else {
+        let ProgramError::FastSegments {
+            segments, t, c_deg, ..
+        } = error
+        else {
             panic!("{error}");
         };
         assert!((40..=41).contains(&segments), "{segments}");

@@ -40,7 +40,8 @@ use crate::parts::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-C_LIMIT, MEMORY, SEGMENTS_PER_SECOND, SPLIT,     C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, SHORTEST_SEGMENT, VELOCITY_DECIMALS,
+    C_LIMIT, C_SIGN, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, POSITIONING, SEGMENTS_PER_SECOND,
+    SHORTEST_SEGMENT, SPLIT, VELOCITY_DECIMALS,
 };
 use crate::travel::{Places, Travel, TravelModes};
 

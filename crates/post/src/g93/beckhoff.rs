@@ -24,7 +24,8 @@ use crate::parts::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-C_LIMIT, MEMORY, SEGMENTS_PER_SECOND, SPLIT,     C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT,
+    C_LIMIT, C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, MEMORY, POSITION_DECIMALS,
+    SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SPLIT,
 };
 use crate::travel::{Places, Travel, TravelModes};
 

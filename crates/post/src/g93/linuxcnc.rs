@@ -13,7 +13,8 @@ use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-C_LIMIT, MEMORY, SEGMENTS_PER_SECOND, SPLIT,     C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, POSITION_DECIMALS, SERVO_PERIOD,
+    C_LIMIT, C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, MEMORY, POSITION_DECIMALS,
+    SEGMENTS_PER_SECOND, SERVO_PERIOD, SPLIT,
 };
 use crate::travel::{Places, Travel, TravelModes};
 

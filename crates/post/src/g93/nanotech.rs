@@ -14,8 +14,8 @@ use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-C_LIMIT, MEMORY, SEGMENTS_PER_SECOND,     C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SHORTEST_SEGMENT,
-    SIX_DECIMALS,
+    C_LIMIT, C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, MEMORY,
+    SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SIX_DECIMALS,
 };
 use crate::travel::{Places, TravelModes};
 

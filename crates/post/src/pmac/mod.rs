@@ -56,8 +56,8 @@ use crate::parts::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-C_LIMIT, MEMORY, SEGMENTS_PER_SECOND, SPLIT,     BUFFER, C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, ROTARY,
-    SHORTEST_SEGMENT, VELOCITY_DECIMALS, VELOCITY_PER,
+    BUFFER, C_LIMIT, C_SIGN, C_WRAP, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, POSITIONING,
+    ROTARY, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SPLIT, VELOCITY_DECIMALS, VELOCITY_PER,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -211,7 +211,9 @@ impl Dialect for Pvt {
     /// A controller of this family knows programs by their numbers, and files by their names alone.
     fn called_part(&self, code: &str, program: &str) -> Option<String> {
         let code = code.trim();
-        let word = code.get(..4).filter(|word| word.eq_ignore_ascii_case("CALL"))?;
+        let word = code
+            .get(..4)
+            .filter(|word| word.eq_ignore_ascii_case("CALL"))?;
         let number: u32 = code.get(word.len()..)?.trim().parse().ok()?;
         let part = number.checked_sub(FIRST_PART)?;
         Some(PartName::of(program, part).file)

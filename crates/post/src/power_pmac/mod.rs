@@ -9,7 +9,7 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
-use crate::pmac::{Clock, PmacDialect, PVT_KEYS, Pvt};
+use crate::pmac::{Clock, PVT_KEYS, PmacDialect, Pvt};
 use crate::post::Post;
 use crate::program_format::FeedMeaning;
 

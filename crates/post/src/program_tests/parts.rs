@@ -37,7 +37,9 @@ fn lines_of(layout: &Layout) -> Lines {
 fn files(layout: &Layout, most: Amount) -> Result<Files, PartsError> {
     let mut writer = ProgramWriter::in_memory(*layout);
     writer.append(&lines_of(layout)).unwrap();
-    writer.close().assemble_parts(FRAME, (&main_of(layout), most))
+    writer
+        .close()
+        .assemble_parts(FRAME, (&main_of(layout), most))
 }
 
 fn whole(layout: &Layout) -> Vec<u8> {
@@ -80,11 +82,22 @@ fn parts_of_any_size_play_what_one_file_plays_and_have_its_lines() {
             let most: Amount = most.parse().unwrap();
             let files = files(&layout, most).unwrap();
             let name = layout.post.name;
-            assert_eq!(read_all(&layout, files.clone()).unwrap(), expected, "{name} {most}");
+            assert_eq!(
+                read_all(&layout, files.clone()).unwrap(),
+                expected,
+                "{name} {most}"
+            );
             let parts = &files[1..];
-            assert_eq!(parts.len() > 1, most != Amount::Bytes(1_000_000), "{name} {most}");
+            assert_eq!(
+                parts.len() > 1,
+                most != Amount::Bytes(1_000_000),
+                "{name} {most}"
+            );
             for (k, (file, text)) in parts.iter().enumerate() {
-                assert_eq!(file, &format!("my_part-part-{}.{}", k + 1, layout.post.extension));
+                assert_eq!(
+                    file,
+                    &format!("my_part-part-{}.{}", k + 1, layout.post.extension)
+                );
                 assert!(most.holds(TextSize::of(text)), "{name} {most}");
             }
             let bodies: String = parts.iter().map(|(_, text)| body(text)).collect();
@@ -119,13 +132,19 @@ fn a_part_that_is_missing_damaged_or_out_of_order_is_refused_with_its_place() {
             let [one, two] = [files[1].1.clone(), files[2].1.clone()];
             (files[1].1, files[2].1) = (two, one);
         });
-        assert!(swapped.contains("is out of order in part 1"), "{name}: {swapped}");
+        assert!(
+            swapped.contains("is out of order in part 1"),
+            "{name}: {swapped}"
+        );
         let lost = refused(&|files| {
             let main = String::from_utf8(files[0].1.clone()).unwrap();
             let kept = main.split_inclusive('\n').filter(|line| !is_call(line, 3));
             files[0].1 = kept.collect::<String>().into_bytes();
         });
-        assert!(lost.contains("parts, and calls") || lost.contains("out of order"), "{name}: {lost}");
+        assert!(
+            lost.contains("parts, and calls") || lost.contains("out of order"),
+            "{name}: {lost}"
+        );
     }
 }
 
@@ -144,7 +163,13 @@ fn a_line_of_a_part_is_named_by_its_own_file_and_number() {
         let damaged: Vec<String> = text
             .lines()
             .zip(1..)
-            .map(|(line, number)| if number == 12 { "C#".to_owned() } else { line.to_owned() })
+            .map(|(line, number)| {
+                if number == 12 {
+                    "C#".to_owned()
+                } else {
+                    line.to_owned()
+                }
+            })
             .collect();
         files[2].1 = damaged.join("\n").into_bytes();
         let said = read_all(&layout, files).unwrap_err();
@@ -158,9 +183,14 @@ fn a_call_leads_to_no_other_folder_and_a_program_in_memory_has_no_parts() {
     let layout = plain(crate::post_named("beckhoff-g93").unwrap());
     let mut files = files(&layout, Amount::Blocks(25)).unwrap();
     let main = String::from_utf8(files[0].1.clone()).unwrap();
-    files[0].1 = main.replace("L my_part-part-1", "L ../my_part-part-1").into_bytes();
+    files[0].1 = main
+        .replace("L my_part-part-1", "L ../my_part-part-1")
+        .into_bytes();
     let said = read_all(&layout, files).unwrap_err();
-    assert!(said.contains("not beside its main program") || said.contains("cannot read"), "{said}");
+    assert!(
+        said.contains("not beside its main program") || said.contains("cannot read"),
+        "{said}"
+    );
     let said = read(&layout, main.as_bytes()).unwrap_err();
     assert!(said.contains("cannot read"), "{said}");
 }
@@ -172,7 +202,16 @@ fn more_parts_than_controllers_can_name_are_refused() {
         .map(|k| [0.003, 9.0, 2.5, f64::from(k % 3), 0.0, 0.0])
         .collect();
     let mut writer = ProgramWriter::in_memory(layout);
-    writer.append(&lines(&layout, &path_of(&points), &[])).unwrap();
-    let refused = writer.close().assemble_parts(FRAME, (&main_of(&layout), Amount::Bytes(1)));
-    assert!(refused.unwrap_err().to_string().contains("more than 899 parts"));
+    writer
+        .append(&lines(&layout, &path_of(&points), &[]))
+        .unwrap();
+    let refused = writer
+        .close()
+        .assemble_parts(FRAME, (&main_of(&layout), Amount::Bytes(1)));
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .contains("more than 899 parts")
+    );
 }

@@ -81,7 +81,7 @@ proptest! {
                 before: &points[from.saturating_sub(2)..from],
                 points: &block,
             };
-            carried.extend(layout.carried(&stretch).unwrap().points());
+            carried.extend(layout.carried(&stretch).unwrap().points.points());
         }
         prop_assert_eq!(carried.len(), read.len());
         for (k, (carried, read)) in carried.iter().zip(&read).enumerate() {

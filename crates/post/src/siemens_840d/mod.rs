@@ -48,7 +48,10 @@ use crate::parts::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
-use crate::settings::{C_LIMIT, MEMORY, SEGMENTS_PER_SECOND, SPLIT, C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT};
+use crate::settings::{
+    C_LIMIT, C_SIGN, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, SEGMENTS_PER_SECOND,
+    SHORTEST_SEGMENT, SPLIT,
+};
 use crate::travel::{C, Places, Travel, TravelModes};
 
 /// Programs for Siemens Sinumerik 840D.

@@ -190,7 +190,10 @@ fn a_segment_in_which_c_stands_still_is_not_written() {
     assert_eq!(said(9.0, 3000.0), None);
     assert_eq!(said(0.0, 3000.0), None);
     let refused = said(0.0, 0.0).unwrap();
-    assert!(refused.starts_with("C stands still in the segment that ends at 0.003"), "{refused}");
+    assert!(
+        refused.starts_with("C stands still in the segment that ends at 0.003"),
+        "{refused}"
+    );
 }
 
 /// The velocities of such a program do not fit into the numbers of the reader.

@@ -29,7 +29,9 @@ pub(super) fn read(code: &str, modes: &mut TravelModes) -> Result<Places, String
 /// The file of `EXTCALL("file")`.
 pub(super) fn called_part(code: &str) -> Option<String> {
     let code = code.trim();
-    let word = code.get(..7).filter(|word| word.eq_ignore_ascii_case("EXTCALL"))?;
+    let word = code
+        .get(..7)
+        .filter(|word| word.eq_ignore_ascii_case("EXTCALL"))?;
     let rest = code.get(word.len()..)?.trim_start();
     let name = rest.strip_prefix("(\"")?.strip_suffix("\")")?;
     Some(name.to_owned())

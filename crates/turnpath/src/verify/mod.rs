@@ -25,8 +25,8 @@ use turnpath_verify::{AnomalyDetector, FirstTouch, ServoMeter, Subject, unreache
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
-use crate::folder::rough_toolpath;
 use crate::figures::{self, CutFigures, material_threshold};
+use crate::folder::rough_toolpath;
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::result_check::result_check;
