@@ -10,33 +10,12 @@ use turnpath_files::FileError;
 
 use crate::amount::{Amount, TextSize};
 use crate::layout::Layout;
+use crate::part_name::{PartLines, PartName};
 use crate::program_error::ProgramError;
 use crate::program_format::{end_of_part_mark, part_mark, parts_mark};
 
 /// Most parts of a program. A controller that knows programs by numbers has them from 101 to 999.
 pub(crate) const MOST_PARTS: u32 = 899;
-
-/// A part of a program.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PartName {
-    /// Its file's name without the ending.
-    pub stem: String,
-    /// Its file's name.
-    pub file: String,
-    /// Its number, from 1.
-    pub number: u32,
-}
-
-/// What a dialect writes for a part.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PartLines {
-    /// The line of the main program that calls it.
-    pub call: String,
-    /// What stands before its lines, each with its line end.
-    pub begin: String,
-    /// What stands behind them.
-    pub end: String,
-}
 
 /// Why a program could not be divided into parts.
 #[derive(Debug, thiserror::Error)]
@@ -47,26 +26,6 @@ pub enum PartsError {
     /// There would be too many, or the dialect has no call.
     #[error(transparent)]
     Program(#[from] ProgramError),
-}
-
-impl PartName {
-    /// That of the part of this number of a program. Controllers differ in the characters that they
-    /// take in names, so only letters, digits and `-` and `_` are kept, in lower case.
-    pub fn of(program: &str, number: u32) -> Self {
-        let (stem, extension) = program.rsplit_once('.').unwrap_or((program, ""));
-        let plain = |c: char| match c {
-            'a'..='z' | '0'..='9' | '-' | '_' => c,
-            'A'..='Z' => c.to_ascii_lowercase(),
-            _ => '_',
-        };
-        let stem: String = stem.chars().map(plain).collect();
-        let stem = format!("{stem}-part-{number}");
-        Self {
-            file: format!("{stem}.{extension}"),
-            stem,
-            number,
-        }
-    }
 }
 
 /// The lines of a path, on their way into parts.

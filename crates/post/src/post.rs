@@ -8,7 +8,7 @@ use turnpath_core::{ParamInfo, Params};
 use crate::carry::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
 use crate::g_code;
-use crate::parts::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::travel::{Places, Travel, TravelModes};

@@ -20,7 +20,7 @@ use super::read::{LineGrammar, Words};
 use super::travel::{push_for_beckhoff, read_for_beckhoff};
 use super::write::{push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
-use crate::parts::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{

@@ -52,7 +52,7 @@ use write::{push_first, push_last, push_segment};
 use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
-use crate::parts::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{

@@ -44,7 +44,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
 use crate::g_code::push_travel;
-use crate::parts::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
