@@ -66,8 +66,8 @@ fn body(text: &[u8]) -> String {
     let text = String::from_utf8(text.to_vec()).unwrap();
     let is_mark = |line: &&str| line.contains("-- part") || line.contains("-- end of part");
     let lines: Vec<&str> = text.split_inclusive('\n').collect();
-    let begin = lines.iter().position(|line| is_mark(line)).unwrap();
-    let end = lines.iter().rposition(|line| is_mark(line)).unwrap();
+    let begin = lines.iter().position(&is_mark).unwrap();
+    let end = lines.iter().rposition(is_mark).unwrap();
     lines[begin + 1..end].concat()
 }
 
