@@ -19,6 +19,7 @@ mod ending_plugins;
 mod first_mile;
 mod frozen_boundary;
 mod import;
+mod long_programs;
 mod maps;
 mod no_surface;
 mod own_sampler;
