@@ -61,6 +61,12 @@ fn compare(found: &Value, with_atpg: &Value, what: &str) {
     assert_eq!(ratio("/revolutions"), 1.0, "{what}");
     let residual = ratio("/residual/max_nm");
     assert!((residual - 1.0).abs() <= 1e-4, "{what}: {residual}");
+    compare_motion(found, with_atpg, what);
+}
+
+/// Checks how much Z accelerates and jerks.
+fn compare_motion(found: &Value, with_atpg: &Value, what: &str) {
+    let ratio = |pointer: &str| number(found, pointer) / number(with_atpg, pointer);
     let acceleration = ratio("/axes/z/max_acceleration_mm_per_s2");
     assert!(
         acceleration <= 1.05,
@@ -106,6 +112,29 @@ fn with_the_feed_ats_and_normal_compensation_z_moves_as_with_atpg() {
     }
 }
 
+/// Many states, on waves that are some 100 tolerances high: nodes beside the path make Z accelerate
+/// more where a wave turns. The sampler refuses those that add more than a few hundredths.
+#[test]
+fn z_accelerates_little_more_than_with_atpg_whatever_moves_x() {
+    let chains = [
+        ("constant", "normal"),
+        ("atpg", "normal"),
+        ("ats", "normal"),
+        ("atpg", "z-direction"),
+    ];
+    for (feed, compensator) in chains {
+        let feed = format!("feed={{ use = \"{feed}\" }}");
+        let compensator = format!("compensator={{ use = \"{compensator}\" }}");
+        let set = [feed.as_str(), compensator.as_str()];
+        let with_atpg = run(MLA_5, &atpg(45), &set);
+        for states in [7, 25] {
+            let found = run(MLA_5, &minimax(states, 45), &set);
+            holds_before_refinement(&found, &format!("{set:?}, {states} states"));
+            compare_motion(&found, &with_atpg, &format!("{set:?}, {states} states"));
+        }
+    }
+}
+
 /// Recipe, largest step, points at most with one state and with seven.
 const AT_MOST: &[(&str, u32, f64, Option<f64>)] = &[
     (AST_5, 45, 1510.0, Some(1272.0)),
@@ -128,20 +157,20 @@ fn fewer_points_than_the_bound_at_the_same_tolerance() {
     }
 }
 
-/// Here the largest step decides nearly everywhere, so wandering has its full price: one step in each
-/// of the 45 blocks of 64 turns, which without it have 512 steps of exactly 45 deg. With it the path
-/// has 8 points more than the 22,990 that it keeps to without.
+/// Here the largest step decides nearly everywhere: without wandering each of the 45 blocks of 64 turns
+/// has 512 steps of exactly 45 deg. With it a block has one more. The inner blocks need none, since the
+/// largest step errs by little there.
 #[test]
-fn steps_of_45_deg_on_ast_50_wander_for_a_quarter_of_a_percent() {
+fn steps_of_45_deg_on_ast_50_wander_for_a_fifth_of_a_percent() {
     let still = format!("{}, wander = false", minimax(1, 45));
     let [still, wandering] = [still, minimax(1, 45)].map(|sampler| run(AST_50, &sampler, &[]));
     let bound = run(AST_50, &atpg(45), &[]);
     for found in [&still, &wandering] {
         compare(found, &bound, "AST-50, 45 deg, 1 state");
     }
-    assert!(points(&still) <= 22_990.0, "{}", points(&still));
+    assert!(points(&wandering) <= 22_990.0, "{}", points(&wandering));
     let more = points(&wandering) / points(&still) - 1.0;
-    assert!((0.0..=0.0025).contains(&more), "{more}");
+    assert!((0.0..=0.002).contains(&more), "{more}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use turnpath_plugin::hermite::{Bound, Jumps, pitch};
 use turnpath_plugin::prelude::*;
 
+use crate::acceleration::{self, Allowed};
 use crate::grid::{Sample, sample_before};
 use crate::place::Place;
 use crate::room::errors_of_x;
@@ -59,6 +60,8 @@ pub struct Table<'a> {
     pub c: Vec<f64>,
     /// How the axes act on each other.
     pub coupling: Coupling,
+    /// The largest acceleration of Z on a step, mm over the square of the table's time.
+    pub most_acceleration: f64,
     /// Whether X's own error matters.
     pub x_matters: bool,
     /// Whether the spindle changes its speed.
@@ -99,12 +102,21 @@ impl<'a> Table<'a> {
             x_matters: x_matters(path, samples, limits)?,
             speed_varies,
             coupling: Coupling::default(),
+            most_acceleration: f64::INFINITY,
             n,
             c,
         };
         if table.x_matters || table.speed_varies {
             table.coupling = table.couple()?;
         }
+        let allowed = Allowed {
+            z: limits.allowed,
+            slope: &table.coupling.slope,
+            x_weight: &table.coupling.x_weight,
+            max_step: TAU * limits.max_step,
+        };
+        let spindle = speed_varies.then_some(path.spindle);
+        table.most_acceleration = acceleration::largest(samples, allowed, spindle);
         Ok(table)
     }
 
