@@ -165,14 +165,13 @@ pub fn verify(
 
 /// Makes the variants of a recipe: report, files, how many were there already, and why runs failed.
 #[pyfunction]
-#[pyo3(signature = (recipe, sources, control, folder, *, program, fresh=false, threads=0))]
+#[pyo3(signature = (recipe, sources, control, folder, *, fresh=false, threads=0))]
 pub fn ablate(
     py: Python<'_>,
     recipe: RecipeText,
     sources: Sources<'_>,
     control: Control,
     folder: PathBuf,
-    program: PathBuf,
     fresh: bool,
     threads: usize,
 ) -> PyResult<(String, Vec<PathBuf>, usize, Vec<(usize, String)>)> {
@@ -181,7 +180,6 @@ pub fn ablate(
             folder,
             fresh,
             threads: NonZero::new(threads),
-            program: Some(program),
         };
         turnpath::ablate(&recipe.read()?, catalogue, &options, &control)
     })?;

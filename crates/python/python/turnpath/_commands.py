@@ -314,7 +314,6 @@ def ablate(
                 found,
                 session.control,
                 Path(scratch if folder is None else folder),
-                program=Path(_turnpath.__file__),
                 fresh=fresh,
                 threads=threads,
             ),

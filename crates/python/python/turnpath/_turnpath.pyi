@@ -170,7 +170,6 @@ def ablate(
     control: Control,
     folder: _File,
     *,
-    program: _File,
     fresh: bool = False,
     threads: int = 0,
 ) -> tuple[str, list[_File], int, list[tuple[int, str]]]: ...

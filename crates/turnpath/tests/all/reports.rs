@@ -58,6 +58,8 @@ const PURE: &[&str] = &[
     "count",
     "rounds",
     "per_turn",
+    "blocks",
+    "parts",
 ];
 /// What a unit in a key ends in.
 const UNITS: &[&str] = &[
@@ -136,7 +138,6 @@ fn the_report_of_an_ablation_is_the_same_when_it_is_read_back() {
         folder: folder.path().to_owned(),
         fresh: false,
         threads: NonZero::new(2),
-        program: None,
     };
     let catalogue = Catalogue::linked().unwrap();
     let result = ablate(&recipe, &catalogue, &options, &SilentObserver).unwrap();
