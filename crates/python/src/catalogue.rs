@@ -30,13 +30,13 @@ struct Module<'py> {
     /// Where its source is.
     place: String,
     sha256: String,
-    strategies: Vec<Declared<'py>>,
+    strategies: Vec<StrategySource<'py>>,
 }
 
 /// One strategy of a module.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-struct Declared<'py> {
+struct StrategySource<'py> {
     slot: String,
     /// Name, summary and parameters as JSON.
     declaration: String,
@@ -78,7 +78,7 @@ fn with_library(catalogue: Catalogue, path: &PathBuf) -> Result<Catalogue, LoadE
     }
 }
 
-fn strategy(declared: &Declared<'_>) -> PyResult<OwnStrategy> {
+fn strategy(declared: &StrategySource<'_>) -> PyResult<OwnStrategy> {
     let own = declaration(&declared.declaration)?;
     let strategy = of_slot(declared, own)?;
     let strategy = strategy.with_summary(own.summary).with_params(own.params);
@@ -88,7 +88,7 @@ fn strategy(declared: &Declared<'_>) -> PyResult<OwnStrategy> {
     })
 }
 
-fn of_slot(declared: &Declared<'_>, own: Declaration) -> PyResult<OwnStrategy> {
+fn of_slot(declared: &StrategySource<'_>, own: Declaration) -> PyResult<OwnStrategy> {
     let options = declared.options.as_any();
     let bind = Arc::new(declared.bind.clone_ref(options.py()));
     let bound = move |params: &Params| bound(&bind, params, own);

@@ -34,6 +34,16 @@ impl RecipeText {
     }
 }
 
+/// Report, files, columns, and programs by their names.
+type RunAnswer<'py> = (
+    String,
+    Vec<PathBuf>,
+    Option<Bound<'py, PyDict>>,
+    Vec<(String, Vec<u8>)>,
+);
+/// Report, files, how many runs had a record, and why runs failed by their rows.
+type AblationAnswer = (String, Vec<PathBuf>, usize, Vec<(usize, String)>);
+
 /// Does the work of a command on threads of its own, without the interpreter's lock.
 fn work<R: Send>(
     py: Python<'_>,
@@ -62,12 +72,7 @@ pub fn run<'py>(
     folder: Option<PathBuf>,
     map: Option<(PathBuf, usize)>,
     threads: usize,
-) -> PyResult<(
-    String,
-    Vec<PathBuf>,
-    Option<Bound<'py, PyDict>>,
-    Vec<(String, Vec<u8>)>,
-)> {
+) -> PyResult<RunAnswer<'py>> {
     let result = work(py, &sources, threads, |catalogue| {
         let outputs = match folder {
             Some(folder) => Outputs::in_folder(folder),
@@ -174,7 +179,7 @@ pub fn ablate(
     folder: PathBuf,
     fresh: bool,
     threads: usize,
-) -> PyResult<(String, Vec<PathBuf>, usize, Vec<(usize, String)>)> {
+) -> PyResult<AblationAnswer> {
     let result = work(py, &sources, 1, |catalogue| {
         let options = AblationOptions {
             folder,

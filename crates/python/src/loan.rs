@@ -13,7 +13,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 /// A reference that may be used until its call ends.
-pub struct Loan<T: ?Sized + 'static>(Arc<Lent<T>>);
+pub struct Loan<T: ?Sized + 'static>(Arc<Ledger<T>>);
 
 impl<T: ?Sized> Clone for Loan<T> {
     fn clone(&self) -> Self {
@@ -27,7 +27,7 @@ impl<T: ?Sized> fmt::Debug for Loan<T> {
     }
 }
 
-struct Lent<T: ?Sized + 'static> {
+struct Ledger<T: ?Sized + 'static> {
     state: Mutex<State<T>>,
     returned: Condvar,
 }
@@ -39,7 +39,7 @@ struct State<T: ?Sized + 'static> {
     uses: usize,
 }
 
-impl<T: ?Sized> Lent<T> {
+impl<T: ?Sized> Ledger<T> {
     fn lock(&self) -> MutexGuard<'_, State<T>> {
         // Nothing panics while it holds the lock.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
@@ -47,7 +47,7 @@ impl<T: ?Sized> Lent<T> {
 }
 
 /// Ends a loan when the call ends, also by a panic.
-struct End<'a, T: ?Sized + 'static>(&'a Lent<T>);
+struct End<'a, T: ?Sized + 'static>(&'a Ledger<T>);
 
 impl<T: ?Sized> Drop for End<'_, T> {
     fn drop(&mut self) {
@@ -61,7 +61,7 @@ impl<T: ?Sized> Drop for End<'_, T> {
 }
 
 /// Counts a use while it is in progress.
-struct Use<'a, T: ?Sized + 'static>(&'a Lent<T>);
+struct Use<'a, T: ?Sized + 'static>(&'a Ledger<T>);
 
 impl<T: ?Sized> Drop for Use<'_, T> {
     fn drop(&mut self) {
@@ -87,13 +87,13 @@ impl<T: ?Sized + Sync> Loan<T> {
         .ok_or_else(|| PyRuntimeError::new_err("the call that this was made for has ended"))
     }
 
-    /// Lends what a `'static` reference, made by [`lend!`], points to during `call`. The caller must
-    /// not hold the interpreter's lock: the loan ends only after its last use, which may need it.
+    /// Lends a reference during `call`. The caller has lengthened its lifetime, and must not hold the
+    /// interpreter's lock: the loan ends only after its last use, which may need it.
     ///
     /// # Safety
-    /// `value` is valid until `call` has returned.
+    /// `value` is valid until this function has returned.
     pub unsafe fn during<R>(value: &'static T, call: impl FnOnce(Self) -> R) -> R {
-        let lent = Arc::new(Lent {
+        let lent = Arc::new(Ledger {
             state: Mutex::new(State {
                 value: Some(value),
                 uses: 0,

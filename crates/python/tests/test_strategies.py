@@ -392,3 +392,14 @@ def test_a_default_without_a_unit_and_a_host_key_are_refused(part):
 
     with pytest.raises(turnpath.Error, match="speed"):
         turnpath.run(part, strategies=[greedy])
+
+
+def test_a_piece_between_two_states_has_them():
+    piece = turnpath.between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1.0)
+    assert np.array_equal(piece, [1, 0, 0, 0, 10, -15, 6])
+    start, end, length = [2.0, -0.3, 0.7], [1.0, 0.2, -0.4], 3.5
+    polynomial = np.polynomial.Polynomial(turnpath.between(start, end, length)[1:])
+    for order, (first, last) in enumerate(zip(start, end)):
+        derivative = polynomial.deriv(order) if order else polynomial
+        assert derivative(0.0) == pytest.approx(first)
+        assert derivative(length) == pytest.approx(last)

@@ -27,10 +27,10 @@ from ._commands import (
     verify,
 )
 from ._errors import (
-    Cancelled,
+    Cancellation,
     Error,
     FileError,
-    Interrupted,
+    Interruption,
     Place,
     RecipeError,
     StrategyError,

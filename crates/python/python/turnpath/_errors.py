@@ -68,7 +68,7 @@ class FileError(Error):
     """A file could not be read or written."""
 
 
-class Cancelled(Error):
+class Cancellation(Error):
     """The command was cancelled."""
 
 
@@ -76,7 +76,7 @@ class TimeLimit(BaseException):
     """Raised inside of a strategy that takes too long. No ``except Exception`` catches it."""
 
 
-class Interrupted(BaseException):
+class Interruption(BaseException):
     """Raised inside of a strategy when the command was cancelled."""
 
 
@@ -88,7 +88,7 @@ _KINDS: dict[str, type[Error]] = {
     "request": RecipeError,
     "plugin": StrategyError,
     "files": FileError,
-    "cancelled": Cancelled,
+    "cancelled": Cancellation,
 }
 
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ._errors import Cancelled, Error, Interrupted, StrategyError, TimeLimit
+from ._errors import Cancellation, Error, Interruption, StrategyError, TimeLimit
 from ._turnpath import Control
 
 Answer = TypeVar("Answer")
@@ -41,7 +41,7 @@ def _after_fork() -> None:
 os.register_at_fork(after_in_child=_after_fork)
 
 
-class _Failed(Exception):
+class _FailureText(Exception):
     """What the native part gets of an exception: its text."""
 
 
@@ -88,10 +88,10 @@ class Session:
                 with self._lock:
                     self._calls.setdefault(thread, []).append(call)
                 return function(*arguments)
-            except _Failed:
+            except _FailureText:
                 raise
             except BaseException as error:  # noqa: B902: a strategy may raise anything
-                raise _Failed(self._failed(strategy, error)) from None
+                raise _FailureText(self._failed(strategy, error)) from None
             finally:
                 with self._lock:
                     calls = self._calls.get(thread, [])
@@ -105,7 +105,7 @@ class Session:
         place = f" ({source})" if source else ""
         if isinstance(error, TimeLimit):
             text = f"did not come back within {self.time_limit:g} s{place}"
-        elif isinstance(error, Interrupted):
+        elif isinstance(error, Interruption):
             text = "was interrupted"
         else:
             text = f"raised {type(error).__name__}: {error}{place}"
@@ -166,7 +166,7 @@ class Session:
                     return error
                 stop = error
                 self.control.cancel()
-                self._end_calls(Interrupted, lambda call: True)
+                self._end_calls(Interruption, lambda call: True)
             now = time.monotonic()
             if self.time_limit is not None:
                 limit = self.time_limit
@@ -207,7 +207,7 @@ class Session:
 
     def _explained(self, error: BaseException) -> BaseException:
         """The exception of the native part, with what a strategy raised."""
-        if not isinstance(error, Error) or isinstance(error, Cancelled):
+        if not isinstance(error, Error) or isinstance(error, Cancellation):
             return error
         text = str(error)
         # A message may be broken over lines where it is underlined.

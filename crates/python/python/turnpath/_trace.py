@@ -16,7 +16,7 @@ import numpy as np
 from ._errors import TraceError
 
 Step = tuple[str, list[int], float]
-Operand = Union["Traced", int, float]
+Operand = Union["TraceNumber", int, float]
 
 # numpy's functions, and the steps of formulas.
 _TWO = {
@@ -64,23 +64,23 @@ class Tracer:
         #: Whether no plain number was taken out of the formula and worked on outside of it.
         self.exact = True
 
-    def step(self, name: str, operands: tuple[Traced, ...] = (), number: float = 0.0) -> Traced:
+    def step(self, name: str, operands: tuple[TraceNumber, ...] = (), number: float = 0.0) -> TraceNumber:
         """A step of this name on these operands."""
         ids = tuple(operand.id for operand in operands)
         key = (name, ids, float(number).hex())
         if key not in self.numbers:
             self.numbers[key] = len(self.steps)
             self.steps.append((name, list(ids), float(number)))
-        return Traced(self, self.numbers[key], self._value(name, operands, number))
+        return TraceNumber(self, self.numbers[key], self._value(name, operands, number))
 
-    def number(self, value: float) -> Traced:
+    def number(self, value: float) -> TraceNumber:
         """A plain number."""
         if not math.isfinite(value):
             raise TraceError(f"the number {value} stands in no formula")
         return self.step("number", (), float(value))
 
     @staticmethod
-    def _value(name: str, operands: tuple[Traced, ...], number: float) -> float | None:
+    def _value(name: str, operands: tuple[TraceNumber, ...], number: float) -> float | None:
         """What a step is where it does not depend on x and y."""
         if name == "number":
             return number
@@ -93,7 +93,7 @@ class Tracer:
             return float(_VALUES[name](*values))
 
 
-class Traced:
+class TraceNumber:
     """A number that writes down what is done to it."""
 
     __slots__ = ("id", "tracer", "value")
@@ -105,8 +105,8 @@ class Traced:
         self.id = id
         self.value = value
 
-    def _operand(self, other: Any) -> Traced:
-        if isinstance(other, Traced):
+    def _operand(self, other: Any) -> TraceNumber:
+        if isinstance(other, TraceNumber):
             return other
         if isinstance(other, np.ndarray) and other.ndim > 0:
             raise TraceError("it uses an array; write the sum or the polynomial term by term")
@@ -116,44 +116,44 @@ class Traced:
             return self.tracer.number(float(other))
         raise TraceError(f"it uses {type(other).__name__}, which stands in no formula")
 
-    def _two(self, name: str, a: Any, b: Any) -> Traced:
+    def _two(self, name: str, a: Any, b: Any) -> TraceNumber:
         return self.tracer.step(name, (self._operand(a), self._operand(b)))
 
-    def __add__(self, other: Any) -> Traced:
+    def __add__(self, other: Any) -> TraceNumber:
         return self._two("sum", self, other)
 
-    def __radd__(self, other: Any) -> Traced:
+    def __radd__(self, other: Any) -> TraceNumber:
         return self._two("sum", other, self)
 
-    def __sub__(self, other: Any) -> Traced:
+    def __sub__(self, other: Any) -> TraceNumber:
         return self._two("difference", self, other)
 
-    def __rsub__(self, other: Any) -> Traced:
+    def __rsub__(self, other: Any) -> TraceNumber:
         return self._two("difference", other, self)
 
-    def __mul__(self, other: Any) -> Traced:
+    def __mul__(self, other: Any) -> TraceNumber:
         return self._two("product", self, other)
 
-    def __rmul__(self, other: Any) -> Traced:
+    def __rmul__(self, other: Any) -> TraceNumber:
         return self._two("product", other, self)
 
-    def __truediv__(self, other: Any) -> Traced:
+    def __truediv__(self, other: Any) -> TraceNumber:
         return self._two("quotient", self, other)
 
-    def __rtruediv__(self, other: Any) -> Traced:
+    def __rtruediv__(self, other: Any) -> TraceNumber:
         return self._two("quotient", other, self)
 
-    def __neg__(self) -> Traced:
+    def __neg__(self) -> TraceNumber:
         return self.tracer.step("negative", (self,))
 
-    def __pos__(self) -> Traced:
+    def __pos__(self) -> TraceNumber:
         return self
 
-    def __abs__(self) -> Traced:
+    def __abs__(self) -> TraceNumber:
         return self.tracer.step("abs", (self,))
 
-    def __pow__(self, other: Any) -> Traced:
-        exponent = other.value if isinstance(other, Traced) else other
+    def __pow__(self, other: Any) -> TraceNumber:
+        exponent = other.value if isinstance(other, TraceNumber) else other
         if exponent is None:
             base_log = self.tracer.step("ln", (self,))
             return self.tracer.step("exp", (base_log * other,))
@@ -161,13 +161,13 @@ class Traced:
             return self.tracer.step("power", (self,), float(exponent))
         raise TraceError(f"it raises to {type(exponent).__name__}, which is no number")
 
-    def __rpow__(self, other: Any) -> Traced:
+    def __rpow__(self, other: Any) -> TraceNumber:
         return self.tracer.step("exp", (self * self._operand(other)._one("ln"),))
 
-    def _one(self, name: str) -> Traced:
+    def _one(self, name: str) -> TraceNumber:
         return self.tracer.step(name, (self,))
 
-    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Traced:
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **kwargs: Any) -> TraceNumber:
         if method != "__call__" or kwargs:
             raise TraceError(f"it calls numpy.{ufunc.__name__}.{method} with {sorted(kwargs)}")
         operands = tuple(self._operand(one) for one in inputs)
@@ -179,7 +179,7 @@ class Traced:
             return _MADE[ufunc](*operands)
         raise TraceError(f"formulas have no numpy.{ufunc.__name__}")
 
-    def __array_function__(self, function: Any, types: Any, args: Any, kwargs: Any) -> Traced:
+    def __array_function__(self, function: Any, types: Any, args: Any, kwargs: Any) -> TraceNumber:
         raise TraceError(f"formulas have no numpy.{function.__name__}")
 
     def __array__(self, *_: Any, **__: Any) -> Any:
@@ -231,7 +231,7 @@ class Traced:
         return self._compared(other, operator.ne)
 
 
-_MADE: dict[np.ufunc, Callable[..., Traced]] = {
+_MADE: dict[np.ufunc, Callable[..., TraceNumber]] = {
     np.square: lambda a: a**2,
     np.reciprocal: lambda a: 1.0 / a,
     np.power: lambda a, b: a**b,

@@ -20,7 +20,7 @@ const MOST_POINTS: usize = 1025;
 
 /// What Python made of a surface: the steps of a formula, or a function to fit.
 #[derive(FromPyObject)]
-enum Made {
+enum SurfaceSource {
     /// The steps of a formula, each a name and what it takes.
     Steps(Vec<Step>),
     /// A function of x and y, the half width of the square that it must cover, mm, and the error that
@@ -33,14 +33,16 @@ type Step = (String, Vec<usize>, f64);
 
 /// The surface of what Python made.
 pub fn surface(made: &Py<PyAny>) -> Result<Box<dyn SurfaceModel>> {
-    let made: Made = asked(|py| made.extract(py))?;
+    let made: SurfaceSource = asked(|py| made.extract(py))?;
     match made {
-        Made::Steps(steps) => {
+        SurfaceSource::Steps(steps) => {
             let formula = formula(&steps);
             let formula = formula.map_err(|error| StrategyError::failed(error.to_string()))?;
             Ok(Box::new(formula))
         }
-        Made::Function(function, half, goal) => Ok(Box::new(fitted(&function, half, goal)?)),
+        SurfaceSource::Function(function, half, goal) => {
+            Ok(Box::new(fitted(&function, half, goal)?))
+        }
     }
 }
 

@@ -30,32 +30,32 @@ fn even(steps: f64) -> OwnStrategy {
 }
 
 /// z = x²/100, as if it were a spline that lies 3 nm off.
-struct Fitted;
+struct Parabola;
 
-impl Surface for Fitted {
+impl Surface for Parabola {
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         x.squared() * 0.01
     }
 }
 
 /// A surface whose data name an error.
-struct WithError;
+struct FittedParabola;
 
-impl SurfaceModel for WithError {
+impl SurfaceModel for FittedParabola {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
-        SurfaceModel::heights(&Fitted, x, y, z)
+        SurfaceModel::heights(&Parabola, x, y, z)
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
-        SurfaceModel::gradient(&Fitted, x, y, out)
+        SurfaceModel::gradient(&Parabola, x, y, out)
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
-        SurfaceModel::series(&Fitted, x, y, out)
+        SurfaceModel::series(&Parabola, x, y, out)
     }
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
-        SurfaceModel::height_series(&Fitted, x, y, z)
+        SurfaceModel::height_series(&Parabola, x, y, z)
     }
 
     fn data(&self) -> Result<Option<SurfaceData>> {
@@ -112,7 +112,7 @@ fn a_strategy_that_differs_between_machines_is_remarked_on_where_it_is_used() {
 
 #[test]
 fn a_surface_that_stands_for_a_function_has_its_error_in_the_report() {
-    let fitted = OwnStrategy::surface("fitted", |_| Ok(Box::new(WithError)));
+    let fitted = OwnStrategy::surface("fitted", |_| Ok(Box::new(FittedParabola)));
     let catalogue = lab("c0ffee", vec![fitted]);
     // A small part: the surface is not optimised here.
     let sets = [
