@@ -40,6 +40,8 @@ pub enum Command {
     List(ListArgs),
     /// Explain one strategy, or one table of the recipe: its keys, defaults and limits
     Explain(ExplainArgs),
+    /// Write a plugin with a small strategy that works, for you to change
+    NewPlugin(NewPluginArgs),
 }
 
 /// Where strategies come from.
@@ -304,6 +306,25 @@ pub struct ExplainArgs {
     pub plugins: PluginArgs,
 }
 
+#[derive(Debug, Args)]
+pub struct NewPluginArgs {
+    /// The strategy's name, which is that of its crate and of its folder: lower-case letters, digits
+    /// and hyphens
+    pub name: String,
+    /// The slot of the strategy
+    #[arg(long, value_parser = PossibleValuesParser::new(Slot::ALL.map(Slot::key)))]
+    pub slot: String,
+    /// The folder in which the folder of the crate is made
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub dir: PathBuf,
+    /// Where turnpath's crates come from: a folder with turnpath's repository, the address of a git
+    /// repository (and # with a revision), or `registry`; as this program was built unless given
+    #[arg(long, value_name = "SOURCE")]
+    pub crates: Option<String>,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+}
+
 impl Command {
     /// Where its strategies come from, if it needs any.
     pub fn plugins(&self) -> Option<&PluginArgs> {
@@ -316,6 +337,7 @@ impl Command {
             Self::Import(_) => return None,
             Self::List(args) => &args.plugins,
             Self::Explain(args) => &args.plugins,
+            Self::NewPlugin(args) => &args.plugins,
         })
     }
 }

@@ -96,5 +96,6 @@ fn run(command: &Command, catalogue: Catalogue) -> Outcome {
         Command::Import(args) => commands::import(args),
         Command::List(args) => commands::list(args, catalogue),
         Command::Explain(args) => commands::explain(args, catalogue),
+        Command::NewPlugin(args) => commands::new_plugin(args, catalogue),
     }
 }

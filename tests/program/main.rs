@@ -19,6 +19,7 @@ mod ending_plugins;
 mod frozen_boundary;
 mod import;
 mod maps;
+mod new_plugin;
 mod no_surface;
 mod own_sampler;
 mod passes;

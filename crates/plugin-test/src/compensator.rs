@@ -80,8 +80,7 @@ fn in_batches(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
 /// touches.
 fn touches(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
     let (theta, rho) = polar(points);
-    let CentreBuffers { x, z, foot } =
-        centres(chain, &theta, &rho).map_err(failed("centre"))?;
+    let CentreBuffers { x, z, foot } = centres(chain, &theta, &rho).map_err(failed("centre"))?;
     let mut found: Vec<Touch> = Vec::new();
     let touch = &chain.preparation.touch;
     let asked = touch.find(&theta, &x, &mut found);
@@ -219,17 +218,25 @@ fn rates(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
 fn fitted_rates(chain: &TrialChain, theta: &[f64], rho: &[f64]) -> Answer<RateColumns> {
     let nose = chain.task().tool.nose_radius;
     let along = |i: usize, moves: [f64; 2]| -> Answer<[Series; 2]> {
-        let curve = [[theta[i], moves[0], 0.0, 0.0, 0.0], [rho[i], moves[1], 0.0, 0.0, 0.0]];
+        let curve = [
+            [theta[i], moves[0], 0.0, 0.0, 0.0],
+            [rho[i], moves[1], 0.0, 0.0, 0.0],
+        ];
         let steps = steps(&curve[0], &curve[1], nose);
         let place = |k: usize| steps[k / STENCIL] * ((k % STENCIL) as f64 - 4.0);
         let at = |series: &Series| -> Vec<f64> {
-            (0..LADDER * STENCIL).map(|k| evaluate(series, place(k))).collect()
+            (0..LADDER * STENCIL)
+                .map(|k| evaluate(series, place(k)))
+                .collect()
         };
         let room = centres(chain, &at(&curve[0]), &at(&curve[1]))?;
         let by_step = |values: &[f64]| {
             std::array::from_fn(|step| std::array::from_fn(|j| values[step * STENCIL + j]))
         };
-        Ok([fit(&steps, &by_step(&room.x)), fit(&steps, &by_step(&room.z))])
+        Ok([
+            fit(&steps, &by_step(&room.x)),
+            fit(&steps, &by_step(&room.z)),
+        ])
     };
     let mut columns: RateColumns = std::array::from_fn(|_| Vec::new());
     for i in 0..theta.len() {

@@ -198,10 +198,7 @@ fn check_chain(
     mut tell: impl FnMut(String),
 ) -> Vec<FaultKind> {
     let mut faults = match slot {
-        Slot::Surface => surface::check(
-            chain.chain.surface.strategy.as_ref(),
-            &chain.task().part,
-        ),
+        Slot::Surface => surface::check(chain.chain.surface.strategy.as_ref(), &chain.task().part),
         Slot::Feed => feed::check(chain),
         Slot::Sampler => sampler::check(chain).into_iter().collect(),
         Slot::Compensator => compensator::check(chain),
@@ -215,6 +212,10 @@ fn check_chain(
         }
         Slot::Spindle => Vec::new(),
     };
+    if !faults.is_empty() {
+        // A path of wrong answers says nothing more, and may take long to refine.
+        return faults;
+    }
     match whole_path::check(chain, anew) {
         Err(kind) => faults.push(kind),
         Ok(outcomes) => {

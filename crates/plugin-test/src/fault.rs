@@ -76,7 +76,9 @@ pub enum FaultKind {
     #[error("{}", of_path(.0))]
     Path(#[source] PipelineError),
     /// Two calls that ask for the same gave different answers.
-    #[error("{what} gives {first} at first and {second} {when}: an answer must depend on the call alone")]
+    #[error(
+        "{what} gives {first} at first and {second} {when}: an answer must depend on the call alone"
+    )]
     Repeat {
         /// What was asked for, and where.
         what: String,

@@ -40,9 +40,7 @@ fn law(chain: &TrialChain) -> Result<SpiralLaw, FaultKind> {
     let (mut law, mut pieces) = (SpiralLaw::new(), Vec::new());
     loop {
         pieces.clear();
-        let onward = plan
-            .extend(setup, &mut pieces)
-            .map_err(failed("extend"))?;
+        let onward = plan.extend(setup, &mut pieces).map_err(failed("extend"))?;
         let is_stuck = pieces.is_empty() || law.pieces().len() > MOST_PIECES;
         for piece in &pieces {
             law.push(piece.length, piece.coefficients);

@@ -22,7 +22,9 @@ pub fn check(chain: &TrialChain, outcome: &Outcome) -> Vec<FaultKind> {
     }
     let mut faults: Vec<FaultKind> = factors(chain).err().into_iter().collect();
     let figures = outcome.figures.axes.against(&chain.task().machine);
-    let exceeded = figures.into_iter().filter(|figure| figure.ratio() > 1.0 + SLACK);
+    let exceeded = figures
+        .into_iter()
+        .filter(|figure| figure.ratio() > 1.0 + SLACK);
     faults.extend(exceeded.map(|figure| FaultKind::Limit {
         limit: figure.limit,
         ratio: figure.ratio(),

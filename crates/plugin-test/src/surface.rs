@@ -176,11 +176,7 @@ fn agreement(surface: &dyn SurfaceModel, points: &[OnPart]) -> Result<(), FaultK
 }
 
 /// Slopes against differences of heights, along x and along y.
-fn slopes(
-    surface: &dyn SurfaceModel,
-    part: &Part,
-    points: &[OnPart],
-) -> Result<(), FaultKind> {
+fn slopes(surface: &dyn SurfaceModel, part: &Part, points: &[OnPart]) -> Result<(), FaultKind> {
     let reach = WIDEST * part.aperture_radius;
     let slopes = gradient(surface, points).map_err(failed("gradient"))?;
     let (x, y) = cartesian(points);
@@ -213,11 +209,7 @@ fn slopes(
 }
 
 /// Series against heights and slopes along the same curves.
-fn series(
-    surface: &dyn SurfaceModel,
-    part: &Part,
-    points: &[OnPart],
-) -> Result<(), FaultKind> {
+fn series(surface: &dyn SurfaceModel, part: &Part, points: &[OnPart]) -> Result<(), FaultKind> {
     let curves = Curves::through(points, part);
     let [z, zx, zy] = series_along(surface, &curves).map_err(failed("series"))?;
     let mut alone = vec![[f64::NAN; ORDER + 1]; points.len()];

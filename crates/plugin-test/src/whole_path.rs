@@ -182,7 +182,9 @@ pub fn holds_residual(trial: &Trial, chain: &TrialChain, outcome: &Outcome) -> O
     let tolerance = chain.task().tolerance.residual;
     let residual = outcome.figures.residual;
     let exceeded = trial.promises(Promise::Residual)
-        && residual.highest().is_none_or(|height| height > tolerance * ALLOWANCE);
+        && residual
+            .highest()
+            .is_none_or(|height| height > tolerance * ALLOWANCE);
     exceeded.then_some(FaultKind::Residual {
         place: OnPart {
             theta: residual.at_theta,

@@ -10,6 +10,7 @@ use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
+use crate::new_plugin::NewPluginError;
 use crate::plots::PlotError;
 
 /// Where an error comes from: the source behind its messages.
@@ -73,6 +74,9 @@ pub enum Error {
         /// Why.
         source: Box<LoadError>,
     },
+    /// A new plugin cannot be written as it is asked for.
+    #[error(transparent)]
+    NewPlugin(#[from] NewPluginError),
     /// A plot cannot be drawn as it is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -152,6 +156,7 @@ impl Error {
             | Self::Refused { .. }
             | Self::NoProgram
             | Self::Plot(_)
+            | Self::NewPlugin(_)
             | Self::Exists { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
             Self::Load(error) => fault_of_load(error),
@@ -212,6 +217,7 @@ impl Error {
         match self {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
+            Self::NewPlugin(error) => Some(error.help()),
             Self::Exists { .. } => Some("`--force` replaces it"),
             _ => None,
         }

@@ -34,28 +34,32 @@ impl Compensator for ZByCosine {
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
         let radius = cut.tool.nose_radius;
         let mut profile = vec![Profile::default(); theta.len()];
+        // A point ends by itself: its answer must not depend on the others of the batch.
+        let mut moves = vec![true; theta.len()];
         out.foot.copy_from_slice(rho);
         for _ in 0..MOST_STEPS {
             profile_at(cut.surface, theta, out.foot, &mut profile)?;
-            let mut largest: f64 = 0.0;
-            for ((foot, x), profile) in out.foot.iter_mut().zip(rho).zip(&profile) {
+            for (i, profile) in profile.iter().enumerate() {
+                if !moves[i] {
+                    continue;
+                }
                 let w = profile.slant();
                 // s − R sin α − X, and its derivative by s.
-                let miss = *foot - radius * profile.slope / w - x;
+                let miss = out.foot[i] - radius * profile.slope / w - rho[i];
                 let step = miss / (1.0 - radius * profile.second / (w * w * w));
-                *foot -= step;
-                largest = largest.max(step.abs());
+                out.foot[i] -= step;
+                moves[i] = step.abs() > ENOUGH * radius;
             }
-            if largest <= ENOUGH * radius {
+            if !moves.contains(&true) {
                 break;
             }
         }
         profile_at(cut.surface, theta, out.foot, &mut profile)?;
         out.x.copy_from_slice(rho);
-        for ((z, profile), (foot, x)) in out.z.iter_mut().zip(&profile).zip(out.foot.iter().zip(rho)) {
+        for (i, profile) in profile.iter().enumerate() {
             // The nose over the contact: exact to the square of what the contact misses.
-            let beside = foot - x;
-            *z = profile.height + (radius * radius - beside * beside).sqrt();
+            let beside = out.foot[i] - rho[i];
+            out.z[i] = profile.height + (radius * radius - beside * beside).sqrt();
         }
         Ok(())
     }

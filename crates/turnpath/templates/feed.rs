@@ -61,7 +61,9 @@ impl FeedStrategy for EvenPitch {
 fn held_pitches(setup: Setup<'_>) -> Result<[f64; 2]> {
     let RadialRange { inner, outer } = setup.task.range;
     let share = |i: usize| i as f64 / (RADII - 1) as f64;
-    let theta: Vec<f64> = (0..ANGLES).map(|i| TAU * i as f64 / ANGLES as f64).collect();
+    let theta: Vec<f64> = (0..ANGLES)
+        .map(|i| TAU * i as f64 / ANGLES as f64)
+        .collect();
     let mut least = Vec::with_capacity(RADII);
     for i in 0..RADII {
         let rho = vec![inner + (outer - inner) * share(i); ANGLES];

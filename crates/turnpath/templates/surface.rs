@@ -5,10 +5,9 @@
 #![forbid(unsafe_code)]
 use turnpath_plugin::prelude::*;
 
-const RADIUS: Param<Length> =
-    Param::length("radius", "radius of the sphere; positive: concave")
-        .default(60.0)
-        .nonzero();
+const RADIUS: Param<Length> = Param::length("radius", "radius of the sphere; positive: concave")
+    .default(60.0)
+    .nonzero();
 const AMPLITUDE: Param<Length> =
     Param::length("amplitude", "half the height of the ripple").default(0.2 * UM);
 const FREQUENCY: Param<PerLength> =

@@ -28,17 +28,47 @@ fn surfaces() {
         "turnpath-surfaces",
         [
             trial("astigmatic", "k = \"0.05 /mm\""),
-            trial("biconic", "radius_x = \"30 mm\"\nradius_y = \"-50 mm\"\nconic_x = -0.5"),
+            trial(
+                "biconic",
+                "radius_x = \"30 mm\"\nradius_y = \"-50 mm\"\nconic_x = -0.5",
+            ),
             trial("conic", "radius = \"20 mm\"\nconic = -1.5"),
-            trial("even-asphere", "radius = \"25 mm\"\ncoefficients = { 4 = 1e-4, 6 = -1e-6 }"),
-            trial("lenslet-array", "layout = \"square\"\npitch = \"40 mm\"\nradius = \"30 mm\""),
-            trial("odd-asphere", "radius = \"25 mm\"\ncoefficients = { 3 = 1e-4, 5 = -1e-6 }"),
-            trial("off-axis-conic", "vertex_radius = \"60 mm\"\nconic = -0.8\noff_axis_distance = \"12 mm\""),
-            trial("off-axis-paraboloid", "vertex_radius = \"60 mm\"\noff_axis_distance = \"12 mm\""),
-            trial("sinusoidal-array", "amplitude_x = \"3 um\"\nfrequency_x = \"0.3 /mm\"\nform = \"product\""),
-            trial("toric", "radius_rotation = \"40 mm\"\nradius_base = \"25 mm\""),
-            trial("toroid-yz", "radius_rotation = \"40 mm\"\nradius = \"25 mm\"\ncoefficients = { 4 = 1e-5 }"),
-            trial("xy-polynomial", "terms = [[2, 0, 0.01], [1, 1, -0.02], [3, 2, 1e-5]]"),
+            trial(
+                "even-asphere",
+                "radius = \"25 mm\"\ncoefficients = { 4 = 1e-4, 6 = -1e-6 }",
+            ),
+            trial(
+                "lenslet-array",
+                "layout = \"square\"\npitch = \"40 mm\"\nradius = \"30 mm\"",
+            ),
+            trial(
+                "odd-asphere",
+                "radius = \"25 mm\"\ncoefficients = { 3 = 1e-4, 5 = -1e-6 }",
+            ),
+            trial(
+                "off-axis-conic",
+                "vertex_radius = \"60 mm\"\nconic = -0.8\noff_axis_distance = \"12 mm\"",
+            ),
+            trial(
+                "off-axis-paraboloid",
+                "vertex_radius = \"60 mm\"\noff_axis_distance = \"12 mm\"",
+            ),
+            trial(
+                "sinusoidal-array",
+                "amplitude_x = \"3 um\"\nfrequency_x = \"0.3 /mm\"\nform = \"product\"",
+            ),
+            trial(
+                "toric",
+                "radius_rotation = \"40 mm\"\nradius_base = \"25 mm\"",
+            ),
+            trial(
+                "toroid-yz",
+                "radius_rotation = \"40 mm\"\nradius = \"25 mm\"\ncoefficients = { 4 = 1e-5 }",
+            ),
+            trial(
+                "xy-polynomial",
+                "terms = [[2, 0, 0.01], [1, 1, -0.02], [3, 2, 1e-5]]",
+            ),
         ],
     );
 }
@@ -48,11 +78,26 @@ fn polynomials() {
     passes(
         "turnpath-polynomials",
         [
-            trial("chebyshev", "normalization_x = \"4 mm\"\ncoefficients = { \"2,1\" = \"1 um\", \"0,4\" = \"-0.5 um\" }"),
-            trial("forbes-q2d", "radius = \"40 mm\"\nnormalization_radius = \"5 mm\"\ncoefficients = { \"1,2\" = \"1 um\", \"2,-1\" = \"0.4 um\" }"),
-            trial("forbes-qbfs", "radius = \"40 mm\"\nnormalization_radius = \"5 mm\"\ncoefficients = { 0 = \"1 um\", 3 = \"-0.4 um\" }"),
-            trial("forbes-qcon", "radius = \"40 mm\"\nnormalization_radius = \"5 mm\"\ncoefficients = { 0 = \"1 um\", 2 = \"-0.4 um\" }"),
-            trial("zernike", "indexing = \"noll\"\nnormalization_radius = \"5 mm\"\ncoefficients = { 7 = \"1 um\", 11 = \"-0.4 um\" }"),
+            trial(
+                "chebyshev",
+                "normalization_x = \"4 mm\"\ncoefficients = { \"2,1\" = \"1 um\", \"0,4\" = \"-0.5 um\" }",
+            ),
+            trial(
+                "forbes-q2d",
+                "radius = \"40 mm\"\nnormalization_radius = \"5 mm\"\ncoefficients = { \"1,2\" = \"1 um\", \"2,-1\" = \"0.4 um\" }",
+            ),
+            trial(
+                "forbes-qbfs",
+                "radius = \"40 mm\"\nnormalization_radius = \"5 mm\"\ncoefficients = { 0 = \"1 um\", 3 = \"-0.4 um\" }",
+            ),
+            trial(
+                "forbes-qcon",
+                "radius = \"40 mm\"\nnormalization_radius = \"5 mm\"\ncoefficients = { 0 = \"1 um\", 2 = \"-0.4 um\" }",
+            ),
+            trial(
+                "zernike",
+                "indexing = \"noll\"\nnormalization_radius = \"5 mm\"\ncoefficients = { 7 = \"1 um\", 11 = \"-0.4 um\" }",
+            ),
         ],
     );
 }
@@ -61,7 +106,10 @@ fn polynomials() {
 fn formula_and_grid() {
     passes(
         "turnpath-formula",
-        [trial("formula", "z = \"rho^2/(2*R) + A*cos(0.7*x/one)*sin(0.4*y/one)\"\nconstants = { R = \"50 mm\", A = \"2 um\", one = \"1 mm\" }")],
+        [trial(
+            "formula",
+            "z = \"rho^2/(2*R) + A*cos(0.7*x/one)*sin(0.4*y/one)\"\nconstants = { R = \"50 mm\", A = \"2 um\", one = \"1 mm\" }",
+        )],
     );
     passes(
         "turnpath-grid",

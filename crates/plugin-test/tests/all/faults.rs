@@ -17,7 +17,11 @@ const TABLE: [(&str, Check, &str); 18] = [
     ("batch-off", Repetition, "in a batch of other points"),
     ("gouges", Touch, "nm too low"),
     ("hangs", Touch, "nm above the surface"),
-    ("misnamed", Touch, "`radial` says that ρ is X of the nose centre"),
+    (
+        "misnamed",
+        Touch,
+        "`radial` says that ρ is X of the nose centre",
+    ),
     ("wrong-foot", Touch, "`foot` is"),
     ("wrong-rates", Derivatives, "∂X/∂θ at constant ρ is"),
     ("open", Closing, "does not close at its"),
@@ -356,7 +360,11 @@ solver!(
         let last = t.len() - 1;
         for (k, out) in out.iter_mut().enumerate() {
             let (i, j) = (k.saturating_sub(3), (k + 3).min(last));
-            *out = if i == j { 0.0 } else { (p[j] - p[i]) / (t[j] - t[i]) };
+            *out = if i == j {
+                0.0
+            } else {
+                (p[j] - p[i]) / (t[j] - t[i])
+            };
         }
     }
 );
@@ -398,13 +406,18 @@ fn each_fault_is_seen_by_its_check_in_words_of_the_trade() {
     let mut unseen = Vec::new();
     for (name, check, words) in TABLE {
         let mut of_strategy = findings.faults.iter().filter(|one| one.strategy == name);
-        let seen = of_strategy
-            .any(|one| one.kind.check() == check && one.to_string().contains(words));
+        let seen =
+            of_strategy.any(|one| one.kind.check() == check && one.to_string().contains(words));
         if !seen {
             unseen.push((name, check, words));
         }
     }
     assert!(unseen.is_empty(), "{unseen:?}\n{findings}");
     let in_table = |name: &str| TABLE.iter().any(|(known, ..)| *known == name);
-    assert!(findings.faults.iter().all(|fault| in_table(&fault.strategy)));
+    assert!(
+        findings
+            .faults
+            .iter()
+            .all(|fault| in_table(&fault.strategy))
+    );
 }

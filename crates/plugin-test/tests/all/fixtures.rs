@@ -8,13 +8,13 @@ use std::path::Path;
 
 use turnpath_host::{Catalogue, LoadError};
 use turnpath_plugin_test::Check::{self, Construction, Contract, Declaration, Heights, Velocities};
-use turnpath_plugin_test::{Conformance, Trial};
+use turnpath_plugin_test::{Conformance, Promise, Trial};
 
 /// A fault that a check sees: the strategy, the check, words of the message.
 type Seen = (&'static str, Check, &'static str);
 
 /// The faults of each fixture; one without faults passes.
-const SEEN: [(&str, &[Seen]); 13] = [
+const SEEN: [(&str, &[Seen]); 19] = [
     ("bowl-file", &[]),
     ("builds-on", &[]),
     ("constant-arc", &[]),
@@ -25,11 +25,14 @@ const SEEN: [(&str, &[Seen]); 13] = [
     (
         "nan",
         &[
-            ("nan-surface", Heights, "has no height, slope or curvature at"),
+            (
+                "nan-surface",
+                Heights,
+                "has no height, slope or curvature at",
+            ),
             ("nan-surface", Contract, "no number for z anywhere"),
             ("returns-nan", Contract, "node 6 is NaN"),
             ("nan-velocity", Velocities, "vC is NaN at node 0"),
-            ("nan-velocity", Contract, "vC = NaN"),
         ],
     ),
     (
@@ -44,6 +47,12 @@ const SEEN: [(&str, &[Seen]); 13] = [
     ),
     ("plain-compensator", &[]),
     ("sequential", &[]),
+    ("template-compensator", &[]),
+    ("template-feed", &[]),
+    ("template-sampler", &[]),
+    ("template-spindle", &[]),
+    ("template-surface", &[]),
+    ("template-velocity", &[]),
     ("twins-a", &[]),
     ("twins-b", &[]),
     (
@@ -89,7 +98,7 @@ const UNSEEN: [(&str, &str); 4] = [
     ),
 ];
 
-/// What the fixtures' parameters need.
+/// What the fixtures' parameters need, and what the templates of `turnpath new-plugin` promise.
 fn trials(fixture: &str) -> Vec<Trial> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures/boundary-0.2.0");
     match fixture {
@@ -99,6 +108,10 @@ fn trials(fixture: &str) -> Vec<Trial> {
                 .with_files_in(folder),
         ],
         "builds-on" => vec![Trial::of("rippled-conic").with("radius = \"40 mm\"")],
+        "template-feed" => vec![Trial::of("even-pitch").promising(Promise::Residual)],
+        "template-velocity" => {
+            vec![Trial::of("five-points").promising(Promise::ExactOnCubics)]
+        }
         "constant-arc" => vec![Trial::of("constant-arc").with("spacing = \"0.3 mm\"")],
         _ => Vec::new(),
     }
