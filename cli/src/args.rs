@@ -4,11 +4,15 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use turnpath::MapFormat;
 use turnpath::report::comparison;
 use turnpath_core::Slot;
 
 use crate::crash::TimeLimit;
+
+/// The recipe where none is given.
+pub const RECIPE: &str = "recipe.toml";
 
 /// Tool paths for slow-tool-servo diamond turning of freeform optics.
 ///
@@ -42,6 +46,14 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Write a plugin with a small strategy that works, for you to change
     NewPlugin(NewPluginArgs),
+    /// Write a commented recipe to begin with
+    Init(InitArgs),
+    /// Print a JSON schema of recipes, with which an editor completes and checks them
+    Schema(SchemaArgs),
+    /// Print what completes the program's words in a shell
+    Completions(CompletionsArgs),
+    /// Write the manual pages, one for each command
+    Man(ManArgs),
 }
 
 /// Where strategies come from.
@@ -64,8 +76,8 @@ pub struct PluginArgs {
 /// A recipe, and how it is changed.
 #[derive(Debug, Args)]
 pub struct RecipeArgs {
-    /// The recipe
-    pub recipe: PathBuf,
+    /// The recipe; recipe.toml unless given, - for standard input
+    pub recipe: Option<PathBuf>,
     /// Set a key of the recipe, such as tolerance.residual="50 nm"; may be given several times
     #[arg(long, value_name = "KEY.PATH=VALUE")]
     pub set: Vec<String>,
@@ -86,6 +98,19 @@ pub struct WorkArgs {
     /// What to print on standard output
     #[arg(long, value_enum, default_value_t = Format::Human)]
     pub format: Format,
+    /// Print no summary and no progress; the exit status says the verdict
+    #[arg(short, long, conflicts_with_all = ["verbose", "format"])]
+    pub quiet: bool,
+    /// Say on standard error how long each stage took
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+impl WorkArgs {
+    /// What to print on standard output; nothing where that is asked.
+    pub fn answer(&self) -> Option<Format> {
+        (!self.quiet).then_some(self.format)
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -167,6 +192,20 @@ pub struct AblateArgs {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     #[arg(value_parser = PossibleValuesParser::new(comparison::names()))]
     pub columns: Vec<String>,
+    /// Sort the rows by this column, the best first
+    #[arg(long, value_name = "NAME")]
+    #[arg(value_parser = PossibleValuesParser::new(comparison::names()))]
+    pub sort: Option<String>,
+    /// Leave out the ratios to the first run
+    #[arg(long)]
+    pub no_ratio: bool,
+    /// Print the table alone, for a paper or a page
+    #[arg(long, value_enum, value_name = "LANGUAGE", conflicts_with_all = ["format", "quiet"])]
+    pub table: Option<TableLanguage>,
+    /// Refine every variant until it holds its tolerance, as with `refine = true`: then the points
+    /// and the times compare chains of the same accuracy
+    #[arg(long)]
+    pub equal_tolerance: bool,
     /// Make all runs anew, also those that were made before
     #[arg(long)]
     pub fresh: bool,
@@ -174,7 +213,19 @@ pub struct AblateArgs {
     pub work: WorkArgs,
 }
 
+/// The language of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableLanguage {
+    /// With bars
+    Markdown,
+    /// A tabular with the rules of booktabs
+    Latex,
+    /// Comma-separated values with all digits
+    Csv,
+}
+
 #[derive(Debug, Args)]
+#[command(allow_missing_positional = true)]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub recipe: RecipeArgs,
@@ -292,6 +343,9 @@ pub struct ListArgs {
     /// Print a lock of the plugins that are loaded, or write it to FILE
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     pub lock: Option<Option<PathBuf>>,
+    /// What to print on standard output
+    #[arg(long, value_enum, default_value_t = Format::Human, conflicts_with = "lock")]
+    pub format: Format,
     #[command(flatten)]
     pub plugins: PluginArgs,
 }
@@ -325,6 +379,36 @@ pub struct NewPluginArgs {
     pub plugins: PluginArgs,
 }
 
+#[derive(Debug, Args)]
+pub struct InitArgs {
+    /// The recipe to write; - for standard output
+    #[arg(value_name = "FILE", default_value = RECIPE)]
+    pub file: PathBuf,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct SchemaArgs {
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct ManArgs {
+    /// The folder to write them into
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
 impl Command {
     /// Where its strategies come from, if it needs any.
     pub fn plugins(&self) -> Option<&PluginArgs> {
@@ -334,7 +418,8 @@ impl Command {
             Self::Ablate(args) => &args.recipe.plugins,
             Self::Verify(args) => &args.recipe.plugins,
             Self::Sag(args) => &args.recipe.plugins,
-            Self::Import(_) => return None,
+            Self::Import(_) | Self::Init(_) | Self::Completions(_) | Self::Man(_) => return None,
+            Self::Schema(args) => &args.plugins,
             Self::List(args) => &args.plugins,
             Self::Explain(args) => &args.plugins,
             Self::NewPlugin(args) => &args.plugins,

@@ -10,6 +10,7 @@
 //! ```
 
 mod args;
+mod background;
 mod commands;
 mod crash;
 mod failure;
@@ -97,5 +98,9 @@ fn run(command: &Command, catalogue: Catalogue) -> Outcome {
         Command::List(args) => commands::list(args, catalogue),
         Command::Explain(args) => commands::explain(args, catalogue),
         Command::NewPlugin(args) => commands::new_plugin(args, catalogue),
+        Command::Init(args) => commands::init(args),
+        Command::Schema(args) => commands::schema(args, catalogue),
+        Command::Completions(args) => commands::completions(args),
+        Command::Man(args) => commands::man(args),
     }
 }

@@ -10,7 +10,7 @@ use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
-const COMMANDS: [&str; 9] = [
+const COMMANDS: [&str; 13] = [
     "run",
     "check",
     "ablate",
@@ -20,6 +20,10 @@ const COMMANDS: [&str; 9] = [
     "list",
     "explain",
     "new-plugin",
+    "init",
+    "schema",
+    "completions",
+    "man",
 ];
 
 fn page(name: &str) -> String {

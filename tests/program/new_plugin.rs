@@ -220,7 +220,9 @@ fn wrong_names_folders_and_sources_are_wrong_calls() {
     });
     assert_eq!(bench.files(), Vec::<String>::new());
     let version = format!("turnpath-integrated {}", env!("CARGO_PKG_VERSION"));
-    let text = said.join("\n").replace(&version, "turnpath-integrated [version]");
+    let text = said
+        .join("\n")
+        .replace(&version, "turnpath-integrated [version]");
     insta::assert_snapshot!(text);
 }
 

@@ -3,14 +3,15 @@
 use std::num::NonZero;
 use std::path::Path;
 
-use turnpath::report::{AblationReport, comparison};
+use turnpath::report::comparison::{Column, Language};
+use turnpath::report::{AblationReport, AblationRun, comparison};
 use turnpath::{AblationOptions, AblationResult, Catalogue, Recipe};
 use turnpath_core::printable_line;
 
 use super::output::refuse_output;
 use super::setup;
-use crate::args::AblateArgs;
-use crate::print::print_report;
+use crate::args::{AblateArgs, TableLanguage};
+use crate::print::{print, print_report};
 use crate::progress::RunsBar;
 use crate::{Outcome, Status, width};
 
@@ -19,6 +20,10 @@ use crate::{Outcome, Status, width};
 pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
+    let recipe = match args.equal_tolerance {
+        true => recipe.set("refine", "true")?,
+        false => recipe,
+    };
     refuse_output(args.output.as_deref(), "-o")?;
     let folder = match &args.output {
         Some(folder) => folder.clone(),
@@ -32,16 +37,48 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
             .threads
             .and_then(|count| NonZero::new(usize::from(count))),
     };
-    let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new())?;
-    print_report(args.work.format, &result.report, |report| {
-        human(&recipe, &args.columns, report, &result)
-    })?;
+    let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new(&args.work))?;
+    match args.table {
+        Some(language) => print(&table_alone(args, language, &result.report))?,
+        None => print_report(args.work.answer(), &result.report, |report| {
+            human(&recipe, args, report, &result)
+        })?,
+    }
     status(result)
+}
+
+/// The runs in the order that was asked for.
+fn ordered(args: &AblateArgs, report: &AblationReport) -> Vec<AblationRun> {
+    let column = args.sort.as_deref().and_then(comparison::by_name);
+    column.map_or_else(
+        || report.runs.clone(),
+        |column| comparison::sorted(&report.runs, column),
+    )
+}
+
+fn columns(args: &AblateArgs) -> Vec<&'static Column> {
+    match args.columns.as_slice() {
+        [] => comparison::usual(),
+        names => names
+            .iter()
+            .filter_map(|name| comparison::by_name(name))
+            .collect(),
+    }
+}
+
+fn table_alone(args: &AblateArgs, language: TableLanguage, report: &AblationReport) -> String {
+    let language = match language {
+        TableLanguage::Markdown => Language::Markdown,
+        TableLanguage::Latex => Language::Latex,
+        TableLanguage::Csv => Language::Csv,
+    };
+    let (runs, columns) = (ordered(args, report), columns(args));
+    comparison::paper_table(&runs, &columns, language, !args.no_ratio)
 }
 
 fn human(
     recipe: &Recipe,
-    columns: &[String],
+    args: &AblateArgs,
     report: &AblationReport,
     result: &AblationResult,
 ) -> String {
@@ -59,14 +96,8 @@ fn human(
         }
     }
     text += "\n\n";
-    let columns = match columns {
-        [] => comparison::usual(),
-        names => names
-            .iter()
-            .filter_map(|name| comparison::by_name(name))
-            .collect(),
-    };
-    text += &comparison::table(&report.runs, &columns, width::of_terminal());
+    let (runs, columns) = (ordered(args, report), columns(args));
+    text += &comparison::table(&runs, &columns, width::of_terminal(), !args.no_ratio);
     text.push('\n');
     for file in &result.files {
         text += &format!("  file  {}\n", printable_line(&file.display().to_string()));

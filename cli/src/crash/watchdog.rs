@@ -11,6 +11,7 @@ use turnpath_core::Quantity;
 use turnpath_files::end_writing;
 
 use super::system;
+use crate::background;
 
 /// The limit unless the user gives another. The longest calls plan a whole path: seconds for the
 /// strategies that are built in, so ten minutes end only what does not come back.
@@ -78,9 +79,7 @@ pub fn watch(limit: TimeLimit) {
     let Some(limit) = limit.0 else { return };
     WATCHED.call_once(|| {
         // Where no thread can be had, nothing else works either, and the run goes without a limit.
-        let _ = thread::Builder::new()
-            .name("plugin-time-limit".to_owned())
-            .spawn(move || look_on(limit));
+        let _ = background::start("plugin-time-limit", move || look_on(limit));
     });
 }
 

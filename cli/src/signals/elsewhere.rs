@@ -11,6 +11,8 @@ use std::time::Duration;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
+use crate::background;
+
 /// The status of a process that Ctrl-C ended, `STATUS_CONTROL_C_EXIT`.
 const INTERRUPTED: u32 = 0xC000_013A;
 /// How often the thread looks: a person does not notice the wait.
@@ -29,8 +31,5 @@ pub fn install(act: impl FnOnce() + Send + 'static) -> io::Result<()> {
         act();
         process::exit(INTERRUPTED.cast_signed());
     };
-    thread::Builder::new()
-        .name("signals".to_owned())
-        .spawn(wait)?;
-    Ok(())
+    background::start("signals", wait)
 }

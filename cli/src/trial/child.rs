@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
 
 use turnpath::{Admission, Catalogue, LibraryFile, LoadError, Refusal};
 use turnpath_files::{DraftKind, Registration};
 
+use crate::background;
 use crate::crash;
 use crate::signals;
 
@@ -114,6 +114,5 @@ fn end_with_parent(mut input: impl Read + Send + 'static) -> io::Result<()> {
             }
         }
     };
-    let name = "parent".to_owned();
-    thread::Builder::new().name(name).spawn(wait).map(|_| ())
+    background::start("parent", wait)
 }
