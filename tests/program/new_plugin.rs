@@ -174,8 +174,8 @@ fn a_new_plugin_of_each_slot_has_its_files_and_checks_before_it_is_built() {
         // The recipe asks for a strategy that is not there yet, and for nothing else that is wrong.
         let recipe = format!("{folder}/recipe.toml");
         let said = bench.call(["check", &recipe]).ends(2);
-        assert!(said.stderr.contains(&format!("named \"{name}\"")), "{said}");
-        assert_eq!(said.stderr.matches("error").count(), 1, "{said}");
+        assert!(said.stderr.contains(&format!("named `{name}`")), "{said}");
+        assert_eq!(said.stderr.matches("error: ").count(), 1, "{said}");
     }
     assert!(bench.scratch_is_empty());
 }
@@ -203,14 +203,14 @@ fn crates_come_from_git_or_from_the_registry_where_the_call_says_so() {
 #[test]
 fn wrong_names_folders_and_sources_are_wrong_calls() {
     let bench = Bench::empty();
-    fs::create_dir(bench.path("there")).unwrap();
+    fs::create_dir(bench.path("taken")).unwrap();
     let wrong = [
         "new-plugin My_Steps --slot sampler",
         "new-plugin match --slot sampler",
         "new-plugin turnpath-plugin --slot sampler",
         "new-plugin equal-angle --slot sampler",
-        "new-plugin there --slot sampler",
-        "new-plugin steps --slot sampler --crates there",
+        "new-plugin taken --slot sampler",
+        "new-plugin steps --slot sampler --crates taken",
         "new-plugin steps --slot samplers",
     ];
     let said = wrong.map(|words| {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use turnpath_host::Catalogue;
 use turnpath_plugin::prelude::*;
 use turnpath_plugin_test::Check::{
-    Closing, Derivatives, Played, Repetition, Residual, Speed, Touch, Velocities,
+    Closing, Derivatives, Played, Repetition, Residual, Speed, Touch,
 };
 use turnpath_plugin_test::{Check, Conformance, Promise, Trial};
 
@@ -29,10 +29,18 @@ const TABLE: [(&str, Check, &str); 18] = [
     ("counts", Repetition, "several threads ask in another order"),
     ("learns", Repetition, "by a strategy that is made anew"),
     ("sparse", Played, "before refinement"),
-    ("slow", Velocities, "of a motion of degree 1"),
-    ("looks-around", Velocities, "`dependence` says `Local`"),
-    ("looks-far", Velocities, "`dependence` says `Overlap(1)`"),
-    ("parabolas", Velocities, "of a motion of degree 3"),
+    ("slow", Check::Velocities, "of a motion of degree 1"),
+    (
+        "looks-around",
+        Check::Velocities,
+        "`dependence` says `Local`",
+    ),
+    (
+        "looks-far",
+        Check::Velocities,
+        "`dependence` says `Overlap(1)`",
+    ),
+    ("parabolas", Check::Velocities, "of a motion of degree 3"),
     ("deaf", Speed, "the host asks for 0.5000 of the speed"),
 ];
 
@@ -333,7 +341,7 @@ macro_rules! solver {
                 $dependence
             }
 
-            fn solve(&self, nodes: Nodes<'_>, out: Velocities_<'_>) -> Result<()> {
+            fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
                 let axis: fn(&[f64], &[f64], &mut [f64]) = $solve;
                 axis(nodes.t, nodes.c, out.c);
                 axis(nodes.t, nodes.x, out.x);
@@ -343,9 +351,6 @@ macro_rules! solver {
         }
     };
 }
-
-/// The columns that a solver fills; a check has the same name.
-type Velocities_<'a> = turnpath_plugin::prelude::Velocities<'a>;
 
 solver!(Slow, "slow", Dependence::Overlap(1), |t, p, out| {
     parabolas(t, p, out);

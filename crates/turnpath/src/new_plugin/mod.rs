@@ -55,7 +55,10 @@ pub fn new_plugin(request: &PluginRequest, catalogue: &Catalogue) -> Result<NewP
     let crates = request.crates.clone().whole();
     let crates = crates.map_err(NewPluginError::from)?;
     fs::create_dir_all(folder).map_err(|error| not_written(folder, error))?;
-    let folder = folder.join(name);
+    let folder = match folder == Path::new(".") {
+        true => PathBuf::from(name),
+        false => folder.join(name),
+    };
     match fs::create_dir(&folder) {
         Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {
             return Err(NewPluginError::FolderExists { folder }.into());
