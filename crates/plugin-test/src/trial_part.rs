@@ -24,7 +24,7 @@ pub const PARTS: [TrialPart; 2] = [
         name: "saddle",
         recipe: r#"
 format = 1
-part = { aperture = "3 mm" }
+part = { aperture = "3.6 mm" }
 surface = { use = "astigmatic", k = "0.08 /mm" }
 tool = { nose_radius = "1 mm", included_angle = "120 deg", clearance_angle = "30 deg" }
 tolerance = { interpolation = "100 nm", residual = "100 nm" }

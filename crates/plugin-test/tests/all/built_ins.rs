@@ -11,6 +11,23 @@ use turnpath_grid as _;
 use turnpath_minimax as _;
 use turnpath_polynomials as _;
 
+/// The plugins that are built in; each has a test here.
+const PLUGINS: [&str; 13] = [
+    "turnpath-atpg",
+    "turnpath-ats",
+    "turnpath-constant",
+    "turnpath-fft-adaptive",
+    "turnpath-formula",
+    "turnpath-grid",
+    "turnpath-integrated",
+    "turnpath-minimax",
+    "turnpath-nose-radius",
+    "turnpath-polynomials",
+    "turnpath-spindle",
+    "turnpath-surfaces",
+    "turnpath-triangle-rotary",
+];
+
 /// Checks a plugin crate with these trials; every strategy of it is tried on both parts.
 #[track_caller]
 fn passes(plugin: &str, trials: impl IntoIterator<Item = Trial>) {
@@ -20,6 +37,22 @@ fn passes(plugin: &str, trials: impl IntoIterator<Item = Trial>) {
 
 fn trial(name: &str, lines: &str) -> Trial {
     Trial::of(name).with(lines)
+}
+
+#[test]
+fn the_tests_here_are_of_all_plugins_that_are_built_in() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../plugins");
+    let folders = std::fs::read_dir(folder).expect("the plugins").flatten();
+    let mut names: Vec<String> = folders
+        .map(|entry| format!("turnpath-{}", entry.file_name().display()))
+        .collect();
+    names.sort();
+    assert_eq!(names, PLUGINS);
+    let tests = include_str!("built_ins.rs");
+    for name in PLUGINS {
+        // Once in the list, and once where it is checked.
+        assert!(tests.matches(&format!("\"{name}\"")).count() >= 2, "{name}");
+    }
 }
 
 #[test]
@@ -74,7 +107,8 @@ fn surfaces() {
 }
 
 #[test]
-fn polynomials() {
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_polynomials() {
     passes(
         "turnpath-polynomials",
         [
@@ -103,7 +137,8 @@ fn polynomials() {
 }
 
 #[test]
-fn formula_and_grid() {
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_formula_and_grid() {
     passes(
         "turnpath-formula",
         [trial(
@@ -118,10 +153,15 @@ fn formula_and_grid() {
     );
 }
 
-/// Feeds that follow the residual keep it; a given feed keeps what it keeps.
 #[test]
-fn feeds_and_their_samplers() {
+fn the_constant_feed_and_the_constant_spindle() {
     passes("turnpath-constant", []);
+}
+
+/// Feeds that follow the residual keep it.
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_feeds_and_their_samplers() {
     passes(
         "turnpath-atpg",
         [
@@ -149,6 +189,11 @@ fn samplers() {
             trial("integrated", "spacing = \"0.2 mm\""),
         ],
     );
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_minimax() {
     passes(
         "turnpath-minimax",
         [Trial::of("minimax").promising(Promise::Tolerance)],
