@@ -4,13 +4,13 @@ use std::num::NonZero;
 use std::path::Path;
 
 use turnpath::report::comparison::{Column, Language};
-use turnpath::report::{AblationReport, AblationRun, comparison};
-use turnpath::{AblationOptions, AblationResult, Catalogue, Recipe};
+use turnpath::report::{AblationReport, AblationRun, comparison, to_json};
+use turnpath::{AblationOptions, AblationPlan, AblationResult, Catalogue, Recipe, RunState};
 use turnpath_core::printable_line;
 
 use super::output::refuse_output;
 use super::setup;
-use crate::args::{AblateArgs, TableLanguage};
+use crate::args::{AblateArgs, PlanForm, TableLanguage};
 use crate::print::{print, print_report};
 use crate::progress::RunsBar;
 use crate::{Outcome, Status, width};
@@ -29,6 +29,17 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(format!("{}-ablation", recipe.folder_name())),
     };
+    if let Some(form) = args.plan {
+        let plan = turnpath::plan_ablation(&recipe, &catalogue, &folder)?;
+        print(&plan_text(&plan, form))?;
+        return Ok(Status::Holds);
+    }
+    let bar = RunsBar::new(&args.work);
+    if let Some(key) = &args.only {
+        let run = turnpath::run_of_ablation(&recipe, &catalogue, &folder, key, &bar)?;
+        print_report(args.work.answer(), &run, |run| one_run(run, key))?;
+        return Ok(Status::Holds);
+    }
     let options = AblationOptions {
         folder,
         fresh: args.fresh,
@@ -37,7 +48,10 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
             .threads
             .and_then(|count| NonZero::new(usize::from(count))),
     };
-    let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new(&args.work))?;
+    let result = match args.merge {
+        true => turnpath::merge_ablation(&recipe, &catalogue, &options.folder, &bar)?,
+        false => turnpath::ablate(&recipe, &catalogue, &options, &bar)?,
+    };
     match args.table {
         Some(language) => print(&table_alone(args, language, &result.report))?,
         None => print_report(args.work.answer(), &result.report, |report| {
@@ -45,6 +59,23 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
         })?,
     }
     status(result)
+}
+
+fn plan_text(plan: &AblationPlan, form: PlanForm) -> String {
+    match form {
+        PlanForm::Json => to_json(plan),
+        PlanForm::Missing => {
+            let missing = plan.runs.iter().filter(|run| run.state != RunState::Done);
+            missing.map(|run| format!("{}\n", run.key)).collect()
+        }
+    }
+}
+
+/// A line on a run that was made alone.
+fn one_run(run: &AblationRun, key: &str) -> String {
+    let values = run.varied.iter().map(|(_, value)| value.as_str());
+    let values: Vec<&str> = values.collect();
+    format!("{key}: {}\n", printable_line(&values.join(", ")))
 }
 
 /// The runs in the order that was asked for.
@@ -90,6 +121,7 @@ fn human(
     for (count, what) in [
         (result.reused, "taken over from before"),
         (result.failures.len(), "failed"),
+        (result.missing, "without figures"),
     ] {
         if count > 0 {
             text += &format!(", {count} {what}");
@@ -110,6 +142,7 @@ fn status(result: AblationResult) -> Outcome {
     let all_failed = result.failures.len() == result.report.runs.len();
     match result.failures.into_iter().next() {
         Some((_, error)) if all_failed => Err(error.into()),
+        _ if result.missing > 0 => Ok(Status::Exceeded),
         _ => Ok(Status::Holds),
     }
 }

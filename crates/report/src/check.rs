@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::axis_notes::AxisNotes;
 use crate::feed_cap::FeedCap;
 use crate::form::FormReport;
 use crate::format::FORMAT;
@@ -39,6 +40,10 @@ pub struct CheckReport {
     /// Whether the reach of the nose sets the feed, and where.
     #[serde(default)]
     pub feed_cap: FeedCap,
+    /// What the axes of the first program mean, or of a program with the default keys; `None` in reports of
+    /// earlier versions.
+    #[serde(default)]
+    pub axis_notes: Option<AxisNotes>,
     /// What is allowed but seldom meant.
     #[serde(default)]
     pub remarks: Vec<Remark>,
@@ -70,8 +75,14 @@ pub struct Estimate {
 pub struct ProgramEstimate {
     /// The file's name.
     pub file: String,
-    /// Its size.
+    /// Its size, with all of its parts.
     pub bytes: u64,
+    /// Its blocks: lines of text.
+    #[serde(default)]
+    pub blocks: u64,
+    /// The parts that it calls; `None` if it is one file.
+    #[serde(default)]
+    pub parts: Option<u64>,
 }
 
 impl CheckReport {

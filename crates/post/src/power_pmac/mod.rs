@@ -9,8 +9,9 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
-use crate::pmac::{Clock, PVT_KEYS, Pvt};
+use crate::pmac::{Clock, PVT_KEYS, PmacDialect, Pvt};
 use crate::post::Post;
+use crate::program_format::FeedMeaning;
 
 /// Times in steps of a nanosecond.
 const CLOCK: Clock = Clock {
@@ -32,6 +33,9 @@ pub(crate) const POWER_PMAC_PVT: Post = Post {
 // changed by --set: {changes}
 // turnpath {turnpath}, post power-pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
 // X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Coord[x].FeedTime = {ix90}
+// X: {axis_x}
+// Z: {axis_z}
+// C: {axis_c}
 // the path begins and ends {ends}
 // verified on this text: {verified}
 close
@@ -39,10 +43,14 @@ open prog 1
 ",
     footer: "close\n",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,
     c_is_even: false,
     delivered_decimals: None,
-    dialect: &Pvt { clock: CLOCK },
+    dialect: &Pvt {
+        clock: CLOCK,
+        dialect: PmacDialect::Power,
+    },
 };

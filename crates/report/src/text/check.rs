@@ -4,6 +4,7 @@ use turnpath_core::printable_line;
 
 use crate::check::CheckReport;
 
+use super::axis_notes::axis_notes;
 use super::commands::commands;
 use super::form::first_split;
 use super::machine::limits;
@@ -33,8 +34,15 @@ pub fn check(report: &CheckReport) -> String {
     text += &line("toolpath.csv", format!("about {size}"));
     for program in &expected.programs {
         let (size, file) = (bytes(program.bytes as f64), &program.file);
-        text += &line("program", format!("about {size}: {file}"));
+        let parts = program.parts.map(|parts| format!(", in {parts} parts"));
+        let parts = parts.unwrap_or_default();
+        text += &line("program", format!("about {size}{parts}: {file}"));
     }
+    text += &report
+        .axis_notes
+        .as_ref()
+        .map(axis_notes)
+        .unwrap_or_default();
     text += &commands(&report.controller_commands);
     text + &remarks(&report.remarks)
 }
