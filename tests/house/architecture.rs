@@ -45,6 +45,7 @@ const RULES: &[Rule] = &[
         &["turnpath-core", PLUGINS],
     ),
     rule("turnpath-report", &["turnpath-core"], &[]),
+    rule("turnpath-page", &["turnpath-report"], &[]),
     rule("turnpath", LIBRARIES, &[]),
     rule(
         PROGRAM,
@@ -61,6 +62,7 @@ const LIBRARIES: &[&str] = &[
     "turnpath-host",
     "turnpath-lens",
     "turnpath-maps",
+    "turnpath-page",
     "turnpath-pipeline",
     "turnpath-post",
     "turnpath-recipe",

@@ -17,7 +17,12 @@ const PLUGIN_PATH: &str = "TURNPATH_PLUGIN_PATH";
 
 /// Sets how many threads work. It fails only when that is set already, which changes no result.
 pub fn use_threads(work: &WorkArgs) {
-    let threads = work.threads.map_or(0, usize::from);
+    use_so_many(work.threads);
+}
+
+/// The same for a command that only takes their number.
+pub fn use_so_many(threads: Option<u16>) {
+    let threads = threads.map_or(0, usize::from);
     let _ = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global();
@@ -55,7 +60,7 @@ pub fn recipe(args: &RecipeArgs, catalogue: Catalogue) -> Result<(Recipe, Catalo
 }
 
 /// Refuses a recipe that lists plugins of its own: they are native code with the user's rights.
-fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
+pub fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
     let Some(first) = recipe.plugins.first() else {
         return Ok(());
     };

@@ -40,7 +40,9 @@ mod rough_path;
 mod run;
 #[cfg(test)]
 mod sample;
+mod samples;
 mod servo;
+mod sketch;
 mod spokes;
 mod surface_error;
 pub mod text;
@@ -77,7 +79,12 @@ pub use rough_path::{Left, RoughPathReport};
 pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
 };
+pub use samples::Samples;
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
+pub use sketch::{
+    AxisSketch, EdgeSketch, ErrorMap, ErrorProfile, ErrorSketch, PathSketch, RadialMean,
+    SpiralSketch, TurnSketch,
+};
 pub use spokes::Spokes;
 pub use surface_error::{RealNose, SurfaceError};
 pub use tool_fit::{

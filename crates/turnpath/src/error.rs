@@ -10,7 +10,9 @@ use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
+use crate::page::PageError;
 use crate::plots::PlotError;
+use crate::result_check::ResultError;
 
 /// Where an error comes from: the source behind its messages.
 type Source = Box<dyn std::error::Error + Send + Sync>;
@@ -123,6 +125,12 @@ pub enum Error {
     /// The system gives no thread to work on.
     #[error("there is no thread to work on")]
     Threads(#[source] Source),
+    /// A folder has no result.
+    #[error(transparent)]
+    Result(#[from] ResultError),
+    /// A result gets no page.
+    #[error(transparent)]
+    Page(#[from] PageError),
     /// A run of an ablation ended without a result.
     #[error("a run ended unexpectedly")]
     RunLost,
@@ -152,6 +160,7 @@ impl Error {
             | Self::Refused { .. }
             | Self::NoProgram
             | Self::Plot(_)
+            | Self::Page(PageError::NoRecipe | PageError::OtherRecipe { .. })
             | Self::Exists { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
             Self::Load(error) => fault_of_load(error),
@@ -165,6 +174,8 @@ impl Error {
             | Self::NothingCut { .. }
             | Self::PointsLost { .. }
             | Self::DryRun { .. }
+            | Self::Result(_)
+            | Self::Page(_)
             | Self::Report { .. } => Fault::Files,
             Self::Threads(_) => Fault::Request,
             Self::Cancelled => Fault::Cancelled,
@@ -212,6 +223,7 @@ impl Error {
         match self {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
+            Self::Page(PageError::NoRecipe) => Some("`--recipe FILE` gives it"),
             Self::Exists { .. } => Some("`--force` replaces it"),
             _ => None,
         }

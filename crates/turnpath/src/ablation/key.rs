@@ -18,7 +18,7 @@ use crate::plugins;
 use crate::strategies::used_files;
 
 /// Counts the changes of what a record holds.
-const RECORD_FORMAT: u32 = 3;
+const RECORD_FORMAT: u32 = 4;
 /// Keys that no figure depends on.
 const NO_PART: [&str; 3] = ["format", "name", "plugins"];
 /// Keys of `[output]` that a program's size depends on, besides the tables of posts.

@@ -1,0 +1,227 @@
+"use strict";
+// Draws the figures of a page from its data. Each figure is a function of the data that gives plotly's
+// traces and layout; the frame gives them the colours of the page.
+(() => {
+  const page = JSON.parse(document.getElementById("data").textContent);
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  let printing = false;
+
+  // cmocean's balance: even in lightness on both sides of zero, and not of red against green.
+  const BALANCE = [[23, 28, 66], [41, 58, 143], [11, 102, 189], [69, 144, 185], [142, 181, 194],
+    [210, 216, 219], [230, 210, 204], [213, 157, 137], [196, 101, 72], [172, 43, 36], [120, 14, 40], [60, 9, 17]]
+    .map((rgb, i, all) => [i / (all.length - 1), `rgb(${rgb.join(",")})`]);
+  // Okabe and Ito's colours, which colour-blind people can tell apart.
+  const [BLUE, ORANGE, GREEN] = ["#0072b2", "#d55e00", "#009e73"];
+  const LIMIT = { color: "#cc79a7", dash: "dash", width: 2 };
+
+  const numbers = (samples) => {
+    const bytes = Uint8Array.from(atob(samples.bdata), (c) => c.charCodeAt(0));
+    return Array.from(new Float32Array(bytes.buffer), (value) => (Number.isFinite(value) ? value : null));
+  };
+  const rowsOf = (values, width) => {
+    const rows = [];
+    for (let at = 0; at < values.length; at += width) rows.push(values.slice(at, at + width));
+    return rows;
+  };
+  const known = (values) => values.filter((value) => value !== null).sort((a, b) => a - b);
+  // The range of values without the share of the highest and lowest.
+  const robust = (values, share) => {
+    const sorted = known(values);
+    if (sorted.length === 0) return [0, 1];
+    const off = Math.floor(share * (sorted.length - 1));
+    const [low, high] = [sorted[off], sorted[sorted.length - 1 - off]];
+    return low < high ? [low, high] : [low - 0.5, high + 0.5];
+  };
+  const axis = (text, more) => ({ title: { text }, automargin: true, zeroline: false, ...more });
+  const title = (text) => ({ text, side: "right", font: { size: 12 } });
+
+  // A map on the square around the part; rows come from the largest y down.
+  const map = (cells, half, values, bar, scale) => {
+    const step = (2 * half) / cells;
+    const places = Array.from({ length: cells }, (_, i) => -half + (i + 0.5) * step);
+    return {
+      traces: [{
+        type: "heatmap", x: places, y: [...places].reverse(), z: rowsOf(values, cells), hoverongaps: false,
+        colorbar: { title: title(bar), thickness: 12, len: 1, outlinewidth: 0 }, ...scale,
+        hovertemplate: "x %{x:.4g} mm, y %{y:.4g} mm<br>%{z:.4g}<extra></extra>",
+      }],
+      layout: {
+        xaxis: axis("x / mm", { constrain: "domain", showgrid: false }),
+        yaxis: axis("y / mm", { scaleanchor: "x", constrain: "domain", showgrid: false }),
+      },
+    };
+  };
+  const line = (x, y, name, colour, more) => ({
+    type: "scatter", mode: "lines", x, y, name, line: { color: colour, width: 1.5 }, connectgaps: false, ...more,
+  });
+  // Panels above each other on one x axis: [title of y, traces].
+  const panels = (xTitle, all) => {
+    const traces = [];
+    const layout = { xaxis: axis(xTitle, { anchor: all.length > 1 ? `y${all.length}` : "y" }), showlegend: false };
+    const gap = 0.06;
+    const height = (1 - gap * (all.length - 1)) / all.length;
+    all.forEach(([yTitle, own, more], i) => {
+      const id = i === 0 ? "" : String(i + 1);
+      const top = 1 - i * (height + gap);
+      layout[`yaxis${id}`] = axis(yTitle, { domain: [Math.max(0, top - height), top], rangemode: "tozero", ...more });
+      own.forEach((trace) => traces.push({ ...trace, xaxis: "x", yaxis: `y${id}` }));
+    });
+    return { traces, layout };
+  };
+  const level = (x, value, name) => line([x[0], x[x.length - 1]], [value, value], name, LIMIT.color, { line: LIMIT });
+  const ends = (x) => { const sorted = known(x); return [sorted[0], sorted[sorted.length - 1]]; };
+
+  const RUN = {
+    "error-map": ({ sketch: { map: m } }) => {
+      const values = numbers(m.error_nm);
+      const [zmin, zmax] = robust(values, 0.002);
+      return map(m.cells, m.half_mm, values, "error / nm", { colorscale: "Cividis", zmin, zmax });
+    },
+    "radial-mean": ({ sketch: { radial_mean: mean } }) => ({
+      traces: [line(numbers(mean.radius_mm), numbers(mean.error_nm), "mean", BLUE)],
+      layout: { xaxis: axis("radius / mm"), yaxis: axis("mean error / nm") },
+    }),
+    "spectrum": ({ sketch, report }) => {
+      const y = numbers(sketch.harmonics_nm).slice(1);
+      const x = y.map((_, i) => i + 1);
+      const layout = { xaxis: axis("periods a turn", { type: "log" }), yaxis: axis("amplitude / nm", { rangemode: "tozero" }), bargap: 0 };
+      const spokes = report.spokes;
+      if (spokes) {
+        layout.annotations = [{
+          x: Math.log10(spokes.per_turn), y: spokes.amplitude_nm, showarrow: true, arrowhead: 2, ax: 0, ay: -30,
+          text: `${spokes.amplitude_nm.toPrecision(4)} nm, ${spokes.per_turn} a turn`,
+        }];
+        layout.yaxis.range = [0, 1.3 * Math.max(...y)];
+      }
+      const stems = { x: x.flatMap((k) => [k, k, null]), y: y.flatMap((a) => [0, a, null]) };
+      return {
+        traces: [
+          { type: "scatter", mode: "lines", ...stems, line: { color: BLUE, width: 1 }, hoverinfo: "skip", showlegend: false },
+          { type: "scatter", mode: "markers", x, y, marker: { color: BLUE, size: 4 }, name: "amplitude",
+            hovertemplate: "%{x} a turn: %{y:.4g} nm<extra></extra>" },
+        ],
+        layout: { ...layout, showlegend: false },
+      };
+    },
+    "profile": ({ sketch }) => ({
+      traces: sketch.profiles.map((profile, i) => line(numbers(profile.s_mm), numbers(profile.error_nm),
+        `${profile.angle_deg.toFixed(1)}°`, [BLUE, ORANGE, GREEN][i % 3])),
+      layout: { xaxis: axis("s / mm"), yaxis: axis("error / nm"), legend: { orientation: "h", y: 1.12 } },
+    }),
+    "surface": ({ surface }) =>
+      map(surface.cells, surface.half_mm, numbers(surface.height_um), "height / µm", { colorscale: "Viridis" }),
+    "deviation": ({ surface }) => {
+      const values = numbers(surface.deviation_um);
+      const most = Math.max(1e-6, ...known(values).map(Math.abs));
+      return map(surface.cells, surface.half_mm, values, "deviation / µm", { colorscale: BALANCE, zmin: -most, zmax: most });
+    },
+    "spiral": ({ sketch: { spiral } }) => {
+      const errors = numbers(spiral.error_nm);
+      const least = Math.max(1e-4, robust(errors.filter((error) => error > 0), 0.01)[0]);
+      const logs = errors.map((error) => Math.log10(Math.max(error, least)));
+      const [low, high] = robust(logs, 0);
+      const ticks = [];
+      for (let power = Math.floor(low); power <= Math.ceil(high); power += 1)
+        for (const digit of [1, 2, 5]) ticks.push(digit * 10 ** power);
+      const shown = ticks.filter((tick) => Math.log10(tick) >= low && Math.log10(tick) <= high);
+      return {
+        traces: [{
+          type: "scatter", mode: "markers", x: numbers(spiral.x_mm), y: numbers(spiral.y_mm), customdata: errors,
+          marker: {
+            size: 3, color: logs, colorscale: "Cividis", cmin: low, cmax: high,
+            colorbar: { title: title("error / nm"), thickness: 12, len: 1, outlinewidth: 0,
+              tickvals: shown.map(Math.log10), ticktext: shown.map((tick) => String(Number(tick.toPrecision(1)))) },
+          },
+          hovertemplate: "x %{x:.4g} mm, y %{y:.4g} mm<br>%{customdata:.4g} nm<extra></extra>",
+        }],
+        layout: {
+          xaxis: axis("x / mm", { constrain: "domain" }),
+          yaxis: axis("y / mm", { scaleanchor: "x", constrain: "domain" }),
+        },
+      };
+    },
+    "along": ({ sketch: { turns }, report }) => {
+      const r = numbers(turns.radius_mm);
+      const tolerance = report.tolerance.interpolation_nm;
+      const error = [line(r, numbers(turns.error_nm), "error", BLUE)];
+      if (tolerance) error.push(level(ends(r), tolerance, "tolerance"));
+      return panels("radius (mean X) / mm", [
+        ["feed / µm/rev", [line(r, numbers(turns.feed_um_per_rev), "feed", BLUE)]],
+        ["points a turn", [line(r, numbers(turns.points_per_turn), "points", BLUE)]],
+        ["spindle / rpm", [line(r, numbers(turns.spindle_rpm), "spindle", BLUE)]],
+        ["error / nm", error],
+      ]);
+    },
+    "x-axis": (data) => motion(data, "x"),
+    "z-axis": (data) => motion(data, "z"),
+    "angle": ({ sketch: { edges }, report }) => {
+      const angles = (values) => values.map((_, i) => (360 * i) / values.length);
+      const curve = (samples, name, colour) => { const y = numbers(samples); return line(angles(y), y, name, colour); };
+      const material = report.tolerance.residual_nm ?? report.tolerance.form_nm;
+      const limit = material ? [level([0, 360], material, "tolerance")] : [];
+      const uncut = [curve(edges.rim_nm, "rim", BLUE), curve(edges.hole_nm, "hole", ORANGE)];
+      const both = panels("C / deg", [
+        ["residual / nm", [{ ...curve(edges.residual_nm, "residual", GREEN), showlegend: false },
+          ...limit.map((trace) => ({ ...trace, showlegend: false }))]],
+        ["uncut / nm", [...uncut.filter((trace) => trace.x.length > 0), ...limit]],
+      ]);
+      both.layout.showlegend = true;
+      both.layout.legend = { orientation: "h", y: 1.08 };
+      both.layout.xaxis.dtick = 90;
+      return both;
+    },
+  };
+  const motion = ({ sketch: { turns }, report }, name) => {
+    const r = numbers(turns.radius_mm);
+    const limits = report.machine ? report.machine.limits : [];
+    const rows = [["velocity", "mm/s", "velocity_mm_per_s", "limit_mm_per_s"],
+      ["acceleration", "mm/s²", "acceleration_mm_per_s2", "limit_mm_per_s2"],
+      ["jerk", "mm/s³", "jerk_mm_per_s3", "limit_mm_per_s3"]];
+    return panels("radius (mean X) / mm", rows.map(([word, unit, key, limitKey]) => {
+      const traces = [line(r, numbers(turns[name][key]), word, BLUE)];
+      const limit = limits.find((one) => one.limit === `${name}_${word}`);
+      if (limit) traces.push(level(ends(r), limit[limitKey], "limit"));
+      return [`${word} / ${unit}`, traces];
+    }));
+  };
+
+  const theme = () => {
+    const isDark = dark.matches && !printing;
+    const front = isDark ? "#e4e7eb" : "#1b1f24";
+    const grid = isDark ? "#39414a" : "#dfe3e8";
+    return { front, grid };
+  };
+  const themed = (layout) => {
+    const { front, grid } = theme();
+    const own = { ...layout, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: { color: front, size: 12 },
+      margin: { l: 8, r: 8, t: 12, b: 8, ...layout.margin } };
+    for (const key of Object.keys(own))
+      if (/^[xy]axis/.test(key)) own[key] = { gridcolor: grid, linecolor: grid, tickcolor: grid, ...own[key] };
+    if (own.annotations) own.annotations = own.annotations.map((one) => ({ font: { color: front, size: 11 }, arrowcolor: front, ...one }));
+    return own;
+  };
+  const themedTraces = (traces) => traces;
+  const config = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
+
+  const drawn = new Map();
+  const draw = async (id, make) => {
+    const place = document.getElementById(id);
+    if (!place) return;
+    const figure = make(page, place);
+    drawn.set(id, figure);
+    await Plotly.newPlot(place, themedTraces(figure.traces), themed(figure.layout), config);
+  };
+  const redraw = () => {
+    for (const [id, figure] of drawn)
+      Plotly.react(document.getElementById(id), themedTraces(figure.traces), themed(figure.layout), config);
+  };
+
+  const all = { run: RUN, ablation: window.turnpathAblation || {} }[page.kind];
+  (async () => {
+    for (const [id, make] of Object.entries(all)) await draw(id, make);
+    dark.addEventListener("change", redraw);
+    window.addEventListener("beforeprint", () => { printing = true; redraw(); });
+    window.addEventListener("afterprint", () => { printing = false; redraw(); });
+    document.documentElement.dataset.drawn = String(drawn.size);
+  })();
+})();
