@@ -32,7 +32,8 @@
     const [low, high] = [sorted[off], sorted[sorted.length - 1 - off]];
     return low < high ? [low, high] : [low - 0.5, high + 0.5];
   };
-  const axis = (text, more) => ({ title: { text }, automargin: true, zeroline: false, ...more });
+  const axis = (text, more) =>
+    ({ title: { text }, automargin: true, zeroline: false, exponentformat: "power", minexponent: 4, ...more });
   const title = (text) => ({ text, side: "right", font: { size: 12 } });
 
   // A map on the square around the part; rows come from the largest y down.
@@ -63,7 +64,9 @@
     all.forEach(([yTitle, own, more], i) => {
       const id = i === 0 ? "" : String(i + 1);
       const top = 1 - i * (height + gap);
-      layout[`yaxis${id}`] = axis(yTitle, { domain: [Math.max(0, top - height), top], rangemode: "tozero", ...more });
+      const most = own.flatMap((trace) => known(trace.y)).reduce((a, b) => Math.max(a, b), 0);
+      const range = most > 0 ? [0, 1.1 * most] : [0, 1];
+      layout[`yaxis${id}`] = axis(yTitle, { domain: [Math.max(0, top - height), top], range, nticks: 5, ...more });
       own.forEach((trace) => traces.push({ ...trace, xaxis: "x", yaxis: `y${id}` }));
     });
     return { traces, layout };
@@ -117,20 +120,13 @@
     },
     "spiral": ({ sketch: { spiral } }) => {
       const errors = numbers(spiral.error_nm);
-      const least = Math.max(1e-4, robust(errors.filter((error) => error > 0), 0.01)[0]);
-      const logs = errors.map((error) => Math.log10(Math.max(error, least)));
-      const [low, high] = robust(logs, 0);
-      const ticks = [];
-      for (let power = Math.floor(low); power <= Math.ceil(high); power += 1)
-        for (const digit of [1, 2, 5]) ticks.push(digit * 10 ** power);
-      const shown = ticks.filter((tick) => Math.log10(tick) >= low && Math.log10(tick) <= high);
+      const most = Math.max(1e-6, ...known(errors));
       return {
         traces: [{
           type: "scatter", mode: "markers", x: numbers(spiral.x_mm), y: numbers(spiral.y_mm), customdata: errors,
           marker: {
-            size: 3, color: logs, colorscale: "Cividis", cmin: low, cmax: high,
-            colorbar: { title: title("error / nm"), thickness: 12, len: 1, outlinewidth: 0,
-              tickvals: shown.map(Math.log10), ticktext: shown.map((tick) => String(Number(tick.toPrecision(1)))) },
+            size: 3, color: errors, colorscale: "Cividis", cmin: 0, cmax: most,
+            colorbar: { title: title("error / nm"), thickness: 12, len: 1, outlinewidth: 0 },
           },
           hovertemplate: "x %{x:.4g} mm, y %{y:.4g} mm<br>%{customdata:.4g} nm<extra></extra>",
         }],
@@ -200,7 +196,6 @@
     if (own.annotations) own.annotations = own.annotations.map((one) => ({ font: { color: front, size: 11 }, arrowcolor: front, ...one }));
     return own;
   };
-  const themedTraces = (traces) => traces;
   const config = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
 
   const drawn = new Map();
@@ -209,14 +204,130 @@
     if (!place) return;
     const figure = make(page, place);
     drawn.set(id, figure);
-    await Plotly.newPlot(place, themedTraces(figure.traces), themed(figure.layout), config);
+    await Plotly.newPlot(place, figure.traces, themed(figure.layout), config);
   };
   const redraw = () => {
     for (const [id, figure] of drawn)
-      Plotly.react(document.getElementById(id), themedTraces(figure.traces), themed(figure.layout), config);
+      Plotly.react(document.getElementById(id), figure.traces, themed(figure.layout), config);
   };
 
-  const all = { run: RUN, ablation: window.turnpathAblation || {} }[page.kind];
+  const ABLATION = {
+    "points-error": (data) => front(data, "points-error"),
+    "time-acceleration": (data) => front(data, "time-acceleration"),
+    "error-maps": tiles,
+    "radial-means": ({ runs }) => ({
+      traces: overlaid(runs, ({ radial_mean: mean }) => mean && [numbers(mean.radius_mm), numbers(mean.error_nm)]),
+      layout: { xaxis: axis("radius / mm"), yaxis: axis("mean error / nm"), showlegend: false },
+    }),
+    "spectra": ({ runs }) => ({
+      traces: overlaid(runs, ({ harmonics_nm: harmonics }) => {
+        const y = numbers(harmonics).slice(1);
+        return [y.map((_, i) => i + 1), y];
+      }),
+      layout: { xaxis: axis("periods a turn", { type: "log" }), yaxis: axis("amplitude / nm", { rangemode: "tozero" }), showlegend: false },
+    }),
+  };
+  // Shades from dark to light that stay apart in grey.
+  const shade = (share) => `hsl(${260 - 200 * share}, 70%, ${35 + 25 * share}%)`;
+  function overlaid(runs, curve) {
+    return runs.flatMap(({ name, sketch }, i) => {
+      const xy = sketch && curve(sketch);
+      if (!xy || xy[0].length === 0) return [];
+      const colour = shade(i / Math.max(1, runs.length - 1));
+      return [line(xy[0], xy[1], plain(name), colour, { line: { color: colour, width: 1 } })];
+    });
+  }
+  // plotly takes some tags in names as its own.
+  function plain(text) {
+    return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
+  }
+  function front({ runs, comparisons }, id) {
+    const { places, front: indices, x_title: x, y_title: y } = comparisons.find((one) => one.id === id);
+    const all = places.map((_, i) => i).filter((i) => places[i]);
+    const points = (from, more) => ({
+      type: "scatter", x: from.map((i) => places[i][0]), y: from.map((i) => places[i][1]),
+      text: from.map((i) => plain(runs[i].name)), hovertemplate: "%{text}<br>%{x:.5g}, %{y:.4g}<extra></extra>", ...more,
+    });
+    return {
+      traces: [
+        points(all, { mode: "markers", name: "run", marker: { color: BLUE, size: 7, opacity: 0.7 } }),
+        points(indices, { mode: "lines+markers", name: "front", line: { color: ORANGE, width: 1.5, shape: "hv" },
+          marker: { color: ORANGE, size: 9, symbol: "diamond" } }),
+      ],
+      layout: { xaxis: axis(x, { rangemode: "tozero" }), yaxis: axis(y, { rangemode: "tozero" }), legend: { orientation: "h", y: 1.12 } },
+    };
+  }
+  // All maps as tiles of one picture, so that they share one scale.
+  function tiles({ runs }, place) {
+    const shown = runs.filter(({ sketch }) => sketch && sketch.map);
+    const wide = place.clientWidth || 800;
+    const columns = Math.max(1, Math.min(shown.length, Math.floor((wide - 90) / 150)));
+    const size = Math.max(0, ...shown.map(({ sketch }) => sketch.map.cells));
+    const gap = Math.ceil(size / 5);
+    const pitch = size + gap;
+    const rows = Math.ceil(shown.length / columns);
+    const z = Array.from({ length: rows * pitch }, () => new Array(columns * pitch).fill(null));
+    const annotations = [];
+    const every = [];
+    shown.forEach(({ name, sketch }, i) => {
+      const [row, column] = [Math.floor(i / columns), i % columns];
+      const values = numbers(sketch.map.error_nm);
+      every.push(values);
+      rowsOf(values, sketch.map.cells).forEach((own, y) => {
+        own.forEach((value, x) => { z[row * pitch + gap + y][column * pitch + x] = value; });
+      });
+      const letters = Math.floor(((wide - 90) / columns) / 6.5);
+      const short = name.length > letters ? `${name.slice(0, letters - 1)}…` : name;
+      annotations.push({ x: column * pitch, y: row * pitch + gap, xanchor: "left", yanchor: "bottom", showarrow: false,
+        text: plain(short), hovertext: plain(name), font: { size: 10 } });
+    });
+    const [zmin, zmax] = robust(every.flat(), 0.002);
+    const tile = (wide - 90) / columns;
+    place.style.height = `${Math.ceil(rows * tile + 30)}px`;
+    return {
+      traces: [{ type: "heatmap", z, colorscale: "Cividis", zmin, zmax, hoverongaps: false, hovertemplate: "%{z:.4g} nm<extra></extra>",
+        colorbar: { title: title("error / nm"), thickness: 12, len: rows > 2 ? undefined : 1, lenmode: "pixels", outlinewidth: 0 } }],
+      layout: {
+        annotations, dragmode: "zoom",
+        xaxis: { visible: false, constrain: "domain" },
+        yaxis: { visible: false, autorange: "reversed", scaleanchor: "x", constrain: "domain" },
+      },
+      tiles: { shown: shown.map(({ name }) => name), columns, pitch, gap, size },
+    };
+  }
+
+  // A click on a heading sorts the runs by it; another one turns the order round.
+  const sortable = (table) => {
+    const heads = [...table.tHead.rows[0].cells];
+    const sortBy = (column) => {
+      const head = heads[column];
+      const up = head.getAttribute("aria-sort") !== "ascending";
+      heads.forEach((one) => one.removeAttribute("aria-sort"));
+      head.setAttribute("aria-sort", up ? "ascending" : "descending");
+      const value = (row) => {
+        const cell = row.cells[column];
+        if (!cell || cell.colSpan > 1) return null;
+        if (cell.dataset.value !== undefined) return Number(cell.dataset.value);
+        return cell.classList.contains("number") ? null : cell.textContent;
+      };
+      const rows = [...table.tBodies[0].rows].map((row, place) => ({ row, place, key: value(row) }));
+      const order = (a, b) => {
+        // Runs without a figure stay at the end.
+        if (a.key === null || b.key === null) return (a.key === null) - (b.key === null) || a.place - b.place;
+        const less = typeof a.key === "number" && typeof b.key === "number"
+          ? a.key - b.key : String(a.key).localeCompare(String(b.key), "en", { numeric: true });
+        return (up ? less : -less) || a.place - b.place;
+      };
+      table.tBodies[0].append(...rows.sort(order).map(({ row }) => row));
+    };
+    heads.forEach((head, column) => {
+      head.addEventListener("click", () => sortBy(column));
+      head.addEventListener("keydown", (event) => { if (event.key === "Enter") sortBy(column); });
+    });
+  };
+  document.querySelectorAll("table.runs").forEach(sortable);
+
+  const all = { run: RUN, ablation: ABLATION }[page.kind];
   (async () => {
     for (const [id, make] of Object.entries(all)) await draw(id, make);
     dark.addEventListener("change", redraw);

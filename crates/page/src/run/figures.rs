@@ -13,24 +13,16 @@ const NO_SKETCH: &str = "The run wrote no file of its path that can be read, so 
 /// All figures of a run.
 pub fn figures(page: &RunPage) -> String {
     let path = match &page.sketch {
-        None => element("p", "note", &escaped(NO_SKETCH)),
+        None => surface_figures(page) + &element("p", "note", &escaped(NO_SKETCH)),
         Some(sketch) => {
             let mut html = error_figures();
             if sketch.error.map.is_none() {
                 html = element("p", "note", "Nothing of the part is cut.");
             }
-            html + &path_figures(page)
+            html + &surface_figures(page) + &path_figures(page)
         }
     };
-    let order = match &page.sketch {
-        None => [surface_figures(page), path],
-        Some(_) => [path, surface_figures(page)],
-    };
-    section(
-        "pictures",
-        "Pictures",
-        &element("div", "figures", &order.concat()),
-    )
+    section("pictures", "Pictures", &element("div", "figures", &path))
 }
 
 fn error_figures() -> String {
@@ -79,8 +71,8 @@ fn path_figures(page: &RunPage) -> String {
             "spiral",
             "square",
             "Spiral",
-            "Places of the tool, thinned out. The colour is the largest |played − true| around each; \
-             its scale is logarithmic.",
+            "Places of the tool, thinned out. The colour is the largest |played − true| from each to \
+             the next.",
         ),
         figure("along", "tall", "Feed, points, spindle, error", turns),
         figure("x-axis", "tall", "Motion of X", &format!("The largest amounts on each turn. {limits}")),
