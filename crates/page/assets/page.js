@@ -12,6 +12,8 @@
     .map((rgb, i, all) => [i / (all.length - 1), `rgb(${rgb.join(",")})`]);
   // Okabe and Ito's colours, which colour-blind people can tell apart.
   const [BLUE, ORANGE, GREEN] = ["#0072b2", "#d55e00", "#009e73"];
+  // Height of a line of a label, in pixels.
+  const LABEL = 12;
   const LIMIT = { color: "#cc79a7", dash: "dash", width: 2 };
 
   const numbers = (samples) => {
@@ -224,7 +226,7 @@
         const y = numbers(harmonics).slice(1);
         return [y.map((_, i) => i + 1), y];
       }),
-      layout: { xaxis: axis("periods a turn", { type: "log" }), yaxis: axis("amplitude / nm", { rangemode: "tozero" }), showlegend: false },
+      layout: { xaxis: axis("periods a turn", { type: "log" }), yaxis: axis("amplitude / nm", { type: "log" }), showlegend: false },
     }),
   };
   // Shades from dark to light that stay apart in grey.
@@ -244,6 +246,12 @@
   function front({ runs, comparisons }, id) {
     const { places, front: indices, x_title: x, y_title: y } = comparisons.find((one) => one.id === id);
     const all = places.map((_, i) => i).filter((i) => places[i]);
+    // Figures that lie far apart are told apart on a logarithmic axis only.
+    const spread = (which) => {
+      const values = all.map((i) => places[i][which]);
+      const [least, most] = [Math.min(...values), Math.max(...values)];
+      return least > 0 && most > 30 * least ? { type: "log" } : { rangemode: "tozero" };
+    };
     const points = (from, more) => ({
       type: "scatter", x: from.map((i) => places[i][0]), y: from.map((i) => places[i][1]),
       text: from.map((i) => plain(runs[i].name)), hovertemplate: "%{text}<br>%{x:.5g}, %{y:.4g}<extra></extra>", ...more,
@@ -254,7 +262,7 @@
         points(indices, { mode: "lines+markers", name: "front", line: { color: ORANGE, width: 1.5, shape: "hv" },
           marker: { color: ORANGE, size: 9, symbol: "diamond" } }),
       ],
-      layout: { xaxis: axis(x, { rangemode: "tozero" }), yaxis: axis(y, { rangemode: "tozero" }), legend: { orientation: "h", y: 1.12 } },
+      layout: { xaxis: axis(x, spread(0)), yaxis: axis(y, spread(1)), legend: { orientation: "h", y: 1.12 } },
     };
   }
   // All maps as tiles of one picture, so that they share one scale.
@@ -263,7 +271,11 @@
     const wide = place.clientWidth || 800;
     const columns = Math.max(1, Math.min(shown.length, Math.floor((wide - 90) / 150)));
     const size = Math.max(0, ...shown.map(({ sketch }) => sketch.map.cells));
-    const gap = Math.ceil(size / 5);
+    const tile = (wide - 90) / columns;
+    // Each label has a line for each value that varies.
+    const parts = shown.map(({ values }) => (values.length > 3 ? [values.join(", ")] : values));
+    const lines = Math.max(1, ...parts.map((values) => values.length));
+    const gap = Math.ceil((size * (LABEL * lines + 6)) / (tile - LABEL * lines - 6));
     const pitch = size + gap;
     const rows = Math.ceil(shown.length / columns);
     const z = Array.from({ length: rows * pitch }, () => new Array(columns * pitch).fill(null));
@@ -276,17 +288,16 @@
       rowsOf(values, sketch.map.cells).forEach((own, y) => {
         own.forEach((value, x) => { z[row * pitch + gap + y][column * pitch + x] = value; });
       });
-      const letters = Math.floor(((wide - 90) / columns) / 6.5);
-      const short = name.length > letters ? `${name.slice(0, letters - 1)}…` : name;
+      const letters = Math.floor(tile / 6);
+      const short = (text) => plain(text.length > letters ? `${text.slice(0, letters - 1)}…` : text);
       annotations.push({ x: column * pitch, y: row * pitch + gap, xanchor: "left", yanchor: "bottom", showarrow: false,
-        text: plain(short), hovertext: plain(name), font: { size: 10 } });
+        align: "left", text: parts[i].map(short).join("<br>"), hovertext: plain(name), font: { size: 10 } });
     });
-    const [zmin, zmax] = robust(every.flat(), 0.002);
-    const tile = (wide - 90) / columns;
+    const [zmin, zmax] = robust(every.flat(), 0.05);
     place.style.height = `${Math.ceil(rows * tile + 30)}px`;
     return {
       traces: [{ type: "heatmap", z, colorscale: "Cividis", zmin, zmax, hoverongaps: false, hovertemplate: "%{z:.4g} nm<extra></extra>",
-        colorbar: { title: title("error / nm"), thickness: 12, len: rows > 2 ? undefined : 1, lenmode: "pixels", outlinewidth: 0 } }],
+        colorbar: { title: title("error / nm"), thickness: 12, len: Math.min(300, rows * tile), lenmode: "pixels", y: 1, yanchor: "top", outlinewidth: 0 } }],
       layout: {
         annotations, dragmode: "zoom",
         xaxis: { visible: false, constrain: "domain" },

@@ -4,6 +4,8 @@ use serde::Serialize;
 use turnpath_report::MeasuredRun;
 use turnpath_report::unit;
 
+use super::table::ROUNDING;
+
 /// Two figures of all runs; of both, less is better.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct Comparison {
@@ -59,7 +61,9 @@ impl Comparison {
         places: impl Iterator<Item = Option<[f64; 2]>>,
     ) -> Self {
         let finite = |place: &[f64; 2]| place.iter().all(|value| value.is_finite());
-        let places: Vec<_> = places.map(|place| place.filter(finite)).collect();
+        let tidy = |value: f64| if value.abs() < ROUNDING { 0.0 } else { value };
+        let places = places.map(|place| place.filter(finite).map(|place| place.map(tidy)));
+        let places: Vec<_> = places.collect();
         Self {
             id,
             title,

@@ -30,6 +30,8 @@ struct Drawn<'a> {
 #[derive(Serialize)]
 struct DrawnRun<'a> {
     name: String,
+    /// The values that vary.
+    values: Vec<&'a str>,
     sketch: Option<&'a ErrorSketch>,
 }
 
@@ -40,6 +42,8 @@ pub fn ablation_page(page: &AblationPage) -> String {
         .iter()
         .filter_map(|run| Some((table::label(run), run.measured()?)));
     let measured: Vec<_> = measured.collect();
+    let varied = runs.iter().filter(|run| run.measured().is_some());
+    let values = varied.map(|run| run.varied.iter().map(|(_, value)| value.as_str()).collect());
     let name = measured
         .first()
         .map_or("Ablation", |(_, run)| run.report.name.as_str());
@@ -50,8 +54,10 @@ pub fn ablation_page(page: &AblationPage) -> String {
         kind: "ablation",
         runs: measured
             .iter()
-            .map(|(name, run)| DrawnRun {
+            .zip(values)
+            .map(|((name, run), values)| DrawnRun {
                 name: name.clone(),
+                values,
                 sketch: run.sketch.as_ref(),
             })
             .collect(),
@@ -83,8 +89,8 @@ fn figures(drawn: &Drawn<'_>) -> String {
     }
     if drawn.runs.iter().any(|run| run.sketch.is_some()) {
         let maps = "Machined − wanted along z of each run, all on one scale. A cell has the mean along \
-                    the radius over a 192nd of the part's radius. The scale leaves out the 0.2 % \
-                    highest and lowest cells.";
+                    the radius over a 192nd of the part's radius. The scale leaves out the 5 % \
+                    highest and lowest cells of all.";
         html += &figure("error-maps", "whole", "Error maps", maps);
         html += &figure(
             "radial-means",
