@@ -4,11 +4,15 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use turnpath::MapFormat;
 use turnpath::report::comparison;
 use turnpath_core::Slot;
 
 use crate::crash::TimeLimit;
+
+/// The recipe where none is given.
+pub const RECIPE: &str = "recipe.toml";
 
 /// Tool paths for slow-tool-servo diamond turning of freeform optics.
 ///
@@ -42,6 +46,14 @@ pub enum Command {
     List(ListArgs),
     /// Explain one strategy, or one table of the recipe: its keys, defaults and limits
     Explain(ExplainArgs),
+    /// Write a commented recipe to begin with
+    Init(InitArgs),
+    /// Print a JSON schema of recipes, with which an editor completes and checks them
+    Schema(SchemaArgs),
+    /// Print what completes the program's words in a shell
+    Completions(CompletionsArgs),
+    /// Write the manual pages, one for each command
+    Man(ManArgs),
 }
 
 /// Where strategies come from.
@@ -64,8 +76,8 @@ pub struct PluginArgs {
 /// A recipe, and how it is changed.
 #[derive(Debug, Args)]
 pub struct RecipeArgs {
-    /// The recipe
-    pub recipe: PathBuf,
+    /// The recipe; recipe.toml unless given, - for standard input
+    pub recipe: Option<PathBuf>,
     /// Set a key of the recipe, such as tolerance.residual="50 nm"; may be given several times
     #[arg(long, value_name = "KEY.PATH=VALUE")]
     pub set: Vec<String>,
@@ -86,6 +98,19 @@ pub struct WorkArgs {
     /// What to print on standard output
     #[arg(long, value_enum, default_value_t = Format::Human)]
     pub format: Format,
+    /// Print no summary and no progress; the exit status says the verdict
+    #[arg(short, long, conflicts_with_all = ["verbose", "format"])]
+    pub quiet: bool,
+    /// Say on standard error how long each stage took
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+impl WorkArgs {
+    /// What to print on standard output; nothing where that is asked.
+    pub fn answer(&self) -> Option<Format> {
+        (!self.quiet).then_some(self.format)
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -164,9 +189,8 @@ pub struct ReportArgs {
     /// Load the plugins that the recipe itself lists, native code with your rights
     #[arg(long)]
     pub trust_recipe: bool,
-    /// How many threads to use; as many as there are cores unless given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub work: WorkArgs,
 }
 
 #[derive(Debug, Args)]
@@ -196,6 +220,7 @@ pub struct AblateArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(allow_missing_positional = true)]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub recipe: RecipeArgs,
@@ -313,6 +338,9 @@ pub struct ListArgs {
     /// Print a lock of the plugins that are loaded, or write it to FILE
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     pub lock: Option<Option<PathBuf>>,
+    /// What to print on standard output
+    #[arg(long, value_enum, default_value_t = Format::Human, conflicts_with = "lock")]
+    pub format: Format,
     #[command(flatten)]
     pub plugins: PluginArgs,
 }
@@ -327,6 +355,36 @@ pub struct ExplainArgs {
     pub plugins: PluginArgs,
 }
 
+#[derive(Debug, Args)]
+pub struct InitArgs {
+    /// The recipe to write; - for standard output
+    #[arg(value_name = "FILE", default_value = RECIPE)]
+    pub file: PathBuf,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct SchemaArgs {
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct ManArgs {
+    /// The folder to write them into
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
 impl Command {
     /// Where its strategies come from, if it needs any.
     pub fn plugins(&self) -> Option<&PluginArgs> {
@@ -337,7 +395,8 @@ impl Command {
             Self::Verify(args) => &args.recipe.plugins,
             Self::Report(args) => &args.plugins,
             Self::Sag(args) => &args.recipe.plugins,
-            Self::Import(_) => return None,
+            Self::Import(_) | Self::Init(_) | Self::Completions(_) | Self::Man(_) => return None,
+            Self::Schema(args) => &args.plugins,
             Self::List(args) => &args.plugins,
             Self::Explain(args) => &args.plugins,
         })

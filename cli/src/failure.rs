@@ -4,6 +4,7 @@ use std::io::IsTerminal;
 
 use turnpath::{Diagnostic, Error, Fault, FileError, LoadError, PluginsLockError, RecipeError};
 
+use crate::args::RECIPE;
 use crate::message::say;
 
 /// Why a command did not do what it was asked.
@@ -21,6 +22,9 @@ pub enum Failure {
     /// The call is wrong, apart from the recipe.
     #[error("{0}")]
     Call(String),
+    /// No recipe is given, and the present folder has none of the usual name.
+    #[error("no recipe is given, and this folder has no {RECIPE}")]
+    NoRecipe,
     /// Standard output takes nothing.
     #[error("cannot write to standard output")]
     Output(#[source] std::io::Error),
@@ -30,7 +34,7 @@ impl Failure {
     /// The program's exit status.
     pub fn status(&self) -> u8 {
         match self {
-            Self::Call(_) | Self::Lock(PluginsLockError::Wrong { .. }) => 2,
+            Self::Call(_) | Self::NoRecipe | Self::Lock(PluginsLockError::Wrong { .. }) => 2,
             Self::Output(_) | Self::File(_) | Self::Lock(_) => 4,
             Self::Work(error) => match error.fault() {
                 Fault::Request | Fault::Cancelled => 2,
@@ -67,6 +71,7 @@ impl Failure {
     fn without_place(&self) -> Diagnostic {
         let help = match self {
             Self::Work(error) => error.help(),
+            Self::NoRecipe => Some("give one, or write one with `turnpath init`"),
             _ => None,
         };
         Diagnostic::from_error(self).with_helps(help.map(str::to_owned))

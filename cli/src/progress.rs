@@ -4,12 +4,13 @@ use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use turnpath::{AblationObserver, Observer, Stage};
 use turnpath_core::printable_line;
 
+use crate::args::WorkArgs;
 use crate::message::note;
 
 /// How the bar looks.
@@ -24,20 +25,37 @@ pub struct Bar {
     bar: Mutex<ProgressBar>,
     /// The number of the path, where several may be made for a form.
     path: AtomicU32,
+    is_shown: bool,
+    /// The stage in progress and when it began, where their times are told.
+    timed: Option<Mutex<Option<(String, Instant)>>>,
 }
 
 impl Bar {
     /// No stage yet.
-    pub fn new() -> Self {
+    pub fn new(work: &WorkArgs) -> Self {
         Self {
             bar: Mutex::new(ProgressBar::hidden()),
             path: AtomicU32::new(0),
+            is_shown: !work.quiet && std::io::stderr().is_terminal(),
+            timed: work.verbose.then(Mutex::default),
         }
     }
 
     /// Takes the bar off the screen.
     pub fn clear(&self) {
         self.with(|bar| bar.finish_and_clear());
+        self.tell_time(None);
+    }
+
+    /// Says how long the stage before took, and begins the next one.
+    fn tell_time(&self, next: Option<String>) {
+        let Some(mut timed) = self.timed.as_ref().and_then(|timed| timed.lock().ok()) else {
+            return;
+        };
+        let next = next.map(|stage| (stage, Instant::now()));
+        if let Some((stage, begun)) = std::mem::replace(&mut *timed, next) {
+            note(&format!("{stage}: {:.3} s", begun.elapsed().as_secs_f64()));
+        }
     }
 
     fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
@@ -60,28 +78,22 @@ impl Observer for Bar {
         if let Stage::Form(path) = stage {
             self.path.store(path, Ordering::Relaxed);
         }
-        if !std::io::stderr().is_terminal() {
+        let message = self.of_path() + &message_of(stage);
+        if self.is_shown {
+            self.with(|bar| bar.finish_and_clear());
+        }
+        self.tell_time(Some(message.clone()));
+        if !self.is_shown {
             return;
         }
         let length = Some(blocks).filter(|blocks| *blocks > 0);
         self.with(|bar| {
-            bar.finish_and_clear();
             *bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
             let style = if blocks == 0 { OPEN_STYLE } else { STYLE };
             if let Ok(style) = ProgressStyle::with_template(style) {
                 bar.set_style(style);
             }
-            let message = match stage {
-                Stage::Form(_) => "preparing".to_owned(),
-                Stage::Law => "planning the feed".to_owned(),
-                Stage::Refine(round) => format!("playing back, round {round}"),
-                Stage::Write => "measuring and writing".to_owned(),
-                Stage::ReadBack => "reading programs back".to_owned(),
-                Stage::Measure => "measuring the file".to_owned(),
-                Stage::Compare => "comparing with the recipe's path".to_owned(),
-                Stage::Map => "mapping what is cut".to_owned(),
-            };
-            bar.set_message(self.of_path() + &message);
+            bar.set_message(message);
             bar.enable_steady_tick(TICK);
         });
     }
@@ -91,20 +103,39 @@ impl Observer for Bar {
     }
 }
 
+fn message_of(stage: Stage) -> String {
+    match stage {
+        Stage::Form(_) => "preparing".to_owned(),
+        Stage::Law => "planning the feed".to_owned(),
+        Stage::Refine(round) => format!("playing back, round {round}"),
+        Stage::Write => "measuring and writing".to_owned(),
+        Stage::ReadBack => "reading programs back".to_owned(),
+        Stage::Measure => "measuring the file".to_owned(),
+        Stage::Compare => "comparing with the recipe's path".to_owned(),
+        Stage::Map => "mapping what is cut".to_owned(),
+    }
+}
+
 /// How the bar of several runs looks.
 const RUNS_STYLE: &str = "{pos} of {len} runs made {bar:30} {eta} left";
 
 /// A bar over several runs on standard error, or nothing where that is no terminal.
-pub struct RunsBar(Mutex<ProgressBar>);
+pub struct RunsBar {
+    bar: Mutex<ProgressBar>,
+    is_shown: bool,
+}
 
 impl RunsBar {
     /// No run yet.
-    pub fn new() -> Self {
-        Self(Mutex::new(ProgressBar::hidden()))
+    pub fn new(work: &WorkArgs) -> Self {
+        Self {
+            bar: Mutex::new(ProgressBar::hidden()),
+            is_shown: !work.quiet && std::io::stderr().is_terminal(),
+        }
     }
 
     fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
-        if let Ok(mut bar) = self.0.lock() {
+        if let Ok(mut bar) = self.bar.lock() {
             act(&mut bar);
         }
     }
@@ -112,7 +143,7 @@ impl RunsBar {
 
 impl AblationObserver for RunsBar {
     fn begin(&self, runs: usize) {
-        if runs == 0 || !std::io::stderr().is_terminal() {
+        if runs == 0 || !self.is_shown {
             return;
         }
         self.with(|bar| {

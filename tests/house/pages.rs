@@ -10,8 +10,19 @@ use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
-const COMMANDS: [&str; 8] = [
-    "run", "check", "ablate", "verify", "sag", "import", "list", "explain",
+const COMMANDS: [&str; 12] = [
+    "run",
+    "check",
+    "ablate",
+    "verify",
+    "sag",
+    "import",
+    "list",
+    "explain",
+    "init",
+    "schema",
+    "completions",
+    "man",
 ];
 
 fn page(name: &str) -> String {

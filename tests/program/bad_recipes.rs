@@ -328,11 +328,6 @@ fn a_command_that_does_not_exist() {
 }
 
 #[test]
-fn a_call_without_a_recipe() {
-    insta::assert_snapshot!(answer(SADDLE, "run"));
-}
-
-#[test]
 fn an_option_that_does_not_exist() {
     insta::assert_snapshot!(answer(SADDLE, "run recipe.toml --outputs x"));
 }

@@ -16,6 +16,7 @@ mod damaged_libraries;
 mod data_files;
 mod dry_run;
 mod ending_plugins;
+mod first_mile;
 mod frozen_boundary;
 mod import;
 mod maps;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::commands::{cargo, command, repository, run, target};
+use crate::commands::{cargo, command, repository, run, succeeds, target};
 use crate::python::{script, with_packages, with_packages_of};
 use crate::step::{Outcome, Step};
 use crate::{deny, fuzz, msrv};
@@ -24,6 +24,7 @@ random recipes: tests/reference/playback/measure_random.py, those of the test of
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
 linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
 columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
+schema: tests/reference/schema/schema.py, the schema of recipes by taplo
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
 fuzz: `cargo xtask fuzz`, a minute for each target
@@ -55,6 +56,7 @@ pub fn run_checks() -> Vec<Step> {
             with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
         }),
         Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
+        Step::run("schema", schema),
         Step::run("dry runs", dry_runs),
         Step::run("programs", || with_packages(&[], programs)),
     ];
@@ -116,6 +118,17 @@ fn columns() -> Outcome {
     let data = "output.data=[\"csv\", \"parquet\", \"npz\"]";
     match saddle("columns", &["--set", data]) {
         Ok(folder) => run(script("tests/reference/data/columns.py", &[&folder])),
+        Err(outcome) => outcome,
+    }
+}
+
+/// Ready recipes and damaged ones, checked with the schema as an editor does it.
+fn schema() -> Outcome {
+    if !succeeds(command("taplo", &["--version"])) {
+        return Outcome::Skipped("`taplo` is not installed".to_owned());
+    }
+    match program() {
+        Ok(program) => run(script("tests/reference/schema/schema.py", &[&program])),
         Err(outcome) => outcome,
     }
 }

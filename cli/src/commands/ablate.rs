@@ -32,8 +32,8 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
             .threads
             .and_then(|count| NonZero::new(usize::from(count))),
     };
-    let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new())?;
-    print_report(args.work.format, &result.report, |report| {
+    let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new(&args.work))?;
+    print_report(args.work.answer(), &result.report, |report| {
         human(&recipe, &args.columns, report, &result)
     })?;
     status(result)

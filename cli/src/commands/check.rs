@@ -4,7 +4,7 @@ use turnpath::report::text;
 use turnpath::{Catalogue, Error, Job, Recipe, refused_check};
 
 use super::setup;
-use crate::args::{CheckArgs, Format};
+use crate::args::{CheckArgs, WorkArgs};
 use crate::failure::Failure;
 use crate::print::print_report;
 use crate::{Outcome, Status};
@@ -13,12 +13,11 @@ use crate::{Outcome, Status};
 pub fn check(args: &CheckArgs, catalogue: Catalogue) -> Outcome {
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::trusted_recipe(&args.recipe, catalogue)?;
-    let format = args.work.format;
     let report = Job::new(recipe.clone(), &catalogue).and_then(|job| job.check());
     match report {
-        Ok(report) => print_report(format, &report, text::check)?,
+        Ok(report) => print_report(args.work.answer(), &report, text::check)?,
         Err(error) => {
-            print_part(format, &recipe, &catalogue, &error)?;
+            print_part(&args.work, &recipe, &catalogue, &error)?;
             return Err(error.into());
         }
     }
@@ -27,13 +26,15 @@ pub fn check(args: &CheckArgs, catalogue: Catalogue) -> Outcome {
 
 /// Prints what is known of the part of a refused recipe; nothing where its surface is what is wrong.
 fn print_part(
-    format: Format,
+    work: &WorkArgs,
     recipe: &Recipe,
     catalogue: &Catalogue,
     error: &Error,
 ) -> Result<(), Failure> {
     match (error, refused_check(recipe, catalogue, error)) {
-        (Error::Refused { .. }, Ok(report)) => print_report(format, &report, text::refused_check),
+        (Error::Refused { .. }, Ok(report)) => {
+            print_report(work.answer(), &report, text::refused_check)
+        }
         _ => Ok(()),
     }
 }

@@ -82,13 +82,18 @@ fn hint(catalogue: &Catalogue, slots: &[Slot], name: &str) -> String {
     let of_tables = tables().map(name_of).filter(|_| slots.len() > 1);
     let alike = of_strategies
         .chain(of_tables)
-        .map(|known| (strsim::jaro_winkler(known, name), known))
+        .map(|known| (strsim::jaro_winkler(known, &plain(name)), known))
         .filter(|(likeness, _)| *likeness >= ALIKE)
         .max_by(|one, other| one.0.total_cmp(&other.0));
     match alike {
         Some((_, known)) => format!("did you mean `{known}`?"),
         None => "`turnpath list` shows all".to_owned(),
     }
+}
+
+/// A name in the spelling of strategies: `equal-angle` for `Equal_Angle`.
+fn plain(name: &str) -> String {
+    name.to_lowercase().replace(['_', ' '], "-")
 }
 
 fn of_strategy(strategy: &Strategy) -> String {

@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use turnpath::report::to_json;
 use turnpath::{Catalogue, PluginsLock};
 use turnpath_core::{Slot, printable_line};
 
 use super::output::is_standard;
 use super::setup::with_plugins;
-use crate::args::{ListArgs, slot_of};
+use super::strategy_list::StrategyList;
+use crate::args::{Format, ListArgs, slot_of};
 use crate::print::print;
 use crate::{Outcome, Status};
 
@@ -18,16 +20,25 @@ pub fn list(args: &ListArgs, catalogue: Catalogue) -> Outcome {
         return lock(&catalogue, file.as_deref());
     }
     let only = args.slot.as_deref().and_then(slot_of);
+    let slots: Vec<Slot> = Slot::ALL
+        .into_iter()
+        .filter(|slot| only.is_none_or(|only| only == *slot))
+        .collect();
+    match args.format {
+        Format::Json => print(&to_json(&StrategyList::new(&catalogue, &slots)))?,
+        Format::Human => print(&text(&catalogue, &slots))?,
+    }
+    Ok(Status::Holds)
+}
+
+fn text(catalogue: &Catalogue, slots: &[Slot]) -> String {
     let width = catalogue
         .strategies()
         .map(|one| one.info().name.len())
         .max()
         .unwrap_or(0);
     let mut text = String::new();
-    for slot in Slot::ALL
-        .into_iter()
-        .filter(|slot| only.is_none_or(|only| only == *slot))
-    {
+    for slot in slots.iter().copied() {
         text += &format!("{slot}\n");
         for strategy in catalogue.strategies().filter(|one| one.info().slot == slot) {
             let info = strategy.info();
@@ -48,8 +59,7 @@ pub fn list(args: &ListArgs, catalogue: Catalogue) -> Outcome {
             text += "  none; give a folder of plugins with --plugin-dir\n";
         }
     }
-    print(&text)?;
-    Ok(Status::Holds)
+    text
 }
 
 /// Prints the lock of the loaded plugins, or writes it to a file.

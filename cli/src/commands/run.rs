@@ -24,11 +24,11 @@ pub fn run(args: &RunArgs, catalogue: Catalogue) -> Outcome {
         .with_plots(plots::request(&args.plots)?)
         .with_dry_run(args.dry_run)
         .with_page(!args.no_report);
-    let bar = Bar::new();
+    let bar = Bar::new(&args.work);
     let result = job.run(outputs, &bar);
     bar.clear();
     let result = result?;
-    print_report(args.work.format, &result.report, |report| {
+    print_report(args.work.answer(), &result.report, |report| {
         text::run(report, &result.files)
     })?;
     Ok(Status::of(result.report.verdict()))

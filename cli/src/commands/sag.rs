@@ -29,7 +29,7 @@ pub fn sag(args: &SagArgs, catalogue: Catalogue) -> Outcome {
     if let Some(source) = against {
         let report = compare_with_map(&recipe, &catalogue, &source, args.output.as_deref())?;
         print_report(
-            args.format.unwrap_or(Format::Human),
+            Some(args.format.unwrap_or(Format::Human)),
             &report,
             text::map_comparison,
         )?;

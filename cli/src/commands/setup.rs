@@ -1,5 +1,7 @@
 //! What several commands begin with: threads, the recipe, and the strategies.
 
+use std::io;
+use std::path::Path;
 use std::sync::Arc;
 
 use turnpath::report::ControllerCommand;
@@ -7,22 +9,21 @@ use turnpath::{
     Catalogue, Diagnostic, Error, Job, PluginsLock, Recipe, commands_to_trust, with_listed_plugins,
 };
 
-use crate::args::{PluginArgs, RecipeArgs, WorkArgs};
+use super::output::is_standard;
+use crate::args::{PluginArgs, RECIPE, RecipeArgs, WorkArgs};
 use crate::crash::watch;
 use crate::failure::Failure;
 use crate::trial::Trial;
 
+/// What messages call a recipe of standard input. Files that it names are relative to the present
+/// folder.
+const FROM_INPUT: &str = "stdin.toml";
 /// Folders to take plugins from, besides those on the command line.
 const PLUGIN_PATH: &str = "TURNPATH_PLUGIN_PATH";
 
 /// Sets how many threads work. It fails only when that is set already, which changes no result.
 pub fn use_threads(work: &WorkArgs) {
-    use_so_many(work.threads);
-}
-
-/// The same for a command that only takes their number.
-pub fn use_so_many(threads: Option<u16>) {
-    let threads = threads.map_or(0, usize::from);
+    let threads = work.threads.map_or(0, usize::from);
     let _ = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global();
@@ -48,9 +49,19 @@ pub fn with_plugins(catalogue: Catalogue, args: &PluginArgs) -> Result<Catalogue
     Ok(catalogue)
 }
 
+/// The recipe of the arguments: a file, `-` for standard input, or the usual one of the folder.
+fn read(recipe: Option<&Path>, sets: &[String]) -> Result<Recipe, Failure> {
+    Ok(match recipe {
+        Some(path) if is_standard(path) => Recipe::read(io::stdin(), FROM_INPUT, sets)?,
+        Some(path) => Recipe::load(path, sets)?,
+        None if Path::new(RECIPE).exists() => Recipe::load(RECIPE, sets)?,
+        None => return Err(Failure::NoRecipe),
+    })
+}
+
 /// The recipe, and the catalogue with the plugins that the recipe lists, if the user trusts it.
 pub fn recipe(args: &RecipeArgs, catalogue: Catalogue) -> Result<(Recipe, Catalogue), Failure> {
-    let recipe = Recipe::load(&args.recipe, &args.set)?;
+    let recipe = read(args.recipe.as_deref(), &args.set)?;
     if !args.trust_recipe {
         refuse_listed_plugins(&recipe)?;
     }

@@ -19,10 +19,10 @@ pub fn verify(args: &VerifyArgs, catalogue: Catalogue) -> Outcome {
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
     let request = plots::request(&args.plots)?;
     let folder = args.output.as_deref().unwrap_or(Path::new("."));
-    let bar = Bar::new();
+    let bar = Bar::new(&args.work);
     let report = turnpath::verify(&recipe, &catalogue, &args.file, &request, folder, &bar);
     bar.clear();
     let report = report?;
-    print_report(args.work.format, &report, text::file)?;
+    print_report(args.work.answer(), &report, text::file)?;
     Ok(Status::of(report.verdict()))
 }

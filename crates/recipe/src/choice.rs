@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use turnpath_core::{Slot, is_strategy_name};
+use turnpath_core::Slot;
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Entry, Table, Value};
@@ -81,7 +81,7 @@ impl Choice {
             return None;
         };
         let name = Self::read_name(slot, section)?;
-        if !is_strategy_name(&name.value) {
+        if is_no_name(&name.value) {
             section.report(invalid_name(slot, &name));
             return None;
         }
@@ -102,6 +102,12 @@ fn params(slot: Slot, table: &Table) -> Vec<Entry> {
         .filter(|entry| !of_host(&entry.key))
         .cloned()
         .collect()
+}
+
+/// Whether the text is empty or looks like a file. Another misspelt name may come near to a known one,
+/// which is found later.
+fn is_no_name(name: &str) -> bool {
+    name.trim().is_empty() || name.contains(['/', '\\', '.'])
 }
 
 fn invalid_name(slot: Slot, name: &Spanned<String>) -> Diagnostic {

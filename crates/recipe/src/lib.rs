@@ -73,7 +73,7 @@ pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::{Entry, Node, Table, Value};
 pub use presets::Preset;
 pub use recipe::{FileProblem, Recipe, RecipeError};
-pub use rough_paths::RoughPath;
+pub use rough_paths::{RoughPath, rough_path_tables};
 pub use span::{Source, Span, Spanned};
 pub use surface_entry::SurfaceEntry;
 pub use table_info::TableInfo;

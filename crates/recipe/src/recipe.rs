@@ -132,7 +132,29 @@ impl Recipe {
     /// When the file cannot be read, or the recipe or an argument is wrong.
     pub fn load(path: impl AsRef<Path>, sets: &[String]) -> Result<Self, RecipeError> {
         let path = path.as_ref();
-        let text = read_text(path).map_err(|problem| RecipeError::File {
+        let text = open_regular(path).and_then(read_text);
+        Self::of_text(text, path, sets)
+    }
+
+    /// Reads a recipe's text from anything, such as standard input, and applies `--set` arguments.
+    /// Messages name `path`, and files that the recipe names are relative to it.
+    ///
+    /// # Errors
+    /// As those of [`Recipe::load`].
+    pub fn read(
+        reader: impl Read,
+        path: impl AsRef<Path>,
+        sets: &[String],
+    ) -> Result<Self, RecipeError> {
+        Self::of_text(read_text(reader), path.as_ref(), sets)
+    }
+
+    fn of_text(
+        text: Result<String, FileProblem>,
+        path: &Path,
+        sets: &[String],
+    ) -> Result<Self, RecipeError> {
+        let text = text.map_err(|problem| RecipeError::File {
             path: path.to_owned(),
             problem,
         })?;
@@ -361,7 +383,7 @@ fn stem(path: &Path) -> String {
         .map_or("recipe".into(), |stem| stem.to_string_lossy().into_owned())
 }
 
-fn read_text(path: &Path) -> Result<String, FileProblem> {
+fn open_regular(path: &Path) -> Result<File, FileProblem> {
     let kind = fs::metadata(path)?.file_type();
     if kind.is_dir() {
         return Err(FileProblem::Folder);
@@ -369,9 +391,12 @@ fn read_text(path: &Path) -> Result<String, FileProblem> {
     if !kind.is_file() {
         return Err(FileProblem::Special);
     }
-    let file = File::open(path)?;
+    Ok(File::open(path)?)
+}
+
+fn read_text(reader: impl Read) -> Result<String, FileProblem> {
     let mut bytes = Vec::new();
-    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {
         return Err(FileProblem::TooLarge);
     }

@@ -36,6 +36,11 @@ pub struct RoughPath {
     pub recipe: Recipe,
 }
 
+/// The tables that a rough path may have of its own.
+pub fn rough_path_tables() -> [&'static str; 4] {
+    OF_A_ROUGH_PATH
+}
+
 impl Recipe {
     /// The rough paths that `[passes]` lists, in their order; none for a recipe of such a path.
     ///

@@ -200,6 +200,10 @@ fn no_lead(recipe: &Recipe, title: String) -> Diagnostic {
 /// A hollow that takes a smaller nose than this is a crease, mm: no recipe may have one.
 const SHARPEST_NOSE: f64 = 1e-4;
 
+/// What cuts a part that the nose does not fit everywhere.
+const CUT_WHAT_FITS: &str = "write interference = \"cut-what-fits\" under [tool]: the nose goes as deep as it can, \
+                             and the report says what stays";
+
 /// The message for a tool that does not fit.
 fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
     let (key, cause, help) = match conflict {
@@ -210,10 +214,7 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
                 place(recipe, [at.x, at.y])
             ),
             match recipe.tool.misfit {
-                Misfit::Refuse => {
-                    "write interference = \"cut-what-fits\" under [tool]: the nose goes as deep as \
-                     it can, and the report says what stays"
-                }
+                Misfit::Refuse => CUT_WHAT_FITS,
                 Misfit::CutWhatFits => "choose a smaller aperture",
             },
         ),
@@ -255,7 +256,10 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         return cannot_cut_what_fits(recipe, title, help);
     }
     let span = recipe.nearest_span(key);
-    recipe.diagnostic(span, title, "does not fit", [help.to_owned()])
+    let fits = matches!(conflict, Conflict::NoseRadius { .. }) && help != CUT_WHAT_FITS;
+    let fits = fits.then(|| format!("or {CUT_WHAT_FITS}"));
+    let helps = [help.to_owned()].into_iter().chain(fits);
+    recipe.diagnostic(span, title, "does not fit", helps)
 }
 
 /// A place, and whether it is on the part or on its overrun.

@@ -7,7 +7,7 @@ use turnpath_pipeline::{
     Chain, JobSpec, LeadLimits, LeadSettings, PathOptions, Preparation, prepare,
 };
 use turnpath_post::ProgramError;
-use turnpath_recipe::{DataFormat, Recipe};
+use turnpath_recipe::{DataFormat, Diagnostics, Recipe};
 use turnpath_report::Overrun;
 
 use crate::chain::chain;
@@ -19,7 +19,7 @@ use crate::gap::of_preparation;
 use crate::named_files::UsedFile;
 use crate::posts::NotCarried;
 use crate::program::{Program, programs};
-use crate::strategies::used_files;
+use crate::strategies::{used_files, wrong_choices};
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
 #[derive(Clone)]
@@ -34,6 +34,15 @@ pub struct Job {
     pub(crate) split: Option<Tolerance>,
     /// Whether a run keeps what pictures of its path need.
     pub(crate) keeps_sketch: bool,
+}
+
+/// Refuses what is wrong with all of the strategies in one go.
+fn refuse_wrong_choices(recipe: &Recipe, catalogue: &Catalogue) -> Result<(), Error> {
+    let wrong = wrong_choices(recipe, catalogue);
+    match wrong.is_empty() {
+        true => Ok(()),
+        false => Err(Error::refused(wrong.into_iter().collect::<Diagnostics>())),
+    }
 }
 
 impl Job {
@@ -54,6 +63,7 @@ impl Job {
         files: &DataFiles,
     ) -> Result<Self, Error> {
         recipe.rough_paths().map_err(Error::refused)?;
+        refuse_wrong_choices(&recipe, catalogue)?;
         let chain = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;

@@ -1,5 +1,6 @@
 //! The strategies that a recipe chooses: looked up, bound to their parameters, and made.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use turnpath_core::{Compensator, Params, Slot, StrategyError, VelocitySolver};
@@ -18,10 +19,30 @@ fn chosen<'a>(
     catalogue: &'a Catalogue,
 ) -> Result<(&'a Strategy, Binding), Diagnostics> {
     let Some(strategy) = catalogue.find(choice.slot, choice.name()) else {
-        return Err(choice.unknown(&catalogue.names(choice.slot)).into());
+        return Err(unknown(choice, catalogue).into());
     };
     let binding = choice.bind(&strategy.info())?;
     Ok((strategy, binding))
+}
+
+/// The message for a strategy that is not there. It says what the plugins hold that were loaded, since
+/// the strategy may be one of a folder that was not given.
+fn unknown(choice: &Choice, catalogue: &Catalogue) -> Diagnostic {
+    let diagnostic = choice.unknown(&catalogue.names(choice.slot));
+    let loaded = catalogue.plugins().iter();
+    let mut loaded = loaded.filter(|plugin| plugin.file.is_some()).peekable();
+    if loaded.peek().is_none() {
+        return diagnostic.with_help("a strategy of a plugin takes `--plugin-dir DIR`");
+    }
+    loaded.fold(diagnostic, |diagnostic, plugin| {
+        let strategies = catalogue.strategies();
+        let of_plugin = strategies.filter(|strategy| strategy.plugin() == plugin);
+        let names: Vec<String> = of_plugin
+            .map(|strategy| format!("{} `{}`", strategy.info().slot, strategy.info().name))
+            .collect();
+        let file = plugin.file.as_deref().unwrap_or(Path::new(""));
+        diagnostic.with_help(format!("{} has {}", file.display(), names.join(", ")))
+    })
 }
 
 /// All choices of a recipe.

@@ -142,20 +142,22 @@ pub(crate) fn tidy_unit(written: &str) -> String {
     }
 }
 
-/// The unit of this symbol, if it can stand for the quantity; a length can stand for a feed, and a
+/// Whether a unit of one quantity can stand for another one: a length can stand for a feed, and a
 /// speed of rotation for a frequency.
-pub(crate) fn find_unit(symbol: &str, quantity: Quantity) -> Option<&'static Unit> {
-    let fits = |of: Quantity| {
-        let too = match quantity {
-            Quantity::Feed => of == Quantity::Length,
-            Quantity::Frequency => of == Quantity::RotationSpeed,
-            _ => false,
-        };
-        of == quantity || too
+pub(crate) fn stands_for(of: Quantity, wanted: Quantity) -> bool {
+    let too = match wanted {
+        Quantity::Feed => of == Quantity::Length,
+        Quantity::Frequency => of == Quantity::RotationSpeed,
+        _ => false,
     };
+    of == wanted || too
+}
+
+/// The unit of this symbol, if it can stand for the quantity.
+pub(crate) fn find_unit(symbol: &str, quantity: Quantity) -> Option<&'static Unit> {
     UNITS
         .iter()
-        .find(|unit| unit.symbol == symbol && fits(unit.quantity))
+        .find(|unit| unit.symbol == symbol && stands_for(unit.quantity, quantity))
 }
 
 /// Texts that resemble numbers and units.

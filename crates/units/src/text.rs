@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 
 use crate::decimal::Decimal;
-use crate::table::{Scale, UNITS, Unit, find_unit, tidy_unit, unit_like};
+use crate::table::{Scale, UNITS, Unit, find_unit, stands_for, tidy_unit, unit_like};
 use crate::{Quantity, QuantityError};
 
 impl Quantity {
@@ -26,6 +26,15 @@ impl Quantity {
         UNITS
             .iter()
             .filter(move |unit| unit.quantity == self)
+            .map(|unit| unit.symbol)
+    }
+
+    /// The units in which a recipe may write the quantity: its own, those of lengths for a feed, and
+    /// those of rotation for a frequency.
+    pub fn accepted_units(self) -> impl Iterator<Item = &'static str> {
+        UNITS
+            .iter()
+            .filter(move |unit| stands_for(unit.quantity, self))
             .map(|unit| unit.symbol)
     }
 

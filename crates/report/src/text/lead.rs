@@ -29,11 +29,13 @@ pub fn lead(lead: &LeadReport, clears: Option<bool>) -> String {
 
 fn lowest(lead: &LeadReport, clears: Option<bool>) -> String {
     let lowest = lead.smallest_clearance;
-    let side = if lowest < 0.0 { "below" } else { "above" };
-    let verdict = match clears {
-        Some(false) => format!("EXCEEDED: it plunges at {}", path_place(&lead.at)),
-        _ => "holds".to_owned(),
+    let height = small_length(lowest.abs());
+    let way = match lowest < 0.0 {
+        true => format!("digs {height} into the wanted surface at most"),
+        false => format!("stays {height} above the wanted surface"),
     };
-    let lowest = small_length(lowest.abs());
-    format!("lowest {lowest} {side} first touch; {verdict}")
+    match clears {
+        Some(false) => format!("{way}; EXCEEDED, at {}", path_place(&lead.at)),
+        _ => format!("{way}; holds"),
+    }
 }

@@ -114,7 +114,7 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
         let depth = small_length(-clearance);
         text += &line(
             "",
-            format!("EXCEEDED: a lead plunges {depth} below first touch"),
+            format!("EXCEEDED: a lead digs {depth} into the wanted surface"),
         );
     }
     text

@@ -3,14 +3,14 @@
 mod recipe_text;
 mod surface_tables;
 
-use std::io::Write;
 use std::path::Path;
 
-use turnpath_files::{Draft, FileError, read_bounded};
+use turnpath_files::read_bounded;
 use turnpath_lens::{LensError, LensProblem, LensText, Selection, Side};
 use turnpath_recipe::{Diagnostic, Diagnostics};
 
 use crate::error::Error;
+use crate::recipe_file::write_recipe;
 use recipe_text::recipe_text;
 
 /// Largest lens file. One with a thousand surfaces of all parameters has 50 MiB.
@@ -88,17 +88,6 @@ impl ImportedRecipe {
     /// # Errors
     /// When the file is there and is not to be replaced, or cannot be written.
     pub fn write(&self, path: &Path, replace: bool) -> Result<(), Error> {
-        if !replace && path.symlink_metadata().is_ok() {
-            let path = path.to_owned();
-            return Err(Error::Exists { path });
-        }
-        let mut draft = Draft::begin(path)?;
-        let written = draft.write_all(self.text.as_bytes());
-        written.map_err(|error| FileError {
-            path: path.to_owned(),
-            error,
-        })?;
-        draft.complete()?;
-        Ok(())
+        write_recipe(&self.text, path, replace)
     }
 }
