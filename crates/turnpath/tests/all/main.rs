@@ -5,4 +5,5 @@ mod support;
 mod cancellation;
 mod errors;
 mod outputs;
+mod pages;
 mod reports;
