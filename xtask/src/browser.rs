@@ -58,14 +58,20 @@ fn pages() -> Result<[PathBuf; 2], Outcome> {
     let made = |words: &[&str], name: &str| {
         let folder = target().join("long").join(name);
         let mut call = Command::new(&program);
-        call.current_dir(repository()).args(words).arg("-o").arg(&folder);
+        call.current_dir(repository())
+            .args(words)
+            .arg("-o")
+            .arg(&folder);
         finished(call, &folder)
     };
     let map = ["--map", "map.gsf", "--map-size", "300"];
     let recipe = ["run", "tests/reference/spokes/conic.toml", "--set", FINE];
     Ok([
         made(&[&recipe[..], &map[..]].concat(), "report-run")?,
-        made(&["ablate", "tests/reference/report/ablation.toml"], "report-ablation")?,
+        made(
+            &["ablate", "tests/reference/report/ablation.toml"],
+            "report-ablation",
+        )?,
     ])
 }
 

@@ -10,8 +10,8 @@
   const BALANCE = [[23, 28, 66], [41, 58, 143], [11, 102, 189], [69, 144, 185], [142, 181, 194],
     [210, 216, 219], [230, 210, 204], [213, 157, 137], [196, 101, 72], [172, 43, 36], [120, 14, 40], [60, 9, 17]]
     .map((rgb, i, all) => [i / (all.length - 1), `rgb(${rgb.join(",")})`]);
-  // Okabe and Ito's colours, which colour-blind people can tell apart.
-  const [BLUE, ORANGE, GREEN] = ["#0072b2", "#d55e00", "#009e73"];
+  // After Okabe and Ito's colours, which colour-blind people can tell apart, for both backgrounds.
+  const [BLUE, ORANGE, GREEN] = ["#2e86d1", "#d55e00", "#009e73"];
   // Height of a line of a label, in pixels.
   const LABEL = 12;
   const LIMIT = { color: "#cc79a7", dash: "dash", width: 2 };
@@ -67,7 +67,8 @@
       const id = i === 0 ? "" : String(i + 1);
       const top = 1 - i * (height + gap);
       const most = own.flatMap((trace) => known(trace.y)).reduce((a, b) => Math.max(a, b), 0);
-      const range = most > 0 ? [0, 1.1 * most] : [0, 1];
+      // Below a millionth of any unit there is rounding alone.
+      const range = [0, Math.max(1.1 * most, 1e-6)];
       layout[`yaxis${id}`] = axis(yTitle, { domain: [Math.max(0, top - height), top], range, nticks: 5, ...more });
       own.forEach((trace) => traces.push({ ...trace, xaxis: "x", yaxis: `y${id}` }));
     });

@@ -1,6 +1,6 @@
 //! The places of a run's figures, with their titles and what they show.
 
-use turnpath_report::unit;
+use turnpath_report::{Direction, unit};
 
 use super::{BestFit, RunPage};
 use crate::html::{element, escaped, figure, section};
@@ -22,7 +22,22 @@ pub fn figures(page: &RunPage) -> String {
             html + &surface_figures(page) + &path_figures(page)
         }
     };
-    section("pictures", "Pictures", &element("div", "figures", &path))
+    let axes = element("p", "note", &escaped(&axes(page)));
+    let figures = element("div", "figures", &path);
+    section("pictures", "Pictures", &(axes + &figures))
+}
+
+/// What the axes of the pictures and of the path mean.
+fn axes(page: &RunPage) -> String {
+    let way = match page.report.direction {
+        Direction::Inward => "X falls, from the rim to the axis",
+        Direction::Outward => "X grows, from the axis to the rim",
+    };
+    format!(
+        "The part is seen as the tool faces it: x to the right, y upwards, z out of the part towards \
+         the tool. At C and X the tool is above x = X cos C, y = X sin C. As C grows, the part turns \
+         clockwise as the tool sees it; here {way}."
+    )
 }
 
 fn error_figures() -> String {

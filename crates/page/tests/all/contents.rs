@@ -26,13 +26,17 @@ fn data(page: &str) -> Value {
 /// The scripts that a page runs.
 fn scripts(page: &str) -> Vec<&str> {
     let scripts = page.split(SCRIPT).skip(1);
-    scripts.map(|script| script.split_once(END).expect("an end").0).collect()
+    scripts
+        .map(|script| script.split_once(END).expect("an end").0)
+        .collect()
 }
 
 /// A page without its scripts.
 fn without_scripts(page: &str) -> String {
     let scripts = scripts(page);
-    scripts.iter().fold(page.to_owned(), |page, script| page.replace(script, ""))
+    scripts
+        .iter()
+        .fold(page.to_owned(), |page, script| page.replace(script, ""))
 }
 
 fn harmful_run() -> RunPage {
@@ -61,7 +65,10 @@ fn harmful_run() -> RunPage {
 
 fn is_harmless(page: &str) {
     // Two scripts and the data.
-    assert_eq!((scripts(page).len(), page.matches("<script").count()), (2, 3));
+    assert_eq!(
+        (scripts(page).len(), page.matches("<script").count()),
+        (2, 3)
+    );
     let text = without_scripts(page);
     assert!(!text.contains("<b ") && !text.contains("<!--") && !text.contains("onclick='"));
     assert!(text.contains("&lt;/script&gt;&lt;b onclick=&#39;x()&#39;&gt;"));
@@ -103,7 +110,9 @@ fn a_page_loads_nothing_and_runs_its_own_scripts_alone() {
     let ablation = ablation_page(&AblationPage { report });
     for page in [run, ablation] {
         let text = without_scripts(&page);
-        for loader in ["src=", "<link", "@import", "url(", "<iframe", "<img", "http:", "srcset"] {
+        for loader in [
+            "src=", "<link", "@import", "url(", "<iframe", "<img", "http:", "srcset",
+        ] {
             assert!(!text.contains(loader), "{loader}");
         }
         // Links lead to the sources of methods, and load nothing.

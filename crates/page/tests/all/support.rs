@@ -13,7 +13,9 @@ const SUMMARY: &str = include_str!("../../../report/tests/data/summary.json");
 pub fn noise(count: usize) -> Samples {
     let mut state = 7_u64;
     let next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
         (state >> 40) as f64 * 1e-12
     };
     std::iter::repeat_with(next).take(count).collect()
