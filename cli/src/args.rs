@@ -212,11 +212,57 @@ pub struct AblateArgs {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     #[arg(value_parser = PossibleValuesParser::new(comparison::names()))]
     pub columns: Vec<String>,
+    /// Sort the rows by this column, the best first
+    #[arg(long, value_name = "NAME")]
+    #[arg(value_parser = PossibleValuesParser::new(comparison::names()))]
+    pub sort: Option<String>,
+    /// Leave out the ratios to the first run
+    #[arg(long)]
+    pub no_ratio: bool,
+    /// Print the table alone, for a paper or a page
+    #[arg(long, value_enum, value_name = "LANGUAGE", conflicts_with_all = ["format", "quiet"])]
+    pub table: Option<TableLanguage>,
+    /// Refine every variant until it holds its tolerance, as with `refine = true`: then the points
+    /// and the times compare chains of the same accuracy
+    #[arg(long)]
+    pub equal_tolerance: bool,
     /// Make all runs anew, also those that were made before
     #[arg(long)]
     pub fresh: bool,
+    /// Print the runs with their keys, and which of them are done, as JSON; or the keys of the missing
+    /// ones, a line each; make nothing
+    #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "json")]
+    #[arg(conflicts_with_all = ["only", "merge", "fresh", "table", "format", "quiet"])]
+    pub plan: Option<PlanForm>,
+    /// Make the run of this key alone, and leave its record
+    #[arg(long, value_name = "KEY", conflicts_with_all = ["merge", "fresh", "table"])]
+    pub only: Option<String>,
+    /// Make nothing, and write the table of the records that are there; status 1 if some are missing
+    #[arg(long, conflicts_with = "fresh")]
+    pub merge: bool,
     #[command(flatten)]
     pub work: WorkArgs,
+}
+
+/// The form of a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PlanForm {
+    /// All runs, with what varies and whether they are done
+    Json,
+    /// The keys of the runs that are not done, a line each
+    Missing,
+}
+
+/// The language of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableLanguage {
+    /// With bars
+    Markdown,
+    /// A tabular with the rules of booktabs
+    Latex,
+    /// Comma-separated values with all digits
+    Csv,
 }
 
 #[derive(Debug, Args)]

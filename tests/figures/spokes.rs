@@ -76,8 +76,8 @@ fn even_steps_on_a_plane_leave_spokes_in_closed_form() {
     assert!(number(&found, "/spokes/to_mm") > 29.0);
 }
 
-/// Off the axis by so little, the largest step decides on all of the part, whatever it is. Steps up to
-/// 60 deg come round within 64 turns; longer ones would take more points for it than wandering may.
+/// Off the axis by so little, the largest step decides on all of the part, whatever it is. Of the spoke
+/// a tenth stays: on the inner tenth of the part, where the largest step errs by as much less.
 #[test]
 fn largest_steps_that_wander_leave_little_of_the_spoke() {
     let run = |max_step: u32, wander: bool| {
@@ -88,10 +88,10 @@ fn largest_steps_that_wander_leave_little_of_the_spoke() {
         let found = summary("tests/reference/spokes/conic.toml", &set);
         ["/control_points", "/spokes/amplitude_nm"].map(|pointer| number(&found, pointer))
     };
-    for (max_step, most) in [(30, 0.02), (40, 0.02), (60, 0.06), (72, 0.26), (90, 0.5)] {
+    for max_step in [30, 40, 60, 72, 90] {
         let (still, wandering) = (run(max_step, false), run(max_step, true));
         let what = format!("{max_step} deg: {still:?} {wandering:?}");
-        assert!(wandering[1] < most * still[1], "{what}");
+        assert!(wandering[1] < 0.1 * still[1], "{what}");
         assert!(wandering[0] <= 1.005 * still[0], "{what}");
     }
 }

@@ -226,6 +226,39 @@ fn is_what_its_command_writes(page: &str, extension: &str) {
     }
 }
 
+/// The worked example of a dialect is the code that is there, and the files that it names are too.
+#[test]
+fn the_dialect_of_docs_posts_md_is_the_code() {
+    let page = page("docs/posts.md");
+    let section = below(&page, "## To add a dialect");
+    let folder = repository().join("crates/post/src");
+    let writer = fs::read_to_string(folder.join("automation1/write.rs")).expect("the writer");
+    // The block stands in a list.
+    let block: Vec<&str> = section
+        .lines()
+        .skip_while(|line| line.trim() != "```rust")
+        .skip(1)
+        .take_while(|line| line.trim() != "```")
+        .map(|line| line.strip_prefix("   ").unwrap_or(line))
+        .collect();
+    assert!(
+        block.len() > 2 && writer.contains(&block.join("\n")),
+        "{block:#?}"
+    );
+    let named = section.split('`').skip(1).step_by(2);
+    let files: Vec<&str> = named.filter(|word| word.ends_with(".rs")).collect();
+    assert!(files.len() > 8, "{files:?}");
+    for file in files {
+        let places = ["", "crates/post/src", "crates/post/src/automation1"];
+        let is_there = |place: &str| repository().join(place).join(file).is_file();
+        assert!(places.into_iter().any(is_there), "{file}");
+    }
+    let trait_of_posts = fs::read_to_string(folder.join("post.rs")).expect("the trait");
+    for method in ["write_travel", "read_travel", "part_lines", "called_part"] {
+        assert!(section.contains(method) && trait_of_posts.contains(&format!("fn {method}(")));
+    }
+}
+
 #[test]
 fn the_links_of_all_pages_lead_to_files_and_headings() {
     let mut seen = 0;

@@ -56,15 +56,17 @@ fn compare(found: &Value, with_atpg: &Value, what: &str) {
     let tolerance = number(found, "/tolerance/interpolation_nm");
     let error = number(found, "/interpolation_error/max_nm");
     assert!(error <= tolerance, "{what}: {error} of {tolerance} nm");
-    let added = number(found, "/points_added_by_refine");
-    assert!(
-        added <= 1e-3 * points(found),
-        "{what}: {added} points added"
-    );
+    holds_before_refinement(found, what);
     let ratio = |pointer: &str| number(found, pointer) / number(with_atpg, pointer);
     assert_eq!(ratio("/revolutions"), 1.0, "{what}");
     let residual = ratio("/residual/max_nm");
     assert!((residual - 1.0).abs() <= 1e-4, "{what}: {residual}");
+    compare_motion(found, with_atpg, what);
+}
+
+/// Checks how much Z accelerates and jerks.
+fn compare_motion(found: &Value, with_atpg: &Value, what: &str) {
+    let ratio = |pointer: &str| number(found, pointer) / number(with_atpg, pointer);
     let acceleration = ratio("/axes/z/max_acceleration_mm_per_s2");
     assert!(
         acceleration <= 1.05,
@@ -86,8 +88,18 @@ fn same_motion(found: &Value, with_atpg: &Value) {
     }
 }
 
+/// Refinement may add a thousandth of the points.
+fn holds_before_refinement(found: &Value, what: &str) {
+    let added = number(found, "/points_added_by_refine");
+    assert!(
+        added <= 1e-3 * points(found),
+        "{what}: {added} points added"
+    );
+}
+
 /// X moves within the turn by the feed and by the compensator, and its own error decides. Nodes
-/// beside the path would shake Z and gain nothing.
+/// beside the path would shake Z and gain nothing. The feed leaves little room for X's error, and the
+/// sampler keeps to it itself.
 #[test]
 fn with_the_feed_ats_and_normal_compensation_z_moves_as_with_atpg() {
     let set = ["compensator={ use = \"normal\" }", "feed={ use = \"ats\" }"];
@@ -95,7 +107,25 @@ fn with_the_feed_ats_and_normal_compensation_z_moves_as_with_atpg() {
     for states in [3, 7, 25] {
         let found = run(AST_5, &minimax(states, 45), &set);
         assert!(points(&found) < points(&with_atpg), "{states} states");
+        holds_before_refinement(&found, &format!("{states} states"));
         same_motion(&found, &with_atpg);
+    }
+}
+
+/// Nodes beside the path make Z accelerate more where a wave turns. The sampler refuses those that add more than a few hundredths.
+#[test]
+fn z_accelerates_little_more_than_with_atpg_whatever_moves_x() {
+    let chains = [("constant", "normal"), ("atpg", "z-direction")];
+    for (feed, compensator) in chains {
+        let feed = format!("feed={{ use = \"{feed}\" }}");
+        let compensator = format!("compensator={{ use = \"{compensator}\" }}");
+        let set = [feed.as_str(), compensator.as_str()];
+        let with_atpg = run(MLA_5, &atpg(45), &set);
+        for states in [7, 25] {
+            let found = run(MLA_5, &minimax(states, 45), &set);
+            holds_before_refinement(&found, &format!("{set:?}, {states} states"));
+            compare_motion(&found, &with_atpg, &format!("{set:?}, {states} states"));
+        }
     }
 }
 
@@ -121,20 +151,20 @@ fn fewer_points_than_the_bound_at_the_same_tolerance() {
     }
 }
 
-/// Here the largest step decides nearly everywhere, so wandering has its full price: one step in each
-/// of the 45 blocks of 64 turns, which without it have 512 steps of exactly 45 deg. With it the path
-/// has 8 points more than the 22,990 that it keeps to without.
+/// Here the largest step decides nearly everywhere: without wandering each of the 45 blocks of 64 turns
+/// has 512 steps of exactly 45 deg. With it a block has one more. The inner blocks need none, since the
+/// largest step errs by little there.
 #[test]
-fn steps_of_45_deg_on_ast_50_wander_for_a_quarter_of_a_percent() {
+fn steps_of_45_deg_on_ast_50_wander_for_a_fifth_of_a_percent() {
     let still = format!("{}, wander = false", minimax(1, 45));
     let [still, wandering] = [still, minimax(1, 45)].map(|sampler| run(AST_50, &sampler, &[]));
     let bound = run(AST_50, &atpg(45), &[]);
     for found in [&still, &wandering] {
         compare(found, &bound, "AST-50, 45 deg, 1 state");
     }
-    assert!(points(&still) <= 22_990.0, "{}", points(&still));
+    assert!(points(&wandering) <= 22_990.0, "{}", points(&wandering));
     let more = points(&wandering) / points(&still) - 1.0;
-    assert!((0.0..=0.0025).contains(&more), "{more}");
+    assert!((0.0..=0.002).contains(&more), "{more}");
 }
 
 #[test]
@@ -156,6 +186,7 @@ fn with_normal_compensation_x_may_err_by_a_thousandth_of_the_feed() {
     let with_atpg = run(AST_5, &atpg(45), &normal);
     let found = run(AST_5, &minimax(7, 45), &normal);
     same_motion(&found, &with_atpg);
+    holds_before_refinement(&found, "seven states");
     for found in [with_atpg, found] {
         assert!(points(&found) <= 0.60 * 4238.0, "{}", points(&found));
         let residual = number(&found, "/residual/max_nm");

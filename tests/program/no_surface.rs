@@ -81,6 +81,35 @@ fn a_sharp_tip_that_no_step_follows() {
     let bench = Bench::with(&recipe);
     let said = bench.line("run recipe.toml -o out").ends(1);
     assert!(said.stdout.contains("EXCEEDED"), "{said}");
+    // Where the contact goes up to the tip, the passes beside it are as close as all others.
+    let line = "run recipe.toml -o out --set path.overrun=\"contact\"";
+    bench.line(line).ends(0);
+}
+
+/// A formula that has a value nowhere is refused with its place, by every command that asks for heights.
+#[test]
+fn a_formula_without_any_value() {
+    let nowhere = "use = \"formula\"\nz = \"sqrt(-mm^2 - rho^2)\"";
+    let sum = "use = \"conic\"\nradius = \"90 mm\"\n\n[[surface]]\n".to_owned() + nowhere;
+    let alone = saddle_with("surface", nowhere);
+    let sum = saddle_with("surface", &sum).replacen("[surface]", "[[surface]]", 1);
+    for recipe in [alone, sum] {
+        for compensator in ["normal", "z-direction", "none"] {
+            let compensator = format!("use = \"{compensator}\"");
+            let bench = Bench::with(&with_table(&recipe, "compensator", &compensator));
+            for command in ["check recipe.toml", "run recipe.toml -o out"] {
+                let said = bench.line(command).ends(2);
+                assert!(
+                    said.stderr
+                        .contains("the root of a negative number at x = 0.0000 mm")
+                );
+                assert!(said.stderr.contains("^ `z`"), "{said}");
+            }
+            let said = bench.line("sag recipe.toml --grid 5 -o sag.csv").ends(2);
+            let place = "the surface has no height at x = 0.0000 mm, y = -2.5000 mm";
+            assert!(said.stderr.contains(place), "{said}");
+        }
+    }
 }
 
 #[test]

@@ -53,12 +53,13 @@ fn the_finishing_path_has_the_bytes_of_the_recipe_without_passes() {
     }
 }
 
-/// `verify` measures the rough path against the wanted surface, and not against the lifted one for which
-/// it was made.
+/// A recipe without passes knows no rough path, so `verify` measures the file against the wanted surface,
+/// and not against the lifted one for which it was made.
 #[test]
 fn a_rough_path_leaves_what_it_says() {
     let bench = Bench::with(&format!("{}{PASSES}", saddle()));
     bench.line("run recipe.toml -o out").ends(0);
+    bench.write("wanted.toml", &saddle());
     let summary = summary(&bench);
     for (at, name, allowance_nm, tolerance_nm) in
         [(0, "rough", 30_000.0, 500.0), (1, "middle", 5_000.0, 100.0)]
@@ -67,7 +68,7 @@ fn a_rough_path_leaves_what_it_says() {
         assert_eq!(rough["name"], name);
         assert_eq!(number(rough, "/allowance_um") * 1e3, allowance_nm);
         for file in [format!("toolpath-{name}.csv"), format!("recipe-{name}.pmc")] {
-            let said = bench.line(&format!("verify recipe.toml out/{file} --format json"));
+            let said = bench.line(&format!("verify wanted.toml out/{file} --format json"));
             let found = said.json();
             let lowest = number(&found, "/surface_error/lowest/error_nm");
             let highest = number(&found, "/surface_error/highest/error_nm");
@@ -86,6 +87,36 @@ fn a_rough_path_leaves_what_it_says() {
             }
         }
     }
+}
+
+/// With the recipe that has the pass, a file of it is held to the pass's own surface, tolerance and rows.
+#[test]
+fn verify_compares_a_file_of_a_pass_with_its_own_path() {
+    let bench = Bench::with(&format!("{}{PASSES}", saddle()));
+    bench.line("run recipe.toml -o out").ends(0);
+    for file in [
+        "toolpath-rough.csv",
+        "toolpath-middle.csv",
+        "recipe-rough.pmc",
+        "recipe-middle.ascript",
+        "recipe.pmc",
+    ] {
+        let line = format!("verify recipe.toml out/{file} --format json");
+        let found = bench.line(&line).ends(0).json();
+        assert_eq!(found["anomalies"]["count"], 0, "{file}");
+        assert_eq!(found["anomalies"]["compared_with"], "recipe", "{file}");
+    }
+    // A row of the rough path that is not where the pass has it.
+    let table = bench.read("out/toolpath-rough.csv");
+    let mut rows: Vec<String> = table.lines().map(str::to_owned).collect();
+    let middle = rows.len() / 2;
+    let mut cells: Vec<String> = rows[middle].split(',').map(str::to_owned).collect();
+    cells[3] = (cells[3].parse::<f64>().unwrap() + 2e-3).to_string();
+    rows[middle] = cells.join(",");
+    bench.write("toolpath-rough.csv", &rows.join("\n"));
+    let line = "verify recipe.toml toolpath-rough.csv --format json";
+    let found = bench.line(line).ends(1).json();
+    assert_eq!(found["anomalies"]["count"], 1);
 }
 
 #[test]

@@ -8,9 +8,16 @@ use crate::support::recipe::{SADDLE, saddle_with};
 
 /// Rows of the grid as numbers, after the header.
 fn grid(bench: &Bench, count: u32) -> Vec<[f64; 5]> {
+    let (rows, note) = grid_and_note(bench, count);
+    assert_eq!(note, "");
+    rows
+}
+
+/// The same, and what is said on standard error.
+fn grid_and_note(bench: &Bench, count: u32) -> (Vec<[f64; 5]>, String) {
     let words = format!("sag recipe.toml --grid {count} -o sag.csv");
     let said = bench.line(&words).ends(0);
-    assert_eq!((said.stdout.as_str(), said.stderr.as_str()), ("", ""));
+    assert_eq!(said.stdout, "");
     let text = bench.read("sag.csv");
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("x_mm,y_mm,z_mm,zx,zy"));
@@ -18,7 +25,7 @@ fn grid(bench: &Bench, count: u32) -> Vec<[f64; 5]> {
         let values: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
         values.try_into().unwrap()
     };
-    lines.map(row).collect()
+    (lines.map(row).collect(), said.stderr)
 }
 
 #[track_caller]
@@ -54,9 +61,10 @@ fn the_smallest_grid_is_the_four_corners_of_the_square_around_the_aperture() {
 }
 
 #[test]
-fn where_a_surface_has_no_height_the_grid_has_nan() {
+fn where_a_surface_has_no_height_the_grid_has_nan_and_a_note_counts_them() {
     let sphere = saddle_with("surface", "use = \"conic\"\nradius = \"3 mm\"");
-    let rows = grid(&Bench::with(&sphere), 21);
+    let bench = Bench::with(&sphere);
+    let (rows, note) = grid_and_note(&bench, 21);
     let mut beyond = 0;
     for [x, y, z, zx, zy] in rows {
         let squared = x * x + y * y;
@@ -68,6 +76,13 @@ fn where_a_surface_has_no_height_the_grid_has_nan() {
         }
     }
     assert!(beyond >= 4, "the corners lie beyond the sphere");
+    let expected =
+        format!("note: {beyond} of 441 points have no height: they lie beyond the part\n");
+    assert_eq!(note, expected);
+    for output in ["sag.gsf", "sag.DAT", "-"] {
+        let said = bench.line(&format!("sag recipe.toml --grid 21 -o {output}"));
+        assert_eq!(said.ends(0).stderr, expected);
+    }
 }
 
 #[test]

@@ -137,13 +137,13 @@ fn schema() -> Outcome {
 
 /// The dry runs of all posts, by an independent reader.
 fn dry_runs() -> Outcome {
-    let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"nanotech-g93\", \"linuxcnc-g93\"]";
+    let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"beckhoff-g93\", \"nanotech-g93\", \"linuxcnc-g93\"]";
     let changes = ["--dry-run", "--set", "path.lead=true", "--set", posts];
     let folder = match saddle("dry-runs", &changes) {
         Ok(folder) => folder,
         Err(outcome) => return outcome,
     };
-    let files = ["pmc", "ppmc", "ascript", "mpf", "nc", "ngc"].map(|end| {
+    let files = ["pmc", "ppmc", "ascript", "mpf", "cnc", "nc", "ngc"].map(|end| {
         let name = format!("saddle-dry-run.{end}");
         folder.join(name)
     });

@@ -3,14 +3,15 @@
 use std::num::NonZero;
 use std::path::Path;
 
-use turnpath::report::{AblationReport, comparison};
-use turnpath::{AblationOptions, AblationResult, Catalogue, Recipe};
+use turnpath::report::comparison::{Column, Language};
+use turnpath::report::{AblationReport, AblationRun, comparison, to_json};
+use turnpath::{AblationOptions, AblationPlan, AblationResult, Catalogue, Recipe, RunState};
 use turnpath_core::printable_line;
 
 use super::output::refuse_output;
 use super::setup;
-use crate::args::AblateArgs;
-use crate::print::print_report;
+use crate::args::{AblateArgs, PlanForm, TableLanguage};
+use crate::print::{print, print_report};
 use crate::progress::RunsBar;
 use crate::{Outcome, Status, width};
 
@@ -19,11 +20,26 @@ use crate::{Outcome, Status, width};
 pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
+    let recipe = match args.equal_tolerance {
+        true => recipe.set("refine", "true")?,
+        false => recipe,
+    };
     refuse_output(args.output.as_deref(), "-o")?;
     let folder = match &args.output {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(format!("{}-ablation", recipe.folder_name())),
     };
+    if let Some(form) = args.plan {
+        let plan = turnpath::plan_ablation(&recipe, &catalogue, &folder)?;
+        print(&plan_text(&plan, form))?;
+        return Ok(Status::Holds);
+    }
+    let bar = RunsBar::new(&args.work);
+    if let Some(key) = &args.only {
+        let run = turnpath::run_of_ablation(&recipe, &catalogue, &folder, key, &bar)?;
+        print_report(args.work.answer(), &run, |run| one_run(run, key))?;
+        return Ok(Status::Holds);
+    }
     let options = AblationOptions {
         folder,
         fresh: args.fresh,
@@ -32,16 +48,68 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
             .threads
             .and_then(|count| NonZero::new(usize::from(count))),
     };
-    let result = turnpath::ablate(&recipe, &catalogue, &options, &RunsBar::new(&args.work))?;
-    print_report(args.work.answer(), &result.report, |report| {
-        human(&recipe, &args.columns, report, &result)
-    })?;
+    let result = match args.merge {
+        true => turnpath::merge_ablation(&recipe, &catalogue, &options.folder, &bar)?,
+        false => turnpath::ablate(&recipe, &catalogue, &options, &bar)?,
+    };
+    match args.table {
+        Some(language) => print(&table_alone(args, language, &result.report))?,
+        None => print_report(args.work.answer(), &result.report, |report| {
+            human(&recipe, args, report, &result)
+        })?,
+    }
     status(result)
+}
+
+fn plan_text(plan: &AblationPlan, form: PlanForm) -> String {
+    match form {
+        PlanForm::Json => to_json(plan),
+        PlanForm::Missing => {
+            let missing = plan.runs.iter().filter(|run| run.state != RunState::Done);
+            missing.map(|run| format!("{}\n", run.key)).collect()
+        }
+    }
+}
+
+/// A line on a run that was made alone.
+fn one_run(run: &AblationRun, key: &str) -> String {
+    let values = run.varied.iter().map(|(_, value)| value.as_str());
+    let values: Vec<&str> = values.collect();
+    format!("{key}: {}\n", printable_line(&values.join(", ")))
+}
+
+/// The runs in the order that was asked for.
+fn ordered(args: &AblateArgs, report: &AblationReport) -> Vec<AblationRun> {
+    let column = args.sort.as_deref().and_then(comparison::by_name);
+    column.map_or_else(
+        || report.runs.clone(),
+        |column| comparison::sorted(&report.runs, column),
+    )
+}
+
+fn columns(args: &AblateArgs) -> Vec<&'static Column> {
+    match args.columns.as_slice() {
+        [] => comparison::usual(),
+        names => names
+            .iter()
+            .filter_map(|name| comparison::by_name(name))
+            .collect(),
+    }
+}
+
+fn table_alone(args: &AblateArgs, language: TableLanguage, report: &AblationReport) -> String {
+    let language = match language {
+        TableLanguage::Markdown => Language::Markdown,
+        TableLanguage::Latex => Language::Latex,
+        TableLanguage::Csv => Language::Csv,
+    };
+    let (runs, columns) = (ordered(args, report), columns(args));
+    comparison::paper_table(&runs, &columns, language, !args.no_ratio)
 }
 
 fn human(
     recipe: &Recipe,
-    columns: &[String],
+    args: &AblateArgs,
     report: &AblationReport,
     result: &AblationResult,
 ) -> String {
@@ -53,20 +121,15 @@ fn human(
     for (count, what) in [
         (result.reused, "taken over from before"),
         (result.failures.len(), "failed"),
+        (result.missing, "without figures"),
     ] {
         if count > 0 {
             text += &format!(", {count} {what}");
         }
     }
     text += "\n\n";
-    let columns = match columns {
-        [] => comparison::usual(),
-        names => names
-            .iter()
-            .filter_map(|name| comparison::by_name(name))
-            .collect(),
-    };
-    text += &comparison::table(&report.runs, &columns, width::of_terminal());
+    let (runs, columns) = (ordered(args, report), columns(args));
+    text += &comparison::table(&runs, &columns, width::of_terminal(), !args.no_ratio);
     text.push('\n');
     for file in &result.files {
         text += &format!("  file  {}\n", printable_line(&file.display().to_string()));
@@ -79,6 +142,7 @@ fn status(result: AblationResult) -> Outcome {
     let all_failed = result.failures.len() == result.report.runs.len();
     match result.failures.into_iter().next() {
         Some((_, error)) if all_failed => Err(error.into()),
+        _ if result.missing > 0 => Ok(Status::Exceeded),
         _ => Ok(Status::Holds),
     }
 }

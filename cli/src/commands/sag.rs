@@ -14,6 +14,7 @@ use super::output::{is_standard, refuse_output};
 use super::setup;
 use crate::args::{Format, SagArgs};
 use crate::failure::Failure;
+use crate::message::note;
 use crate::print::{Output, print_report};
 use crate::{Outcome, Status};
 
@@ -44,7 +45,8 @@ pub fn sag(args: &SagArgs, catalogue: Catalogue) -> Outcome {
 
 fn write(recipe: &Recipe, catalogue: &Catalogue, count: usize, output: &Path) -> Outcome {
     if !is_standard(output) {
-        write_sag(recipe, catalogue, count, output)?;
+        let missing = write_sag(recipe, catalogue, count, output)?;
+        note_missing(missing, count);
         return Ok(Status::Holds);
     }
     let mut writer = BufWriter::new(Output);
@@ -52,9 +54,23 @@ fn write(recipe: &Recipe, catalogue: &Catalogue, count: usize, output: &Path) ->
         // A reader that has gone, such as `head`, is no failure.
         Err(Error::File(error)) if error.error.kind() == ErrorKind::BrokenPipe => {}
         Err(Error::File(error)) => return Err(Failure::Output(error.error)),
-        answer => answer?,
+        answer => note_missing(answer?, count),
     }
     Ok(Status::Holds)
+}
+
+/// Says on standard error how many points of a grid have no height, if some have none.
+fn note_missing(missing: usize, count: usize) {
+    let all = count * count;
+    match missing {
+        0 => {}
+        1 => note(&format!(
+            "1 of {all} points has no height: it lies beyond the part"
+        )),
+        some => note(&format!(
+            "{some} of {all} points have no height: they lie beyond the part"
+        )),
+    }
 }
 
 /// The map that the arguments name.

@@ -1,6 +1,7 @@
 //! The conicoid of revolution, which many surfaces have as their base.
 
-use crate::Scalar;
+use crate::kind::{Length, Number};
+use crate::{Param, Params, Result, Scalar};
 
 /// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)), c the curvature at the vertex, K the conic number.
 ///
@@ -14,6 +15,31 @@ pub struct Conicoid {
 }
 
 impl Conicoid {
+    /// The parameter of a base that may be a flat: the radius at the vertex.
+    pub const RADIUS: Param<Option<Length>> = Param::length(
+        "radius",
+        "radius of curvature at the vertex; positive: concave; left out: flat",
+    )
+    .nonzero()
+    .optional();
+
+    /// The parameter of every conicoid: the conic number K.
+    pub const CONIC: Param<Number> =
+        Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0);
+
+    /// Why a radius is refused that is too small for the formula.
+    pub const TOO_SMALL: &str =
+        "the radius is too small for this conic number: the formula has no finite values";
+
+    /// The conicoid of the parameters [`RADIUS`](Self::RADIUS) and [`CONIC`](Self::CONIC).
+    ///
+    /// # Errors
+    /// If the radius is too small for the formula.
+    pub fn of(params: &Params) -> Result<Self> {
+        Self::new(params.get(Self::RADIUS), params.get(Self::CONIC))
+            .ok_or_else(|| Self::RADIUS.refused(Self::TOO_SMALL))
+    }
+
     /// The conicoid of this radius at the vertex, mm, and this conic number. Without a radius it is a
     /// flat. `None` if the formula has no finite values, because the radius is too small.
     pub fn new(radius: Option<f64>, conic: f64) -> Option<Self> {

@@ -178,8 +178,7 @@ pub enum ProblemKind {
 }
 
 /// The types that can be read.
-const KNOWN_TYPES: &str =
-    "STANDARD, EVENASPH, ODDASPHE, XASPHERE, XOSPHERE, BICONICX, TOROIDAL, XPOLYNOM and SZERNSAG";
+const KNOWN_TYPES: &str = "STANDARD, EVENASPH, ODDASPHE, XASPHERE, XOSPHERE, BICONICX, TOROIDAL, XPOLYNOM, SZERNSAG and FZERNSAG";
 
 struct Place(Option<usize>);
 

@@ -40,5 +40,5 @@ pub use aperture::Aperture;
 pub use base::Base;
 pub use design::{DesignSurface, LensText, Note, Selection};
 pub use error::{LensError, LensProblem, ProblemKind};
-pub use shape::Shape;
+pub use shape::{Shape, ZernikeList};
 pub use side::Side;

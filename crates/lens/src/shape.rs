@@ -42,8 +42,10 @@ pub enum Shape {
         /// c_ij, mm.
         coefficients: BTreeMap<(u32, u32), f64>,
     },
-    /// A conicoid, Σ A_i ρⁱ, and Σ c_j Z_j(ρ/r, θ): Noll's numbers, each term with an RMS of 1.
+    /// A conicoid, Σ A_i ρⁱ, and Σ c_j Z_j(ρ/r, θ).
     Zernike {
+        /// The list that numbers the terms.
+        list: ZernikeList,
         /// The conicoid.
         base: Base,
         /// A_i, in mm^(1−i).
@@ -53,6 +55,28 @@ pub enum Shape {
         /// c_j, mm.
         coefficients: BTreeMap<u32, f64>,
     },
+}
+
+/// The list that numbers Zernike terms, and their size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ZernikeList {
+    /// Noll's, each term with an RMS of 1 over the disc.
+    Noll,
+    /// The Fringe list, each term with a largest height of 1.
+    Fringe,
+}
+
+impl ZernikeList {
+    /// Whether a term is even in x. With θ → π − θ, cos mθ takes the factor (−1)^m and sin mθ the
+    /// factor −(−1)^m.
+    fn is_even_in_x(self, number: u32) -> bool {
+        let (order, is_cosine) = match self {
+            // Even numbers are cosines, and odd ones with m > 0 are sines.
+            Self::Noll => (noll_order(number), number.is_multiple_of(2)),
+            Self::Fringe => fringe_order(number),
+        };
+        (order == 0 || is_cosine) == order.is_multiple_of(2)
+    }
 }
 
 impl Shape {
@@ -113,15 +137,17 @@ impl Shape {
                 coefficients: signed(coefficients, |(i, _)| is_even_in_x(i)),
             },
             Self::Zernike {
+                list,
                 base,
                 terms,
                 normalization_radius,
                 coefficients,
             } => Self::Zernike {
+                list,
                 base: base.seen_from_behind(),
                 terms: negative(terms),
                 normalization_radius,
-                coefficients: signed(coefficients, noll_is_even_in_x),
+                coefficients: signed(coefficients, |number| list.is_even_in_x(number)),
             },
         }
     }
@@ -145,14 +171,6 @@ fn is_even_in_x(power: u32) -> bool {
     power.is_multiple_of(2)
 }
 
-/// Whether a Zernike term is even in x. With θ → π − θ, cos mθ takes the factor (−1)^m and sin mθ
-/// the factor −(−1)^m. In Noll's list even numbers are cosines, and odd ones with m > 0 are sines.
-fn noll_is_even_in_x(number: u32) -> bool {
-    let m = noll_order(number);
-    let is_cosine = m == 0 || number.is_multiple_of(2);
-    is_cosine == m.is_multiple_of(2)
-}
-
 /// The order m of the angle of a term in Noll's list. Degree n has the numbers from n(n + 1)/2 + 1
 /// on; among them |m| grows by twos, and each m above 0 takes two numbers.
 fn noll_order(number: u32) -> u32 {
@@ -167,6 +185,15 @@ fn noll_order(number: u32) -> u32 {
         true => 2 * place.div_ceil(2),
         false => 2 * (place / 2) + 1,
     }
+}
+
+/// The order m of the angle of a term in the Fringe list, and whether the term is a cosine. The terms
+/// with n + |m| = 2g have the numbers from g² + 1 on; |m| falls from g to 0, cosine before sine.
+fn fringe_order(number: u32) -> (u32, bool) {
+    let place = number.saturating_sub(1);
+    let group = place.isqrt();
+    let within = place - group * group;
+    (group - within / 2, within.is_multiple_of(2))
 }
 
 #[cfg(test)]
@@ -186,8 +213,25 @@ mod tests {
     #[test]
     fn terms_that_a_mirror_at_x_leaves_as_they_are() {
         // 1, y, ρ², cos 2θ, y's coma, sin 3θ; not x, sin 2θ, x's coma, cos 3θ.
-        let even: Vec<u32> = (1..=11).filter(|j| noll_is_even_in_x(*j)).collect();
+        let even: Vec<u32> = (1..=11)
+            .filter(|j| ZernikeList::Noll.is_even_in_x(*j))
+            .collect();
         assert_eq!(even, [1, 3, 4, 6, 7, 9, 11]);
+        // 1, y, ρ², cos 2θ, y's coma, ρ⁴, sin 3θ.
+        let even: Vec<u32> = (1..=11)
+            .filter(|j| ZernikeList::Fringe.is_even_in_x(*j))
+            .collect();
+        assert_eq!(even, [1, 3, 4, 5, 8, 9, 11]);
+    }
+
+    /// The list of the University of Arizona, as the manuals of design programs print it.
+    #[test]
+    fn orders_of_the_fringe_list() {
+        let orders: Vec<(u32, bool)> = (1..=18).map(fringe_order).collect();
+        let published = [0, 1, -1, 0, 2, -2, 1, -1, 0, 3, -3, 2, -2, 1, -1, 0, 4, -4];
+        let published = published.map(|m: i32| (m.unsigned_abs(), m >= 0));
+        assert_eq!(orders, published);
+        assert_eq!([fringe_order(36), fringe_order(37)], [(0, true), (6, true)]);
     }
 
     #[test]
@@ -196,12 +240,15 @@ mod tests {
             radius: Some(-40.0),
             conic: -0.5,
         };
-        let shape = Shape::Zernike {
-            base,
-            terms: Powers::from([(4, 1e-6)]),
-            normalization_radius: 10.0,
-            coefficients: (1..=15).map(|j| (j, 1e-3 * f64::from(j))).collect(),
-        };
-        assert_eq!(shape.clone().seen_from_behind().seen_from_behind(), shape);
+        for list in [ZernikeList::Noll, ZernikeList::Fringe] {
+            let shape = Shape::Zernike {
+                list,
+                base,
+                terms: Powers::from([(4, 1e-6)]),
+                normalization_radius: 10.0,
+                coefficients: (1..=15).map(|j| (j, 1e-3 * f64::from(j))).collect(),
+            };
+            assert_eq!(shape.clone().seen_from_behind().seen_from_behind(), shape);
+        }
     }
 }

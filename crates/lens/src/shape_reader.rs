@@ -4,7 +4,8 @@
 //! help (Ansys, v242: Toroidal, Extended Asphere, Extended Polynomial), where the parameters from 13
 //! on are the `XDAT` from 1 on. Those of Even Asphere, Odd Asphere, Extended Odd Asphere, Biconic
 //! and Zernike Standard Sag are as open readers have them: optiland `fileio/zemax/surfaces.py`,
-//! ray-optics `zemax/zmxread.py`, and the reader of `.zmx` for batoid.
+//! ray-optics `zemax/zmxread.py`, and the reader of `.zmx` for batoid. Those of Zernike Fringe Sag are as
+//! pyzdd scales them and as the readers of zmxtools and pyrate take them: all three agree.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +13,7 @@ use crate::base::Base;
 use crate::error::{LensProblem, ProblemKind};
 use crate::numbers::{no_number, power, radius};
 use crate::record::shown;
-use crate::shape::{Powers, Shape};
+use crate::shape::{Powers, Shape, ZernikeList};
 use crate::slots::Slots;
 use crate::surface_block::SurfaceBlock;
 
@@ -35,6 +36,7 @@ const BEFORE_TERMS: u32 = 2;
 const MOST_EXTENDED: u32 = 240;
 const MOST_POLYNOMIAL: u32 = 230;
 const MOST_ZERNIKE: u32 = 231;
+const MOST_FRINGE: u32 = 37;
 
 /// A shape, and where its Zernike terms end.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +80,8 @@ pub fn read_shape(block: &SurfaceBlock<'_>, unit: f64) -> Result<ReadShape, Vec<
         // Parameter 0 is about Zernike terms, which are in XDAT.
         "TOROIDAL" => reader.within("TOROIDAL", |i| i <= TOROID_TERMS + 1, none, Reader::toroid),
         "XPOLYNOM" => reader.within("XPOLYNOM", none, any, Reader::polynomial),
-        "SZERNSAG" => return reader.zernike(),
+        "SZERNSAG" => return reader.zernike("SZERNSAG", ZernikeList::Noll, MOST_ZERNIKE),
+        "FZERNSAG" => return reader.zernike("FZERNSAG", ZernikeList::Fringe, MOST_FRINGE),
         _ => {
             let name = shown(&name);
             Err(one(ProblemKind::UnknownType { name }.at(line)))
@@ -194,15 +197,21 @@ impl Reader<'_, '_> {
         })
     }
 
-    fn zernike(&self) -> Result<ReadShape, Vec<LensProblem>> {
+    fn zernike(
+        &self,
+        kind: &'static str,
+        list: ZernikeList,
+        most: u32,
+    ) -> Result<ReadShape, Vec<LensProblem>> {
         let known = |index| index <= ASPHERE_TERMS;
         let shape = self.within(
-            "SZERNSAG",
+            kind,
             known,
             |_| true,
             |one| {
-                let (normalization_radius, coefficients) = one.list(MOST_ZERNIKE)?;
+                let (normalization_radius, coefficients) = one.list(most)?;
                 Ok(Shape::Zernike {
+                    list,
                     base: one.base()?,
                     terms: one.powers(1..=ASPHERE_TERMS, |index| 2 * index),
                     normalization_radius,

@@ -8,6 +8,7 @@
 //! of the two is there, the other one is zero. Where both are left out, the middle of the field lies at
 //! the origin.
 
+use crate::cells::cells;
 use crate::conventions::{Conventions, length_unit};
 use crate::error::{MapError, MapProblem};
 use crate::map::{Map, Size, check_length, check_pitch, turn_rows};
@@ -167,15 +168,5 @@ fn data(bytes: &[u8], end: usize, size: Size) -> Result<&[[u8; BYTES]], MapError
         let what = "the header ends with one to four NULs, up to a multiple of four bytes";
         return Err(MapError::at_byte(end + at, MapProblem::Header(what.into())));
     }
-    let (heights, rest) = bytes.get(start..).unwrap_or_default().as_chunks::<BYTES>();
-    let (found, wanted) = (heights.len(), size.points());
-    if found < wanted {
-        let problem = MapProblem::TooShort { found, wanted };
-        return Err(MapError::at_byte(bytes.len(), problem));
-    }
-    if found > wanted || !rest.is_empty() {
-        let at = start + wanted * BYTES;
-        return Err(MapError::at_byte(at, MapProblem::TooLong { wanted }));
-    }
-    Ok(heights)
+    cells(bytes, start, size)
 }

@@ -16,6 +16,7 @@
 //! ```
 
 mod axis;
+mod cells;
 mod code_v;
 mod conventions;
 mod detection;

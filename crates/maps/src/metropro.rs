@@ -6,6 +6,7 @@
 //! interferometer (0.5 for a mirror in one reflection), O the obliquity factor, λ the wavelength,
 //! and R the number of phases in a wave, which follows from the resolution.
 
+use crate::cells::cells;
 use crate::conventions::Conventions;
 use crate::error::{MapError, MapProblem, Place};
 use crate::map::{Map, Size, check_length, turn_rows};
@@ -71,16 +72,7 @@ pub fn read(bytes: &[u8], conventions: &Conventions) -> Result<Map, MapError> {
     let lateral = Some(lateral).filter(|lateral| lateral.is_finite() && *lateral > 0.0);
     let pitch = conventions.pitch([lateral, lateral]);
     let pitch = pitch.map_err(|error| error.placed(Place::Byte(LATERAL)))?;
-    let (phases, rest) = bytes.get(start..).unwrap_or_default().as_chunks::<BYTES>();
-    let (found, wanted) = (phases.len(), size.points());
-    if found < wanted {
-        let problem = MapProblem::TooShort { found, wanted };
-        return Err(MapError::at_byte(bytes.len(), problem));
-    }
-    if found > wanted || !rest.is_empty() {
-        let at = start + wanted * BYTES;
-        return Err(MapError::at_byte(at, MapProblem::TooLong { wanted }));
-    }
+    let phases = cells::<BYTES>(bytes, start, size)?;
     let height = |(number, bytes): (usize, &[u8; BYTES])| match i32::from_be_bytes(*bytes) {
         NO_PHASE.. => Ok(f64::NAN),
         phase => check_length(f64::from(phase) * unit)

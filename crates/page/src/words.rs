@@ -47,6 +47,6 @@ mod tests {
         ];
         assert_eq!(written, expected);
         assert_eq!(small_length(24.5e-6), "24.50 nm");
-        assert_eq!(small_length(0.25), "0.2500 mm");
+        assert_eq!(small_length(2.5), "2.500 mm");
     }
 }

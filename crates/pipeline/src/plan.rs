@@ -21,6 +21,9 @@ pub const BLOCK: f64 = 64.0;
 /// bounded on the finest paths. The choice depends on the task alone, so the bytes do not depend on
 /// the machine.
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
+/// Nodes of a block that is one of a sample, at least; a revolution may have more. A sampler starts
+/// afresh at each border, which adds half a node: a thousandth of the size of a file.
+const SAMPLED_BLOCK: f64 = 500.0;
 /// Most nodes of a path that are held in memory while its spindle is planned: 100 MB.
 const MOST_HELD: f64 = 4e6;
 /// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
@@ -133,6 +136,18 @@ impl<'a> Plan<'a> {
         if self.density * self.law.end() <= MOST_HELD {
             self.held = (0..self.blocks()).map(|_| OnceLock::new()).collect();
         }
+    }
+
+    /// Divides the path into small blocks, of which a sample is taken. Those of a sequential sampler
+    /// stay, as it has run over them already, and so do blocks whose nodes are held.
+    pub fn divide_for_sample(&mut self) {
+        if self.sampler.dependence() == Dependence::Sequential || !self.held.is_empty() {
+            return;
+        }
+        while self.block > 1.0 && 0.5 * self.block * self.density >= SAMPLED_BLOCK {
+            self.block *= 0.5;
+        }
+        self.hold_nodes();
     }
 
     /// Divides the path into blocks, and learns the states of a sequential sampler.

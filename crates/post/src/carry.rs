@@ -76,8 +76,13 @@ impl DigitSegment {
 pub(crate) enum Move<'a> {
     /// To the path's first point.
     Start(&'a Digits),
-    /// Along a segment.
-    Segment(&'a DigitSegment),
+    /// Along a segment, or along a part of one.
+    Segment {
+        /// The segment.
+        segment: &'a DigitSegment,
+        /// Whether it ends at a point of the path, and not at one between two of them.
+        reaches_point: bool,
+    },
 }
 
 /// Gives the first point and the segments of a stretch in their order, long segments divided; returns
@@ -104,23 +109,48 @@ pub(crate) fn carry(
     Ok(points)
 }
 
+/// Points of a program.
+#[derive(Debug, Clone, Default)]
+pub struct CarriedPoints {
+    /// The points.
+    pub points: PathBlock,
+    /// How many of them, at the beginning, belong to the section before: those between the last point of
+    /// a lead-in and the first point of the cut.
+    pub of_section_before: usize,
+}
+
 /// The points of a stretch as a program carries them: on the controller's steps of time, in the
 /// program's digits, C unwrapped, long segments divided.
 pub(crate) fn carried(
     format: &ProgramFormat,
     stretch: &SectionBlock<'_>,
-) -> Result<PathBlock, ProgramError> {
-    let mut carried = PathBlock {
-        shape: format.shape(),
-        ..PathBlock::default()
+) -> Result<CarriedPoints, ProgramError> {
+    let mut carried = CarriedPoints {
+        points: PathBlock {
+            shape: format.shape(),
+            ..PathBlock::default()
+        },
+        of_section_before: 0,
     };
+    let mut is_before = leads_into_cut(stretch);
     carry(format, stretch, &mut |step| {
-        carried.push(match step {
-            Move::Start(digits) => digits.point(format),
-            Move::Segment(segment) => segment.to.point(format),
-        });
+        let (digits, reaches_point) = match step {
+            Move::Start(digits) => (digits, true),
+            Move::Segment {
+                segment,
+                reaches_point,
+            } => (&segment.to, reaches_point),
+        };
+        is_before &= !reaches_point;
+        carried.of_section_before += usize::from(is_before);
+        carried.points.push(digits.point(format));
     })?;
     Ok(carried)
+}
+
+/// Whether a stretch begins with the way from a lead-in to the cut, which belongs to the lead-in.
+pub(crate) fn leads_into_cut(stretch: &SectionBlock<'_>) -> bool {
+    stretch.opens_section && stretch.section == Section::Cutting
 }
 
 /// Whole turns of C that a program leaves out because it begins within 0 to 360 deg, rad.
@@ -228,9 +258,9 @@ impl Trail {
                     if let Some((slowest, from)) = slowest.zip(self.digits) {
                         slowest.lift(&from, &mut middle);
                     }
-                    self.write_segment(format, point, middle, write)?;
+                    self.write_segment(format, point, (middle, false), write)?;
                 }
-                self.write_segment(format, point, end, write)?;
+                self.write_segment(format, point, (end, true), write)?;
             }
         }
         self.point = Some(*point);
@@ -294,7 +324,7 @@ impl Trail {
         &mut self,
         format: &ProgramFormat,
         point: &ControlPoint,
-        to: Digits,
+        (to, reaches_point): (Digits, bool),
         write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
         let Some(from) = self.digits else {
@@ -310,6 +340,7 @@ impl Trail {
             to,
             steps_before: self.steps,
         };
+        refuse_beyond_c(format, &segment)?;
         if segment.steps() < format.shortest {
             let ms = |steps: i64| 1e3 * steps as f64 / format.steps_per_s as f64;
             let (t, c_deg) = segment.end(format);
@@ -320,10 +351,30 @@ impl Trail {
                 shortest_ms: ms(format.shortest),
             });
         }
-        write(Move::Segment(&segment));
+        write(Move::Segment {
+            segment: &segment,
+            reaches_point,
+        });
         self.steps = Some(segment.steps());
         self.digits = Some(to);
         Ok(())
+    }
+}
+
+/// Refuses a C that the axis does not reach. A C within a turn is that of an axis without an end.
+fn refuse_beyond_c(format: &ProgramFormat, segment: &DigitSegment) -> Result<(), ProgramError> {
+    let limit = format.c_limit.filter(|_| !format.c_wrapped);
+    let c = segment.to.position[0];
+    match limit.filter(|limit| c.unsigned_abs() > limit.unsigned_abs()) {
+        None => Ok(()),
+        Some(limit) => {
+            let one = 10u64.pow(format.position_decimals) as f64;
+            Err(ProgramError::BeyondC {
+                c_deg: c as f64 / one,
+                limit_deg: limit as f64 / one,
+                t: segment.end(format).0,
+            })
+        }
     }
 }
 

@@ -1,11 +1,11 @@
 //! A program of one recipe: its post, and how it is laid out.
 
-use std::io::Read;
-use std::path::PathBuf;
+use std::io::{self, Cursor, Read};
+use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
-use crate::carry::{Move, carried, carry, turns_left_out};
+use crate::carry::{CarriedPoints, Move, carried, carry, leads_into_cut, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
@@ -23,6 +23,9 @@ pub struct Layout {
     pub format: ProgramFormat,
 }
 
+/// A file of a program, or bytes in place of one.
+pub type OpenFile = Box<dyn Read + Send + Sync>;
+
 /// Lines of a program.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Lines {
@@ -34,6 +37,10 @@ pub struct Lines {
     pub extent: Option<Extent>,
 }
 
+fn open_file(path: &Path) -> io::Result<OpenFile> {
+    Ok(Box::new(ordinary_file::open(path)?))
+}
+
 impl Layout {
     /// A part of the path as program lines. This needs no file, so several parts can be formatted in
     /// parallel.
@@ -43,19 +50,28 @@ impl Layout {
     pub fn lines(&self, stretch: &SectionBlock<'_>) -> Result<Lines, ProgramError> {
         let Self { post, format } = self;
         let mut text = Vec::new();
-        if stretch.opens_section {
-            let opening = format!("{} {}\n", post.comment, mark(stretch.section));
+        let opening = format!("{} {}\n", post.comment, mark(stretch.section));
+        let mut opening = stretch.opens_section.then_some(opening);
+        // Lines between a lead-in and the cut belong to the lead-in: the cut begins at its first point.
+        if let Some(opening) = opening.take_if(|_| !leads_into_cut(stretch)) {
             text.extend_from_slice(opening.as_bytes());
         }
         let mut in_time = Ok(());
         let mut extent: Option<Extent> = None;
         let points = carry(format, stretch, &mut |step| {
+            let reaches_point = match &step {
+                Move::Start(_) => true,
+                Move::Segment { reaches_point, .. } => *reaches_point,
+            };
+            if let Some(opening) = opening.take_if(|_| reaches_point) {
+                text.extend_from_slice(opening.as_bytes());
+            }
             let point = match step {
                 Move::Start(digits) => {
                     post.dialect.write_first(&mut text, format, digits);
                     digits
                 }
-                Move::Segment(segment) => {
+                Move::Segment { segment, .. } => {
                     if in_time.is_ok() {
                         in_time = post.dialect.check_time(format, segment);
                     }
@@ -116,7 +132,7 @@ impl Layout {
     ///
     /// # Errors
     /// When a program cannot carry the path.
-    pub fn carried(&self, stretch: &SectionBlock<'_>) -> Result<PathBlock, ProgramError> {
+    pub fn carried(&self, stretch: &SectionBlock<'_>) -> Result<CarriedPoints, ProgramError> {
         carried(&self.format, stretch)
     }
 
@@ -133,10 +149,26 @@ impl Layout {
     ///
     /// # Errors
     /// When the file cannot be opened.
-    pub fn open(&self, path: impl Into<PathBuf>) -> Result<ProgramReader, ReadError> {
+    pub fn open(&self, path: impl Into<PathBuf>) -> Result<ProgramReader<OpenFile>, ReadError> {
         let path = path.into();
-        match ordinary_file::open(&path) {
-            Ok(file) => Ok(self.read(file, path)),
+        let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        self.open_with(path, Box::new(move |name| folder.join(name)))
+    }
+
+    /// Opens a program of this layout whose parts are the files that `place` gives for their names.
+    ///
+    /// # Errors
+    /// When the file cannot be opened.
+    pub fn open_with(
+        &self,
+        path: impl Into<PathBuf>,
+        place: Box<dyn Fn(&str) -> PathBuf + Send + Sync>,
+    ) -> Result<ProgramReader<OpenFile>, ReadError> {
+        let path = path.into();
+        match open_file(&path) {
+            Ok(file) => Ok(self
+                .read(file, path)
+                .with_parts(Box::new(move |name| open_file(&place(name))))),
             Err(error) => Err(ReadError::File { path, error }),
         }
     }
@@ -145,6 +177,20 @@ impl Layout {
     /// `path`.
     pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
         ProgramReader::new(reader, path.into(), self.post, &self.format)
+    }
+
+    /// Reads a program of several files in memory. The first one is the main program.
+    pub fn read_files(&self, files: Vec<(String, Vec<u8>)>) -> ProgramReader<OpenFile> {
+        let main = files.first().cloned().unwrap_or_default();
+        let open = move |name: &str| -> io::Result<OpenFile> {
+            let found = files.iter().find(|(file, _)| file == name);
+            let text = found.map(|(_, text)| text.clone());
+            let text = text.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
+            Ok(Box::new(Cursor::new(text)))
+        };
+        let (name, text) = main;
+        let reader: OpenFile = Box::new(Cursor::new(text));
+        self.read(reader, name).with_parts(Box::new(open))
     }
 
     /// The same layout with one line for each segment, of any time.

@@ -5,6 +5,7 @@
 //! files and programs can be written to memory instead, and read from memory.
 //! A reader shares no code with the writer of its format.
 
+mod amount;
 mod automation1;
 mod axes;
 mod carry;
@@ -21,6 +22,9 @@ mod g_code;
 mod layout;
 mod maps;
 mod ordinary_file;
+mod part_calls;
+mod part_name;
+mod parts;
 mod path_reader;
 mod pmac;
 mod post;
@@ -50,11 +54,14 @@ mod write_npz;
 #[cfg(feature = "parquet")]
 mod write_parquet;
 
-pub use carry::{DigitSegment, Digits};
+pub use amount::{Amount, AmountError, TextSize};
+pub use carry::{CarriedPoints, DigitSegment, Digits};
 pub use columns::{ColumnFormat, Columns, WriteColumns};
 pub use dry_run::{DryRunError, DryStop};
-pub use layout::{Layout, Lines};
+pub use layout::{Layout, Lines, OpenFile};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
+pub use part_name::{PartLines, PartName};
+pub use parts::PartsError;
 pub use path_reader::{ReadCount, ReadPath};
 pub use post::{Command, Dialect, Grammar, Post};
 pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};
@@ -66,7 +73,8 @@ pub use read_csv::PathReader;
 pub use read_error::ReadError;
 pub use row::HEADER;
 pub use settings::{
-    APPROACH_FEED, APPROACH_HEIGHT, C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY,
+    APPROACH_FEED, APPROACH_HEIGHT, C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY, MEMORY,
+    SEGMENTS_PER_SECOND, SPLIT,
 };
 pub use template::{PLACEHOLDERS, Template, TemplateError};
 pub use travel::{Extent, Places, Travel, TravelModes};

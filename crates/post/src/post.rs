@@ -8,8 +8,9 @@ use turnpath_core::{ParamInfo, Params};
 use crate::carry::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
 use crate::g_code;
+use crate::part_name::{PartLines, PartName};
 use crate::program_error::ProgramError;
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
@@ -33,6 +34,8 @@ pub struct Post {
     pub footer: &'static str,
     /// What its controller plays between two points: cubics, or straight lines that stand for them.
     pub shape: SegmentShape,
+    /// What F says of a straight line, where its table has no key for it.
+    pub feed: FeedMeaning,
     /// Steps of time in a second.
     pub steps_per_s: i64,
     /// The longest segment, in steps. A longer one is divided.
@@ -95,6 +98,18 @@ pub trait Dialect: Debug + Send + Sync {
     /// The template of the header that these settings ask for in place of the post's own, if they do,
     /// behind the name of the key that asks.
     fn other_header(&self, _settings: &Params) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
+    /// What stands around the lines of a part of a program, and how the main program calls it. `None`
+    /// where no document says how the controller does that.
+    fn part_lines(&self, _part: &PartName) -> Option<PartLines> {
+        None
+    }
+
+    /// The file of the part that a line of the main program calls, if it calls one. `program` is the
+    /// main program's own file.
+    fn called_part(&self, _code: &str, _program: &str) -> Option<String> {
         None
     }
 

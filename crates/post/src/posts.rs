@@ -1,7 +1,7 @@
 //! The posts, by their names.
 
 use crate::automation1::AUTOMATION1_PVT;
-use crate::g93::{LINUXCNC_G93, NANOTECH_G93};
+use crate::g93::{BECKHOFF_G93, LINUXCNC_G93, NANOTECH_G93};
 use crate::pmac::PMAC_PVT;
 use crate::post::Post;
 use crate::power_pmac::POWER_PMAC_PVT;
@@ -13,6 +13,7 @@ pub const POSTS: &[Post] = &[
     POWER_PMAC_PVT,
     AUTOMATION1_PVT,
     SIEMENS_840D_POLY,
+    BECKHOFF_G93,
     NANOTECH_G93,
     LINUXCNC_G93,
 ];

@@ -100,6 +100,61 @@ pub enum ProgramError {
         /// C at its end, deg.
         c_deg: f64,
     },
+    /// C goes beyond the end of its axis.
+    #[error("C of the program is {c_deg:.3} deg at {t:.6} s, and c_limit is {limit_deg} deg")]
+    BeyondC {
+        /// C of the program, deg.
+        c_deg: f64,
+        /// The largest, deg.
+        limit_deg: f64,
+        /// The time, s.
+        t: f64,
+    },
+    /// The controller would have to read too many segments in a second.
+    #[error(
+        "{segments} segments end in the second before {t:.6} s, C = {c_deg:.3} deg, and \
+         segments_per_second is {most}"
+    )]
+    FastSegments {
+        /// How many.
+        segments: u64,
+        /// The most.
+        most: f64,
+        /// The end of that second, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
+    /// A file of the program is larger than the controller's memory.
+    #[error("`{file}` has {size}, and memory is {most}")]
+    Large {
+        /// The file.
+        file: String,
+        /// Its size.
+        size: String,
+        /// The most.
+        most: String,
+    },
+    /// The program would have more parts than controllers can name.
+    #[error("the program would have more than {most} parts")]
+    ManyParts {
+        /// The most.
+        most: u32,
+    },
+    /// No document says how the controller calls a part of a program.
+    #[error("turnpath knows no call of parts for this controller")]
+    NoCalls,
+    /// C does not turn within a segment, on a controller that takes its time from C.
+    #[error(
+        "C stands still in the segment that ends at {t:.6} s, C = {c_deg:.3} deg: this controller \
+         takes the time of a segment from C, and would not know it"
+    )]
+    StillC {
+        /// The time of its end, s.
+        t: f64,
+        /// C there, deg.
+        c_deg: f64,
+    },
     /// The path goes straight from point to point.
     #[error(
         "the path goes straight from point to point, but this program plays cubics: it cannot carry \
@@ -141,6 +196,23 @@ impl ProgramError {
             Self::ManyChords { .. } => {
                 "place points closer together, or give more tolerance of interpolation"
             }
+            Self::BeyondC { .. } if has("c_wrap") => {
+                "write c_wrap = \"0-360\" if the axis has a rollover, or feed faster"
+            }
+            Self::BeyondC { .. } => "feed faster, so that the path has fewer revolutions",
+            Self::FastSegments { .. } => {
+                "turn the spindle slower, or give more tolerance of interpolation, so that segments \
+                 are longer"
+            }
+            Self::Large { .. } if has("split") => {
+                "write a smaller split, so that the program calls parts that fit"
+            }
+            Self::Large { .. } => {
+                "give more tolerance of interpolation, or feed faster, so that the program is shorter"
+            }
+            Self::ManyParts { .. } => "write a larger split",
+            Self::NoCalls => "leave out split",
+            Self::StillC { .. } => "write a larger position_decimals, or choose another post",
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
         }
     }

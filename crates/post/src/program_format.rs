@@ -12,6 +12,21 @@ pub(crate) const APPROACH_MARK: &str = "-- approach --";
 /// The mark before the retreat.
 pub(crate) const RETREAT_MARK: &str = "-- retreat --";
 
+/// The mark before the calls of parts.
+pub(crate) fn parts_mark(parts: u32) -> String {
+    format!("-- {parts} parts --")
+}
+
+/// The mark before the lines of a part.
+pub(crate) fn part_mark(number: u32) -> String {
+    format!("-- part {number} --")
+}
+
+/// The mark behind the lines of a part.
+pub(crate) fn end_of_part_mark(number: u32) -> String {
+    format!("-- end of part {number} --")
+}
+
 /// The mark before the moves of a dry run.
 pub(crate) const DRY_RUN_MARK: &str = "-- dry run --";
 /// The mark after them.
@@ -97,6 +112,8 @@ pub struct ProgramFormat {
     pub z_above: f64,
     /// Chords in place of cubics: the program has no velocities. `None` where it plays cubics.
     pub chords: Option<Chords>,
+    /// The largest C of the program, to both sides, in last digits, where its axis has an end.
+    pub c_limit: Option<i64>,
     /// How far above the highest place of the path X and C move before it, mm.
     pub approach_height: f64,
     /// How fast Z goes down to the path's first point, mm/min.

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 
 use crate::forward_rates::ForwardRates;
+use crate::part_calls::{OpenPart, PartCalls};
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
 use crate::program_format::{APPROACH_MARK, END_MARK, ProgramFormat, RETREAT_MARK, mark};
@@ -45,6 +46,7 @@ pub struct ProgramReader<R = File> {
     rates: Option<ForwardRates>,
     /// The section of the point that the grammar holds back until it has read the line behind it.
     held: Option<Section>,
+    parts: PartCalls<R>,
     read_count: ReadCount,
 }
 
@@ -82,7 +84,16 @@ impl<R: Read> ProgramReader<R> {
             found_points: 0,
             rates: has_rates.then(ForwardRates::default),
             held: None,
+            parts: PartCalls::default(),
             read_count: ReadCount::default(),
+        }
+    }
+
+    /// The same with the parts that the program may call.
+    pub(crate) fn with_parts(self, open: OpenPart<R>) -> Self {
+        Self {
+            parts: PartCalls::new(open),
+            ..self
         }
     }
 
@@ -138,6 +149,17 @@ impl<R: Read> ProgramReader<R> {
         if !text.starts_with("--") {
             return Ok(false);
         }
+        if self.parts.take_mark(&text)? {
+            return Ok(true);
+        }
+        if self.parts.is_outside() {
+            return Ok(false);
+        }
+        let is_before = matches!(self.part, Part::Header | Part::Approach);
+        if is_before && self.parts.begin(&text) {
+            self.part = Part::Path;
+            return Ok(true);
+        }
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
             let is_late = self.part == Part::Retreat;
@@ -171,6 +193,9 @@ impl<R: Read> ProgramReader<R> {
         let Some(said) = text.strip_prefix(END_MARK) else {
             return Ok(false);
         };
+        if self.parts.caller.is_some() {
+            return Err("the path ends within a part: the main program ends it".to_owned());
+        }
         if self.section.is_some() {
             let points = said_points(said);
             self.said_points = Some(points.ok_or("the end mark must give the number of points")?);
@@ -224,6 +249,7 @@ impl<R: Read> ProgramReader<R> {
     fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
             let count = self.found_points;
+            self.parts.finish().map_err(|what| self.wrong(what))?;
             return match said == count {
                 true => self.check_heights(),
                 false => Err(self.wrong(format!(
@@ -232,7 +258,7 @@ impl<R: Read> ProgramReader<R> {
             };
         }
         if !self.read_line(text)? {
-            return Err(self.incomplete());
+            return self.end_file();
         }
         let (code, comment) = self.grammar.split_comment(text);
         if let Some(comment) = comment {
@@ -243,9 +269,54 @@ impl<R: Read> ProgramReader<R> {
                 return Err(self.wrong(what.to_owned()));
             }
         }
+        if self.parts.is_outside() {
+            return Ok(true);
+        }
+        if let Some(name) = self.called_part(code) {
+            self.call(&name)?;
+            return Ok(true);
+        }
         // The lines before the path belong to the header, and those after it to the footer.
         if !matches!(self.part, Part::Header | Part::Footer) {
             self.read_code(code).map_err(|what| self.wrong(what))?;
+        }
+        Ok(true)
+    }
+}
+
+impl<R: Read> ProgramReader<R> {
+    /// The file of the part that a line of the main program calls.
+    fn called_part(&self, code: &[u8]) -> Option<String> {
+        let code = std::str::from_utf8(code).ok();
+        let code = code.filter(|_| self.part == Part::Path && self.parts.may_be_called())?;
+        let own = self.path.file_name().unwrap_or_default();
+        self.post.dialect.called_part(code, &own.to_string_lossy())
+    }
+
+    /// Goes on with the lines of a part.
+    fn call(&mut self, name: &str) -> Result<(), ReadError> {
+        let path = self.path.with_file_name(name);
+        let part = self.parts.open(name);
+        let part = part.map_err(|error| ReadError::File {
+            path: path.clone(),
+            error,
+        })?;
+        let part = BufReader::with_capacity(BUFFER, part);
+        let main = std::mem::replace(&mut self.lines, part);
+        let own = std::mem::replace(&mut self.path, path);
+        self.parts.caller = Some((main, own, self.line));
+        self.line = 0;
+        Ok(())
+    }
+
+    /// Goes back to the main program at the end of a part.
+    fn end_file(&mut self) -> Result<bool, ReadError> {
+        if self.parts.caller.is_none() {
+            return Err(self.incomplete());
+        }
+        self.parts.finish_part().map_err(|what| self.wrong(what))?;
+        if let Some((lines, path, line)) = self.parts.caller.take() {
+            (self.lines, self.path, self.line) = (lines, path, line);
         }
         Ok(true)
     }

@@ -1,11 +1,13 @@
 //! Writes a program: first the path, then the header and the footer around it.
 
 use std::fs::File;
-use std::io::{self, Seek, Write};
+use std::io::{self, BufReader, Read, Seek, Write};
 
 use turnpath_files::{Draft, FileError, Scratch};
 
+use crate::amount::{Amount, TextSize};
 use crate::layout::{Layout, Lines};
+use crate::parts::{Cutter, PartsError};
 use crate::travel::Extent;
 
 /// Writes a program to a file or to memory. The header reports what is known only when the path was
@@ -32,6 +34,8 @@ pub struct ProgramWriter<B = ProgramFileBody> {
     layout: Layout,
     points: u64,
     extent: Option<Extent>,
+    /// The size of the lines so far.
+    size: TextSize,
 }
 
 /// The body of a program that will become a file.
@@ -49,6 +53,11 @@ pub struct ProgramPath {
     draft: Draft,
     /// The approach, which stands behind the header.
     approach: Vec<u8>,
+    /// What stands behind the last line, which is at the end of `lines` too.
+    end: Vec<u8>,
+    layout: Layout,
+    /// The size of the lines without the end.
+    size: TextSize,
     points: u64,
     extent: Option<Extent>,
 }
@@ -58,6 +67,9 @@ pub struct ProgramPath {
 pub struct ProgramPathInMemory {
     text: Vec<u8>,
     approach: Vec<u8>,
+    end: Vec<u8>,
+    layout: Layout,
+    size: TextSize,
     points: u64,
 }
 
@@ -81,7 +93,7 @@ impl ProgramWriter {
     /// # Errors
     /// When it cannot be written.
     pub fn close(self) -> Result<ProgramPath, FileError> {
-        let (points, extent) = (self.points, self.extent);
+        let (points, extent, size) = (self.points, self.extent, self.size);
         let end = self.layout.end(points, extent.as_ref());
         let approach = self.layout.approach(extent.as_ref());
         let ProgramFileBody { mut lines, draft } = self.body;
@@ -91,6 +103,9 @@ impl ProgramWriter {
                 lines,
                 draft,
                 approach,
+                end,
+                layout: self.layout,
+                size,
                 points,
                 extent,
             }),
@@ -126,6 +141,46 @@ impl ProgramPath {
         }
     }
 
+    /// The size of the complete program as one file.
+    pub fn size(&self, header: &str, footer: &str) -> TextSize {
+        let around = [
+            header.as_bytes(),
+            &self.approach,
+            &self.end,
+            footer.as_bytes(),
+        ];
+        let sizes = around.map(TextSize::of).into_iter();
+        sizes.fold(self.size, TextSize::and)
+    }
+
+    /// The complete program as a main program and the parts that it calls, as files that still lack their
+    /// names. `begin` begins the file of a part by its name.
+    ///
+    /// # Errors
+    /// When a file cannot be written, or when there would be too many.
+    pub fn assemble_parts(
+        mut self,
+        [header, footer]: [&str; 2],
+        (program, most): (&str, Amount),
+        begin: &mut dyn FnMut(&str) -> Result<Draft, FileError>,
+    ) -> Result<(Draft, Vec<Draft>), PartsError> {
+        let rewound = self.lines.rewind();
+        rewound.map_err(FileError::of(self.draft.path()))?;
+        let lines = Read::take(&mut self.lines, self.size.bytes);
+        let cutter = Cutter::new(&self.layout, program, most);
+        let (parts, calls) = cutter.cut(&mut BufReader::new(lines), begin)?;
+        let main = [
+            header.as_bytes(),
+            &self.approach,
+            &calls,
+            &self.end,
+            footer.as_bytes(),
+        ];
+        let written = self.draft.write_all(&main.concat());
+        written.map_err(FileError::of(self.draft.path()))?;
+        Ok((self.draft, parts))
+    }
+
     /// The complete program as a file that still lacks its name.
     ///
     /// # Errors
@@ -156,8 +211,11 @@ impl ProgramWriter<Vec<u8>> {
         let end = self.layout.end(self.points, self.extent.as_ref());
         let approach = self.layout.approach(self.extent.as_ref());
         ProgramPathInMemory {
-            text: [self.body, end].concat(),
+            text: [self.body.as_slice(), &end].concat(),
             approach,
+            end,
+            layout: self.layout,
+            size: self.size,
             points: self.points,
         }
     }
@@ -174,6 +232,47 @@ impl ProgramPathInMemory {
         &self.text
     }
 
+    /// The size of the complete program as one file.
+    pub fn size(&self, header: &str, footer: &str) -> TextSize {
+        let around = [
+            header.as_bytes(),
+            &self.approach,
+            &self.end,
+            footer.as_bytes(),
+        ];
+        let sizes = around.map(TextSize::of).into_iter();
+        sizes.fold(self.size, TextSize::and)
+    }
+
+    /// The complete program as a main program and the parts that it calls, with the names of their
+    /// files.
+    ///
+    /// # Errors
+    /// When there would be too many parts.
+    pub fn assemble_parts(
+        self,
+        [header, footer]: [&str; 2],
+        (program, most): (&str, Amount),
+    ) -> Result<Vec<(String, Vec<u8>)>, PartsError> {
+        let mut names = Vec::new();
+        let body = self.text.len().saturating_sub(self.end.len());
+        let mut lines = self.text.get(..body).unwrap_or_default();
+        let cutter = Cutter::new(&self.layout, program, most);
+        let (parts, calls) = cutter.cut(&mut lines, &mut |name| {
+            names.push(name.to_owned());
+            Ok(Vec::new())
+        })?;
+        let main = [
+            header.as_bytes(),
+            &self.approach,
+            &calls,
+            &self.end,
+            footer.as_bytes(),
+        ];
+        let files = [(program.to_owned(), main.concat())].into_iter();
+        Ok(files.chain(names.into_iter().zip(parts)).collect())
+    }
+
     /// The complete program.
     pub fn assemble(self, header: &str, footer: &str) -> Vec<u8> {
         let Self { text, approach, .. } = self;
@@ -188,6 +287,7 @@ impl<B: Write> ProgramWriter<B> {
     /// When they cannot be written.
     pub fn append(&mut self, lines: &Lines) -> io::Result<()> {
         self.points += lines.points as u64;
+        self.size = self.size.and(TextSize::of(&lines.text));
         self.extent = match (self.extent, lines.extent) {
             (Some(before), Some(next)) => Some(before.and(next)),
             (before, next) => before.or(next),
@@ -203,6 +303,7 @@ impl<B> ProgramWriter<B> {
             layout,
             points: 0,
             extent: None,
+            size: TextSize::default(),
         }
     }
 }

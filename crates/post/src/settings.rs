@@ -1,8 +1,8 @@
 //! The settings of posts: keys that dialects may have in their tables, and the format that they give.
 
-use turnpath_core::kind::{Choice, Count, Number, Text, Time, Velocity};
+use turnpath_core::kind::{Angle, Choice, Count, Number, Text, Time, Velocity};
 use turnpath_core::toolpath::SegmentShape;
-use turnpath_core::{Param, ParamDefault, Params};
+use turnpath_core::{DEG, Param, ParamDefault, Params};
 
 use crate::post::Post;
 use crate::program_format::{Chords, FeedMeaning, ProgramFormat, Slowest};
@@ -123,6 +123,34 @@ pub(crate) const SHORTEST_SEGMENT: Param<Option<Time>> = Param::time(
 .positive()
 .example("0.5 ms")
 .optional();
+/// The most segments that the controller reads in a second.
+pub const SEGMENTS_PER_SECOND: Param<Option<Number>> = Param::number(
+    "segments_per_second",
+    "the most segments that your controller reads in a second; left out: any number",
+)
+.positive()
+.example("2000")
+.optional();
+/// The most that the controller holds of one file.
+pub const MEMORY: Param<Option<Text>> = Param::text(
+    "memory",
+    "the largest file that your controller takes, \"100 MB\" or \"200000 blocks\"; left out: any size",
+)
+.optional();
+/// The size of the parts of a long program.
+pub const SPLIT: Param<Option<Text>> = Param::text(
+    "split",
+    "the size of the parts that a longer program calls, \"100 MB\" or \"200000 blocks\"; left out: \
+     one file",
+)
+.optional();
+pub(crate) const C_LIMIT: Param<Option<Angle>> = Param::angle(
+    "c_limit",
+    "how far C of your machine may be from zero, to both sides; left out: any angle",
+)
+.positive()
+.example("360000 deg")
+.optional();
 /// The template of the header.
 pub const HEADER: Param<Option<Text>> = Param::text(
     "header",
@@ -171,6 +199,10 @@ impl Post {
             incremental: settings.find(POSITIONING) == Some(INCREMENTAL),
             mantissa_bits: self.mantissa_bits,
             z_above,
+            c_limit: settings
+                .find(C_LIMIT)
+                .flatten()
+                .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)
@@ -183,7 +215,7 @@ impl Post {
         let part = settings.find(CHORD_SHARE).or_else(own).unwrap_or(0.0);
         let share = part * tolerance;
         let one = 10u64.pow(decimals) as f64;
-        let seconds = settings.find(FEED_MEANING) == Some(SECONDS);
+        let seconds = settings.find(FEED_MEANING).map(|means| means == SECONDS);
         let lowest = self.default_number(LOWEST_RATE.name());
         let rate = lowest.map(|own| settings.find(LOWEST_RATE).unwrap_or(own));
         let slowest = rate.map(|rate| self.slowest(rate * MINUTE, decimals));
@@ -193,8 +225,9 @@ impl Post {
             share: part,
             deviation: (CHORD_AIM * share - rounded_to).max(LEAST_CHORD_AIM * share),
             feed: match seconds {
-                true => FeedMeaning::Seconds,
-                false => FeedMeaning::PerMinute,
+                Some(true) => FeedMeaning::Seconds,
+                Some(false) => FeedMeaning::PerMinute,
+                None => self.feed,
             },
             shortest: self.shortest(settings),
             slowest,

@@ -30,9 +30,10 @@ pub(crate) fn key_value(param: &ParamInfo, node: &Node) -> Result<KeyValue, Diag
             ParamValue::Text(value::word(key, node, words)?.to_owned())
         }
         ParamKind::List(words) => ParamValue::List(list(key, node, words)?),
-        ParamKind::Rows(columns) => ParamValue::Rows(rows(key, node, columns)?),
+        ParamKind::Rows(columns) => ParamValue::Rows(some(param, node, rows(key, node, columns)?)?),
         ParamKind::Coefficients(indices, quantity) => {
-            ParamValue::Rows(coefficients::read(param, node, indices, quantity)?)
+            let read = coefficients::read(param, node, indices, quantity)?;
+            ParamValue::Rows(some(param, node, read)?)
         }
         ParamKind::Constants => ParamValue::Constants(constants::read(param, node)?),
         ParamKind::Quantity(_) | ParamKind::ChoiceOr(..) | ParamKind::Number | ParamKind::Count => {
@@ -106,6 +107,23 @@ fn rows(key: &str, node: &Node, columns: usize) -> Result<Vec<Vec<f64>>, Diagnos
         .iter()
         .map(|item| row(key, item, columns))
         .collect()
+}
+
+/// Rows as they are. A key without any says nothing, and is refused: without the key it is said.
+fn some(param: &ParamInfo, node: &Node, rows: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, Diagnostic> {
+    if !rows.is_empty() {
+        return Ok(rows);
+    }
+    let (key, for_example) = (param.name, example(param));
+    let left_out = match param.default {
+        ParamDefault::Absent => format!("leave `{key}` out, or give some"),
+        _ => "give some".to_owned(),
+    };
+    Err(
+        Diagnostic::new(node.span.clone(), format!("`{key}` is empty"))
+            .with_label("at least one belongs here")
+            .with_help(format!("{left_out}; for example: {key} = {for_example}")),
+    )
 }
 
 fn row(key: &str, node: &Node, columns: usize) -> Result<Vec<f64>, Diagnostic> {

@@ -70,8 +70,14 @@ pub struct Estimate {
 pub struct ProgramEstimate {
     /// The file's name.
     pub file: String,
-    /// Its size.
+    /// Its size, with all of its parts.
     pub bytes: u64,
+    /// Its blocks: lines of text.
+    #[serde(default)]
+    pub blocks: u64,
+    /// The parts that it calls; `None` if it is one file.
+    #[serde(default)]
+    pub parts: Option<u64>,
 }
 
 impl CheckReport {

@@ -78,7 +78,7 @@ pub enum Remark {
         /// The most by which C is moved there, rad.
         #[serde(rename = "c_rounding_deg", with = "unit::deg")]
         c_rounding: f64,
-        /// The most by which this moves the tool along the rim, mm.
+        /// The most by which this moves the tool along z against the surface, mm.
         #[serde(rename = "rounding_nm", with = "unit::nm")]
         rounding: f64,
         /// The interpolation tolerance, mm.
@@ -172,6 +172,8 @@ pub struct RemarkSubject {
     pub segment_time: f64,
     /// The largest acceleration of Z, mm/s², where it is known and the machine has no limit for it.
     pub free_z_acceleration: Option<f64>,
+    /// The steepest slope of the surface along the cut, mm per mm; zero on a part that turns on its axis.
+    pub slope_along_cut: f64,
     /// The decimals of each program.
     pub digits: Vec<ProgramDigits>,
 }
@@ -220,9 +222,11 @@ impl RemarkSubject {
         })
     }
 
+    /// A tool at a wrong C is at another place of the part, which is as much higher as the surface rises
+    /// on the way to it. No place is farther from the axis than the rim, and none is steeper.
     fn coarse_numbers(&self, digits: &ProgramDigits) -> Option<Remark> {
         let (c, c_rounding) = digits.held_c?;
-        let rounding = 0.5 * self.aperture * c_rounding;
+        let rounding = 0.5 * self.aperture * c_rounding * self.slope_along_cut;
         let tolerance = self.interpolation;
         (rounding > LARGEST_ROUNDING * tolerance).then(|| Remark::CoarseNumbers {
             post: digits.post.to_owned(),
@@ -276,6 +280,7 @@ mod tests {
         cutting_time: 600.0,
         segment_time: 0.01,
         free_z_acceleration: Some(1000.0),
+        slope_along_cut: 1.0,
         digits: Vec::new(),
     };
     const DIGITS: ProgramDigits = ProgramDigits {
@@ -409,6 +414,32 @@ mod tests {
             })
             .collect();
         assert_eq!(said, ["one", "one", "two", "held", "held"]);
+    }
+
+    /// The same C on a flat part moves nothing, and on a slope of a tenth a tenth.
+    #[test]
+    fn a_remark_on_c_follows_the_slope_along_the_cut() {
+        let rounding = |slope_along_cut| {
+            let held = ProgramDigits {
+                held_c: Some((6e4, 1e-5)),
+                ..DIGITS
+            };
+            let subject = RemarkSubject {
+                slope_along_cut,
+                digits: vec![held],
+                ..USUAL
+            };
+            match subject.remarks().as_slice() {
+                [] => None,
+                [Remark::CoarseNumbers { rounding, .. }] => Some(*rounding),
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(rounding(0.0), None);
+        // A fiftieth of the tolerance is 2e-6 mm.
+        assert_eq!(rounding(0.079), None);
+        let tenth = rounding(0.1).unwrap();
+        assert!((tenth - 2.5e-6).abs() < 1e-15, "{tenth}");
     }
 
     /// The path of a form may be made for a larger residual than the form, where the recipe's own feed

@@ -33,9 +33,12 @@ impl Job {
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
         let part = self.preparation.task.part;
         let size = |program: &Program| -> Result<report::ProgramEstimate, NotCarried> {
+            let sampled = program.sampled_size(&sample)?;
             Ok(report::ProgramEstimate {
                 file: program.file.clone(),
-                bytes: program.sampled_bytes(&sample)? as u64,
+                bytes: sampled.size.bytes,
+                blocks: sampled.size.blocks,
+                parts: sampled.parts,
             })
         };
         let programs: Result<Vec<_>, _> = self.programs.iter().map(size).collect();

@@ -11,7 +11,8 @@ use crate::remarks::{PathSubject, remarks};
 impl Job {
     /// All remarks on the recipe and its path.
     pub(crate) fn remarks(&self, path: &PathSubject) -> Result<Vec<Remark>, Error> {
-        let mut all = remarks(&self.recipe, path);
+        let cut_angle = self.preparation.interference.cut_angle().value;
+        let mut all = remarks(&self.recipe, path, cut_angle);
         all.extend(self.data_remarks()?);
         Ok(all)
     }

@@ -134,6 +134,12 @@ pub enum Error {
     /// A run of an ablation ended without a result.
     #[error("a run ended unexpectedly")]
     RunLost,
+    /// The ablation has no run of this key.
+    #[error("the ablation has no run with the key `{key}`")]
+    NoRunOfKey {
+        /// The key.
+        key: String,
+    },
     /// The observer cancelled the work.
     #[error("the run was cancelled")]
     Cancelled,
@@ -161,7 +167,8 @@ impl Error {
             | Self::NoProgram
             | Self::Plot(_)
             | Self::Page(PageError::NoRecipe | PageError::OtherRecipe { .. })
-            | Self::Exists { .. } => Fault::Request,
+            | Self::Exists { .. }
+            | Self::NoRunOfKey { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
             Self::Load(error) => fault_of_load(error),
             Self::ListedPlugin { source, .. } => fault_of_load(source),
@@ -225,6 +232,10 @@ impl Error {
             Self::Folder(error) => error.help(),
             Self::Page(PageError::NoRecipe) => Some("`--recipe FILE` gives it"),
             Self::Exists { .. } => Some("`--force` replaces it"),
+            Self::NoRunOfKey { .. } => Some(
+                "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \
+                 and its plugins",
+            ),
             _ => None,
         }
     }

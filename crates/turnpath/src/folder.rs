@@ -1,24 +1,27 @@
 //! The files of a run: begun with its first control points, and named together when all is done.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use turnpath_core::toolpath::SectionBlock;
+use turnpath_core::toolpath::{Section, SectionBlock};
 use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
 use turnpath_page::is_page;
 use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
 use turnpath_post::{
-    ColumnFormat, Columns, Lines, PathReader, PathWriter, ProgramWriter, WriteColumns,
+    ColumnFormat, Columns, Lines, PathReader, PathWriter, ProgramPath, ProgramWriter, WriteColumns,
 };
 use turnpath_recipe::DataFormat;
 use turnpath_report::{ProgramReport, ResultFile};
 
+use crate::diagnosis::not_carried;
 use crate::error::Error;
 use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
-use crate::program::{Program, ProgramText};
+use crate::program::{Frame, Program, ProgramText};
+use crate::program_room::ProgramRoom;
 
 use crate::sinks::SinkError;
 use crate::sizes::{bytes_while_assembled, check_room, column_bytes, toolpath_bytes};
@@ -68,10 +71,15 @@ impl Job {
     /// The name of the table of its path.
     fn toolpath_file(&self) -> String {
         match self.recipe.rough_name() {
-            Some(rough) => format!("toolpath-{rough}.csv"),
+            Some(rough) => rough_toolpath(rough),
             None => TOOLPATH.to_owned(),
         }
     }
+}
+
+/// The name of the table of a rough path.
+pub fn rough_toolpath(rough: &str) -> String {
+    format!("toolpath-{rough}.csv")
 }
 
 /// The files of a path, in the making. A path that fails leaves none of them.
@@ -87,6 +95,8 @@ pub struct FolderSink<'a> {
     /// The outer end of the range of ρ, mm.
     radius: f64,
     rows: u64,
+    /// What the programs take.
+    room: ProgramRoom,
 }
 
 /// The files that the first control points begin.
@@ -112,6 +122,8 @@ pub struct FileBlock {
     rows: Option<Vec<u8>>,
     columns: Option<Columns>,
     lines: Vec<Lines>,
+    /// Whether it is of the cut.
+    is_cut: bool,
 }
 
 impl<'a> FolderSink<'a> {
@@ -126,6 +138,7 @@ impl<'a> FolderSink<'a> {
             radius: job.preparation.task.range.outer,
             files: None,
             rows: 0,
+            room: ProgramRoom::default(),
         }
     }
 
@@ -190,12 +203,11 @@ impl<'a> FolderSink<'a> {
                 draft.write_all(&text).map_err(FileError::of(&file))?;
                 files.drafts.push(draft);
             }
-            let mut draft = path.assemble(&frame.header, &frame.footer)?;
-            let whole = program.layout.open(draft.readable()?);
-            let mut whole = whole.map_err(|error| error.named(&name))?.named(&name);
-            program.read_whole(&mut whole, &name, points)?;
+            let assembled = assemble((job, program), path, &frame, self.folder)?;
+            files
+                .drafts
+                .extend(whole_program(program, assembled, &name, points)?);
             reports.push(report);
-            files.drafts.push(draft);
         }
         Ok(reports)
     }
@@ -244,6 +256,62 @@ impl<'a> FolderSink<'a> {
         let drafts = drafts.into_iter().chain(toolpath.map(PathWriter::whole));
         drafts.map(Draft::finish).collect()
     }
+}
+
+/// The files of a whole program, in the making: its own, and its parts with their names.
+struct AssembledProgram {
+    main: Draft,
+    parts: Vec<(String, Draft)>,
+}
+
+/// Puts a program together, in one file or with its parts.
+fn assemble(
+    (job, program): (&Job, &Program),
+    path: ProgramPath,
+    frame: &Frame,
+    folder: &ResultFolder,
+) -> Result<AssembledProgram, Error> {
+    let size = path.size(&frame.header, &frame.footer);
+    let fits = program.refuse_large(size);
+    fits.map_err(|error| not_carried(&job.recipe, error))?;
+    let Some(most) = program.split_of(size) else {
+        let main = path.assemble(&frame.header, &frame.footer)?;
+        return Ok(AssembledProgram {
+            main,
+            parts: Vec::new(),
+        });
+    };
+    let mut names = Vec::new();
+    let around = [frame.header.as_str(), &frame.footer];
+    let assembled = path.assemble_parts(around, (&program.file, most), &mut |name| {
+        names.push(name.to_owned());
+        folder.draft(&folder.path().join(name))
+    });
+    let divided = assembled.map_err(|error| program.not_divided(&job.recipe, error));
+    let (main, parts) = divided?;
+    let parts = names.into_iter().zip(parts).collect();
+    Ok(AssembledProgram { main, parts })
+}
+
+/// Reads a program to its end, with its parts; gives its files.
+fn whole_program(
+    program: &Program,
+    assembled: AssembledProgram,
+    name: &Path,
+    points: u64,
+) -> Result<Vec<Draft>, Error> {
+    let AssembledProgram { mut main, parts } = assembled;
+    let (mut drafts, mut places) = (Vec::new(), BTreeMap::new());
+    for (name, mut draft) in parts {
+        places.insert(name, draft.readable()?.to_owned());
+        drafts.push(draft);
+    }
+    let place = move |name: &str| places.get(name).cloned().unwrap_or_else(|| name.into());
+    let whole = program.layout.open_with(main.readable()?, Box::new(place));
+    let mut whole = whole.map_err(|error| error.named(name))?.named(name);
+    program.read_whole(&mut whole, name, points)?;
+    drafts.insert(0, main);
+    Ok(drafts)
 }
 
 impl WholeResult {
@@ -339,6 +407,7 @@ impl Sink for FolderSink<'_> {
         };
         let columns = column_bytes(expected) * self.column_files.len() as f64;
         check_room(self.folder.path(), toolpath + columns + programs)?;
+        self.room = ProgramRoom::new(expected, self.programs.len());
         Ok(())
     }
 
@@ -355,6 +424,7 @@ impl Sink for FolderSink<'_> {
         Ok(FileBlock {
             rows,
             columns: has_columns.then(|| Columns::of(block.section, block.points)),
+            is_cut: block.section == Section::Cutting,
             lines: lines.collect::<Result<_, _>>()?,
         })
     }
@@ -364,6 +434,12 @@ impl Sink for FolderSink<'_> {
             self.files = Some(self.begin()?);
         }
         self.rows += points as u64;
+        if block.is_cut {
+            let bytes = block.lines.iter().map(|lines| lines.text.len());
+            if let Some(needed) = self.room.pass(points, bytes) {
+                check_room(self.folder.path(), needed)?;
+            }
+        }
         let Some(files) = &mut self.files else {
             return Ok(());
         };

@@ -44,6 +44,7 @@ mod plugins;
 mod plugins_lock;
 mod posts;
 mod program;
+mod program_room;
 mod recipe_file;
 mod recipe_schema;
 mod region;
@@ -52,6 +53,7 @@ mod result_check;
 mod rough_paths;
 mod run;
 mod sag;
+mod segment_rate;
 mod sinks;
 mod sizes;
 mod speed_steps;
@@ -61,7 +63,10 @@ mod surface;
 mod toolpath;
 mod verify;
 
-pub use ablation::{AblationObserver, AblationOptions, AblationResult, ablate};
+pub use ablation::{
+    AblationObserver, AblationOptions, AblationPlan, AblationResult, FIGURES, RunPlan, RunState,
+    ablate, merge_ablation, plan_ablation, run_of_ablation,
+};
 pub use commands::{commands_to_trust, controller_commands};
 pub use data_files::DataFileError;
 pub use error::{Error, Fault};

@@ -2,20 +2,25 @@
 
 use std::path::Path;
 
-use turnpath_core::toolpath::{SectionBlock, SegmentShape};
+use turnpath_core::Params;
+use turnpath_core::toolpath::{PathBlock, Section, SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
-use turnpath_post::{FeedMeaning, Layout, Lines, PLACEHOLDERS, Post, ReadPath, Template};
+use turnpath_post::{
+    Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartsError, Post, ProgramError,
+    ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize,
+};
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
 use turnpath_report::{ProgramFigures, ProgramReport, Tolerances};
 use turnpath_verify::FirstTouch;
 
-use crate::diagnosis::of_measure;
+use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
 use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, PathMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
+use crate::segment_rate::{CountedSegments, SegmentRate};
 use crate::sizes::sampled_bytes;
 use crate::speed_steps::SpeedSteps;
 
@@ -26,6 +31,12 @@ pub struct Program {
     pub layout: Layout,
     /// Its file's name.
     pub file: String,
+    /// The largest part of the path in one file; `None` for one file whatever its size.
+    split: Option<Amount>,
+    /// The largest file that the controller takes.
+    memory: Option<Amount>,
+    /// The most segments that the controller reads in a second.
+    segments_per_second: Option<f64>,
     header: Template,
     footer: Template,
 }
@@ -60,11 +71,20 @@ impl Program {
         let settings = recipe.settings_of(post.name);
         let header = settings.and_then(|settings| settings.header.as_ref());
         let footer = settings.and_then(|settings| settings.footer.as_ref());
+        let none = Params::new();
+        let params = settings.map_or(&none, |settings| &settings.params);
+        let split = amount(recipe, post, params.find(SPLIT).flatten())?;
         let other = settings.and_then(|settings| post.dialect.other_header(&settings.params));
+        if let (Some(_), Some((key, _))) = (split, other) {
+            return Err(without_calls(recipe, post, key));
+        }
         let own_header = other.map_or(post.header, |(_, text)| text);
         Ok(Self {
             layout: layout(recipe, post, compensates_nose),
             file: format!("{}.{}", recipe.stem(), post.extension),
+            split,
+            memory: amount(recipe, post, params.find(MEMORY).flatten())?,
+            segments_per_second: params.find(SEGMENTS_PER_SECOND).flatten(),
             header: template(recipe, header, own_header, post.comment)?,
             footer: template(recipe, footer, post.footer, post.comment)?,
         })
@@ -85,13 +105,28 @@ impl Program {
         })
     }
 
-    /// Bytes that the program will take, from a sample of its path: within some percent.
-    pub fn sampled_bytes(&self, sample: &PathSample) -> Result<f64, NotCarried> {
-        let lines = sampled_bytes(sample, |block| {
-            self.lines(block).map(|lines| lines.text.len())
-        })?;
+    /// What the program will take, from a sample of its path: within some percent. What the controller
+    /// does not take is refused as a run refuses it.
+    pub fn sampled_size(&self, sample: &PathSample) -> Result<SampledSize, NotCarried> {
+        let of_lines = |what: fn(TextSize) -> u64| {
+            sampled_bytes(sample, |block| {
+                self.lines(block)
+                    .map(|lines| what(TextSize::of(&lines.text)) as usize)
+            })
+        };
         let frame = self.header.len() + self.footer.len();
-        Ok(lines + frame as f64)
+        let size = TextSize {
+            bytes: of_lines(|size| size.bytes)? as u64 + frame as u64,
+            blocks: of_lines(|size| size.blocks)? as u64,
+        };
+        for block in &sample.blocks {
+            let rate = self.sampled_rate(&block.points)?;
+            self.carried(rate.within(self.segments_per_second))?;
+        }
+        let split = self.split.filter(|most| !most.holds(size));
+        let parts = split.map(|most| most.parts_of(size));
+        self.refuse_large(size)?;
+        Ok(SampledSize { size, parts })
     }
 
     /// A rough estimate of the bytes that the program will take, to see whether a disk has room.
@@ -99,6 +134,70 @@ impl Program {
         let c = std::f64::consts::TAU * expected.revolutions;
         let (time, points) = (expected.cutting_time, expected.control_points);
         self.layout.expected_bytes(radius, time, c, points)
+    }
+
+    /// How many segments of a sampled block the controller has to read in a second.
+    fn sampled_rate(&self, points: &PathBlock) -> Result<SegmentRate, NotCarried> {
+        let stretch = SectionBlock {
+            section: Section::Cutting,
+            opens_section: false,
+            before: &[],
+            points,
+        };
+        let mut rate = SegmentRate::default();
+        let carried = self.carried(self.layout.carried(&stretch))?;
+        carried.points.points().for_each(|point| rate.pass(&point));
+        Ok(rate)
+    }
+
+    /// A program that could not be divided into parts.
+    pub fn not_divided(&self, recipe: &Recipe, error: PartsError) -> Error {
+        let post = self.layout.post.name;
+        match error {
+            PartsError::File(error) => error.into(),
+            PartsError::Program(error) => not_carried(recipe, NotCarried { post, error }),
+        }
+    }
+
+    fn carried<T>(&self, result: Result<T, ProgramError>) -> Result<T, NotCarried> {
+        result.map_err(|error| NotCarried {
+            post: self.layout.post.name,
+            error,
+        })
+    }
+
+    /// Refuses a program of this size whose largest file is larger than the controller's memory.
+    pub fn refuse_large(&self, size: TextSize) -> Result<(), NotCarried> {
+        let size = self.largest_file(size);
+        match self.memory.filter(|most| !most.holds(size)) {
+            None => Ok(()),
+            Some(most) => self.carried(Err(ProgramError::Large {
+                file: self.file.clone(),
+                size: most.said(size),
+                most: most.to_string(),
+            })),
+        }
+    }
+
+    /// The size of the largest file of a program of this size: of one part, where it has parts.
+    fn largest_file(&self, size: TextSize) -> TextSize {
+        let part = |own: u64, most: u64, other: u64| own.div_ceil(other.div_ceil(most).max(1));
+        match self.split_of(size) {
+            None => size,
+            Some(Amount::Bytes(bytes)) => TextSize {
+                bytes,
+                blocks: part(size.blocks, bytes, size.bytes),
+            },
+            Some(Amount::Blocks(blocks)) => TextSize {
+                blocks,
+                bytes: part(size.bytes, blocks, size.blocks),
+            },
+        }
+    }
+
+    /// The size of the parts that a program of this size calls; `None` if it is one file.
+    pub fn split_of(&self, size: TextSize) -> Option<Amount> {
+        self.split.filter(|most| !most.holds(size))
     }
 
     /// Header and footer with the figures of a path and those of its program.
@@ -191,7 +290,8 @@ impl Program {
         } = text;
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = PathMeters::new(recipe, touch);
-        let mut reader = SpeedSteps::new(reader);
+        let mut counted = CountedSegments::new(reader);
+        let mut reader = SpeedSteps::new(&mut counted);
         let shape = self.layout.format.shape();
         let measured = measure(recipe, meters, shape, &mut reader, observer)?;
         let found = reader.read_count().points();
@@ -202,6 +302,9 @@ impl Program {
                 expected: points,
             });
         }
+        let speed_step = reader.largest();
+        let rate = self.carried(counted.rate.within(self.segments_per_second));
+        rate.map_err(|error| not_carried(recipe, error))?;
         let failed = |error| of_measure(recipe, error);
         let figures = measured.cut.figures().map_err(failed)?;
         let form = measured.cut.form().map_err(failed)?;
@@ -209,7 +312,7 @@ impl Program {
         let figures = ProgramFigures {
             interpolation_error: figures.playback.max(),
             path_error,
-            c_speed_step: self.layout.post.c_is_even.then(|| reader.largest()),
+            c_speed_step: self.layout.post.c_is_even.then_some(speed_step),
             form_error: form_error(form.as_ref(), lead_clearance),
             lead_clearance,
             lines: (self.layout.format.shape() == SegmentShape::Linear)
@@ -255,6 +358,37 @@ fn verified_value(
         "verified" => verified_figures(report, tolerances),
         _ => return None,
     })
+}
+
+/// What a program will take.
+#[derive(Debug, Clone, Copy)]
+pub struct SampledSize {
+    /// All of its text.
+    pub size: TextSize,
+    /// The parts that it calls; `None` for one file.
+    pub parts: Option<u64>,
+}
+
+/// An amount that a recipe gives as a text.
+fn amount(recipe: &Recipe, post: &Post, text: Option<&str>) -> Result<Option<Amount>, Error> {
+    let read = |text: &str| {
+        text.parse::<Amount>().map_err(|error| {
+            let span = recipe.nearest_span(post.table);
+            let help = "write \"100 MB\" (B, kB, MB, GB) or \"200000 blocks\"".to_owned();
+            let diagnostic = recipe.diagnostic(span, error.to_string(), "in this table", [help]);
+            Error::refused_by(diagnostic, error)
+        })
+    };
+    text.map(read).transpose()
+}
+
+/// A program that takes no calls, by a key of its table.
+fn without_calls(recipe: &Recipe, post: &Post, key: &str) -> Error {
+    let span = recipe.nearest_span(post.table);
+    let title = format!("`split` makes a program that calls its parts, and `{key}` takes no calls");
+    let help = "leave out one of them: a buffer that is filled while it empties needs no parts";
+    let diagnostic = recipe.diagnostic(span, title, "in this table", [help.to_owned()]);
+    Error::refused_by(diagnostic, ProgramError::NoCalls)
 }
 
 /// A template of the recipe, or the post's own.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Axis, DEG, Derivative, Tolerance};
+use turnpath_core::{Axis, DEG, Derivative, Scalar, Tolerance};
 use turnpath_post::Layout;
 use turnpath_recipe::Recipe;
 use turnpath_report::{ProgramDigits, Remark, RemarkSubject};
@@ -23,8 +23,9 @@ pub struct PathSubject {
     pub z_acceleration: Option<f64>,
 }
 
-/// The remarks on a recipe and its path.
-pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
+/// The remarks on a recipe and its path. `cut_angle` is the steepest angle of the surface along the cut
+/// to the horizontal, rad; below 0 where it rises nowhere.
+pub fn remarks(recipe: &Recipe, path: &PathSubject, cut_angle: f64) -> Vec<Remark> {
     let limited = recipe
         .machine
         .limits()
@@ -39,6 +40,7 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject) -> Vec<Remark> {
         cutting_time: path.cutting_time,
         segment_time: path.cutting_time / path.control_points.max(1.0),
         free_z_acceleration: path.z_acceleration.filter(|_| !limited),
+        slope_along_cut: Scalar::tan(cut_angle.max(0.0)),
         digits: layouts.map(|layout| digits(&layout, path)).collect(),
     };
     subject.remarks()

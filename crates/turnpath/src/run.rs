@@ -11,7 +11,7 @@ use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::{PathSketch, unreached};
 
 use crate::commands::controller_commands;
-use crate::diagnosis::of_measure;
+use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
 use crate::folder::{FolderSink, WholeResult, open_folder};
@@ -135,12 +135,23 @@ impl Job {
             let touch = self.preparation.touch.clone();
             let path_error = outcome.figures.playback.max();
             let report = program.measure(text, (&self.recipe, touch), path_error, observer)?;
+            drop(reader);
             let frame = program.frame(&self.recipe, &outcome, points, &report);
-            let text = path.assemble(&frame.header, &frame.footer);
-            let mut whole = program.layout.read(Cursor::new(&text), name);
+            let size = path.size(&frame.header, &frame.footer);
+            let failed = |error| not_carried(&self.recipe, error);
+            program.refuse_large(size).map_err(failed)?;
+            let around = [frame.header.as_str(), &frame.footer];
+            let files = match program.split_of(size) {
+                None => vec![(program.file.clone(), path.assemble(around[0], around[1]))],
+                Some(most) => {
+                    let files = path.assemble_parts(around, (&program.file, most));
+                    files.map_err(|error| program.not_divided(&self.recipe, error))?
+                }
+            };
+            let mut whole = program.layout.read_files(files.clone());
             program.read_whole(&mut whole, name, points)?;
             reports.push(report);
-            programs.push((program.file.clone(), text));
+            programs.extend(files);
         }
         Ok(RunResult {
             toolpath: Some(sink.toolpath),

@@ -86,6 +86,7 @@ fn formula(text: &str, constants: &[NamedConstant]) -> std::result::Result<Formu
 }
 
 impl Surface for Formula {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         self.tape.run(x, y)
     }

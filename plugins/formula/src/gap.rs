@@ -44,7 +44,7 @@ impl Source {
     /// Whether a subexpression has a value and slopes. `None` if it needs too many registers.
     fn is_smooth(&self, id: Id, x: f64, y: f64) -> Option<bool> {
         let tape = Tape::new(&self.graph, id)?;
-        let value = tape.run(Dual::variable_x(x), Dual::variable_y(y));
+        let value = tape.at(Dual::variable_x(x), Dual::variable_y(y));
         let all = [value.value, value.dx, value.dy];
         Some(all.iter().all(|number| number.is_finite()))
     }
@@ -57,7 +57,7 @@ impl Source {
     }
 
     fn value(&self, id: Id, x: f64, y: f64) -> f64 {
-        Tape::new(&self.graph, id).map_or(f64::NAN, |tape| tape.run(x, y))
+        Tape::new(&self.graph, id).map_or(f64::NAN, |tape| tape.at(x, y))
     }
 
     /// What happens in a subexpression whose own parts are all right.

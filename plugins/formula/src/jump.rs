@@ -66,7 +66,7 @@ pub fn jump(graph: &Graph, tape: &Tape) -> Option<Jump> {
     }
     RAYS.iter().find_map(|ray| {
         radii().find_map(|radius| {
-            let height = |[x, y]: [f64; 2]| tape.run(radius * x, radius * y);
+            let height = |[x, y]: [f64; 2]| tape.at(radius * x, radius * y);
             let [one, other] = ray.sides.map(height);
             let jump = (one - other).abs();
             // Nothing is known where one side has no height.
@@ -92,7 +92,7 @@ fn radii() -> impl Iterator<Item = f64> {
 fn size(tape: &Tape, radius: f64) -> f64 {
     let heights = (0..16).map(|k| {
         let (sin, cos) = Scalar::sin_cos(f64::from(k) + 0.5);
-        tape.run(radius * cos, radius * sin)
+        tape.at(radius * cos, radius * sin)
     });
     heights
         .map(f64::abs)

@@ -15,10 +15,18 @@ const AXIS: f64 = 1e-50;
 
 impl Tape {
     /// The height at (x, y).
+    pub fn at<S: Scalar>(&self, x: S, y: S) -> S {
+        self.run(x, y)
+    }
+
+    /// The same within the loop over a batch: there x and y are put into their registers at once, and
+    /// the registers get their room once a batch.
+    #[inline(always)]
     pub fn run<S: Scalar>(&self, x: S, y: S) -> S {
         // Fewer registers are set faster, which counts for series.
         match self.registers {
-            0..=4 => self.on::<S, 4>(x, y),
+            0..=2 => self.on::<S, 2>(x, y),
+            3..=4 => self.on::<S, 4>(x, y),
             5..=8 => self.on::<S, 8>(x, y),
             9..=16 => self.on::<S, 16>(x, y),
             17..=32 => self.on::<S, 32>(x, y),
@@ -52,11 +60,17 @@ fn apply<S: Scalar, const N: usize>(step: &Step, r: &mut [S; N]) {
         Operation::Square => r[out] = r[a].squared(),
         Operation::PlusNumber(number) => r[out] = r[a] + number,
         Operation::TimesNumber(number) => r[out] = r[a] * number,
-        Operation::Line(factor, number) => r[out] = r[a] * factor + number,
+        Operation::Line(line) => r[out] = line.at(r[a]),
+        Operation::SumOfMultiples(first, second) => r[out] = r[a] * first + r[b] * second,
+        Operation::ProductOfLines(first, second) => r[out] = first.at(r[a]) * second.at(r[b]),
+        Operation::QuotientOfLines(first, second) => r[out] = first.at(r[a]) / second.at(r[b]),
         Operation::SquareOfRho => r[out] = r[x].squared() + r[y].squared(),
         Operation::One(Function::Sqrt) => r[out] = r[a].sqrt(),
         Operation::One(Function::Cos) => r[out] = r[a].cos(),
         Operation::One(Function::Sin) => r[out] = r[a].sin(),
+        Operation::OneOfLine(Function::Sqrt, line) => r[out] = line.at(r[a]).sqrt(),
+        Operation::OneOfLine(Function::Cos, line) => r[out] = line.at(r[a]).cos(),
+        Operation::OneOfLine(Function::Sin, line) => r[out] = line.at(r[a]).sin(),
         Operation::Negative => r[out] = -r[a],
         Operation::Power(exponent) => r[out] = power(r[a], exponent),
         Operation::RealPower(exponent) => r[out] = r[a].powf(exponent),
@@ -66,6 +80,7 @@ fn apply<S: Scalar, const N: usize>(step: &Step, r: &mut [S; N]) {
         Operation::RealPowerOfRho(exponent) => r[out] = power_of_rho(r[x], r[y], exponent),
         Operation::Theta => r[out] = theta(r[x], r[y]),
         Operation::One(function) => r[out] = one(function, r[a]),
+        Operation::OneOfLine(function, line) => r[out] = one(function, line.at(r[a])),
         Operation::Two(function) => r[out] = two(function, r[a], r[b]),
     }
 }

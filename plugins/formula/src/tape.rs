@@ -1,15 +1,44 @@
 //! The formula as a list of steps on a few registers.
 
+use turnpath_plugin::prelude::Scalar;
+
 use crate::graph::{Graph, Id, Node};
 use crate::names::{Function, PairFunction, Variable};
 
 /// Most registers. So many values are kept at once only by formulas that nobody writes by hand.
 pub const MOST_REGISTERS: usize = 128;
 
-/// The registers of x and y, which keep them.
+/// The registers in which x and y begin. A step may write them once nothing reads x or y any more.
 pub const X: u8 = 0;
 /// See [`X`].
 pub const Y: u8 = 1;
+
+/// factor·a + number, worked out where a is read: a step of its own would write it and read it
+/// again, which takes longer than the line itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// The factor.
+    pub factor: f64,
+    /// The number. Adding −0 changes no number, not even the sign of 0.
+    pub number: f64,
+}
+
+impl Line {
+    const ITSELF: Self = Self {
+        factor: 1.0,
+        number: -0.0,
+    };
+
+    /// The line at a.
+    #[inline(always)]
+    pub fn at<S: Scalar>(self, a: S) -> S {
+        // The same for every point of a batch, and a product with 1 takes a series five multiplications.
+        match self.factor == 1.0 {
+            true => a + self.number,
+            false => a * self.factor + self.number,
+        }
+    }
+}
 
 /// What a step does with the registers a and b.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,8 +65,16 @@ pub enum Operation {
     PlusNumber(f64),
     /// a·number.
     TimesNumber(f64),
-    /// a·first + second.
-    Line(f64, f64),
+    /// A line in a.
+    Line(Line),
+    /// a·first + b·second.
+    SumOfMultiples(f64, f64),
+    /// A line in a times a line in b.
+    ProductOfLines(Line, Line),
+    /// A line in a over a line in b.
+    QuotientOfLines(Line, Line),
+    /// A function of a line in a.
+    OneOfLine(Function, Line),
     /// number / a.
     NumberOver(f64),
     /// x² + y².
@@ -52,6 +89,16 @@ pub enum Operation {
     One(Function),
     /// A function of a and b.
     Two(PairFunction),
+}
+
+impl Operation {
+    /// Whether it reads x and y from the registers in which they begin.
+    fn reads_place(self) -> bool {
+        matches!(
+            self,
+            Self::SquareOfRho | Self::Rho | Self::RealPowerOfRho(_) | Self::Theta
+        )
+    }
 }
 
 /// One step: what it does, what it reads, and the register that it writes.
@@ -115,14 +162,24 @@ fn last_uses(graph: &Graph, root: Id) -> Vec<Option<Id>> {
     if let Some(own) = last.get_mut(usize::from(root)) {
         *own = Some(root);
     }
+    let mut last_of_place = None;
     for id in (0..=root).rev() {
         if last.get(usize::from(id)).copied().flatten().is_none() {
             continue;
         }
-        for operand in action(graph, id).1.into_iter().flatten() {
+        let (operation, operands) = action(graph, id);
+        if operation.reads_place() {
+            last_of_place.get_or_insert(id);
+        }
+        for operand in operands.into_iter().flatten() {
             if let Some(last) = last.get_mut(usize::from(operand)) {
                 last.get_or_insert(id);
             }
+        }
+    }
+    for (id, (node, last)) in (0..).zip(graph.nodes().iter().zip(&mut last)) {
+        if matches!(node, Node::Variable(Variable::X | Variable::Y)) {
+            *last = (*last).max(last_of_place.filter(|place| *place > id));
         }
     }
     last
@@ -139,24 +196,27 @@ fn action(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
         Node::Variable(Variable::Theta) => none(Operation::Theta),
         // x and y are in their registers already: the writer makes no step for them.
         Node::Variable(Variable::X | Variable::Y) => none(Operation::Number(0.0)),
-        Node::Sum(a, b) => match (graph.number(a), graph.number(b)) {
-            (Some(number), _) => line(graph, b, 1.0, number),
-            (_, Some(number)) => line(graph, a, 1.0, number),
-            _ if graph.is_square_of_rho(id) => none(Operation::SquareOfRho),
-            _ => two(Operation::Sum, a, b),
+        Node::Sum(..) if graph.is_square_of_rho(id) => none(Operation::SquareOfRho),
+        Node::Sum(a, b) => match has_number(graph, a, b) {
+            true => line(graph, id),
+            false => multiples(graph, [a, b], 1.0),
         },
-        Node::Product(a, b) => match (graph.number(a), graph.number(b)) {
-            (Some(number), _) => one(Operation::TimesNumber(number), b),
-            (_, Some(number)) => one(Operation::TimesNumber(number), a),
-            _ => two(Operation::Product, a, b),
+        Node::Product(a, b) => match has_number(graph, a, b) {
+            true => line(graph, id),
+            false => of_lines(graph, [a, b], Operation::Product, Operation::ProductOfLines),
         },
-        Node::Difference(a, b) => match graph.number(a) {
-            Some(number) => line(graph, b, -1.0, number),
-            None => two(Operation::Difference, a, b),
+        Node::Difference(a, b) => match has_number(graph, a, b) {
+            true => line(graph, id),
+            false => multiples(graph, [a, b], -1.0),
         },
         Node::Quotient(a, b) => match graph.number(a) {
             Some(number) => one(Operation::NumberOver(number), b),
-            None => two(Operation::Quotient, a, b),
+            None => of_lines(
+                graph,
+                [a, b],
+                Operation::Quotient,
+                Operation::QuotientOfLines,
+            ),
         },
         Node::Negative(a) => one(Operation::Negative, a),
         Node::Power(a, 2) => one(Operation::Square, a),
@@ -167,25 +227,93 @@ fn action(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
             none(Operation::RealPowerOfRho(f64::from_bits(bits)))
         }
         Node::RealPower(a, bits) => one(Operation::RealPower(f64::from_bits(bits)), a),
-        Node::One(function, a) => one(Operation::One(function), a),
+        Node::One(function, a) => match line_in(graph, a) {
+            (Line::ITSELF, a) => one(Operation::One(function), a),
+            (line, a) => one(Operation::OneOfLine(function, line), a),
+        },
         Node::Two(function, a, b) => two(Operation::Two(function), a, b),
     }
 }
 
-/// a·sign + number, where a may be a product with a number itself.
-fn line(graph: &Graph, a: Id, sign: f64, number: f64) -> (Operation, [Option<Id>; 2]) {
-    if let Node::Product(one, two) = graph.node(a) {
-        for (factor, other) in [(one, two), (two, one)] {
-            if let Some(factor) = graph.number(factor) {
-                return (Operation::Line(sign * factor, number), [Some(other), None]);
-            }
-        }
-    }
-    let operation = match sign {
-        1.0 => Operation::PlusNumber(number),
-        _ => Operation::Line(sign, number),
+fn has_number(graph: &Graph, a: Id, b: Id) -> bool {
+    graph.number(a).is_some() || graph.number(b).is_some()
+}
+
+/// The step of a node that is a line itself.
+fn line(graph: &Graph, id: Id) -> (Operation, [Option<Id>; 2]) {
+    let (line, a) = line_in(graph, id);
+    let operation = match line {
+        Line {
+            factor: 1.0,
+            number,
+        } => Operation::PlusNumber(number),
+        Line {
+            factor,
+            number: 0.0,
+        } => Operation::TimesNumber(factor),
+        line => Operation::Line(line),
     };
     (operation, [Some(a), None])
+}
+
+/// a + sign·b, where each may be a multiple of another node.
+fn multiples(graph: &Graph, ids: [Id; 2], sign: f64) -> (Operation, [Option<Id>; 2]) {
+    let [(first, a), (second, b)] = ids.map(|id| multiple_in(graph, id));
+    let operation = match (first, sign * second) {
+        (1.0, 1.0) => Operation::Sum,
+        (1.0, -1.0) => Operation::Difference,
+        (first, second) => Operation::SumOfMultiples(first, second),
+    };
+    (operation, [Some(a), Some(b)])
+}
+
+/// What is made of two nodes, `plain` unless one of them is a line in another node.
+fn of_lines(
+    graph: &Graph,
+    ids: [Id; 2],
+    plain: Operation,
+    of: fn(Line, Line) -> Operation,
+) -> (Operation, [Option<Id>; 2]) {
+    let [(first, a), (second, b)] = ids.map(|id| line_in(graph, id));
+    let operation = match first == Line::ITSELF && second == Line::ITSELF {
+        true => plain,
+        false => of(first, second),
+    };
+    (operation, [Some(a), Some(b)])
+}
+
+/// A node as a line in another one; [`Line::ITSELF`] of itself if it is none.
+fn line_in(graph: &Graph, id: Id) -> (Line, Id) {
+    let with_number = |a: Id, sign: f64, number: f64| {
+        let (factor, a) = multiple_in(graph, a);
+        let factor = sign * factor;
+        (Line { factor, number }, a)
+    };
+    match graph.node(id) {
+        Node::Sum(a, b) => match (graph.number(a), graph.number(b)) {
+            (Some(number), _) => with_number(b, 1.0, number),
+            (None, Some(number)) => with_number(a, 1.0, number),
+            (None, None) => (Line::ITSELF, id),
+        },
+        Node::Difference(a, b) => match graph.number(a) {
+            Some(number) => with_number(b, -1.0, number),
+            None => (Line::ITSELF, id),
+        },
+        _ => with_number(id, 1.0, -0.0),
+    }
+}
+
+/// A node as a multiple of another one.
+fn multiple_in(graph: &Graph, id: Id) -> (f64, Id) {
+    match graph.node(id) {
+        Node::Product(a, b) => match (graph.number(a), graph.number(b)) {
+            (Some(factor), _) => (factor, b),
+            (None, Some(factor)) => (factor, a),
+            (None, None) => (1.0, id),
+        },
+        Node::Negative(a) => (-1.0, a),
+        _ => (1.0, id),
+    }
 }
 
 struct Writer<'a> {
@@ -217,8 +345,7 @@ impl Writer<'_> {
         let [a, b] = operands.map(|operand| operand.map_or(X, |id| self.register(id)));
         let read = ends.iter().filter(|end| **end != id);
         let freed: Vec<u8> = read.map(|end| self.register(*end)).collect();
-        self.free
-            .extend(freed.into_iter().filter(|register| *register > Y));
+        self.free.extend(freed);
         let out = match self.free.pop() {
             Some(out) => out,
             None => {

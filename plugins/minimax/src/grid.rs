@@ -17,6 +17,8 @@ const LEAST_IN_STEP: f64 = 24.0;
 pub const LEAST_NEAR_SEAMS: f64 = 0.1 * DEG;
 /// The error of a step with both ends ±ε off the path is ε where L⁴φ⁗ is this many ε.
 const TWO_SIDED: f64 = 768.0;
+/// That of a step with both ends on the path is ε where L⁴φ⁗ is this many ε.
+const ONE_SIDED: f64 = 384.0;
 
 /// One place: the series of the nose centre along the path, in rad.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +57,11 @@ impl Cell {
 /// The length of a step, rad, that takes the tolerance on both sides.
 pub fn natural_step(allowed: f64, fourth: f64) -> f64 {
     (TWO_SIDED * allowed / fourth).sqrt().sqrt()
+}
+
+/// The length of a step, rad, that takes the tolerance with exact values and rates at both ends.
+pub fn on_locus_step(allowed: f64, fourth: f64) -> f64 {
+    (ONE_SIDED * allowed / fourth).sqrt().sqrt()
 }
 
 /// The places of one span.

@@ -7,7 +7,8 @@
 //!
 //! - **Played error.** A step is judged by the error of its own cubic and not by a bound. The exact
 //!   path is tabulated once in each block (`table`), and the error of a trial step is compared with
-//!   the tolerance at all places of the table (`segment`). Cubics are played in time. So where the
+//!   the tolerance at all places of the table (`segment`). Z may accelerate little more than on a path
+//!   with all nodes on the locus (`acceleration`). Cubics are played in time. So where the
 //!   spindle changes its speed or X moves, the error is e_Z − Z_θ·e_C − Z_X·e_X.
 //! - **Room.** Where X moves within the turn, its own error is held to what the cusps leave room for
 //!   (`room`), so that refinement need not halve steps.
@@ -17,8 +18,11 @@
 //!   (`search`). With one state all nodes lie on the locus.
 //! - **Blocks.** A block begins and ends on the locus, so blocks do not depend on each other. A knot
 //!   of the law across which no step can be long is a border too (`spans`).
+//! - **Wandering.** Steps as long as the largest one come round in 64 turns, where their errors would
+//!   stand as spokes (`wandering`).
 //! - **Aim.** Steps aim at 0.98 of the tolerance. Refinement stays behind them.
 
+mod acceleration;
 mod grid;
 mod natural_steps;
 mod place;
@@ -31,6 +35,7 @@ mod segment;
 mod spans;
 mod state;
 mod table;
+mod wandering;
 
 pub use sampler::MinimaxSampler;
 

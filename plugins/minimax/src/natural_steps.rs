@@ -6,7 +6,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::grid::{Sample, natural_step};
+use crate::grid::{Sample, natural_step, on_locus_step};
 use crate::table::Table;
 
 /// Bins in the width of the median natural step. The window of the largest |φ⁗| has this many, and
@@ -17,9 +17,6 @@ const WEIGHTS: [f64; 17] = [
     1.0, 16.0, 120.0, 560.0, 1820.0, 4368.0, 8008.0, 11440.0, 12870.0, 11440.0, 8008.0, 4368.0,
     1820.0, 560.0, 120.0, 16.0, 1.0,
 ];
-/// The error of X on a step of exact values and rates is its allowed error where L⁴X⁗ is this many
-/// of it.
-const ONE_SIDED: f64 = 384.0;
 
 /// The natural step at each place of a span.
 pub struct NaturalSteps {
@@ -30,6 +27,8 @@ pub struct NaturalSteps {
     steps: Vec<f64>,
     /// The part of the tolerance that a step of this length takes on both sides.
     parts: Vec<f64>,
+    /// The largest |φ⁗| of the span, mm/rad⁴.
+    pub largest_fourth: f64,
 }
 
 /// What makes steps short at a place.
@@ -52,7 +51,7 @@ impl Bend {
     /// The natural step, in revolutions, and the part of the tolerance that it takes.
     fn step(self, allowed: f64, largest: f64) -> (f64, f64) {
         let of_z = natural_step(allowed, self.fourth) / TAU;
-        let of_x = (ONE_SIDED / self.of_x).sqrt().sqrt() / TAU;
+        let of_x = on_locus_step(1.0, self.of_x) / TAU;
         let step = of_z.min(of_x).min(largest);
         let ratio = (step / of_z) * (step / of_z);
         (step, ratio * ratio)
@@ -91,6 +90,7 @@ impl NaturalSteps {
             bin,
             steps: smooth(&steps),
             parts: smooth(&parts),
+            largest_fourth: bends.iter().map(|bend| bend.fourth).fold(0.0, f64::max),
         }
     }
 

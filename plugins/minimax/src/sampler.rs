@@ -1,6 +1,6 @@
 //! The sampler `minimax`.
 
-use turnpath_plugin::hermite::{FEED_PART, MAX_STEP, WANDER, largest_step};
+use turnpath_plugin::hermite::{FEED_PART, MAX_STEP, WANDER};
 use turnpath_plugin::prelude::*;
 
 use crate::grid::Grid;
@@ -10,6 +10,7 @@ use crate::search::Search;
 use crate::spans::spans;
 use crate::state::{State, states};
 use crate::table::{Limits, Table};
+use crate::wandering::Wandering;
 
 /// How closely steps are found where all nodes lie on the locus.
 const ON_LOCUS: Precision = Precision {
@@ -34,14 +35,17 @@ const STATES: Param<Count> = Param::count(
 /// Steps that are as long as the tolerance allows as played, with nodes beside the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MinimaxSampler {
-    plan: Chains,
+    states: &'static [State],
+    /// In rad.
+    max_step: f64,
+    wander: bool,
 }
 
 /// The best chain of steps of every block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Chains {
     states: &'static [State],
-    max_step: f64,
+    wandering: Wandering,
 }
 
 impl Strategy for MinimaxSampler {
@@ -56,18 +60,21 @@ impl Strategy for MinimaxSampler {
         let count = params.get(STATES);
         let states = states(count)
             .ok_or_else(|| STATES.refused(format!("{count} is none of 1, 3, 7 and 25")))?;
-        let (max_step, wander) = (params.get(MAX_STEP), params.get(WANDER));
-        let plan = Chains {
+        Ok(Self {
             states,
-            max_step: largest_step(max_step, wander),
-        };
-        Ok(Self { plan })
+            max_step: params.get(MAX_STEP),
+            wander: params.get(WANDER),
+        })
     }
 }
 
 impl Sampler for MinimaxSampler {
-    fn plan(&self, _: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
-        Ok(Box::new(self.plan))
+    fn plan(&self, path: &Path<'_>) -> Result<Box<dyn SamplerPlan>> {
+        let wandering = Wandering::new(path, self.max_step, self.wander, allowed(path))?;
+        Ok(Box::new(Chains {
+            states: self.states,
+            wandering,
+        }))
     }
 
     fn needs_exact_rates(&self) -> bool {
@@ -78,15 +85,20 @@ impl Sampler for MinimaxSampler {
 impl SamplerPlan for Chains {
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
         let limits = Limits {
-            allowed: LARGEST_OFFSET * path.task.tolerance.interpolation,
+            allowed: allowed(path),
             feed_part: FEED_PART,
-            max_step: self.max_step / TAU,
+            max_step: self.wandering.shorter(),
         };
         for span in spans(path, block, limits)? {
             self.place_span(path, span, limits, nodes)?;
         }
         Ok(())
     }
+}
+
+/// The largest error of Z of a step, mm.
+fn allowed(path: &Path<'_>) -> f64 {
+    LARGEST_OFFSET * path.task.tolerance.interpolation
 }
 
 impl Chains {
@@ -98,8 +110,9 @@ impl Chains {
         nodes: &mut NodeList,
     ) -> Result<()> {
         let samples = Grid::new(path, span, limits.allowed)?.into_samples()?;
-        let table = Table::new(path, &samples, limits)?;
+        let mut table = Table::new(path, &samples, limits)?;
         let natural = NaturalSteps::new(&samples, &table);
+        table.limits.max_step = self.wandering.step(natural.largest_fourth);
         drop(samples);
         let reach = Reach {
             table: &table,

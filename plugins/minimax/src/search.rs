@@ -6,7 +6,7 @@ use turnpath_plugin::prelude::*;
 use crate::grid::{LEAST_NEAR_SEAMS, too_short};
 use crate::place::Place;
 use crate::reach::{Reach, StepRange};
-use crate::segment::{Node, holds};
+use crate::segment::{Node, holds, holds_tolerance};
 use crate::state::{ON_LOCUS, State};
 
 /// A step to or from a node beside the locus is no shorter than this part of a natural step, and
@@ -110,10 +110,17 @@ impl<'a> Search<'a> {
     fn ending(&self, layer: &Layer, end: Place) -> Option<usize> {
         let last = self.reach.node(end, ON_LOCUS);
         let most = self.reach.table.limits.max_step * (1.0 + ROUNDING);
+        // Only steps that had to be found lie so close to the end.
+        let least = LEAST * self.reach.natural.at(end.n);
         let ends = |(state, front): (usize, &Option<Front>)| {
             let front = front.as_ref()?;
-            let near = end.n - front.place.n <= most;
-            (near && holds(self.reach.table, &self.node(front, state), &last)).then_some(state)
+            let length = end.n - front.place.n;
+            let node = self.node(front, state);
+            let held = match length < least {
+                true => holds_tolerance(self.reach.table, &node, &last),
+                false => length <= most && holds(self.reach.table, &node, &last),
+            };
+            held.then_some(state)
         };
         layer.iter().enumerate().find_map(ends)
     }
@@ -202,7 +209,7 @@ impl<'a> Search<'a> {
         let mut length = room.min(self.reach.natural.at(front.place.n));
         loop {
             let place = self.reach.table.place(front.place.n + length);
-            if holds(self.reach.table, &node, &self.reach.node(place, ON_LOCUS)) {
+            if holds_tolerance(self.reach.table, &node, &self.reach.node(place, ON_LOCUS)) {
                 return Ok(Front { place, from });
             }
             if length <= shortest {

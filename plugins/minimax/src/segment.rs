@@ -45,6 +45,7 @@ impl Cubic {
 /// The cubics of one segment.
 struct Played {
     start: f64,
+    length: f64,
     x: Cubic,
     z: Cubic,
     c: Cubic,
@@ -70,20 +71,38 @@ impl Played {
             c: Cubic::between([a.c, a.c_rate], [b.c, b.c_rate], length),
             limit: table.limits.allowed * (1.0 + ROUNDING),
             holds_x: !(a.is_kink || b.is_kink),
+            length,
         }
+    }
+
+    /// Whether Z accelerates by no more than `most`. It accelerates most at an end. Beside a kink of
+    /// the law the rate of Z belongs to neither side, and no step is calm.
+    fn is_calm(&self, most: f64) -> bool {
+        let [_, _, second, third] = self.z.0;
+        let [start, end] = [0.0, self.length].map(|t| 2.0 * second + 6.0 * third * t);
+        !self.holds_x || start.abs().max(end.abs()) <= most
     }
 }
 
-/// Whether a segment keeps to the limits at every place of the table within it.
+/// Whether a segment keeps to all limits at every place of the table within it.
 pub fn holds(table: &Table<'_>, from: &Node, to: &Node) -> bool {
     let played = Played::new(table, from, to);
+    played.is_calm(table.most_acceleration) && holds_errors(table, &played, from, to)
+}
+
+/// Whether a segment keeps to the limits of errors, however much Z accelerates.
+pub fn holds_tolerance(table: &Table<'_>, from: &Node, to: &Node) -> bool {
+    holds_errors(table, &Played::new(table, from, to), from, to)
+}
+
+fn holds_errors(table: &Table<'_>, played: &Played, from: &Node, to: &Node) -> bool {
     let mut places = from.place.next..to.place.next;
     if places.len() < FEWEST {
-        return holds_between(table, &played, from, to);
+        return holds_between(table, played, from, to);
     }
     match (table.x_matters, table.speed_varies) {
-        (false, false) => holds_alone(&played, &table.t[places.clone()], &table.z[places]),
-        _ => places.all(|k| coupled(table, &played, k)),
+        (false, false) => holds_alone(played, &table.t[places.clone()], &table.z[places]),
+        _ => places.all(|k| coupled(table, played, k)),
     }
 }
 
@@ -117,12 +136,12 @@ fn coupled(table: &Table<'_>, played: &Played, k: usize) -> bool {
     if table.speed_varies {
         error -= table.coupling.along[k] * (played.c.at(t) - table.c[k]);
     }
-    let mut off_x = 0.0;
+    let mut x_within = true;
     if table.x_matters {
-        off_x = played.x.at(t) - table.x[k];
+        let off_x = played.x.at(t) - table.x[k];
         error -= table.coupling.slope[k] * off_x;
+        x_within = !played.holds_x || off_x.abs() * table.coupling.x_weight[k] <= 1.0;
     }
-    let x_within = !played.holds_x || off_x.abs() * table.coupling.x_weight[k] <= 1.0;
     error.abs() <= played.limit && x_within
 }
 

@@ -3,9 +3,10 @@
 use turnpath_plugin::hermite::{Bound, Jumps, pitch};
 use turnpath_plugin::prelude::*;
 
+use crate::acceleration::{self, Allowed};
 use crate::grid::{Sample, sample_before};
 use crate::place::Place;
-use crate::room::parts;
+use crate::room::errors_of_x;
 
 /// The largest slope that is assumed in the test whether X's own interpolation matters.
 const STEEPEST: f64 = 10.0;
@@ -15,6 +16,9 @@ const NEGLIGIBLE: f64 = 1e-3;
 /// X's own interpolation does not matter to the cusps if it errs by less than this part of what it
 /// may where cusps leave room: less than what it may always.
 const NEGLIGIBLE_SHARE: f64 = 0.2;
+
+/// A rate that jumps by no more than this part of itself is smooth: pieces of a law join to rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// What the errors of steps are held to.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +38,8 @@ pub struct Coupling {
     pub slope: Vec<f64>,
     /// ∂Z/∂θ at constant X at each place, mm/rad.
     pub along: Vec<f64>,
-    /// One over the error that X may have at each place, 1/mm.
+    /// One over the error that X may have at each place, 1/mm; empty where X's own error does not
+    /// matter.
     pub x_weight: Vec<f64>,
 }
 
@@ -55,6 +60,8 @@ pub struct Table<'a> {
     pub c: Vec<f64>,
     /// How the axes act on each other.
     pub coupling: Coupling,
+    /// The largest acceleration of Z on a step, mm over the square of the table's time.
+    pub most_acceleration: f64,
     /// Whether X's own error matters.
     pub x_matters: bool,
     /// Whether the spindle changes its speed.
@@ -95,12 +102,21 @@ impl<'a> Table<'a> {
             x_matters: x_matters(path, samples, limits)?,
             speed_varies,
             coupling: Coupling::default(),
+            most_acceleration: f64::INFINITY,
             n,
             c,
         };
         if table.x_matters || table.speed_varies {
             table.coupling = table.couple()?;
         }
+        let allowed = Allowed {
+            z: limits.allowed,
+            slope: &table.coupling.slope,
+            x_weight: &table.coupling.x_weight,
+            max_step: TAU * limits.max_step,
+        };
+        let spindle = speed_varies.then_some(path.spindle);
+        table.most_acceleration = acceleration::largest(samples, allowed, spindle);
         Ok(table)
     }
 
@@ -117,15 +133,17 @@ impl<'a> Table<'a> {
             z_x: &mut slope,
         };
         self.path.locus.rates(&theta, &rho, rates)?;
-        let part = match self.x_matters {
-            true => parts(self.path, &self.n)?,
-            false => vec![self.limits.feed_part; self.n.len()],
+        let x_weight = match self.x_matters {
+            true => errors_of_x(self.path, &self.n)?
+                .into_iter()
+                .map(f64::recip)
+                .collect(),
+            false => Vec::new(),
         };
-        let weight = |(n, part): (&f64, f64)| 1.0 / (part * pitch(self.path, *n));
         Ok(Coupling {
             slope,
             along,
-            x_weight: self.n.iter().zip(part).map(weight).collect(),
+            x_weight,
         })
     }
 
@@ -149,7 +167,7 @@ impl<'a> Table<'a> {
             .rates(&[angle(n)], &[self.path.radius_at(n)], rates)?;
         let rate = self.path.law.rate(n);
         let x_rate = x_theta[0] + x_rho[0] * rate / TAU;
-        place.is_kink = self.path.law.series(n)[1] != rate;
+        place.is_kink = is_kink(self.path, n);
         if self.x_matters {
             place.x_rate = place.c_rate * x_rate;
         }
@@ -228,8 +246,7 @@ fn speed_varies(spindle: &SpindleLaw, start: f64, end: f64) -> bool {
 /// Whether X's own error, on the largest step, can change Z or the cusps.
 fn x_matters(path: &Path<'_>, samples: &[Sample], limits: Limits) -> Result<bool> {
     let [start, end] = [samples.first(), samples.last()].map(|s| s.map_or(0.0, |s| s.n));
-    let is_kink = |n: f64| path.law.series(n)[1] != path.law.series_before(n)[1];
-    if is_kink(start) || is_kink(end) {
+    if is_kink(path, start) || is_kink(path, end) {
         return Ok(true);
     }
     let fourth = samples.iter().map(|sample| 24.0 * sample.x[4].abs());
@@ -248,6 +265,12 @@ fn x_matters(path: &Path<'_>, samples: &[Sample], limits: Limits) -> Result<bool
     let error = bound.error(TAU * limits.max_step);
     Ok(error > NEGLIGIBLE * limits.allowed / STEEPEST
         || error > NEGLIGIBLE_SHARE * limits.feed_part * narrowest)
+}
+
+/// Whether the law's rate jumps at `n`, so that the rate of X there belongs to neither side.
+fn is_kink(path: &Path<'_>, n: f64) -> bool {
+    let [before, after] = [path.law.series_before(n)[1], path.law.series(n)[1]];
+    (after - before).abs() > ROUNDING * before.abs().max(after.abs())
 }
 
 /// A knot of the law with the pieces on both of its sides.

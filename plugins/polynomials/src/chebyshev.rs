@@ -13,6 +13,8 @@ pub struct Chebyshev {
     half_y: f64,
     /// The coefficients of each i, by j; the rows end with their last terms.
     rows: Vec<Vec<f64>>,
+    /// The most terms of a row.
+    longest_row: usize,
 }
 
 /// Largest degree in x or y: more than design programs have.
@@ -65,29 +67,27 @@ impl Strategy for Chebyshev {
         Ok(Self {
             half_x,
             half_y: params.get(NORMALIZATION_Y).unwrap_or(half_x),
+            longest_row: rows.iter().map(Vec::len).max().unwrap_or(0),
             rows,
         })
     }
 }
 
 impl Chebyshev {
-    /// The polynomials T_j(v) as far as a row needs them.
-    fn in_y<S: Scalar>(&self, v: S) -> [S; LARGEST_DEGREE + 1] {
-        let count = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let mut all = [S::constant(1.0); LARGEST_DEGREE + 1];
+    /// The polynomials T_j(v) as far as the longest row needs them, which is at most `N`.
+    fn in_y<S: Scalar, const N: usize>(&self, v: S) -> [S; N] {
+        let mut all = [S::constant(1.0); N];
         let (mut before, mut here) = (S::constant(1.0), v);
-        for t in all.iter_mut().take(count).skip(1) {
+        for t in all.iter_mut().take(self.longest_row).skip(1) {
             *t = here;
             (before, here) = (here, v * here * 2.0 - before);
         }
         all
     }
-}
 
-impl Surface for Chebyshev {
-    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
-        let (u, v) = (x / self.half_x, y / self.half_y);
-        let in_y = self.in_y(v);
+    /// The sum, where no row has more than `N` terms.
+    fn sum<S: Scalar, const N: usize>(&self, u: S, v: S) -> S {
+        let in_y = self.in_y::<S, N>(v);
         let mut total = S::constant(0.0);
         let (mut here, mut next) = (S::constant(1.0), u);
         for (i, row) in self.rows.iter().enumerate() {
@@ -103,5 +103,18 @@ impl Surface for Chebyshev {
             (here, next) = (next, u * next * 2.0 - here);
         }
         total
+    }
+}
+
+impl Surface for Chebyshev {
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+        let (u, v) = (x / self.half_x, y / self.half_y);
+        // Room for fewer polynomials is set faster, which counts for series.
+        match self.longest_row {
+            0..=4 => self.sum::<S, 4>(u, v),
+            5..=8 => self.sum::<S, 8>(u, v),
+            9..=16 => self.sum::<S, 16>(u, v),
+            _ => self.sum::<S, { LARGEST_DEGREE + 1 }>(u, v),
+        }
     }
 }

@@ -2,8 +2,6 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::base::TOO_SMALL;
-
 /// z = (c_x x² + c_y y²) / (1 + sqrt(1 − (1 + K_x)c_x²x² − (1 + K_y)c_y²y²)).
 ///
 /// Along x and along y it is a conic section. Beyond the aperture the formula goes on. Where the root
@@ -43,7 +41,7 @@ impl Strategy for Biconic {
     fn new(params: &Params) -> Result<Self> {
         let section = |radius: Param<Option<Length>>, conic| {
             let section = Conicoid::new(params.get(radius), params.get(conic));
-            section.ok_or_else(|| radius.refused(TOO_SMALL))
+            section.ok_or_else(|| radius.refused(Conicoid::TOO_SMALL))
         };
         Ok(Self {
             along_x: section(RADIUS_X, CONIC_X)?,

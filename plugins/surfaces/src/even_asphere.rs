@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::{base, powers};
+use crate::powers;
 
 /// z = conicoid + Σ A_i ρⁱ, i = 2, 4, 6, …
 ///
@@ -26,13 +26,16 @@ impl Strategy for EvenAsphere {
     const NAME: &'static str = "even-asphere";
     const SUMMARY: &'static str = "a conicoid with even powers of the radius on top";
     const SOURCE: &'static str = "ISO 10110-12 with even powers; Zemax Even Asphere";
-    const PARAMS: &'static [ParamInfo] =
-        &[base::RADIUS.info(), base::CONIC.info(), COEFFICIENTS.info()];
+    const PARAMS: &'static [ParamInfo] = &[
+        Conicoid::RADIUS.info(),
+        Conicoid::CONIC.info(),
+        COEFFICIENTS.info(),
+    ];
 
     fn new(params: &Params) -> Result<Self> {
         let dense = powers::dense(params, COEFFICIENTS, 2, 2)?;
         Ok(Self {
-            base: base::base(params)?,
+            base: Conicoid::of(params)?,
             terms: powers::every_second(&dense, 2),
         })
     }

@@ -2,8 +2,6 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::base::{CONIC, TOO_SMALL};
-
 /// A conicoid about each point of a lattice. Above each (x, y) the one of the nearest lattice point
 /// counts.
 ///
@@ -45,8 +43,12 @@ impl Strategy for LensletArray {
     const SUMMARY: &'static str = "equal spheres or conicoids on a square or a hexagonal lattice";
     const SOURCE: &'static str = "a conicoid about the nearest point of a lattice; Zemax Lenslet \
         Array has the square one";
-    const PARAMS: &'static [ParamInfo] =
-        &[LAYOUT.info(), PITCH.info(), RADIUS.info(), CONIC.info()];
+    const PARAMS: &'static [ParamInfo] = &[
+        LAYOUT.info(),
+        PITCH.info(),
+        RADIUS.info(),
+        Conicoid::CONIC.info(),
+    ];
 
     fn new(params: &Params) -> Result<Self> {
         let (layout, farthest) = match params.get(LAYOUT) {
@@ -54,8 +56,8 @@ impl Strategy for LensletArray {
             _ => (Layout::Square, 0.5),
         };
         let pitch = params.get(PITCH);
-        let lens = Conicoid::new(Some(params.get(RADIUS)), params.get(CONIC));
-        let lens = lens.ok_or_else(|| RADIUS.refused(TOO_SMALL))?;
+        let lens = Conicoid::new(Some(params.get(RADIUS)), params.get(Conicoid::CONIC));
+        let lens = lens.ok_or_else(|| RADIUS.refused(Conicoid::TOO_SMALL))?;
         // The square of the distance of a cell's corner from its centre.
         if !lens.reaches(farthest * pitch * pitch) {
             return Err(PITCH.refused("the lenses do not reach the corners of their cells"));

@@ -3,7 +3,6 @@
 //! z(x, y) is in mm, with x and y from the spindle axis and z towards the tool. ρ² = x² + y².
 
 mod astigmatic;
-mod base;
 mod biconic;
 mod conic;
 mod even_asphere;

@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::{base, powers};
+use crate::powers;
 
 /// z = conicoid + Σ A_i ρⁱ, i = 1, 2, 3, …
 ///
@@ -34,13 +34,16 @@ impl Strategy for OddAsphere {
     const NAME: &'static str = "odd-asphere";
     const SUMMARY: &'static str = "a conicoid with all powers of the radius on top";
     const SOURCE: &'static str = "ISO 10110-12 with all powers; Zemax Odd Asphere";
-    const PARAMS: &'static [ParamInfo] =
-        &[base::RADIUS.info(), base::CONIC.info(), COEFFICIENTS.info()];
+    const PARAMS: &'static [ParamInfo] = &[
+        Conicoid::RADIUS.info(),
+        Conicoid::CONIC.info(),
+        COEFFICIENTS.info(),
+    ];
 
     fn new(params: &Params) -> Result<Self> {
         let dense = powers::dense(params, COEFFICIENTS, 1, 1)?;
         Ok(Self {
-            base: base::base(params)?,
+            base: Conicoid::of(params)?,
             even: powers::every_second(&dense, 2),
             odd: powers::every_second(&dense, 1),
         })

@@ -30,11 +30,6 @@ const VERTEX_RADIUS: Param<Length> = Param::length(
     "radius at the parent's vertex; positive: concave",
 )
 .nonzero();
-const CONIC: Param<Number> = Param::number(
-    "conic",
-    "the parent's conic number K; 0: sphere, -1: paraboloid",
-)
-.default(0.0);
 const OFF_AXIS_DISTANCE: Param<Length> = Param::length(
     "off_axis_distance",
     "from the parent's axis to the middle of the segment",
@@ -45,11 +40,14 @@ impl Strategy for OffAxisConic {
     const SUMMARY: &'static str = "a conicoid's segment off its axis, laid flat at its middle";
     const SOURCE: &'static str =
         "a parent conicoid in the frame of the segment's normal: z = q/(B + sqrt(B² − Aq))";
-    const PARAMS: &'static [ParamInfo] =
-        &[VERTEX_RADIUS.info(), CONIC.info(), OFF_AXIS_DISTANCE.info()];
+    const PARAMS: &'static [ParamInfo] = &[
+        VERTEX_RADIUS.info(),
+        Conicoid::CONIC.info(),
+        OFF_AXIS_DISTANCE.info(),
+    ];
 
     fn new(params: &Params) -> Result<Self> {
-        let (radius, conic) = (params.get(VERTEX_RADIUS), params.get(CONIC));
+        let (radius, conic) = (params.get(VERTEX_RADIUS), params.get(Conicoid::CONIC));
         let distance = params.get(OFF_AXIS_DISTANCE);
         let parent = Conicoid::new(Some(radius), conic);
         let parent = parent.filter(|parent| parent.reaches(distance * distance));

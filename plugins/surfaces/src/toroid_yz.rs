@@ -3,8 +3,8 @@
 
 use turnpath_plugin::prelude::*;
 
+use crate::powers;
 use crate::revolved::revolved;
-use crate::{base, powers};
 
 /// The curve u(y) = cy² / (1 + sqrt(1 − (1 + K)c²y²)) + Σ A_i yⁱ, i = 2, 4, …, turned about an axis
 /// parallel to y at the distance R: z = R − sqrt((R − u)² − x²).
@@ -47,16 +47,16 @@ impl Strategy for ToroidYz {
     const PARAMS: &'static [ParamInfo] = &[
         RADIUS_ROTATION.info(),
         RADIUS.info(),
-        base::CONIC.info(),
+        Conicoid::CONIC.info(),
         COEFFICIENTS.info(),
     ];
 
     fn new(params: &Params) -> Result<Self> {
-        let section = Conicoid::new(params.get(RADIUS), params.get(base::CONIC));
+        let section = Conicoid::new(params.get(RADIUS), params.get(Conicoid::CONIC));
         let dense = powers::dense(params, COEFFICIENTS, 2, 2)?;
         Ok(Self {
             curvature: params.get(RADIUS_ROTATION).map_or(0.0, f64::recip),
-            section: section.ok_or_else(|| RADIUS.refused(base::TOO_SMALL))?,
+            section: section.ok_or_else(|| RADIUS.refused(Conicoid::TOO_SMALL))?,
             terms: powers::every_second(&dense, 2),
         })
     }

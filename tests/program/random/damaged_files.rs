@@ -60,6 +60,12 @@ const SIEMENS: Kind = Kind {
     words: fuzz::pmac::WORDS,
     line: "verify recipe.toml out/recipe.mpf --format json --threads 2",
 };
+const BECKHOFF: Kind = Kind {
+    name: "program for TwinCAT CNC",
+    file: "out/recipe.cnc",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.cnc --format json --threads 2",
+};
 const NANOTECH: Kind = Kind {
     name: "program for Nanotech machines",
     file: "out/recipe.nc",
@@ -73,11 +79,12 @@ const LINUXCNC: Kind = Kind {
     line: "verify recipe.toml out/recipe.ngc --format json --threads 2",
 };
 /// A program of each post.
-const PROGRAMS: [&Kind; 6] = [
+const PROGRAMS: [&Kind; 7] = [
     &PROGRAM,
     &POWER_PMAC,
     &AUTOMATION1,
     &SIEMENS,
+    &BECKHOFF,
     &NANOTECH,
     &LINUXCNC,
 ];

@@ -3,7 +3,7 @@
 The files are made here, from the tables "Parameter definitions" of the OpticStudio help and from
 what open readers do; none is a copy. They are read by optiland's and by ray-optics' readers. What
 neither reads is built from the numbers of this script: optiland's geometries for TOROIDAL, XASPHERE,
-XPOLYNOM and SZERNSAG, and the formula of the help for BICONICX. Both read toroids, and wrongly:
+XPOLYNOM, SZERNSAG and FZERNSAG, and the formula of the help for BICONICX. Both read toroids, and wrongly:
 optiland 0.6.3 takes PARM 2 for PARM 1, and ray-optics 0.9.8 puts the terms behind ten zeros.
 
 A case: the file, the arguments of the import, the grid and heights of its surface, in mm, as the
@@ -151,12 +151,16 @@ def polynomial(*_):
     return lambda x, y: base.sag(x, y) + terms.sag(x / 15.0, y / 15.0)
 
 
-def zernike(*_):
+def zernike(*_, kind="noll"):
     base = even_terms(-200.0, -1.0, {4: 1e-6, 6: -2e-9})
     listed = [ZERNIKE.get(number, 0.0) for number in range(1, 23)]
-    terms = ZernikePolynomialGeometry(HERE, np.inf, zernike_type="noll", norm_radius=20.0,
+    terms = ZernikePolynomialGeometry(HERE, np.inf, zernike_type=kind, norm_radius=20.0,
                                       coefficients=listed)
     return lambda x, y: base(x, y) + terms.sag(x, y)
+
+
+def fringe(*_):
+    return zernike(kind="fringe")
 
 
 def biconic(*_):
@@ -170,6 +174,7 @@ def biconic(*_):
 
 WHO = {"toroid": "optiland's geometry", "extended_asphere": "optiland's geometry",
        "polynomial": "optiland's geometry", "zernike": "optiland's geometry",
+       "fringe": "optiland's geometry",
        "biconic": "the formula of the help"}
 
 
@@ -234,6 +239,15 @@ CASES = [
       ("SZERNSAG", [*curved(-200.0, -1.0), *parm({0: 1, 2: 1e-6, 3: -2e-9}),
                     *xdat(20.0, ZERNIKE), "DISZ 100", edge(20), "CLAP 0 10 0", "OBDC 2.0 -6.0"])],
      2, False, 10.0, (2.0, -6.0), [], [zernike]),
+    ("fringe", "utf-8", "MM",
+     [("FZERNSAG", [*curved(-200.0, -1.0), *parm({0: 0, 2: 1e-6, 3: -2e-9, 9: 0, 10: 0}),
+                    *xdat(20.0, ZERNIKE), "DISZ -100", MIRROR, edge(18)])],
+     1, True, 18.0, (0, 0), [], [fringe]),
+    ("fringe-from-behind", "utf-8", "MM",
+     [("STANDARD", ['CURV 0.0 0 0 0 0 ""', "DISZ 3", GLASS, edge(20)]),
+      ("FZERNSAG", [*curved(-200.0, -1.0), *parm({0: 1, 2: 1e-6, 3: -2e-9}),
+                    *xdat(20.0, ZERNIKE), "DISZ 100", edge(20), "CLAP 0 10 0", "OBDC 2.0 -6.0"])],
+     2, False, 10.0, (2.0, -6.0), [], [fringe]),
 ]
 
 

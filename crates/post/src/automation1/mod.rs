@@ -36,10 +36,12 @@ use write::{push_first, push_last, push_segment};
 use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
+use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, SHORTEST_SEGMENT, VELOCITY_DECIMALS,
+    C_LIMIT, C_SIGN, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, POSITIONING, SEGMENTS_PER_SECOND,
+    SHORTEST_SEGMENT, SPLIT, VELOCITY_DECIMALS,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -56,6 +58,10 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
         C_SIGN.info(),
         POSITIONING.info(),
         SHORTEST_SEGMENT.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        SPLIT.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -70,6 +76,7 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
 ",
     footer: "",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,
@@ -115,6 +122,20 @@ impl Dialect for MovePvt {
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
         read_travel(code, modes)
+    }
+
+    fn part_lines(&self, part: &PartName) -> Option<PartLines> {
+        Some(PartLines {
+            call: format!("#include \"{}\"", part.file),
+            begin: String::new(),
+            end: String::new(),
+        })
+    }
+
+    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+        let rest = code.trim().strip_prefix("#include")?.trim();
+        let name = rest.strip_prefix('"')?.strip_suffix('"')?;
+        Some(name.to_owned())
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

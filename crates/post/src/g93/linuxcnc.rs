@@ -8,11 +8,13 @@ use super::timing::{check_time, is_dwell};
 use super::travel::{push_for_linuxcnc, read_for_linuxcnc};
 use super::write::{push_dwell, push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
+use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, POSITION_DECIMALS, SERVO_PERIOD,
+    C_LIMIT, C_SIGN, CHORD_SHARE, FOOTER, HEADER, LOWEST_RATE, MEMORY, POSITION_DECIMALS,
+    SEGMENTS_PER_SECOND, SERVO_PERIOD, SPLIT,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -29,6 +31,10 @@ pub(crate) const LINUXCNC_G93: Post = Post {
         LOWEST_RATE.info(),
         SERVO_PERIOD.info(),
         C_SIGN.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        SPLIT.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -43,6 +49,7 @@ pub(crate) const LINUXCNC_G93: Post = Post {
 ",
     footer: "M2\n",
     shape: SegmentShape::Linear,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,
@@ -97,6 +104,22 @@ impl Dialect for LinuxCnc {
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
         read_for_linuxcnc(code, modes)
+    }
+
+    fn part_lines(&self, part: &PartName) -> Option<PartLines> {
+        let name = &part.stem;
+        Some(PartLines {
+            call: format!("o<{name}> call"),
+            begin: format!("o<{name}> sub\n"),
+            end: format!("o<{name}> endsub\nM2\n"),
+        })
+    }
+
+    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+        let code: String = code.split_whitespace().collect();
+        let code = code.to_ascii_lowercase();
+        let name = code.strip_prefix("o<")?.strip_suffix(">call")?;
+        Some(format!("{name}.{}", LINUXCNC_G93.extension))
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

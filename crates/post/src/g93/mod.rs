@@ -19,6 +19,7 @@
 //!
 //! The first line brings the axes from wherever they are to the first control point, within a second.
 
+mod beckhoff;
 mod commands;
 mod linuxcnc;
 mod nanotech;
@@ -29,5 +30,6 @@ mod timing;
 mod travel;
 mod write;
 
+pub(crate) use beckhoff::BECKHOFF_G93;
 pub(crate) use linuxcnc::LINUXCNC_G93;
 pub(crate) use nanotech::NANOTECH_G93;

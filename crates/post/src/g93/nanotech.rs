@@ -12,10 +12,10 @@ use super::travel;
 use super::write::{push_first, push_line};
 use crate::carry::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, SHORTEST_SEGMENT,
-    SIX_DECIMALS,
+    C_LIMIT, C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, MEMORY,
+    SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SIX_DECIMALS,
 };
 use crate::travel::{Places, TravelModes};
 
@@ -33,6 +33,9 @@ pub(crate) const NANOTECH_G93: Post = Post {
         C_SIGN.info(),
         C_WITHIN_TURN.info(),
         SHORTEST_SEGMENT.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -50,6 +53,7 @@ T0202
 ",
     footer: "M30\n",
     shape: SegmentShape::Linear,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,

@@ -486,3 +486,45 @@ fn each_line_of_a_segment_counts_against_the_shortest_one() {
     let help = error.help(NANOTECH_G93.keys);
     assert!(help.contains("more tolerance of interpolation"), "{help}");
 }
+
+/// What lies between the last point of a lead-in and the first one of the cut belongs to the lead-in,
+/// whether it is one line or many. Its lines are above the part, and no tolerance of the cut holds them.
+#[test]
+fn lines_from_a_lead_to_the_cut_belong_to_the_lead() {
+    let layout = within(&NANOTECH_G93, 1e-4);
+    let points = path();
+    let mut text = Vec::new();
+    for (k, section) in [
+        (0, Section::LeadIn),
+        (1, Section::Cutting),
+        (2, Section::LeadOut),
+    ] {
+        let mut block = PathBlock::default();
+        block.push(points[k]);
+        let stretch = SectionBlock {
+            section,
+            opens_section: true,
+            before: &points[..k],
+            points: &block,
+        };
+        let carried = layout.carried(&stretch).unwrap();
+        let lines = layout.lines(&stretch).unwrap();
+        assert_eq!(carried.points.len(), lines.points);
+        let expected = if k == 1 { lines.points - 1 } else { 0 };
+        assert_eq!(carried.of_section_before, expected);
+        assert!(k == 0 || lines.points > 5);
+        text.extend(lines.text);
+    }
+    let text = String::from_utf8(text).unwrap();
+    let cut = text
+        .lines()
+        .position(|line| line == "; -- cutting --")
+        .unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(
+        lines[cut + 1].starts_with("C9 X2.499 "),
+        "{}",
+        lines[cut + 1]
+    );
+    assert_eq!(lines[cut + 2], "; -- lead-out --");
+}

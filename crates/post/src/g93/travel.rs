@@ -1,8 +1,9 @@
 //! The moves before and after a path.
 //!
-//! LinuxCNC needs more words for them than other controllers, because a program begins with what the last
-//! one left: `G21` makes numbers mm, `G8` makes X a radius, `G40` compensates no tool. `G64` would round
-//! the corners from axis to axis, so the moves have `G61`. The path's first line sets `G64` again.
+//! A program begins with what the last one left. LinuxCNC: `G21` makes numbers mm, `G8` makes X a
+//! radius, `G40` compensates no tool. `G64` would round the corners from axis to axis, so the moves have
+//! `G61`. The path's first line sets `G64` again. TwinCAT CNC has `G71`, `G52` and `G40` for these, and
+//! `G360` for a stop at the end of each line, which the path's first line takes back.
 
 use super::read::without_comments;
 use crate::fixed_point::{ONE, number};
@@ -10,33 +11,63 @@ use crate::g_code;
 use crate::program_format::ProgramFormat;
 use crate::travel::{Places, Travel, TravelModes};
 
-/// What the first of LinuxCNC's moves says besides `G90` and `G94`.
-const LINUXCNC_MODES: &str = " G8 G21 G40 G61";
-/// `G21`: mm.
-const METRIC: i128 = 21 * ONE;
-/// `G8` and `G40`: X is a radius, and no tool is compensated.
-const WITHOUT_MOVE: [i128; 2] = [8 * ONE, 40 * ONE];
+/// What the first of a controller's moves says besides `G90` and `G94`, and how a reader knows it.
+struct Modes {
+    /// The words as they are written.
+    text: &'static str,
+    /// The number of the word that makes numbers mm, in 10⁻¹².
+    metric: i128,
+    /// The numbers of words that move nothing.
+    without_move: &'static [i128],
+}
+
+/// Numbers are mm, X is a radius, no tool is compensated, and each line ends at rest.
+const LINUXCNC: Modes = Modes {
+    text: " G8 G21 G40 G61",
+    metric: 21 * ONE,
+    without_move: &[8 * ONE, 40 * ONE],
+};
+/// The same on TwinCAT CNC.
+const BECKHOFF: Modes = Modes {
+    text: " G40 G52 G71 G360",
+    metric: 71 * ONE,
+    without_move: &[40 * ONE, 52 * ONE, 360 * ONE],
+};
 
 /// Writes a statement for LinuxCNC.
 pub(super) fn push_for_linuxcnc(text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
-    g_code::push_travel(text, format, LINUXCNC_MODES, travel);
+    g_code::push_travel(text, format, LINUXCNC.text, travel);
+}
+
+/// Writes a statement for TwinCAT CNC.
+pub(super) fn push_for_beckhoff(text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
+    g_code::push_travel(text, format, BECKHOFF.text, travel);
 }
 
 /// Reads a line for LinuxCNC, which must know that numbers are mm before it moves.
 pub(super) fn read_for_linuxcnc(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+    read_with(&LINUXCNC, code, modes)
+}
+
+/// Reads a line for TwinCAT CNC, which must know the same.
+pub(super) fn read_for_beckhoff(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+    read_with(&BECKHOFF, code, modes)
+}
+
+fn read_with(own: &Modes, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
     let code = spaced(code)?;
     let mut rest = Vec::new();
     for word in code.split_whitespace() {
         let mode = word.strip_prefix('G').map(|text| number("G", text));
         match mode.and_then(Result::ok) {
-            Some(METRIC) => modes.metric = true,
-            Some(mode) if WITHOUT_MOVE.contains(&mode) => {}
+            Some(mode) if mode == own.metric => modes.metric = true,
+            Some(mode) if own.without_move.contains(&mode) => {}
             _ => rest.push(word),
         }
     }
     let places = g_code::read_travel(&rest.join(" "), modes)?;
     match !modes.metric && places.iter().any(Option::is_some) {
-        true => Err("a move before `G21`".to_owned()),
+        true => Err(format!("a move before `G{}`", own.metric / ONE)),
         false => Ok(places),
     }
 }
@@ -82,5 +113,16 @@ mod tests {
         assert!(read_for_linuxcnc("G21", &mut modes).is_ok());
         assert!(read_for_linuxcnc("G0 Z6.5", &mut modes).is_ok());
         assert!(read_for_linuxcnc("G20", &mut modes).is_err());
+    }
+
+    #[test]
+    fn twincat_does_not_move_before_it_knows_that_numbers_are_mm() {
+        let mut modes = TravelModes::default();
+        assert!(read_for_beckhoff("G90 G94 G40 G52 G360", &mut modes).is_ok());
+        let said = read_for_beckhoff("G0 Z6.5", &mut modes).unwrap_err();
+        assert_eq!(said, "a move before `G71`");
+        assert!(read_for_beckhoff("G71", &mut modes).is_ok());
+        assert!(read_for_beckhoff("G0 Z6.5", &mut modes).is_ok());
+        assert!(read_for_beckhoff("G21", &mut modes).is_err());
     }
 }

@@ -52,11 +52,12 @@ use write::{push_first, push_last, push_segment};
 use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
+use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
-use crate::program_format::ProgramFormat;
+use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    BUFFER, C_SIGN, C_WRAP, FOOTER, HEADER, POSITION_DECIMALS, POSITIONING, ROTARY,
-    SHORTEST_SEGMENT, VELOCITY_DECIMALS, VELOCITY_PER,
+    BUFFER, C_LIMIT, C_SIGN, C_WRAP, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, POSITIONING,
+    ROTARY, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SPLIT, VELOCITY_DECIMALS, VELOCITY_PER,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -82,6 +83,10 @@ pub(crate) const PMAC_PVT: Post = Post {
         POSITIONING.info(),
         BUFFER.info(),
         SHORTEST_SEGMENT.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        SPLIT.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -99,12 +104,16 @@ OPEN PROG 1 CLEAR
 ",
     footer: "CLOSE\n",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 4_096_000,
     longest: (1 << 24) - 1,
     mantissa_bits: Some(35),
     c_is_even: false,
     delivered_decimals: None,
-    dialect: &Pvt { clock: TURBO_CLOCK },
+    dialect: &Pvt {
+        clock: TURBO_CLOCK,
+        dialect: PmacDialect::Turbo,
+    },
 };
 
 /// The header of a program for the rotary buffer. The buffer is number 0, and has no loops and no jumps:
@@ -131,14 +140,31 @@ pub(crate) const PVT_KEYS: &[ParamInfo] = &[
     C_WRAP.info(),
     POSITIONING.info(),
     SHORTEST_SEGMENT.info(),
+    SEGMENTS_PER_SECOND.info(),
+    MEMORY.info(),
+    SPLIT.info(),
+    C_LIMIT.info(),
     HEADER.info(),
     FOOTER.info(),
 ];
+
+/// The program of the first part has the next number: few programs of a machine's maker have numbers above it.
+const FIRST_PART: u32 = 100;
+
+/// Which controller of the family reads the lines.
+#[derive(Debug)]
+pub(crate) enum PmacDialect {
+    /// Turbo PMAC: capital letters, and `CLEAR` empties a program.
+    Turbo,
+    /// Power PMAC: small letters, and `open prog` empties a program.
+    Power,
+}
 
 /// Lines in position-velocity-time mode.
 #[derive(Debug)]
 pub(crate) struct Pvt {
     pub(crate) clock: Clock,
+    pub(crate) dialect: PmacDialect,
 }
 
 impl Dialect for Pvt {
@@ -164,6 +190,33 @@ impl Dialect for Pvt {
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
         read_travel(code, modes)
+    }
+
+    fn part_lines(&self, part: &PartName) -> Option<PartLines> {
+        let number = FIRST_PART + part.number;
+        Some(match self.dialect {
+            PmacDialect::Turbo => PartLines {
+                call: format!("CALL{number}"),
+                begin: format!("CLOSE\nOPEN PROG {number} CLEAR\n"),
+                end: "CLOSE\n".to_owned(),
+            },
+            PmacDialect::Power => PartLines {
+                call: format!("call {number}"),
+                begin: format!("close\nopen prog {number}\n"),
+                end: "close\n".to_owned(),
+            },
+        })
+    }
+
+    /// A controller of this family knows programs by their numbers, and files by their names alone.
+    fn called_part(&self, code: &str, program: &str) -> Option<String> {
+        let code = code.trim();
+        let word = code
+            .get(..4)
+            .filter(|word| word.eq_ignore_ascii_case("CALL"))?;
+        let number: u32 = code.get(word.len()..)?.trim().parse().ok()?;
+        let part = number.checked_sub(FIRST_PART)?;
+        Some(PartName::of(program, part).file)
     }
 
     fn other_header(&self, settings: &Params) -> Option<(&'static str, &'static str)> {

@@ -9,8 +9,9 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
-use crate::pmac::{Clock, PVT_KEYS, Pvt};
+use crate::pmac::{Clock, PVT_KEYS, PmacDialect, Pvt};
 use crate::post::Post;
+use crate::program_format::FeedMeaning;
 
 /// Times in steps of a nanosecond.
 const CLOCK: Clock = Clock {
@@ -39,10 +40,14 @@ open prog 1
 ",
     footer: "close\n",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,
     c_is_even: false,
     delivered_decimals: None,
-    dialect: &Pvt { clock: CLOCK },
+    dialect: &Pvt {
+        clock: CLOCK,
+        dialect: PmacDialect::Power,
+    },
 };

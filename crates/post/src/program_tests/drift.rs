@@ -1,16 +1,16 @@
 //! The times of a program add up to the time of the path.
 
 use super::*;
-use crate::POSTS;
+use crate::{FeedMeaning, POSTS};
 
-/// The time of a segment in seconds, from a line of text alone.
-fn said_time(line: &str) -> Option<f64> {
+/// The time of a segment in seconds, from a line of text alone. F is one over minutes, or seconds.
+fn said_time(line: &str, f_is_seconds: bool) -> Option<f64> {
     if let Some(ms) = line.strip_prefix("PVT") {
         return Some(ms.parse::<f64>().unwrap() / 1e3);
     }
     if let Some((_, feed)) = line.split_once(" F") {
         let feed: Option<f64> = feed.parse().ok();
-        return feed.map(|feed| 60.0 / feed);
+        return feed.map(|feed| if f_is_seconds { feed } else { 60.0 / feed });
     }
     let call = line.strip_prefix("MovePvt(")?.strip_suffix(')')?;
     Some(call.rsplit(", ").next().unwrap().parse().unwrap())
@@ -20,6 +20,8 @@ fn said_time(line: &str) -> Option<f64> {
 /// it has. The sum is counted in steps, so that it has no rounding of its own.
 fn times_do_not_drift(layout: &Layout, segments: u32) {
     let steps_per_s = layout.format.steps_per_s as f64;
+    let chords = layout.format.chords;
+    let f_is_seconds = chords.is_some_and(|chords| chords.feed == FeedMeaning::Seconds);
     // 1/3 ms and a little is never a whole number of steps.
     let point = |k: u32| ControlPoint {
         t: f64::from(k) * (1e-3 / 3.0 + 1e-10 / 7.0),
@@ -40,7 +42,7 @@ fn times_do_not_drift(layout: &Layout, segments: u32) {
         };
         let lines = String::from_utf8(layout.lines(&stretch).unwrap().text).unwrap();
         for line in lines.lines() {
-            time = said_time(line).map_or(time, |s| (s * steps_per_s).round() as i64);
+            time = said_time(line, f_is_seconds).map_or(time, |s| (s * steps_per_s).round() as i64);
             let moves = ["C", "MovePvt", "G1 ", "POLY ", "PO["];
             let moves = moves.iter().any(|begin| line.starts_with(begin));
             // The first move is the way to the path.

@@ -10,6 +10,7 @@ mod damage;
 mod drift;
 mod extremes;
 mod numbers;
+mod parts;
 mod round_trips;
 mod travel;
 

@@ -81,7 +81,7 @@ proptest! {
                 before: &points[from.saturating_sub(2)..from],
                 points: &block,
             };
-            carried.extend(layout.carried(&stretch).unwrap().points());
+            carried.extend(layout.carried(&stretch).unwrap().points.points());
         }
         prop_assert_eq!(carried.len(), read.len());
         for (k, (carried, read)) in carried.iter().zip(&read).enumerate() {
@@ -221,7 +221,7 @@ fn words_of(post: &str) -> &'static [&'static str] {
             "SetupTaskTargetMode(TargetMode.Incremental)\n",
             "SetupTaskTargetMode(TargetMode.Absolute)\n",
         ],
-        "nanotech-g93" | "linuxcnc-g93" => &[
+        "beckhoff-g93" | "nanotech-g93" | "linuxcnc-g93" => &[
             " C#",
             " X#",
             " Z#",

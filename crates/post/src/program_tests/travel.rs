@@ -6,7 +6,7 @@ use super::*;
 use crate::{POSTS, ProgramFormat};
 
 /// A path from rest to rest 1.5 mm above the cut, whose middle is the cut.
-fn with_leads() -> Vec<ControlPoint> {
+pub(super) fn with_leads() -> Vec<ControlPoint> {
     let at = |k: u32, z: f64, vz: f64| ControlPoint {
         t: 0.5 * f64::from(k),
         c: f64::from(k) * 90.0 * DEG,
@@ -63,7 +63,7 @@ fn z_goes_up_before_x_and_c_move_and_down_at_a_feed_of_its_own() {
     assert_eq!(
         between(&siemens, "; -- approach --", "; -- lead-in"),
         [
-            "G90 G94 G60",
+            "G90 G94 G710 G60 FGROUP()",
             "G0 Z6.5",
             "G0 X2.46",
             "G0 C360",
@@ -78,6 +78,21 @@ fn z_goes_up_before_x_and_c_move_and_down_at_a_feed_of_its_own() {
     assert_eq!(
         between(&nanotech, "; -- lead-in --", "; -- cutting")[..2],
         ["G90 G93", "G1 C0 X2.46 Z1.5 F60"]
+    );
+    let beckhoff = good("beckhoff-g93");
+    assert_eq!(
+        between(&beckhoff, "; -- approach --", "; -- lead-in"),
+        [
+            "G90 G94 G40 G52 G71 G360",
+            "G0 Z6.5",
+            "G0 X2.46",
+            "G0 C360",
+            "G1 Z1.5 F60"
+        ]
+    );
+    assert_eq!(
+        between(&beckhoff, "; -- lead-in --", "; -- cutting")[..2],
+        ["G40 G52 G71 G90 G93 G359", "G1 C360 X2.46 Z1.5 F1"]
     );
     let linuxcnc = good("linuxcnc-g93");
     assert_eq!(

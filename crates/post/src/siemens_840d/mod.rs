@@ -34,6 +34,7 @@
 mod read;
 #[cfg(test)]
 mod tests;
+mod travel;
 mod write;
 
 use read::PolyGrammar;
@@ -43,10 +44,15 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::carry::{DigitSegment, Digits};
 use crate::g_code::push_travel;
+use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
-use crate::program_format::ProgramFormat;
-use crate::settings::{C_SIGN, FOOTER, HEADER, POSITION_DECIMALS, SHORTEST_SEGMENT};
-use crate::travel::Travel;
+use crate::program_error::ProgramError;
+use crate::program_format::{FeedMeaning, ProgramFormat};
+use crate::settings::{
+    C_LIMIT, C_SIGN, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, SEGMENTS_PER_SECOND,
+    SHORTEST_SEGMENT, SPLIT,
+};
+use crate::travel::{C, Places, Travel, TravelModes};
 
 /// Programs for Siemens Sinumerik 840D.
 pub(crate) const SIEMENS_840D_POLY: Post = Post {
@@ -59,6 +65,10 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
         POSITION_DECIMALS.info(),
         C_SIGN.info(),
         SHORTEST_SEGMENT.info(),
+        SEGMENTS_PER_SECOND.info(),
+        MEMORY.info(),
+        SPLIT.info(),
+        C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -74,6 +84,7 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
 ",
     footer: "M30\n",
     shape: SegmentShape::Cubic,
+    feed: FeedMeaning::PerMinute,
     steps_per_s: 1_000_000_000,
     longest: 1_000_000_000_000,
     mantissa_bits: None,
@@ -90,6 +101,10 @@ struct Poly;
 const HARMLESS: &[&str] = &[
     "G71", "G710", "G90", "G93", "G64", "M0", "M2", "M17", "M30", "UPATH",
 ];
+/// What stands beside `G90` and `G94` before the moves outside of the path. A program begins with what
+/// the last one left: `G710` makes lengths and feeds metric, `FGROUP()` makes F that of the axis that
+/// moves, and with `G60` each axis comes to rest, so that no corner is rounded.
+const TRAVEL_MODES: &str = " G710 G60 FGROUP()";
 /// Words that end a program.
 const ENDS: &[&str] = &["M2", "M02", "M17", "M30", "RET"];
 
@@ -102,13 +117,44 @@ impl Dialect for Poly {
         push_segment(text, format, segment);
     }
 
+    /// `FGROUP(C)`: a block takes the time of its way along C, so it has such a way.
+    fn check_time(
+        &self,
+        format: &ProgramFormat,
+        segment: &DigitSegment,
+    ) -> Result<(), ProgramError> {
+        let way = |digits: &Digits| (digits.position[C], digits.velocity[C]);
+        let is_still = way(&segment.from) == way(&segment.to) && segment.to.velocity[C] == 0;
+        let (t, c_deg) = segment.end(format);
+        match is_still {
+            true => Err(ProgramError::StillC { t, c_deg }),
+            false => Ok(()),
+        }
+    }
+
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(PolyGrammar::new(format))
     }
 
     fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
-        // `G60`: exact stop, so that no corner is rounded.
-        push_travel(text, format, " G60", travel);
+        push_travel(text, format, TRAVEL_MODES, travel);
+    }
+
+    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        travel::read(code, modes)
+    }
+
+    fn part_lines(&self, part: &PartName) -> Option<PartLines> {
+        Some(PartLines {
+            call: format!("EXTCALL(\"{}\")", part.file),
+            begin: String::new(),
+            // `RET` ends a subprogram without an end of the continuous path.
+            end: "RET\n".to_owned(),
+        })
+    }
+
+    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+        travel::called_part(code)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {

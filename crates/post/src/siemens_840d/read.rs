@@ -112,6 +112,13 @@ impl PolyGrammar {
             begin[k] = to - from - square - cube;
             end[k] = begin[k] + 2 * square + 3 * cube;
             target[k] = to;
+            if k == 0 && [to - from, square, cube] == [0; 3] {
+                return Err(
+                    "C stands still: with `FGROUP(C)` and `UPATH` nothing says when and how the \
+                     other axes move"
+                        .to_owned(),
+                );
+            }
         }
         match state.last {
             None => points.push(state.go_to(state.position, begin, steps, steps_per_s)?),
@@ -279,7 +286,7 @@ fn feed_of(word: &str) -> Result<f64, String> {
 }
 
 /// The words of a block behind its number, `N10`, which need not be there.
-fn without_number(code: &str) -> Result<&str, String> {
+pub(super) fn without_number(code: &str) -> Result<&str, String> {
     let code = code.trim_start();
     let Some(numbered) = code.strip_prefix('N') else {
         return Ok(code);

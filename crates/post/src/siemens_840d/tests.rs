@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use turnpath_core::DEG;
-use turnpath_core::toolpath::Segment;
+use turnpath_core::toolpath::{PathBlock, Section, SectionBlock, Segment};
 
 use super::SIEMENS_840D_POLY;
 use crate::program_tests::{path_of, plain, program, read};
@@ -120,6 +120,16 @@ fn damaged_lines_are_refused_with_their_number() {
             "line 6: `PO[C]=(9` is not a word",
         ),
         (6, "POLY PO[C]=(9e1) F20000", "line 6: C has no number"),
+        (
+            7,
+            "PO[X]=(2.498,-0.0012,0.0008) PO[Z]=(1,-0.045,0.03) F20000",
+            "line 7: C stands still",
+        ),
+        (
+            7,
+            "PO[C]=(9) PO[X]=(2.498) F20000",
+            "line 7: C stands still",
+        ),
         (7, "G1 C18 X2 Z1 F20000", "line 7: `G1` ends the path"),
         (7, "G90 UPATH G1", "line 7: `G1` ends the path"),
         (4, "G1 C0 X2.5 Z0 X2 F60", "line 4: X appears twice"),
@@ -159,21 +169,48 @@ fn block_numbers_and_small_letters_are_read() {
     );
 }
 
+/// The controller takes the time of a block from C. A C that goes and comes back has a way.
+#[test]
+fn a_segment_in_which_c_stands_still_is_not_written() {
+    let layout = plain(&SIEMENS_840D_POLY);
+    let said = |c_deg: f64, vc_deg: f64| {
+        let mut points = path_of(&[[0.003, c_deg, 2.499, 1.0, -0.2, 5.0]]);
+        points[1].vc = vc_deg * DEG;
+        points[0].vc = vc_deg * DEG;
+        let mut block = PathBlock::default();
+        points.iter().for_each(|point| block.push(*point));
+        let lines = layout.lines(&SectionBlock {
+            section: Section::LeadIn,
+            opens_section: true,
+            before: &[],
+            points: &block,
+        });
+        lines.err().map(|error| error.to_string())
+    };
+    assert_eq!(said(9.0, 3000.0), None);
+    assert_eq!(said(0.0, 3000.0), None);
+    let refused = said(0.0, 0.0).unwrap();
+    assert!(
+        refused.starts_with("C stands still in the segment that ends at 0.003"),
+        "{refused}"
+    );
+}
+
 /// The velocities of such a program do not fit into the numbers of the reader.
 #[test]
 fn coefficients_of_any_size_are_refused_with_their_line() {
     let huge = "999999999999999";
-    let poly = format!("POLY PO[X]=(0.48,{huge},{huge}) F60000000000");
+    let poly = format!("POLY PO[C]=(0.48,{huge},{huge}) F60000000000");
     let lines = [
         "; -- lead-in --",
         "G71 G90 G93 G64 FGROUP(C) UPATH",
         "G1 C0 X2.5 Z0 F60",
         &poly,
-        "PO[X]=(0.48) F0.06",
+        "PO[C]=(0.5) F0.06",
         "; -- end of path: 3 points --",
     ];
     let message = read(&plain(&SIEMENS_840D_POLY), lines.join("\n").as_bytes()).unwrap_err();
-    let says = "line 5: the velocity of X has too many digits";
+    let says = "line 5: the velocity of C has too many digits";
     assert!(message.contains(says), "{message}");
 }
 

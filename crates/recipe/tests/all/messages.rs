@@ -271,6 +271,8 @@ bind_says! {
     file_as_number: "spacing = \"10 um\"\nmap = 3";
     file_without_a_name: "spacing = \"10 um\"\nmap = \"\"";
     coefficients_as_list: "spacing = \"10 um\"\nheights = [\"1 um\", \"2 um\"]";
+    coefficients_empty: "spacing = \"10 um\"\nheights = {}";
+    rows_empty: "spacing = \"10 um\"\nterms = []";
     coefficient_without_unit: "spacing = \"10 um\"\nheights = { 4 = \"1 um\", 11 = 0.2 }";
     coefficient_with_a_unit: "spacing = \"10 um\"\npowers = { \"2,0\" = \"1 um\" }";
     coefficient_under_a_word: "spacing = \"10 um\"\nheights = { Z4 = \"1 um\" }";

@@ -9,6 +9,9 @@ use super::wording::{NONE, ratio_of, written};
 
 /// Figures below this are rounding: 1e-8 nm, or mm/s².
 const ROUNDING: f64 = 1e-8;
+/// Figures that differ by less than this part differ by chance: by where the last step of a refinement
+/// or of a search falls.
+const NOISE: f64 = 0.01;
 /// Marks the best figure of a column.
 const BEST: &str = "*";
 /// Marks a figure that exceeds its tolerance.
@@ -41,7 +44,7 @@ impl FigureColumn {
         let tidy = |number: f64| if number.abs() < ROUNDING { 0.0 } else { number };
         let figures = runs.iter().map(|run| (column.figure)(run.measured()?));
         let numbers: Vec<Option<f64>> = figures.map(|number| number.map(tidy)).collect();
-        let best = best(&numbers, column);
+        let is_best = is_best(&numbers, column);
         let first = numbers.first().copied().flatten();
         let cell = |(row, (run, number)): (usize, (&AblationRun, &Option<f64>))| {
             let exceeds = column
@@ -52,7 +55,7 @@ impl FigureColumn {
             let ratio = number.zip(first).filter(|_| row > 0);
             let text = number.map(|number| written(number, column.form));
             Cell {
-                is_best: best.is_some() && best == text,
+                is_best: is_best.get(row).copied().unwrap_or(false),
                 text: text.unwrap_or_else(|| NONE.to_owned()),
                 ratio: ratio.map_or(String::new(), |(number, first)| ratio_of(number, first)),
                 exceeds: exceeds.unwrap_or(false),
@@ -69,6 +72,27 @@ impl FigureColumn {
             best: column.best,
             cells,
         }
+    }
+
+    /// The same without the ratios.
+    pub fn without_ratios(mut self) -> Self {
+        for cell in &mut self.cells {
+            cell.ratio.clear();
+        }
+        self
+    }
+
+    /// The heading in one line, its broken words made whole.
+    pub fn title(&self) -> String {
+        let mut title = String::new();
+        for line in self.heading {
+            match title.strip_suffix('-') {
+                Some(begun) => title = format!("{begun}{line}"),
+                None if title.is_empty() => title += line,
+                None => title = format!("{title} {line}"),
+            }
+        }
+        title
     }
 
     /// Columns of the terminal that it takes: a space, the figure, its mark.
@@ -106,6 +130,11 @@ impl FigureColumn {
 }
 
 impl Cell {
+    /// The figure, or what stands where there is none.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     fn marked(&self) -> String {
         let mark = if self.exceeds { EXCEEDS } else { "" };
         format!("{mark}{}", self.text)
@@ -116,17 +145,30 @@ impl Cell {
     }
 }
 
-/// The best number as it is written, unless all are the same.
-fn best(numbers: &[Option<f64>], column: &Column) -> Option<String> {
-    let there = || numbers.iter().flatten().copied().filter(|n| n.is_finite());
-    let best = match column.best {
-        Best::Smallest => there().fold(f64::INFINITY, f64::min),
-        Best::Largest => there().fold(f64::NEG_INFINITY, f64::max),
-        Best::None => return None,
+/// Which numbers are the best, and what differs from it by chance alone. None is, where all are.
+fn is_best(numbers: &[Option<f64>], column: &Column) -> Vec<bool> {
+    let sign = match column.best {
+        Best::Smallest => 1.0,
+        Best::Largest => -1.0,
+        Best::None => return vec![false; numbers.len()],
     };
-    let best = written(best, column.form);
-    let differ = there().any(|number| written(number, column.form) != best);
-    differ.then_some(best)
+    let finite = |number: &Option<f64>| number.filter(|number| number.is_finite());
+    let there = numbers
+        .iter()
+        .filter_map(finite)
+        .map(|number| sign * number);
+    let best = there.fold(f64::INFINITY, f64::min);
+    let limit = best + NOISE * best.abs();
+    let is_near: Vec<bool> = numbers
+        .iter()
+        .map(|number| finite(number).is_some_and(|number| sign * number <= limit))
+        .collect();
+    let differ = numbers.iter().zip(&is_near);
+    let differ = differ.filter(|(number, is_near)| finite(number).is_some() && !**is_near);
+    match differ.count() {
+        0 => vec![false; numbers.len()],
+        _ => is_near,
+    }
 }
 
 #[cfg(test)]
@@ -135,31 +177,31 @@ mod tests {
     use crate::comparison::by_name;
     use crate::sample::{failed_run, measured_run};
 
-    fn best_of(name: &str, numbers: &[Option<f64>]) -> Option<String> {
-        let column = by_name(name).unwrap();
-        best(numbers, column)
+    fn best_of(name: &str, numbers: &[Option<f64>]) -> Vec<bool> {
+        is_best(numbers, by_name(name).unwrap())
     }
 
     #[test]
-    fn figures_that_are_all_the_same_have_no_best() {
+    fn figures_that_differ_by_chance_have_no_best() {
         let best = |numbers: &[Option<f64>]| best_of("time", numbers);
-        assert_eq!(best(&[Some(1.0), None, Some(1.000_01)]), None);
+        assert_eq!(best(&[Some(1.0), None, Some(1.009)]), [false; 3]);
+        assert_eq!(best(&[Some(2.0), None, Some(1.0)]), [false, false, true]);
         assert_eq!(
-            best(&[Some(2.0), None, Some(1.0)]),
-            Some("1.000".to_owned())
+            best(&[Some(2.0), Some(1.0), Some(1.009)]),
+            [false, true, true]
         );
-        assert_eq!(best(&[Some(f64::NAN), Some(1.0)]), None);
-        assert_eq!(best(&[None, None]), None);
+        assert_eq!(best(&[Some(f64::NAN), Some(1.0)]), [false; 2]);
+        assert_eq!(best(&[None, None]), [false; 2]);
     }
 
     #[test]
     fn of_speeds_the_largest_is_the_best_and_of_times_of_the_processor_none() {
         let numbers = [Some(100.0), None, Some(300.0)];
-        assert_eq!(best_of("spindle-max", &numbers), Some("300.0".to_owned()));
-        assert_eq!(best_of("planning-time", &numbers), None);
+        assert_eq!(best_of("spindle-max", &numbers), [false, false, true]);
+        assert_eq!(best_of("planning-time", &numbers), [false; 3]);
     }
 
-    /// Marks and ratios where figures tie as they are written, are zero, or are not there.
+    /// Marks and ratios where figures tie but for chance, are zero, or are not there.
     #[test]
     fn ties_are_all_marked_and_zero_or_nothing_has_no_ratio() {
         let entry = |added: u64, time: f64| {
@@ -197,8 +239,8 @@ mod tests {
         assert_eq!(cells("added"), added);
         let times = [
             row("99.99", true, ""),
-            row("100.0", false, "×1.00"),
-            row("100.0", false, "×1.00"),
+            row("100.0", true, "×1.00"),
+            row("100.0", true, "×1.00"),
             row("–", false, ""),
             row("–", false, ""),
             row("250.0", false, "×2.50"),

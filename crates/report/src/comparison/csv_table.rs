@@ -68,7 +68,7 @@ fn limits(runs: &[AblationRun]) -> Vec<&'static str> {
 }
 
 /// A figure with all its digits; nothing where a run has none.
-fn figure(run: &AblationRun, column: &Column) -> String {
+pub(super) fn figure(run: &AblationRun, column: &Column) -> String {
     let number = run.measured().and_then(column.figure);
     match number.filter(|number| number.is_finite()) {
         None => String::new(),

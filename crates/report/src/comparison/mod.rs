@@ -5,6 +5,8 @@ mod cells;
 mod column;
 mod csv_table;
 mod labels;
+mod order;
+mod paper_table;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -13,4 +15,6 @@ mod wording;
 pub use all_columns::{all, by_name, names, usual};
 pub use column::{Best, Column, Form};
 pub use csv_table::csv_table;
+pub use order::sorted;
+pub use paper_table::{Language, paper_table};
 pub use table::table;

@@ -19,11 +19,20 @@ const OF_LAW: &str = "law's: apart from where the feed runs out at the path's en
 const PROGRAM: &str = "program: the lines that the post makes of the points, measured";
 const PLANNING: &str = "planning: processor time to make and measure the path";
 
-/// The runs side by side, on so many columns of the terminal.
-pub fn table(runs: &[AblationRun], columns: &[&Column], widest: usize) -> String {
+/// The runs side by side, on so many columns of the terminal, with the ratios to the first run or
+/// without.
+pub fn table(
+    runs: &[AblationRun],
+    columns: &[&Column],
+    widest: usize,
+    with_ratios: bool,
+) -> String {
     let labels = Labels::of(runs, widest);
-    let columns = columns.iter().map(|column| FigureColumn::of(runs, column));
-    let columns: Vec<FigureColumn> = columns.collect();
+    let column = |column: &&Column| match FigureColumn::of(runs, column) {
+        figures if with_ratios => figures,
+        figures => figures.without_ratios(),
+    };
+    let columns: Vec<FigureColumn> = columns.iter().map(column).collect();
     let parts = fitting(&columns, widest).into_iter();
     let parts: Vec<String> = parts.map(|part| labels.beside(part, runs)).collect();
     format!("{}{}", parts.join("\n"), legend(&columns, widest))
@@ -54,8 +63,8 @@ fn legend(columns: &[FigureColumn], widest: usize) -> String {
         of_kind.any(|one| one.cells.iter().any(|cell| cell.is_best))
     };
     let marks = [
-        (best(Best::Smallest), "* smallest of its column"),
-        (best(Best::Largest), "* largest speed of the spindle"),
+        (best(Best::Smallest), "* smallest, or within 1 % of it"),
+        (best(Best::Largest), "* largest speed, or within 1 % of it"),
         (any(|cell| cell.exceeds), "! exceeds its tolerance"),
         (
             any(|cell| !cell.ratio.is_empty()),

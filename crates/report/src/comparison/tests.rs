@@ -59,7 +59,7 @@ fn no_label_reason_or_choice_of_columns_makes_it_wider_than_the_terminal() {
     ];
     for columns in [usual(), all(), all().into_iter().rev().collect()] {
         for widest in [40, 57, 80, 100] {
-            let text = table(&entries, &columns, widest);
+            let text = table(&entries, &columns, widest, true);
             assert_narrow(&text, widest);
             assert!(text.contains("failed: the tool"), "{text}");
             for one in ["1.0e12", "!1", "×"] {
@@ -76,7 +76,7 @@ fn the_smallest_of_a_column_is_marked_and_what_exceeds_its_tolerance() {
         failed("panics", "the sampler panicked"),
         entry("equal-arc", 1_300, 198.0),
     ];
-    insta::assert_snapshot!(table(&entries, &usual(), 100));
+    insta::assert_snapshot!(table(&entries, &usual(), 100, true));
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn a_first_run_that_failed_leaves_no_ratios() {
         failed("panics", "it panicked"),
         entry("equal-arc", 1_300, 98.0),
     ];
-    let text = table(&entries, &usual(), 100);
+    let text = table(&entries, &usual(), 100, true);
     assert!(!text.contains('×'), "{text}");
 }
 
@@ -104,7 +104,7 @@ fn labels_that_are_too_long_go_on_below_themselves() {
     ];
     for columns in [usual(), all()] {
         for widest in [40, 100] {
-            let text = table(&entries, &columns, widest);
+            let text = table(&entries, &columns, widest, true);
             assert_narrow(&text, widest);
             for one in ["= 10", "= 20", "then 1", "then 2"] {
                 assert!(text.contains(one), "{text}");

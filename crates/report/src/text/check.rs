@@ -33,7 +33,9 @@ pub fn check(report: &CheckReport) -> String {
     text += &line("toolpath.csv", format!("about {size}"));
     for program in &expected.programs {
         let (size, file) = (bytes(program.bytes as f64), &program.file);
-        text += &line("program", format!("about {size}: {file}"));
+        let parts = program.parts.map(|parts| format!(", in {parts} parts"));
+        let parts = parts.unwrap_or_default();
+        text += &line("program", format!("about {size}{parts}: {file}"));
     }
     text += &commands(&report.controller_commands);
     text + &remarks(&report.remarks)

@@ -61,8 +61,8 @@ fn sentence(remark: &Remark) -> String {
             let (rounding, tolerance) = (small_length(*rounding), small_length(*tolerance));
             let (c, c_rounding) = (c / DEG, significant(c_rounding / DEG));
             format!(
-                "{}the controller knows C = {c:.0} deg to {c_rounding} deg, which moves the tool by up \
-                 to {rounding} along the rim, and the interpolation tolerance is {tolerance}; write \
+                "{}the controller knows C = {c:.0} deg to {c_rounding} deg, on which the surface rises \
+                 by up to {rounding}, and the interpolation tolerance is {tolerance}; write \
                  c_wrap = \"0-360\" or positioning = \"incremental\"",
                 of_post(post)
             )

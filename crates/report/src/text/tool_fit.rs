@@ -63,13 +63,7 @@ fn row(label: &str, given: &str, limit: &str, at: Option<&ContactPlace>) -> Stri
 }
 
 fn sections(sections: &Sections) -> String {
-    let curvature = sections.hollow.curvature;
-    let hollow = match curvature > 0.0 {
-        true if curvature < 1e-3 => format!("curvature {curvature:.3e} /mm"),
-        true => format!("curvature {curvature:.5} /mm"),
-        false => "none".to_owned(),
-    };
-    let mut text = section("hollow", &hollow, curvature > 0.0, &sections.hollow.at);
+    let mut text = String::new();
     for (label, slope) in [
         ("rises outward", &sections.rises_outward),
         ("falls outward", &sections.falls_outward),

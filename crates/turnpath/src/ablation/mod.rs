@@ -6,7 +6,10 @@
 mod clock;
 mod files;
 mod key;
+mod merge;
 mod observer;
+mod one_run;
+mod plan;
 mod record;
 mod runs;
 mod variant;
@@ -24,9 +27,13 @@ use crate::run::chain_names;
 use crate::strategies::wrong_choices;
 
 use files::AblationFiles;
+pub use key::FIGURES;
 use key::{Key, Keys};
+pub use merge::merge_ablation;
 pub use observer::AblationObserver;
-use record::Records;
+pub use one_run::run_of_ablation;
+pub use plan::{AblationPlan, RunPlan, RunState, plan_ablation};
+use record::{Records, RunRecord};
 use runs::Outcome;
 use variant::Sources;
 
@@ -52,6 +59,9 @@ pub struct AblationResult {
     pub reused: usize,
     /// Why runs failed, with their places in the report.
     pub failures: Vec<(usize, Error)>,
+    /// How many runs have no figures because nothing was made: those without a record, or with one of
+    /// a failure.
+    pub missing: usize,
 }
 
 /// Makes the variants that a recipe's `[ablation]` lists and writes their figures. Tolerances that
@@ -66,12 +76,10 @@ pub fn ablate(
     options: &AblationOptions,
     observer: &dyn AblationObserver,
 ) -> Result<AblationResult, Error> {
-    let variants = recipe.variants()?;
-    refuse_wrong_choices(&variants, catalogue)?;
     let data = DataFiles::default();
-    let keys = Keys::new(catalogue, &data).of_all(&variants)?;
+    let (variants, keys) = variants(recipe, catalogue, &data)?;
     let files = AblationFiles::new(&options.folder)?;
-    let records = Records::new(files.folder())?;
+    let records = Records::make(files.folder().path())?;
     let recorded = recorded(options, &records, &keys, observer);
     let reused = recorded.iter().flatten().count();
     let outcomes = runs::complete(
@@ -84,7 +92,7 @@ pub fn ablate(
         options.threads,
         observer,
         |index, run| match keys.get(index) {
-            Some(key) => records.keep(files.folder(), key, run),
+            Some(key) => records.keep(Some(files.folder()), key, run),
             None => Err(Error::RunLost),
         },
     )?;
@@ -95,7 +103,20 @@ pub fn ablate(
         report,
         reused,
         failures,
+        missing: 0,
     })
+}
+
+/// The variants of a recipe with their keys.
+fn variants(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    data: &DataFiles,
+) -> Result<(Vec<Variant>, Vec<Key>), Error> {
+    let variants = recipe.variants()?;
+    refuse_wrong_choices(&variants, catalogue)?;
+    let keys = Keys::new(catalogue, data).of_all(&variants)?;
+    Ok((variants, keys))
 }
 
 /// Strategies that are not there, or do not take the parameters that the lists give them, are
@@ -124,7 +145,10 @@ fn recorded(
 ) -> Vec<Option<MeasuredRun>> {
     let one = |key| match options.fresh {
         true => None,
-        false => records.read(key, observer),
+        false => match records.read(key, observer) {
+            RunRecord::Measured(run) => Some(*run),
+            RunRecord::Failed(_) | RunRecord::None => None,
+        },
     };
     keys.iter().map(one).collect()
 }
@@ -134,26 +158,42 @@ fn rows(variants: &[Variant], outcomes: Vec<Outcome>) -> (Vec<AblationRun>, Vec<
     let (mut runs, mut failures) = (Vec::new(), Vec::new());
     for (index, (variant, outcome)) in variants.iter().zip(outcomes).enumerate() {
         let outcome = match outcome {
-            Ok(mut run) => {
-                // A name plays no part in what a record is known by.
-                run.report.name = variant.recipe.name.clone();
-                RunOutcome::Measured(Box::new(run))
-            }
+            Ok(run) => RunOutcome::Measured(Box::new(run)),
             Err(error) => {
-                let row = FailedRun {
-                    chain: chain_names(&variant.recipe),
-                    error: error.title(),
-                };
+                let row = failed(variant, error.title());
                 failures.push((index, error));
                 RunOutcome::Failed(row)
             }
         };
-        let varied = variant.variations.iter();
-        let varied = varied.map(|one| (one.key.clone(), one.value.clone()));
-        runs.push(AblationRun {
-            outcome,
-            varied: varied.collect(),
-        });
+        runs.push(row(variant, outcome));
     }
     (runs, failures)
+}
+
+/// A variant that gave no path.
+fn failed(variant: &Variant, error: String) -> FailedRun {
+    FailedRun {
+        chain: chain_names(&variant.recipe),
+        error,
+    }
+}
+
+/// The row of a variant.
+fn row(variant: &Variant, mut outcome: RunOutcome) -> AblationRun {
+    if let RunOutcome::Measured(run) = &mut outcome {
+        // A name plays no part in what a record is known by.
+        run.report.name = variant.recipe.name.clone();
+    }
+    AblationRun {
+        outcome,
+        varied: varied(variant),
+    }
+}
+
+/// The keys that vary, with the values of a variant in words.
+fn varied(variant: &Variant) -> Vec<(String, String)> {
+    let pairs = variant.variations.iter();
+    pairs
+        .map(|one| (one.key.clone(), one.value.clone()))
+        .collect()
 }

@@ -1,14 +1,15 @@
-//! Records of finished runs: a file each, named by the run's key, complete as soon as it is there.
+//! Records of runs: a file each, named by the run's key, complete as soon as it is there.
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use turnpath_files::{Draft, FileError, ResultFolder, read_bounded_text};
 use turnpath_host::sha256_hex;
-use turnpath_report::{MeasuredRun, to_json};
+use turnpath_report::{FailedRun, MeasuredRun, to_json};
 
 use crate::error::Error;
 use crate::summary::MOST_BYTES;
@@ -26,21 +27,38 @@ pub struct Records {
     folder: PathBuf,
 }
 
-/// What stands in a record.
+/// What stands in a record of a run.
 #[derive(Debug, Serialize, Deserialize)]
-struct Record {
+struct Record<R> {
     key: String,
     /// What the key is the hash of.
     of: Value,
-    run: MeasuredRun,
+    run: R,
     /// SHA-256 of `run`, so that damage shows.
     sha256: String,
 }
 
+/// What is known of a run.
+pub enum RunRecord {
+    /// It was made.
+    Measured(Box<MeasuredRun>),
+    /// It was tried alone and failed; nothing but a new try tells whether it does so again.
+    Failed(FailedRun),
+    /// There is no record, or a damaged one.
+    None,
+}
+
 impl Records {
+    /// The records below an output folder, which need not be there.
+    pub fn of(output: &Path) -> Self {
+        Self {
+            folder: output.join(RUNS),
+        }
+    }
+
     /// Makes the folder, if it is not there, and tries whether it takes a record.
-    pub fn new(output: &ResultFolder) -> Result<Self, FileError> {
-        let folder = output.path().join(RUNS);
+    pub fn make(output: &Path) -> Result<Self, FileError> {
+        let folder = output.join(RUNS);
         let usable = fs::create_dir_all(&folder);
         let usable = usable.and_then(|()| {
             let draft = Draft::begin(folder.join(PROBE));
@@ -60,31 +78,41 @@ impl Records {
     }
 
     /// The run of this key, if its record is there and whole. The observer hears of a damaged one.
-    pub fn read(&self, key: &Key, observer: &dyn AblationObserver) -> Option<MeasuredRun> {
+    pub fn read(&self, key: &Key, observer: &dyn AblationObserver) -> RunRecord {
         let path = self.path(key);
         let text = match read_bounded_text(&path, MOST_BYTES) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return None,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return RunRecord::None,
             text => text.map_err(|error| error.to_string()),
         };
-        match text.and_then(|text| whole(&text, key)) {
-            Ok(run) => Some(run),
-            Err(why) => {
-                observer.damaged(&path, &why);
-                None
-            }
-        }
+        let whole = text.and_then(|text| match whole::<FailedRun>(&text, key) {
+            Ok(failed) => Ok(RunRecord::Failed(failed)),
+            Err(_) => whole(&text, key).map(|run| RunRecord::Measured(Box::new(run))),
+        });
+        whole.unwrap_or_else(|why| {
+            observer.damaged(&path, &why);
+            RunRecord::None
+        })
     }
 
-    /// Keeps a finished run.
-    pub fn keep(&self, output: &ResultFolder, key: &Key, run: &MeasuredRun) -> Result<(), Error> {
+    /// Keeps a run that was made, or that failed.
+    /// With a result folder that is being written, its draft goes with those of the folder.
+    pub fn keep<R: Serialize>(
+        &self,
+        output: Option<&ResultFolder>,
+        key: &Key,
+        run: &R,
+    ) -> Result<(), Error> {
         let path = self.path(key);
         let record = Record {
             key: key.hash.clone(),
             of: key.of.clone(),
             sha256: checksum(run),
-            run: run.clone(),
+            run,
         };
-        let mut draft = output.draft_alone(&path)?;
+        let mut draft = match output {
+            Some(output) => output.draft_alone(&path)?,
+            None => Draft::begin(&path)?,
+        };
         let written = draft.write_all(to_json(&record).as_bytes());
         written.map_err(|error| FileError { path, error })?;
         draft.complete()?;
@@ -93,8 +121,8 @@ impl Records {
 }
 
 /// The run of a record's text, or what is wrong with it.
-fn whole(text: &str, key: &Key) -> Result<MeasuredRun, String> {
-    let record: Record = serde_json::from_str(text).map_err(|error| error.to_string())?;
+fn whole<R: Serialize + DeserializeOwned>(text: &str, key: &Key) -> Result<R, String> {
+    let record: Record<R> = serde_json::from_str(text).map_err(|error| error.to_string())?;
     if record.key != key.hash {
         return Err("it is of another run".to_owned());
     }
@@ -104,6 +132,6 @@ fn whole(text: &str, key: &Key) -> Result<MeasuredRun, String> {
     Ok(record.run)
 }
 
-fn checksum(run: &MeasuredRun) -> String {
+fn checksum<R: Serialize>(run: &R) -> String {
     sha256_hex(to_json(run).as_bytes())
 }

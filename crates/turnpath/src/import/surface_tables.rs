@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-use turnpath_lens::{Base, Shape};
+use turnpath_lens::{Base, Shape, ZernikeList};
 
 /// A table of a recipe: its strategy, and its lines.
 struct SurfaceTable {
@@ -84,13 +84,18 @@ fn tables(shape: &Shape) -> Vec<SurfaceTable> {
             )
         }
         Shape::Zernike {
+            list,
             base,
             terms,
             normalization_radius,
             coefficients,
         } => {
+            let (indexing, normalization) = match list {
+                ZernikeList::Noll => ("noll", "rms"),
+                ZernikeList::Fringe => ("fringe", "peak"),
+            };
             let lines = vec![
-                "indexing = \"noll\"\nnormalization = \"rms\"\n".to_owned(),
+                format!("indexing = \"{indexing}\"\nnormalization = \"{normalization}\"\n"),
                 radius("normalization_radius", Some(*normalization_radius)),
                 lengths(coefficients, u32::to_string),
             ];

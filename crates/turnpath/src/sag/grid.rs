@@ -20,7 +20,7 @@ use crate::surface::surface;
 /// Writes the recipe's surface at `count` × `count` points of the square around the aperture, its
 /// edges included. The ending of the file's name chooses the form: `.gsf`, `.DAT` (Zemax), or CSV
 /// with slopes for all others. A point beyond the part where the surface has no height is NaN, in
-/// `.DAT` a hole.
+/// `.DAT` a hole. Gives how many such points there are.
 ///
 /// # Errors
 /// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there, has no
@@ -30,14 +30,14 @@ pub fn write_sag(
     catalogue: &Catalogue,
     count: usize,
     file: &Path,
-) -> Result<(), Error> {
+) -> Result<usize, Error> {
     check_grid(count)?;
     let form = GridForm::of(file);
     if form == GridForm::Csv {
         let mut draft = Draft::begin(file)?;
-        write_sag_to(recipe, catalogue, count, &mut draft, file)?;
+        let missing = write_sag_to(recipe, catalogue, count, &mut draft, file)?;
         draft.complete()?;
-        return Ok(());
+        return Ok(missing);
     }
     let (surface, grid) = (
         surface(recipe, catalogue, &DataFiles::default())?,
@@ -45,17 +45,20 @@ pub fn write_sag(
     );
     let title = format!("{}: surface", recipe.name);
     let Some(mut writer) = GridWriter::begin(form, file, &title, &grid.points())? else {
-        return Ok(());
+        return Ok(0);
     };
+    let mut missing = 0;
     for j in (0..count).rev() {
         let row = grid.row(j, &surface);
         let row = row.map_err(|error| of_pipeline(recipe, error))?;
+        missing += without_height(&row);
         writer.row(row.into_iter().map(|[_, _, z, _, _]| z))?;
     }
-    Ok(writer.complete()?)
+    writer.complete()?;
+    Ok(missing)
 }
 
-/// Writes the same as CSV into `output`; errors name it `name`.
+/// Writes the same as CSV into `output`; errors name it `name`. Gives the same number.
 ///
 /// # Errors
 /// Those of [`write_sag`].
@@ -65,23 +68,31 @@ pub fn write_sag_to(
     count: usize,
     output: &mut impl io::Write,
     name: &Path,
-) -> Result<(), Error> {
+) -> Result<usize, Error> {
     check_grid(count)?;
     let surface = surface(recipe, catalogue, &DataFiles::default())?;
     let grid = Grid::new(recipe, count);
     let mut rows = csv::Writer::from_writer(output);
     rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"])
         .map_err(|error| not_written(name, error))?;
+    let mut missing = 0;
     for j in 0..grid.count {
         let row = grid.row(j, &surface);
         let row = row.map_err(|error| of_pipeline(recipe, error))?;
+        missing += without_height(&row);
         for point in row {
             let written = rows.serialize(point);
             written.map_err(|error| not_written(name, error))?;
         }
     }
     let flushed = rows.flush();
-    Ok(flushed.map_err(|error| not_written(name, error))?)
+    flushed.map_err(|error| not_written(name, error))?;
+    Ok(missing)
+}
+
+/// How many points of a row have no height.
+fn without_height(row: &[[f64; 5]]) -> usize {
+    row.iter().filter(|[_, _, z, _, _]| z.is_nan()).count()
 }
 
 /// A square grid around the axis, its edges included.

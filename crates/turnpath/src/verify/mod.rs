@@ -15,7 +15,8 @@ use turnpath_core::toolpath::SegmentShape;
 use turnpath_files::Draft;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Stage};
-use turnpath_recipe::Recipe;
+use turnpath_post::post_of_extension;
+use turnpath_recipe::{Recipe, RoughPath};
 use turnpath_report as report;
 use turnpath_report::FileReport;
 use turnpath_verify::{AnomalyDetector, FirstTouch, ServoMeter, Subject, unreached};
@@ -24,6 +25,7 @@ use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
+use crate::folder::rough_toolpath;
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::result_check::result_check;
@@ -48,11 +50,30 @@ pub fn verify(
     folder: &Path,
     observer: &dyn Observer,
 ) -> Result<FileReport, Error> {
+    let rough = rough_path_of(recipe, file)?;
+    let recipe = rough.as_ref().unwrap_or(recipe);
     let target = Target::new(recipe, catalogue)?;
     let plots = Plots::new(request, &recipe.part, folder)?;
     plots.try_folder(folder)?;
     let file = SourceFile::new(file, recipe, target.subject.compensates_nose);
     target.verify(&file, (&plots, folder), observer)
+}
+
+/// The recipe of the rough path that a file has by its name; `None` for any other file.
+fn rough_path_of(recipe: &Recipe, file: &Path) -> Result<Option<Recipe>, Error> {
+    let paths = recipe.rough_paths().map_err(Error::refused)?;
+    let own = file.file_name().unwrap_or_default();
+    let is_own = |rough: &&RoughPath| is_of_path(&rough.recipe, &own.to_string_lossy());
+    Ok(paths.iter().find(is_own).map(|rough| rough.recipe.clone()))
+}
+
+/// Whether a file has the name of a program of a rough path's recipe, or of its table.
+fn is_of_path(recipe: &Recipe, file: &str) -> bool {
+    let table = recipe.rough_name().map(rough_toolpath);
+    let program = file.strip_prefix(recipe.stem().as_str());
+    let extension = program.and_then(|rest| rest.strip_prefix('.'));
+    table.is_some_and(|table| table == file)
+        || extension.is_some_and(|extension| post_of_extension(extension).is_some())
 }
 
 /// What a file is measured against, and how it is played.

@@ -10,7 +10,7 @@ use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_core::{FormBudget, StrategyError, Tolerance};
 use turnpath_host::{Catalogue, sha256_hex};
 use turnpath_pipeline::{Observer, PipelineError, RunError, Sink, Stage, make_unmeasured};
-use turnpath_post::{Layout, ProgramError, ReadError, ReadPath};
+use turnpath_post::{CarriedPoints, Layout, ProgramError, ReadError, ReadPath};
 use turnpath_recipe::Recipe;
 use turnpath_verify::{ComparisonFigures, FirstTouch, PathRow, RowComparison};
 
@@ -106,6 +106,10 @@ fn with_split(job: Job, file: &Path, observer: &dyn Observer) -> Result<Job, Err
 /// The split in the summary beside a file, if the summary is that of this recipe with these changes,
 /// and if it says a split that a run may find.
 fn split_beside(recipe: &Recipe, file: &Path) -> Option<Tolerance> {
+    // The summary has the split of the finishing path, and none of the others'.
+    if recipe.rough_name().is_some() {
+        return None;
+    }
     // The file may be spoiled; the split is then still that of the path that it was.
     let FolderSummary::Read(summary) = FolderSummary::of(&folder_of(file)) else {
         return None;
@@ -227,7 +231,7 @@ fn next_row(reader: &mut dyn ReadPath) -> Result<Option<PathRow>, Stop> {
 }
 
 impl Sink for ComparisonSink<'_> {
-    type Block = (Section, PathBlock);
+    type Block = (Section, CarriedPoints);
     type Error = Stop;
 
     /// The points in the digits of the file.
@@ -237,19 +241,27 @@ impl Sink for ComparisonSink<'_> {
                 let carried = layout.carried(block);
                 carried.map_err(|error| not_carried_by(&layout, error))?
             }
-            None => block.points.clone(),
+            None => CarriedPoints {
+                points: block.points.clone(),
+                of_section_before: 0,
+            },
         };
         Ok((block.section, points))
     }
 
-    fn take(&mut self, _: usize, (section, points): Self::Block) -> Result<(), Stop> {
+    fn take(&mut self, _: usize, (section, carried): Self::Block) -> Result<(), Stop> {
+        let points = carried.points;
         let turns = match self.turns {
             Some(turns) => turns,
             None => self.turns_before(&points)?,
         };
         self.turns = Some(turns);
-        for mut point in points.points() {
+        for (mut point, k) in points.points().zip(0..) {
             point.c -= turns;
+            let section = match k < carried.of_section_before {
+                true => Section::LeadIn,
+                false => section,
+            };
             let (row, reader) = (PathRow { point, section }, &mut self.reader);
             self.comparison
                 .push(row, &mut || next_row(reader.as_mut()))?;

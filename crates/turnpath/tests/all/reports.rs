@@ -58,6 +58,8 @@ const PURE: &[&str] = &[
     "count",
     "rounds",
     "per_turn",
+    "blocks",
+    "parts",
 ];
 /// What a unit in a key ends in.
 const UNITS: &[&str] = &[

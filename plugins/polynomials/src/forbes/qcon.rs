@@ -20,34 +20,22 @@ pub struct ForbesQcon {
     coefficients: Vec<f64>,
 }
 
-const RADIUS: Param<Option<Length>> = Param::length(
-    "radius",
-    "radius of curvature at the vertex; positive: concave; left out: flat",
-)
-.nonzero()
-.optional();
-const CONIC: Param<Number> =
-    Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0);
-
 impl Strategy for ForbesQcon {
     const NAME: &'static str = "forbes-qcon";
     const SUMMARY: &'static str = "a conicoid with Forbes' polynomials for strong aspheres";
     const SOURCE: &'static str = "Forbes 2007, Opt. Express 15, 5218; Forbes 2010, Opt. Express \
         18, 13851";
     const PARAMS: &'static [ParamInfo] = &[
-        RADIUS.info(),
-        CONIC.info(),
+        Conicoid::RADIUS.info(),
+        Conicoid::CONIC.info(),
         NORMALIZATION_RADIUS.info(),
         COEFFICIENTS.info(),
     ];
 
     fn new(params: &Params) -> Result<Self> {
         let dense = round_coefficients(params)?;
-        let base = Conicoid::new(params.get(RADIUS), params.get(CONIC));
         Ok(Self {
-            base: base.ok_or_else(|| {
-                RADIUS.refused("the radius is too small: the formula has no finite values")
-            })?,
+            base: Conicoid::of(params)?,
             normalization_radius: params.get(NORMALIZATION_RADIUS),
             family: jacobi(4.0, dense.len()),
             coefficients: dense,

@@ -31,8 +31,8 @@ const INDEXING: Param<Choice> = Param::choice(
 const NORMALIZATION: Param<Option<Choice>> = Param::choice(
     "normalization",
     &["rms", "peak"],
-    "rms: a coefficient is the RMS of its term over the disc; peak: the largest height; left out: \
-     peak for fringe, else rms",
+    "what a coefficient is; \"rms\": the RMS of its term over the disc; \"peak\": the largest height of \
+     its term on the disc; left out: \"peak\" for fringe, else \"rms\"",
 )
 .optional();
 const COEFFICIENTS: Param<Coefficients> =

@@ -1,0 +1,135 @@
+//! The parts that a main program calls, as they are read: in their order, and each of them whole.
+
+use std::io::{self, BufReader, Read};
+use std::path::{Component, Path, PathBuf};
+
+/// Opens a part by the name of its file.
+pub(crate) type OpenPart<R> = Box<dyn Fn(&str) -> io::Result<R> + Send + Sync>;
+
+/// What is known of the parts of a program.
+pub(crate) struct PartCalls<R> {
+    open: Option<OpenPart<R>>,
+    /// The parts that the main program says it has.
+    said: Option<u32>,
+    /// The parts that it has called so far.
+    called: u32,
+    /// The main program, while a part of it is read: its lines, its file, and the line of the call.
+    pub(crate) caller: Option<(BufReader<R>, PathBuf, u64)>,
+    place: Place,
+}
+
+/// Where in the file of a part the reader is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Before,
+    Within,
+    Behind,
+}
+
+impl<R> Default for PartCalls<R> {
+    fn default() -> Self {
+        Self {
+            open: None,
+            said: None,
+            called: 0,
+            caller: None,
+            place: Place::Before,
+        }
+    }
+}
+
+impl<R: Read> PartCalls<R> {
+    pub(crate) fn new(open: OpenPart<R>) -> Self {
+        Self {
+            open: Some(open),
+            ..Self::default()
+        }
+    }
+
+    /// Takes the mark of the main program that says how many parts it has.
+    pub(crate) fn begin(&mut self, mark: &str) -> bool {
+        let number = mark
+            .strip_prefix("-- ")
+            .and_then(|rest| rest.strip_suffix(" parts --"));
+        let Some(parts) = number.and_then(|number| number.parse().ok()) else {
+            return false;
+        };
+        self.said = Some(parts);
+        true
+    }
+
+    /// Whether a line of the main program may call a part.
+    pub(crate) fn may_be_called(&self) -> bool {
+        self.said.is_some() && self.caller.is_none()
+    }
+
+    /// Whether a part is read, and not its lines of the path.
+    pub(crate) fn is_outside(&self) -> bool {
+        self.caller.is_some() && self.place != Place::Within
+    }
+
+    /// Takes a mark of a part; `false` if it is none.
+    pub(crate) fn take_mark(&mut self, mark: &str) -> Result<bool, String> {
+        let ends = mark.strip_prefix("-- end of part ");
+        let begins = mark.strip_prefix("-- part ");
+        let Some(rest) = ends.or(begins).filter(|_| self.caller.is_some()) else {
+            return Ok(false);
+        };
+        let number = rest
+            .strip_suffix(" --")
+            .and_then(|number| number.parse().ok());
+        let (from, to) = match ends {
+            Some(_) => (Place::Within, Place::Behind),
+            None => (Place::Before, Place::Within),
+        };
+        if number != Some(self.called) || self.place != from {
+            return Err(format!("`{mark}` is out of order in part {}", self.called));
+        }
+        self.place = to;
+        Ok(true)
+    }
+
+    /// Opens the part that the main program calls next.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub(crate) fn open(&mut self, name: &str) -> io::Result<R> {
+        let mut components = Path::new(name).components();
+        let is_file = matches!(components.next(), Some(Component::Normal(_)));
+        let invalid = |what| io::Error::new(io::ErrorKind::InvalidInput, what);
+        if !is_file || components.next().is_some() {
+            return Err(invalid("a part is not beside its main program"));
+        }
+        let open = self.open.as_ref();
+        let open = open.ok_or_else(|| invalid("a program of parts is read from its folder"))?;
+        let part = open(name)?;
+        self.called += 1;
+        self.place = Place::Before;
+        Ok(part)
+    }
+
+    /// Ends the part that is read, at the end of its file.
+    ///
+    /// # Errors
+    /// When it is not whole: what is wrong.
+    pub(crate) fn finish_part(&mut self) -> Result<(), String> {
+        match self.place {
+            Place::Behind => Ok(()),
+            Place::Before | Place::Within => Err(format!(
+                "part {0} ends without its mark `-- end of part {0} --`: it is not complete",
+                self.called
+            )),
+        }
+    }
+
+    /// Checks that all parts were called, at the end of the path.
+    pub(crate) fn finish(&self) -> Result<(), String> {
+        match self.said {
+            Some(said) if said != self.called => Err(format!(
+                "the program says {said} parts, and calls {}",
+                self.called
+            )),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! Programs of several files: the parts play what one file plays, and a part that is missing, damaged
+//! or out of order is refused with its place.
+
+use super::travel::with_leads;
+use super::*;
+use crate::{Amount, POSTS, PartsError, TextSize};
+
+type Files = Vec<(String, Vec<u8>)>;
+
+const FRAME: [&str; 2] = ["OPEN PROG 1 CLEAR\n", "CLOSE\n"];
+/// The main program's file name.
+fn main_of(layout: &Layout) -> String {
+    format!("My Part.{}", layout.post.extension)
+}
+
+/// A path with leads around a cut of some segments, in many blocks.
+fn lines_of(layout: &Layout) -> Lines {
+    let ends = with_leads();
+    let (first, last) = (ends[0], ends[4]);
+    let mut points = vec![first];
+    for k in 1..60 {
+        let part = f64::from(k) / 60.0;
+        points.push(ControlPoint {
+            t: first.t + part * (last.t - first.t),
+            c: first.c + part * (last.c - first.c),
+            x: first.x + part * (last.x - first.x),
+            z: 0.01 * f64::from(k % 7),
+            vz: 0.1 * f64::from(k % 5),
+            vc: 3.0,
+            ..ControlPoint::default()
+        });
+    }
+    points.push(last);
+    lines_in_sections(layout, &points, &[15, 16, 40], 5..55)
+}
+
+fn files(layout: &Layout, most: Amount) -> Result<Files, PartsError> {
+    let mut writer = ProgramWriter::in_memory(*layout);
+    writer.append(&lines_of(layout)).unwrap();
+    writer
+        .close()
+        .assemble_parts(FRAME, (&main_of(layout), most))
+}
+
+fn whole(layout: &Layout) -> Vec<u8> {
+    assembled(layout, &lines_of(layout)).into_bytes()
+}
+
+fn read_all(layout: &Layout, files: Files) -> Result<Vec<(ControlPoint, Section)>, String> {
+    let mut reader = layout.read_files(files);
+    let mut points = Vec::new();
+    while let Some(point) = reader.next_point().map_err(|error| error.to_string())? {
+        points.push(point);
+    }
+    Ok(points)
+}
+
+/// The posts that may have parts.
+fn layouts() -> Vec<Layout> {
+    let has = |post: &&Post| post.keys.iter().any(|info| info.name == "split");
+    POSTS.iter().filter(has).map(plain).collect()
+}
+
+/// The lines between the marks of a part.
+fn body(text: &[u8]) -> String {
+    let text = String::from_utf8(text.to_vec()).unwrap();
+    let is_mark = |line: &&str| line.contains("-- part") || line.contains("-- end of part");
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let begin = lines.iter().position(&is_mark).unwrap();
+    let end = lines.iter().rposition(is_mark).unwrap();
+    lines[begin + 1..end].concat()
+}
+
+#[test]
+fn parts_of_any_size_play_what_one_file_plays_and_have_its_lines() {
+    assert!(layouts().len() >= POSTS.len() - 1);
+    for layout in layouts() {
+        let one = whole(&layout);
+        let expected = read_all(&layout, vec![(main_of(&layout), one.clone())]).unwrap();
+        assert!(expected.len() > 60);
+        for most in ["12 blocks", "30 blocks", "700 B", "1.5 kB", "1 MB"] {
+            let most: Amount = most.parse().unwrap();
+            let files = files(&layout, most).unwrap();
+            let name = layout.post.name;
+            assert_eq!(
+                read_all(&layout, files.clone()).unwrap(),
+                expected,
+                "{name} {most}"
+            );
+            let parts = &files[1..];
+            assert_eq!(
+                parts.len() > 1,
+                most != Amount::Bytes(1_000_000),
+                "{name} {most}"
+            );
+            for (k, (file, text)) in parts.iter().enumerate() {
+                assert_eq!(
+                    file,
+                    &format!("my_part-part-{}.{}", k + 1, layout.post.extension)
+                );
+                assert!(most.holds(TextSize::of(text)), "{name} {most}");
+            }
+            let bodies: String = parts.iter().map(|(_, text)| body(text)).collect();
+            let one = String::from_utf8(one.clone()).unwrap();
+            assert!(one.contains(&bodies), "{name} {most}");
+        }
+    }
+}
+
+#[test]
+fn a_part_that_is_missing_damaged_or_out_of_order_is_refused_with_its_place() {
+    for layout in layouts() {
+        let files = files(&layout, Amount::Blocks(25)).unwrap();
+        assert!(files.len() > 3);
+        let name = layout.post.name;
+        let refused = |change: &dyn Fn(&mut Files)| {
+            let mut files = files.clone();
+            change(&mut files);
+            read_all(&layout, files).unwrap_err()
+        };
+        let missing = refused(&|files| drop(files.remove(2)));
+        assert!(missing.contains("my_part-part-2."), "{name}: {missing}");
+        let cut = refused(&|files| {
+            let text = &mut files[2].1;
+            let lines = String::from_utf8(text.clone()).unwrap();
+            let half: Vec<&str> = lines.split_inclusive('\n').take(20).collect();
+            *text = half.concat().into_bytes();
+        });
+        let says = "line 20: part 2 ends without its mark";
+        assert!(cut.contains(says), "{name}: {cut}");
+        let swapped = refused(&|files| {
+            let [one, two] = [files[1].1.clone(), files[2].1.clone()];
+            (files[1].1, files[2].1) = (two, one);
+        });
+        assert!(
+            swapped.contains("is out of order in part 1"),
+            "{name}: {swapped}"
+        );
+        let lost = refused(&|files| {
+            let main = String::from_utf8(files[0].1.clone()).unwrap();
+            let kept = main.split_inclusive('\n').filter(|line| !is_call(line, 3));
+            files[0].1 = kept.collect::<String>().into_bytes();
+        });
+        assert!(
+            lost.contains("parts, and calls") || lost.contains("out of order"),
+            "{name}: {lost}"
+        );
+    }
+}
+
+/// Whether a line calls the part of this number.
+fn is_call(line: &str, number: u32) -> bool {
+    let by_number = format!("call{}", 100 + number);
+    let joined: String = line.to_ascii_lowercase().split_whitespace().collect();
+    joined == by_number || (line.contains(&format!("-part-{number}")) && !line.contains("--"))
+}
+
+#[test]
+fn a_line_of_a_part_is_named_by_its_own_file_and_number() {
+    for layout in layouts() {
+        let mut files = files(&layout, Amount::Blocks(25)).unwrap();
+        let text = String::from_utf8(files[2].1.clone()).unwrap();
+        let damaged: Vec<String> = text
+            .lines()
+            .zip(1..)
+            .map(|(line, number)| {
+                if number == 12 {
+                    "C#".to_owned()
+                } else {
+                    line.to_owned()
+                }
+            })
+            .collect();
+        files[2].1 = damaged.join("\n").into_bytes();
+        let said = read_all(&layout, files).unwrap_err();
+        let place = format!("my_part-part-2.{}, line 12: ", layout.post.extension);
+        assert!(said.contains(&place), "{}: {said}", layout.post.name);
+    }
+}
+
+#[test]
+fn a_call_leads_to_no_other_folder_and_a_program_in_memory_has_no_parts() {
+    let layout = plain(crate::post_named("beckhoff-g93").unwrap());
+    let mut files = files(&layout, Amount::Blocks(25)).unwrap();
+    let main = String::from_utf8(files[0].1.clone()).unwrap();
+    files[0].1 = main
+        .replace("L my_part-part-1", "L ../my_part-part-1")
+        .into_bytes();
+    let said = read_all(&layout, files).unwrap_err();
+    assert!(
+        said.contains("not beside its main program") || said.contains("cannot read"),
+        "{said}"
+    );
+    let said = read(&layout, main.as_bytes()).unwrap_err();
+    assert!(said.contains("cannot read"), "{said}");
+}
+
+#[test]
+fn more_parts_than_controllers_can_name_are_refused() {
+    let layout = plain(crate::post_named("pmac-pvt").unwrap());
+    let points: Vec<[f64; 6]> = (1..=2000)
+        .map(|k| [0.003, 9.0, 2.5, f64::from(k % 3), 0.0, 0.0])
+        .collect();
+    let mut writer = ProgramWriter::in_memory(layout);
+    writer
+        .append(&lines(&layout, &path_of(&points), &[]))
+        .unwrap();
+    let refused = writer
+        .close()
+        .assemble_parts(FRAME, (&main_of(&layout), Amount::Bytes(1)));
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .contains("more than 899 parts")
+    );
+}

@@ -1,0 +1,54 @@
+//! The table of an ablation from its records, with nothing made.
+
+use std::path::Path;
+
+use turnpath_host::Catalogue;
+use turnpath_recipe::Recipe;
+use turnpath_report::{AblationReport, RunOutcome};
+
+use crate::data_files::DataFiles;
+use crate::error::Error;
+
+use super::files::AblationFiles;
+use super::observer::AblationObserver;
+use super::record::{Records, RunRecord};
+use super::{AblationResult, failed, row, variants};
+
+/// What stands in the row of a run without a record.
+const MISSING: &str = "there is no record of it yet";
+
+/// Writes the files of an ablation from the records in `folder`. A run without a record is a row that
+/// says so, and one that failed has its reason; both count in [`AblationResult::missing`].
+///
+/// # Errors
+/// As those of [`ablate`](crate::ablate), but for those of the work.
+pub fn merge_ablation(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    folder: &Path,
+    observer: &dyn AblationObserver,
+) -> Result<AblationResult, Error> {
+    let data = DataFiles::default();
+    let (variants, keys) = variants(recipe, catalogue, &data)?;
+    let files = AblationFiles::new(folder)?;
+    let records = Records::of(folder);
+    let mut missing = 0;
+    let mut runs = Vec::new();
+    for (variant, key) in variants.iter().zip(&keys) {
+        let outcome = match records.read(key, observer) {
+            RunRecord::Measured(run) => RunOutcome::Measured(run),
+            RunRecord::Failed(failed) => RunOutcome::Failed(failed),
+            RunRecord::None => RunOutcome::Failed(failed(variant, MISSING.to_owned())),
+        };
+        missing += usize::from(matches!(outcome, RunOutcome::Failed(_)));
+        runs.push(row(variant, outcome));
+    }
+    let report = AblationReport::new(runs);
+    Ok(AblationResult {
+        files: files.write(&report)?,
+        reused: report.runs.len() - missing,
+        report,
+        failures: Vec::new(),
+        missing,
+    })
+}

@@ -1,0 +1,124 @@
+//! How many segments a controller has to read in a second.
+
+use std::collections::VecDeque;
+
+use turnpath_core::DEG;
+use turnpath_core::toolpath::{ControlPoint, Section};
+use turnpath_post::{ProgramError, ReadCount, ReadError, ReadPath};
+
+/// The time over which segments are counted, s. Controllers read ahead, so a few short segments in a row
+/// cost nothing; how far they read is not known of most.
+const WINDOW: f64 = 1.0;
+
+/// Counts the segments that end within a second of each other.
+#[derive(Debug, Default)]
+pub struct SegmentRate {
+    /// The ends of the last second.
+    times: VecDeque<f64>,
+    /// The most segments in a second, and the point that ends it.
+    most: u64,
+    at: ControlPoint,
+}
+
+impl SegmentRate {
+    /// Takes the next point.
+    pub fn pass(&mut self, point: &ControlPoint) {
+        self.times.push_back(point.t);
+        while self
+            .times
+            .front()
+            .is_some_and(|time| *time <= point.t - WINDOW)
+        {
+            self.times.pop_front();
+        }
+        let count = self.times.len() as u64;
+        if count > self.most {
+            (self.most, self.at) = (count, *point);
+        }
+    }
+
+    /// Refuses a path with more segments in a second than a controller reads.
+    ///
+    /// # Errors
+    /// When there are more: how many, and where.
+    pub fn within(&self, most: Option<f64>) -> Result<(), ProgramError> {
+        match most.filter(|most| self.most as f64 > *most) {
+            None => Ok(()),
+            Some(most) => Err(ProgramError::FastSegments {
+                segments: self.most,
+                most,
+                t: self.at.t,
+                c_deg: self.at.c / DEG,
+            }),
+        }
+    }
+}
+
+/// Reads a path and counts its segments.
+pub struct CountedSegments<'a> {
+    reader: &'a mut dyn ReadPath,
+    /// What was counted so far.
+    pub rate: SegmentRate,
+}
+
+impl<'a> CountedSegments<'a> {
+    /// A path that was not begun.
+    pub fn new(reader: &'a mut dyn ReadPath) -> Self {
+        Self {
+            reader,
+            rate: SegmentRate::default(),
+        }
+    }
+}
+
+impl ReadPath for CountedSegments<'_> {
+    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+        let next = self.reader.next_point()?;
+        if let Some((point, _)) = &next {
+            self.rate.pass(point);
+        }
+        Ok(next)
+    }
+
+    fn read_count(&self) -> &ReadCount {
+        self.reader.read_count()
+    }
+
+    fn read_count_mut(&mut self) -> &mut ReadCount {
+        self.reader.read_count_mut()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_busiest_second_is_found_with_its_place() {
+        let mut rate = SegmentRate::default();
+        // Ten in a second, then forty in a second, then ten again.
+        let steps = (0..20)
+            .map(|_| 0.1)
+            .chain((0..60).map(|_| 0.025))
+            .chain((0..20).map(|_| 0.1));
+        let mut t = 0.0;
+        for step in steps {
+            t += step;
+            rate.pass(&ControlPoint {
+                t,
+                c: t * DEG,
+                ..ControlPoint::default()
+            });
+        }
+        assert!(rate.within(None).is_ok() && rate.within(Some(41.0)).is_ok());
+        let error = rate.within(Some(30.0)).unwrap_err();
+        let ProgramError::FastSegments {
+            segments, t, c_deg, ..
+        } = error
+        else {
+            panic!("{error}");
+        };
+        assert!((40..=41).contains(&segments), "{segments}");
+        assert!((2.9..3.6).contains(&t) && (c_deg - t).abs() < 1e-9, "{t}");
+    }
+}

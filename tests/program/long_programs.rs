@@ -1,0 +1,164 @@
+//! Programs of several files, and limits of controllers, through the whole program.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use serde_json::Value;
+
+use crate::support::bench::Bench;
+use crate::support::recipe::{SADDLE, changed};
+
+/// Posts that may have parts, and the endings of their files.
+const POSTS: [(&str, &str); 6] = [
+    ("pmac-pvt", "pmc"),
+    ("power-pmac-pvt", "ppmc"),
+    ("automation1-pvt", "ascript"),
+    ("siemens-840d-poly", "mpf"),
+    ("beckhoff-g93", "cnc"),
+    ("linuxcnc-g93", "ngc"),
+];
+
+/// The saddle with leads and a table for each post.
+fn saddle(tables: &str) -> String {
+    let recipe = changed(SADDLE, "lead = false", "lead = true");
+    let names: Vec<String> = POSTS
+        .iter()
+        .map(|(post, _)| format!("\"{post}\""))
+        .collect();
+    let mut text = format!("{recipe}\n[output]\nposts = [{}]\n", names.join(", "));
+    for (post, _) in POSTS {
+        text += &format!("\n[output.{post}]\n{tables}\n");
+        if post == "linuxcnc-g93" {
+            text += "servo_period = \"0.05 ms\"\n";
+        }
+    }
+    text
+}
+
+#[test]
+fn parts_measure_as_one_program_and_are_in_the_result() {
+    let whole = Bench::with(&saddle(""));
+    let one = whole
+        .line("run recipe.toml -o out --format json")
+        .ends(0)
+        .json();
+    let bench = Bench::with(&saddle("split = \"40 kB\""));
+    let check = bench.line("check recipe.toml --format json").ends(0).json();
+    let run = bench
+        .line("run recipe.toml -o out --format json")
+        .ends(0)
+        .json();
+    let listed: Vec<&str> = run["files"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|file| file["file"].as_str())
+        .collect();
+    for (k, (_, end)) in POSTS.into_iter().enumerate() {
+        assert_eq!(
+            run["programs"][k]["interpolation_error_nm"],
+            one["programs"][k]["interpolation_error_nm"]
+        );
+        let part = |number: usize| format!("recipe-part-{number}.{end}");
+        let parts =
+            (1..).take_while(|number| bench.path(format!("out/{}", part(*number))).exists());
+        let parts: Vec<String> = parts.map(part).collect();
+        assert!(parts.len() > 1, "{end}");
+        assert!(
+            parts.iter().all(|part| listed.contains(&part.as_str())),
+            "{listed:?}"
+        );
+        // The sizes of `check` are right to 5 %, so the count of parts is right to one.
+        let said = check["expected"]["programs"][k]["parts"].as_u64().unwrap();
+        assert!(
+            said.abs_diff(parts.len() as u64) <= 1 + said / 20,
+            "{end}: {said} {}",
+            parts.len()
+        );
+        for part in &parts {
+            let bytes = std::fs::metadata(bench.path(format!("out/{part}")))
+                .unwrap()
+                .len();
+            assert!(bytes <= 40_000, "{part}: {bytes}");
+        }
+        let line = format!("verify recipe.toml out/recipe.{end} --format json");
+        let found = bench.line(&line).ends(0).json();
+        assert_eq!(found["anomalies"]["count"], 0, "{end}");
+        assert_eq!(found["rows"], whole_rows(&whole, end), "{end}");
+    }
+    std::fs::remove_file(bench.path("out/recipe-part-2.pmc")).unwrap();
+    let said = bench.line("verify recipe.toml out/recipe.pmc").ends(4);
+    assert!(said.stderr.contains("recipe-part-2.pmc"), "{said}");
+}
+
+fn whole_rows(whole: &Bench, end: &str) -> Value {
+    let line = format!("verify recipe.toml out/recipe.{end} --format json");
+    whole.line(&line).ends(0).json()["rows"].clone()
+}
+
+/// What a controller does not take is refused by both commands, and nothing is written.
+#[test]
+fn what_a_controller_does_not_take_is_refused_by_check_and_by_run() {
+    for (table, says, helps) in [
+        (
+            "memory = \"20 kB\"",
+            "memory is 20 kB",
+            "write a smaller split",
+        ),
+        (
+            "memory = \"100 blocks\"",
+            "memory is 100 blocks",
+            "write a smaller split",
+        ),
+        (
+            "split = \"30 kB\"\nmemory = \"20 kB\"",
+            "memory is 20 kB",
+            "smaller split",
+        ),
+        (
+            "segments_per_second = 100",
+            "segments_per_second is 100",
+            "spindle slower",
+        ),
+        ("c_limit = \"720 deg\"", "c_limit is 720 deg", "c_wrap"),
+    ] {
+        let recipe = format!(
+            "{}\n[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\n{table}\n",
+            changed(SADDLE, "lead = false", "lead = true")
+        );
+        let bench = Bench::with(&recipe);
+        for line in ["check recipe.toml", "run recipe.toml -o out"] {
+            let said = bench.line(line).ends(2);
+            assert!(said.stderr.contains("`pmac-pvt` cannot carry"), "{said}");
+            assert!(
+                said.stderr.contains(says) && said.stderr.contains(helps),
+                "{said}"
+            );
+        }
+        assert!(!bench.path("out").exists());
+    }
+    // Parts that fit, and a C that is wrapped.
+    let table = "split = \"15 kB\"\nmemory = \"20 kB\"\nsegments_per_second = 1000\nc_limit = \"720 deg\"\nc_wrap = \"0-360\"";
+    let recipe =
+        format!("{SADDLE}\n[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\n{table}\n");
+    let bench = Bench::with(&recipe);
+    bench.line("check recipe.toml").ends(0);
+    bench.line("run recipe.toml -o out").ends(0);
+}
+
+#[test]
+fn amounts_that_are_none_and_parts_of_a_rotary_buffer_are_refused() {
+    for (table, says) in [
+        ("split = \"100\"", "\"100\" is no amount"),
+        ("memory = \"1 mile\"", "\"1 mile\" is no amount"),
+        (
+            "split = \"1 MB\"\nbuffer = \"rotary\"",
+            "`buffer` takes no calls",
+        ),
+    ] {
+        let recipe =
+            format!("{SADDLE}\n[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\n{table}\n");
+        let said = Bench::with(&recipe)
+            .line("check recipe.toml --trust-recipe")
+            .ends(2);
+        assert!(said.stderr.contains(says), "{said}");
+    }
+}
