@@ -4,8 +4,10 @@
 //! of a cusp each cell happens to meet. So a cell here has the mean along the radius over its width,
 //! at its angle.
 
+use std::f64::consts::TAU;
+
 use rayon::prelude::*;
-use turnpath_core::Result;
+use turnpath_core::{Result, Scalar};
 
 use super::grid::Grid;
 use super::sections::Lines;
@@ -146,7 +148,7 @@ impl ErrorRings {
     /// The errors along the line through the axis nearest to `angle`, rad: its own angle, rad, and
     /// places (s, error) in mm, where s is the signed radius.
     pub fn profile(&self, angle: f64) -> (f64, Vec<(f64, f64)>) {
-        let step = std::f64::consts::TAU / self.angles as f64;
+        let step = TAU / self.angles as f64;
         let half = self.angles / 2;
         let column = ((angle - self.first) / step).round() as i64;
         let column = column.rem_euclid(self.angles as i64) as usize;
@@ -162,8 +164,8 @@ impl ErrorRings {
         (self.first + column as f64 * step, places)
     }
 
-    /// The error at the cells of a Cartesian grid over the part, mm, row after row: that of the ring,
-    /// between the two nearest angles. Not a number off the part.
+    /// The error at the cells of a Cartesian grid over the part, mm, row after row: between the two
+    /// nearest rings and angles. Not a number off the part.
     pub fn map(&self, count: usize) -> Vec<f64> {
         let grid = Grid::Cartesian {
             count,
@@ -180,18 +182,30 @@ impl ErrorRings {
         if radius < self.inner || radius > self.outer {
             return f64::NAN;
         }
-        let ring = (((radius - self.inner) / self.width()) as usize).min(RINGS - 1);
-        let errors = self.ring(ring);
-        let turn = (turnpath_core::Scalar::atan2(y, x) - self.first) / std::f64::consts::TAU;
-        let place = turn.rem_euclid(1.0) * self.angles as f64;
-        let before = (place as usize).min(self.angles - 1);
-        let (one, other) = (errors[before], errors[(before + 1) % self.angles]);
-        let share = place - before as f64;
-        match (one.is_nan(), other.is_nan()) {
-            (false, false) => one + share * (other - one),
-            (true, false) => other,
-            _ => one,
-        }
+        let turn = (Scalar::atan2(y, x) - self.first) / TAU;
+        let column = turn.rem_euclid(1.0) * self.angles as f64;
+        let ring = (radius - self.inner) / self.width() - 0.5;
+        let below = ring.clamp(0.0, (RINGS - 1) as f64) as usize;
+        let above = (below + 1).min(RINGS - 1);
+        let between = |ring: usize| self.between_angles(self.ring(ring), column);
+        let share = (ring - below as f64).clamp(0.0, 1.0);
+        interpolated(between(below), between(above), share)
+    }
+
+    /// The error of a ring at a place between its angles, counted in them.
+    fn between_angles(&self, errors: &[f64], column: f64) -> f64 {
+        let before = (column as usize).min(self.angles - 1);
+        let after = (before + 1) % self.angles;
+        interpolated(errors[before], errors[after], column - before as f64)
+    }
+}
+
+/// The value between two; the known one where the other is not a number.
+fn interpolated(one: f64, other: f64, share: f64) -> f64 {
+    match (one.is_nan(), other.is_nan()) {
+        (false, false) => one + share * (other - one),
+        (true, false) => other,
+        _ => one,
     }
 }
 
