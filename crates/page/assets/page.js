@@ -12,6 +12,8 @@
     .map((rgb, i, all) => [i / (all.length - 1), `rgb(${rgb.join(",")})`]);
   // After Okabe and Ito's colours, which colour-blind people can tell apart, for both backgrounds.
   const [BLUE, ORANGE, GREEN] = ["#2e86d1", "#d55e00", "#009e73"];
+  // The part of the radius whose cells set the scale of a map.
+  const INNER = 0.95;
   // Height of a line of a label, in pixels.
   const LABEL = 12;
   const LIMIT = { color: "#cc79a7", dash: "dash", width: 2 };
@@ -34,6 +36,11 @@
     const [low, high] = [sorted[off], sorted[sorted.length - 1 - off]];
     return low < high ? [low, high] : [low - 0.5, high + 0.5];
   };
+  // The values of a map off its rim, where a path may leave material of another scale.
+  const offRim = (values, cells) => values.filter((_, i) => {
+    const [x, y] = [(2 * (i % cells) + 1) / cells - 1, (2 * Math.floor(i / cells) + 1) / cells - 1];
+    return x * x + y * y < INNER * INNER;
+  });
   const axis = (text, more) =>
     ({ title: { text }, automargin: true, zeroline: false, exponentformat: "power", minexponent: 4, ...more });
   const title = (text) => ({ text, side: "right", font: { size: 12 } });
@@ -80,7 +87,7 @@
   const RUN = {
     "error-map": ({ sketch: { map: m } }) => {
       const values = numbers(m.error_nm);
-      const [zmin, zmax] = robust(values, 0.002);
+      const [zmin, zmax] = robust(offRim(values, m.cells), 0.002);
       return map(m.cells, m.half_mm, values, "error / nm", { colorscale: "Cividis", zmin, zmax });
     },
     "radial-mean": ({ sketch: { radial_mean: mean } }) => ({
@@ -285,7 +292,7 @@
     shown.forEach(({ name, sketch }, i) => {
       const [row, column] = [Math.floor(i / columns), i % columns];
       const values = numbers(sketch.map.error_nm);
-      every.push(values);
+      every.push(offRim(values, sketch.map.cells));
       rowsOf(values, sketch.map.cells).forEach((own, y) => {
         own.forEach((value, x) => { z[row * pitch + gap + y][column * pitch + x] = value; });
       });

@@ -3,7 +3,8 @@
 //   node report.cjs CHROMIUM PICTURES RUN ABLATION
 //
 // RUN is the folder of a run with report.html, summary.json and map.gsf (300 cells, cusps far below
-// the error); ABLATION that of an ablation. Pictures of the pages go to PICTURES. Needs playwright-core.
+// the error); ABLATION that of an ablation. Pictures of the pages go to PICTURES, and report.png, that of
+// docs/report.md. Needs playwright-core.
 "use strict";
 const fs = require("fs");
 const path = require("path");
@@ -97,6 +98,8 @@ function same(drawn, expected, what) {
 
 async function runFigures(browser) {
   const { page } = await open(browser, run, 1400, "light");
+  const clip = { x: 0, y: 0, width: 1400, height: 960 };
+  await page.screenshot({ path: path.join(pictures, "report.png"), fullPage: true, clip });
   const drawn = Object.fromEntries((await figures(page)).map((one) => [one.id, one.traces]));
   const data = JSON.parse(await page.locator("#data").textContent());
   const summary = JSON.parse(fs.readFileSync(path.join(run, "summary.json"), "utf8"));

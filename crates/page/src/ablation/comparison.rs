@@ -37,8 +37,8 @@ pub fn comparisons(runs: &[(String, &MeasuredRun)]) -> Vec<Comparison> {
         Some([run.report.cutting_time, axes.x.acceleration.rms])
     };
     let x_acceleration = match of_law {
-        true => "RMS of X acceleration, of the feed's law / mm/s²",
-        false => "RMS of X acceleration / mm/s²",
+        true => "X acceleration of the law, RMS / mm/s²",
+        false => "X acceleration, RMS / mm/s²",
     };
     vec![
         Comparison::of(

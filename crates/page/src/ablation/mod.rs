@@ -89,8 +89,8 @@ fn figures(drawn: &Drawn<'_>) -> String {
     }
     if drawn.runs.iter().any(|run| run.sketch.is_some()) {
         let maps = "Machined − wanted along z of each run, all on one scale. A cell has the mean along \
-                    the radius over a 192nd of the part's radius. The scale leaves out the 5 % \
-                    highest and lowest cells of all.";
+                    the radius over a 192nd of the part's radius. The scale is that of the \
+                    inner 95 % of the radius, without the 5 % highest and lowest cells of all.";
         html += &figure("error-maps", "whole", "Error maps", maps);
         html += &figure(
             "radial-means",

@@ -47,8 +47,8 @@ fn error_figures() -> String {
             "square",
             "Error map",
             "Machined − wanted along z, seen from the tool. A cell has the mean along the radius over \
-             a 192nd of the part's radius, so single cusps do not show. The scale leaves out the \
-             0.2 % highest and lowest cells.",
+             a 192nd of the part's radius, so single cusps do not show. The scale is that \
+             of the inner 95 % of the radius, without the 0.2 % highest and lowest cells.",
         ),
         figure(
             "radial-mean",
