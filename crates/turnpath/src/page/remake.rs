@@ -34,9 +34,9 @@ pub fn write_page(
     catalogue: &Catalogue,
     observer: &dyn Observer,
 ) -> Result<PathBuf, Error> {
-    let page = match request.has(SUMMARY) {
-        true => page_again(request, catalogue, observer)?,
-        false => page_of_ablation(request)?,
+    let page = match result_recipe(request)? {
+        Some(recipe) => page_again(request, (&recipe, catalogue), observer)?,
+        None => page_of_ablation(request)?,
     };
     let path = request.folder.join(PAGE);
     let mut draft = Draft::begin(&path)?;
@@ -76,29 +76,28 @@ fn page_of_ablation(request: &PageRequest) -> Result<String, Error> {
 
 fn page_again(
     request: &PageRequest,
-    catalogue: &Catalogue,
+    (recipe, catalogue): (&Recipe, &Catalogue),
     observer: &dyn Observer,
 ) -> Result<String, Error> {
     let report = read_result(&request.folder)?;
-    let recipe = recipe_of(request, &report)?;
     let files = DataFiles::default();
-    let wanted = surface(&recipe, catalogue, &files)?;
-    let compensator = strategies::compensator(&recipe, catalogue, &files)?.strategy;
+    let wanted = surface(recipe, catalogue, &files)?;
+    let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
     let subject = Subject {
         surface: wanted.strategy.clone(),
         part: recipe.part,
         tool: recipe.tool,
         compensates_nose: compensator.compensates_nose(),
     };
-    let sketch = match path_file(&request.folder, &report, &recipe, &subject) {
+    let sketch = match path_file(&request.folder, &report, recipe, &subject) {
         None => None,
         Some(file) => {
-            let velocity = strategies::velocity(&recipe, catalogue, &files)?.strategy;
+            let velocity = strategies::velocity(recipe, catalogue, &files)?.strategy;
             let shape = file.shape(velocity.segments());
-            Some(sketch_of(&recipe, &file, shape, subject, observer)?)
+            Some(sketch_of(recipe, &file, shape, subject, observer)?)
         }
     };
-    let made_by = (&recipe, catalogue);
+    let made_by = (recipe, catalogue);
     page_of_run(made_by, wanted.strategy.as_ref(), &report, sketch.as_ref())
 }
 

@@ -168,7 +168,8 @@ fn the_map_and_the_radial_mean_have_the_mean_of_the_machined_surface() {
 #[test]
 fn the_profile_of_the_page_is_the_mean_of_the_one_that_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
-    let sets = ["path.lead=false", "surface.k=\"0.02 /mm\""];
+    // A feed as narrow as a ring.
+    let sets = ["path.lead=false", "tolerance.residual=\"20 nm\""];
     run(folder.path(), &sets);
     let profile = sketch(folder.path()).profiles.remove(0);
     let plots = PlotRequest {
