@@ -14,6 +14,8 @@
   const [BLUE, ORANGE, GREEN] = ["#2e86d1", "#d55e00", "#009e73"];
   // The part of the radius whose cells set the scale of a map.
   const INNER = 0.95;
+  // Widths on paper, in pixels: two figures beside each other, and one alone.
+  const PRINT = { half: 320, whole: 660 };
   // Height of a line of a label, in pixels.
   const LABEL = 12;
   const LIMIT = { color: "#cc79a7", dash: "dash", width: 2 };
@@ -197,6 +199,10 @@
     const grid = isDark ? "#39414a" : "#dfe3e8";
     return { front, grid };
   };
+  const sized = (layout, place) => {
+    if (!printing) return { ...layout, width: undefined, autosize: true };
+    return { ...layout, width: place.closest("figure.whole") ? PRINT.whole : PRINT.half, autosize: false };
+  };
   const themed = (layout) => {
     const { front, grid } = theme();
     const own = { ...layout, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: { color: front, size: 12 },
@@ -217,8 +223,10 @@
     await Plotly.newPlot(place, figure.traces, themed(figure.layout), config);
   };
   const redraw = () => {
-    for (const [id, figure] of drawn)
-      Plotly.react(document.getElementById(id), figure.traces, themed(figure.layout), config);
+    for (const [id, figure] of drawn) {
+      const place = document.getElementById(id);
+      Plotly.react(place, figure.traces, themed(sized(figure.layout, place)), config);
+    }
   };
 
   const ABLATION = {

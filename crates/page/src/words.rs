@@ -14,7 +14,7 @@ pub fn number(value: f64) -> String {
         return "no number".to_owned();
     }
     let size = value.abs();
-    if size >= LONG || size < 1.0 / LONG {
+    if !(1.0 / LONG..LONG).contains(&size) {
         return format!("{value:.3e}");
     }
     let above = format!("{size:e}");

@@ -98,8 +98,11 @@ mod tests {
         let places = places(|x, y| sphere(x, y) + 1e-3 * (x * x - y * y) + 1e-4 * x * x * x);
         let found = BestSphere::of(&places).unwrap();
         let square = |sphere: &BestSphere| -> f64 {
-            let off = |[x, y, z]: &[f64; 3]| (z - sphere.height(*x, *y)).powi(2);
-            places.iter().map(off).sum()
+            let square = |[x, y, z]: &[f64; 3]| {
+                let off = z - sphere.height(*x, *y);
+                off * off
+            };
+            places.iter().map(square).sum()
         };
         let least = square(&found);
         for (term, step) in [(0, 1e-7), (1, 1e-5), (2, 1e-6), (3, 1e-6)] {

@@ -2,7 +2,7 @@
 
 use turnpath_report::{Direction, unit};
 
-use super::{BestFit, RunPage};
+use super::model::{BestFit, RunPage};
 use crate::html::{element, escaped, figure, section};
 use crate::words::number;
 

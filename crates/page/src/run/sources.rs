@@ -2,7 +2,7 @@
 
 use turnpath_report::{RecipeSource, RunReport};
 
-use super::StageChoice;
+use super::model::StageChoice;
 use crate::html::{element, escaped, row, section, with_links};
 
 /// The strategies with their parameters and sources.
