@@ -16,6 +16,7 @@ mod poses;
 mod posts;
 mod real_nose;
 mod recipes;
+mod recorded_figures;
 mod rims;
 mod schedules;
 mod servo;

@@ -59,7 +59,7 @@ fn the_finishing_path_has_the_bytes_of_the_recipe_without_passes() {
 fn a_rough_path_leaves_what_it_says() {
     let bench = Bench::with(&format!("{}{PASSES}", saddle()));
     bench.line("run recipe.toml -o out").ends(0);
-    bench.write("wanted.toml", &saddle());
+    bench.write("wanted.toml", saddle());
     let summary = summary(&bench);
     for (at, name, allowance_nm, tolerance_nm) in
         [(0, "rough", 30_000.0, 500.0), (1, "middle", 5_000.0, 100.0)]
@@ -113,7 +113,7 @@ fn verify_compares_a_file_of_a_pass_with_its_own_path() {
     let mut cells: Vec<String> = rows[middle].split(',').map(str::to_owned).collect();
     cells[3] = (cells[3].parse::<f64>().unwrap() + 2e-3).to_string();
     rows[middle] = cells.join(",");
-    bench.write("toolpath-rough.csv", &rows.join("\n"));
+    bench.write("toolpath-rough.csv", rows.join("\n"));
     let line = "verify recipe.toml toolpath-rough.csv --format json";
     let found = bench.line(line).ends(1).json();
     assert_eq!(found["anomalies"]["count"], 1);

@@ -1,4 +1,5 @@
 //! An ablation by a queue: planned, made run by run, and merged.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::fs;
 use std::path::Path;

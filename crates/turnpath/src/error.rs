@@ -10,6 +10,7 @@ use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
+use crate::new_plugin::NewPluginError;
 use crate::page::PageError;
 use crate::plots::PlotError;
 use crate::result_check::ResultError;
@@ -75,6 +76,9 @@ pub enum Error {
         /// Why.
         source: Box<LoadError>,
     },
+    /// A new plugin cannot be written as it is asked for.
+    #[error(transparent)]
+    NewPlugin(#[from] NewPluginError),
     /// A plot cannot be drawn as it is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -166,6 +170,7 @@ impl Error {
             | Self::Refused { .. }
             | Self::NoProgram
             | Self::Plot(_)
+            | Self::NewPlugin(_)
             | Self::Page(PageError::NoRecipe | PageError::OtherRecipe { .. })
             | Self::Exists { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
@@ -230,6 +235,7 @@ impl Error {
         match self {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
+            Self::NewPlugin(error) => Some(error.help()),
             Self::Page(PageError::NoRecipe) => Some("`--recipe FILE` gives it"),
             Self::Exists { .. } => Some("`--force` replaces it"),
             Self::NoRunOfKey { .. } => Some(

@@ -18,6 +18,7 @@
 //! ```
 
 mod ablation;
+mod axis_notes;
 mod chain;
 mod check;
 mod commands;
@@ -35,6 +36,7 @@ mod job;
 mod memory;
 mod meters;
 mod named_files;
+mod new_plugin;
 mod outputs;
 mod page;
 mod part_shape;
@@ -72,6 +74,9 @@ pub use data_files::DataFileError;
 pub use error::{Error, Fault};
 pub use import::{ImportRequest, ImportedRecipe, import};
 pub use job::Job;
+pub use new_plugin::{
+    CrateSource, NameError, NewPlugin, NewPluginError, PluginRequest, SourceError, new_plugin,
+};
 pub use outputs::Outputs;
 pub use page::{PageError, PageRequest, result_recipe, write_page};
 pub use part_shape::refused_check;
