@@ -36,6 +36,8 @@ pub enum Command {
     Ablate(AblateArgs),
     /// Measure a tool path against a recipe's surface, tool and tolerances
     Verify(VerifyArgs),
+    /// Make the page of a result, report.html, from its files
+    Report(ReportArgs),
     /// Write the surface of a recipe on a grid, or compare it with a map
     Sag(SagArgs),
     /// Make a recipe of a surface of a lens design, a Zemax .zmx
@@ -167,8 +169,28 @@ pub struct RunArgs {
     /// above the rim, and says how high the part is there
     #[arg(long)]
     pub dry_run: bool,
+    /// Leave out the page of the result, report.html
+    #[arg(long)]
+    pub no_report: bool,
     #[command(flatten)]
     pub plots: PlotArgs,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// The folders of results: of `run`, or of `ablate`
+    #[arg(required = true, value_name = "DIR")]
+    pub folders: Vec<PathBuf>,
+    /// The recipe, where its data files lie beside it, or where the summary does not have its text
+    #[arg(long, value_name = "FILE")]
+    pub recipe: Option<PathBuf>,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+    /// Load the plugins that the recipe itself lists, native code with your rights
+    #[arg(long)]
+    pub trust_recipe: bool,
     #[command(flatten)]
     pub work: WorkArgs,
 }
@@ -438,6 +460,7 @@ impl Command {
             Self::Check(args) => &args.recipe.plugins,
             Self::Ablate(args) => &args.recipe.plugins,
             Self::Verify(args) => &args.recipe.plugins,
+            Self::Report(args) => &args.plugins,
             Self::Sag(args) => &args.recipe.plugins,
             Self::Import(_) | Self::Init(_) | Self::Completions(_) | Self::Man(_) => return None,
             Self::Schema(args) => &args.plugins,

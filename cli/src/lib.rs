@@ -93,6 +93,7 @@ fn run(command: &Command, catalogue: Catalogue) -> Outcome {
         Command::Ablate(args) => commands::ablate(args, catalogue),
         Command::Check(args) => commands::check(args, catalogue),
         Command::Verify(args) => commands::verify(args, catalogue),
+        Command::Report(args) => commands::report(args, catalogue),
         Command::Sag(args) => commands::sag(args, catalogue),
         Command::Import(args) => commands::import(args),
         Command::List(args) => commands::list(args, catalogue),

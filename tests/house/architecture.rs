@@ -57,6 +57,7 @@ const RULES: &[Rule] = &[
         &["turnpath-plugin", PLUGINS],
     ),
     rule("turnpath-report", &["turnpath-core"], &[]),
+    rule("turnpath-page", &["turnpath-report"], &[]),
     rule("turnpath", LIBRARIES, &[]),
     rule(
         PROGRAM,
@@ -73,6 +74,7 @@ const LIBRARIES: &[&str] = &[
     "turnpath-host",
     "turnpath-lens",
     "turnpath-maps",
+    "turnpath-page",
     "turnpath-pipeline",
     "turnpath-post",
     "turnpath-recipe",

@@ -10,13 +10,14 @@ use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "run",
     "check",
     "ablate",
     "verify",
     "sag",
     "import",
+    "report",
     "list",
     "explain",
     "new-plugin",

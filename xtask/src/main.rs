@@ -1,5 +1,6 @@
 //! `cargo xtask`: what takes too long, or needs too much, for `.ci/run`.
 
+mod browser;
 mod commands;
 mod deny;
 mod fuzz;

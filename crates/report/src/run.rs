@@ -142,6 +142,9 @@ pub struct RecipeSource {
     pub sha256: String,
     /// The changes by `--set`, `key=value`, in their order.
     pub sets: Vec<String>,
+    /// Its text, without the changes; `None` in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub text: Option<String>,
 }
 
 /// A file of a result.

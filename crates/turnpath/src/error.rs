@@ -11,7 +11,9 @@ use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
 use crate::new_plugin::NewPluginError;
+use crate::page::PageError;
 use crate::plots::PlotError;
+use crate::result_check::ResultError;
 
 /// Where an error comes from: the source behind its messages.
 type Source = Box<dyn std::error::Error + Send + Sync>;
@@ -127,6 +129,12 @@ pub enum Error {
     /// The system gives no thread to work on.
     #[error("there is no thread to work on")]
     Threads(#[source] Source),
+    /// A folder has no result.
+    #[error(transparent)]
+    Result(#[from] ResultError),
+    /// A result gets no page.
+    #[error(transparent)]
+    Page(#[from] PageError),
     /// A run of an ablation ended without a result.
     #[error("a run ended unexpectedly")]
     RunLost,
@@ -163,6 +171,7 @@ impl Error {
             | Self::NoProgram
             | Self::Plot(_)
             | Self::NewPlugin(_)
+            | Self::Page(PageError::NoRecipe | PageError::OtherRecipe { .. })
             | Self::Exists { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
@@ -177,6 +186,8 @@ impl Error {
             | Self::NothingCut { .. }
             | Self::PointsLost { .. }
             | Self::DryRun { .. }
+            | Self::Result(_)
+            | Self::Page(_)
             | Self::Report { .. } => Fault::Files,
             Self::Threads(_) => Fault::Request,
             Self::Cancelled => Fault::Cancelled,
@@ -225,6 +236,7 @@ impl Error {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
             Self::NewPlugin(error) => Some(error.help()),
+            Self::Page(PageError::NoRecipe) => Some("`--recipe FILE` gives it"),
             Self::Exists { .. } => Some("`--force` replaces it"),
             Self::NoRunOfKey { .. } => Some(
                 "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \

@@ -38,7 +38,9 @@ mod meters;
 mod named_files;
 mod new_plugin;
 mod outputs;
+mod page;
 mod part_shape;
+mod path_file;
 mod plots;
 mod plugins;
 mod plugins_lock;
@@ -76,6 +78,7 @@ pub use new_plugin::{
     CrateSource, NameError, NewPlugin, NewPluginError, PluginRequest, SourceError, new_plugin,
 };
 pub use outputs::Outputs;
+pub use page::{PageError, PageRequest, result_recipe, write_page};
 pub use part_shape::refused_check;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
 pub use plugins::with_listed_plugins;

@@ -6,4 +6,5 @@ mod cancellation;
 mod errors;
 mod outputs;
 mod own_strategies;
+mod pages;
 mod reports;
