@@ -85,9 +85,9 @@ fn the_figures_of_the_page_are_those_of_the_summary() {
     let spokes = path.spokes.unwrap();
     let harmonics = &sketch.error.harmonics.0;
     let largest = (3..harmonics.len()).max_by(|a, b| harmonics[*a].total_cmp(&harmonics[*b]));
-    assert_eq!(largest, Some(spokes.per_turn as usize));
+    assert_eq!(largest, Some(spokes.per_turn));
     near(
-        harmonics[spokes.per_turn as usize],
+        harmonics[spokes.per_turn],
         spokes.amplitude,
         ROUNDING,
         "spokes",
