@@ -105,6 +105,8 @@ impl<'de> Deserialize<'de> for FileSamples {
 
 #[cfg(test)]
 mod tests {
+    use turnpath_core::Scalar;
+
     use super::*;
     use crate::unit;
 
@@ -126,7 +128,7 @@ mod tests {
 
     #[test]
     fn what_was_read_is_written_as_the_same_text() {
-        let values = (0..5000).map(|i| f64::from(i).sin() * 1e-4 / f64::from(i + 1));
+        let values = (0..5000).map(|i| Scalar::sin(f64::from(i)) * 1e-4 / f64::from(i + 1));
         let heights = Heights {
             height: values.chain([f64::NAN]).collect(),
         };
