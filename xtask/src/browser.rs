@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::commands::{command, repository, run, succeeds, target};
-use crate::long::program;
 use crate::step::Outcome;
 
 /// Browsers by their names, unless `CHROMIUM` names one.
@@ -16,7 +15,7 @@ const RUN: &str = "tests/reference/report/spokes.toml";
 const ABLATION: &str = "tests/reference/report/ablation.toml";
 
 /// Makes a page of each kind and has the script look at them.
-pub fn report() -> Outcome {
+pub fn report(program: impl FnOnce() -> Result<PathBuf, Outcome>) -> Outcome {
     let module = ["-e", "require.resolve('playwright-core')"];
     if !succeeds(command("node", &["--version"])) {
         return Outcome::Skipped("`node` is not installed".to_owned());
@@ -27,7 +26,7 @@ pub fn report() -> Outcome {
     let Some(browser) = browser() else {
         return Outcome::Skipped("Chromium is not installed".to_owned());
     };
-    match pages() {
+    match program().and_then(|program| pages(&program)) {
         Ok([run_folder, ablation]) => {
             let pictures = target().join("long").join("report-pictures");
             let mut look = command("node", &[SCRIPT, &browser]);
@@ -54,11 +53,10 @@ fn browser() -> Option<String> {
 }
 
 /// The folders of a run and of an ablation.
-fn pages() -> Result<[PathBuf; 2], Outcome> {
-    let program = program()?;
+fn pages(program: &Path) -> Result<[PathBuf; 2], Outcome> {
     let made = |words: &[&str], name: &str| {
         let folder = target().join("long").join(name);
-        let mut call = Command::new(&program);
+        let mut call = Command::new(program);
         call.current_dir(repository())
             .args(words)
             .arg("-o")

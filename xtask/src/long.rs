@@ -59,7 +59,7 @@ pub fn run_checks() -> Vec<Step> {
             with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
         }),
         Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
-        Step::run("report", browser::report),
+        Step::run("report", || browser::report(program)),
         Step::run("schema", schema),
         Step::run("dry runs", dry_runs),
         Step::run("programs", || with_packages(&[], programs)),
