@@ -261,5 +261,5 @@ fn long_five_hundred_random_recipes_with_the_fewest_points_are_held_or_refused()
     fs::create_dir_all(&folder).expect("a folder in the scratch folder");
     let tally = try_recipes(MANY_CASES, Some(&folder));
     let held = tally.count(End::Status(0));
-    assert!(held > 450, "few recipes hold: {tally}");
+    assert!(10 * held > 9 * tally.calls(), "few recipes hold: {tally}");
 }
