@@ -47,7 +47,10 @@ fn long_seven_states_take_thrice_the_planning_of_atpg_at_most_and_a_schedule_twi
         let [constant, changing] =
             ["constant", "per-revolution"].map(|spindle| planning_time(&runs, sampler, spindle));
         let schedule = changing / constant;
-        assert!(schedule <= SCHEDULE, "a schedule with {sampler}: {schedule}");
+        assert!(
+            schedule <= SCHEDULE,
+            "a schedule with {sampler}: {schedule}"
+        );
         constant
     });
     let states = minimax / atpg;
