@@ -44,6 +44,8 @@ pub enum Command {
     List(ListArgs),
     /// Explain one strategy, or one table of the recipe: its keys, defaults and limits
     Explain(ExplainArgs),
+    /// Write a plugin with a small strategy that works, for you to change
+    NewPlugin(NewPluginArgs),
     /// Write a commented recipe to begin with
     Init(InitArgs),
     /// Print a JSON schema of recipes, with which an editor completes and checks them
@@ -380,6 +382,25 @@ pub struct ExplainArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct NewPluginArgs {
+    /// The strategy's name, which is that of its crate and of its folder: lower-case letters, digits
+    /// and hyphens
+    pub name: String,
+    /// The slot of the strategy
+    #[arg(long, value_parser = PossibleValuesParser::new(Slot::ALL.map(Slot::key)))]
+    pub slot: String,
+    /// The folder in which the folder of the crate is made
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub dir: PathBuf,
+    /// Where turnpath's crates come from: a folder with turnpath's repository, the address of a git
+    /// repository (and # with a revision), or `registry`; as this program was built unless given
+    #[arg(long, value_name = "SOURCE")]
+    pub crates: Option<String>,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+}
+
+#[derive(Debug, Args)]
 pub struct InitArgs {
     /// The recipe to write; - for standard output
     #[arg(value_name = "FILE", default_value = RECIPE)]
@@ -422,6 +443,7 @@ impl Command {
             Self::Schema(args) => &args.plugins,
             Self::List(args) => &args.plugins,
             Self::Explain(args) => &args.plugins,
+            Self::NewPlugin(args) => &args.plugins,
         })
     }
 }

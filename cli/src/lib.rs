@@ -97,6 +97,7 @@ fn run(command: &Command, catalogue: Catalogue) -> Outcome {
         Command::Import(args) => commands::import(args),
         Command::List(args) => commands::list(args, catalogue),
         Command::Explain(args) => commands::explain(args, catalogue),
+        Command::NewPlugin(args) => commands::new_plugin(args, catalogue),
         Command::Init(args) => commands::init(args),
         Command::Schema(args) => commands::schema(args, catalogue),
         Command::Completions(args) => commands::completions(args),

@@ -44,6 +44,18 @@ const RULES: &[Rule] = &[
         &["turnpath-maps", "turnpath-plugin"],
         &["turnpath-core", PLUGINS],
     ),
+    rule(
+        "turnpath-plugin-test",
+        &[
+            "turnpath-core",
+            "turnpath-host",
+            "turnpath-pipeline",
+            "turnpath-recipe",
+            "turnpath-verify",
+            PLUGINS,
+        ],
+        &["turnpath-plugin", PLUGINS],
+    ),
     rule("turnpath-report", &["turnpath-core"], &[]),
     rule("turnpath", LIBRARIES, &[]),
     rule(

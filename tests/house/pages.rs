@@ -10,7 +10,7 @@ use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "run",
     "check",
     "ablate",
@@ -19,6 +19,7 @@ const COMMANDS: [&str; 12] = [
     "import",
     "list",
     "explain",
+    "new-plugin",
     "init",
     "schema",
     "completions",
@@ -180,6 +181,21 @@ fn the_sample_of_docs_plugins_md_is_the_one_that_the_tests_build_and_run() {
     assert_eq!(first_block(&page("docs/plugins.md"), "rust"), sample);
 }
 
+/// Every slot has a section, and what it quotes stands in the template of `turnpath new-plugin`.
+#[test]
+fn the_examples_of_docs_plugins_md_are_the_templates() {
+    let page = page("docs/plugins.md");
+    for slot in SLOTS.into_iter().chain(["spindle"]) {
+        let mut heading = format!("### {slot}");
+        heading[4..5].make_ascii_uppercase();
+        let section = below(&page, &heading);
+        let template = self::page(&format!("crates/turnpath/templates/{slot}.rs"));
+        let quoted = first_block(section, "rust");
+        assert!(template.contains(quoted), "{slot}:\n{quoted}");
+        assert!(section.contains(&format!("templates/{slot}.rs)")), "{slot}");
+    }
+}
+
 /// The command in the text before a page's block, as words behind the program's name.
 fn command_before<'a>(page: &'a str, block: &str) -> Vec<&'a str> {
     let (before, _) = page.split_once(block).expect("the block");
@@ -294,4 +310,19 @@ fn anchor(line: &str) -> String {
         .chars()
         .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
     kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
+/// The book has every page, so that none is found by its search alone.
+#[test]
+fn docs_summary_md_has_every_page() {
+    let docs = repository().join("docs");
+    let summary = page("docs/SUMMARY.md");
+    for path in pages() {
+        let Ok(name) = path.strip_prefix(&docs) else {
+            continue;
+        };
+        let name = name.to_string_lossy().replace('\\', "/");
+        let is_listed = name == "SUMMARY.md" || summary.contains(&format!("]({name})"));
+        assert!(is_listed, "{name}");
+    }
 }

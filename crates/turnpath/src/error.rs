@@ -10,6 +10,7 @@ use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
+use crate::new_plugin::NewPluginError;
 use crate::plots::PlotError;
 
 /// Where an error comes from: the source behind its messages.
@@ -73,6 +74,9 @@ pub enum Error {
         /// Why.
         source: Box<LoadError>,
     },
+    /// A new plugin cannot be written as it is asked for.
+    #[error(transparent)]
+    NewPlugin(#[from] NewPluginError),
     /// A plot cannot be drawn as it is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -158,6 +162,7 @@ impl Error {
             | Self::Refused { .. }
             | Self::NoProgram
             | Self::Plot(_)
+            | Self::NewPlugin(_)
             | Self::Exists { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
@@ -219,6 +224,7 @@ impl Error {
         match self {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
+            Self::NewPlugin(error) => Some(error.help()),
             Self::Exists { .. } => Some("`--force` replaces it"),
             Self::NoRunOfKey { .. } => Some(
                 "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \

@@ -18,6 +18,7 @@
 //! ```
 
 mod ablation;
+mod axis_notes;
 mod chain;
 mod check;
 mod commands;
@@ -35,6 +36,7 @@ mod job;
 mod memory;
 mod meters;
 mod named_files;
+mod new_plugin;
 mod outputs;
 mod part_shape;
 mod plots;
@@ -70,6 +72,9 @@ pub use data_files::DataFileError;
 pub use error::{Error, Fault};
 pub use import::{ImportRequest, ImportedRecipe, import};
 pub use job::Job;
+pub use new_plugin::{
+    CrateSource, NameError, NewPlugin, NewPluginError, PluginRequest, SourceError, new_plugin,
+};
 pub use outputs::Outputs;
 pub use part_shape::refused_check;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
