@@ -151,6 +151,7 @@ fn no_schedule_takes_longer_than_the_fastest_constant_speed() {
         (SADDLE, 10.0, 0.62),
         (ARRAY, 10.0, 0.64),
         (ARRAY, 0.1, 1.001),
+        (ARRAY, 1e-3, 1.001),
     ] {
         let spindle = Spindle { jerk, ..SLOW };
         Case::with_atpg(recipe, spindle).takes_at_most(part);

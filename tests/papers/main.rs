@@ -9,5 +9,6 @@ mod ats;
 mod fft_adaptive;
 mod integrated;
 mod minimax;
+mod planning;
 mod reproduction;
 mod velocities;

@@ -24,6 +24,8 @@ const MOST_MEMORY: &str = "4194304";
 /// How a call begins that sets the limits of its memory and of its processor time. Elsewhere than on
 /// Unix there are none.
 const WITH_LIMITS: &str = "ulimit -v \"$1\"; ulimit -S -t \"$2\"; shift 2; exec \"$@\"";
+/// The environment variable that names the cases to try: `17`, or `0..60`.
+const ASKED_CASES: &str = "TURNPATH_CASES";
 /// Words of a message that the program itself did not write.
 const OF_A_PANIC: [&str; 3] = ["thread '", "panicked at", "RUST_BACKTRACE"];
 
@@ -134,6 +136,18 @@ pub fn words(line: &str) -> Vec<String> {
     line.split_whitespace().map(str::to_owned).collect()
 }
 
+/// The cases that somebody asks for in place of those of a test.
+fn asked_cases() -> Option<Vec<u64>> {
+    let asked = std::env::var(ASKED_CASES).ok()?;
+    let number = |word: &str| word.trim().parse().ok();
+    let range = match asked.split_once("..") {
+        Some((first, end)) => number(first).zip(number(end)),
+        None => number(&asked).map(|one: u64| (one, one + 1)),
+    };
+    let (first, end) = range.expect("TURNPATH_CASES is a number or a range of numbers");
+    Some((first..end).collect())
+}
+
 /// What a case gave: how its call ended, and what is wrong with that.
 pub struct Outcome {
     pub end: End,
@@ -149,6 +163,11 @@ impl Tally {
         let of_end = self.0.iter().find(|(one, _)| *one == end);
         of_end.map_or(0, |(_, count)| *count)
     }
+
+    /// How many calls there were.
+    pub fn calls(&self) -> usize {
+        self.0.iter().map(|(_, count)| count).sum()
+    }
 }
 
 impl fmt::Display for Tally {
@@ -158,14 +177,14 @@ impl fmt::Display for Tally {
     }
 }
 
-/// Tries all cases, two at a time, and fails with all complaints.
+/// Tries all cases, or those that are asked for, two at a time, and fails with all complaints.
 #[track_caller]
 pub fn try_all(
     what: &str,
     cases: impl IntoIterator<Item = u64>,
     outcome: impl Fn(&Bench, u64) -> Outcome + Sync,
 ) -> Tally {
-    let cases: Vec<u64> = cases.into_iter().collect();
+    let cases = asked_cases().unwrap_or_else(|| cases.into_iter().collect());
     let (next, seen) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let work = || {
         while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {

@@ -30,13 +30,16 @@ const FEEDS: &[&[&str]] = &[
     &["ats", "inward = \"backwards\""],
     &["fft-adaptive", "chord = \"full\"", "angles = 90"],
 ];
+/// What of Z's motion is compared with that of `atpg`.
+const MOTION: [&str; 2] = ["max_acceleration_mm_per_s2", "max_jerk_mm_per_s3"];
 /// How many times the motion of Z may be that with `atpg`. On the papers' parts it is 1.05 at the most.
-/// Here tolerances reach a tenth of a wave's height: a path that leaves the wave by as much has a third
-/// more of its acceleration. A step that is a sliver has hundreds of times as much.
-const MOTION: [(&str, f64); 2] = [
-    ("max_acceleration_mm_per_s2", 2.0),
-    ("max_jerk_mm_per_s3", 2.0),
-];
+/// Here paths have tens of points, and the largest motion is that of the few steps that meet a crest.
+const MOST_MOTION: f64 = 1.15;
+/// The same where the largest step decides and not the tolerance. There the places of the nodes decide:
+/// if a saddle is turned beneath steps of 90 deg, Z accelerates 1.48 times as much with `atpg` itself.
+const MOST_MOTION_OF_STEPS: f64 = 1.5;
+/// The tolerance decides where the path errs by more than this part of it.
+const DECIDES: f64 = 0.5;
 const STATES: [u32; 4] = [1, 3, 7, 25];
 const MAX_STEPS: [&str; 4] = ["10 deg", "45 deg", "60 deg", "90 deg"];
 
@@ -225,10 +228,16 @@ fn shaken(summary: &Value, with_atpg: &Value) -> Option<String> {
     if summary["chain"]["spindle"] != "constant" {
         return None;
     }
-    let wrong = |(key, most): &(&str, f64)| {
-        let of = |summary: &Value| summary["axes"]["z"][key].as_f64();
+    let error = summary["interpolation_error"]["max_nm"].as_f64()?;
+    let tolerance = summary["tolerance"]["interpolation_nm"].as_f64()?;
+    let most = match error > DECIDES * tolerance {
+        true => MOST_MOTION,
+        false => MOST_MOTION_OF_STEPS,
+    };
+    let wrong = |key: &&str| {
+        let of = |summary: &Value| summary["axes"]["z"][*key].as_f64();
         let ratio = of(summary)? / of(with_atpg)?;
-        (ratio > *most).then(|| format!("{key} is {ratio} of that with atpg"))
+        (ratio > most).then(|| format!("{key} is {ratio} of that with atpg, at most {most}"))
     };
     MOTION.iter().find_map(wrong)
 }
@@ -261,5 +270,5 @@ fn long_five_hundred_random_recipes_with_the_fewest_points_are_held_or_refused()
     fs::create_dir_all(&folder).expect("a folder in the scratch folder");
     let tally = try_recipes(MANY_CASES, Some(&folder));
     let held = tally.count(End::Status(0));
-    assert!(held > 450, "few recipes hold: {tally}");
+    assert!(10 * held > 9 * tally.calls(), "few recipes hold: {tally}");
 }

@@ -1,0 +1,58 @@
+//! What the fewest points and the least time cost: processor time to plan them, on AST-50.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use crate::support::bench::Bench;
+use crate::support::repository;
+use serde_json::Value;
+
+/// Variants of AST-50, and changes that all of them have. The schedule is one that changes the speed:
+/// the machine has a fast spindle, and at its largest speed Z would accelerate too much.
+const SETS: [&str; 7] = [
+    "path.lead=false",
+    "path.overrun=none",
+    "sampler.max_step=90 deg",
+    "spindle.speed=3000 rpm",
+    "machine={ c_acceleration = \"1000 rad/s^2\", c_jerk = \"5e4 rad/s^3\", z_acceleration = \
+     \"500 mm/s^2\", z_jerk = \"2e5 mm/s^3\" }",
+    "ablation.sampler=[{ use = \"minimax\", max_step = \"90 deg\" }]",
+    "ablation.spindle=[{ use = \"per-revolution\", speed = \"3000 rpm\" }]",
+];
+/// How many times the processor time of `atpg` seven states may take, and how many times that of a
+/// constant speed a schedule may.
+const SEVEN_STATES: f64 = 3.0;
+const SCHEDULE: f64 = 2.0;
+
+/// The processor time of a chain.
+fn planning_time(runs: &Value, sampler: &str, spindle: &str) -> f64 {
+    let runs = runs["runs"].as_array().unwrap();
+    let is_it =
+        |run: &&Value| run["chain"]["sampler"] == sampler && run["chain"]["spindle"] == spindle;
+    let run = runs.iter().find(is_it).unwrap();
+    run["planning_time_s"].as_f64().unwrap()
+}
+
+/// docs/fewest-points.md has the command and what it prints.
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_seven_states_take_thrice_the_planning_of_atpg_at_most_and_a_schedule_twice() {
+    let recipe = repository().join("docs/recipes/astigmatic-50mm.toml");
+    let fixed = ["ablate", recipe.to_str().unwrap(), "-o", "out"];
+    let one = ["--threads", "1", "--columns", "points,time,planning-time"];
+    let set = SETS.into_iter().flat_map(|set| ["--set", set]);
+    let bench = Bench::empty();
+    let said = bench.call(fixed.into_iter().chain(one).chain(set)).ends(0);
+    println!("{said}");
+    let runs: Value = serde_json::from_str(&bench.read("out/ablation.json")).unwrap();
+    let [atpg, minimax] = ["atpg", "minimax"].map(|sampler| {
+        let [constant, changing] =
+            ["constant", "per-revolution"].map(|spindle| planning_time(&runs, sampler, spindle));
+        let schedule = changing / constant;
+        assert!(
+            schedule <= SCHEDULE,
+            "a schedule with {sampler}: {schedule}"
+        );
+        constant
+    });
+    let states = minimax / atpg;
+    assert!(states <= SEVEN_STATES, "seven states: {states}");
+}
