@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
-use crate::carry::{CarriedPoints, Move, carried, carry, leads_into_cut, turns_left_out};
+use crate::carry::{CarriedPoints, carried, carry, leads_into_cut, turns_left_out};
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
 use crate::program_format::{APPROACH_MARK, Chords, END_MARK, ProgramFormat, RETREAT_MARK, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
+use crate::trail::Move;
 use crate::travel::{Extent, Travel};
 
 /// A post with the format of one recipe.

@@ -14,6 +14,7 @@ mod column_files;
 mod columns;
 mod comment;
 mod decimal;
+mod digits;
 mod dry_run;
 mod fixed_point;
 mod forward_rates;
@@ -45,6 +46,7 @@ mod siemens_840d;
 mod template;
 #[cfg(test)]
 mod tests;
+mod trail;
 mod travel;
 mod travel_check;
 mod turn;
@@ -55,8 +57,9 @@ mod write_npz;
 mod write_parquet;
 
 pub use amount::{Amount, AmountError, TextSize};
-pub use carry::{CarriedPoints, DigitSegment, Digits};
+pub use carry::CarriedPoints;
 pub use columns::{ColumnFormat, Columns, WriteColumns};
+pub use digits::{DigitSegment, Digits};
 pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines, OpenFile};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use turnpath_core::toolpath::{ControlPoint, SegmentShape};
 use turnpath_core::{ParamInfo, Params};
 
-use crate::carry::{DigitSegment, Digits};
+use crate::digits::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
 use crate::g_code;
 use crate::part_name::{PartLines, PartName};

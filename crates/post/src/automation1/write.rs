@@ -1,6 +1,6 @@
 //! Writes the calls of a path.
 
-use crate::carry::{AXES, DigitSegment, Digits, said_place, said_positions};
+use crate::digits::{AXES, DigitSegment, Digits, said_place, said_positions};
 use crate::decimal::push;
 use crate::program_format::ProgramFormat;
 

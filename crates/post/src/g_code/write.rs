@@ -1,6 +1,6 @@
 //! Writes the moves.
 
-use crate::carry::AXES;
+use crate::digits::AXES;
 use crate::decimal::push;
 use crate::program_format::ProgramFormat;
 use crate::travel::{Travel, Z};

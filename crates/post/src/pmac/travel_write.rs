@@ -9,7 +9,7 @@
 
 use std::io::Write;
 
-use crate::carry::AXES;
+use crate::digits::AXES;
 use crate::decimal::push;
 use crate::program_format::ProgramFormat;
 use crate::travel::{Travel, Z};

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::clock::Clock;
-use crate::carry::{AXES, DigitSegment, Digits, said_place, said_positions};
+use crate::digits::{AXES, DigitSegment, Digits, said_place, said_positions};
 use crate::decimal::push;
 use crate::program_format::ProgramFormat;
 

@@ -1,6 +1,6 @@
 //! Writes the blocks of a path.
 
-use crate::carry::{AXES, DigitSegment, Digits, said_place};
+use crate::digits::{AXES, DigitSegment, Digits, said_place};
 use crate::decimal::push;
 use crate::program_format::ProgramFormat;
 
