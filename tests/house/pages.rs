@@ -295,3 +295,18 @@ fn anchor(line: &str) -> String {
         .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
     kept.map(|c| if c == ' ' { '-' } else { c }).collect()
 }
+
+/// The book has every page, so that none is found by its search alone.
+#[test]
+fn docs_summary_md_has_every_page() {
+    let docs = repository().join("docs");
+    let summary = page("docs/SUMMARY.md");
+    for path in pages() {
+        let Ok(name) = path.strip_prefix(&docs) else {
+            continue;
+        };
+        let name = name.to_string_lossy().replace('\\', "/");
+        let is_listed = name == "SUMMARY.md" || summary.contains(&format!("]({name})"));
+        assert!(is_listed, "{name}");
+    }
+}

@@ -26,7 +26,7 @@ fn the_commands_of_the_telescope_mirror_print_what_the_page_quotes() {
         fs::copy(docs.join("recipes").join(file), bench.path(file)).expect("a file");
     }
     let commands = console(&page);
-    assert_eq!(commands.len(), 4);
+    assert_eq!(commands.len(), 5);
     for (command, quoted) in commands {
         let said = bench.line(command).ends(0);
         assert_eq!(
@@ -39,4 +39,5 @@ fn the_commands_of_the_telescope_mirror_print_what_the_page_quotes() {
     let (recipe, _) = recipe.split_once("```").expect("its end");
     assert!(bench.read("mirror.toml").starts_with(recipe), "{recipe}");
     assert!(bench.read("out/mirror.pmc").contains("PVT"));
+    assert!(bench.read("out/mirror-dry-run.pmc").contains("C = 270 deg"));
 }

@@ -27,6 +27,7 @@ columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
 schema: tests/reference/schema/schema.py, the schema of recipes by taplo
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
+book: `mdbook build docs`, the pages as a book with search
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
 deny: `cargo xtask deny`";
@@ -59,6 +60,7 @@ pub fn run_checks() -> Vec<Step> {
         Step::run("schema", schema),
         Step::run("dry runs", dry_runs),
         Step::run("programs", || with_packages(&[], programs)),
+        Step::run("book", book),
     ];
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
@@ -160,6 +162,14 @@ fn programs() -> Outcome {
         "tests/reference/programs/siemens_840d.py",
         &[&files[0], &files[1]],
     ))
+}
+
+/// The pages as a book.
+fn book() -> Outcome {
+    if !succeeds(command("mdbook", &["--version"])) {
+        return Outcome::Skipped("`mdbook` is not installed".to_owned());
+    }
+    run(command("mdbook", &["build", "docs"]))
 }
 
 /// The recipes that the ignored tests leave in their scratch folder, measured with the playback apart,

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::axis_notes::AxisNotes;
 use crate::feed_cap::FeedCap;
 use crate::form::FormReport;
 use crate::format::FORMAT;
@@ -39,6 +40,10 @@ pub struct CheckReport {
     /// Whether the reach of the nose sets the feed, and where.
     #[serde(default)]
     pub feed_cap: FeedCap,
+    /// What the axes of the first program mean, or of a program with the default keys; `None` in reports of
+    /// earlier versions.
+    #[serde(default)]
+    pub axis_notes: Option<AxisNotes>,
     /// What is allowed but seldom meant.
     #[serde(default)]
     pub remarks: Vec<Remark>,

@@ -17,6 +17,7 @@
 mod ablation;
 mod anomalies;
 mod axes;
+mod axis_notes;
 mod check;
 pub mod comparison;
 mod coverage;
@@ -53,6 +54,7 @@ mod wholeness;
 pub use ablation::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutcome};
 pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
+pub use axis_notes::AxisNotes;
 pub use check::{CheckReport, Estimate, ProgramEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
 pub use cutting_speed::CuttingSpeed;

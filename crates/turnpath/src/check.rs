@@ -9,6 +9,7 @@ use turnpath_post::PathWriter;
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
 
+use crate::axis_notes::axis_notes;
 use crate::commands::controller_commands;
 use crate::diagnosis::{not_carried, of_pipeline};
 use crate::error::Error;
@@ -66,6 +67,10 @@ impl Job {
                 programs,
             },
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
+            axis_notes: Some(match self.programs.first() {
+                Some(program) => program.axis_notes(&self.recipe),
+                None => axis_notes(&self.recipe, false),
+            }),
             remarks: self.remarks(&path)?,
             controller_commands: controller_commands(&self.recipe),
         };

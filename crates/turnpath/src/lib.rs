@@ -18,6 +18,7 @@
 //! ```
 
 mod ablation;
+mod axis_notes;
 mod chain;
 mod check;
 mod commands;

@@ -12,9 +12,10 @@ use turnpath_post::{
 };
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
-use turnpath_report::{ProgramFigures, ProgramReport, Tolerances};
+use turnpath_report::{AxisNotes, ProgramFigures, ProgramReport, Tolerances};
 use turnpath_verify::FirstTouch;
 
+use crate::axis_notes::axis_notes;
 use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
 use crate::figures::{form_error, tolerances};
@@ -240,6 +241,9 @@ impl Program {
             }
             "ends" => either(lead.is_some(), "at rest", "in motion"),
             "z_reference" => either(tip, "tool tip", "nose centre"),
+            "axis_x" => self.axis_notes(recipe).x,
+            "axis_z" => self.axis_notes(recipe).z,
+            "axis_c" => self.axis_notes(recipe).c,
             "c_range" => either(format.c_wrapped, "within 0 to 360", "unwrapped"),
             "velocity_unit" => either(format.per_minute, "min", "s"),
             "f_means" => either(self.says_seconds(), "s", "1/min"),
@@ -247,6 +251,11 @@ impl Program {
             "increments" => 10_u64.pow(format.position_decimals).to_string(),
             _ => String::new(),
         }
+    }
+
+    /// What the axes of the program mean.
+    pub fn axis_notes(&self, recipe: &Recipe) -> AxisNotes {
+        axis_notes(recipe, self.layout.format.c_sign() < 0.0)
     }
 
     /// Whether F is the seconds of a line.

@@ -3,13 +3,14 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use turnpath_core::{Direction, Misfit, Slot};
+use turnpath_core::{Misfit, Slot};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
 use turnpath_report as report;
 use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::unreached;
 
+use crate::axis_notes::feed_direction;
 use crate::commands::controller_commands;
 use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
@@ -240,10 +241,7 @@ impl Job {
             turnpath: env!("CARGO_PKG_VERSION").to_owned(),
             name: recipe.name.clone(),
             chain: chain_names(recipe),
-            direction: match recipe.direction {
-                Direction::Inward => report::Direction::Inward,
-                Direction::Outward => report::Direction::Outward,
-            },
+            direction: feed_direction(recipe),
             refine: recipe.refine,
             control_points: outcome.control_points,
             rows,

@@ -43,7 +43,7 @@ impl Strategy for AtsFeed {
     const NAME: &'static str = "ats";
     const SUMMARY: &'static str = "at every cutting point the feed that holds the residual there; X \
         moves back and forth within each turn";
-    const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, from its abstract and \
+    const SOURCE: &'static str = "Zhu and To 2015, Opt. Express 23, 20234, doi:10.1364/OE.23.020234, from its abstract and \
         from Wang et al. 2019; the law is derived here; large feeds from the exact cusp, as far as \
         neighbouring noses meet within their edges";
 

@@ -19,7 +19,7 @@ impl Strategy for AtsSampler {
     const NAME: &'static str = "ats";
     const SUMMARY: &'static str = "steps as long as the interpolation tolerance allows on a path \
         whose X moves within the turn";
-    const SOURCE: &'static str = "after Zhu and To 2015, whose angle follows the shape at every \
+    const SOURCE: &'static str = "after Zhu and To 2015, doi:10.1364/OE.23.020234, whose angle follows the shape at every \
         point; the bound is Wang et al. 2019, eq. 10, for Z and X together";
     const PARAMS: &'static [ParamInfo] = &[MAX_STEP.info()];
 

@@ -23,7 +23,7 @@ impl Strategy for Integrated {
     const NAME: &'static str = "integrated";
     const SUMMARY: &'static str = "equal arcs outside, and equal angles from where those would be \
         larger than max_step on inwards";
-    const SOURCE: &'static str = "the integrated discretization paper: the smaller of its two \
+    const SOURCE: &'static str = "the integrated discretization paper, doi:10.1177/0954405416654192: the smaller of its two \
         steps everywhere";
     const PARAMS: &'static [ParamInfo] = &[SPACING.info(), MAX_STEP.info()];
 

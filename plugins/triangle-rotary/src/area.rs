@@ -33,7 +33,7 @@ impl Strategy for Area {
     const NAME: &'static str = "area";
     const SUMMARY: &'static str =
         "velocities whose curve has each segment's area, one after the other";
-    const SOURCE: &'static str = "the area method of the papers on triangle rotary, \
+    const SOURCE: &'static str = "the area method of the paper on triangle rotary, doi:10.1177/0954405416654192, \
         V₊ = V + (ΔP/h − V)/c (derived: the printed formula is lost); error of order 3 for c = ½, \
         ringing (2½ on steps in no order), of order 2 for larger c";
     const PARAMS: &'static [ParamInfo] = &[C.info()];

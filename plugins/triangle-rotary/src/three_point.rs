@@ -14,7 +14,7 @@ pub struct ThreePoint;
 impl Strategy for ThreePoint {
     const NAME: &'static str = "three-point";
     const SUMMARY: &'static str = "the slope of the parabola through each point and its neighbours";
-    const SOURCE: &'static str = "the three-point method of the papers on triangle rotary, \
+    const SOURCE: &'static str = "the three-point method of the paper on triangle rotary, doi:10.1177/0954405416654192, \
         V = (h₊ d₋ + h₋ d₊)/(h₋ + h₊); exact rates at both ends; error of order 3";
 
     fn new(_: &Params) -> Result<Self> {

@@ -35,7 +35,7 @@ const ENDS: Param<Choice> = Param::choice(
 impl Strategy for TriangleRotary {
     const NAME: &'static str = "triangle-rotary";
     const SUMMARY: &'static str = "the C² cubic spline: no jumps of acceleration within the path";
-    const SOURCE: &'static str = "cubic spline in slope form, λ m₋ + 2m + μ m₊ = 3(λ d₋ + μ d), \
+    const SOURCE: &'static str = "the paper on triangle rotary, doi:10.1177/0954405416654192; cubic spline in slope form, λ m₋ + 2m + μ m₊ = 3(λ d₋ + μ d), \
         solved by forward sweep and back substitution";
     const PARAMS: &'static [ParamInfo] = &[ENDS.info()];
 

@@ -71,6 +71,9 @@ pub(crate) const AUTOMATION1_PVT: Post = Post {
 // changed by --set: {changes}
 // turnpath {turnpath}, post automation1-pvt: {points} points, {revolutions} revolutions, {time_s} s
 // X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}
+// X: {axis_x}
+// Z: {axis_z}
+// C: {axis_c}
 // the path begins and ends {ends}
 // verified on this text: {verified}
 ",

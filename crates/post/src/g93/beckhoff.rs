@@ -55,6 +55,9 @@ pub(crate) const BECKHOFF_G93: Post = Post {
 ; changed by --set: {changes}
 ; turnpath {turnpath}, post beckhoff-g93: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, X a radius, Z of the {z_reference}; C in deg, {c_range}; F in {f_means}: G93
+; X: {axis_x}
+; Z: {axis_z}
+; C: {axis_c}
 ; the channel must keep its digits: {increments} increments of a mm and of a deg
 ; the path begins and ends {ends}
 ; verified on this text: {verified}

@@ -44,6 +44,9 @@ pub(crate) const LINUXCNC_G93: Post = Post {
 ; changed by --set: {changes}
 ; turnpath {turnpath}, post linuxcnc-g93: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, X a radius, Z of the {z_reference}; C in deg, {c_range}; F in 1/min: G93
+; X: {axis_x}
+; Z: {axis_z}
+; C: {axis_c}
 ; the path begins and ends {ends}
 ; verified on this text: {verified}
 ",

@@ -45,6 +45,9 @@ pub(crate) const NANOTECH_G93: Post = Post {
 ; changed by --set: {changes}
 ; turnpath {turnpath}, post nanotech-g93: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; F in {f_means}: G93
+; X: {axis_x}
+; Z: {axis_z}
+; C: {axis_c}
 ; the path begins and ends {ends}
 ; verified on this text: {verified}
 G52 G63 G71 G103 G40 G18 G90

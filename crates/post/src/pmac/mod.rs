@@ -96,6 +96,9 @@ pub(crate) const PMAC_PVT: Post = Post {
 ; changed by --set: {changes}
 ; turnpath {turnpath}, post pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Ix90 = {ix90}
+; X: {axis_x}
+; Z: {axis_z}
+; C: {axis_c}
 ; segment times in steps of 1/4096 ms: I42 = 0
 ; the path begins and ends {ends}
 ; verified on this text: {verified}
@@ -124,6 +127,9 @@ const ROTARY_HEADER: &str = "\
 ; changed by --set: {changes}
 ; turnpath {turnpath}, post pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Ix90 = {ix90}
+; X: {axis_x}
+; Z: {axis_z}
+; C: {axis_c}
 ; segment times in steps of 1/4096 ms: I42 = 0
 ; the path begins and ends {ends}
 ; for the rotary buffer: DEFINE ROTARY n once, B0 R to run it, and this file sent as the buffer empties

@@ -33,6 +33,9 @@ pub(crate) const POWER_PMAC_PVT: Post = Post {
 // changed by --set: {changes}
 // turnpath {turnpath}, post power-pmac-pvt: {points} points, {revolutions} revolutions, {time_s} s
 // X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; velocities per {velocity_unit}: Coord[x].FeedTime = {ix90}
+// X: {axis_x}
+// Z: {axis_z}
+// C: {axis_c}
 // the path begins and ends {ends}
 // verified on this text: {verified}
 close

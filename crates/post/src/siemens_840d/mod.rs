@@ -78,6 +78,9 @@ pub(crate) const SIEMENS_840D_POLY: Post = Post {
 ; changed by --set: {changes}
 ; turnpath {turnpath}, post siemens-840d-poly: {points} points, {revolutions} revolutions, {time_s} s
 ; X, Z in mm, Z of the {z_reference}; C in deg, {c_range}; F in 1/min: G93
+; X: {axis_x}
+; Z: {axis_z}
+; C: {axis_c}
 ; the machine must keep its digits: MD10200 and MD10210 = {increments} or more
 ; the path begins and ends {ends}
 ; verified on this text: {verified}

@@ -4,6 +4,7 @@ use turnpath_core::printable_line;
 
 use crate::check::CheckReport;
 
+use super::axis_notes::axis_notes;
 use super::commands::commands;
 use super::form::first_split;
 use super::machine::limits;
@@ -37,6 +38,11 @@ pub fn check(report: &CheckReport) -> String {
         let parts = parts.unwrap_or_default();
         text += &line("program", format!("about {size}{parts}: {file}"));
     }
+    text += &report
+        .axis_notes
+        .as_ref()
+        .map(axis_notes)
+        .unwrap_or_default();
     text += &commands(&report.controller_commands);
     text + &remarks(&report.remarks)
 }

@@ -1,6 +1,7 @@
 //! Reports as text for a terminal.
 
 mod anomalies;
+mod axis_notes;
 mod check;
 mod commands;
 mod coverage;

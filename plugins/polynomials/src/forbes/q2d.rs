@@ -38,7 +38,7 @@ const COEFFICIENTS: Param<Coefficients> = Param::length_coefficients(
 impl Strategy for ForbesQ2d {
     const NAME: &'static str = "forbes-q2d";
     const SUMMARY: &'static str = "a best-fit sphere with Forbes' gradient-orthogonal polynomials";
-    const SOURCE: &'static str = "Forbes 2012, Opt. Express 20, 2483";
+    const SOURCE: &'static str = "Forbes 2012, Opt. Express 20, 2483, doi:10.1364/OE.20.002483";
     const PARAMS: &'static [ParamInfo] = &[
         RADIUS.info(),
         NORMALIZATION_RADIUS.info(),

@@ -23,8 +23,8 @@ pub struct ForbesQcon {
 impl Strategy for ForbesQcon {
     const NAME: &'static str = "forbes-qcon";
     const SUMMARY: &'static str = "a conicoid with Forbes' polynomials for strong aspheres";
-    const SOURCE: &'static str = "Forbes 2007, Opt. Express 15, 5218; Forbes 2010, Opt. Express \
-        18, 13851";
+    const SOURCE: &'static str = "Forbes 2007, Opt. Express 15, 5218, doi:10.1364/OE.15.005218; \
+        Forbes 2010, Opt. Express 18, 13851, doi:10.1364/OE.18.013851";
     const PARAMS: &'static [ParamInfo] = &[
         Conicoid::RADIUS.info(),
         Conicoid::CONIC.info(),

@@ -42,7 +42,7 @@ const COEFFICIENTS: Param<Coefficients> =
 impl Strategy for Zernike {
     const NAME: &'static str = "zernike";
     const SUMMARY: &'static str = "a sum of Zernike polynomials by Noll, Fringe or OSA/ANSI number";
-    const SOURCE: &'static str = "Noll 1976, J. Opt. Soc. Am. 66; ANSI Z80.28; the Fringe list of \
+    const SOURCE: &'static str = "Noll 1976, J. Opt. Soc. Am. 66, doi:10.1364/JOSA.66.000207; ANSI Z80.28; the Fringe list of \
         the University of Arizona";
     const PARAMS: &'static [ParamInfo] = &[
         INDEXING.info(),
