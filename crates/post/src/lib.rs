@@ -13,6 +13,7 @@ mod chord;
 mod column_files;
 mod columns;
 mod comment;
+mod compression;
 mod decimal;
 mod digits;
 mod dry_run;
@@ -46,6 +47,7 @@ mod siemens_840d;
 mod template;
 #[cfg(test)]
 mod tests;
+mod text_file;
 mod trail;
 mod travel;
 mod travel_check;
@@ -59,9 +61,10 @@ mod write_parquet;
 pub use amount::{Amount, AmountError, TextSize};
 pub use carry::CarriedPoints;
 pub use columns::{ColumnFormat, Columns, WriteColumns};
+pub use compression::{Compression, text_name};
 pub use digits::{DigitSegment, Digits};
 pub use dry_run::{DryRunError, DryStop};
-pub use layout::{Layout, Lines, OpenFile};
+pub use layout::{Layout, Lines};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use part_name::{PartLines, PartName};
 pub use parts::PartsError;
@@ -80,5 +83,6 @@ pub use settings::{
     SEGMENTS_PER_SECOND, SPLIT,
 };
 pub use template::{PLACEHOLDERS, Template, TemplateError};
+pub use text_file::{OpenFile, file_bytes};
 pub use travel::{Extent, Places, Travel, TravelModes};
 pub use write_csv::PathWriter;
