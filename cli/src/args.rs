@@ -36,6 +36,8 @@ pub enum Command {
     Ablate(AblateArgs),
     /// Measure a tool path against a recipe's surface, tool and tolerances
     Verify(VerifyArgs),
+    /// Make the page of a result, report.html, from its files
+    Report(ReportArgs),
     /// Write the surface of a recipe on a grid, or compare it with a map
     Sag(SagArgs),
     /// Make a recipe of a surface of a lens design, a Zemax .zmx
@@ -44,6 +46,8 @@ pub enum Command {
     List(ListArgs),
     /// Explain one strategy, or one table of the recipe: its keys, defaults and limits
     Explain(ExplainArgs),
+    /// Write a plugin with a small strategy that works, for you to change
+    NewPlugin(NewPluginArgs),
     /// Write a commented recipe to begin with
     Init(InitArgs),
     /// Print a JSON schema of recipes, with which an editor completes and checks them
@@ -165,8 +169,28 @@ pub struct RunArgs {
     /// above the rim, and says how high the part is there
     #[arg(long)]
     pub dry_run: bool,
+    /// Leave out the page of the result, report.html
+    #[arg(long)]
+    pub no_report: bool,
     #[command(flatten)]
     pub plots: PlotArgs,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// The folders of results: of `run`, or of `ablate`
+    #[arg(required = true, value_name = "DIR")]
+    pub folders: Vec<PathBuf>,
+    /// The recipe, where its data files lie beside it, or where the summary does not have its text
+    #[arg(long, value_name = "FILE")]
+    pub recipe: Option<PathBuf>,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+    /// Load the plugins that the recipe itself lists, native code with your rights
+    #[arg(long)]
+    pub trust_recipe: bool,
     #[command(flatten)]
     pub work: WorkArgs,
 }
@@ -380,6 +404,25 @@ pub struct ExplainArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct NewPluginArgs {
+    /// The strategy's name, which is that of its crate and of its folder: lower-case letters, digits
+    /// and hyphens
+    pub name: String,
+    /// The slot of the strategy
+    #[arg(long, value_parser = PossibleValuesParser::new(Slot::ALL.map(Slot::key)))]
+    pub slot: String,
+    /// The folder in which the folder of the crate is made
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub dir: PathBuf,
+    /// Where turnpath's crates come from: a folder with turnpath's repository, the address of a git
+    /// repository (and # with a revision), or `registry`; as this program was built unless given
+    #[arg(long, value_name = "SOURCE")]
+    pub crates: Option<String>,
+    #[command(flatten)]
+    pub plugins: PluginArgs,
+}
+
+#[derive(Debug, Args)]
 pub struct InitArgs {
     /// The recipe to write; - for standard output
     #[arg(value_name = "FILE", default_value = RECIPE)]
@@ -417,11 +460,13 @@ impl Command {
             Self::Check(args) => &args.recipe.plugins,
             Self::Ablate(args) => &args.recipe.plugins,
             Self::Verify(args) => &args.recipe.plugins,
+            Self::Report(args) => &args.plugins,
             Self::Sag(args) => &args.recipe.plugins,
             Self::Import(_) | Self::Init(_) | Self::Completions(_) | Self::Man(_) => return None,
             Self::Schema(args) => &args.plugins,
             Self::List(args) => &args.plugins,
             Self::Explain(args) => &args.plugins,
+            Self::NewPlugin(args) => &args.plugins,
         })
     }
 }

@@ -44,7 +44,20 @@ const RULES: &[Rule] = &[
         &["turnpath-maps", "turnpath-plugin"],
         &["turnpath-core", PLUGINS],
     ),
+    rule(
+        "turnpath-plugin-test",
+        &[
+            "turnpath-core",
+            "turnpath-host",
+            "turnpath-pipeline",
+            "turnpath-recipe",
+            "turnpath-verify",
+            PLUGINS,
+        ],
+        &["turnpath-plugin", PLUGINS],
+    ),
     rule("turnpath-report", &["turnpath-core"], &[]),
+    rule("turnpath-page", &["turnpath-report"], &[]),
     rule("turnpath", LIBRARIES, &[]),
     rule(
         PROGRAM,
@@ -61,6 +74,7 @@ const LIBRARIES: &[&str] = &[
     "turnpath-host",
     "turnpath-lens",
     "turnpath-maps",
+    "turnpath-page",
     "turnpath-pipeline",
     "turnpath-post",
     "turnpath-recipe",

@@ -10,15 +10,17 @@ use crate::support::repository;
 
 const SLOTS: [&str; 5] = ["surface", "feed", "sampler", "compensator", "velocity"];
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 14] = [
     "run",
     "check",
     "ablate",
     "verify",
     "sag",
     "import",
+    "report",
     "list",
     "explain",
+    "new-plugin",
     "init",
     "schema",
     "completions",
@@ -178,6 +180,21 @@ fn docs_commands_md_has_every_command_and_every_option() {
 fn the_sample_of_docs_plugins_md_is_the_one_that_the_tests_build_and_run() {
     let sample = page("tests/fixtures/constant-arc/src/lib.rs");
     assert_eq!(first_block(&page("docs/plugins.md"), "rust"), sample);
+}
+
+/// Every slot has a section, and what it quotes stands in the template of `turnpath new-plugin`.
+#[test]
+fn the_examples_of_docs_plugins_md_are_the_templates() {
+    let page = page("docs/plugins.md");
+    for slot in SLOTS.into_iter().chain(["spindle"]) {
+        let mut heading = format!("### {slot}");
+        heading[4..5].make_ascii_uppercase();
+        let section = below(&page, &heading);
+        let template = self::page(&format!("crates/turnpath/templates/{slot}.rs"));
+        let quoted = first_block(section, "rust");
+        assert!(template.contains(quoted), "{slot}:\n{quoted}");
+        assert!(section.contains(&format!("templates/{slot}.rs)")), "{slot}");
+    }
 }
 
 /// The command in the text before a page's block, as words behind the program's name.

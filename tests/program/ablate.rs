@@ -106,7 +106,12 @@ fn the_full_product_is_made_with_the_recipe_first() {
     let rest: Vec<&String> = rest.collect();
     assert_eq!(
         rest,
-        ["out/ablation.csv", "out/ablation.json", "recipe.toml"]
+        [
+            "out/ablation.csv",
+            "out/ablation.json",
+            "out/report.html",
+            "recipe.toml"
+        ]
     );
 }
 

@@ -20,9 +20,14 @@ fn run_writes_the_path_and_its_summary() {
     let bench = Bench::with(SADDLE);
     let said = bench.line("run recipe.toml -o out").ends(0);
     assert_eq!(said.stderr, "");
-    let files = ["out/summary.json", "out/toolpath.csv", "recipe.toml"];
+    let files = [
+        "out/report.html",
+        "out/summary.json",
+        "out/toolpath.csv",
+        "recipe.toml",
+    ];
     assert_eq!(bench.files(), files);
-    for file in files.iter().take(2) {
+    for file in files.iter().take(3) {
         assert!(said.stdout.contains(file), "{said}");
     }
     let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
@@ -128,10 +133,35 @@ fn folders_are_made_as_deep_as_asked() {
 }
 
 #[test]
-fn without_data_only_the_summary_is_written() {
+fn without_data_only_the_summary_and_the_page_are_written() {
     let bench = Bench::with(&format!("{SADDLE}\n[output]\ndata = []\n"));
     bench.line("run recipe.toml -o out").ends(0);
+    let files = ["out/report.html", "out/summary.json", "recipe.toml"];
+    assert_eq!(bench.files(), files);
+    bench.line("run recipe.toml -o out --no-report").ends(0);
     assert_eq!(bench.files(), ["out/summary.json", "recipe.toml"]);
+}
+
+#[test]
+fn report_makes_the_pages_of_results_from_their_folders_alone() {
+    let bench = Bench::with(SADDLE);
+    let lists = "\n[ablation]\nvelocity = [{ use = \"linear\" }]\n";
+    bench.write("two.toml", format!("{SADDLE}{lists}"));
+    bench.line("run recipe.toml -o one").ends(0);
+    bench.line("ablate two.toml -o two").ends(0);
+    let pages = ["one/report.html", "two/report.html"];
+    let before = pages.map(|page| bench.read(page));
+    for file in ["recipe.toml", "two.toml", pages[0], pages[1]] {
+        fs::remove_file(bench.path(file)).unwrap();
+    }
+    let said = bench.line("report one two").ends(0);
+    let lines = pages.map(|page| format!("  file            {page}\n"));
+    assert_eq!((said.stdout, said.stderr), (lines.concat(), String::new()));
+    assert_eq!(bench.read(pages[1]), before[1]);
+    assert_eq!(bench.read(pages[0]).len(), before[0].len());
+    let none = bench.line("report one/nowhere").ends(4);
+    let title = "error: one/nowhere has no summary.json and no ablation.json\n";
+    assert!(none.stderr.starts_with(title), "{none}");
 }
 
 #[test]

@@ -22,6 +22,7 @@ mod frozen_boundary;
 mod import;
 mod long_programs;
 mod maps;
+mod new_plugin;
 mod no_surface;
 mod own_sampler;
 mod passes;

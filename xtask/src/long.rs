@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::commands::{cargo, command, repository, run, succeeds, target};
 use crate::python::{script, with_packages, with_packages_of};
 use crate::step::{Outcome, Step};
-use crate::{deny, fuzz, msrv};
+use crate::{browser, deny, fuzz, msrv, python_package};
 
 /// How many cases each test on random input tries; `.cargo/config.toml` has the number of `.ci/run`.
 /// A larger `PROPTEST_CASES` in the environment counts.
@@ -24,13 +24,15 @@ random recipes: tests/reference/playback/measure_random.py, those of the test of
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
 linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
 columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
+report: tests/reference/report/report.cjs, pages in Chromium by playwright-core
 schema: tests/reference/schema/schema.py, the schema of recipes by taplo
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
 book: `mdbook build docs`, the pages as a book with search
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
-deny: `cargo xtask deny`";
+deny: `cargo xtask deny`
+python: `cargo xtask python`, the wheel of the Python package in an empty environment";
 
 /// What `run` would do, a line each.
 pub fn list() -> String {
@@ -57,6 +59,7 @@ pub fn run_checks() -> Vec<Step> {
             with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
         }),
         Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
+        Step::run("report", browser::report),
         Step::run("schema", schema),
         Step::run("dry runs", dry_runs),
         Step::run("programs", || with_packages(&[], programs)),
@@ -65,6 +68,7 @@ pub fn run_checks() -> Vec<Step> {
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
     steps.extend(deny::run_checks());
+    steps.extend(python_package::run_checks());
     steps
 }
 

@@ -1,11 +1,13 @@
 //! `cargo xtask`: what takes too long, or needs too much, for `.ci/run`.
 
+mod browser;
 mod commands;
 mod deny;
 mod fuzz;
 mod long;
 mod msrv;
 mod python;
+mod python_package;
 mod reference;
 mod step;
 
@@ -21,6 +23,7 @@ cargo xtask COMMAND
   fuzz [NAME…]        fuzzes the targets of tests/fuzz with cargo-fuzz, or those of these names
   msrv                checks the workspace with the oldest Rust version that it promises
   deny                checks licences, bans and sources of all dependencies with cargo-deny
+  python              builds the wheel of the Python package and tests it in an empty environment
 
 A step whose tool or package is not installed is skipped, and the report says so.";
 
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         ["fuzz", names @ ..] => fuzz::run_targets(names),
         ["msrv"] => msrv::run_checks(),
         ["deny"] => deny::run_checks(),
+        ["python"] => python_package::run_checks(),
         _ => {
             eprintln!("{HELP}");
             return ExitCode::from(2);

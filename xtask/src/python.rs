@@ -7,7 +7,7 @@ use crate::commands::{command, succeeds};
 use crate::step::Outcome;
 
 /// The interpreter: the environment variable `PYTHON`, or `python3`.
-fn interpreter() -> String {
+pub fn interpreter() -> String {
     std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned())
 }
 

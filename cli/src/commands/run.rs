@@ -22,7 +22,8 @@ pub fn run(args: &RunArgs, catalogue: Catalogue) -> Outcome {
     };
     let outputs = Outputs::in_folder(folder)
         .with_plots(plots::request(&args.plots)?)
-        .with_dry_run(args.dry_run);
+        .with_dry_run(args.dry_run)
+        .with_page(!args.no_report);
     let bar = Bar::new(&args.work);
     let result = job.run(outputs, &bar);
     bar.clear();

@@ -71,7 +71,7 @@ pub fn recipe(args: &RecipeArgs, catalogue: Catalogue) -> Result<(Recipe, Catalo
 }
 
 /// Refuses a recipe that lists plugins of its own: they are native code with the user's rights.
-fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
+pub fn refuse_listed_plugins(recipe: &Recipe) -> Result<(), Error> {
     let Some(first) = recipe.plugins.first() else {
         return Ok(());
     };

@@ -98,7 +98,7 @@ pub struct SurfaceGap {
 }
 
 /// What a surface was made from, for reports.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceData {
     /// Points of the data, with those that have no height.
     pub points: u64,
@@ -106,6 +106,10 @@ pub struct SurfaceData {
     pub filled: u64,
     /// How the surface goes on beyond the data, in a few words.
     pub continuation: String,
+    /// The largest distance along z that was found between the surface and the function that it
+    /// stands for, mm; `None` for measured data. Plugins that were built before do not give it.
+    #[serde(default)]
+    pub fit_error: Option<f64>,
 }
 
 /// How many points go through a formula together. The number is large enough to fill the vector

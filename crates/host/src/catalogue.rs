@@ -9,7 +9,7 @@ use turnpath_plugin::Offer;
 
 use crate::error::MOST_COLUMNS;
 use crate::library::Library;
-use crate::{Admission, LibraryFile, LoadError, Plugin, Strategy};
+use crate::{Admission, LibraryFile, LoadError, OwnPlugin, Plugin, Strategy};
 
 /// The strategies by slot and name, of linked and of loaded plugins.
 #[derive(Debug, Clone, Default)]
@@ -69,6 +69,38 @@ impl Catalogue {
         Ok(self)
     }
 
+    /// The catalogue with strategies that the program makes itself.
+    ///
+    /// ```
+    /// use turnpath_core::{NodeList, Path, Result, Revolutions, SamplerPlan, Slot};
+    /// use turnpath_host::{Catalogue, OwnPlugin, OwnStrategy};
+    ///
+    /// #[derive(Clone)]
+    /// struct Even(f64);
+    ///
+    /// impl SamplerPlan for Even {
+    ///     fn place(&self, _: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
+    ///         nodes.extend(block.turns().flat_map(|turn| turn.subdivide(self.0)));
+    ///         Ok(())
+    ///     }
+    /// }
+    ///
+    /// let steps = 90.0;
+    /// let even = OwnStrategy::sampler("even", move |_| Ok(Box::new(Even(steps))));
+    /// let lab = OwnPlugin::new("lab", "0.1.0").with(even);
+    /// let catalogue = Catalogue::linked()?.with_own(lab)?;
+    /// assert!(catalogue.find(Slot::Sampler, "even").is_some());
+    /// # Ok::<(), turnpath_host::LoadError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When one of them has a name that the catalogue has already or no recipe could choose, or a
+    /// parameter whose name belongs to the host.
+    pub fn with_own(mut self, own: OwnPlugin) -> Result<Self, LoadError> {
+        self.add_own(own)?;
+        Ok(self)
+    }
+
     /// The catalogue, which asks this before it loads libraries from here on.
     pub fn with_admission(mut self, admission: Arc<dyn Admission>) -> Self {
         self.admissions.push(admission);
@@ -94,6 +126,15 @@ impl Catalogue {
     /// parameter whose name belongs to the host. The catalogue then has nothing of the plugin.
     pub fn add_file(&mut self, file: impl AsRef<Path>) -> Result<(), LoadError> {
         self.add_libraries(vec![LibraryFile::read(file)?])
+    }
+
+    /// Adds strategies that the program makes itself, as [`with_own`](Self::with_own) does.
+    ///
+    /// # Errors
+    /// Those of [`with_own`](Self::with_own). The catalogue then has nothing of the plugin.
+    pub fn add_own(&mut self, own: OwnPlugin) -> Result<(), LoadError> {
+        let (plugin, offers) = own.into_parts();
+        self.add(plugin, offers)
     }
 
     fn add_libraries(&mut self, mut libraries: Vec<LibraryFile>) -> Result<(), LoadError> {
@@ -222,6 +263,8 @@ fn plugin(crate_name: &str, version: &str, from: Option<(PathBuf, String)>) -> P
         version: version.to_owned(),
         file,
         sha256,
+        source: None,
+        inexact: Vec::new(),
     }
 }
 

@@ -390,6 +390,8 @@ mod tests {
                 version: String::new(),
                 file: None,
                 sha256: None,
+                source: None,
+                inexact: Vec::new(),
             }),
         };
         let help = error.help().unwrap_or_default();

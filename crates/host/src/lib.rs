@@ -1,7 +1,7 @@
 //! Finds, checks and loads turnpath plugins, and looks strategies up by name.
 //!
 //! A [`Catalogue`] begins empty or with the strategies that are linked into the program, and more
-//! can be added from libraries. Only its [`Plugin`] shows whether a [`Strategy`] is linked or loaded.
+//! can be added from libraries and [by the program itself](Catalogue::with_own). Only its [`Plugin`] shows whether a [`Strategy`] is linked or loaded.
 //!
 //! ```
 //! use turnpath_core::Slot;
@@ -25,6 +25,7 @@ mod image;
 mod library;
 mod machine;
 mod native;
+mod own_plugin;
 mod plugin;
 
 pub use admission::Admission;
@@ -33,6 +34,7 @@ pub use error::{LoadError, Refusal};
 pub use hash::{sha256_hex, sha256_hex_of_file};
 pub use image::entry_symbol;
 pub use library::LibraryFile;
+pub use own_plugin::{OwnPlugin, OwnStrategy};
 pub use plugin::{Plugin, Strategy};
 pub use turnpath_plugin::calls;
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

@@ -8,25 +8,33 @@ use turnpath_core::{StrategyInfo, printable_line};
 use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
 
-/// A crate that registers strategies. It is linked into the program or loaded from a file.
+/// A crate that registers strategies, or a part of the program that makes its own. A crate is linked
+/// into the program or loaded from a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plugin {
     /// The package's name, `turnpath-surfaces`.
     pub name: String,
     /// The package's version.
     pub version: String,
-    /// The absolute path of the library that was loaded; `None` for a linked crate.
+    /// The absolute path of the library that was loaded; `None` for what is no library.
     pub file: Option<PathBuf>,
-    /// SHA-256 of the bytes that were loaded, in lower-case hexadecimal; `None` for a linked crate.
+    /// SHA-256 of the bytes that were loaded, in lower-case hexadecimal, or of the source that the
+    /// program names; `None` for a linked crate.
     pub sha256: Option<String>,
+    /// Where the source of the program's own strategies is, for messages; `None` for a crate.
+    pub source: Option<String>,
+    /// The program's own strategies, `sampler even`, whose answers may have other bytes on another
+    /// machine.
+    pub inexact: Vec<String>,
 }
 
 impl fmt::Display for Plugin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {} ", self.name, self.version)?;
-        match &self.file {
-            Some(file) => write!(f, "({})", file.display()),
-            None => f.write_str("(built in)"),
+        match (&self.file, &self.source) {
+            (Some(file), _) => write!(f, "({})", file.display()),
+            (None, Some(source)) => write!(f, "({source})"),
+            (None, None) => f.write_str("(built in)"),
         }
     }
 }
@@ -43,7 +51,9 @@ impl Strategy {
     pub(crate) fn new(offer: Offer, plugin: Arc<Plugin>) -> Self {
         let info = offer.info();
         let text = format!("the {} `{}` of {plugin}", info.slot.noun(), info.name);
-        let callee = Callee::new(printable_line(&text).into_owned(), plugin.file.is_some());
+        // What the program brings is as little known as a library.
+        let is_foreign = plugin.file.is_some() || plugin.source.is_some();
+        let callee = Callee::new(printable_line(&text).into_owned(), is_foreign);
         let offer = offer.named(callee);
         Self { offer, plugin }
     }

@@ -3,8 +3,8 @@
 use turnpath_core::toolpath::PathBlock;
 use turnpath_verify::machined::{MachinedFigures, SurfaceExtremes};
 use turnpath_verify::{
-    AxesMotion, BlockFigures, Meter, PathFigures, ServoBlockFigures, ServoFigures, ServoMeter,
-    ServoStart,
+    AxesMotion, BlockFigures, Meter, PathFigures, PathSketch, ServoBlockFigures, ServoFigures,
+    ServoMeter, ServoStart,
 };
 
 use crate::feed_cap::{FeedCap, feed_cap};
@@ -42,6 +42,9 @@ pub struct Outcome {
     /// The predicted following error, where [`PathOptions::servo`](crate::PathOptions::servo) is
     /// given.
     pub servo: Option<ServoFigures>,
+    /// What pictures of the path need, where [`PathOptions::sketch`](crate::PathOptions::sketch) asks
+    /// for it.
+    pub sketch: Option<PathSketch>,
 }
 
 /// What is measured on the cutting section, block by block.
@@ -51,6 +54,7 @@ pub struct Measurement {
     points: u64,
     sampled: u64,
     own_axes: AxesMotion,
+    sketch: bool,
 }
 
 /// What is measured on one block.
@@ -75,6 +79,7 @@ impl Measurement {
             points: 0,
             sampled: 0,
             own_axes: AxesMotion::default(),
+            sketch: options.sketch,
         }
     }
 
@@ -99,6 +104,7 @@ impl Measurement {
     /// The result of the run.
     pub fn outcome(self, plan: &Plan<'_>, lead: Option<Leads>) -> Result<Outcome> {
         let revolutions = plan.law.end();
+        let sketch = self.sketch.then(|| self.meter.sketch());
         Ok(Outcome {
             control_points: self.points,
             added_by_refine: self.points - self.sampled,
@@ -110,6 +116,7 @@ impl Measurement {
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
             feed_cap: feed_cap(plan.preparation, &plan.law)?,
             lead,
+            sketch: sketch.transpose().map_err(PipelineError::Measure)?,
             servo: self.servo.map(|servo| *servo.figures()),
         })
     }

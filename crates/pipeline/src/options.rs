@@ -22,4 +22,6 @@ pub struct PathOptions {
     pub form: Option<FormScope>,
     /// How the axes follow the path. With it the run predicts their following error.
     pub servo: Option<Servo>,
+    /// Whether the run keeps what pictures of the path need.
+    pub sketch: bool,
 }

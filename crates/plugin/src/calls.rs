@@ -65,7 +65,8 @@ pub struct Call {
 
 impl Callee {
     /// The callee of this description, such as "the sampler `x` of lab 0.1.0 (built in)"; `loaded`
-    /// says that its code comes from a library. The description must show no control characters.
+    /// says that its code comes from a library, or that the program brought it as a value. The
+    /// description must show no control characters.
     pub fn new(text: String, loaded: bool) -> &'static Self {
         let mut callees = lock(&CALLEES);
         let same = |known: &&&Self| known.text == text && known.loaded == loaded;
@@ -87,7 +88,7 @@ impl Callee {
         &self.text
     }
 
-    /// Whether its code comes from a library.
+    /// Whether its code comes from a library, or from the program as a value.
     pub fn is_loaded(&self) -> bool {
         self.loaded
     }

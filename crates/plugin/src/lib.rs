@@ -41,11 +41,14 @@ mod abi;
 pub mod calls;
 mod guard;
 mod head;
+mod maker;
 mod offer;
 mod panic_safe_box;
 mod registration;
 
 // For the host, and for the expansion of `export!`.
+#[doc(hidden)]
+pub use maker::{Make, Maker};
 #[doc(hidden)]
 pub use offer::{Offer, linked};
 #[doc(hidden)]

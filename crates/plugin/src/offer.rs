@@ -13,14 +13,25 @@ use crate::abi::request::AbiRequest;
 use crate::abi::root::{self, Constructed, RootRef};
 use crate::calls::Callee;
 use crate::head::OpenError;
+use crate::maker::Maker;
 
-/// A strategy that the host can build. Linked strategies cross the same boundary as loaded ones, so
-/// that one mechanism contains panics and checks slices, and both give the same answers.
-#[derive(Clone, Copy)]
+/// A strategy that the host can build. Linked strategies, and those that the program makes itself,
+/// cross the same boundary as loaded ones, so that one mechanism contains panics and checks slices,
+/// and all give the same answers.
+#[derive(Clone)]
 pub struct Offer {
     entry: CatalogueEntry,
-    root: RootRef,
+    constructor: Constructor,
     callee: Option<&'static Callee>,
+}
+
+/// What builds a strategy.
+#[derive(Clone)]
+enum Constructor {
+    /// A function that the crate of the entry registered.
+    Registered(RootRef),
+    /// A value of the program.
+    Program(Maker),
 }
 
 impl std::fmt::Debug for Offer {
@@ -30,6 +41,21 @@ impl std::fmt::Debug for Offer {
 }
 
 impl Offer {
+    /// The offer of a strategy that the program makes itself. The slot of `info` is that of the
+    /// maker.
+    pub fn of_program(info: StrategyInfo, maker: Maker) -> Self {
+        let slot = maker.slot();
+        Self {
+            entry: CatalogueEntry {
+                crate_name: "",
+                crate_version: "",
+                info: StrategyInfo { slot, ..info },
+            },
+            constructor: Constructor::Program(maker),
+            callee: None,
+        }
+    }
+
     /// Slot, name, summary, source and parameters.
     pub fn info(&self) -> StrategyInfo {
         self.entry.info
@@ -89,8 +115,14 @@ impl Offer {
             crate_name, info, ..
         } = self.entry;
         let _mark = self.callee.map(Callee::enter);
-        let request = AbiRequest::new(crate_name, info.name, params);
-        root::construct::<Box<T>>(self.root, request).map(Arc::from)
+        let made = match &self.constructor {
+            Constructor::Registered(root) => {
+                let request = AbiRequest::new(crate_name, info.name, params);
+                root::construct::<Box<T>>(*root, request)
+            }
+            Constructor::Program(maker) => root::make::<Box<T>>(maker, params),
+        };
+        made.map(Arc::from)
     }
 }
 
@@ -99,7 +131,7 @@ fn offers(root: RootRef, entries: Vec<CatalogueEntry>) -> Vec<Offer> {
         .into_iter()
         .map(|entry| Offer {
             entry,
-            root,
+            constructor: Constructor::Registered(root),
             callee: None,
         })
         .collect()

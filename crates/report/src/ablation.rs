@@ -5,6 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::format::FORMAT;
 use crate::run::{ChainNames, RunReport};
+use crate::sketch::ErrorSketch;
 use crate::unit;
 use crate::verdict::Verdict;
 
@@ -51,6 +52,9 @@ pub struct MeasuredRun {
     /// not measured.
     #[serde(rename = "planning_time_s", with = "unit::s")]
     pub planning_time: Option<f64>,
+    /// What pictures of its error need; `None` in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sketch: Option<ErrorSketch>,
 }
 
 /// A variant without a path.
@@ -79,6 +83,7 @@ impl From<RunReport> for MeasuredRun {
             report,
             program_bytes: None,
             planning_time: None,
+            sketch: None,
         }
     }
 }

@@ -41,7 +41,9 @@ mod rough_path;
 mod run;
 #[cfg(test)]
 mod sample;
+mod samples;
 mod servo;
+mod sketch;
 mod spokes;
 mod surface_error;
 pub mod text;
@@ -79,7 +81,12 @@ pub use rough_path::{Left, RoughPathReport};
 pub use run::{
     ChainNames, DataSource, Direction, PluginSource, RecipeSource, ResultFile, RunReport,
 };
+pub use samples::Samples;
 pub use servo::{FollowingErrors, LinearLag, PredictedError, RotaryLag, ServoReport};
+pub use sketch::{
+    AxisSketch, EdgeSketch, ErrorMap, ErrorProfile, ErrorSketch, PathSketch, RadialMean,
+    SpiralSketch, TurnSketch,
+};
 pub use spokes::Spokes;
 pub use surface_error::{RealNose, SurfaceError};
 pub use tool_fit::{

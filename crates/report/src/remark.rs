@@ -134,6 +134,24 @@ pub enum Remark {
         /// How the surface goes on there, in a few words.
         continuation: String,
     },
+    /// A spline stands for a function that is no formula.
+    FittedSurface {
+        /// Points of the spline.
+        points: u64,
+        /// The largest distance along z that was found between both, mm.
+        #[serde(rename = "error_nm", with = "unit::nm")]
+        error: f64,
+        /// The interpolation tolerance, mm.
+        #[serde(rename = "tolerance_nm", with = "unit::nm")]
+        tolerance: f64,
+    },
+    /// Strategies call functions whose last bits depend on the machine.
+    NotByteExact {
+        /// Slot and name of each.
+        strategies: Vec<String>,
+        /// The plugin that they come from.
+        plugin: String,
+    },
 }
 
 /// The decimals of a program.

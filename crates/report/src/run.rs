@@ -111,9 +111,10 @@ pub struct PluginSource {
     pub name: String,
     /// The package's version.
     pub version: String,
-    /// The library's path; `None` for one that is built in.
+    /// The library's path, or where the source of the program's own strategies is; `None` for one
+    /// that is built in.
     pub file: Option<String>,
-    /// SHA-256 of the library.
+    /// SHA-256 of the library, or of that source.
     pub sha256: Option<String>,
 }
 
@@ -141,6 +142,9 @@ pub struct RecipeSource {
     pub sha256: String,
     /// The changes by `--set`, `key=value`, in their order.
     pub sets: Vec<String>,
+    /// Its text, without the changes; `None` in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub text: Option<String>,
 }
 
 /// A file of a result.

@@ -1,11 +1,16 @@
-//! Remarks on a surface that was made from data: what was filled, and where the path leaves them.
+//! Remarks on what the strategies are made of: on the data of a surface, what was filled and where the
+//! path leaves them; and on strategies that are not the same on every machine.
 
+use turnpath_core::Slot;
+use turnpath_host::{Catalogue, Plugin};
 use turnpath_pipeline::{DataReach, Farthest, data_reach};
+use turnpath_recipe::Recipe;
 use turnpath_report::Remark;
 
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::job::Job;
+use crate::plugins::used;
 use crate::remarks::{PathSubject, remarks};
 
 impl Job {
@@ -13,18 +18,38 @@ impl Job {
     pub(crate) fn remarks(&self, path: &PathSubject) -> Result<Vec<Remark>, Error> {
         let cut_angle = self.preparation.interference.cut_angle().value;
         let mut all = remarks(&self.recipe, path, cut_angle);
-        all.extend(self.data_remarks()?);
+        all.extend(self.data_remarks(path.tolerance.interpolation)?);
+        all.extend(inexact(&self.recipe, &self.catalogue));
         Ok(all)
     }
 
-    fn data_remarks(&self) -> Result<Vec<Remark>, Error> {
+    fn data_remarks(&self, tolerance: f64) -> Result<Vec<Remark>, Error> {
         let reach = data_reach(&self.chain, &self.preparation);
         let reach = reach.map_err(|error| of_pipeline(&self.recipe, error))?;
+        let on_data = |reach| on_data(reach, tolerance);
         Ok(reach.map(on_data).unwrap_or_default())
     }
 }
 
-fn on_data(reach: DataReach) -> Vec<Remark> {
+/// The recipe's strategies whose last bits depend on the machine, a remark for each plugin.
+fn inexact(recipe: &Recipe, catalogue: &Catalogue) -> Vec<Remark> {
+    let of_plugin = |plugin: &Plugin| {
+        let mut strategies: Vec<String> = Vec::new();
+        for choice in Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot)) {
+            let text = format!("{} {}", choice.slot, choice.name());
+            if plugin.inexact.contains(&text) && !strategies.contains(&text) {
+                strategies.push(text);
+            }
+        }
+        let plugin = plugin.name.clone();
+        (!strategies.is_empty()).then_some(Remark::NotByteExact { strategies, plugin })
+    };
+    let used = used(recipe, catalogue).into_iter();
+    used.filter_map(of_plugin).collect()
+}
+
+/// `tolerance` is that of interpolation, mm.
+fn on_data(reach: DataReach, tolerance: f64) -> Vec<Remark> {
     let DataReach {
         data,
         part,
@@ -33,6 +58,11 @@ fn on_data(reach: DataReach) -> Vec<Remark> {
     let filled = (data.filled > 0).then_some(Remark::FilledPoints {
         filled: data.filled,
         points: data.points,
+    });
+    let fitted = data.fit_error.map(|error| Remark::FittedSurface {
+        points: data.points,
+        error,
+        tolerance,
     });
     let beyond = |place: Option<Farthest>, on_part: bool| {
         place.map(|place| Remark::BeyondData {
@@ -43,6 +73,6 @@ fn on_data(reach: DataReach) -> Vec<Remark> {
             continuation: data.continuation.clone(),
         })
     };
-    let all = [filled, beyond(part, true), beyond(overrun, false)];
+    let all = [filled, fitted, beyond(part, true), beyond(overrun, false)];
     all.into_iter().flatten().collect()
 }

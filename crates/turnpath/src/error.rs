@@ -10,7 +10,10 @@ use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::data_files::DataFileError;
+use crate::new_plugin::NewPluginError;
+use crate::page::PageError;
 use crate::plots::PlotError;
+use crate::result_check::ResultError;
 
 /// Where an error comes from: the source behind its messages.
 type Source = Box<dyn std::error::Error + Send + Sync>;
@@ -73,6 +76,9 @@ pub enum Error {
         /// Why.
         source: Box<LoadError>,
     },
+    /// A new plugin cannot be written as it is asked for.
+    #[error(transparent)]
+    NewPlugin(#[from] NewPluginError),
     /// A plot cannot be drawn as it is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -123,6 +129,12 @@ pub enum Error {
     /// The system gives no thread to work on.
     #[error("there is no thread to work on")]
     Threads(#[source] Source),
+    /// A folder has no result.
+    #[error(transparent)]
+    Result(#[from] ResultError),
+    /// A result gets no page.
+    #[error(transparent)]
+    Page(#[from] PageError),
     /// A run of an ablation ended without a result.
     #[error("a run ended unexpectedly")]
     RunLost,
@@ -158,6 +170,8 @@ impl Error {
             | Self::Refused { .. }
             | Self::NoProgram
             | Self::Plot(_)
+            | Self::NewPlugin(_)
+            | Self::Page(PageError::NoRecipe | PageError::OtherRecipe { .. })
             | Self::Exists { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
@@ -172,6 +186,8 @@ impl Error {
             | Self::NothingCut { .. }
             | Self::PointsLost { .. }
             | Self::DryRun { .. }
+            | Self::Result(_)
+            | Self::Page(_)
             | Self::Report { .. } => Fault::Files,
             Self::Threads(_) => Fault::Request,
             Self::Cancelled => Fault::Cancelled,
@@ -219,6 +235,8 @@ impl Error {
         match self {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
+            Self::NewPlugin(error) => Some(error.help()),
+            Self::Page(PageError::NoRecipe) => Some("`--recipe FILE` gives it"),
             Self::Exists { .. } => Some("`--force` replaces it"),
             Self::NoRunOfKey { .. } => Some(
                 "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \
@@ -340,6 +358,8 @@ mod tests {
             version: "1.0.0".to_owned(),
             file: None,
             sha256: None,
+            source: None,
+            inexact: Vec::new(),
         });
         let error = Error::from(LoadError::TwoOfOneName {
             slot: turnpath_core::Slot::Feed,

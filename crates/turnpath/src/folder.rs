@@ -1,12 +1,14 @@
 //! The files of a run: begun with its first control points, and named together when all is done.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use turnpath_core::toolpath::{Section, SectionBlock};
 use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
+use turnpath_page::is_page;
 use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
 use turnpath_post::{
     ColumnFormat, Columns, Lines, PathReader, PathWriter, ProgramPath, ProgramWriter, WriteColumns,
@@ -23,10 +25,12 @@ use crate::program_room::ProgramRoom;
 
 use crate::sinks::SinkError;
 use crate::sizes::{bytes_while_assembled, check_room, column_bytes, toolpath_bytes};
-use crate::summary::SUMMARY;
+use crate::summary::{PAGE, SUMMARY};
 
 /// The table of the path.
-const TOOLPATH: &str = "toolpath.csv";
+pub const TOOLPATH: &str = "toolpath.csv";
+/// So many bytes of a page show who made it.
+const PAGE_MARK_BYTES: u64 = 256;
 
 /// Takes a folder for one run alone, however often the run makes its path.
 ///
@@ -35,7 +39,7 @@ const TOOLPATH: &str = "toolpath.csv";
 pub fn open_folder(folder: &Path, job: &Job, dry_run: bool) -> Result<ResultFolder, FolderError> {
     let names = job.file_names(dry_run);
     let names = names.iter().map(String::as_str);
-    nothing_in_the_way(folder, names.chain([SUMMARY]))?;
+    nothing_in_the_way(folder, names.chain([SUMMARY, PAGE]))?;
     ResultFolder::open(folder)
 }
 
@@ -331,18 +335,43 @@ impl WholeResult {
         self.files.iter().filter_map(member).collect()
     }
 
-    /// Makes these files and the summary the result of the folder; gives their paths, the summary
-    /// last.
-    pub fn commit(self, summary: &str) -> Result<Vec<PathBuf>, FolderError> {
-        let path = self.folder.path().join(SUMMARY);
-        let mut draft = self.folder.draft(&path)?;
-        let written = draft.write_all(summary.as_bytes());
-        written.map_err(FileError::of(&path))?;
-        let summary = draft.finish()?;
-        let paths = self.files.iter().map(|file| file.path().to_owned());
-        let paths = paths.chain([path]).collect();
+    /// Makes these files, the page and the summary the result of the folder; gives their paths, the
+    /// summary last. The summary does not list the page, and without one that of an earlier run is
+    /// removed: it would show another result.
+    pub fn commit(
+        mut self,
+        summary: &str,
+        page: Option<&str>,
+    ) -> Result<Vec<PathBuf>, FolderError> {
+        match page {
+            Some(page) => self.files.push(self.whole(PAGE, page)?),
+            None => remove_page(&self.folder.path().join(PAGE))?,
+        }
+        let summary = self.whole(SUMMARY, summary)?;
+        let paths = self.files.iter().chain([&summary]);
+        let paths = paths.map(|file| file.path().to_owned()).collect();
         self.folder.commit(self.files, summary)?;
         Ok(paths)
+    }
+
+    fn whole(&self, name: &str, text: &str) -> Result<WholeFile, FileError> {
+        let path = self.folder.path().join(name);
+        let mut draft = self.folder.draft(&path)?;
+        let written = draft.write_all(text.as_bytes());
+        written.map_err(FileError::of(&path))?;
+        draft.finish()
+    }
+}
+
+/// Removes a page that turnpath made; any other file stays.
+fn remove_page(path: &Path) -> Result<(), FileError> {
+    let mut beginning = Vec::new();
+    let read =
+        File::open(path).and_then(|file| file.take(PAGE_MARK_BYTES).read_to_end(&mut beginning));
+    match read {
+        Ok(_) if is_page(&beginning) => fs::remove_file(path).map_err(FileError::of(path)),
+        // There is none, or one that is somebody else's.
+        _ => Ok(()),
     }
 }
 

@@ -32,6 +32,8 @@ pub struct Job {
     pub(crate) programs: Vec<Program>,
     /// How a tolerance of form is divided for the path, where that is known already.
     pub(crate) split: Option<Tolerance>,
+    /// Whether a run keeps what pictures of its path need.
+    pub(crate) keeps_sketch: bool,
 }
 
 /// Refuses what is wrong with all of the strategies in one go.
@@ -85,6 +87,7 @@ impl Job {
             preparation,
             programs,
             split: None,
+            keeps_sketch: false,
         };
         job.refuse_formats_left_out()?;
         job.refuse_straight_lines()?;
@@ -194,6 +197,7 @@ impl Job {
             }),
             form: form_scope(recipe),
             servo: recipe.servo,
+            sketch: self.keeps_sketch,
             covers_centre: Overrun::from(recipe.overrun).covers_centre(),
         }
     }

@@ -36,8 +36,11 @@ mod job;
 mod memory;
 mod meters;
 mod named_files;
+mod new_plugin;
 mod outputs;
+mod page;
 mod part_shape;
+mod path_file;
 mod plots;
 mod plugins;
 mod plugins_lock;
@@ -71,7 +74,11 @@ pub use data_files::DataFileError;
 pub use error::{Error, Fault};
 pub use import::{ImportRequest, ImportedRecipe, import};
 pub use job::Job;
+pub use new_plugin::{
+    CrateSource, NameError, NewPlugin, NewPluginError, PluginRequest, SourceError, new_plugin,
+};
 pub use outputs::Outputs;
+pub use page::{PageError, PageRequest, result_recipe, write_page};
 pub use part_shape::refused_check;
 pub use plots::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest};
 pub use plugins::with_listed_plugins;
@@ -86,7 +93,8 @@ pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
 pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
-    Admission, Catalogue, LibraryFile, LoadError, Plugin, Refusal, Strategy, calls,
+    Admission, Catalogue, LibraryFile, LoadError, OwnPlugin, OwnStrategy, Plugin, Refusal,
+    Strategy, calls,
 };
 pub use turnpath_lens::Side;
 pub use turnpath_maps::{Format as MapFormat, length_unit};

@@ -11,6 +11,8 @@ pub struct Outputs {
     pub(crate) plots: PlotRequest,
     /// Whether each program has its dry run beside it.
     pub(crate) dry_run: bool,
+    /// Whether the result has its page, `report.html`.
+    pub(crate) page: bool,
 }
 
 /// The kinds of outputs.
@@ -54,11 +56,18 @@ impl Outputs {
         Self { dry_run, ..self }
     }
 
+    /// With the page of the result, `report.html`. It needs a folder.
+    #[must_use]
+    pub fn with_page(self, page: bool) -> Self {
+        Self { page, ..self }
+    }
+
     fn to(destination: Destination) -> Self {
         Self {
             destination,
             plots: PlotRequest::default(),
             dry_run: false,
+            page: false,
         }
     }
 }

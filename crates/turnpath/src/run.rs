@@ -10,7 +10,7 @@ use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
 use turnpath_post::file_bytes;
 use turnpath_report as report;
 use turnpath_report::{FormSplit, ProgramReport, RunReport};
-use turnpath_verify::unreached;
+use turnpath_verify::{PathSketch, unreached};
 
 use crate::axis_notes::feed_direction;
 use crate::commands::controller_commands;
@@ -23,6 +23,7 @@ use crate::job::Job;
 use crate::memory::MemorySink;
 use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
+use crate::page::page_of_run;
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
 use crate::program::ProgramText;
@@ -73,7 +74,11 @@ impl Job {
             Destination::Memory => self.run_in_memory(observer),
             Destination::Folder(folder) => {
                 let plots = Plots::new(&outputs.plots, &self.recipe.part, folder)?;
-                self.run_in_folder(folder, &plots, outputs.dry_run, observer)
+                let job = Job {
+                    keeps_sketch: outputs.page,
+                    ..self.clone()
+                };
+                job.run_in_folder(folder, &plots, outputs.dry_run, observer)
             }
         }
     }
@@ -204,11 +209,26 @@ impl Job {
             ..report
         };
         let report = report.with_verdict();
-        let files = whole.commit(&report::to_json(&report))?;
+        let page = self.page(&report, outcome.sketch.as_ref())?;
+        let files = whole.commit(&report::to_json(&report), page.as_deref())?;
         Ok(RunResult {
             files,
             ..RunResult::of(report)
         })
+    }
+
+    /// The page of the run, where it is asked for.
+    fn page(
+        &self,
+        report: &RunReport,
+        sketch: Option<&PathSketch>,
+    ) -> Result<Option<String>, Error> {
+        if !self.keeps_sketch {
+            return Ok(None);
+        }
+        let surface = &self.chain.surface;
+        let made_by = (&self.recipe, &self.catalogue);
+        page_of_run(made_by, surface.strategy.as_ref(), report, sketch).map(Some)
     }
 
     /// What a path gave; `split` is how a tolerance of form was divided for it.
@@ -278,6 +298,7 @@ impl Job {
             file: file.to_string_lossy().into_owned(),
             sha256: sha256_hex(self.recipe.text().as_bytes()),
             sets: self.recipe.sets().to_vec(),
+            text: Some(self.recipe.text().to_owned()),
         };
         RunReport {
             recipe: Some(recipe),
@@ -302,7 +323,10 @@ impl Job {
         let source = sources.map(|plugin| report::PluginSource {
             name: plugin.name.clone(),
             version: plugin.version.clone(),
-            file: plugin.file.as_ref().map(|file| file.display().to_string()),
+            file: match &plugin.file {
+                Some(file) => Some(file.display().to_string()),
+                None => plugin.source.clone(),
+            },
             sha256: plugin.sha256.clone(),
         });
         source.collect()

@@ -7,6 +7,10 @@ use turnpath_report::{FormatError, RunReport, from_json};
 
 /// The report of a run, which lists its files.
 pub const SUMMARY: &str = "summary.json";
+/// The runs of an ablation.
+pub const ABLATION: &str = "ablation.json";
+/// The page of a run or of an ablation. No summary lists it: it can be made from the result again.
+pub const PAGE: &str = "report.html";
 /// The most bytes of a summary or a record that are read: far more than any has.
 pub const MOST_BYTES: u64 = 1 << 26;
 

@@ -202,19 +202,24 @@ impl AxesMotion {
         let mut motion = Self::default();
         let inside = |segment: &Segment| segment.c.value(0.0) >= from && segment.c.value(1.0) <= to;
         for segment in points.segments().filter(inside) {
-            let axes = [
-                (&mut motion.c, &segment.c),
-                (&mut motion.x, &segment.x),
-                (&mut motion.z, &segment.z),
-            ];
-            for (axis, played) in axes {
-                match points.shape {
-                    SegmentShape::Cubic => axis.include_cubic(played, &segment),
-                    SegmentShape::Linear => axis.include_straight(played, &segment),
-                }
-            }
+            motion.include(&segment, points.shape);
         }
         motion
+    }
+
+    /// Includes the path's next segment.
+    pub(crate) fn include(&mut self, segment: &Segment, shape: SegmentShape) {
+        let axes = [
+            (&mut self.c, &segment.c),
+            (&mut self.x, &segment.x),
+            (&mut self.z, &segment.z),
+        ];
+        for (axis, played) in axes {
+            match shape {
+                SegmentShape::Cubic => axis.include_cubic(played, segment),
+                SegmentShape::Linear => axis.include_straight(played, segment),
+            }
+        }
     }
 
     /// Appends the motion of the path's next block.

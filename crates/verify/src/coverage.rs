@@ -37,6 +37,15 @@ pub struct CoverageFigures {
     pub contact_beyond_axis: f64,
 }
 
+/// What stays uncut at the edges of the part, section by section, mm. Infinite where no pass reaches.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EdgeHeights {
+    /// At the rim, from C = 0 on.
+    pub rim: Vec<f64>,
+    /// At the hole; empty on a part without one.
+    pub hole: Vec<f64>,
+}
+
 /// The coverage of a path so far. Its memory is bounded, however long the path is.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Coverage {
@@ -74,6 +83,22 @@ impl Coverage {
         self.x_beyond_axis = self.x_beyond_axis.max(next.x_beyond_axis);
         self.contact_beyond_axis = self.contact_beyond_axis.max(next.contact_beyond_axis);
         self.around_axis.append(passes);
+    }
+
+    /// The edges of the part on each section.
+    pub fn edges(&self, touch: &FirstTouch) -> Result<EdgeHeights> {
+        let heights = |edge: &PartEdge| -> Result<Vec<f64>> {
+            let sections = edge.on_sections(touch)?;
+            Ok(sections.iter().map(|section| section.height).collect())
+        };
+        let has_hole = touch.subject().part.inner_radius > 0.0;
+        Ok(EdgeHeights {
+            rim: heights(&self.rim)?,
+            hole: match has_hole {
+                true => heights(&self.hole)?,
+                false => Vec::new(),
+            },
+        })
     }
 
     /// The coverage of the whole path, and the residual around the axis.

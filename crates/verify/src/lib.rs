@@ -7,6 +7,7 @@
 
 mod anomalies;
 mod axes;
+mod best_sphere;
 mod bracket;
 mod closing;
 mod comparison;
@@ -29,6 +30,7 @@ mod profiles;
 mod residual;
 mod scan;
 mod servo;
+mod sketch;
 mod spectrum;
 mod spokes;
 mod subject;
@@ -39,10 +41,11 @@ mod worst_first;
 
 pub use anomalies::{Anomaly, AnomalyDetector, AnomalyKind};
 pub use axes::{AxesMotion, AxisMotion, Peak};
+pub use best_sphere::BestSphere;
 pub use comparison::{
     Column, ComparisonFigures, HalfDigits, PathRow, RowAnomaly, RowComparison, RowFault,
 };
-pub use coverage::CoverageFigures;
+pub use coverage::{CoverageFigures, EdgeHeights};
 pub use cutting_speed::CuttingSpeed;
 pub use instants::INSTANTS;
 pub use lead::{Jumps, LeadBlockFigures, LeadFigures, LeadMeter};
@@ -53,6 +56,7 @@ pub use playback::PlaybackFigures;
 pub use points::PointFigures;
 pub use residual::{ResidualFigures, SECTIONS, cusp_heights};
 pub use servo::{FollowingError, ServoBlockFigures, ServoFigures, ServoMeter, ServoStart};
+pub use sketch::{PathSketch, SpiralSample, TurnMotion};
 pub use spectrum::{AxesLine, AxesSpectrum};
 pub use spokes::Spoke;
 pub use subject::Subject;

@@ -10,6 +10,7 @@ use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, Sur
 use crate::playback::{PlaybackFigures, play_back};
 use crate::points::{PointFigures, point_errors};
 use crate::residual::{Passes, ResidualFigures};
+use crate::sketch::{BlockSketch, PathSketch, Sketch};
 use crate::spokes::{BlockSpokes, SegmentErrors, Spoke, Spokes};
 use crate::touch::FirstTouch;
 
@@ -36,6 +37,7 @@ pub struct BlockFigures {
     real_nose: Option<SectionPasses>,
     coverage: Coverage,
     spokes: BlockSpokes,
+    sketch: BlockSketch,
     ends: Option<[ControlPoint; 2]>,
 }
 
@@ -90,6 +92,7 @@ pub struct Meter {
     real_nose: Option<Lines>,
     coverage: Coverage,
     spokes: Spokes,
+    sketch: Sketch,
     counts_centre: bool,
     form: Option<FormScope>,
     ends: Option<[ControlPoint; 2]>,
@@ -107,6 +110,7 @@ impl Meter {
             lines: Lines::new(Fan::WHOLE),
             coverage: Coverage::default(),
             spokes: Spokes::default(),
+            sketch: Sketch::default(),
             counts_centre: false,
             form: None,
             ends: None,
@@ -156,7 +160,9 @@ impl Meter {
         block.play_back(touch, points)?;
         block.points = PointFigures::of(points, &block.per_point, offsets);
         block.passes = Passes::of(touch, points)?;
-        block.residual = block.passes.residual(touch)?;
+        let cusps = block.passes.cusps(touch)?;
+        block.residual = ResidualFigures::of(&cusps);
+        block.sketch = BlockSketch::of(points, &block.per_segment, &cusps);
         block.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
         if !touch.subject().compensates_nose {
             let radius = touch.subject().tool.nose_radius;
@@ -183,7 +189,8 @@ impl Meter {
         self.figures.cutting_speed.append(&next.cutting_speed);
         self.figures.residual.append(&next.residual);
         let joint = self.passes.follow(&self.touch, &next.passes)?;
-        self.figures.residual.append(&joint);
+        self.figures.residual.append(&ResidualFigures::of(&joint));
+        self.sketch.append(&next.sketch, &joint);
         self.lines.append(&next.sections);
         if let (Some(lines), Some(passes)) = (&mut self.real_nose, &next.real_nose) {
             lines.append(passes);
@@ -249,6 +256,21 @@ impl Meter {
             Some(scope) => lines.form(&self.touch, scope),
             None => Ok(None),
         }
+    }
+
+    /// What pictures of the path need.
+    ///
+    /// # Errors
+    /// When the surface fails or has no height at a place that was cut.
+    pub fn sketch(&self) -> Result<PathSketch> {
+        Ok(PathSketch {
+            rings: self.lines.rings(&self.touch)?,
+            harmonics: self.spokes.harmonics(),
+            spiral: self.sketch.spiral(),
+            turns: self.sketch.turns(),
+            residual: self.sketch.residual(),
+            edges: self.coverage.edges(&self.touch)?,
+        })
     }
 
     /// The figures so far.

@@ -156,15 +156,20 @@ impl PartEdge {
         };
     }
 
-    /// The largest height over all angles; infinite if nothing was measured.
-    pub fn uncut(&self, touch: &FirstTouch) -> Result<UncutHeight> {
+    /// The height on each section; empty if nothing was measured.
+    pub fn on_sections(&self, touch: &FirstTouch) -> Result<Vec<UncutHeight>> {
         let on_section = |section: usize| EdgeAngle {
             theta: angle_of(section as i64),
             section,
             off: 0.0,
         };
         let sections: Vec<EdgeAngle> = (0..self.sections.len()).map(on_section).collect();
-        let mut heights = self.heights(touch, &sections)?;
+        self.heights(touch, &sections)
+    }
+
+    /// The largest height over all angles; infinite if nothing was measured.
+    pub fn uncut(&self, touch: &FirstTouch) -> Result<UncutHeight> {
+        let mut heights = self.on_sections(touch)?;
         heights.sort_by(|a, b| b.height.total_cmp(&a.height));
         let Some(mut largest) = heights.first().copied() else {
             return Ok(UncutHeight {

@@ -46,6 +46,13 @@ impl ResidualFigures {
         (self.cusps > 0).then_some(self.max)
     }
 
+    /// The figures of these cusps.
+    pub(crate) fn of(cusps: &[Self]) -> Self {
+        let mut figures = Self::default();
+        cusps.iter().for_each(|cusp| figures.append(cusp));
+        figures
+    }
+
     /// Appends the figures of the path's next block.
     pub fn append(&mut self, next: &Self) {
         self.cusps += next.cusps;
@@ -138,9 +145,9 @@ impl Passes {
         })
     }
 
-    /// The residual among these passes.
-    pub fn residual(&self, touch: &FirstTouch) -> Result<ResidualFigures> {
-        residual_between(
+    /// The cusps among these passes, each alone.
+    pub fn cusps(&self, touch: &FirstTouch) -> Result<Vec<ResidualFigures>> {
+        cusps_between(
             touch,
             &self.passes,
             &self.passes,
@@ -149,18 +156,18 @@ impl Passes {
         )
     }
 
-    /// Appends the passes of the following sections. Returns the residual between the last
-    /// revolution so far and the first revolution of `next`, and keeps the last revolution alone.
-    pub fn follow(&mut self, touch: &FirstTouch, next: &Passes) -> Result<ResidualFigures> {
+    /// Appends the passes of the following sections. Returns the cusps between the last revolution
+    /// so far and the first revolution of `next`, each alone, and keeps the last revolution alone.
+    pub fn follow(&mut self, touch: &FirstTouch, next: &Passes) -> Result<Vec<ResidualFigures>> {
         let known = self.passes.len();
         let turn = SECTIONS as usize;
         self.extend(next);
         let start = known.saturating_sub(turn);
         let around = &self.passes[start..(known + turn).min(self.passes.len())];
         let earlier = &self.passes[start..known];
-        let figures = residual_between(touch, earlier, around, self.first + start as i64, turn)?;
+        let cusps = cusps_between(touch, earlier, around, self.first + start as i64, turn)?;
         *self = self.last_few(turn);
-        Ok(figures)
+        Ok(cusps)
     }
 
     /// Appends the passes of the following sections.
@@ -218,14 +225,15 @@ fn tangent_centre(touch: &Touch, radius: f64) -> Point {
     Point::new(touch.foot - radius * touch.slope / w, touch.z + radius / w)
 }
 
-/// The residual between each pass of `earlier` and the pass `turn` entries further on in `all`.
-fn residual_between(
+/// The cusps between each pass of `earlier` and the pass `turn` entries further on in `all`: those
+/// that stand on the part.
+fn cusps_between(
     touch: &FirstTouch,
     earlier: &[Pass],
     all: &[Pass],
     first: i64,
     turn: usize,
-) -> Result<ResidualFigures> {
+) -> Result<Vec<ResidualFigures>> {
     let subject = touch.subject();
     let (mut theta, mut cusps) = (Vec::new(), Vec::new());
     for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
@@ -236,7 +244,7 @@ fn residual_between(
         theta.push(angle_of(number));
         cusps.push(one.cusp(other, &subject.tool));
     }
-    highest(touch, &theta, &cusps)
+    Ok(each(touch, &theta, &cusps)?.into_iter().flatten().collect())
 }
 
 /// The residual of those of these cusps that stand on the part, each at its own angle. A cusp stands
@@ -246,11 +254,8 @@ pub(crate) fn highest(
     theta: &[f64],
     cusps: &[Cusp],
 ) -> Result<ResidualFigures> {
-    let mut figures = ResidualFigures::default();
-    for here in each(touch, theta, cusps)?.into_iter().flatten() {
-        figures.append(&here);
-    }
-    Ok(figures)
+    let cusps: Vec<ResidualFigures> = each(touch, theta, cusps)?.into_iter().flatten().collect();
+    Ok(ResidualFigures::of(&cusps))
 }
 
 /// The height, mm, of the cusp that two passes leave at each angle, with the tool touching the

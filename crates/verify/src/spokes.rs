@@ -176,6 +176,8 @@ pub(crate) struct Spokes {
     until_next: usize,
     /// The largest spoke of all windows before.
     largest: Option<Spoke>,
+    /// The largest amplitude of each harmonic over all windows before, mm; empty before the first.
+    harmonics: Vec<f64>,
 }
 
 impl Default for Spokes {
@@ -186,6 +188,7 @@ impl Default for Spokes {
             window: VecDeque::with_capacity(WINDOW),
             until_next: WINDOW,
             largest: None,
+            harmonics: Vec::new(),
         }
     }
 }
@@ -204,7 +207,9 @@ impl Spokes {
     /// Begins the path's next turn: the one before is whole.
     fn push(&mut self, turn: Turn) {
         if self.until_next == 0 {
-            self.largest = larger(self.largest, self.spoke());
+            let amplitudes = self.amplitudes();
+            self.largest = larger(self.largest, self.spoke(&amplitudes));
+            self.harmonics = largest_of_each(&self.harmonics, &amplitudes);
             self.until_next = ADVANCE;
         }
         if self.window.len() == WINDOW {
@@ -216,16 +221,31 @@ impl Spokes {
 
     /// The largest spoke so far; `None` if no window has errors at all angles.
     pub fn largest(&self) -> Option<Spoke> {
-        larger(self.largest, self.spoke())
+        larger(self.largest, self.spoke(&self.amplitudes()))
     }
 
-    /// The largest harmonic of the window's mean turn; `None` if there is an angle without errors.
-    fn spoke(&self) -> Option<Spoke> {
-        let mut harmonics = self.mean_turn()?;
+    /// The largest amplitude of each harmonic over all windows so far, mm: entry k has k periods a
+    /// turn. Empty if no window has errors at all angles.
+    pub fn harmonics(&self) -> Vec<f64> {
+        largest_of_each(&self.harmonics, &self.amplitudes())
+    }
+
+    /// The amplitude of each harmonic of the window's mean turn, mm; empty if there is an angle
+    /// without errors.
+    fn amplitudes(&self) -> Vec<f64> {
+        let Some(mut harmonics) = self.mean_turn() else {
+            return Vec::new();
+        };
         self.fft.process(&mut harmonics);
-        let harmonics = harmonics.iter().enumerate().take(HIGHEST + 1).skip(LOWEST);
-        let amplitudes = harmonics.map(|(k, value)| (k, 2.0 * value.norm() / ANGLES as f64));
-        let (per_turn, amplitude) = amplitudes.max_by(|one, other| one.1.total_cmp(&other.1))?;
+        let harmonics = harmonics.iter().take(HIGHEST + 1);
+        let amplitudes = harmonics.map(|value| 2.0 * value.norm() / ANGLES as f64);
+        amplitudes.collect()
+    }
+
+    /// The largest spoke of a window with these amplitudes; `None` if there are none.
+    fn spoke(&self, amplitudes: &[f64]) -> Option<Spoke> {
+        let spokes = amplitudes.iter().copied().enumerate().skip(LOWEST);
+        let (per_turn, amplitude) = spokes.max_by(|one, other| one.1.total_cmp(&other.1))?;
         let turns = self.window.iter();
         Some(Spoke {
             amplitude,
@@ -254,6 +274,17 @@ impl Spokes {
             _ => Some(Complex::new(sum / f64::from(*count), 0.0)),
         });
         means.collect()
+    }
+}
+
+fn largest_of_each(some: &[f64], others: &[f64]) -> Vec<f64> {
+    match (some, others) {
+        ([], all) | (all, []) => all.to_vec(),
+        _ => some
+            .iter()
+            .zip(others)
+            .map(|(one, other)| one.max(*other))
+            .collect(),
     }
 }
 

@@ -2,9 +2,10 @@
 
 use turnpath_plugin::prelude::*;
 
+use crate::build_error::BuildError;
 use crate::complaint::{Complaint, Mistake};
 use crate::gap::Source;
-use crate::graph::{MOST_NODES, Refusal};
+use crate::graph::{Graph, Id, MOST_NODES, Refusal};
 use crate::jump::jump;
 use crate::lexer::names;
 use crate::names::is_taken;
@@ -68,6 +69,23 @@ fn unused<'a>(text: &str, constants: &'a [NamedConstant]) -> Option<&'a NamedCon
     let names = names(text)?;
     let is_used = |constant: &&NamedConstant| names.contains(&constant.name.as_str());
     constants.iter().find(|constant| !is_used(constant))
+}
+
+impl Formula {
+    /// The formula of a graph that stands in no text.
+    pub(crate) fn of_graph(graph: Graph, root: Id) -> std::result::Result<Self, BuildError> {
+        let (of_points, height) = resolved(&graph, root)?;
+        let tape = Tape::new(&of_points, height).ok_or(BuildError::TooWide(MOST_REGISTERS))?;
+        if let Some(jump) = jump(&of_points, &tape) {
+            return Err(BuildError::Jump(jump.sentence()));
+        }
+        let source = Box::new(Source {
+            graph,
+            places: Vec::new(),
+            root,
+        });
+        Ok(Self { tape, source })
+    }
 }
 
 fn formula(text: &str, constants: &[NamedConstant]) -> std::result::Result<Formula, Complaint> {

@@ -101,6 +101,11 @@ fn size(tape: &Tape, radius: f64) -> f64 {
 }
 
 impl Jump {
+    /// What happens, without a place in a text.
+    pub fn sentence(&self) -> String {
+        format!("the height jumps by {:.3e} mm at {}", self.jump, self.angle)
+    }
+
     /// The complaint at the first angle of the text.
     pub fn complaint(self, text: &str) -> Complaint {
         let tokens = tokens(text).unwrap_or_default();

@@ -150,6 +150,7 @@ impl GridSag {
             points: points as u64,
             filled: (points - valid) as u64,
             continuation: CONTINUATION.into(),
+            fit_error: None,
         };
         let pitch = [map.pitch_x(), map.pitch_y()];
         let first = [map.x(0), map.y(0)];

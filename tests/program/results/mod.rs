@@ -42,6 +42,7 @@ fn the_summary_lists_the_files_with_their_hashes_and_says_what_was_run() {
         "profile-0deg-spectrum.csv",
         "profile-0deg.csv",
         "recipe.pmc",
+        "report.html",
         "summary.json",
         "toolpath.csv",
     ];
@@ -75,7 +76,8 @@ fn a_second_run_removes_what_only_the_first_made() {
     bench
         .line("run recipe.toml -o out --set output.posts=[]")
         .ends(0);
-    assert_eq!(entries(&out), ["notes.txt", "summary.json", "toolpath.csv"]);
+    let left = ["notes.txt", "report.html", "summary.json", "toolpath.csv"];
+    assert_eq!(entries(&out), left);
 }
 
 /// The file's bytes are the user's now.

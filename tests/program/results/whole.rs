@@ -6,6 +6,9 @@ use std::path::Path;
 use serde_json::Value;
 use turnpath_host::sha256_hex;
 
+/// The page of a result, which no summary lists.
+const PAGE: &str = "report.html";
+
 /// What a folder has.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FolderState {
@@ -35,12 +38,26 @@ pub fn state_of(folder: &Path) -> FolderState {
         }
         names.push(name.to_owned());
     }
+    if let Ok(page) = fs::read_to_string(folder.join(PAGE)) {
+        if shown_by(&page) != Some(summary.clone()) {
+            return FolderState::Mixed("the page shows another result".to_owned());
+        }
+        names.push(PAGE.to_owned());
+    }
     let foreign = entries(folder).into_iter();
     let foreign = foreign.filter(|name| !names.contains(name) && !name.starts_with(".turnpath"));
     match foreign.collect::<Vec<_>>() {
         none if none.is_empty() => FolderState::Result(summary["recipe"]["sets"].to_string()),
         foreign => FolderState::Mixed(format!("{foreign:?} are not listed")),
     }
+}
+
+/// The summary that a page shows.
+fn shown_by(page: &str) -> Option<Value> {
+    let (_, after) = page.split_once("id=\"data\">")?;
+    let (data, _) = after.split_once("</script>")?;
+    let mut data: Value = serde_json::from_str(data).ok()?;
+    Some(data["report"].take())
 }
 
 /// The names of what is directly in a folder, sorted; none if it is not there.

@@ -4,5 +4,6 @@ mod common;
 
 mod loading;
 mod misbehaving;
+mod own_plugin;
 mod refused;
 mod same_bits;

@@ -164,7 +164,12 @@ impl SurfaceModel for PlacedSurface {
     }
 
     fn data(&self) -> Result<Option<SurfaceData>> {
-        self.surface.data()
+        let data = self.surface.data()?;
+        let scale = self.placement.scale.abs();
+        Ok(data.map(|data| SurfaceData {
+            fit_error: data.fit_error.map(|error| error * scale),
+            ..data
+        }))
     }
 
     fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> {

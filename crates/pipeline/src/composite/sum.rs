@@ -137,7 +137,8 @@ impl SurfaceModel for SurfaceSum {
         Ok(())
     }
 
-    /// All data together. They go on in the way of the first that has data.
+    /// All data together. They go on in the way of the first that has data, and the errors of fits
+    /// add up.
     fn data(&self) -> Result<Option<SurfaceData>> {
         let mut sum: Option<SurfaceData> = None;
         for surface in &self.surfaces {
@@ -147,6 +148,7 @@ impl SurfaceModel for SurfaceSum {
                     Some(sum) => SurfaceData {
                         points: sum.points + data.points,
                         filled: sum.filled + data.filled,
+                        fit_error: both(sum.fit_error, data.fit_error),
                         ..sum
                     },
                 });
@@ -164,4 +166,11 @@ impl SurfaceModel for SurfaceSum {
         }
         Ok(None)
     }
+}
+
+/// The sum of two errors, as far as there are any.
+fn both(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    one.into_iter()
+        .chain(other)
+        .reduce(|one, other| one + other)
 }

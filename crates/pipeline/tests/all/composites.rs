@@ -476,6 +476,7 @@ impl SurfaceModel for PlaneOfData {
             points: 100,
             filled: 7,
             continuation: "straight on".into(),
+            fit_error: Some(2e-6),
         }))
     }
 }
@@ -510,6 +511,8 @@ fn the_end_of_the_data_goes_with_the_surface() {
     let data = sum.data().unwrap().unwrap();
     assert_eq!((data.points, data.filled), (200, 14));
     assert_eq!(data.continuation, "straight on");
+    // 2 nm, and 2 nm with the scale −2.
+    assert_eq!(data.fit_error, Some(6e-6));
     assert_eq!(tilted.data().unwrap().unwrap().points, 100);
     assert_eq!(paraboloid().data(), Ok(None));
     near(distance(paraboloid().as_ref(), 1e3, 0.0), 0.0);

@@ -21,7 +21,7 @@ use super::sampler::OwnedSampler;
 use super::spindle::OwnedSpindle;
 use super::surface::OwnedSurface;
 use super::velocity::OwnedVelocity;
-use crate::Build;
+use crate::{Build, Maker};
 
 /// A library's functions: the catalogue, and one constructor for each slot. The constructor of a
 /// new slot stands after the last one that every library has, and an older library has none.
@@ -56,6 +56,9 @@ pub trait Constructed: Returned {
 
     /// The registered function that builds it; `None` for one of another slot.
     fn function(build: Build) -> Option<fn(&Params) -> Result<Self>>;
+
+    /// Makes it with a value of the program; `None` for one of another slot.
+    fn make(maker: &Maker, params: &Params) -> Option<Result<Self>>;
 }
 
 /// Builds a strategy of a library.
@@ -64,6 +67,18 @@ pub fn construct<T: Constructed>(root: RootRef, request: AbiRequest) -> Result<T
     let none = || StrategyError::failed(format!("this library builds no {slot}"));
     let constructor = T::constructor(root).ok_or_else(none)?;
     result(constructor(request)).and_then(T::receive)
+}
+
+/// Makes a strategy of the program itself. It goes to the other side and back, as one of a library
+/// does.
+pub fn make<T: Constructed>(maker: &Maker, params: &Params) -> Result<T> {
+    let slot = T::SLOT.noun();
+    let none = || StrategyError::failed(format!("this program makes no {slot} of this name"));
+    let answer = answer(|| {
+        let made = T::make(maker, params).ok_or_else(none)?;
+        made.map(T::send)
+    });
+    result(answer).and_then(T::receive)
 }
 
 /// Finds the requested strategy here and builds it.
@@ -96,6 +111,13 @@ macro_rules! constructors {
             fn function(build: Build) -> Option<fn(&Params) -> Result<Self>> {
                 match build {
                     Build::$slot(build) => Some(build),
+                    _ => None,
+                }
+            }
+
+            fn make(maker: &Maker, params: &Params) -> Option<Result<Self>> {
+                match maker {
+                    Maker::$slot(make) => Some(make(params)),
                     _ => None,
                 }
             }

@@ -109,6 +109,22 @@ fn sentence(remark: &Remark) -> String {
                  C = {angle:.1} deg; there it goes on {continuation}"
             )
         }
+        Remark::FittedSurface {
+            points,
+            error,
+            tolerance,
+        } => {
+            let (error, tolerance) = (small_length(*error), small_length(*tolerance));
+            format!(
+                "a spline of {points} points stands for the surface; it lies up to {error} off, and \
+                 the interpolation tolerance is {tolerance}"
+            )
+        }
+        Remark::NotByteExact { strategies, plugin } => format!(
+            "the bytes of the path may differ on another machine: {} of {plugin} may call functions \
+             that are not the same everywhere",
+            strategies.join(", ")
+        ),
     }
 }
 

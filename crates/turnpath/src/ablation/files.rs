@@ -1,15 +1,16 @@
-//! `ablation.json` and `ablation.csv`.
+//! `ablation.json`, `ablation.csv` and `report.html`.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use turnpath_files::{FileError, FolderError, ResultFolder, WholeFile};
+use turnpath_page::{AblationPage, ablation_page};
 use turnpath_report::comparison::csv_table;
 use turnpath_report::{AblationReport, to_json};
 
 use crate::error::Error;
+use crate::summary::{ABLATION as JSON, PAGE};
 
-const JSON: &str = "ablation.json";
 const CSV: &str = "ablation.csv";
 
 /// The files of an ablation.
@@ -21,7 +22,7 @@ impl AblationFiles {
     /// Makes the folder and claims it, so that a folder that takes no files is refused before
     /// the work.
     pub fn new(folder: &Path) -> Result<Self, FolderError> {
-        for name in [JSON, CSV] {
+        for name in [JSON, CSV, PAGE] {
             ResultFolder::can_have(folder, name)?;
         }
         let folder = ResultFolder::open(folder)?;
@@ -33,7 +34,7 @@ impl AblationFiles {
         &self.folder
     }
 
-    /// Writes both files, which get their names together; gives their paths.
+    /// Writes the files, which get their names together; gives their paths.
     pub fn write(self, report: &AblationReport) -> Result<Vec<PathBuf>, Error> {
         let table = csv_table(&report.runs).map_err(|error| Error::Report {
             form: CSV,
@@ -41,8 +42,13 @@ impl AblationFiles {
         })?;
         let csv = self.whole(CSV, &table)?;
         let json = self.whole(JSON, to_json(report).as_bytes())?;
-        let paths = vec![json.path().to_owned(), csv.path().to_owned()];
-        self.folder.commit(vec![csv], json)?;
+        let page = ablation_page(&AblationPage {
+            report: report.clone(),
+        });
+        let page = self.whole(PAGE, page.as_bytes())?;
+        let paths = [&json, &csv, &page].map(|file| file.path().to_owned());
+        let paths = paths.to_vec();
+        self.folder.commit(vec![csv, page], json)?;
         Ok(paths)
     }
 

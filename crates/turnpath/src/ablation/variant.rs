@@ -11,6 +11,7 @@ use crate::data_files::DataFiles;
 use crate::error::Error;
 use crate::form::search_split;
 use crate::job::Job;
+use crate::page::error_sketch;
 use crate::posts::{NotCarried, layout, posts};
 
 use super::clock;
@@ -34,6 +35,10 @@ pub fn run(
 ) -> Result<MeasuredRun, Error> {
     let begun = clock::now();
     let job = Job::with_files(recipe.clone(), sources.catalogue, sources.data)?;
+    let job = Job {
+        keeps_sketch: true,
+        ..job
+    };
     let observer = Cancellation(observer);
     let path = search_split(&job, &observer, |job| {
         let mut sizes = SizeSink::new(job);
@@ -44,6 +49,7 @@ pub fn run(
         report: job.report(path.sink.rows, &path.outcome, path.split, Vec::new())?,
         program_bytes: path.sink.program_bytes,
         planning_time: Some(clock::now() - begun),
+        sketch: path.outcome.sketch.as_ref().map(error_sketch),
     })
 }
 

@@ -6,7 +6,6 @@
 
 mod anomalies;
 mod remake;
-mod source;
 mod whole;
 
 use std::path::Path;
@@ -33,8 +32,8 @@ use crate::result_check::result_check;
 use crate::strategies;
 use crate::surface::surface;
 
+use crate::path_file::SourceFile;
 use remake::{Comparison, compare};
-use source::SourceFile;
 use whole::{EndRow, wholeness};
 
 /// Measures the tool path in a file: a `toolpath.csv`, or a program of a post. Plots go

@@ -23,7 +23,7 @@ use crate::outputs::Outputs;
 use crate::posts::NotCarried;
 use crate::summary::{FolderSummary, folder_of};
 
-use super::source::SourceFile;
+use crate::path_file::SourceFile;
 
 /// How far shares in a summary may lie from those of their sum, as a part of themselves: they have
 /// the digits of a file.

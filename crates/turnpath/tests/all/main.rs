@@ -5,4 +5,6 @@ mod support;
 mod cancellation;
 mod errors;
 mod outputs;
+mod own_strategies;
+mod pages;
 mod reports;

@@ -60,6 +60,7 @@ const PURE: &[&str] = &[
     "per_turn",
     "blocks",
     "parts",
+    "cells",
 ];
 /// What a unit in a key ends in.
 const UNITS: &[&str] = &[

@@ -362,6 +362,7 @@ impl Task {
             covers_centre: false,
             form: None,
             servo: None,
+            sketch: false,
         };
         run(&chain, &preparation, options, sink, observer)
     }

@@ -1,0 +1,112 @@
+//! The verdict of a run: what holds and what does not, with the figures.
+
+use turnpath_report::{RunReport, unit};
+
+use crate::html::{element, escaped, row};
+use crate::words::{number, small_length};
+
+/// The verdict in a sentence, and a row for each tolerance.
+pub fn verdict(report: &RunReport) -> String {
+    let verdict = report.verdict();
+    let failed: Vec<&str> = verdict.failures().collect();
+    let (class, sentence) = match failed.as_slice() {
+        [] => (
+            "verdict holds",
+            "All tolerances and limits hold.".to_owned(),
+        ),
+        failed => (
+            "verdict exceeded",
+            format!("EXCEEDED: {}.", failed.join(", ")),
+        ),
+    };
+    let mut html = element("p", class, &escaped(&sentence));
+    html += &facts(report);
+    let rows: String = verdict
+        .entries()
+        .filter_map(|(name, holds)| {
+            let (found, limit) = figures(report, name);
+            let word = if holds? { "holds" } else { "EXCEEDED" };
+            Some(row("td", &[name, &found, &limit, word]))
+        })
+        .collect();
+    if !rows.is_empty() {
+        let head = row("th", &["held to a limit", "found", "limit", "verdict"]);
+        html += &format!(
+            "<table class=\"verdicts\"><thead>{head}</thead><tbody>{rows}</tbody></table>\n"
+        );
+    }
+    html
+}
+
+/// What was found and what the limit is, where one number says it.
+fn figures(report: &RunReport, name: &str) -> (String, String) {
+    let (path, tolerance) = (&report.path, &report.path.tolerance);
+    let lengths = |found: Option<f64>, limit: Option<f64>| {
+        let text =
+            |length: Option<f64>| length.map_or_else(|| "no number".to_owned(), small_length);
+        (text(found), limit.map(small_length).unwrap_or_default())
+    };
+    match name {
+        "interpolation" => lengths(Some(path.interpolation_error.max), tolerance.interpolation),
+        "residual" => lengths(path.residual.max, tolerance.residual),
+        "form" => lengths(path.form.as_ref().and_then(|form| form.pv), tolerance.form),
+        "coverage" => lengths(Some(path.coverage.largest()), tolerance.most_material()),
+        "servo" => lengths(
+            path.servo.map(|servo| servo.predicted_error.max),
+            tolerance.servo,
+        ),
+        "lead" => {
+            let deepest = path
+                .lead
+                .as_ref()
+                .map(|lead| (-lead.smallest_clearance).max(0.0));
+            lengths(deepest, tolerance.deepest())
+        }
+        "machine" => {
+            let limits = path
+                .machine
+                .as_ref()
+                .map_or(0, |machine| machine.limits.len());
+            (format!("{limits} limits, below"), String::new())
+        }
+        "programs" => (format!("{} programs", report.programs.len()), String::new()),
+        "passes" => (
+            format!("{} passes", report.rough_paths.len()),
+            String::new(),
+        ),
+        _ => Default::default(),
+    }
+}
+
+/// The figures that one looks for first.
+fn facts(report: &RunReport) -> String {
+    let path = &report.path;
+    let mut facts = vec![
+        ("control points", number(report.control_points as f64)),
+        ("revolutions", number(report.revolutions)),
+        ("cutting time", format!("{} s", number(report.cutting_time))),
+    ];
+    if let Some(error) = &path.surface_error {
+        facts.push(("surface error, PV", small_length(error.pv)));
+        facts.push(("surface error, RMS", small_length(error.rms)));
+    }
+    if let Some(spokes) = &path.spokes {
+        let amplitude = small_length(spokes.amplitude);
+        facts.push((
+            "largest spokes",
+            format!("{amplitude}, {} a turn", spokes.per_turn),
+        ));
+    }
+    if let Some(highest) = &path.highest_spindle {
+        let speed = number(highest.speed * unit::rpm::PER);
+        facts.push(("highest spindle speed", format!("{speed} rpm")));
+    }
+    let fact = |(name, value): &(&str, String)| {
+        format!(
+            "<div><dt>{}</dt><dd>{}</dd></div>",
+            escaped(name),
+            escaped(value)
+        )
+    };
+    element("dl", "facts", &facts.iter().map(fact).collect::<String>())
+}
