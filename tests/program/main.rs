@@ -11,6 +11,7 @@ mod bad_recipes;
 mod built_ins;
 mod column_files;
 mod commands;
+mod compressed_programs;
 mod controller_commands;
 mod damaged_libraries;
 mod data_files;

@@ -5,13 +5,16 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
-use crate::carry::{CarriedPoints, Move, carried, carry, leads_into_cut, turns_left_out};
+use crate::carry::{CarriedPoints, carried, carry, leads_into_cut, turns_left_out};
+use crate::compression::Compression;
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
 use crate::program_format::{APPROACH_MARK, Chords, END_MARK, ProgramFormat, RETREAT_MARK, mark};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
+use crate::text_file::{self, OpenFile};
+use crate::trail::Move;
 use crate::travel::{Extent, Travel};
 
 /// A post with the format of one recipe.
@@ -22,9 +25,6 @@ pub struct Layout {
     /// The format.
     pub format: ProgramFormat,
 }
-
-/// A file of a program, or bytes in place of one.
-pub type OpenFile = Box<dyn Read + Send + Sync>;
 
 /// Lines of a program.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -37,8 +37,9 @@ pub struct Lines {
     pub extent: Option<Extent>,
 }
 
-fn open_file(path: &Path) -> io::Result<OpenFile> {
-    Ok(Box::new(ordinary_file::open(path)?))
+/// The text in the file at `path`.
+fn open_file(compression: Compression, path: &Path) -> io::Result<OpenFile> {
+    text_file::open(compression, ordinary_file::open(path)?)
 }
 
 impl Layout {
@@ -145,30 +146,34 @@ impl Layout {
         turns_left_out(&self.format, first)
     }
 
-    /// Opens a program of this layout.
+    /// Opens a program of this layout. What its name ends with says whether it is compressed.
     ///
     /// # Errors
     /// When the file cannot be opened.
     pub fn open(&self, path: impl Into<PathBuf>) -> Result<ProgramReader<OpenFile>, ReadError> {
         let path = path.into();
         let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-        self.open_with(path, Box::new(move |name| folder.join(name)))
+        let own = path.clone();
+        self.open_as(path, &own, Box::new(move |name| folder.join(name)))
     }
 
-    /// Opens a program of this layout whose parts are the files that `place` gives for their names.
+    /// Opens the program `path` of this layout, which is at `place` under another name. Its parts are the
+    /// files that `places` gives for the names of their files.
     ///
     /// # Errors
     /// When the file cannot be opened.
-    pub fn open_with(
+    pub fn open_as(
         &self,
         path: impl Into<PathBuf>,
-        place: Box<dyn Fn(&str) -> PathBuf + Send + Sync>,
+        place: &Path,
+        places: Box<dyn Fn(&str) -> PathBuf + Send + Sync>,
     ) -> Result<ProgramReader<OpenFile>, ReadError> {
         let path = path.into();
-        match open_file(&path) {
+        let compression = Compression::of_file(&path);
+        match open_file(compression, place) {
             Ok(file) => Ok(self
                 .read(file, path)
-                .with_parts(Box::new(move |name| open_file(&place(name))))),
+                .with_parts(Box::new(move |name| open_file(compression, &places(name))))),
             Err(error) => Err(ReadError::File { path, error }),
         }
     }
@@ -179,18 +184,30 @@ impl Layout {
         ProgramReader::new(reader, path.into(), self.post, &self.format)
     }
 
-    /// Reads a program of several files in memory. The first one is the main program.
-    pub fn read_files(&self, files: Vec<(String, Vec<u8>)>) -> ProgramReader<OpenFile> {
-        let main = files.first().cloned().unwrap_or_default();
+    /// Reads a program of one or several files in memory. The first one is the main program. What its name
+    /// ends with says whether the files are compressed.
+    ///
+    /// # Errors
+    /// When this build does not read files that are compressed so.
+    pub fn read_files(
+        &self,
+        files: Vec<(String, Vec<u8>)>,
+    ) -> Result<ProgramReader<OpenFile>, ReadError> {
+        let (name, bytes) = files.first().cloned().unwrap_or_default();
+        let compression = Compression::of_file(Path::new(&name));
+        let text = move |bytes: Vec<u8>| text_file::open(compression, Cursor::new(bytes));
         let open = move |name: &str| -> io::Result<OpenFile> {
             let found = files.iter().find(|(file, _)| file == name);
-            let text = found.map(|(_, text)| text.clone());
-            let text = text.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
-            Ok(Box::new(Cursor::new(text)))
+            let bytes = found.map(|(_, bytes)| bytes.clone());
+            text(bytes.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?)
         };
-        let (name, text) = main;
-        let reader: OpenFile = Box::new(Cursor::new(text));
-        self.read(reader, name).with_parts(Box::new(open))
+        match text(bytes) {
+            Ok(main) => Ok(self.read(main, name).with_parts(Box::new(open))),
+            Err(error) => Err(ReadError::File {
+                path: name.into(),
+                error,
+            }),
+        }
     }
 
     /// The same layout with one line for each segment, of any time.

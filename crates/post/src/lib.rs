@@ -13,7 +13,9 @@ mod chord;
 mod column_files;
 mod columns;
 mod comment;
+mod compression;
 mod decimal;
+mod digits;
 mod dry_run;
 mod fixed_point;
 mod forward_rates;
@@ -45,6 +47,8 @@ mod siemens_840d;
 mod template;
 #[cfg(test)]
 mod tests;
+mod text_file;
+mod trail;
 mod travel;
 mod travel_check;
 mod turn;
@@ -55,10 +59,12 @@ mod write_npz;
 mod write_parquet;
 
 pub use amount::{Amount, AmountError, TextSize};
-pub use carry::{CarriedPoints, DigitSegment, Digits};
+pub use carry::CarriedPoints;
 pub use columns::{ColumnFormat, Columns, WriteColumns};
+pub use compression::{Compression, text_name};
+pub use digits::{DigitSegment, Digits};
 pub use dry_run::{DryRunError, DryStop};
-pub use layout::{Layout, Lines, OpenFile};
+pub use layout::{Layout, Lines};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use part_name::{PartLines, PartName};
 pub use parts::PartsError;
@@ -77,5 +83,6 @@ pub use settings::{
     SEGMENTS_PER_SECOND, SPLIT,
 };
 pub use template::{PLACEHOLDERS, Template, TemplateError};
+pub use text_file::{OpenFile, file_bytes};
 pub use travel::{Extent, Places, Travel, TravelModes};
 pub use write_csv::PathWriter;

@@ -5,14 +5,17 @@
 //! the path. What stands around the lines of a part, and how the main program calls it, is the dialect's.
 
 use std::io::{BufRead, Write};
+use std::path::Path;
 
 use turnpath_files::FileError;
 
 use crate::amount::{Amount, TextSize};
+use crate::compression::{Compression, text_name};
 use crate::layout::Layout;
 use crate::part_name::{PartLines, PartName};
 use crate::program_error::ProgramError;
 use crate::program_format::{end_of_part_mark, part_mark, parts_mark};
+use crate::text_file::TextFile;
 
 /// Most parts of a program. A controller that knows programs by numbers has them from 101 to 999.
 pub(crate) const MOST_PARTS: u32 = 899;
@@ -31,8 +34,10 @@ pub enum PartsError {
 /// The lines of a path, on their way into parts.
 pub(crate) struct Cutter<'a> {
     layout: &'a Layout,
-    /// The main program's file name.
+    /// The name of the main program's text.
     program: &'a str,
+    /// How its file and those of its parts are compressed.
+    compression: Compression,
     most: Amount,
     /// The lines that call the parts so far.
     calls: String,
@@ -40,18 +45,20 @@ pub(crate) struct Cutter<'a> {
 }
 
 impl<'a> Cutter<'a> {
-    pub(crate) fn new(layout: &'a Layout, program: &'a str, most: Amount) -> Self {
+    /// Cuts the lines of the program whose file is `file` into parts of this size at the most.
+    pub(crate) fn new(layout: &'a Layout, file: &'a str, most: Amount) -> Self {
         Self {
             layout,
-            program,
+            program: text_name(file),
+            compression: Compression::of_file(Path::new(file)),
             most,
             calls: String::new(),
             number: 0,
         }
     }
 
-    /// Writes the lines into parts that `begin` begins by their names. Gives the parts, and the lines with
-    /// which the main program calls them.
+    /// Writes the lines into the parts whose files `begin` begins by their names. Gives the files, and the
+    /// lines with which the main program calls them.
     pub(crate) fn cut<W: Write>(
         mut self,
         lines: &mut dyn BufRead,
@@ -59,12 +66,13 @@ impl<'a> Cutter<'a> {
     ) -> Result<(Vec<W>, Vec<u8>), PartsError> {
         let mut parts = Vec::new();
         let mut line = Vec::new();
-        let failed = |error| FileError::of(std::path::Path::new(self.program))(error);
+        let failed = |error| FileError::of(Path::new(self.program))(error);
         lines.read_until(b'\n', &mut line).map_err(failed)?;
         while !line.is_empty() {
             let (name, around) = self.next()?;
-            let mut part = begin(&name.file)?;
-            let failed = |error| FileError::of(std::path::Path::new(&name.file))(error);
+            let file = self.compression.file_of(&name.file);
+            let failed = |error| FileError::of(Path::new(&file))(error);
+            let mut part = TextFile::begin(self.compression, begin(&file)?).map_err(failed)?;
             let [before, behind] = self.frame(&name, &around);
             part.write_all(before.as_bytes()).map_err(failed)?;
             let mut size = TextSize::of(before.as_bytes()).and(TextSize::of(behind.as_bytes()));
@@ -80,7 +88,7 @@ impl<'a> Cutter<'a> {
                 lines.read_until(b'\n', &mut line).map_err(failed)?;
             }
             part.write_all(behind.as_bytes()).map_err(failed)?;
-            parts.push(part);
+            parts.push(part.whole().map_err(failed)?);
             self.calls.push_str(&around.call);
             self.calls.push('\n');
         }

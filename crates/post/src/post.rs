@@ -5,8 +5,8 @@ use std::fmt::Debug;
 use turnpath_core::toolpath::{ControlPoint, SegmentShape};
 use turnpath_core::{ParamInfo, Params};
 
-use crate::carry::{DigitSegment, Digits};
 use crate::comment::code_before_comment;
+use crate::digits::{DigitSegment, Digits};
 use crate::g_code;
 use crate::part_name::{PartLines, PartName};
 use crate::program_error::ProgramError;

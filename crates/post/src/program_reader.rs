@@ -2,11 +2,12 @@
 
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 
+use crate::compression::{Compression, text_name};
 use crate::forward_rates::ForwardRates;
 use crate::part_calls::{OpenPart, PartCalls};
 use crate::path_reader::{ReadCount, ReadPath};
@@ -19,6 +20,9 @@ use crate::turn::check_turn;
 /// Longest line that is read, bytes: far longer than any line of a program, so that a file that is no
 /// program does not fill the memory.
 const LONGEST_LINE: u64 = 1 << 16;
+/// Most text without a point of the path, bytes: far more than any header or footer, so that a small file
+/// that decompresses to very much is not read for hours.
+const MOST_WITHOUT_POINT: u64 = 1 << 23;
 /// Size of the buffer, bytes.
 const BUFFER: usize = 1 << 18;
 
@@ -42,6 +46,8 @@ pub struct ProgramReader<R = File> {
     last: Option<(ControlPoint, Section)>,
     /// Points that were read from lines.
     found_points: u64,
+    /// Bytes that were read since the last point.
+    bytes_without_point: u64,
     /// What gives points their velocities, where the program has none.
     rates: Option<ForwardRates>,
     /// The section of the point that the grammar holds back until it has read the line behind it.
@@ -82,6 +88,7 @@ impl<R: Read> ProgramReader<R> {
             waiting: VecDeque::new(),
             last: None,
             found_points: 0,
+            bytes_without_point: 0,
             rates: has_rates.then(ForwardRates::default),
             held: None,
             parts: PartCalls::default(),
@@ -126,7 +133,32 @@ impl<R: Read> ProgramReader<R> {
         if read as u64 == LONGEST_LINE {
             return Err(self.wrong("this line is longer than any line of a program".to_owned()));
         }
+        self.bytes_without_point += read as u64;
+        if self.bytes_without_point > MOST_WITHOUT_POINT {
+            return Err(self.much_without_point());
+        }
         Ok(read > 0)
+    }
+
+    /// Reads on to the end of the file: a compressed one shows only there whether it is whole.
+    fn pass_footer(&mut self) -> Result<(), ReadError> {
+        let mut footer = (&mut self.lines).take(MOST_WITHOUT_POINT);
+        let read = io::copy(&mut footer, &mut io::sink());
+        let bytes = read.map_err(|error| ReadError::File {
+            path: self.path.clone(),
+            error,
+        })?;
+        match bytes < MOST_WITHOUT_POINT {
+            true => Ok(()),
+            false => Err(self.much_without_point()),
+        }
+    }
+
+    fn much_without_point(&self) -> ReadError {
+        let mib = MOST_WITHOUT_POINT >> 20;
+        self.wrong(format!(
+            "this is no program: there is no point of a path in {mib} MiB of text"
+        ))
     }
 
     /// The error of a file that ends too early.
@@ -228,6 +260,7 @@ impl<R: Read> ProgramReader<R> {
     /// Takes points. The first of them may have been held back since a line of an earlier section.
     fn wait(&mut self, points: impl IntoIterator<Item = ControlPoint>) {
         for point in points {
+            self.bytes_without_point = 0;
             if let Some(section) = self.held.take().or(self.section) {
                 self.waiting.push_back((point, section));
             }
@@ -249,6 +282,7 @@ impl<R: Read> ProgramReader<R> {
     fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
             let count = self.found_points;
+            self.pass_footer()?;
             self.parts.finish().map_err(|what| self.wrong(what))?;
             return match said == count {
                 true => self.check_heights(),
@@ -289,14 +323,15 @@ impl<R: Read> ProgramReader<R> {
     fn called_part(&self, code: &[u8]) -> Option<String> {
         let code = std::str::from_utf8(code).ok();
         let code = code.filter(|_| self.part == Part::Path && self.parts.may_be_called())?;
-        let own = self.path.file_name().unwrap_or_default();
-        self.post.dialect.called_part(code, &own.to_string_lossy())
+        let own = self.path.file_name().unwrap_or_default().to_string_lossy();
+        self.post.dialect.called_part(code, text_name(&own))
     }
 
-    /// Goes on with the lines of a part.
+    /// Goes on with the lines of a part. Its file is compressed as that of the main program is.
     fn call(&mut self, name: &str) -> Result<(), ReadError> {
-        let path = self.path.with_file_name(name);
-        let part = self.parts.open(name);
+        let name = Compression::of_file(&self.path).file_of(name);
+        let path = self.path.with_file_name(&name);
+        let part = self.parts.open(&name);
         let part = part.map_err(|error| ReadError::File {
             path: path.clone(),
             error,

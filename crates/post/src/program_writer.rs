@@ -2,12 +2,15 @@
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, Write};
+use std::path::Path;
 
 use turnpath_files::{Draft, FileError, Scratch};
 
 use crate::amount::{Amount, TextSize};
+use crate::compression::Compression;
 use crate::layout::{Layout, Lines};
 use crate::parts::{Cutter, PartsError};
+use crate::text_file::{TextFile, file_bytes};
 use crate::travel::Extent;
 
 /// Writes a program to a file or to memory. The header reports what is known only when the path was
@@ -126,7 +129,7 @@ impl ProgramPath {
     }
 
     /// The path that the whole program will have.
-    pub fn file(&self) -> &std::path::Path {
+    pub fn file(&self) -> &Path {
         self.draft.path()
     }
 
@@ -154,20 +157,21 @@ impl ProgramPath {
     }
 
     /// The complete program as a main program and the parts that it calls, as files that still lack their
-    /// names. `begin` begins the file of a part by its name.
+    /// names. What the name `file` of the main program ends with says how they are compressed. `begin`
+    /// begins the file of a part by its name.
     ///
     /// # Errors
     /// When a file cannot be written, or when there would be too many.
     pub fn assemble_parts(
         mut self,
         [header, footer]: [&str; 2],
-        (program, most): (&str, Amount),
+        (file, most): (&str, Amount),
         begin: &mut dyn FnMut(&str) -> Result<Draft, FileError>,
     ) -> Result<(Draft, Vec<Draft>), PartsError> {
         let rewound = self.lines.rewind();
         rewound.map_err(FileError::of(self.draft.path()))?;
         let lines = Read::take(&mut self.lines, self.size.bytes);
-        let cutter = Cutter::new(&self.layout, program, most);
+        let cutter = Cutter::new(&self.layout, file, most);
         let (parts, calls) = cutter.cut(&mut BufReader::new(lines), begin)?;
         let main = [
             header.as_bytes(),
@@ -176,28 +180,44 @@ impl ProgramPath {
             &self.end,
             footer.as_bytes(),
         ];
-        let written = self.draft.write_all(&main.concat());
-        written.map_err(FileError::of(self.draft.path()))?;
-        Ok((self.draft, parts))
+        let main = written(self.draft, |text| text.write_all(&main.concat()))?;
+        Ok((main, parts))
     }
 
-    /// The complete program as a file that still lacks its name.
+    /// The complete program as a file that still lacks its name. What its name ends with says whether it
+    /// is compressed.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn assemble(mut self, header: &str, footer: &str) -> Result<Draft, FileError> {
-        let mut write = || -> io::Result<()> {
-            self.lines.rewind()?;
-            self.draft.write_all(header.as_bytes())?;
-            self.draft.write_all(&self.approach)?;
-            io::copy(&mut self.lines, &mut self.draft)?;
-            self.draft.write_all(footer.as_bytes())
-        };
-        match write() {
-            Ok(()) => Ok(self.draft),
-            Err(error) => Err(FileError::of(self.draft.path())(error)),
-        }
+    pub fn assemble(self, header: &str, footer: &str) -> Result<Draft, FileError> {
+        let Self {
+            mut lines,
+            draft,
+            approach,
+            ..
+        } = self;
+        written(draft, |text| {
+            lines.rewind()?;
+            text.write_all(header.as_bytes())?;
+            text.write_all(&approach)?;
+            io::copy(&mut lines, text)?;
+            text.write_all(footer.as_bytes())
+        })
     }
+}
+
+/// A file with the text that `write` writes.
+fn written(
+    draft: Draft,
+    write: impl FnOnce(&mut TextFile<Draft>) -> io::Result<()>,
+) -> Result<Draft, FileError> {
+    let path = draft.path().to_owned();
+    let text = TextFile::begin(Compression::of_file(&path), draft);
+    let file = text.and_then(|mut text| {
+        write(&mut text)?;
+        text.whole()
+    });
+    file.map_err(FileError::of(&path))
 }
 
 impl ProgramWriter<Vec<u8>> {
@@ -245,19 +265,19 @@ impl ProgramPathInMemory {
     }
 
     /// The complete program as a main program and the parts that it calls, with the names of their
-    /// files.
+    /// files. What the name `file` of the main program ends with says how they are compressed.
     ///
     /// # Errors
     /// When there would be too many parts.
     pub fn assemble_parts(
         self,
         [header, footer]: [&str; 2],
-        (program, most): (&str, Amount),
+        (file, most): (&str, Amount),
     ) -> Result<Vec<(String, Vec<u8>)>, PartsError> {
         let mut names = Vec::new();
         let body = self.text.len().saturating_sub(self.end.len());
         let mut lines = self.text.get(..body).unwrap_or_default();
-        let cutter = Cutter::new(&self.layout, program, most);
+        let cutter = Cutter::new(&self.layout, file, most);
         let (parts, calls) = cutter.cut(&mut lines, &mut |name| {
             names.push(name.to_owned());
             Ok(Vec::new())
@@ -269,7 +289,9 @@ impl ProgramPathInMemory {
             &self.end,
             footer.as_bytes(),
         ];
-        let files = [(program.to_owned(), main.concat())].into_iter();
+        let main = file_bytes(file, main.concat());
+        let main = main.map_err(FileError::of(Path::new(file)))?;
+        let files = [(file.to_owned(), main)].into_iter();
         Ok(files.chain(names.into_iter().zip(parts)).collect())
     }
 

@@ -11,7 +11,7 @@
 
 use turnpath_core::toolpath::Section;
 
-use crate::carry::{Digits, said_place};
+use crate::digits::{Digits, said_place};
 use crate::program_format::ProgramFormat;
 
 /// Index of an axis among C, X and Z.

@@ -75,7 +75,7 @@ pub struct Estimate {
 pub struct ProgramEstimate {
     /// The file's name.
     pub file: String,
-    /// Its size, with all of its parts.
+    /// Its size as text, with all of its parts.
     pub bytes: u64,
     /// Its blocks: lines of text.
     #[serde(default)]

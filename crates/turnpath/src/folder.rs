@@ -307,8 +307,9 @@ fn whole_program(
         drafts.push(draft);
     }
     let place = move |name: &str| places.get(name).cloned().unwrap_or_else(|| name.into());
-    let whole = program.layout.open_with(main.readable()?, Box::new(place));
-    let mut whole = whole.map_err(|error| error.named(name))?.named(name);
+    let mut whole = program
+        .layout
+        .open_as(name, main.readable()?, Box::new(place))?;
     program.read_whole(&mut whole, name, points)?;
     drafts.insert(0, main);
     Ok(drafts)

@@ -123,8 +123,11 @@ impl Job {
         preparation
     }
 
-    /// A build may have been made without a format of data files.
+    /// A build may have been made without a format of data files, or without a compression.
     fn refuse_formats_left_out(&self) -> Result<(), Error> {
+        if !self.recipe.output.compression.is_built_in() {
+            return Err(self.left_out("compress", ".zst"));
+        }
         let left_out = |format: &&DataFormat| match format {
             DataFormat::Csv => false,
             DataFormat::Columns(format) => !format.is_built_in(),
@@ -133,13 +136,18 @@ impl Job {
         else {
             return Ok(());
         };
-        let title = format!("this build of turnpath writes no .{}", format.extension());
-        let help = "leave it out of `data`, or build turnpath with its feature";
-        let span = self.recipe.nearest_span("output.data");
+        Err(self.left_out("data", &format!(".{}", format.extension())))
+    }
+
+    /// The error of a key of `[output]` that asks for files which this build does not write.
+    fn left_out(&self, key: &str, files: &str) -> Error {
+        let title = format!("this build of turnpath writes no {files}");
+        let help = format!("leave it out of `{key}`, or build turnpath with its feature");
+        let span = self.recipe.nearest_span(&format!("output.{key}"));
         let diagnostic = self
             .recipe
-            .diagnostic(span, title, "asked for here", [help.to_owned()]);
-        Err(Error::refused(diagnostic))
+            .diagnostic(span, title, "asked for here", [help]);
+        Error::refused(diagnostic)
     }
 
     /// Programs that play cubics cannot carry a path of straight lines.

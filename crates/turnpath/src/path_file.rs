@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
-use turnpath_post::{Layout, PathReader, ReadError, ReadPath, post_of_extension};
+use turnpath_post::{Layout, PathReader, ReadError, ReadPath, post_of_extension, text_name};
 use turnpath_recipe::Recipe;
 use turnpath_verify::HalfDigits;
 
@@ -22,7 +22,8 @@ pub struct SourceFile {
 impl SourceFile {
     /// The file at `path`. What its name ends with says whether it is a program.
     pub fn new(path: &Path, recipe: &Recipe, compensates_nose: bool) -> Self {
-        let extension = path.extension().and_then(|end| end.to_str());
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let extension = text_name(&file).rsplit_once('.').map(|(_, end)| end);
         let post = extension.and_then(post_of_extension);
         Self {
             path: path.to_owned(),

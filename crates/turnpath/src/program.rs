@@ -8,7 +8,7 @@ use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
 use turnpath_post::{
     Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartsError, Post, ProgramError,
-    ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize,
+    ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize, text_name,
 };
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
@@ -30,7 +30,7 @@ use crate::speed_steps::SpeedSteps;
 pub struct Program {
     /// How it is laid out.
     pub layout: Layout,
-    /// Its file's name.
+    /// Its file's name, which says whether the file is compressed.
     pub file: String,
     /// The largest part of the path in one file; `None` for one file whatever its size.
     split: Option<Amount>,
@@ -80,9 +80,10 @@ impl Program {
             return Err(without_calls(recipe, post, key));
         }
         let own_header = other.map_or(post.header, |(_, text)| text);
+        let text = format!("{}.{}", recipe.stem(), post.extension);
         Ok(Self {
             layout: layout(recipe, post, compensates_nose),
-            file: format!("{}.{}", recipe.stem(), post.extension),
+            file: recipe.output.compression.file_of(&text),
             split,
             memory: amount(recipe, post, params.find(MEMORY).flatten())?,
             segments_per_second: params.find(SEGMENTS_PER_SECOND).flatten(),
@@ -91,9 +92,11 @@ impl Program {
         })
     }
 
-    /// The name of the file with its dry run.
+    /// The name of the file with its dry run, which is never compressed.
     pub fn dry_run_file(&self) -> String {
-        let stem = self.file.rsplit_once('.').map_or("", |(stem, _)| stem);
+        let stem = text_name(&self.file)
+            .rsplit_once('.')
+            .map_or("", |(stem, _)| stem);
         format!("{stem}-dry-run.{}", self.layout.post.extension)
     }
 
@@ -173,7 +176,7 @@ impl Program {
         match self.memory.filter(|most| !most.holds(size)) {
             None => Ok(()),
             Some(most) => self.carried(Err(ProgramError::Large {
-                file: self.file.clone(),
+                file: text_name(&self.file).to_owned(),
                 size: most.said(size),
                 most: most.to_string(),
             })),

@@ -4,8 +4,10 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::{Misfit, Slot};
+use turnpath_files::FileError;
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
+use turnpath_post::file_bytes;
 use turnpath_report as report;
 use turnpath_report::{FormSplit, ProgramReport, RunReport};
 use turnpath_verify::{PathSketch, unreached};
@@ -143,13 +145,17 @@ impl Job {
             program.refuse_large(size).map_err(failed)?;
             let around = [frame.header.as_str(), &frame.footer];
             let files = match program.split_of(size) {
-                None => vec![(program.file.clone(), path.assemble(around[0], around[1]))],
+                None => {
+                    let text = path.assemble(around[0], around[1]);
+                    let bytes = file_bytes(&program.file, text);
+                    vec![(program.file.clone(), bytes.map_err(FileError::of(name))?)]
+                }
                 Some(most) => {
                     let files = path.assemble_parts(around, (&program.file, most));
                     files.map_err(|error| program.not_divided(&self.recipe, error))?
                 }
             };
-            let mut whole = program.layout.read_files(files.clone());
+            let mut whole = program.layout.read_files(files.clone())?;
             program.read_whole(&mut whole, name, points)?;
             reports.push(report);
             programs.extend(files);

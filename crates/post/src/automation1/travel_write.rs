@@ -3,8 +3,8 @@
 //! `WaitMode.MotionDone` makes the task wait until an axis rests before the next one moves. The speed of
 //! `MoveLinear` is in mm/s, since the task's time units are seconds.
 
-use crate::carry::AXES;
 use crate::decimal::push;
+use crate::digits::AXES;
 use crate::program_format::ProgramFormat;
 use crate::travel::{Travel, Z};
 

@@ -1,7 +1,7 @@
 //! Writes the calls of a path.
 
-use crate::carry::{AXES, DigitSegment, Digits, said_place, said_positions};
 use crate::decimal::push;
+use crate::digits::{AXES, DigitSegment, Digits, said_place, said_positions};
 use crate::program_format::ProgramFormat;
 
 /// Time of the move to the first control point, s. It is not a part of the path.

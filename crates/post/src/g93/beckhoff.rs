@@ -19,7 +19,7 @@ use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
 use super::travel::{push_for_beckhoff, read_for_beckhoff};
 use super::write::{push_first, push_line};
-use crate::carry::{DigitSegment, Digits};
+use crate::digits::{DigitSegment, Digits};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};

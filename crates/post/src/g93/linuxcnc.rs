@@ -7,7 +7,7 @@ use super::read::{LineGrammar, Words};
 use super::timing::{check_time, is_dwell};
 use super::travel::{push_for_linuxcnc, read_for_linuxcnc};
 use super::write::{push_dwell, push_first, push_line};
-use crate::carry::{DigitSegment, Digits};
+use crate::digits::{DigitSegment, Digits};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;

@@ -10,7 +10,7 @@ use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
 use super::travel;
 use super::write::{push_first, push_line};
-use crate::carry::{DigitSegment, Digits};
+use crate::digits::{DigitSegment, Digits};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{

@@ -15,7 +15,7 @@
 //! Last, the planner slows a line down that would take less than 1.02 periods of the servo thread
 //! (`tpRunOptimization` in src/emc/tp/tp.c, since 2.7.0).
 
-use crate::carry::DigitSegment;
+use crate::digits::DigitSegment;
 use crate::program_error::ProgramError;
 use crate::program_format::{ProgramFormat, Slowest};
 

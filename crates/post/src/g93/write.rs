@@ -1,7 +1,7 @@
 //! Writes the lines of a path.
 
-use crate::carry::{AXES, DigitSegment, Digits, said_place};
 use crate::decimal::push;
+use crate::digits::{AXES, DigitSegment, Digits, said_place};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 
 /// Seconds of a minute.

@@ -1,7 +1,7 @@
 //! Writes the moves.
 
-use crate::carry::AXES;
 use crate::decimal::push;
+use crate::digits::AXES;
 use crate::program_format::ProgramFormat;
 use crate::travel::{Travel, Z};
 

@@ -51,7 +51,7 @@ use write::{push_first, push_last, push_segment};
 
 use turnpath_core::toolpath::SegmentShape;
 
-use crate::carry::{DigitSegment, Digits};
+use crate::digits::{DigitSegment, Digits};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};

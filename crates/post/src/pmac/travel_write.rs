@@ -9,8 +9,8 @@
 
 use std::io::Write;
 
-use crate::carry::AXES;
 use crate::decimal::push;
+use crate::digits::AXES;
 use crate::program_format::ProgramFormat;
 use crate::travel::{Travel, Z};
 

@@ -3,8 +3,8 @@
 use std::io::Write;
 
 use super::clock::Clock;
-use crate::carry::{AXES, DigitSegment, Digits, said_place, said_positions};
 use crate::decimal::push;
+use crate::digits::{AXES, DigitSegment, Digits, said_place, said_positions};
 use crate::program_format::ProgramFormat;
 
 /// Time of the move to the first control point, ms. It is not a part of the path.

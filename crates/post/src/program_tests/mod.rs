@@ -6,6 +6,8 @@ use turnpath_files::Draft;
 
 use crate::{Chords, Layout, Lines, Post, ProgramFormat, ProgramWriter, ReadPath};
 
+#[cfg(feature = "zst")]
+mod compressed;
 mod damage;
 mod drift;
 mod extremes;

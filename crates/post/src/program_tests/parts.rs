@@ -47,7 +47,7 @@ fn whole(layout: &Layout) -> Vec<u8> {
 }
 
 fn read_all(layout: &Layout, files: Files) -> Result<Vec<(ControlPoint, Section)>, String> {
-    let mut reader = layout.read_files(files);
+    let mut reader = layout.read_files(files).unwrap();
     let mut points = Vec::new();
     while let Some(point) = reader.next_point().map_err(|error| error.to_string())? {
         points.push(point);

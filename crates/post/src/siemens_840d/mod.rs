@@ -42,7 +42,7 @@ use write::{push_first, push_segment};
 
 use turnpath_core::toolpath::SegmentShape;
 
-use crate::carry::{DigitSegment, Digits};
+use crate::digits::{DigitSegment, Digits};
 use crate::g_code::push_travel;
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};

@@ -1,7 +1,7 @@
 //! Writes the blocks of a path.
 
-use crate::carry::{AXES, DigitSegment, Digits, said_place};
 use crate::decimal::push;
+use crate::digits::{AXES, DigitSegment, Digits, said_place};
 use crate::program_format::ProgramFormat;
 
 /// Decimals of the coefficients: enough that a polynomial begins with the velocity with which the one

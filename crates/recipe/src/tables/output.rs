@@ -2,7 +2,7 @@
 
 use turnpath_core::Param;
 use turnpath_core::kind::{Choice, Length, List, Velocity};
-use turnpath_post::{APPROACH_FEED, APPROACH_HEIGHT, ColumnFormat, POST_NAMES};
+use turnpath_post::{APPROACH_FEED, APPROACH_HEIGHT, ColumnFormat, Compression, POST_NAMES};
 
 use crate::diagnostic::Diagnostic;
 use crate::read::Section;
@@ -13,6 +13,7 @@ use crate::table_info::TableInfo;
 const CSV: &str = "csv";
 const DATA: &[&str] = &[CSV, "parquet", "npz"];
 const CENTRE: &str = "centre";
+const ZST: &str = "zst";
 
 const POSTS_KEY: Param<List> =
     Param::list("posts", POST_NAMES, "the programs to write, each once").default(&[]);
@@ -28,6 +29,13 @@ const Z_REFERENCE: Param<Choice> = Param::choice(
     "what Z is in programs: the tip of the tool, or the centre of the nose",
 )
 .default("tip");
+
+const COMPRESS: Param<Choice> = Param::choice(
+    "compress",
+    &["none", ZST],
+    "how the files of programs are compressed: not at all, or by Zstandard as `.zst`",
+)
+.default("none");
 
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
@@ -57,6 +65,7 @@ pub(super) const OUTPUT: TableInfo = TableInfo {
         POSTS_KEY.info(),
         DATA_KEY.info(),
         Z_REFERENCE.info(),
+        COMPRESS.info(),
         APPROACH_HEIGHT_KEY.info(),
         APPROACH_FEED_KEY.info(),
     ],
@@ -89,6 +98,8 @@ pub struct Output {
     pub data: Vec<DataFormat>,
     /// The point of the tool whose Z the programs give.
     pub z_reference: ZReference,
+    /// How the files of programs are compressed.
+    pub compression: Compression,
     /// How far above the highest place of the path X and C move before and after it, mm.
     pub approach_height: f64,
     /// How fast Z goes down to the first point of the path, mm/s.
@@ -105,10 +116,15 @@ pub(crate) fn output(section: &mut Section<'_>) -> Output {
         Some(CENTRE) => ZReference::Centre,
         _ => ZReference::Tip,
     };
+    let compression = match params.find(COMPRESS) {
+        Some(ZST) => Compression::Zst,
+        _ => Compression::None,
+    };
     Output {
         posts,
         data: data(section),
         z_reference,
+        compression,
         approach_height: params.find(APPROACH_HEIGHT_KEY).unwrap_or(APPROACH_HEIGHT),
         approach_feed: params
             .find(APPROACH_FEED_KEY)

@@ -36,7 +36,12 @@ pub fn check(report: &CheckReport) -> String {
         let (size, file) = (bytes(program.bytes as f64), &program.file);
         let parts = program.parts.map(|parts| format!(", in {parts} parts"));
         let parts = parts.unwrap_or_default();
-        text += &line("program", format!("about {size}{parts}: {file}"));
+        let of_text = if file.ends_with(".zst") {
+            " of text"
+        } else {
+            ""
+        };
+        text += &line("program", format!("about {size}{of_text}{parts}: {file}"));
     }
     text += &report
         .axis_notes

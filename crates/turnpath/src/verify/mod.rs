@@ -15,7 +15,7 @@ use turnpath_core::toolpath::SegmentShape;
 use turnpath_files::Draft;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Stage};
-use turnpath_post::post_of_extension;
+use turnpath_post::{post_of_extension, text_name};
 use turnpath_recipe::{Recipe, RoughPath};
 use turnpath_report as report;
 use turnpath_report::FileReport;
@@ -70,7 +70,7 @@ fn rough_path_of(recipe: &Recipe, file: &Path) -> Result<Option<Recipe>, Error> 
 /// Whether a file has the name of a program of a rough path's recipe, or of its table.
 fn is_of_path(recipe: &Recipe, file: &str) -> bool {
     let table = recipe.rough_name().map(rough_toolpath);
-    let program = file.strip_prefix(recipe.stem().as_str());
+    let program = text_name(file).strip_prefix(recipe.stem().as_str());
     let extension = program.and_then(|rest| rest.strip_prefix('.'));
     table.is_some_and(|table| table == file)
         || extension.is_some_and(|extension| post_of_extension(extension).is_some())
