@@ -20,8 +20,8 @@ mode = "one-at-a-time"
 refine = [true]
 surface = [
     { use = "conic", radius = "40 mm" },
-    { use = "even-asphere", radius = "40 mm", coefficients = { 4 = "1 um" } },
-    { use = "toric", radius_x = "30 mm", radius_y = "40 mm" },
+    { use = "even-asphere", radius = "40 mm", coefficients = { 4 = 1e-5 } },
+    { use = "toric", radius_rotation = "40 mm", radius_base = "30 mm" },
     { use = "sinusoidal-array", amplitude_x = "1 um", amplitude_y = "1 um", frequency_x = "0.4 /mm", frequency_y = "0.4 /mm" },
     { use = "formula", z = "k*x*y", constants = { k = "0.01 /mm" } },
 ]

@@ -28,7 +28,11 @@ fn chosen<'a>(
 /// The message for a strategy that is not there. It says what the plugins hold that were loaded, since
 /// the strategy may be one of a folder that was not given.
 fn unknown(choice: &Choice, catalogue: &Catalogue) -> Diagnostic {
-    let diagnostic = choice.unknown(&catalogue.names(choice.slot));
+    let known = catalogue.names(choice.slot);
+    let diagnostic = choice.unknown(&known);
+    if known.is_empty() {
+        return diagnostic;
+    }
     let loaded = catalogue.plugins().iter();
     let mut loaded = loaded.filter(|plugin| plugin.file.is_some()).peekable();
     if loaded.peek().is_none() {
