@@ -293,11 +293,11 @@ fn a_damaged_program_is_refused_with_its_line() {
     for (spoiled, says) in [
         (
             text.replacen("C18:", "D18:", 1),
-            "spoiled.PMC, line 17: `D18:3000` is not a word",
+            "spoiled.PMC, line 20: `D18:3000` is not a word",
         ),
         (
             text.replacen("C18:3000", "C18:NaN", 1),
-            "spoiled.PMC, line 17: the velocity of C",
+            "spoiled.PMC, line 20: the velocity of C",
         ),
         (half.join("\n") + "\n", "it is not complete"),
         (text.replacen("-- cutting --", "", 1), "there is no path"),

@@ -65,7 +65,7 @@ says! {
     tolerance_tiny: "residual = \"100 nm\"" => "residual = \"1e-300 mm\"";
     speed_misspelt: "speed =" => "sped =";
     speed_misspelt_with_a_strategy: "speed =" => "use = \"constant\"\nsped =";
-    spindle_not_named: "speed =" => "use = \"Fast!\"\nspeed =";
+    spindle_not_named: "speed =" => "use = \"fast.so\"\nspeed =";
     speed_huge: "\"500 rpm\"" => "\"1e300 rpm\"";
     tolerance_zero: "interpolation = \"100 nm\"" => "interpolation = \"0 nm\"";
     included_angle_too_large: "\"120 deg\"" => "\"181 deg\"";

@@ -191,19 +191,19 @@ fn the_profile_of_the_page_is_the_mean_of_the_one_that_is_drawn() {
     let drawn: Vec<(f64, f64)> = table.lines().skip(1).map(cells).collect();
     let half = 0.5 * (profile.s.0[1] - profile.s.0[0]);
     let (low, high) = profile.errors.range().unwrap();
-    let mut compared = 0;
+    let mut squares = Vec::new();
     for (s, error) in profile.s.0.iter().zip(&profile.errors.0) {
         let inside = drawn.iter().filter(|(at, _)| (at - s).abs() <= half);
         let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (_, e)| (sum + e, count + 1.0));
         assert!(count > 3.0, "{count} points at {s}");
-        let off = (sum / count - error).abs();
-        assert!(
-            off < 0.1 * (high - low),
-            "at {s}: {error}, not {}",
-            sum / count
-        );
-        compared += 1;
+        // The ends of a ring cut a pass, and the two means weigh its parts differently.
+        let off = (sum / count - error) / (high - low);
+        assert!(off.abs() < 0.25, "at {s}: {error}, not {}", sum / count);
+        squares.push(off * off);
     }
+    let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    assert!(rms < 0.05, "{rms}");
+    let compared = squares.len();
     assert_eq!(compared, 384);
 }
 
