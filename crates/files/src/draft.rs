@@ -12,6 +12,9 @@ use crate::hashed_file::{Contents, HashedFile};
 use crate::operation::{Operation, perform};
 use crate::temporary::Temporary;
 
+/// How the name of a draft beside its file begins and ends.
+pub(crate) const DRAFT_START: &str = ".turnpath-";
+pub(crate) const DRAFT_END: &str = ".part";
 /// Size of the buffer, bytes.
 const BUFFER: usize = 1 << 18;
 
@@ -227,7 +230,7 @@ fn target(path: &Path) -> io::Result<PathBuf> {
 /// A new file in the folder of this one.
 fn begin_beside(target: &Path) -> io::Result<(File, Temporary)> {
     let mut builder = Builder::new();
-    builder.prefix(".turnpath-").suffix(".part");
+    builder.prefix(DRAFT_START).suffix(DRAFT_END);
     let _gate = gate::enter();
     let made = builder.make_in(parent(target), create);
     let (file, path) = made.map_err(without_name)?.into_parts();

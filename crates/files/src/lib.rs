@@ -33,6 +33,7 @@ mod operation;
 mod registry;
 mod result_folder;
 mod scratch;
+mod stale_drafts;
 mod temporary;
 
 pub use bounded::{read_bounded, read_bounded_text};
@@ -44,3 +45,4 @@ pub use operation::{Operation, watch_operations};
 pub use registry::{DraftKind, Registration, remove_drafts};
 pub use result_folder::{FolderError, ListedFile, ResultFolder};
 pub use scratch::Scratch;
+pub use stale_drafts::remove_stale_drafts;

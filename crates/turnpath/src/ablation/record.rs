@@ -3,11 +3,12 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use turnpath_files::{Draft, FileError, ResultFolder, read_bounded_text};
+use turnpath_files::{Draft, FileError, ResultFolder, read_bounded_text, remove_stale_drafts};
 use turnpath_host::sha256_hex;
 use turnpath_report::{FailedRun, MeasuredRun, to_json};
 
@@ -21,6 +22,10 @@ use super::observer::AblationObserver;
 const RUNS: &str = "runs";
 /// A record that is begun and given up, to see whether the folder takes one.
 const PROBE: &str = "probe";
+
+/// From this age on a draft among the records is that of a killed process. A record is written in
+/// milliseconds; the clocks of a queue's machines may differ by minutes.
+const STALE: Duration = Duration::from_secs(3600);
 
 /// The records of an output folder.
 pub struct Records {
@@ -60,6 +65,7 @@ impl Records {
     pub fn make(output: &Path) -> Result<Self, FileError> {
         let folder = output.join(RUNS);
         let usable = fs::create_dir_all(&folder);
+        remove_stale_drafts(&folder, STALE);
         let usable = usable.and_then(|()| {
             let draft = Draft::begin(folder.join(PROBE));
             draft.map(drop).map_err(|refused| refused.error)
