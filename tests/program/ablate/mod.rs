@@ -1,6 +1,9 @@
 //! `turnpath ablate`: which runs it makes, what it reports of them, and which it does not repeat.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+mod repeats;
+mod tables;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::process::Stdio;
@@ -11,9 +14,6 @@ use crate::support::bench::{Answer, Bench, answer};
 use crate::support::fixtures::plugin_folder;
 use crate::support::recipe::{SADDLE, changed, with_table};
 use serde_json::{Value, json};
-
-/// Widest table.
-const WIDEST: usize = 100;
 
 /// The saddle with an ablation.
 fn saddle(lists: &str) -> String {
@@ -257,163 +257,6 @@ fn points_are_those_of_the_program_and_its_size_is_measured() {
 }
 
 #[test]
-fn the_csv_has_the_figures_of_the_json() {
-    let bench = Bench::with(&saddle("tool.nose_radius = [\"0.5 mm\", \"50 mm\"]"));
-    ablate(&bench, "").ends(0);
-    let runs = runs(&bench);
-    let csv = bench.read("out/ablation.csv");
-    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
-    let header = &rows[0];
-    assert_eq!(
-        header[..4],
-        [
-            "run",
-            "tool.nose_radius",
-            "points",
-            "points_added_by_refine"
-        ]
-    );
-    assert_eq!(rows.len(), 4);
-    let column = |name: &str| header.iter().position(|one| *one == name).unwrap();
-    for (row, run) in rows[1..3].iter().zip(&runs) {
-        for (name, pointer) in [
-            ("points", "/control_points"),
-            ("cutting_time_s", "/cutting_time_s"),
-            ("error_max_nm", "/interpolation_error/max_nm"),
-            ("residual_nm", "/residual/max_nm"),
-            (
-                "z_acceleration_rms_mm_per_s2",
-                "/axes/z/rms_acceleration_mm_per_s2",
-            ),
-            ("program_bytes", "/program_bytes"),
-            ("planning_time_s", "/planning_time_s"),
-        ] {
-            let figure: f64 = row[column(name)].parse().unwrap();
-            assert_eq!(
-                Some(figure),
-                run.pointer(pointer).unwrap().as_f64(),
-                "{name}"
-            );
-        }
-        assert_eq!(row[column("reason")], "");
-    }
-    let failed = csv.lines().nth(3).unwrap();
-    assert!(failed.starts_with("3,50 mm,,,,"), "{failed}");
-    assert!(failed.contains("the tool would gouge"), "{failed}");
-}
-
-#[test]
-fn an_interrupted_ablation_goes_on_with_what_is_missing() {
-    let residuals: Vec<String> = (50..90).map(|nm| format!("\"{nm} nm\"")).collect();
-    let lists = format!("tolerance.residual = [{}]", residuals.join(", "));
-    let bench = Bench::with(&saddle(&lists));
-    let mut command = bench.command(["ablate", "recipe.toml", "-o", "out", "--threads", "2"]);
-    let mut child = command.stdout(Stdio::null()).spawn().unwrap();
-    while records(&bench).len() < 3 {
-        assert!(
-            child.try_wait().unwrap().is_none(),
-            "it ended without records"
-        );
-        thread::sleep(Duration::from_millis(2));
-    }
-    child.kill().unwrap();
-    child.wait().unwrap();
-    let left = records(&bench);
-    let count = left.len();
-    assert!((3..41).contains(&count), "{count}");
-    assert!(!bench.path("out/ablation.json").exists());
-    for name in left.keys() {
-        let record: Value = serde_json::from_str(&bench.read(format!("out/runs/{name}"))).unwrap();
-        assert_eq!(format!("{}.json", record["key"].as_str().unwrap()), *name);
-    }
-    let said = ablate(&bench, "").ends(0);
-    assert_eq!(said.stderr, "");
-    assert_eq!(
-        headline(&said),
-        format!("41 runs, {count} taken over from before")
-    );
-    let all = records(&bench);
-    assert_eq!(all.len(), 41);
-    for (name, written) in &left {
-        assert_eq!(all.get(name), Some(written), "{name} was made again");
-    }
-}
-
-#[test]
-fn a_run_that_was_taken_over_is_what_would_be_made() {
-    let bench = Bench::with(&eight());
-    ablate(&bench, "").ends(0);
-    let (made, table) = (
-        bench.read("out/ablation.json"),
-        bench.read("out/ablation.csv"),
-    );
-    let said = ablate(&bench, "").ends(0);
-    assert_eq!(headline(&said), "8 runs, 8 taken over from before");
-    assert!(made == bench.read("out/ablation.json"));
-    assert!(table == bench.read("out/ablation.csv"));
-    let before: Vec<Value> = runs(&bench).iter().map(without_times).collect();
-    let said = ablate(&bench, "--fresh").ends(0);
-    assert_eq!(headline(&said), "8 runs");
-    let after: Vec<Value> = runs(&bench).iter().map(without_times).collect();
-    assert_eq!(before, after);
-}
-
-#[test]
-fn only_the_runs_that_a_change_touches_are_made_again() {
-    let recipe = eight();
-    let bench = Bench::with(&recipe);
-    ablate(&bench, "").ends(0);
-    for (from, to, taken_over) in [
-        ("step = \"6 deg\"", "step = \"5 deg\"", 4),
-        (
-            "{ use = \"analytic\" }",
-            "{ use = \"area\" }, { use = \"analytic\" }",
-            8,
-        ),
-        ("name = \"Saddle\"", "# a saddle\nname = \"Another\"", 8),
-        ("[feed]", "[output]\ndata = []\n\n[feed]", 8),
-        ("residual = \"100 nm\"", "residual = \"90 nm\"", 0),
-    ] {
-        bench.write("recipe.toml", changed(&recipe, from, to));
-        let said = ablate(&bench, "").ends(0);
-        let reported = format!("{taken_over} taken over from before");
-        let fits = match taken_over {
-            0 => headline(&said) == "8 runs",
-            _ => headline(&said).contains(&reported),
-        };
-        assert!(fits, "{to}: {}", headline(&said));
-    }
-    let said = ablate(&bench, "--set name=Another");
-    assert!(said.stdout.starts_with("Another: "), "{said}");
-    assert_eq!(runs(&bench)[0]["name"], "Another");
-}
-
-#[test]
-fn a_damaged_record_is_reported_and_made_again() {
-    let bench = Bench::with(&saddle(
-        "velocity = [{ use = \"analytic\" }, { use = \"area\" }]",
-    ));
-    ablate(&bench, "").ends(0);
-    let names: Vec<String> = records(&bench).into_keys().collect();
-    let [first, second, third] = names.as_slice() else {
-        panic!("{names:?}");
-    };
-    let path = |name: &str| format!("out/runs/{name}");
-    let text = bench.read(path(first));
-    bench.write(&path(first), &text[..text.len() / 2]);
-    let text = bench.read(path(second));
-    bench.write(&path(second), changed(&text, "\"rows\": ", "\"rows\": 1"));
-    let whole = bench.read(path(third));
-    let said = ablate(&bench, "").ends(0);
-    assert_eq!(headline(&said), "3 runs, 1 taken over from before");
-    assert_eq!(said.stderr.matches("is damaged").count(), 2, "{said}");
-    assert_eq!(said.stderr.matches("its figures have changed").count(), 1);
-    assert!(bench.read(path(third)) == whole);
-    let said = ablate(&bench, "").ends(0);
-    assert_eq!(headline(&said), "3 runs, 3 taken over from before");
-}
-
-#[test]
 fn a_failing_chain_is_a_row_with_its_reason() {
     let plugins = plugin_folder(&["panics", "constant-arc"]);
     let bench = Bench::with(&saddle(
@@ -469,64 +312,6 @@ fn a_tolerance_that_does_not_hold_is_a_finding_not_a_failure() {
     assert!(said.stdout.contains("! exceeds its tolerance"), "{said}");
 }
 
-/// The usual columns without planning times.
-const COLUMNS: &str = "--columns points,added,revolutions,time,error-max,error-rms,residual,\
-                       x-acceleration-law,z-acceleration,program-size";
-
-/// Over the last 1.25 turns at either end the host lets the feed run out by f n (s³ − s⁴/2) with
-/// s = m/n: X accelerates by 1.5 f/n at the most, and a constant feed by nothing between.
-#[test]
-fn the_x_acceleration_that_is_compared_is_that_of_the_law() {
-    let covered = changed(SADDLE, "overrun = \"none\"", "overrun = \"contact\"");
-    let feed = "use = \"constant\"\nfeed = \"20 um\"";
-    let recipe = with_table(&covered, "feed", feed);
-    let bench = Bench::with(&format!(
-        "{recipe}\n[ablation]\nvelocity = [{{ use = \"analytic\" }}]\n"
-    ));
-    ablate(&bench, "").ends(0);
-    let run = &runs(&bench)[1];
-    let of = |pointer: &str| run.pointer(pointer).unwrap().as_f64().unwrap();
-    let turns_per_second = of("/revolutions") / of("/cutting_time_s");
-    let running_out = 1.5 * 0.02 / 1.25 * turns_per_second * turns_per_second;
-    let whole = of("/axes/x/max_acceleration_mm_per_s2");
-    assert!(
-        (whole / running_out - 1.0).abs() < 0.01,
-        "{whole} {running_out}"
-    );
-    let own = of("/axes_of_law/x/max_acceleration_mm_per_s2");
-    assert!(own < 1e-6 * whole, "{own}");
-    let velocity = of("/axes_of_law/x/max_velocity_mm_per_s");
-    assert!((velocity / (0.02 * turns_per_second) - 1.0).abs() < 1e-9);
-}
-
-#[test]
-fn the_table_has_all_columns_within_100() {
-    let bench = Bench::with(&saddle(
-        "tolerance.residual = [\"50 nm\"]\nvelocity = [{ use = \"three-point\" }]\n\
-         tool.nose_radius = [\"50 mm\"]",
-    ));
-    let said = ablate(&bench, "").ends(0);
-    for line in said.stdout.lines() {
-        assert!(line.chars().count() <= WIDEST, "{line}");
-    }
-    // All in one table, the last with its unit.
-    assert_eq!(said.stdout.matches("───\n").count(), 1, "{said}");
-    assert!(
-        said.stdout.lines().nth(6).unwrap().ends_with(" s"),
-        "{said}"
-    );
-    insta::assert_snapshot!(ablate(&bench, COLUMNS).ends(0).stdout);
-}
-
-#[test]
-fn columns_can_be_chosen() {
-    let bench = Bench::with(&saddle("velocity = [{ use = \"three-point\" }]"));
-    let said = ablate(&bench, "--columns z-jerk-max,error-max,points").ends(0);
-    insta::assert_snapshot!(said.stdout);
-    let said = ablate(&bench, "--columns points,eror-max").ends(2);
-    assert!(said.stderr.contains("'error-max'"), "{said}");
-}
-
 /// The refusal comes before the work: every run would fail here and report it.
 #[cfg(target_os = "linux")]
 #[test]
@@ -539,64 +324,6 @@ fn a_folder_that_takes_no_records_is_refused_first() {
     let said = ablate(&bench, "").ends(4);
     assert!(said.stderr.contains("cannot write out/runs: "), "{said}");
     assert!(!said.stderr.contains("gouge"), "{said}");
-}
-
-/// What the narrower terminal leaves out of a line follows in a further table.
-#[test]
-fn a_narrow_terminal_gets_narrow_tables() {
-    let bench = Bench::with(&saddle("tool.nose_radius = [\"50 mm\"]"));
-    let widths = [
-        ("60", 60, 2),
-        ("1", 40, 4),
-        ("0", WIDEST, 1),
-        ("wide", WIDEST, 1),
-    ];
-    for (columns, widest, tables) in widths {
-        let mut command = bench.command(["ablate", "recipe.toml", "-o", "out"]);
-        let said = answer(command.env("COLUMNS", columns)).ends(0);
-        let table = said.stdout.lines().skip(1);
-        let table = table.filter(|line| !line.contains("file"));
-        let longest = table.map(|line| line.chars().count()).max();
-        assert!(longest.is_some_and(|longest| longest <= widest), "{said}");
-        assert_eq!(said.stdout.matches("───\n").count(), tables, "{said}");
-        assert!(said.stdout.contains("failed:"), "{said}");
-    }
-}
-
-/// Every column but those of what this recipe does not ask for: a hole, limits, a nose that does
-/// not fit, tolerances of form and servo, rough paths.
-#[test]
-fn every_figure_of_a_run_has_its_column() {
-    let recipe = changed(SADDLE, "lead = false", "lead = true");
-    let bench = Bench::with(&format!(
-        "{recipe}\n[servo]\nbandwidth = \"100 Hz\"\n\n[ablation]\nvelocity = [{{ use = \"three-point\" }}]\n"
-    ));
-    ablate(&bench, "").ends(0);
-    let csv = bench.read("out/ablation.csv");
-    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let (head, row) = (lines.next().unwrap(), lines.next().unwrap());
-    let empty: Vec<&str> = head
-        .iter()
-        .zip(&row)
-        .filter(|(_, figure)| figure.is_empty())
-        .map(|(name, _)| *name)
-        .collect();
-    let expected = [
-        "unreached_height_um",
-        "uncut_at_hole_nm",
-        "highest_spindle_rpm",
-        "form_error_nm",
-        "form_residual_nm",
-        "form_interpolation_nm",
-        "form_rounds",
-        "within_form",
-        "within_coverage",
-        "within_machine",
-        "within_servo",
-        "within_passes",
-        "reason",
-    ];
-    assert_eq!(empty, expected);
 }
 
 #[test]
