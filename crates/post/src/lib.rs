@@ -8,6 +8,7 @@
 mod amount;
 mod automation1;
 mod axes;
+mod beckhoff;
 mod carry;
 mod chord;
 mod column_files;
@@ -29,6 +30,7 @@ mod part_name;
 mod parts;
 mod path_reader;
 mod pmac;
+mod polynomial;
 mod post;
 mod posts;
 mod power_pmac;

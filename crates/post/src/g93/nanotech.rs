@@ -6,11 +6,10 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
-use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
-use super::travel;
 use super::write::{push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
+use crate::g_code::{commands, ends_program, read_spaced_travel};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
@@ -75,6 +74,8 @@ const MODES: &str = "G90 G93";
 const HARMLESS: &[&str] = &[
     "G52", "G63", "G71", "G103", "G40", "G18", "G90", "G93", "G54", "T0202", "M2", "M30",
 ];
+/// Numbers of words with M that end a program.
+const ENDS: &[u32] = &[2, 30];
 /// The words of a path.
 const WORDS: Words = Words {
     needed: &["G90", "G93"],
@@ -96,7 +97,7 @@ impl Dialect for Nanotech {
     }
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        travel::read(code, modes)
+        read_spaced_travel(code, modes)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
@@ -104,6 +105,6 @@ impl Dialect for Nanotech {
     }
 
     fn ends_program(&self, command: &str) -> bool {
-        ends_program(command)
+        ends_program(command, ENDS)
     }
 }

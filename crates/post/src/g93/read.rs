@@ -8,6 +8,7 @@ use turnpath_core::toolpath::ControlPoint;
 
 use crate::axes::{Axes, AxisWords, NAMES, steps_of};
 use crate::fixed_point::{ONE, number};
+use crate::g_code::without_comments;
 use crate::post::Grammar;
 use crate::program_format::{FeedMeaning, ProgramFormat, Slowest};
 
@@ -248,25 +249,6 @@ fn played_minutes(
         );
     }
     Ok(length / (length * feed).max(slowest.rate))
-}
-
-/// The code of a line in capitals, without spaces and without comments in parentheses.
-pub(super) fn without_comments(code: &str) -> Result<String, String> {
-    let mut kept = String::with_capacity(code.len());
-    let mut inside = false;
-    for c in code.chars() {
-        match c {
-            '(' if !inside => inside = true,
-            ')' if inside => inside = false,
-            '(' | ')' => return Err(format!("a `{c}` without its partner")),
-            _ if inside || c.is_ascii_whitespace() => {}
-            c => kept.push(c.to_ascii_uppercase()),
-        }
-    }
-    match inside {
-        true => Err("a `(` without its partner".to_owned()),
-        false => Ok(kept),
-    }
 }
 
 fn refuse_twice(name: &str, twice: bool) -> Result<(), String> {
