@@ -10,5 +10,5 @@ mod write;
 pub(crate) use commands::{commands, ends_program};
 pub(crate) use read::read_travel;
 pub(crate) use travel_words::{TravelWords, read_spaced_travel};
-pub(crate) use words::without_comments;
+pub(crate) use words::{split_comment, without_comments};
 pub(crate) use write::push_travel;

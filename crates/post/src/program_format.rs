@@ -81,6 +81,15 @@ pub struct Chords {
     pub slowest: Option<Slowest>,
 }
 
+/// An axis that a controller moves for its time alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TimeAxis {
+    /// Its name.
+    pub name: char,
+    /// How fast it goes, µm/s.
+    pub speed_um_per_s: i64,
+}
+
 /// How a program writes times, positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramFormat {
@@ -112,6 +121,8 @@ pub struct ProgramFormat {
     pub z_above: f64,
     /// Chords in place of cubics: the program has no velocities. `None` where it plays cubics.
     pub chords: Option<Chords>,
+    /// The axis of time, where the controller has one.
+    pub time_axis: Option<TimeAxis>,
     /// The largest C of the program, to both sides, in last digits, where its axis has an end.
     pub c_limit: Option<i64>,
     /// How far above the highest place of the path X and C move before it, mm.

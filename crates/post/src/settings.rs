@@ -5,7 +5,7 @@ use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{DEG, Param, ParamDefault, Params};
 
 use crate::post::Post;
-use crate::program_format::{Chords, FeedMeaning, ProgramFormat, Slowest};
+use crate::program_format::{Chords, FeedMeaning, ProgramFormat, Slowest, TimeAxis};
 
 /// Decimals of positions if the recipe gives none: the last one is 0.1 nm.
 const DECIMALS: u64 = 7;
@@ -39,6 +39,10 @@ const STILL: f64 = 1e-7;
 const SHORTEST_PERIODS: f64 = 1.02;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
+/// The slowest axis of time, mm/s: its speed is in whole µm/s.
+const SLOWEST_TIME_AXIS: f64 = 1e-3;
+/// The fastest one, mm/s: far beyond any machine's, and its way still fits into the numbers of a reader.
+const FASTEST_TIME_AXIS: f64 = 1e5;
 
 pub(crate) const POSITION_DECIMALS: Param<Count> =
     Param::count("position_decimals", "decimals of positions, mm and deg")
@@ -115,6 +119,19 @@ pub(crate) const FEED_MEANING: Param<Choice> = Param::choice(
     "what F says of a line under `G93`: one over its minutes, or its seconds",
 )
 .default("1/min");
+pub(crate) const TIME_AXIS: Param<Choice> = Param::choice(
+    "time_axis",
+    &["W", "V", "U", "Q", "B", "A", "Y"],
+    "the simulated linear axis of the channel whose position is the time",
+)
+.default("W");
+pub(crate) const TIME_AXIS_SPEED: Param<Velocity> = Param::velocity(
+    "time_axis_speed",
+    "how fast that axis goes, to whole um/s. Faster needs fewer digits of it, and a longer way",
+)
+.default(10.0)
+.min(SLOWEST_TIME_AXIS)
+.max(FASTEST_TIME_AXIS);
 pub(crate) const SHORTEST_SEGMENT: Param<Option<Time>> = Param::time(
     "shortest_segment",
     "the shortest segment that your controller plays, or the time in which it reads one; left out: a \
@@ -203,11 +220,24 @@ impl Post {
                 .find(C_LIMIT)
                 .flatten()
                 .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
+            time_axis: self.time_axis(settings),
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)
                 .then(|| self.chords(settings, position_decimals, tolerance)),
         }
+    }
+
+    /// The axis of time, if its table has the keys of one.
+    fn time_axis(&self, settings: &Params) -> Option<TimeAxis> {
+        let own_name = self.default_text(TIME_AXIS.name())?;
+        let own_speed = self.default_number(TIME_AXIS_SPEED.name())?;
+        let name = settings.find(TIME_AXIS).unwrap_or(own_name);
+        let speed = settings.find(TIME_AXIS_SPEED).unwrap_or(own_speed);
+        Some(TimeAxis {
+            name: name.chars().next()?,
+            speed_um_per_s: (1e3 * speed).round() as i64,
+        })
     }
 
     fn chords(&self, settings: &Params, decimals: u32, tolerance: f64) -> Chords {

@@ -251,9 +251,22 @@ impl Program {
             "velocity_unit" => either(format.per_minute, "min", "s"),
             "f_means" => either(self.says_seconds(), "s", "1/min"),
             "ix90" => format.velocity_ms().to_string(),
+            "time_axis" => {
+                self.time_axis(with_leads(outcome.cutting_time, |l| l.in_time + l.out_time))
+            }
             "increments" => 10_u64.pow(format.position_decimals).to_string(),
             _ => String::new(),
         }
+    }
+
+    /// The axis of time and how far it goes in `time`, s, where the controller has one.
+    fn time_axis(&self, time: f64) -> String {
+        let axis = self.layout.format.time_axis;
+        axis.map_or_else(String::new, |axis| {
+            let speed = axis.speed_um_per_s as f64 / 1e3;
+            let (name, way) = (axis.name, time * speed);
+            format!("{name}, {speed} mm in a second, from 0 to {way:.3} mm")
+        })
     }
 
     /// What the axes of the program mean.

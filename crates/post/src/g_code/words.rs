@@ -31,3 +31,24 @@ pub(super) fn spaced(code: &str) -> Result<String, String> {
     }
     Ok(spaced)
 }
+
+/// The code of a line, and the comment behind it or the one that is all of the line.
+pub(crate) fn split_comment(line: &[u8]) -> (&[u8], Option<&[u8]>) {
+    let text = line.trim_ascii();
+    if let [b'(', inside @ .., b')'] = text
+        && !inside.contains(&b'(')
+        && !inside.contains(&b')')
+    {
+        return (b"", Some(inside));
+    }
+    let mut inside = false;
+    for (at, byte) in line.iter().enumerate() {
+        match byte {
+            b'(' => inside = true,
+            b')' => inside = false,
+            b';' if !inside => return (&line[..at], Some(&line[at + 1..])),
+            _ => {}
+        }
+    }
+    (line, None)
+}
