@@ -24,6 +24,7 @@ mod check;
 mod commands;
 mod data_files;
 mod data_remarks;
+mod depths;
 mod diagnosis;
 mod dry_run;
 mod error;

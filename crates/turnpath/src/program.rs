@@ -16,6 +16,7 @@ use turnpath_report::{AxisNotes, ProgramFigures, ProgramReport, Tolerances};
 use turnpath_verify::FirstTouch;
 
 use crate::axis_notes::axis_notes;
+use crate::depths::refuse_depths;
 use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
 use crate::figures::{form_error, tolerances};
@@ -79,6 +80,7 @@ impl Program {
         if let (Some(_), Some((key, _))) = (split, other) {
             return Err(without_calls(recipe, post, key));
         }
+        refuse_depths(recipe, post, params)?;
         let own_header = other.map_or(post.header, |(_, text)| text);
         let text = format!("{}.{}", recipe.stem(), post.extension);
         Ok(Self {

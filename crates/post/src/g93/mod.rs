@@ -20,6 +20,8 @@
 //! The first line brings the axes from wherever they are to the first control point, within a second.
 
 mod beckhoff;
+mod depth_lines;
+mod depth_loop;
 mod linuxcnc;
 mod nanotech;
 mod read;

@@ -6,15 +6,17 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
+use super::depth_lines::depth_lines;
+use super::depth_loop::WhileLoop;
 use super::read::{LineGrammar, Words};
 use super::write::{push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code::{commands, ends_program, read_spaced_travel};
-use crate::post::{Command, Dialect, Grammar, Post};
-use crate::program_format::{FeedMeaning, ProgramFormat};
+use crate::post::{Command, DepthLoop, Dialect, Grammar, Post};
+use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_LIMIT, C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, MEMORY,
-    SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SIX_DECIMALS,
+    C_LIMIT, C_SIGN, C_WITHIN_TURN, CHORD_SHARE, DEPTH_STEP, DEPTHS, FEED_MEANING, FOOTER, HEADER,
+    MEMORY, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SIX_DECIMALS,
 };
 use crate::travel::{Places, TravelModes};
 
@@ -31,6 +33,8 @@ pub(crate) const NANOTECH_G93: Post = Post {
         FEED_MEANING.info(),
         C_SIGN.info(),
         C_WITHIN_TURN.info(),
+        DEPTHS.info(),
+        DEPTH_STEP.info(),
         SHORTEST_SEGMENT.info(),
         SEGMENTS_PER_SECOND.info(),
         MEMORY.info(),
@@ -98,6 +102,14 @@ impl Dialect for Nanotech {
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
         read_spaced_travel(code, modes)
+    }
+
+    fn depth_lines(&self, format: &ProgramFormat, depths: &Depths) -> Option<[String; 2]> {
+        Some(depth_lines(format, depths))
+    }
+
+    fn depth_loop(&self) -> Option<Box<dyn DepthLoop>> {
+        Some(Box::new(WhileLoop::default()))
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
