@@ -1,7 +1,7 @@
 //! Writes a loop over depths in the words of Moore Nanotech's machines.
 //!
-//! The form is that of programs for these machines which a public program for tool paths writes: variables with
-//! `#`, `WHILE[… LT …] DO 2` to `END 2`, and `G52` with the place of the zero.
+//! The form is that of published programs for a 650 FG: variables with `#`, `WHILE[… LT …] DO 2` to `END 2`, and
+//! `G52` with the place of the zero.
 
 use crate::decimal::push;
 use crate::program_format::{Depths, ProgramFormat};

@@ -8,7 +8,7 @@ use crate::g_code::without_comments;
 use crate::post::DepthLoop;
 
 /// Most turns of a loop that are played: far more than any part is cut with.
-const MOST_TURNS: usize = 10_000;
+const MOST_TURNS: usize = 2000;
 /// Most statements of a loop.
 const MOST_STATEMENTS: usize = 100;
 
@@ -48,7 +48,7 @@ enum Term {
 enum Statement {
     /// `#8 = #8 - #103`: the first term, and the second with its sign.
     Set(u32, Term, Option<(i128, Term)>),
-    /// `G52 X0 Y0 Z[#8]`.
+    /// `G52 X0 Y0 Z[#8]`, or `G52 Z[#8]`.
     Shift(Term),
 }
 
@@ -168,7 +168,8 @@ fn head(code: &str) -> Result<Option<Head>, String> {
 }
 
 fn statement(code: &str) -> Result<Statement, String> {
-    if let Some(rest) = code.strip_prefix("G52X0Y0Z[") {
+    let shift = code.strip_prefix("G52X0Y0Z[");
+    if let Some(rest) = shift.or_else(|| code.strip_prefix("G52Z[")) {
         let inside = rest.strip_suffix(']').ok_or_else(|| not_a_line(code))?;
         return Ok(Statement::Shift(term(inside)?));
     }
@@ -195,7 +196,10 @@ fn term(text: &str) -> Result<Term, String> {
             let name = variable(name).ok_or_else(|| not_a_line(text))?;
             Ok(Term::Variable(name))
         }
-        None => number(text, text).map(Term::Number),
+        None => {
+            let digits = text.strip_prefix('+').unwrap_or(text);
+            number(text, digits).map(Term::Number)
+        }
     }
 }
 
@@ -238,6 +242,11 @@ mod tests {
         let other = "#5=0\nwhile[#5 lt 1]do1\n#8=0.5-#5\nG52 X0 Y0 Z[#8]";
         let end = "#5=#5+0.5\nG52 X0 Y0 Z[0]\nend1";
         assert_eq!(shifts(other, end), Ok(vec![0.5, 0.0]));
+        // The form of another generator of programs for these machines.
+        let five = "#501=5 ( ROUGH TIMES )\n#502=0\n#503=+0.020\n#504=-0.005\n\
+                    WHILE[#502LT#501]DO 1\nG52 Z[#503]";
+        let end = "#503=#503+#504\n#502=#502+1\nEND 1";
+        assert_eq!(shifts(five, end), Ok(vec![0.02, 0.015, 0.01, 0.005, 0.0]));
         let none = "#5 = 0\nWHILE[#5 LT 0] DO 2";
         assert_eq!(shifts(none, "END 2"), Ok(vec![]));
     }
