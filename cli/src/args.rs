@@ -237,6 +237,11 @@ pub struct AblateArgs {
     #[arg(default_missing_value = "json")]
     #[arg(conflicts_with_all = ["only", "merge", "fresh", "table", "format", "quiet"])]
     pub plan: Option<PlanForm>,
+    /// Write the recipe, its data files and plugins, and the plan into a new folder, which can be
+    /// carried to another machine; make nothing
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["plan", "only", "merge", "fresh", "table"])]
+    #[arg(conflicts_with_all = ["format", "equal_tolerance", "output"])]
+    pub pack: Option<PathBuf>,
     /// Make the run of this key alone, and leave its record
     #[arg(long, value_name = "KEY", conflicts_with_all = ["merge", "fresh", "table"])]
     pub only: Option<String>,

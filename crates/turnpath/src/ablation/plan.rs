@@ -5,11 +5,12 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::SilentObserver;
-use turnpath_recipe::Recipe;
+use turnpath_recipe::{Recipe, Variant};
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
 
+use super::key::Key;
 use super::record::{Records, RunRecord};
 use super::{variants, varied};
 
@@ -63,8 +64,13 @@ pub fn plan_ablation(
 ) -> Result<AblationPlan, Error> {
     let data = DataFiles::default();
     let (variants, keys) = variants(recipe, catalogue, &data)?;
+    Ok(plan_of(&variants, &keys, folder))
+}
+
+/// The plan of these variants.
+pub(super) fn plan_of(variants: &[Variant], keys: &[Key], folder: &Path) -> AblationPlan {
     let records = Records::of(folder);
-    let runs = variants.iter().zip(&keys).enumerate();
+    let runs = variants.iter().zip(keys).enumerate();
     let runs = runs.map(|(index, (variant, key))| RunPlan {
         index,
         key: key.hash.clone(),
@@ -75,8 +81,8 @@ pub fn plan_ablation(
             RunRecord::None => RunState::Missing,
         },
     });
-    Ok(AblationPlan {
+    AblationPlan {
         format: FORMAT,
         runs: runs.collect(),
-    })
+    }
 }
