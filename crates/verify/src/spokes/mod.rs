@@ -10,6 +10,10 @@
 //! ends with the path. The largest harmonic of these mean turns is the figure. The harmonics of a
 //! mean turn are the complex means of the harmonics of its turns, so one Fourier transform for each
 //! window gives them.
+//!
+//! A pattern that turns slowly does not stay at its angles: [`arms`] finds it.
+
+mod arms;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -22,6 +26,9 @@ use turnpath_core::toolpath::Segment;
 
 use crate::instants::INSTANTS;
 use crate::touch::Touch;
+
+use arms::Arms;
+pub use arms::SpiralArms;
 
 /// Angles of a mean turn: four for each period of the highest harmonic.
 const ANGLES: usize = 4 * HIGHEST;
@@ -178,6 +185,8 @@ pub(crate) struct Spokes {
     largest: Option<Spoke>,
     /// The largest amplitude of each harmonic over all windows before, mm; empty before the first.
     harmonics: Vec<f64>,
+    /// What comes back at other angles.
+    arms: Arms,
 }
 
 impl Default for Spokes {
@@ -189,6 +198,7 @@ impl Default for Spokes {
             until_next: WINDOW,
             largest: None,
             harmonics: Vec::new(),
+            arms: Arms::default(),
         }
     }
 }
@@ -206,7 +216,11 @@ impl Spokes {
 
     /// Begins the path's next turn: the one before is whole.
     fn push(&mut self, turn: Turn) {
+        if let Some(last) = self.window.back() {
+            self.arms.include(last);
+        }
         if self.until_next == 0 {
+            self.arms.look(self.radii());
             let amplitudes = self.amplitudes();
             self.largest = larger(self.largest, self.spoke(&amplitudes));
             self.harmonics = largest_of_each(&self.harmonics, &amplitudes);
@@ -222,6 +236,21 @@ impl Spokes {
     /// The largest spoke so far; `None` if no window has errors at all angles.
     pub fn largest(&self) -> Option<Spoke> {
         larger(self.largest, self.spoke(&self.amplitudes()))
+    }
+
+    /// The largest spiral arms so far; `None` on a path of a few turns.
+    pub fn largest_arms(&self) -> Option<SpiralArms> {
+        let mut arms = self.arms.clone();
+        arms.include(self.window.back()?);
+        arms.look(self.radii());
+        arms.largest()
+    }
+
+    /// The smallest and the largest radius of a contact in the window, mm.
+    fn radii(&self) -> [f64; 2] {
+        let from = self.window.iter().map(|turn| turn.from);
+        let to = self.window.iter().map(|turn| turn.to);
+        [from.fold(f64::INFINITY, f64::min), to.fold(0.0, f64::max)]
     }
 
     /// The largest amplitude of each harmonic over all windows so far, mm: entry k has k periods a
@@ -246,14 +275,12 @@ impl Spokes {
     fn spoke(&self, amplitudes: &[f64]) -> Option<Spoke> {
         let spokes = amplitudes.iter().copied().enumerate().skip(LOWEST);
         let (per_turn, amplitude) = spokes.max_by(|one, other| one.1.total_cmp(&other.1))?;
-        let turns = self.window.iter();
+        let [from, to] = self.radii();
         Some(Spoke {
             amplitude,
             per_turn,
-            from: turns
-                .clone()
-                .fold(f64::INFINITY, |r, turn| r.min(turn.from)),
-            to: turns.fold(0.0, |r, turn| r.max(turn.to)),
+            from,
+            to,
         })
     }
 
@@ -403,6 +430,55 @@ mod tests {
         let wave = |turn: usize, c: f64| turn as f64 * Scalar::cos(9.0 * c);
         let found = largest(&[block(0..3, 0.0, wave)]).unwrap();
         assert!(is_near(found.amplitude, 1.0), "{found:?}");
+    }
+
+    fn largest_arms(blocks: &[BlockSpokes]) -> Option<SpiralArms> {
+        let mut spokes = Spokes::default();
+        blocks.iter().for_each(|block| spokes.append(block));
+        spokes.largest_arms()
+    }
+
+    /// The turn of number k has the radius k, so a pitch of p mm is one of p turns.
+    #[test]
+    fn a_wave_that_turns_evenly_stands_as_arms_with_their_pitch() {
+        for (turns_round, sense) in [(62.0, 1.0), (16.0, -1.0), (5.0, 1.0)] {
+            let wave = |turn: usize, c: f64| {
+                2e-3 * Scalar::sin(7.0 * c + sense * TAU * turn as f64 / turns_round)
+            };
+            let found = largest_arms(&[block(0..30, 0.0, wave), block(30..96, 0.0, wave)]).unwrap();
+            assert_eq!(found.per_turn, 7);
+            // Between two rates a fortieth is lost.
+            assert!((found.amplitude / 2e-3 - 0.99).abs() < 0.015, "{found:?}");
+            assert!((found.pitch / turns_round - 1.0).abs() < 0.12, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_wave_that_stays_or_turns_as_fast_as_the_feed_is_no_arms() {
+        for turns_round in [f64::INFINITY, 2.0, 3.0] {
+            let wave = |turn: usize, c: f64| Scalar::sin(7.0 * c + TAU * turn as f64 / turns_round);
+            let found = largest_arms(&[block(0..64, 0.0, wave)]);
+            // The sides of its peak.
+            assert!(found.is_none_or(|arms| arms.amplitude < 0.25), "{found:?}");
+        }
+        assert_eq!(
+            largest_arms(&[block(0..3, 0.0, |_, c| Scalar::sin(7.0 * c))]),
+            None
+        );
+        assert_eq!(largest_arms(&[]), None);
+    }
+
+    #[test]
+    fn turns_beside_the_part_do_not_count_for_arms() {
+        let wave = |turn: usize, c: f64| Scalar::sin(7.0 * c + TAU * turn as f64 / 16.0);
+        let mut found = block(0..64, 0.0, wave);
+        found.turns[0].errors[5] = f64::NAN;
+        let arms = largest_arms(std::slice::from_ref(&found)).unwrap();
+        assert!((arms.amplitude - 1.0).abs() < 0.03, "{arms:?}");
+        for turn in &mut found.turns[..40] {
+            turn.errors[5] = f64::NAN;
+        }
+        assert_eq!(largest_arms(&[found]), None);
     }
 
     #[test]
