@@ -46,6 +46,9 @@ const TABLE: [(&str, Check, &str); 20] = [
     ("deaf", Speed, "the host asks for 0.5000 of the speed"),
 ];
 
+/// A fault that shows by another check too: heights that differ in a batch differ from their series.
+const ALSO: [(&str, Check); 1] = [("batch-off", Derivatives)];
+
 macro_rules! strategy {
     ($type:ident, $name:literal) => {
         #[derive(Clone)]
@@ -433,7 +436,8 @@ fn each_fault_is_seen_by_its_check_in_words_of_the_trade() {
     assert!(unseen.is_empty(), "{unseen:?}\n{findings}");
     let others = findings.faults.iter().filter(|fault| {
         let own = (fault.strategy.as_str(), fault.kind.check());
-        !TABLE.iter().any(|(name, check, _)| (*name, *check) == own)
+        let in_table = TABLE.iter().any(|(name, check, _)| (*name, *check) == own);
+        !in_table && !ALSO.contains(&own)
     });
     let others: Vec<String> = others.map(|fault| fault.to_string()).collect();
     assert!(others.is_empty(), "no fault of theirs: {others:#?}");
