@@ -14,6 +14,8 @@ use crate::support::repository;
 
 /// Largest difference of a figure from the one apart, as a part of it.
 const TOLERANCE: f64 = 0.02;
+/// Turns of a window of the reference.
+const WINDOW: f64 = 64.0;
 
 fn summary(recipe: &str, set: &[&str]) -> Value {
     let file = repository().join(recipe);
@@ -46,6 +48,26 @@ fn spokes_measure_like_the_reference() {
             case["name"]
         );
         assert_eq!(found["spokes"]["per_turn"], case["per_turn"], "{case}");
+        let [arms, known] = [
+            number(&found, "/arms/amplitude_nm"),
+            number(case, "/arms/amplitude_nm"),
+        ];
+        assert!(
+            (arms / known - 1.0).abs() <= TOLERANCE,
+            "{}: {arms} nm, not {known}",
+            case["name"]
+        );
+        assert_eq!(
+            found["arms"]["per_turn"], case["arms"]["per_turn"],
+            "{case}"
+        );
+        let turn = |edge| number(&found, &format!("/arms/{edge}_mm"));
+        let pitch = number(case, "/arms/turns_apart") * (turn("to") - turn("from")) / WINDOW;
+        let found = number(&found, "/arms/pitch_mm");
+        assert!(
+            (found / pitch - 1.0).abs() < 1e-9,
+            "{found} mm, not {pitch}"
+        );
     }
 }
 

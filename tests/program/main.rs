@@ -26,6 +26,7 @@ mod maps;
 mod new_plugin;
 mod no_surface;
 mod own_sampler;
+mod packed_ablations;
 mod passes;
 mod plugins_lock;
 mod queues;

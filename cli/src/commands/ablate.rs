@@ -5,7 +5,9 @@ use std::path::Path;
 
 use turnpath::report::comparison::{Column, Language};
 use turnpath::report::{AblationReport, AblationRun, comparison, to_json};
-use turnpath::{AblationOptions, AblationPlan, AblationResult, Catalogue, Recipe, RunState};
+use turnpath::{
+    AblationOptions, AblationPlan, AblationResult, Catalogue, PackedAblation, Recipe, RunState,
+};
 use turnpath_core::printable_line;
 
 use super::output::refuse_output;
@@ -20,6 +22,12 @@ use crate::{Outcome, Status, width};
 pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::recipe(&args.recipe, catalogue)?;
+    if let Some(folder) = &args.pack {
+        refuse_output(Some(folder), "--pack")?;
+        let packed = turnpath::pack_ablation(&recipe, &catalogue, folder)?;
+        print(&packed_text(&packed))?;
+        return Ok(Status::Holds);
+    }
     let recipe = match args.equal_tolerance {
         true => recipe.set("refine", "true")?,
         false => recipe,
@@ -64,11 +72,30 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
 fn plan_text(plan: &AblationPlan, form: PlanForm) -> String {
     match form {
         PlanForm::Json => to_json(plan),
-        PlanForm::Missing => {
-            let missing = plan.runs.iter().filter(|run| run.state != RunState::Done);
-            missing.map(|run| format!("{}\n", run.key)).collect()
+        PlanForm::Open => {
+            let open = plan.runs.iter().filter(|run| run.state != RunState::Done);
+            open.map(|run| format!("{}\n", run.key)).collect()
         }
     }
+}
+
+/// What was packed, and the call that plans with it.
+fn packed_text(packed: &PackedAblation) -> String {
+    let said = |path: &Path| printable_line(&path.display().to_string()).into_owned();
+    let files = packed.files.iter();
+    let mut text: String = files
+        .map(|file| format!("  file  {}\n", said(file)))
+        .collect();
+    let recipe = packed.recipe.file_name().unwrap_or_default();
+    let plugins = match packed.has_plugins {
+        true => " --plugin-dir plugins --plugins-lock plugins.lock",
+        false => "",
+    };
+    text += &format!(
+        "\nIn this folder, on any machine: turnpath ablate {}{plugins} -o . --only KEY\n",
+        said(Path::new(recipe))
+    );
+    text
 }
 
 /// A line on a run that was made alone.
@@ -121,7 +148,7 @@ fn human(
     for (count, what) in [
         (result.reused, "taken over from before"),
         (result.failures.len(), "failed"),
-        (result.missing, "without figures"),
+        (result.without_figures, "without figures"),
     ] {
         if count > 0 {
             text += &format!(", {count} {what}");
@@ -142,7 +169,7 @@ fn status(result: AblationResult) -> Outcome {
     let all_failed = result.failures.len() == result.report.runs.len();
     match result.failures.into_iter().next() {
         Some((_, error)) if all_failed => Err(error.into()),
-        _ if result.missing > 0 => Ok(Status::Exceeded),
+        _ if result.without_figures > 0 => Ok(Status::Exceeded),
         _ => Ok(Status::Holds),
     }
 }

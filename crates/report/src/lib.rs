@@ -50,6 +50,7 @@ pub mod text;
 mod tool_fit;
 pub mod unit;
 mod unreached;
+pub mod variations;
 mod verdict;
 mod wholeness;
 
@@ -87,7 +88,7 @@ pub use sketch::{
     AxisSketch, EdgeSketch, ErrorMap, ErrorProfile, ErrorSketch, PathSketch, RadialMean,
     SpiralSketch, TurnSketch,
 };
-pub use spokes::Spokes;
+pub use spokes::{Arms, Spokes};
 pub use surface_error::{RealNose, SurfaceError};
 pub use tool_fit::{
     AngleMargin, ContactPlace, Hollow, Margins, NoseMargin, Region, Sections, Slope, ToolFit,

@@ -11,7 +11,7 @@ use crate::lead::LeadReport;
 use crate::machine::{HighestSpindle, MachineReport, all_hold};
 use crate::reach::Reach;
 use crate::servo::ServoReport;
-use crate::spokes::Spokes;
+use crate::spokes::{Arms, Spokes};
 use crate::surface_error::{RealNose, SurfaceError};
 use crate::unit;
 use crate::verdict::{Verdict, within};
@@ -46,6 +46,10 @@ pub struct PathReport {
     /// before there was such a figure. No tolerance applies to it.
     #[serde(default)]
     pub spokes: Option<Spokes>,
+    /// The largest spiral arms; `None` on a path of a few turns, and in a report that was written before
+    /// there was such a figure. No tolerance applies to it.
+    #[serde(default)]
+    pub arms: Option<Arms>,
     /// What the real nose leaves where the path takes its radius as 0; `None` elsewhere.
     #[serde(default)]
     pub real_nose: Option<RealNose>,

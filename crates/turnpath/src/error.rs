@@ -9,6 +9,7 @@ use turnpath_pipeline::PipelineError;
 use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
+use crate::ablation::PackError;
 use crate::data_files::DataFileError;
 use crate::new_plugin::NewPluginError;
 use crate::page::PageError;
@@ -79,6 +80,9 @@ pub enum Error {
     /// A new plugin cannot be written as it is asked for.
     #[error(transparent)]
     NewPlugin(#[from] NewPluginError),
+    /// The files of an ablation could not be packed.
+    #[error(transparent)]
+    Pack(#[from] PackError),
     /// A plot cannot be drawn as it is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -171,6 +175,7 @@ impl Error {
             | Self::NoProgram
             | Self::Plot(_)
             | Self::NewPlugin(_)
+            | Self::Pack(_)
             | Self::Page(PageError::NoRecipe | PageError::OtherRecipe { .. })
             | Self::Exists { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
@@ -236,6 +241,7 @@ impl Error {
             Self::Load(error) => error.help(),
             Self::Folder(error) => error.help(),
             Self::NewPlugin(error) => Some(error.help()),
+            Self::Pack(error) => Some(error.help()),
             Self::Page(PageError::NoRecipe) => Some("`--recipe FILE` gives it"),
             Self::Exists { .. } => Some("`--force` replaces it"),
             Self::NoRunOfKey { .. } => Some(

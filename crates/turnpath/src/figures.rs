@@ -114,6 +114,13 @@ pub fn path(
             from: spoke.from,
             to: spoke.to,
         }),
+        arms: figures.arms.map(|arms| report::Arms {
+            amplitude: arms.amplitude,
+            per_turn: arms.per_turn,
+            pitch: arms.pitch,
+            from: arms.from,
+            to: arms.to,
+        }),
         real_nose: cut
             .machined
             .and_then(|machined| machined.real_nose)

@@ -67,8 +67,9 @@ mod toolpath;
 mod verify;
 
 pub use ablation::{
-    AblationObserver, AblationOptions, AblationPlan, AblationResult, FIGURES, RunPlan, RunState,
-    ablate, merge_ablation, plan_ablation, run_of_ablation,
+    AblationObserver, AblationOptions, AblationPlan, AblationResult, FIGURES, PackError,
+    PackedAblation, RunPlan, RunState, ablate, merge_ablation, pack_ablation, plan_ablation,
+    run_of_ablation,
 };
 pub use commands::{commands_to_trust, controller_commands};
 pub use data_files::DataFileError;

@@ -58,7 +58,7 @@ pub use residual::{ResidualFigures, SECTIONS, cusp_heights};
 pub use servo::{FollowingError, ServoBlockFigures, ServoFigures, ServoMeter, ServoStart};
 pub use sketch::{PathSketch, SpiralSample, TurnMotion};
 pub use spectrum::{AxesLine, AxesSpectrum};
-pub use spokes::Spoke;
+pub use spokes::{SpiralArms, Spoke};
 pub use subject::Subject;
 pub use touch::{FirstTouch, Touch};
 pub use unreached::{Ride, UnreachedFigures, rides, unreached};

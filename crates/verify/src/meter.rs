@@ -11,7 +11,7 @@ use crate::playback::{PlaybackFigures, play_back};
 use crate::points::{PointFigures, point_errors};
 use crate::residual::{Passes, ResidualFigures};
 use crate::sketch::{BlockSketch, PathSketch, Sketch};
-use crate::spokes::{BlockSpokes, SegmentErrors, Spoke, Spokes};
+use crate::spokes::{BlockSpokes, SegmentErrors, SpiralArms, Spoke, Spokes};
 use crate::touch::FirstTouch;
 
 /// The figures of one block of the cutting section.
@@ -80,6 +80,8 @@ pub struct PathFigures {
     pub cutting_speed: CuttingSpeed,
     /// The largest spoke; `None` on a path of less than a turn.
     pub spoke: Option<Spoke>,
+    /// The largest spiral arms; `None` on a path of a few turns.
+    pub arms: Option<SpiralArms>,
 }
 
 /// Measures a path against its subject.
@@ -279,6 +281,7 @@ impl Meter {
         let (coverage, around_axis) = self.coverage.figures(&self.touch)?;
         figures.coverage = coverage;
         figures.spoke = self.spokes.largest();
+        figures.arms = self.spokes.largest_arms();
         if self.counts_centre {
             figures.residual.append(&around_axis);
         }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The largest spoke on paths that turnpath makes, from their toolpath.csv.
+"""The largest spoke, and the largest spiral arms, on paths that turnpath makes, from their toolpath.csv.
 
     spokes.py TURNPATH
 
@@ -10,6 +10,10 @@ A window has 64 turns (or all of a path with fewer), and begins every 32 turns; 
 the path. At each of 1024 angles of a turn, a little behind the angle, the error (played minus true Z) is
 averaged over the turns of the window whose contact lies on the part. The spoke is the largest 2|F_k| of
 these means, 3 <= k <= 512, over all windows.
+
+Arms turn by the same angle from turn to turn. On the turns of a window that lie on the part as a whole,
+F_k of each turn is taken over the turns once more, at rates of 1/256 of a period a turn. The arms are the
+largest 2|F| of these at rates from one period in the window to a quarter of a period a turn, either way.
 """
 
 import json
@@ -35,6 +39,7 @@ CASES = {
 }
 ANGLES, WINDOW, ADVANCE = 1024, 64, 32
 LOWEST, HIGHEST = 3, 512
+RATES, FEWEST_TURNS = 256, 4
 BESIDE_DEG = 1e-7
 SCAN = 33
 TOLERANCE_EXCEEDED = 1  # turnpath's exit status when a path is made but holds no tolerance
@@ -72,19 +77,36 @@ def windows(count):
     return [slice(start, start + WINDOW) for start in starts]
 
 
-def largest_spoke(recipe, path):
-    """The largest spoke of a path, nm, and its periods on a turn."""
+def arms(of_turns):
+    """The largest arms on the turns of a window, mm: their amplitude, number, and turns from one to the next."""
+    whole = ~np.any(np.isnan(of_turns), axis=1)
+    if 2 * np.count_nonzero(whole) < len(whole):
+        return (0.0, 0, 0.0)
+    harmonics = np.fft.rfft(np.where(whole[:, None], of_turns, 0.0), axis=1)[:, :HIGHEST] / ANGLES
+    rates = np.fft.fft(harmonics, RATES, axis=0)
+    slowest = -(-RATES // len(whole))
+    kept = np.arange(slowest, RATES // FEWEST_TURNS + 1)
+    if not len(kept):
+        return (0.0, 0, 0.0)
+    sizes = 2 * np.maximum(abs(rates[kept]), abs(rates[RATES - kept]))[:, LOWEST:] / np.count_nonzero(whole)
+    rate, k = np.unravel_index(np.argmax(sizes), sizes.shape)
+    return (float(sizes[rate, k]), int(k) + LOWEST, RATES / kept[rate])
+
+
+def largest_patterns(recipe, path):
+    """The largest spoke of a path, nm, and its periods on a turn; the same of arms."""
     first, last = (int(path.nodes[k, 1] // 360) for k in (0, -1))
     of_turns = errors(recipe, path, np.arange(first, last + 1))
     of_turns = of_turns[~np.all(np.isnan(of_turns), axis=1)]
-    largest = (0.0, 0)
+    largest, largest_arms = (0.0, 0), (0.0, 0, 0.0)
     for window in windows(len(of_turns)):
         mean = np.nanmean(of_turns[window], axis=0)
         amplitudes = 2 * np.abs(np.fft.rfft(mean))[:HIGHEST + 1] / ANGLES
         amplitudes[HIGHEST] /= 1 + (2 * HIGHEST == ANGLES)
         k = LOWEST + int(np.argmax(amplitudes[LOWEST:]))
         largest = max(largest, (float(amplitudes[k]) * NM_PER_MM, k))
-    return largest
+        largest_arms = max(largest_arms, arms(of_turns[window]))
+    return largest, (largest_arms[0] * NM_PER_MM, *largest_arms[1:])
 
 
 def main():
@@ -98,11 +120,13 @@ def main():
             if run.returncode not in (0, TOLERANCE_EXCEEDED):
                 raise SystemExit(f"{name}: exit {run.returncode}\n{run.stderr}")
             path = ToolPath.read(Path(folder) / "toolpath.csv")
-        amplitude, per_turn = largest_spoke(Recipe.read(recipe), path)
+        (amplitude, per_turn), (of_arms, arms_per_turn, turns) = largest_patterns(Recipe.read(recipe), path)
         file = str(recipe.relative_to(HERE.parents[2]))
         figures.append({"name": name, "recipe": file, "set": changes, "points": path.rows,
-                        "amplitude_nm": amplitude, "per_turn": per_turn})
-        print(f"{name}: {amplitude:.3f} nm, {per_turn} a turn, {path.rows} points")
+                        "amplitude_nm": amplitude, "per_turn": per_turn,
+                        "arms": {"amplitude_nm": of_arms, "per_turn": arms_per_turn, "turns_apart": turns}})
+        print(f"{name}: {amplitude:.3f} nm, {per_turn} a turn, {path.rows} points; arms {of_arms:.3f} nm, "
+              f"{arms_per_turn} a turn, {turns:.1f} turns apart")
     (HERE / "spokes.json").write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
 
 

@@ -26,6 +26,7 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     text += &played_cusp(path.played_cusp.as_ref());
     text += &surface_error(path.surface_error.as_ref());
     text += &spokes(path.spokes.as_ref());
+    text += &arms(path);
     text += &real_nose(path.real_nose.as_ref());
     if let Some(report) = &path.form {
         text += &form(report, verdict.form);
@@ -86,6 +87,19 @@ fn spokes(spokes: Option<&Spokes>) -> String {
         let periods = spokes.per_turn;
         let text = format!("{amplitude:>12} with {periods} periods a turn, from {from} to {to}");
         line("spokes", text)
+    })
+}
+
+/// The line on spiral arms, where they are larger than the spokes.
+fn arms(path: &PathReport) -> String {
+    let of_spokes = path.spokes.map_or(0.0, |spokes| spokes.amplitude);
+    let larger = path.arms.filter(|arms| arms.amplitude > of_spokes);
+    larger.map_or_else(String::new, |arms| {
+        let amplitude = small_length(arms.amplitude);
+        let [pitch, from, to] = [arms.pitch, arms.from, arms.to].map(|mm| millimetres(mm, 4));
+        let count = arms.per_turn;
+        let text = format!("{amplitude:>12} with {count} arms, {pitch} apart, from {from} to {to}");
+        line("spiral arms", text)
     })
 }
 

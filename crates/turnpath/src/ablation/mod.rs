@@ -9,6 +9,8 @@ mod key;
 mod merge;
 mod observer;
 mod one_run;
+mod pack;
+mod pack_error;
 mod plan;
 mod record;
 mod runs;
@@ -32,6 +34,8 @@ use key::{Key, Keys};
 pub use merge::merge_ablation;
 pub use observer::AblationObserver;
 pub use one_run::run_of_ablation;
+pub use pack::{PackedAblation, pack_ablation};
+pub use pack_error::PackError;
 pub use plan::{AblationPlan, RunPlan, RunState, plan_ablation};
 use record::{Records, RunRecord};
 use runs::Outcome;
@@ -59,9 +63,9 @@ pub struct AblationResult {
     pub reused: usize,
     /// Why runs failed, with their places in the report.
     pub failures: Vec<(usize, Error)>,
-    /// How many runs have no figures because nothing was made: those without a record, or with one of
-    /// a failure.
-    pub missing: usize,
+    /// How many runs have no figures because nothing was made: those without a record, and those that
+    /// failed or were begun.
+    pub without_figures: usize,
 }
 
 /// Makes the variants that a recipe's `[ablation]` lists and writes their figures. Tolerances that
@@ -91,9 +95,14 @@ pub fn ablate(
         recorded,
         options.threads,
         observer,
-        |index, run| match keys.get(index) {
-            Some(key) => records.keep(Some(files.folder()), key, run),
-            None => Err(Error::RunLost),
+        |index, outcome| {
+            let place = keys.get(index).zip(variants.get(index));
+            let (key, variant) = place.ok_or(Error::RunLost)?;
+            let folder = Some(files.folder());
+            match outcome {
+                Ok(run) => records.keep(folder, key, run),
+                Err(error) => records.keep(folder, key, &failed(variant, error.title())),
+            }
         },
     )?;
     let (runs, failures) = rows(&variants, outcomes);
@@ -103,7 +112,7 @@ pub fn ablate(
         report,
         reused,
         failures,
-        missing: 0,
+        without_figures: 0,
     })
 }
 
@@ -147,7 +156,7 @@ fn recorded(
         true => None,
         false => match records.read(key, observer) {
             RunRecord::Measured(run) => Some(*run),
-            RunRecord::Failed(_) | RunRecord::None => None,
+            RunRecord::Failed(_) | RunRecord::Begun(_) | RunRecord::None => None,
         },
     };
     keys.iter().map(one).collect()

@@ -5,11 +5,13 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::SilentObserver;
-use turnpath_recipe::Recipe;
+use turnpath_recipe::{Recipe, Variant};
+use turnpath_report::variations;
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
 
+use super::key::Key;
 use super::record::{Records, RunRecord};
 use super::{variants, varied};
 
@@ -33,6 +35,7 @@ pub struct RunPlan {
     /// What [`run_of_ablation`](crate::run_of_ablation) knows it by.
     pub key: String,
     /// Each key of the recipe that varies, with this run's value in words.
+    #[serde(with = "variations")]
     pub varied: Vec<(String, String)>,
     /// Whether it has a record.
     pub state: RunState,
@@ -46,7 +49,9 @@ pub enum RunState {
     Done,
     /// It was tried and failed.
     Failed,
-    /// It is to be made.
+    /// It is being made, or was lost with its process.
+    Begun,
+    /// It was not tried yet.
     Missing,
 }
 
@@ -63,8 +68,13 @@ pub fn plan_ablation(
 ) -> Result<AblationPlan, Error> {
     let data = DataFiles::default();
     let (variants, keys) = variants(recipe, catalogue, &data)?;
+    Ok(plan_of(&variants, &keys, folder))
+}
+
+/// The plan of these variants.
+pub(super) fn plan_of(variants: &[Variant], keys: &[Key], folder: &Path) -> AblationPlan {
     let records = Records::of(folder);
-    let runs = variants.iter().zip(&keys).enumerate();
+    let runs = variants.iter().zip(keys).enumerate();
     let runs = runs.map(|(index, (variant, key))| RunPlan {
         index,
         key: key.hash.clone(),
@@ -72,11 +82,12 @@ pub fn plan_ablation(
         state: match records.read(key, &SilentObserver) {
             RunRecord::Measured(_) => RunState::Done,
             RunRecord::Failed(_) => RunState::Failed,
+            RunRecord::Begun(_) => RunState::Begun,
             RunRecord::None => RunState::Missing,
         },
     });
-    Ok(AblationPlan {
+    AblationPlan {
         format: FORMAT,
         runs: runs.collect(),
-    })
+    }
 }

@@ -10,6 +10,11 @@
 //! ends with the path. The largest harmonic of these mean turns is the figure. The harmonics of a
 //! mean turn are the complex means of the harmonics of its turns, so one Fourier transform for each
 //! window gives them.
+//!
+//! A pattern that turns slowly does not stay at its angles: [`arms`] finds it.
+
+mod arms;
+mod turn;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -23,14 +28,10 @@ use turnpath_core::toolpath::Segment;
 use crate::instants::INSTANTS;
 use crate::touch::Touch;
 
-/// Angles of a mean turn: four for each period of the highest harmonic.
-const ANGLES: usize = 4 * HIGHEST;
-/// The lowest harmonic. Below it are tilt and astigmatism, which are no spokes.
-const LOWEST: usize = 3;
-/// The highest harmonic.
-const HIGHEST: usize = 512;
-/// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
-const WINDOW: usize = 64;
+use arms::Arms;
+pub use arms::SpiralArms;
+use turn::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
+
 /// Turns from one window to the next: a pattern that stays for as many fills half of a window.
 const ADVANCE: usize = 32;
 /// C follows a straight line if it leaves it by less than this part of the segment.
@@ -49,44 +50,6 @@ pub struct Spoke {
     pub from: f64,
     /// The largest, mm.
     pub to: f64,
-}
-
-/// The errors of one turn.
-#[derive(Debug, Clone)]
-struct Turn {
-    /// C in turns, rounded down.
-    number: i64,
-    /// The error at each angle, mm; NaN where no contact lies on the part.
-    errors: Vec<f64>,
-    from: f64,
-    to: f64,
-}
-
-impl Turn {
-    fn new(number: i64) -> Self {
-        Self {
-            number,
-            errors: vec![f64::NAN; ANGLES],
-            from: f64::INFINITY,
-            to: 0.0,
-        }
-    }
-
-    fn include(&mut self, angle: usize, error: f64, foot: f64) {
-        self.errors[angle] = error;
-        self.from = self.from.min(foot);
-        self.to = self.to.max(foot);
-    }
-
-    /// Adds the part of this turn that lies in the next block.
-    fn join(&mut self, rest: &Self) {
-        let known = rest.errors.iter().enumerate().filter(|(_, e)| !e.is_nan());
-        for (angle, error) in known {
-            self.errors[angle] = *error;
-        }
-        self.from = self.from.min(rest.from);
-        self.to = self.to.max(rest.to);
-    }
 }
 
 /// What was found on one segment.
@@ -178,6 +141,8 @@ pub(crate) struct Spokes {
     largest: Option<Spoke>,
     /// The largest amplitude of each harmonic over all windows before, mm; empty before the first.
     harmonics: Vec<f64>,
+    /// What comes back at other angles.
+    arms: Arms,
 }
 
 impl Default for Spokes {
@@ -189,6 +154,7 @@ impl Default for Spokes {
             until_next: WINDOW,
             largest: None,
             harmonics: Vec::new(),
+            arms: Arms::default(),
         }
     }
 }
@@ -206,7 +172,11 @@ impl Spokes {
 
     /// Begins the path's next turn: the one before is whole.
     fn push(&mut self, turn: Turn) {
+        if let Some(last) = self.window.back() {
+            self.arms.include(last);
+        }
         if self.until_next == 0 {
+            self.arms.look(self.radii());
             let amplitudes = self.amplitudes();
             self.largest = larger(self.largest, self.spoke(&amplitudes));
             self.harmonics = largest_of_each(&self.harmonics, &amplitudes);
@@ -222,6 +192,21 @@ impl Spokes {
     /// The largest spoke so far; `None` if no window has errors at all angles.
     pub fn largest(&self) -> Option<Spoke> {
         larger(self.largest, self.spoke(&self.amplitudes()))
+    }
+
+    /// The largest spiral arms so far; `None` on a path of a few turns.
+    pub fn largest_arms(&self) -> Option<SpiralArms> {
+        let mut arms = self.arms.clone();
+        arms.include(self.window.back()?);
+        arms.look(self.radii());
+        arms.largest()
+    }
+
+    /// The smallest and the largest radius of a contact in the window, mm.
+    fn radii(&self) -> [f64; 2] {
+        let from = self.window.iter().map(|turn| turn.from);
+        let to = self.window.iter().map(|turn| turn.to);
+        [from.fold(f64::INFINITY, f64::min), to.fold(0.0, f64::max)]
     }
 
     /// The largest amplitude of each harmonic over all windows so far, mm: entry k has k periods a
@@ -246,14 +231,12 @@ impl Spokes {
     fn spoke(&self, amplitudes: &[f64]) -> Option<Spoke> {
         let spokes = amplitudes.iter().copied().enumerate().skip(LOWEST);
         let (per_turn, amplitude) = spokes.max_by(|one, other| one.1.total_cmp(&other.1))?;
-        let turns = self.window.iter();
+        let [from, to] = self.radii();
         Some(Spoke {
             amplitude,
             per_turn,
-            from: turns
-                .clone()
-                .fold(f64::INFINITY, |r, turn| r.min(turn.from)),
-            to: turns.fold(0.0, |r, turn| r.max(turn.to)),
+            from,
+            to,
         })
     }
 
@@ -403,6 +386,55 @@ mod tests {
         let wave = |turn: usize, c: f64| turn as f64 * Scalar::cos(9.0 * c);
         let found = largest(&[block(0..3, 0.0, wave)]).unwrap();
         assert!(is_near(found.amplitude, 1.0), "{found:?}");
+    }
+
+    fn largest_arms(blocks: &[BlockSpokes]) -> Option<SpiralArms> {
+        let mut spokes = Spokes::default();
+        blocks.iter().for_each(|block| spokes.append(block));
+        spokes.largest_arms()
+    }
+
+    /// The turn of number k has the radius k, so a pitch of p mm is one of p turns.
+    #[test]
+    fn a_wave_that_turns_evenly_stands_as_arms_with_their_pitch() {
+        for (turns_round, sense) in [(62.0, 1.0), (16.0, -1.0), (5.0, 1.0)] {
+            let wave = |turn: usize, c: f64| {
+                2e-3 * Scalar::sin(7.0 * c + sense * TAU * turn as f64 / turns_round)
+            };
+            let found = largest_arms(&[block(0..30, 0.0, wave), block(30..96, 0.0, wave)]).unwrap();
+            assert_eq!(found.per_turn, 7);
+            // Between two rates a fortieth is lost.
+            assert!((found.amplitude / 2e-3 - 0.99).abs() < 0.015, "{found:?}");
+            assert!((found.pitch / turns_round - 1.0).abs() < 0.12, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_wave_that_stays_or_turns_as_fast_as_the_feed_is_no_arms() {
+        for turns_round in [f64::INFINITY, 2.0, 3.0] {
+            let wave = |turn: usize, c: f64| Scalar::sin(7.0 * c + TAU * turn as f64 / turns_round);
+            let found = largest_arms(&[block(0..64, 0.0, wave)]);
+            // The sides of its peak.
+            assert!(found.is_none_or(|arms| arms.amplitude < 0.25), "{found:?}");
+        }
+        assert_eq!(
+            largest_arms(&[block(0..3, 0.0, |_, c| Scalar::sin(7.0 * c))]),
+            None
+        );
+        assert_eq!(largest_arms(&[]), None);
+    }
+
+    #[test]
+    fn turns_beside_the_part_do_not_count_for_arms() {
+        let wave = |turn: usize, c: f64| Scalar::sin(7.0 * c + TAU * turn as f64 / 16.0);
+        let mut found = block(0..64, 0.0, wave);
+        found.turns[0].errors[5] = f64::NAN;
+        let arms = largest_arms(std::slice::from_ref(&found)).unwrap();
+        assert!((arms.amplitude - 1.0).abs() < 0.03, "{arms:?}");
+        for turn in &mut found.turns[..40] {
+            turn.errors[5] = f64::NAN;
+        }
+        assert_eq!(largest_arms(&[found]), None);
     }
 
     #[test]

@@ -1,0 +1,137 @@
+//! Spiral arms: the error that comes back a little further on, turn after turn.
+//!
+//! A pattern of k periods a turn that turns by the same angle from turn to turn stands on the part as k
+//! arms. Over the turns of a window its harmonic F_k runs through a circle at an even rate, so the
+//! Fourier transform of F_k over the turns finds it. Spokes are the arms that do not turn at all.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlannerScalar};
+
+use super::turn::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
+
+/// Rates that are tried, all around: four for each one that fits into a window, so that at most a
+/// fortieth of an amplitude is lost between two of them.
+const RATES: usize = 4 * WINDOW;
+/// The fewest turns after which arms come back to an angle. Finer ones are as fine as the marks of the
+/// tool.
+const FEWEST_TURNS: usize = 4;
+
+/// The largest spiral arms of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpiralArms {
+    /// Amplitude of the pattern of machined − wanted along z, mm: half its peak to valley.
+    pub amplitude: f64,
+    /// Arms: periods on a turn.
+    pub per_turn: usize,
+    /// From arm to arm along a radius, mm.
+    pub pitch: f64,
+    /// The smallest radius of a contact in their window, mm.
+    pub from: f64,
+    /// The largest, mm.
+    pub to: f64,
+}
+
+/// The harmonics of the last turns of a path, and the largest arms on it so far.
+#[derive(Clone)]
+pub(super) struct Arms {
+    of_turn: Arc<dyn Fft<f64>>,
+    over_turns: Arc<dyn Fft<f64>>,
+    /// F_k of each turn of the window from the lowest harmonic on; empty for a turn that lies in part
+    /// beside the part.
+    turns: VecDeque<Vec<Complex<f64>>>,
+    largest: Option<SpiralArms>,
+}
+
+impl Default for Arms {
+    fn default() -> Self {
+        // The scalar planner uses no vector instructions, which not every CPU has.
+        let mut planner = FftPlannerScalar::new();
+        Self {
+            of_turn: planner.plan_fft_forward(ANGLES),
+            over_turns: planner.plan_fft_forward(RATES),
+            turns: VecDeque::with_capacity(WINDOW),
+            largest: None,
+        }
+    }
+}
+
+impl Arms {
+    /// Adds the path's next turn, which is whole.
+    pub(super) fn include(&mut self, turn: &Turn) {
+        if self.turns.len() == WINDOW {
+            self.turns.pop_front();
+        }
+        self.turns.push_back(self.harmonics(turn));
+    }
+
+    fn harmonics(&self, turn: &Turn) -> Vec<Complex<f64>> {
+        if turn.errors.iter().any(|error| error.is_nan()) {
+            return Vec::new();
+        }
+        let errors = turn.errors.iter().map(|error| Complex::new(*error, 0.0));
+        let mut harmonics: Vec<_> = errors.collect();
+        self.of_turn.process(&mut harmonics);
+        let counted = harmonics.get(LOWEST..=HIGHEST).unwrap_or_default();
+        let of_mean = |value: &Complex<f64>| value / ANGLES as f64;
+        counted.iter().map(of_mean).collect()
+    }
+
+    /// Looks for larger arms on the turns of the window, whose contacts lie between two radii.
+    pub(super) fn look(&mut self, [from, to]: [f64; 2]) {
+        let whole: Vec<&Vec<_>> = self.turns.iter().filter(|turn| !turn.is_empty()).collect();
+        // Where many turns lie in part beside the part, nothing is known of the others.
+        if 2 * whole.len() < self.turns.len() {
+            return;
+        }
+        let mut largest = self.largest.map_or(0.0, |arms| arms.amplitude);
+        let mut over_turns = vec![Complex::default(); RATES];
+        for k in LOWEST..=HIGHEST {
+            let of_turn = |turn: &[Complex<f64>]| turn.get(k - LOWEST).copied().unwrap_or_default();
+            let sizes = whole.iter().map(|turn| of_turn(turn).norm());
+            // No pattern is larger than its harmonic on the turns is in the mean.
+            if 2.0 * sizes.sum::<f64>() <= largest * whole.len() as f64 {
+                continue;
+            }
+            over_turns.fill(Complex::default());
+            for (slot, turn) in over_turns.iter_mut().zip(&self.turns) {
+                *slot = of_turn(turn);
+            }
+            self.over_turns.process(&mut over_turns);
+            let found = largest_rate(&over_turns, self.turns.len());
+            let Some((rate, size)) = found else { continue };
+            let amplitude = 2.0 * size / whole.len() as f64;
+            if amplitude > largest {
+                let turns_round = RATES as f64 / rate as f64;
+                largest = amplitude;
+                self.largest = Some(SpiralArms {
+                    amplitude,
+                    per_turn: k,
+                    pitch: turns_round * (to - from) / self.turns.len() as f64,
+                    from,
+                    to,
+                });
+            }
+        }
+    }
+
+    /// The largest arms so far.
+    pub(super) fn largest(&self) -> Option<SpiralArms> {
+        self.largest
+    }
+}
+
+/// The rate, in either sense, with the largest size. Slower ones than one period in so many turns are
+/// spokes, as far as the window can tell.
+fn largest_rate(over_turns: &[Complex<f64>], turns: usize) -> Option<(usize, f64)> {
+    let slowest = RATES.div_ceil(turns.max(1));
+    let rates = slowest..=RATES / FEWEST_TURNS;
+    let sizes = rates.filter_map(|rate| {
+        let forwards = over_turns.get(rate)?.norm();
+        let backwards = over_turns.get(RATES - rate)?.norm();
+        Some((rate, forwards.max(backwards)))
+    });
+    sizes.max_by(|one, other| one.1.total_cmp(&other.1))
+}
