@@ -96,6 +96,16 @@ def with_attribute(n):
     return made
 
 
+def with_changed_attribute(n):
+    def made(path, block):
+        return made.count
+
+    made.count = 0
+    strategy = turnpath.sampler(made)
+    strategy.count = n
+    return strategy
+
+
 def with_keyword(n):
     @turnpath.sampler(name="made")
     def made(path, block, *, count: int = n):
@@ -131,6 +141,7 @@ LAMBDAS = [lambda x: x + 1, lambda x: x + 2]  # of one line
         (with_class, 1, 2),
         (with_inner_global, 1, 2),
         (with_attribute, 1, 2),
+        (with_changed_attribute, 1, 2),
     ],
 )
 def test_another_value_is_another_identity_and_the_same_value_is_not(make, one, other):

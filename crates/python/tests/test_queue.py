@@ -117,3 +117,18 @@ def test_a_run_that_is_not_made_yet_is_a_row_that_says_so(lab, tmp_path, monkeyp
     given = {"strategies": [lab_strategies], "folder": tmp_path / "out"}
     merged = turnpath.merge(tmp_path / "part.toml", **given)
     assert merged.reused == 0 and all(row["reason"] and row["points"] is None for row in merged)
+
+
+def test_the_program_says_which_runs_have_no_record(installed_lab, tmp_path, part):
+    text = LAB + "\n\nrng = np.random.default_rng(1)\n\n\n@turnpath.sampler\ndef lab_random(path, block):\n"
+    text += "    return lab_even(path, block, 60 + rng.integers(1))\n"
+    (tmp_path / "lab_strategies.py").write_text(text)
+    part["ablation"] = {"sampler": [{"use": "lab-random"}]}
+    (tmp_path / "part.toml").write_text(tomli_w.dumps(part))
+    program = ["-m", "turnpath", "ablate", "part.toml", "-o", "out"]
+    ran = called(installed_lab, tmp_path, *program)
+    assert ran.returncode == 0, ran.stderr
+    words = " ".join(ran.stdout.split())
+    assert "1 run has no record, because of the sampler lab-random: it takes `rng`" in words, words
+    planned = called(installed_lab, tmp_path, *program, "--plan")
+    assert planned.returncode == 2 and "sampler lab-random" in planned.stderr

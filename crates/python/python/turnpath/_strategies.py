@@ -104,9 +104,13 @@ class Strategy:
         """All that its answers depend on, by names for messages."""
         own = ("slot", "function", "name", "summary", "options", "params", "declaration", "version")
         known = {*own, *functools.WRAPPER_ASSIGNMENTS, "__wrapped__", "__type_params__"}
-        # An attribute that the function's author keeps here is no option.
-        known |= vars(self.function).keys()
-        more = [(key, value) for key, value in sorted(vars(self).items()) if key not in known]
+        # What a decorated function had already is written with the function.
+        had = vars(self.function)
+        more = [
+            (key, value)
+            for key, value in sorted(vars(self).items())
+            if key not in known and not (key in had and had[key] is value)
+        ]
         parts = [("slot", self.slot), ("declaration", self.declaration), ("function", self.function)]
         return [*parts, *sorted(self.options.items()), *more]
 
