@@ -241,19 +241,6 @@ def test_a_child_that_was_forked_during_a_run_says_spawn_and_one_afterwards_runs
     assert after == "runs True" and active == "0"
 
 
-def test_many_calls_at_a_time_are_counted(part):
-    session = turnpath._session
-    threads = [
-        threading.Thread(target=lambda: [session._count_active(change) for change in (1, -1) * 2000])
-        for _ in range(8)
-    ]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert session._active == 0
-
-
 @pytest.mark.parametrize("threads", [-1, 1025, 100_000])
 def test_a_count_of_threads_that_nobody_has_is_refused(part, threads):
     before = threading.active_count()
