@@ -231,11 +231,12 @@ pub struct AblateArgs {
     /// Make all runs anew, also those that were made before
     #[arg(long)]
     pub fresh: bool,
-    /// Print the runs with their keys, and which of them are done, as JSON; or the keys of the missing
-    /// ones, a line each; make nothing
+    /// Print the runs with their keys, and which of them are done, as JSON; or the keys of those that
+    /// are not, a line each; make nothing
     #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "json")]
     #[arg(conflicts_with_all = ["only", "merge", "fresh", "table", "format", "quiet"])]
+    #[arg(conflicts_with_all = ["sort", "columns", "no_ratio"])]
     pub plan: Option<PlanForm>,
     /// Write the recipe, its data files and plugins, and the plan into a new folder, which can be
     /// carried to another machine; make nothing
@@ -258,7 +259,7 @@ pub enum PlanForm {
     /// All runs, with what varies and whether they are done
     Json,
     /// The keys of the runs that are not done, a line each
-    Missing,
+    Open,
 }
 
 /// The language of a table.

@@ -163,7 +163,7 @@ impl AblationObserver for RunsBar {
     fn damaged(&self, record: &Path, why: &str) {
         let name = record.display().to_string();
         note(&printable_line(&format!(
-            "{name} is damaged ({why}); its run is made again"
+            "{name} is damaged ({why}) and counts as no record"
         )));
     }
 

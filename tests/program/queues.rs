@@ -80,7 +80,7 @@ fn runs_that_are_made_alone_give_the_table_of_one_call() {
     assert!(said.stdout.contains("would gouge"), "{said}");
     assert_eq!(table(&bench, "parts"), table(&bench, "whole"));
     let missing = bench
-        .line("ablate recipe.toml --plan=missing -o parts")
+        .line("ablate recipe.toml --plan=open -o parts")
         .ends(0);
     assert_eq!(missing.stdout, format!("{}\n", runs[2].0));
 }
@@ -92,7 +92,7 @@ fn a_run_that_was_lost_is_a_row_and_can_be_made_again() {
     let (key, _) = &plan(&bench, "out")[1];
     fs::remove_file(bench.path(format!("out/runs/{key}.json"))).unwrap();
     let said = bench.line("ablate recipe.toml -o out --merge").ends(1);
-    assert!(said.stdout.contains("no record of it yet"), "{said}");
+    assert!(said.stdout.contains("not made yet"), "{said}");
     bench
         .line(&format!("ablate recipe.toml -o out --only {key}"))
         .ends(0);
@@ -105,51 +105,88 @@ fn a_key_that_no_run_has_is_refused() {
     assert!(said.stderr.contains("--plan"), "{said}");
 }
 
-/// Runs a script of docs/queues in the bench's folder, with the tests' program first on the path, if
-/// its tool is installed.
-fn by_script(tool: &str, script: &str) {
-    let is_there = Command::new("sh")
-        .args(["-c", &format!("command -v {tool}")])
-        .output();
-    if !is_there.is_ok_and(|found| found.status.success()) {
-        eprintln!("{script} is not tried: `{tool}` is not installed");
-        return;
-    }
+/// Runs a script of docs/queues in the bench's folder, with the tests' program first on the path. Names
+/// have what a shell would take apart.
+fn by_script(script: &str) {
     let bench = bench();
-    bench.line("ablate recipe.toml -o whole").ends(0);
+    bench
+        .line("ablate recipe.toml -o whole --set refine=true")
+        .ends(0);
+    fs::rename(bench.path("recipe.toml"), bench.path("a part;$x.toml")).unwrap();
     let program = Path::new(TURNPATH).parent().unwrap();
     let path = std::env::var("PATH").unwrap();
     let ended = Command::new(repository().join("docs/queues").join(script))
-        .args(["recipe.toml", "parts"])
+        .args(["a part;$x.toml", "its parts", "--set", "refine=true"])
         .current_dir(bench.path("."))
         .env("PATH", format!("{}:{path}", program.display()))
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(1), "one run gouges: {said}");
-    assert_eq!(table(&bench, "parts"), table(&bench, "whole"));
+    assert_eq!(table(&bench, "its parts"), table(&bench, "whole"));
+}
+
+/// A worker that is killed in the middle of a run leaves it begun, and the next one makes it.
+#[cfg(unix)]
+#[test]
+fn a_run_whose_worker_is_killed_is_not_done_and_is_made_again() {
+    let bench = bench();
+    let key = plan(&bench, "out")[0].0.clone();
+    let finer = ["--set", "tolerance.residual=1 nm"];
+    let planned = bench.call(
+        ["ablate", "recipe.toml", "-o", "out", "--plan=open"]
+            .iter()
+            .chain(&finer),
+    );
+    let slow = planned.ends(0).stdout.lines().next().unwrap().to_owned();
+    assert_ne!(slow, key, "another value has another key");
+    let call = [
+        "ablate",
+        "recipe.toml",
+        "-o",
+        "out",
+        "--quiet",
+        "--only",
+        &slow,
+    ];
+    let mut worker = bench.command(call.iter().chain(&finer)).spawn().unwrap();
+    let record = bench.path(format!("out/runs/{slow}.json"));
+    while !record.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    worker.kill().unwrap();
+    worker.wait().unwrap();
+    let plan_again = ["ablate", "recipe.toml", "-o", "out", "--plan"];
+    let said = bench.call(plan_again.iter().chain(&finer)).ends(0).json();
+    assert_eq!(said["runs"][0]["state"], "begun", "{said}");
+    let merge = ["ablate", "recipe.toml", "-o", "out", "--merge"];
+    let merged = bench.call(merge.iter().chain(&finer)).ends(1);
+    assert!(merged.stdout.contains("begun and not ended"), "{merged}");
+    bench.call(call.iter().chain(&finer)).ends(0);
+    let said = bench.call(plan_again.iter().chain(&finer)).ends(0).json();
+    assert_eq!(said["runs"][0]["state"], "done", "{said}");
 }
 
 #[test]
-#[ignore = "needs GNU parallel; `cargo xtask long` runs it"]
-fn long_gnu_parallel_makes_the_table() {
-    by_script("parallel", "parallel.sh");
+#[ignore = "needs GNU parallel; `cargo xtask long` runs it where it is installed"]
+fn long_queue_gnu_parallel_makes_the_table() {
+    by_script("parallel.sh");
 }
 
 #[test]
-#[ignore = "needs HyperQueue; `cargo xtask long` runs it"]
-fn long_hyperqueue_makes_the_table() {
-    by_script("hq", "hyperqueue.sh");
+#[ignore = "needs HyperQueue; `cargo xtask long` runs it where it is installed"]
+fn long_queue_hyperqueue_makes_the_table() {
+    by_script("hyperqueue.sh");
 }
 
 #[test]
-#[ignore = "needs dask.distributed; `cargo xtask long` runs it"]
-fn long_dask_makes_the_table() {
-    by_script("dask", "dask_queue.py");
+#[ignore = "needs dask.distributed; `cargo xtask long` runs it where it is installed"]
+fn long_queue_dask_makes_the_table() {
+    by_script("dask_queue.py");
 }
 
 #[test]
-#[ignore = "needs Slurm; `cargo xtask long` runs it"]
-fn long_slurm_makes_the_table() {
-    by_script("sbatch", "slurm.sh");
+#[ignore = "needs Slurm; `cargo xtask long` runs it where it is installed"]
+fn long_queue_slurm_makes_the_table() {
+    by_script("slurm.sh");
 }

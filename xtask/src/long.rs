@@ -12,6 +12,9 @@ use crate::{browser, deny, fuzz, msrv, python_package};
 /// A larger `PROPTEST_CASES` in the environment counts.
 const RANDOM_CASES: u32 = 256;
 
+/// How the names of tests begin that need a queue.
+const QUEUES: &str = "long_queue_";
+
 /// The interpreter for which Debian builds LinuxCNC's module `gcode`.
 const SYSTEM_PYTHON: &str = "/usr/bin/python3";
 /// How long random recipes are measured, s: a sample of them, some seconds each.
@@ -28,6 +31,7 @@ report: tests/reference/report/report.cjs, pages in Chromium by playwright-core
 schema: tests/reference/schema/schema.py, the schema of recipes by taplo
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
+queues: the scripts of docs/queues by GNU parallel, HyperQueue, dask.distributed and Slurm
 book: `mdbook build docs`, the pages as a book with search
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
@@ -65,6 +69,7 @@ pub fn run_checks() -> Vec<Step> {
         Step::run("programs", || with_packages(&[], programs)),
         Step::run("book", book),
     ];
+    steps.extend(queues());
     steps.extend(fuzz::run_targets(&[]));
     steps.extend(msrv::run_checks());
     steps.extend(deny::run_checks());
@@ -78,8 +83,37 @@ fn ignored() -> Outcome {
     }
     let words = ["test", "--locked", "--workspace", "--release", "--tests"];
     let mut tests = cargo(&words);
-    tests.args(["--", "--ignored"]);
+    tests.args(["--", "--ignored", "--skip", QUEUES]);
     run(tests)
+}
+
+/// The scripts of docs/queues, each where its queue is there.
+fn queues() -> Vec<Step> {
+    let there = |program: &str, words: &[&str]| succeeds(command(program, words));
+    let queues = [
+        ("gnu_parallel", there("parallel", &["--version"])),
+        ("hyperqueue", there("hq", &["server", "info"])),
+        ("dask", there("python3", &["-c", "import dask.distributed"])),
+        ("slurm", there("sinfo", &["--noheader"])),
+    ];
+    let step = |(name, is_there): (&str, bool)| {
+        Step::run(format!("queue {name}"), || match is_there {
+            true => run(cargo(&[
+                "test",
+                "--locked",
+                "--release",
+                "-p",
+                "turnpath-cli",
+                "--test",
+                "program",
+                "--",
+                "--ignored",
+                &format!("{QUEUES}{name}"),
+            ])),
+            false => Outcome::Skipped("it is not installed, or its server does not run".to_owned()),
+        })
+    };
+    queues.into_iter().map(step).collect()
 }
 
 /// The libraries' tests and those that a crate has in `tests/all`.

@@ -73,9 +73,9 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
 fn plan_text(plan: &AblationPlan, form: PlanForm) -> String {
     match form {
         PlanForm::Json => to_json(plan),
-        PlanForm::Missing => {
-            let missing = plan.runs.iter().filter(|run| run.state != RunState::Done);
-            missing.map(|run| format!("{}\n", run.key)).collect()
+        PlanForm::Open => {
+            let open = plan.runs.iter().filter(|run| run.state != RunState::Done);
+            open.map(|run| format!("{}\n", run.key)).collect()
         }
     }
 }
@@ -149,7 +149,7 @@ fn human(
     for (count, what) in [
         (result.reused, "taken over from before"),
         (result.failures.len(), "failed"),
-        (result.missing, "without figures"),
+        (result.without_figures, "without figures"),
     ] {
         if count > 0 {
             text += &format!(", {count} {what}");
@@ -194,7 +194,7 @@ fn status(result: AblationResult) -> Outcome {
     let all_failed = result.failures.len() == result.report.runs.len();
     match result.failures.into_iter().next() {
         Some((_, error)) if all_failed => Err(error.into()),
-        _ if result.missing > 0 => Ok(Status::Exceeded),
+        _ if result.without_figures > 0 => Ok(Status::Exceeded),
         _ => Ok(Status::Holds),
     }
 }

@@ -17,10 +17,9 @@ pub fn new_plugin(args: &NewPluginArgs, catalogue: Catalogue) -> Outcome {
     };
     let crates = match &args.crates {
         None => CrateSource::of_this_build(),
-        Some(text) => text
-            .parse()
-            .map_err(|error| Error::from(NewPluginError::Source(error)))?,
+        Some(text) => text.parse(),
     };
+    let crates = crates.map_err(|error| Error::from(NewPluginError::Source(error)))?;
     let request = PluginRequest {
         name: args.name.clone(),
         slot,

@@ -91,6 +91,15 @@ fn touches(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
             theta: theta[i],
             rho: x[i],
         };
+        let answers = [
+            ("X of the centre", x[i]),
+            ("Z of the centre", z[i]),
+            ("the contact's radius", foot[i]),
+        ];
+        if let Some((of, value)) = answers.into_iter().find(|(_, value)| !value.is_finite()) {
+            let place = points[i];
+            return Err(FaultKind::NoNumber { of, place, value });
+        }
         let differs = |one: f64, other: f64| (one - other).abs() > slack;
         let height = z[i] - found[i].z;
         if height < -LARGEST_GAP {

@@ -14,8 +14,9 @@ pub const STEPS: usize = 20;
 const POWER_SLACK: f64 = 0.12;
 /// A rest below this part of the largest value along the curve counts as rounding.
 const ROUNDING: f64 = 1e-12;
-/// How many of the curves that say something must show a wrong term: a crease shows on few curves.
-const SHARE: f64 = 0.5;
+/// How many of the curves that say something must show a wrong term. A crease within the last steps of
+/// a curve looks like one, which happens on hardly any curve.
+const SHARE: f64 = 0.05;
 /// Fewest curves that must show it.
 const FEWEST: usize = 3;
 

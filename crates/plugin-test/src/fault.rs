@@ -1,6 +1,7 @@
 //! What a check found, in words of the trade.
 
-use turnpath_core::{Limit, NM, Slot, StrategyError, UM};
+use turnpath_core::interference::Conflict;
+use turnpath_core::{DEG, Limit, NM, Slot, StrategyError, UM};
 use turnpath_host::LoadError;
 use turnpath_pipeline::PipelineError;
 use turnpath_recipe::{Diagnostics, RecipeError};
@@ -88,6 +89,16 @@ pub enum FaultKind {
         first: f64,
         /// The second answer.
         second: f64,
+    },
+    /// An answer that is no finite number.
+    #[error("{of} is {value} at {place}")]
+    NoNumber {
+        /// Which answer.
+        of: &'static str,
+        /// Where.
+        place: OnPart,
+        /// The answer.
+        value: f64,
     },
     /// A surface without a height on the part.
     #[error("no height at {0}")]
@@ -265,15 +276,39 @@ pub enum FaultKind {
 
 fn of_path(error: &PipelineError) -> String {
     match error {
-        PipelineError::Gouge {
-            conflicts,
-            interference,
-        } => format!(
-            "the trial's tool does not fit the part: {conflicts:?}, {interference:?}; give another \
-             [tool] or [part] with `Trial::with`"
-        ),
+        PipelineError::Gouge { conflicts, .. } => {
+            let words: Vec<String> = conflicts.iter().map(of_conflict).collect();
+            format!(
+                "the trial's tool does not fit the part: {}; give another [tool] or [part] with \
+                 `Trial::with`, unless the slopes or the series of a surface are wrong",
+                words.join(", ")
+            )
+        }
         error => error.to_string(),
     }
+}
+
+fn of_conflict(conflict: &Conflict) -> String {
+    let (what, at) = match conflict {
+        Conflict::NoseRadius { largest, at } => {
+            (format!("a nose radius of at most {largest:.4} mm fits"), at)
+        }
+        Conflict::IncludedAngle { least, at } => {
+            let degrees = least / DEG;
+            (
+                format!("an included angle of {degrees:.2} deg is needed"),
+                at,
+            )
+        }
+        Conflict::Clearance { least, at, .. } => {
+            let degrees = least / DEG;
+            (
+                format!("a clearance angle of {degrees:.2} deg is needed"),
+                at,
+            )
+        }
+    };
+    format!("{what} at x = {:.4} mm, y = {:.4} mm", at.x, at.y)
 }
 
 /// The checks: which one finds a fault.
@@ -320,9 +355,11 @@ impl FaultKind {
             Self::Call { .. } | Self::Path(_) => Check::Contract,
             Self::Repeat { .. } => Check::Repetition,
             Self::Slope { .. } | Self::Series { .. } | Self::Rate { .. } => Check::Derivatives,
-            Self::Gouge { .. } | Self::Hangs { .. } | Self::Radial { .. } | Self::Foot { .. } => {
-                Check::Touch
-            }
+            Self::NoNumber { .. }
+            | Self::Gouge { .. }
+            | Self::Hangs { .. }
+            | Self::Radial { .. }
+            | Self::Foot { .. } => Check::Touch,
             Self::Open { .. } => Check::Closing,
             Self::Residual { .. } => Check::Residual,
             Self::Played { .. } => Check::Played,

@@ -1,12 +1,12 @@
 //! What an ablation gave: the runs of its variants.
 
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::format::FORMAT;
 use crate::run::{ChainNames, RunReport};
 use crate::sketch::ErrorSketch;
 use crate::unit;
+use crate::variations;
 use crate::verdict::Verdict;
 
 /// The runs of an ablation: the content of `ablation.json`.
@@ -120,32 +120,5 @@ impl AblationRun {
     /// Which tolerances and limits hold, where there is a path.
     pub fn verdict(&self) -> Option<&Verdict> {
         self.measured().map(|run| run.report.verdict())
-    }
-}
-
-/// Pairs of a key and a value as an object that keeps their order.
-mod variations {
-    use super::*;
-
-    pub fn serialize<S: Serializer>(pairs: &[(String, String)], to: S) -> Result<S::Ok, S::Error> {
-        let mut map = to.serialize_map(Some(pairs.len()))?;
-        for (key, value) in pairs {
-            map.serialize_entry(key, value)?;
-        }
-        map.end()
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<Vec<(String, String)>, D::Error> {
-        let map = serde_json::Map::<String, serde_json::Value>::deserialize(from)?;
-        let text = |value: serde_json::Value| match value {
-            serde_json::Value::String(text) => text,
-            other => other.to_string(),
-        };
-        Ok(map
-            .into_iter()
-            .map(|(key, value)| (key, text(value)))
-            .collect())
     }
 }

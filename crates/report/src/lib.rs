@@ -50,6 +50,7 @@ pub mod text;
 mod tool_fit;
 pub mod unit;
 mod unreached;
+pub mod variations;
 mod verdict;
 mod wholeness;
 

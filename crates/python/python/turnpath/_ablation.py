@@ -88,8 +88,8 @@ def plan(
     plugins: Iterable[PathLike] = (),
 ) -> list[dict[str, Any]]:
     """The runs of an ablation, none of which is made: dicts with ``index``, from 0; ``key``, which
-    :func:`run_of` takes; ``varied``, what varies in words; and ``state``, ``"done"``, ``"failed"`` or
-    ``"missing"``, as the records in ``folder`` say.
+    :func:`run_of` takes; ``varied``, what varies in words; and ``state``, as the records in ``folder``
+    say: ``"done"``, ``"failed"``, ``"begun"`` (being made, or lost with its process) or ``"missing"``.
 
     A strategy of Python that takes values without an exact hash has no key: that is a
     :class:`RecipeError`. The arguments are those of :func:`ablate`.
@@ -99,7 +99,7 @@ def plan(
     found = sources(strategies, plugins, session)
     text = session.work(lambda: _turnpath.plan(native, found, Path(folder)))
     runs: list[dict[str, Any]] = json.loads(text)["runs"]
-    return [{**run, "varied": dict(run["varied"])} for run in runs]
+    return runs
 
 
 def run_of(

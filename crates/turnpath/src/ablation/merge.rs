@@ -15,10 +15,10 @@ use super::record::{Records, RunRecord};
 use super::{AblationResult, failed, refuse_unknown, row, variants};
 
 /// What stands in the row of a run without a record.
-const MISSING: &str = "there is no record of it yet";
+const MISSING: &str = "not made yet";
 
 /// Writes the files of an ablation from the records in `folder`. A run without a record is a row that
-/// says so, and one that failed has its reason; both count in [`AblationResult::missing`].
+/// says so, and one that failed has its reason; both count in [`AblationResult::without_figures`].
 ///
 /// # Errors
 /// As those of [`ablate`](crate::ablate), but for those of the work.
@@ -33,23 +33,23 @@ pub fn merge_ablation(
     refuse_unknown(&keys)?;
     let files = AblationFiles::new(folder)?;
     let records = Records::of(folder);
-    let mut missing = 0;
+    let mut without_figures = 0;
     let mut runs = Vec::new();
     for (variant, key) in variants.iter().zip(&keys) {
         let outcome = match records.read(key, observer) {
             RunRecord::Measured(run) => RunOutcome::Measured(run),
-            RunRecord::Failed(failed) => RunOutcome::Failed(failed),
+            RunRecord::Failed(failed) | RunRecord::Begun(failed) => RunOutcome::Failed(failed),
             RunRecord::None => RunOutcome::Failed(failed(variant, MISSING.to_owned())),
         };
-        missing += usize::from(matches!(outcome, RunOutcome::Failed(_)));
+        without_figures += usize::from(matches!(outcome, RunOutcome::Failed(_)));
         runs.push(row(variant, outcome));
     }
     let report = AblationReport::new(runs);
     Ok(AblationResult {
         files: files.write(&report)?,
-        reused: report.runs.len() - missing,
+        reused: report.runs.len() - without_figures,
         report,
         failures: Vec::new(),
-        missing,
+        without_figures,
     })
 }

@@ -63,9 +63,9 @@ pub struct AblationResult {
     pub reused: usize,
     /// Why runs failed, with their places in the report.
     pub failures: Vec<(usize, Error)>,
-    /// How many runs have no figures because nothing was made: those without a record, or with one of
-    /// a failure.
-    pub missing: usize,
+    /// How many runs have no figures because nothing was made: those without a record, and those that
+    /// failed or were begun.
+    pub without_figures: usize,
 }
 
 /// Makes the variants that a recipe's `[ablation]` lists and writes their figures. Tolerances that
@@ -95,10 +95,15 @@ pub fn ablate(
         recorded,
         options.threads,
         observer,
-        |index, run| match keys.get(index) {
-            Some(key) if key.unknown.is_some() => Ok(()),
-            Some(key) => records.keep(Some(files.folder()), key, run),
-            None => Err(Error::RunLost),
+        |index, outcome| {
+            let place = keys.get(index).zip(variants.get(index));
+            let (key, variant) = place.ok_or(Error::RunLost)?;
+            let folder = Some(files.folder());
+            match outcome {
+                _ if key.unknown.is_some() => Ok(()),
+                Ok(run) => records.keep(folder, key, run),
+                Err(error) => records.keep(folder, key, &failed(variant, error.title())),
+            }
         },
     )?;
     let (runs, failures) = rows(&variants, &keys, outcomes);
@@ -108,7 +113,7 @@ pub fn ablate(
         report,
         reused,
         failures,
-        missing: 0,
+        without_figures: 0,
     })
 }
 
@@ -158,7 +163,7 @@ fn recorded(
         true => None,
         false => match records.read(key, observer) {
             RunRecord::Measured(run) => Some(*run),
-            RunRecord::Failed(_) | RunRecord::None => None,
+            RunRecord::Failed(_) | RunRecord::Begun(_) | RunRecord::None => None,
         },
     };
     keys.iter().map(one).collect()

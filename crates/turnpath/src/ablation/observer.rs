@@ -12,7 +12,7 @@ pub trait AblationObserver: Sync {
     /// One more run is done, whether it succeeded or not.
     fn advance(&self) {}
 
-    /// A record is damaged; its run is made again.
+    /// A record is damaged, and counts as none.
     fn damaged(&self, record: &Path, why: &str) {
         let _ = (record, why);
     }

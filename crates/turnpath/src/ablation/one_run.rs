@@ -10,15 +10,17 @@ use turnpath_report::RunOutcome;
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
+use crate::plugins;
 
 use super::observer::AblationObserver;
-use super::record::Records;
+use super::record::{Records, RunRecord};
 use super::variant::{self, Sources};
 use super::{failed, refuse_unknown, row, variants};
 
 /// Makes the run of a recipe's `[ablation]` that has this key, and leaves its record in `folder`. No
 /// other run is looked at and nothing is locked, so any number of these may work at a time; of two on
-/// one key the last record stays. A run that fails leaves a record with its reason.
+/// one key the last record stays. A run that fails leaves a record with its reason, and so does one whose
+/// process ends before it: it was begun.
 ///
 /// # Errors
 /// When there is no such run, when it fails, or when the record cannot be written.
@@ -38,6 +40,9 @@ pub fn run_of_ablation(
         return Err(Error::NoRunOfKey { key });
     };
     let records = Records::make(folder)?;
+    if !matches!(records.read(key, observer), RunRecord::Measured(_)) {
+        records.keep_begun(key, &failed(variant, lost(&variant.recipe, catalogue)))?;
+    }
     let sources = Sources {
         catalogue,
         data: &data,
@@ -55,4 +60,18 @@ pub fn run_of_ablation(
             Err(error)
         }
     }
+}
+
+/// Why a run is not done whose process has ended: who knows.
+fn lost(recipe: &Recipe, catalogue: &Catalogue) -> String {
+    let used = plugins::used(recipe, catalogue);
+    let foreign = used
+        .iter()
+        .filter(|plugin| plugin.file.is_some() || plugin.source.is_some());
+    let foreign: Vec<String> = foreign.map(|plugin| plugin.to_string()).collect();
+    let by_plugin = match foreign.is_empty() {
+        true => String::new(),
+        false => format!(", or a plugin ended it: {}", foreign.join(", ")),
+    };
+    format!("begun and not ended: its process works still, or was killed{by_plugin}")
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use turnpath_host::Catalogue;
 use turnpath_pipeline::SilentObserver;
 use turnpath_recipe::{Recipe, Variant};
+use turnpath_report::variations;
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
@@ -34,6 +35,7 @@ pub struct RunPlan {
     /// What [`run_of_ablation`](crate::run_of_ablation) knows it by.
     pub key: String,
     /// Each key of the recipe that varies, with this run's value in words.
+    #[serde(with = "variations")]
     pub varied: Vec<(String, String)>,
     /// Whether it has a record.
     pub state: RunState,
@@ -47,7 +49,9 @@ pub enum RunState {
     Done,
     /// It was tried and failed.
     Failed,
-    /// It is to be made.
+    /// It is being made, or was lost with its process.
+    Begun,
+    /// It was not tried yet.
     Missing,
 }
 
@@ -79,6 +83,7 @@ pub(super) fn plan_of(variants: &[Variant], keys: &[Key], folder: &Path) -> Abla
         state: match records.read(key, &SilentObserver) {
             RunRecord::Measured(_) => RunState::Done,
             RunRecord::Failed(_) => RunState::Failed,
+            RunRecord::Begun(_) => RunState::Begun,
             RunRecord::None => RunState::Missing,
         },
     });

@@ -41,6 +41,9 @@ struct Record<R> {
     run: R,
     /// SHA-256 of `run`, so that damage shows.
     sha256: String,
+    /// Whether the run was begun and nothing more.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    begun: bool,
 }
 
 /// What is known of a run.
@@ -49,6 +52,8 @@ pub enum RunRecord {
     Measured(Box<MeasuredRun>),
     /// It was tried alone and failed; nothing but a new try tells whether it does so again.
     Failed(FailedRun),
+    /// It was begun alone: it is being made, or its process ended before it did.
+    Begun(FailedRun),
     /// There is no record, or a damaged one.
     None,
 }
@@ -91,8 +96,9 @@ impl Records {
             text => text.map_err(|error| error.to_string()),
         };
         let whole = text.and_then(|text| match whole::<FailedRun>(&text, key) {
-            Ok(failed) => Ok(RunRecord::Failed(failed)),
-            Err(_) => whole(&text, key).map(|run| RunRecord::Measured(Box::new(run))),
+            Ok(record) if record.begun => Ok(RunRecord::Begun(record.run)),
+            Ok(record) => Ok(RunRecord::Failed(record.run)),
+            Err(_) => whole(&text, key).map(|record| RunRecord::Measured(Box::new(record.run))),
         });
         whole.unwrap_or_else(|why| {
             observer.damaged(&path, &why);
@@ -108,12 +114,29 @@ impl Records {
         key: &Key,
         run: &R,
     ) -> Result<(), Error> {
+        self.write(output, key, run, false)
+    }
+
+    /// Keeps that a run is begun. What is kept of it later takes the place of this, which stays only
+    /// where the process ends before the run does; `run` says so.
+    pub fn keep_begun(&self, key: &Key, run: &FailedRun) -> Result<(), Error> {
+        self.write(None, key, run, true)
+    }
+
+    fn write<R: Serialize>(
+        &self,
+        output: Option<&ResultFolder>,
+        key: &Key,
+        run: &R,
+        begun: bool,
+    ) -> Result<(), Error> {
         let path = self.path(key);
         let record = Record {
             key: key.hash.clone(),
             of: key.of.clone(),
             sha256: checksum(run),
             run,
+            begun,
         };
         let mut draft = match output {
             Some(output) => output.draft_alone(&path)?,
@@ -126,8 +149,8 @@ impl Records {
     }
 }
 
-/// The run of a record's text, or what is wrong with it.
-fn whole<R: Serialize + DeserializeOwned>(text: &str, key: &Key) -> Result<R, String> {
+/// The record of a text, or what is wrong with it.
+fn whole<R: Serialize + DeserializeOwned>(text: &str, key: &Key) -> Result<Record<R>, String> {
     let record: Record<R> = serde_json::from_str(text).map_err(|error| error.to_string())?;
     if record.key != key.hash {
         return Err("it is of another run".to_owned());
@@ -135,7 +158,7 @@ fn whole<R: Serialize + DeserializeOwned>(text: &str, key: &Key) -> Result<R, St
     if record.sha256 != checksum(&record.run) {
         return Err("its figures have changed".to_owned());
     }
-    Ok(record.run)
+    Ok(record)
 }
 
 fn checksum<R: Serialize>(run: &R) -> String {

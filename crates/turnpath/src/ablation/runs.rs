@@ -20,15 +20,15 @@ use super::variant::{self, Sources};
 /// What a variant gave, or why it gave nothing.
 pub type Outcome = Result<MeasuredRun, Error>;
 
-/// Makes the runs that have no record, and gives all in order. `keep` gets each when it is made; a
-/// file that cannot be written ends the work.
+/// Makes the runs that have no record, and gives all in order. `keep` gets each when it is made or
+/// has failed; a file that cannot be written ends the work.
 pub fn complete(
     variants: &[Variant],
     sources: Sources<'_>,
     recorded: Vec<Option<MeasuredRun>>,
     threads: Option<NonZero<usize>>,
     observer: &dyn AblationObserver,
-    keep: impl Fn(usize, &MeasuredRun) -> Result<(), Error> + Sync,
+    keep: impl Fn(usize, &Outcome) -> Result<(), Error> + Sync,
 ) -> Result<Vec<Outcome>, Error> {
     let missing: Vec<(usize, &Variant)> = variants
         .iter()
@@ -83,7 +83,7 @@ impl Work<'_> {
     /// Makes run after run until none is left.
     fn go_on(
         &self,
-        keep: &(impl Fn(usize, &MeasuredRun) -> Result<(), Error> + Sync),
+        keep: &(impl Fn(usize, &Outcome) -> Result<(), Error> + Sync),
     ) -> Result<(), Error> {
         let pool = ThreadPoolBuilder::new().num_threads(1).build();
         let pool = pool.map_err(|error| Error::Threads(error.into()))?;
@@ -94,8 +94,8 @@ impl Work<'_> {
             let outcome =
                 pool.install(|| variant::run(&variant.recipe, self.sources, self.observer));
             let kept = match &outcome {
-                Ok(run) => keep(index, run),
-                Err(_) => Ok(()),
+                Err(error) if ends_the_work(error) => Ok(()),
+                outcome => keep(index, outcome),
             };
             if let Err(error) = kept.and_then(|()| self.put(index, outcome)) {
                 // The other workers end with their runs.

@@ -29,7 +29,7 @@ impl NewPluginError {
         match self {
             Self::Name(error) => error.help(),
             Self::Source(_) => {
-                "give the folder of turnpath's repository, the address of a git repository such as \
+                "give with `--crates` the folder of turnpath's repository, the address of a git repository such as \
                  https://host/turnpath.git, or `registry`"
             }
             Self::FolderExists { .. } => "choose another name, or another folder with `--dir`",

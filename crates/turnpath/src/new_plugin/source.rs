@@ -35,17 +35,20 @@ pub enum CrateSource {
 
 impl CrateSource {
     /// The source that fits this build: what `TURNPATH_CRATES` said when it was built, else the
-    /// repository in which it was built if that is there still, else the registry.
-    pub fn of_this_build() -> Self {
-        let fixed = OF_BUILD.filter(|text| !text.is_empty());
-        let parsed = fixed.and_then(|text| text.parse().ok());
-        parsed.unwrap_or_else(|| {
-            let checkout = Path::new(OF_CHECKOUT);
-            match checkout.canonicalize() {
-                Ok(folder) if is_checkout(&folder) => Self::Checkout(folder),
-                _ => Self::Registry,
-            }
-        })
+    /// repository in which it was built.
+    ///
+    /// # Errors
+    /// When that text is no source, or that repository is not there any more. No registry has the crates
+    /// unless somebody has put them there, so it is taken only when it is named.
+    pub fn of_this_build() -> Result<Self, SourceError> {
+        if let Some(fixed) = OF_BUILD.filter(|text| !text.is_empty()) {
+            return fixed.parse();
+        }
+        let checkout = Path::new(OF_CHECKOUT).canonicalize();
+        let checkout = checkout.ok().filter(|folder| is_checkout(folder));
+        checkout
+            .map(Self::Checkout)
+            .ok_or(SourceError::NotInCheckout)
     }
 
     /// The folder, if the source is one, as an absolute path.
@@ -111,6 +114,14 @@ fn is_checkout(folder: &Path) -> bool {
         .all(|(_, path)| folder.join(path).join("Cargo.toml").is_file())
 }
 
+/// An address as cargo takes it, which has a scheme: `ssh://git@host/a.git` for `git@host:a.git`.
+fn with_scheme(address: &str) -> String {
+    match address.split_once(':') {
+        Some((host, path)) if !address.contains("://") => format!("ssh://{host}/{path}"),
+        _ => address.to_owned(),
+    }
+}
+
 /// Why there is no source of crates.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -121,6 +132,15 @@ pub enum SourceError {
         /// The folder.
         folder: PathBuf,
     },
+    /// The repository in which this program was built is not there.
+    #[error("the repository in which this turnpath was built is not there any more")]
+    NotInCheckout,
+    /// An address ends with `#`, and no revision follows.
+    #[error("`{address}` names no revision behind its `#`")]
+    NoRevision {
+        /// The address.
+        address: String,
+    },
     /// The text is empty.
     #[error("an empty text is no source of crates")]
     Empty,
@@ -130,7 +150,7 @@ impl FromStr for CrateSource {
     type Err = SourceError;
 
     /// `registry`; the address of a git repository, such as `https://host/turnpath.git`, with `#` and a
-    /// revision behind it or without; anything else is a folder.
+    /// revision behind it or without, or `git@host:turnpath.git`; anything else is a folder.
     fn from_str(text: &str) -> Result<Self, SourceError> {
         let is_address = text.contains("://") || text.starts_with("git@");
         match text {
@@ -139,9 +159,13 @@ impl FromStr for CrateSource {
             address if is_address => {
                 let (url, revision) = match address.split_once('#') {
                     None => (address, None),
+                    Some((_, "")) => {
+                        let address = address.to_owned();
+                        return Err(SourceError::NoRevision { address });
+                    }
                     Some((url, revision)) => (url, Some(revision.to_owned())),
                 };
-                let url = url.to_owned();
+                let url = with_scheme(url);
                 Ok(Self::Git { url, revision })
             }
             folder => Ok(Self::Checkout(folder.into())),
@@ -215,9 +239,17 @@ mod tests {
     }
 
     #[test]
+    fn addresses_without_a_scheme_get_one_and_empty_revisions_are_refused() {
+        let source: CrateSource = "git@lab.example:optics/t.git#v1".parse().unwrap();
+        assert_eq!(source.to_string(), "ssh://git@lab.example/optics/t.git#v1");
+        let empty = "https://lab.example/t.git#".parse::<CrateSource>();
+        assert!(matches!(empty, Err(SourceError::NoRevision { .. })));
+    }
+
+    #[test]
     fn this_build_was_made_in_a_checkout() {
-        let CrateSource::Checkout(folder) = CrateSource::of_this_build() else {
-            panic!("{}", CrateSource::of_this_build());
+        let CrateSource::Checkout(folder) = CrateSource::of_this_build().unwrap() else {
+            panic!("no folder");
         };
         assert!(folder.is_absolute() && is_checkout(&folder));
         let elsewhere = CrateSource::Checkout(folder.join("docs"));

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 
-use super::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
+use super::turn::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
 
 /// Rates that are tried, all around: four for each one that fits into a window, so that at most a
 /// fortieth of an amplitude is lost between two of them.

@@ -14,6 +14,7 @@
 //! A pattern that turns slowly does not stay at its angles: [`arms`] finds it.
 
 mod arms;
+mod turn;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -29,15 +30,8 @@ use crate::touch::Touch;
 
 use arms::Arms;
 pub use arms::SpiralArms;
+use turn::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
 
-/// Angles of a mean turn: four for each period of the highest harmonic.
-const ANGLES: usize = 4 * HIGHEST;
-/// The lowest harmonic. Below it are tilt and astigmatism, which are no spokes.
-const LOWEST: usize = 3;
-/// The highest harmonic.
-const HIGHEST: usize = 512;
-/// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
-const WINDOW: usize = 64;
 /// Turns from one window to the next: a pattern that stays for as many fills half of a window.
 const ADVANCE: usize = 32;
 /// C follows a straight line if it leaves it by less than this part of the segment.
@@ -56,44 +50,6 @@ pub struct Spoke {
     pub from: f64,
     /// The largest, mm.
     pub to: f64,
-}
-
-/// The errors of one turn.
-#[derive(Debug, Clone)]
-struct Turn {
-    /// C in turns, rounded down.
-    number: i64,
-    /// The error at each angle, mm; NaN where no contact lies on the part.
-    errors: Vec<f64>,
-    from: f64,
-    to: f64,
-}
-
-impl Turn {
-    fn new(number: i64) -> Self {
-        Self {
-            number,
-            errors: vec![f64::NAN; ANGLES],
-            from: f64::INFINITY,
-            to: 0.0,
-        }
-    }
-
-    fn include(&mut self, angle: usize, error: f64, foot: f64) {
-        self.errors[angle] = error;
-        self.from = self.from.min(foot);
-        self.to = self.to.max(foot);
-    }
-
-    /// Adds the part of this turn that lies in the next block.
-    fn join(&mut self, rest: &Self) {
-        let known = rest.errors.iter().enumerate().filter(|(_, e)| !e.is_nan());
-        for (angle, error) in known {
-            self.errors[angle] = *error;
-        }
-        self.from = self.from.min(rest.from);
-        self.to = self.to.max(rest.to);
-    }
 }
 
 /// What was found on one segment.

@@ -1,0 +1,49 @@
+//! The errors of one turn of a path, and how many of them a window has.
+
+/// Angles of a mean turn: four for each period of the highest harmonic.
+pub(super) const ANGLES: usize = 4 * HIGHEST;
+/// The lowest harmonic. Below it are tilt and astigmatism, which are no spokes.
+pub(super) const LOWEST: usize = 3;
+/// The highest harmonic.
+pub(super) const HIGHEST: usize = 512;
+/// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
+pub(super) const WINDOW: usize = 64;
+/// The errors of one turn.
+#[derive(Debug, Clone)]
+pub(super) struct Turn {
+    /// C in turns, rounded down.
+    pub(super) number: i64,
+    /// The error at each angle, mm; NaN where no contact lies on the part.
+    pub(super) errors: Vec<f64>,
+    /// The smallest radius of a contact, mm; infinite without one.
+    pub(super) from: f64,
+    /// The largest, mm.
+    pub(super) to: f64,
+}
+
+impl Turn {
+    pub(super) fn new(number: i64) -> Self {
+        Self {
+            number,
+            errors: vec![f64::NAN; ANGLES],
+            from: f64::INFINITY,
+            to: 0.0,
+        }
+    }
+
+    pub(super) fn include(&mut self, angle: usize, error: f64, foot: f64) {
+        self.errors[angle] = error;
+        self.from = self.from.min(foot);
+        self.to = self.to.max(foot);
+    }
+
+    /// Adds the part of this turn that lies in the next block.
+    pub(super) fn join(&mut self, rest: &Self) {
+        let known = rest.errors.iter().enumerate().filter(|(_, e)| !e.is_nan());
+        for (angle, error) in known {
+            self.errors[angle] = *error;
+        }
+        self.from = self.from.min(rest.from);
+        self.to = self.to.max(rest.to);
+    }
+}
