@@ -262,6 +262,33 @@ def test_a_map_and_a_time_limit_that_mean_nothing_are_refused(part):
             turnpath.run(part, time_limit=limit)
 
 
+def test_python_goes_on_while_libraries_are_read_and_loaded(part, tmp_path):
+    # A file without an end, which takes its time to hash.
+    library = tmp_path / "liblarge.so"
+    library.write_bytes(b"\x7fELF")
+    os.truncate(library, 100 << 20)
+    for call in (
+        lambda: turnpath.strategies(plugins=[library]),
+        lambda: turnpath.run(part, plugins=[library]),
+    ):
+        ended, ticks = threading.Event(), []
+
+        def count():
+            while not ended.wait(0.002):
+                ticks.append(time.monotonic())
+
+        clock = threading.Thread(target=count)
+        clock.start()
+        begun = time.monotonic()
+        with pytest.raises(turnpath.Error, match="liblarge"):
+            call()
+        passed = time.monotonic() - begun
+        ended.set()
+        clock.join()
+        times = [begun, *(tick for tick in ticks if tick > begun), begun + passed]
+        assert max(after - before for before, after in zip(times, times[1:])) < 0.5 * passed
+
+
 def test_rows_have_the_types_of_their_figures(part):
     part["part"]["aperture"] = "3 mm"
     rows = turnpath.ablate(part, {"surface.k": ["0.05 /mm"], "refine": [True]})

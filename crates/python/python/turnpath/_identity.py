@@ -14,6 +14,7 @@ import enum
 import functools
 import hashlib
 import logging
+import re
 import sys
 import types
 from collections.abc import Iterable
@@ -88,6 +89,12 @@ class _Writer:
             self.write("module", value.__name__, str(getattr(value, "__version__", "")))
         elif isinstance(value, PurePath):
             self.write("path", str(value))
+        elif kind is re.Pattern:
+            self.write("pattern", str(value.flags))
+            self.value(value.pattern, name)
+        elif isinstance(value, tuple) and vars(kind).keys() >= {"_fields", "_make"}:
+            self.write("named", kind.__qualname__, repr(value._fields))
+            self.value(tuple(value), name)
         elif isinstance(value, enum.Enum):
             self.write("member", value.name)
             self.value(kind, name)
@@ -127,7 +134,7 @@ class _Writer:
             self.write("object")
             self.value([kind, vars(value)], name)
         else:
-            raise NoIdentity(f"it takes `{name}` from around it, a {_said(kind)}, which has no exact hash")
+            raise NoIdentity(f"it takes `{name}`, and a value of type {_said(kind)} has no exact hash")
 
     def _is_imported(self, value: Any) -> bool:
         """Whether a value is what an import brings: its module has it under its name, and is none of
@@ -145,17 +152,17 @@ class _Writer:
             if getattr(sys.modules.get(module), value.__name__, None) is value:
                 self.write("ufunc", module, value.__name__)
                 return
-        raise NoIdentity(f"it takes `{name}` from around it, a numpy.ufunc of its own")
+        raise NoIdentity(f"it takes `{name}`, and a numpy.ufunc of its own has no exact hash")
 
     def _array(self, value: Any, name: str) -> None:
         if value.dtype.hasobject:
-            raise NoIdentity(f"it takes `{name}` from around it, an array of objects")
+            raise NoIdentity(f"it takes `{name}`, and an array of objects has no exact hash")
         self.write("array", repr(value.dtype.descr), repr(value.shape), value.tobytes())
 
     def _container(self, value: Any, name: str) -> None:
         self.depth += 1
         if self.depth > _DEEPEST:
-            raise NoIdentity(f"it takes `{name}` from around it, which holds values too deep to hash")
+            raise NoIdentity(f"it takes `{name}`, which holds values too deep to hash")
         self.write(type(value).__name__, str(len(value)))
         if isinstance(value, dict):
             for key, item in value.items():
