@@ -12,8 +12,8 @@ use turnpath::{
     run_of_ablation,
 };
 use turnpath_core::{
-    GradientSeries, Gradients, NodeList, Path as ToolPath, Result, Revolutions, SamplerPlan,
-    Scalar, Series, Surface, SurfaceData, SurfaceModel,
+    GradientSeries, Gradients, NodeList, Params, Path as ToolPath, Result, Revolutions,
+    SamplerPlan, Scalar, Series, Slot, Surface, SurfaceData, SurfaceModel,
 };
 
 use crate::support::recipe;
@@ -195,20 +195,48 @@ fn a_strategy_without_an_identity_has_no_record_and_its_row_says_why() {
         run_of_ablation(&recipe, &catalogue, folder.path(), "", &SilentObserver).map(|_| ()),
         merge_ablation(&recipe, &catalogue, folder.path(), &SilentObserver).map(|_| ()),
     ];
-    for error in refused.map(Result::unwrap_err) {
+    for error in refused.map(|refused| refused.unwrap_err()) {
         assert_eq!(error.fault(), turnpath::Fault::Request);
         assert!(error.title().contains("the sampler even: it takes `rng`"));
         assert!(error.help().is_some());
     }
 }
 
-/// A surface that writes down what it is made for; its bytes differ below an error of 10 nm.
+/// A surface of the library: those of a test are not optimised.
+struct Saddle(Arc<dyn SurfaceModel>);
+
+impl SurfaceModel for Saddle {
+    fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
+        self.0.heights(x, y, z)
+    }
+
+    fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
+        self.0.gradient(x, y, out)
+    }
+
+    fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
+        self.0.series(x, y, out)
+    }
+
+    fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
+        self.0.height_series(x, y, z)
+    }
+}
+
+fn saddle() -> Saddle {
+    let linked = Catalogue::linked().unwrap();
+    let found = linked.find(Slot::Surface, "astigmatic").unwrap();
+    let params = Params::new().with("k", 0.01);
+    Saddle(found.offer().surface(&params).unwrap())
+}
+
+/// A surface that writes down what it is made for; its bytes differ below an error of 100 nm.
 fn needing(needs: &Arc<Mutex<Vec<SurfaceNeed>>>) -> OwnStrategy {
     let needs = Arc::clone(needs);
     OwnStrategy::surface_for("needing", move |_, need| {
         needs.lock().unwrap().push(need);
-        let model = Box::new(Parabola);
-        let byte_exact = need.error > 1e-5;
+        let model = Box::new(saddle());
+        let byte_exact = need.error > 1e-4;
         Ok(OwnSurface { model, byte_exact })
     })
 }
@@ -220,12 +248,12 @@ fn each_variant_has_a_surface_of_its_own_need() {
         "surface={ use = \"needing\", decentre_x = \"3 mm\", decentre_y = \"-4 mm\", scale = -2 }",
         "part.aperture=0.4 mm",
         "tool.nose_radius=1 mm",
-        "tolerance.residual=20 um",
-        "tolerance.interpolation=1 um",
+        "tolerance.residual=200 um",
+        "tolerance.interpolation=10 um",
         "path={ lead = false, overrun = \"0.1 mm\" }",
         "output.posts=[]",
         "ablation.part.aperture=[\"0.8 mm\"]",
-        "ablation.tolerance.interpolation=[\"0.1 um\"]",
+        "ablation.tolerance.interpolation=[\"1 um\"]",
         "ablation.mode=one-at-a-time",
     ]);
     let options = AblationOptions {
@@ -243,7 +271,7 @@ fn each_variant_has_a_surface_of_its_own_need() {
     let found: Vec<[i64; 2]> = needs.iter().map(rounded).collect();
     // In micrometres and picometres: half the part, the nose, the overrun and 5 mm of decentre; a
     // twentieth of the tolerance below a scale of 2.
-    assert_eq!(found, [[6300, 25_000], [6500, 25_000], [6300, 2500]]);
+    assert_eq!(found, [[6300, 250_000], [6500, 250_000], [6300, 25_000]]);
     let is_inexact = |remark: &Remark| match remark {
         Remark::NotByteExact { strategies, .. } => strategies == &["surface needing".to_owned()],
         _ => false,
