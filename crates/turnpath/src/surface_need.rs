@@ -1,6 +1,6 @@
 //! What a recipe needs of a surface that stands for a function.
 
-use turnpath_core::Overrun;
+use turnpath_core::{Overrun, Scalar};
 use turnpath_host::SurfaceNeed;
 use turnpath_recipe::{Recipe, SurfaceEntry};
 
@@ -16,8 +16,10 @@ pub fn surface_need(recipe: &Recipe, entry: &SurfaceEntry) -> SurfaceNeed {
     };
     let part = recipe.part.aperture_radius + recipe.tool.nose_radius + overrun;
     let place = &entry.placement;
-    let away = place.decentre_x.hypot(place.decentre_y);
-    let pose = recipe.pose.map_or(0.0, |pose| pose.x.hypot(pose.y));
+    let away = Scalar::hypot(place.decentre_x, place.decentre_y);
+    let pose = recipe
+        .pose
+        .map_or(0.0, |pose| Scalar::hypot(pose.x, pose.y));
     let scale = match place.scale.abs() {
         0.0 => 1.0,
         scale => scale,
