@@ -43,6 +43,7 @@ mod spindle;
 mod strategy;
 mod surface;
 mod taylor;
+pub mod tally;
 pub mod toolpath;
 mod turns;
 mod velocity;

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use turnpath_core::tally::LINES_READ;
 use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 
 use crate::compression::{Compression, text_name};
@@ -34,6 +35,8 @@ pub struct ProgramReader<R = File> {
     format: ProgramFormat,
     grammar: Box<dyn Grammar>,
     line: u64,
+    /// Lines of all files that were read.
+    lines_read: usize,
     part: Part,
     section: Option<Section>,
     /// The moves before and after the path.
@@ -81,6 +84,7 @@ impl<R: Read> ProgramReader<R> {
             format: *format,
             grammar: post.dialect.grammar(format),
             line: 0,
+            lines_read: 0,
             part: Part::Header,
             section: None,
             travel: TravelCheck::default(),
@@ -130,6 +134,7 @@ impl<R: Read> ProgramReader<R> {
             error,
         })?;
         self.line += u64::from(read > 0);
+        self.lines_read += usize::from(read > 0);
         if read as u64 == LONGEST_LINE {
             return Err(self.wrong("this line is longer than any line of a program".to_owned()));
         }
@@ -282,6 +287,7 @@ impl<R: Read> ProgramReader<R> {
     fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
             let count = self.found_points;
+            LINES_READ.add(std::mem::take(&mut self.lines_read));
             self.pass_footer()?;
             self.parts.finish().map_err(|what| self.wrong(what))?;
             return match said == count {

@@ -63,6 +63,7 @@ mod strategies;
 mod summary;
 mod surface;
 mod toolpath;
+mod unmeasured;
 mod verify;
 
 pub use ablation::{

@@ -1,7 +1,7 @@
 //! The instants of a batch of segments: the played position and the first touch at each.
 
-use turnpath_core::Result;
 use turnpath_core::toolpath::Segment;
+use turnpath_core::{Result, tally};
 
 use crate::touch::{FirstTouch, Touch};
 
@@ -37,6 +37,7 @@ impl InstantBatch {
                 self.z.push(segment.z.value(s));
             }
         }
+        tally::INSTANTS.add(self.theta.len());
         touch.find(&self.theta, &self.x, &mut self.touches)
     }
 
