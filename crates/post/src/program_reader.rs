@@ -43,6 +43,9 @@ pub struct ProgramReader<R = File> {
     travel: TravelCheck,
     /// The points that the end mark says, after it was read.
     said_points: Option<u64>,
+    /// The line that is read, and the points that are found on it: their memory is used again.
+    text: Vec<u8>,
+    found: Vec<ControlPoint>,
     /// Points that were read and not given yet.
     waiting: VecDeque<(ControlPoint, Section)>,
     /// The last point that was read from a line.
@@ -89,6 +92,8 @@ impl<R: Read> ProgramReader<R> {
             section: None,
             travel: TravelCheck::default(),
             said_points: None,
+            text: Vec::new(),
+            found: Vec::new(),
             waiting: VecDeque::new(),
             last: None,
             found_points: 0,
@@ -253,9 +258,14 @@ impl<R: Read> ProgramReader<R> {
             let places = self.post.dialect.read_travel(code.trim(), modes)?;
             return self.travel.go_to(&places, self.line);
         }
-        let mut points = Vec::new();
-        self.grammar.read(code, &mut points)?;
-        self.wait(points);
+        let mut points = std::mem::take(&mut self.found);
+        points.clear();
+        let read = self.grammar.read(code, &mut points);
+        if read.is_ok() {
+            self.wait(points.drain(..));
+        }
+        self.found = points;
+        read?;
         if self.grammar.holds_point() {
             self.held = self.held.or(self.section);
         }
@@ -327,8 +337,10 @@ impl<R: Read> ProgramReader<R> {
 impl<R: Read> ProgramReader<R> {
     /// The file of the part that a line of the main program calls.
     fn called_part(&self, code: &[u8]) -> Option<String> {
-        let code = std::str::from_utf8(code).ok();
-        let code = code.filter(|_| self.part == Part::Path && self.parts.may_be_called())?;
+        if self.part != Part::Path || !self.parts.may_be_called() {
+            return None;
+        }
+        let code = std::str::from_utf8(code).ok()?;
         let own = self.path.file_name().unwrap_or_default().to_string_lossy();
         self.post.dialect.called_part(code, text_name(&own))
     }
@@ -377,9 +389,11 @@ fn said_points(said: &str) -> Option<u64> {
 impl<R: Read> ProgramReader<R> {
     /// The next point with the velocities that its line says.
     fn next_found(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
-        let mut text = Vec::new();
         while self.waiting.is_empty() {
-            if !self.read_on(&mut text)? {
+            let mut text = std::mem::take(&mut self.text);
+            let is_within = self.read_on(&mut text);
+            self.text = text;
+            if !is_within? {
                 return Ok(None);
             }
         }
