@@ -25,6 +25,18 @@ impl Piece {
     }
 
     /// The value and the derivatives up to the 4th at `n`, each divided by its factorial.
+    /// The slope: what [`Self::shifted`] gives for it, without the coefficients above.
+    fn rate(&self, n: f64) -> f64 {
+        let s = n - self.start;
+        let mut shifted = self.coefficients;
+        for low in 0..2 {
+            for i in (low..5).rev() {
+                shifted[i] += s * shifted[i + 1];
+            }
+        }
+        shifted[1]
+    }
+
     fn series(&self, n: f64) -> Series {
         let [value, rate, second, third, fourth, _] = self.shifted(n);
         [value, rate, second, third, fourth]
@@ -142,8 +154,14 @@ impl PiecewisePolynomial {
 
     /// The rate at `n`. At a knot it is the mean of both sides.
     pub fn rate(&self, n: f64) -> f64 {
-        let after = self.series(n)[1];
-        let before = self.series_before(n)[1];
+        let Some(piece) = self.piece_after(n) else {
+            return f64::NAN;
+        };
+        let after = piece.rate(n);
+        let before = match piece.start == n {
+            true => self.series_before(n)[1],
+            false => after,
+        };
         if after == before {
             after
         } else {
