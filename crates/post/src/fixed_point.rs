@@ -22,7 +22,8 @@ const POWERS: [u64; PLACES as usize + 1] = {
 /// The number of these digits before and after the point in 10⁻¹², rounded; `None` if it has too
 /// many digits before the point.
 pub(crate) fn fixed(whole: &str, fraction: &str) -> Option<i128> {
-    let whole = whole.trim_start_matches('0');
+    let zeros = whole.bytes().take_while(|digit| *digit == b'0');
+    let whole = whole.get(zeros.count()..).unwrap_or_default();
     if whole.len() > MOST_DIGITS {
         return None;
     }
@@ -48,8 +49,15 @@ fn digits_of(digits: &[u8]) -> u64 {
 pub(crate) fn to_f64(value: i128) -> f64 {
     match i64::try_from(value) {
         Ok(short) => short as f64,
-        Err(_) => value as f64,
+        Err(_) => long_to_f64(value),
     }
+}
+
+/// Apart, so that short numbers do not go through it too.
+#[cold]
+#[inline(never)]
+fn long_to_f64(value: i128) -> f64 {
+    value as f64
 }
 
 /// A decimal number with or without a minus in 10⁻¹²; `what` names it in the message.

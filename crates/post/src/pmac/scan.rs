@@ -147,8 +147,10 @@ impl<'a> Scanner<'a> {
     /// Reads a constant, `-12.5`, and the spaces around it.
     pub(super) fn number(&mut self, name: &str) -> Result<i128, String> {
         self.rest = without_spaces(self.rest);
-        let negative = self.rest.starts_with('-');
-        self.rest = self.rest.strip_prefix(['-', '+']).unwrap_or(self.rest);
+        let without_minus = self.rest.strip_prefix('-');
+        let negative = without_minus.is_some();
+        let without_sign = without_minus.or_else(|| self.rest.strip_prefix('+'));
+        self.rest = without_sign.unwrap_or(self.rest);
         let whole = self.take_digits();
         let fraction = match self.rest.strip_prefix('.') {
             Some(rest) => {
