@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use crate::registers::{Loop, in_widest};
 use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
 
 /// A surface z = f(x, y), written once for every number type. Lengths are in mm, and z points to
@@ -125,50 +126,21 @@ const CURVES: usize = 2;
 impl<T: Surface> SurfaceModel for T {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        let (xs, x_rest) = x.as_chunks::<WIDTH>();
-        let (ys, y_rest) = y.as_chunks::<WIDTH>();
-        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
-        for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
-            *z = Surface::sag(self, Lanes(*x), Lanes(*y)).0;
-        }
-        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
-            *z = Surface::sag(self, *x, *y);
-        }
+        in_widest(Heights(self, x, y, z));
         Ok(())
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
-        let Gradients { z, zx, zy } = out;
+        let Gradients { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        let (xs, x_rest) = x.as_chunks::<WIDTH>();
-        let (ys, y_rest) = y.as_chunks::<WIDTH>();
-        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
-        let (zxs, zx_rest) = zx.as_chunks_mut::<WIDTH>();
-        let (zys, zy_rest) = zy.as_chunks_mut::<WIDTH>();
-        for ((((x, y), z), zx), zy) in xs.iter().zip(ys).zip(zs).zip(zxs).zip(zys) {
-            let sag = sag_and_slopes(self, Lanes(*x), Lanes(*y));
-            (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
-        }
-        for ((((x, y), z), zx), zy) in x_rest
-            .iter()
-            .zip(y_rest)
-            .zip(z_rest)
-            .zip(zx_rest)
-            .zip(zy_rest)
-        {
-            let sag = sag_and_slopes(self, *x, *y);
-            (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
-        }
+        in_widest(Slopes(self, x, y, out));
         Ok(())
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
-        let GradientSeries { z, zx, zy } = out;
+        let GradientSeries { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
-            let sag = series_of_sag_and_slopes(self, *x, *y);
-            (*z, *zx, *zy) = (sag.map(|c| c.value), sag.map(|c| c.dx), sag.map(|c| c.dy));
-        }
+        in_widest(SlopeSeries(self, x, y, out));
         Ok(())
     }
 
@@ -178,24 +150,107 @@ impl<T: Surface> SurfaceModel for T {
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
+        in_widest(HeightSeries(self, x, y, z));
+        Ok(())
+    }
+}
+
+/// The loop of [`SurfaceModel::heights`].
+struct Heights<'a, T>(&'a T, &'a [f64], &'a [f64], &'a mut [f64]);
+
+impl<T: Surface> Loop for Heights<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, z) = self;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
+            *z = surface.sag(Lanes(*x), Lanes(*y)).0;
+        }
+        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
+            *z = surface.sag(*x, *y);
+        }
+    }
+}
+
+/// The loop of [`SurfaceModel::gradient`].
+struct Slopes<'a, T>(&'a T, &'a [f64], &'a [f64], Gradients<'a>);
+
+impl<T: Surface> Loop for Slopes<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, Gradients { z, zx, zy }) = self;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        let (zxs, zx_rest) = zx.as_chunks_mut::<WIDTH>();
+        let (zys, zy_rest) = zy.as_chunks_mut::<WIDTH>();
+        for ((((x, y), z), zx), zy) in xs.iter().zip(ys).zip(zs).zip(zxs).zip(zys) {
+            let sag = sag_and_slopes(surface, Lanes(*x), Lanes(*y));
+            (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
+        }
+        for ((((x, y), z), zx), zy) in x_rest
+            .iter()
+            .zip(y_rest)
+            .zip(z_rest)
+            .zip(zx_rest)
+            .zip(zy_rest)
+        {
+            let sag = sag_and_slopes(surface, *x, *y);
+            (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
+        }
+    }
+}
+
+/// The loop of [`SurfaceModel::series`].
+struct SlopeSeries<'a, T>(&'a T, &'a [Series], &'a [Series], GradientSeries<'a>);
+
+impl<T: Surface> Loop for SlopeSeries<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, GradientSeries { z, zx, zy }) = self;
+        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
+            let sag = series_of_sag_and_slopes(surface, *x, *y);
+            (*z, *zx, *zy) = (sag.map(|c| c.value), sag.map(|c| c.dx), sag.map(|c| c.dy));
+        }
+    }
+}
+
+/// The loop of [`SurfaceModel::height_series`].
+struct HeightSeries<'a, T>(&'a T, &'a [Series], &'a [Series], &'a mut [Series]);
+
+impl<T: Surface> Loop for HeightSeries<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, z) = self;
         let (xs, x_rest) = x.as_chunks::<CURVES>();
         let (ys, y_rest) = y.as_chunks::<CURVES>();
         let (zs, z_rest) = z.as_chunks_mut::<CURVES>();
         for ((x, y), z) in xs.iter().zip(ys).zip(zs) {
             let (x, y) = (Taylor(side_by_side(x)), Taylor(side_by_side(y)));
-            one_by_one(Surface::sag(self, x, y).0, z);
+            one_by_one(surface.sag(x, y).0, z);
         }
         for ((x, y), z) in x_rest.iter().zip(y_rest).zip(z_rest) {
-            *z = Surface::sag(self, Taylor(*x), Taylor(*y)).0;
+            *z = surface.sag(Taylor(*x), Taylor(*y)).0;
         }
-        Ok(())
     }
 }
 
+#[inline(always)]
 fn sag_and_slopes<T: Surface + ?Sized, S: Scalar>(surface: &T, x: S, y: S) -> Dual<S> {
     surface.sag(Dual::variable_x(x), Dual::variable_y(y))
 }
 
+#[inline(always)]
 fn series_of_sag_and_slopes<T: Surface + ?Sized>(
     surface: &T,
     x: Series,

@@ -107,15 +107,28 @@ class Bench:
     def script(self, name, *words):
         return Run([sys.executable, HERE / f"{name}.py", *words])
 
+    def jobs(self, program):
+        """What a program is timed on."""
+        recipes = {
+            "equal-angle AST-50, 3 million points": EQUAL_ANGLE,
+            "OAP-213": RECIPES / "off-axis-paraboloid-213mm.toml",
+            "AST-50": RECIPES / "astigmatic-50mm.toml",
+        }
+        words = ["--threads", "1", "--no-report", "-v", "-o", self.scratch / "out"]
+        return {
+            name: lambda recipe=recipe: Run([program, "run", recipe, *words])
+            for name, recipe in recipes.items()
+        }
+
     def against_scripts(self):
         """Jobs over the script in numpy, and the chain alone over that in numba."""
+        before = self.jobs(self.chosen.before) if self.chosen.before else {}
         programs = {name: self.scratch / f"{name}.pmc" for name in ("numpy_chain", "numba_chain")}
         best = fastest(
             {
                 "numpy": lambda: self.script("numpy_chain", programs["numpy_chain"]),
-                "equal-angle AST-50, 3 million points": lambda: self.run(EQUAL_ANGLE),
-                "OAP-213": lambda: self.run(RECIPES / "off-axis-paraboloid-213mm.toml"),
-                "AST-50": lambda: self.run(RECIPES / "astigmatic-50mm.toml"),
+                **self.jobs(self.chosen.turnpath),
+                **{f"{name}, before": job for name, job in before.items()},
                 "chain": lambda: Run([self.chosen.chain, EQUAL_ANGLE, self.scratch / "chain.pmc"]),
                 "numba": lambda: self.script("numba_chain", programs["numba_chain"]),
             },
@@ -138,7 +151,7 @@ class Bench:
         for name, run in best.items():
             counted = counts(run)
             kinds = ("first touches", "instants", "series", "lines read")
-            cells = " | ".join(f"{counted.get(kind, 0):,}" for kind in kinds)
+            cells = " | ".join(f"{counted[kind]:,}" if counted else "" for kind in kinds)
             ratio = run.processor / numpy.processor
             yield f"| {name} | {run.processor:.2f} | {ratio:.2f} | {cells} | {run.memory:.0f} MB |\n"
         chain_speed = points / chain.processor / 1e6
@@ -219,6 +232,7 @@ def main():
     arguments.add_argument("bare", type=Path)
     arguments.add_argument("plugins", type=Path)
     arguments.add_argument("--rounds", type=int, default=3)
+    arguments.add_argument("--before", type=Path, help="an older program, timed beside this one")
     arguments.add_argument("--long", action="store_true")
     parts = ["against_scripts", "threads", "scaling", "commands", "dynamic"]
     arguments.add_argument("--only", nargs="*", choices=parts)
