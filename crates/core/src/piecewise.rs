@@ -187,6 +187,21 @@ mod tests {
     }
 
     #[test]
+    fn the_rate_is_that_of_the_series_to_the_last_bit() {
+        let law = two_pieces();
+        for n in [-0.3, 0.0, 0.123_456, 1.999, 2.0, 2.7, 3.0, 4.1] {
+            let [after, before] = [law.series(n)[1], law.series_before(n)[1]];
+            let mean = if after == before {
+                after
+            } else {
+                0.5 * (after + before)
+            };
+            assert_eq!(law.rate(n).to_bits(), mean.to_bits(), "{n}");
+        }
+        assert!(PiecewisePolynomial::new().rate(1.0).is_nan());
+    }
+
+    #[test]
     fn series_is_that_of_the_expanded_polynomial() {
         let s = two_pieces().series(1.0);
         assert_eq!(s, [2.5, 5.5, 10.0, 10.0, 5.0]);

@@ -226,38 +226,40 @@ impl MeasuredBlock {
     }
 }
 
-/// Reads a path and measures it, in blocks, in parallel.
+/// Reads a path and measures it, in blocks, in parallel. The next blocks are read meanwhile.
 pub fn measure<M: Meters>(
     recipe: &Recipe,
     mut meters: M,
     shape: SegmentShape,
-    reader: &mut dyn ReadPath,
+    reader: &mut (dyn ReadPath + Send),
     observer: &dyn Observer,
 ) -> Result<M, Error> {
     let failed = |error: StrategyError| of_measure(recipe, error);
+    let mut blocks = next_blocks(reader, shape)?;
     loop {
         if observer.is_cancelled() {
             return Err(Error::Cancelled);
         }
-        let blocks = next_blocks(reader, shape)?;
         if blocks.is_empty() {
             return Ok(meters);
         }
+        let count = blocks.len() as u64;
         let starts: Vec<M::Start> = blocks
             .iter()
             .map(|(_, block)| meters.advance(block))
             .collect();
-        let (count, of_block) = (blocks.len() as u64, &meters);
-        let measured: Vec<M::Block> = blocks
-            .into_par_iter()
-            .zip(starts)
-            .map(|((section, block), start)| of_block.measure(section, block, start))
-            .collect::<Result<_, _>>()
-            .map_err(failed)?;
-        for block in &measured {
+        let of_block = &meters;
+        let measure_all = || -> Result<Vec<M::Block>, StrategyError> {
+            let each = blocks.into_par_iter().zip(starts);
+            each.map(|((section, block), start)| of_block.measure(section, block, start))
+                .collect()
+        };
+        let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape));
+        for block in &measured.map_err(failed)? {
             meters.append(block).map_err(failed)?;
         }
         observer.advance(count);
+        blocks = next?;
     }
 }
 

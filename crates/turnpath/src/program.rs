@@ -45,7 +45,7 @@ pub struct Program {
 /// The text of a program's path, as it is read back.
 pub struct ProgramText<'a> {
     /// Reads it.
-    pub reader: &'a mut dyn ReadPath,
+    pub reader: &'a mut (dyn ReadPath + Send),
     /// The program's file, for messages.
     pub name: &'a Path,
     /// The points that were written.

@@ -91,6 +91,24 @@ def counts(run):
     return {what: int(number) for number, what in words}
 
 
+def points_of(run):
+    """The control points of a run, from what it says to a person."""
+    return int(re.search(r"points +([\d,]+)", run.out).group(1).replace(",", ""))
+
+
+def stages(best):
+    """Where the time of runs goes: the clock's part of each stage of the processor time."""
+    kinds = {"refinement": "playing back", "making, measuring, writing": "measuring and writing",
+             "program read back": "reading programs back"}
+    yield "\n| ns a point | " + " | ".join(kinds) + " | rest |\n|" + "---|" * (len(kinds) + 2) + "\n"
+    for name, run in best.items():
+        times = re.findall(r"note: (.+?): ([\d.]+) s", run.err)
+        a_point = 1e9 * run.processor / run.clock / points_of(run)
+        own = [sum(float(s) for what, s in times if kind in what) for kind in kinds.values()]
+        cells = [*own, run.clock - sum(own)]
+        yield f"| {name} | " + " | ".join(f"{a_point * cell:.0f}" for cell in cells) + " |\n"
+
+
 class Bench:
     def __init__(self, chosen):
         self.chosen = chosen
@@ -154,6 +172,7 @@ class Bench:
             cells = " | ".join(f"{counted[kind]:,}" if counted else "" for kind in kinds)
             ratio = run.processor / numpy.processor
             yield f"| {name} | {run.processor:.2f} | {ratio:.2f} | {cells} | {run.memory:.0f} MB |\n"
+        yield from stages(best)
         chain_speed = points / chain.processor / 1e6
         numba_speed = points / numba["all_s"] / 1e6
         yield f"\nMaking and encoding alone: {chain_speed:.2f} million points a second, "
