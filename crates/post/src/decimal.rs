@@ -106,7 +106,7 @@ mod tests {
             (10_200_000, 7, "1.02"),
         ] {
             let mut written = Vec::new();
-            push(&mut written, i64::from(units), decimals);
+            push(&mut written, units, decimals);
             assert_eq!(String::from_utf8(written).unwrap(), text);
         }
     }
