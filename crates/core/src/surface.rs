@@ -138,9 +138,12 @@ impl<T: Surface> SurfaceModel for T {
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
-        let GradientSeries { z, zx, zy } = &out;
+        let GradientSeries { z, zx, zy } = out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        in_widest(SlopeSeries(self, x, y, out));
+        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
+            let sag = series_of_sag_and_slopes(self, *x, *y);
+            (*z, *zx, *zy) = (sag.map(|c| c.value), sag.map(|c| c.dx), sag.map(|c| c.dy));
+        }
         Ok(())
     }
 
@@ -150,7 +153,16 @@ impl<T: Surface> SurfaceModel for T {
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        in_widest(HeightSeries(self, x, y, z));
+        let (xs, x_rest) = x.as_chunks::<CURVES>();
+        let (ys, y_rest) = y.as_chunks::<CURVES>();
+        let (zs, z_rest) = z.as_chunks_mut::<CURVES>();
+        for ((x, y), z) in xs.iter().zip(ys).zip(zs) {
+            let (x, y) = (Taylor(side_by_side(x)), Taylor(side_by_side(y)));
+            one_by_one(Surface::sag(self, x, y).0, z);
+        }
+        for ((x, y), z) in x_rest.iter().zip(y_rest).zip(z_rest) {
+            *z = Surface::sag(self, Taylor(*x), Taylor(*y)).0;
+        }
         Ok(())
     }
 }
@@ -207,50 +219,11 @@ impl<T: Surface> Loop for Slopes<'_, T> {
     }
 }
 
-/// The loop of [`SurfaceModel::series`].
-struct SlopeSeries<'a, T>(&'a T, &'a [Series], &'a [Series], GradientSeries<'a>);
-
-impl<T: Surface> Loop for SlopeSeries<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self(surface, x, y, GradientSeries { z, zx, zy }) = self;
-        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
-            let sag = series_of_sag_and_slopes(surface, *x, *y);
-            (*z, *zx, *zy) = (sag.map(|c| c.value), sag.map(|c| c.dx), sag.map(|c| c.dy));
-        }
-    }
-}
-
-/// The loop of [`SurfaceModel::height_series`].
-struct HeightSeries<'a, T>(&'a T, &'a [Series], &'a [Series], &'a mut [Series]);
-
-impl<T: Surface> Loop for HeightSeries<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self(surface, x, y, z) = self;
-        let (xs, x_rest) = x.as_chunks::<CURVES>();
-        let (ys, y_rest) = y.as_chunks::<CURVES>();
-        let (zs, z_rest) = z.as_chunks_mut::<CURVES>();
-        for ((x, y), z) in xs.iter().zip(ys).zip(zs) {
-            let (x, y) = (Taylor(side_by_side(x)), Taylor(side_by_side(y)));
-            one_by_one(surface.sag(x, y).0, z);
-        }
-        for ((x, y), z) in x_rest.iter().zip(y_rest).zip(z_rest) {
-            *z = surface.sag(Taylor(*x), Taylor(*y)).0;
-        }
-    }
-}
-
 #[inline(always)]
 fn sag_and_slopes<T: Surface + ?Sized, S: Scalar>(surface: &T, x: S, y: S) -> Dual<S> {
     surface.sag(Dual::variable_x(x), Dual::variable_y(y))
 }
 
-#[inline(always)]
 fn series_of_sag_and_slopes<T: Surface + ?Sized>(
     surface: &T,
     x: Series,
