@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use turnpath::{AblationObserver, Observer, Stage};
 use turnpath_core::printable_line;
+use turnpath_core::tally::TALLIES;
 
 use crate::args::WorkArgs;
 use crate::message::note;
@@ -45,6 +46,10 @@ impl Bar {
     pub fn clear(&self) {
         self.with(|bar| bar.finish_and_clear());
         self.tell_time(None);
+        if self.timed.is_some() {
+            let counts = TALLIES.map(|tally| format!("{} {}", tally.total(), tally.what));
+            note(&format!("counted: {}", counts.join(", ")));
+        }
     }
 
     /// Says how long the stage before took, and begins the next one.

@@ -52,7 +52,11 @@ fn quiet_prints_nothing_and_verbose_the_time_of_each_stage() {
     let said = bench.line("run recipe.toml --quiet").ends(0);
     assert!(said.stdout.is_empty() && said.stderr.is_empty(), "{said}");
     let said = bench.line("run recipe.toml -v").ends(0);
-    for stage in ["planning the feed: ", "measuring and writing: "] {
+    for stage in [
+        "planning the feed: ",
+        "measuring and writing: ",
+        "counted: ",
+    ] {
         assert!(said.stderr.contains(stage), "{said}");
     }
 }

@@ -142,6 +142,26 @@ fn a_processor_without_fma_and_avx2_gives_the_same_bytes() {
     }
 }
 
+/// Of vector registers that the CPU lacks, the widest that it has take the place. The figures are the same
+/// too: nothing that is measured rounds otherwise.
+#[test]
+fn vector_registers_of_every_width_give_the_same_bytes_and_figures() {
+    for Reference {
+        job,
+        summary: figures,
+        bytes,
+    } in references()
+    {
+        for width in ["base", "avx2", "avx512"] {
+            let (bench, others) = made(job, TURNPATH.as_ref(), |command| {
+                command.env("TURNPATH_LANES", width);
+            });
+            assert!(*bytes == others, "{}: {width}", job.0);
+            assert_eq!(*figures, summary(&bench), "{}: {width}", job.0);
+        }
+    }
+}
+
 /// A program without strategies inside makes the paths of the program that has them.
 fn assert_loaded_is_linked(bare: &Path) {
     let libraries = built_in_libraries();

@@ -1,5 +1,6 @@
 //! `cargo xtask`: what takes too long, or needs too much, for `.ci/run`.
 
+mod bench;
 mod browser;
 mod commands;
 mod deny;
@@ -20,6 +21,7 @@ cargo xtask COMMAND
 
   long [--list]       every check that `.ci/run` leaves out, or their names
   reference [NAME…]   makes the reference figures again, or those of these names
+  bench [WORD…]       times the program against scripts of the same chain, for docs/benchmarks.md
   fuzz [NAME…]        fuzzes the targets of tests/fuzz with cargo-fuzz, or those of these names
   msrv                checks the workspace with the oldest Rust version that it promises
   deny                checks licences, bans and sources of all dependencies with cargo-deny
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
+        ["bench", words @ ..] => bench::run_bench(words),
         ["fuzz", names @ ..] => fuzz::run_targets(names),
         ["msrv"] => msrv::run_checks(),
         ["deny"] => deny::run_checks(),

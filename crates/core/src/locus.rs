@@ -5,6 +5,7 @@ use std::sync::Arc;
 pub use crate::cusp::{CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO, smooth_step};
 use crate::neighbours::{FeedSearch, Neighbours};
 pub use crate::profile::{Profile, profile_at};
+use crate::tally::SERIES;
 use crate::{
     CentreSeries, Centres, Compensator, Cut, Misfit, Radial, Rates, Result, Series, SurfaceModel,
     Tool, fit,
@@ -182,6 +183,7 @@ impl Locus for ToolLocus {
     }
 
     fn series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
+        SERIES.add(theta.len());
         let exact = CentreSeries {
             x: &mut *out.x,
             z: &mut *out.z,

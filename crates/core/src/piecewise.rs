@@ -25,6 +25,18 @@ impl Piece {
     }
 
     /// The value and the derivatives up to the 4th at `n`, each divided by its factorial.
+    /// The slope: what [`Self::shifted`] gives for it, without the coefficients above.
+    fn rate(&self, n: f64) -> f64 {
+        let s = n - self.start;
+        let mut shifted = self.coefficients;
+        for low in 0..2 {
+            for i in (low..5).rev() {
+                shifted[i] += s * shifted[i + 1];
+            }
+        }
+        shifted[1]
+    }
+
     fn series(&self, n: f64) -> Series {
         let [value, rate, second, third, fourth, _] = self.shifted(n);
         [value, rate, second, third, fourth]
@@ -142,8 +154,14 @@ impl PiecewisePolynomial {
 
     /// The rate at `n`. At a knot it is the mean of both sides.
     pub fn rate(&self, n: f64) -> f64 {
-        let after = self.series(n)[1];
-        let before = self.series_before(n)[1];
+        let Some(piece) = self.piece_after(n) else {
+            return f64::NAN;
+        };
+        let after = piece.rate(n);
+        let before = match piece.start == n {
+            true => self.series_before(n)[1],
+            false => after,
+        };
         if after == before {
             after
         } else {
@@ -166,6 +184,21 @@ mod tests {
         law.push(2.0, [1.0, 0.5, 0.0, 0.0, 0.0, 1.0]);
         law.push(1.0, [34.0, -1.0, 0.25, 0.0, 0.0, 0.0]);
         law
+    }
+
+    #[test]
+    fn the_rate_is_that_of_the_series_to_the_last_bit() {
+        let law = two_pieces();
+        for n in [-0.3, 0.0, 0.123_456, 1.999, 2.0, 2.7, 3.0, 4.1] {
+            let [after, before] = [law.series(n)[1], law.series_before(n)[1]];
+            let mean = if after == before {
+                after
+            } else {
+                0.5 * (after + before)
+            };
+            assert_eq!(law.rate(n).to_bits(), mean.to_bits(), "{n}");
+        }
+        assert!(PiecewisePolynomial::new().rate(1.0).is_nan());
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use crate::registers::{Loop, in_widest};
 use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
 
 /// A surface z = f(x, y), written once for every number type. Lengths are in mm, and z points to
@@ -125,40 +126,14 @@ const CURVES: usize = 2;
 impl<T: Surface> SurfaceModel for T {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        let (xs, x_rest) = x.as_chunks::<WIDTH>();
-        let (ys, y_rest) = y.as_chunks::<WIDTH>();
-        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
-        for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
-            *z = Surface::sag(self, Lanes(*x), Lanes(*y)).0;
-        }
-        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
-            *z = Surface::sag(self, *x, *y);
-        }
+        in_widest(Heights(self, x, y, z));
         Ok(())
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
-        let Gradients { z, zx, zy } = out;
+        let Gradients { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        let (xs, x_rest) = x.as_chunks::<WIDTH>();
-        let (ys, y_rest) = y.as_chunks::<WIDTH>();
-        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
-        let (zxs, zx_rest) = zx.as_chunks_mut::<WIDTH>();
-        let (zys, zy_rest) = zy.as_chunks_mut::<WIDTH>();
-        for ((((x, y), z), zx), zy) in xs.iter().zip(ys).zip(zs).zip(zxs).zip(zys) {
-            let sag = sag_and_slopes(self, Lanes(*x), Lanes(*y));
-            (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
-        }
-        for ((((x, y), z), zx), zy) in x_rest
-            .iter()
-            .zip(y_rest)
-            .zip(z_rest)
-            .zip(zx_rest)
-            .zip(zy_rest)
-        {
-            let sag = sag_and_slopes(self, *x, *y);
-            (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
-        }
+        in_widest(Slopes(self, x, y, out));
         Ok(())
     }
 
@@ -192,6 +167,59 @@ impl<T: Surface> SurfaceModel for T {
     }
 }
 
+/// The loop of [`SurfaceModel::heights`].
+struct Heights<'a, T>(&'a T, &'a [f64], &'a [f64], &'a mut [f64]);
+
+impl<T: Surface> Loop for Heights<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, z) = self;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
+            *z = surface.sag(Lanes(*x), Lanes(*y)).0;
+        }
+        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
+            *z = surface.sag(*x, *y);
+        }
+    }
+}
+
+/// The loop of [`SurfaceModel::gradient`].
+struct Slopes<'a, T>(&'a T, &'a [f64], &'a [f64], Gradients<'a>);
+
+impl<T: Surface> Loop for Slopes<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, Gradients { z, zx, zy }) = self;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        let (zxs, zx_rest) = zx.as_chunks_mut::<WIDTH>();
+        let (zys, zy_rest) = zy.as_chunks_mut::<WIDTH>();
+        for ((((x, y), z), zx), zy) in xs.iter().zip(ys).zip(zs).zip(zxs).zip(zys) {
+            let sag = sag_and_slopes(surface, Lanes(*x), Lanes(*y));
+            (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
+        }
+        for ((((x, y), z), zx), zy) in x_rest
+            .iter()
+            .zip(y_rest)
+            .zip(z_rest)
+            .zip(zx_rest)
+            .zip(zy_rest)
+        {
+            let sag = sag_and_slopes(surface, *x, *y);
+            (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
+        }
+    }
+}
+
+#[inline(always)]
 fn sag_and_slopes<T: Surface + ?Sized, S: Scalar>(surface: &T, x: S, y: S) -> Dual<S> {
     surface.sag(Dual::variable_x(x), Dual::variable_y(y))
 }

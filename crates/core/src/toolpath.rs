@@ -144,9 +144,9 @@ impl PathBlock {
             SegmentShape::Cubic => Segment::between,
             SegmentShape::Linear => Segment::straight,
         };
-        self.points()
-            .zip(self.points().skip(1))
-            .map(move |(from, to)| between(&from, &to))
+        let mut points = self.points();
+        let mut from = points.next();
+        points.filter_map(move |to| from.replace(to).map(|from| between(&from, &to)))
     }
 }
 

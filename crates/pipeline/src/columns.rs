@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use turnpath_core::toolpath::ControlPoint;
 use turnpath_core::{NodeList, NodeOffset, Nodes};
 
 /// Nodes on the locus. The columns have the same length; units and meaning are those of
@@ -101,19 +100,6 @@ impl Columns {
             z_x: &self.z_x,
             at_start,
             at_end,
-        }
-    }
-
-    /// The control point of node `k` with these velocities.
-    pub fn point(&self, k: usize, vc: f64, vx: f64, vz: f64) -> ControlPoint {
-        ControlPoint {
-            t: self.t[k],
-            c: self.c[k],
-            x: self.x[k],
-            z: self.z[k],
-            vc,
-            vx,
-            vz,
         }
     }
 }

@@ -28,6 +28,8 @@ pub struct BlockPoints {
     pub owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
     pub sampled: usize,
+    /// Whether the path ends with the block.
+    pub ends_path: bool,
 }
 
 /// The state that a sequential solver starts with; nothing for others.
@@ -265,22 +267,25 @@ fn solve(
     };
     let start = columns.t.get(own.start).copied().unwrap_or_default();
     answer.map_err(|error| link.failed(format!("from {start:.6} s on"), error))?;
-    let mut points = PathBlock {
-        shape: link.strategy.segments(),
-        ..PathBlock::default()
-    };
     // One more than its own: the joint with the next block.
     let with_joint = own.start..(own.end + 1).min(columns.len());
-    for k in with_joint.clone() {
-        let point = columns.point(k, c[k], x[k], z[k]);
-        if !point.is_finite() {
-            let what = format!(
-                "vC = {}, vX = {}, vZ = {} at {:.6} s are not finite",
-                point.vc, point.vx, point.vz, point.t
-            );
-            return Err(link.bad_answer(what));
-        }
-        points.push(point);
+    let part = |column: &[f64]| column[with_joint.clone()].to_vec();
+    let points = PathBlock {
+        t: part(&columns.t),
+        c: part(&columns.c),
+        x: part(&columns.x),
+        z: part(&columns.z),
+        vc: part(&c),
+        vx: part(&x),
+        vz: part(&z),
+        shape: link.strategy.segments(),
+    };
+    if let Some(point) = points.points().find(|point| !point.is_finite()) {
+        let what = format!(
+            "vC = {}, vX = {}, vZ = {} at {:.6} s are not finite",
+            point.vc, point.vx, point.vz, point.t
+        );
+        return Err(link.bad_answer(what));
     }
     let (owner, sampled) = row.get(index).map_or((Vec::new(), 0), |block| {
         (block.owner.clone(), block.sampled)
@@ -290,5 +295,6 @@ fn solve(
         offsets: columns.dz[with_joint].to_vec(),
         owner,
         sampled,
+        ends_path: plan.is_last(index),
     })
 }

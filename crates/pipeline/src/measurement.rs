@@ -101,6 +101,11 @@ impl Measurement {
         Ok(())
     }
 
+    /// Whether pictures are asked for.
+    pub fn keeps_sketch(&self) -> bool {
+        self.sketch
+    }
+
     /// The result of the run.
     pub fn outcome(self, plan: &Plan<'_>, lead: Option<Leads>) -> Result<Outcome> {
         let revolutions = plan.law.end();
@@ -123,20 +128,41 @@ impl Measurement {
 }
 
 impl BlockMeasurement {
-    /// Measures a block with the joint at its end.
-    pub fn of(plan: &Plan<'_>, block: &BlockPoints, start: Option<&ServoStart>) -> Result<Self> {
+    /// Measures a block with the joint at its end, with or without what pictures need.
+    pub fn of(
+        plan: &Plan<'_>,
+        block: &BlockPoints,
+        start: Option<&ServoStart>,
+        sketch: bool,
+    ) -> Result<Self> {
         let touch = &plan.preparation.touch;
         let figures = Meter::measure_off(touch, &block.points, &block.offsets);
+        let mut figures = figures.map_err(PipelineError::Measure)?;
+        if sketch {
+            figures.sketch(&block.points);
+        }
         let servo = start.map(|start| ServoMeter::measure(touch, start, &block.points));
         let own_axes = plan
             .own_angles()
-            .map(|angles| AxesMotion::between(&block.points, angles));
+            .map(|angles| match is_between(&block.points, angles) {
+                true => figures.axes,
+                false => AxesMotion::between(&block.points, angles),
+            });
         Ok(Self {
-            figures: figures.map_err(PipelineError::Measure)?,
+            figures,
             servo: servo.transpose().map_err(PipelineError::Measure)?,
             own_axes: own_axes.unwrap_or_default(),
             points: block.owner.len(),
             sampled: block.sampled,
         })
     }
+}
+
+/// More than the rounding of C at the end of a played segment, rad.
+const ROUNDING: f64 = 1e-6;
+
+/// Whether a block lies between two angles of C, rad, and not at the second one. C grows along the cut.
+fn is_between(points: &PathBlock, [from, to]: [f64; 2]) -> bool {
+    let ends = points.c.first().zip(points.c.last());
+    ends.is_some_and(|(first, last)| *first >= from && *last <= to - ROUNDING)
 }

@@ -16,7 +16,8 @@ use crate::tail::{BlockContext, PathTail};
 /// A block in the form that the sink keeps, and what was measured on it.
 struct BlockRecord<B> {
     measured: Option<BlockMeasurement>,
-    motion: AxesMotion,
+    /// How the axes move, where that is known already or may be asked.
+    motion: Option<AxesMotion>,
     points: usize,
     encoded: B,
 }
@@ -73,9 +74,10 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
     /// Measures and encodes blocks of the cutting section in parallel, and delivers them in order.
     pub fn record(&mut self, plan: &Plan<'_>, blocks: Vec<BlockPoints>) -> RunResult<(), S::Error> {
         let tasks: Vec<BlockTask> = blocks.into_iter().map(|block| self.task(block)).collect();
-        let (sink, measures) = (&*self.sink, self.measurement.is_some());
+        let sketch = self.measurement.as_deref().map(Measurement::keeps_sketch);
+        let sink = &*self.sink;
         let each = tasks.into_par_iter();
-        let records = in_order(each.map(|task| task.record(plan, sink, measures)))?;
+        let records = in_order(each.map(|task| task.record(plan, sink, sketch)))?;
         records.into_iter().try_for_each(|record| self.add(record))
     }
 
@@ -94,7 +96,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         {
             measurement.append(block)?;
         }
-        self.last_motion = record.motion;
+        self.last_motion = record.motion.unwrap_or_default();
         self.take(record.points, record.encoded)
     }
 
@@ -115,25 +117,24 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
 }
 
 impl BlockTask {
-    /// Encodes the block without the joint with the next block, and measures it with the joint.
+    /// Encodes the block without the joint with the next block, and measures it with the joint: `sketch`
+    /// says whether with what pictures need, `None` that nothing is measured.
     fn record<S: Sink + ?Sized>(
         self,
         plan: &Plan<'_>,
         sink: &S,
-        measures: bool,
+        sketch: Option<bool>,
     ) -> RunResult<BlockRecord<S::Block>, S::Error> {
         let Self {
             block,
             context,
             start,
         } = self;
-        let measured = match measures {
-            true => Some(BlockMeasurement::of(plan, &block, start.as_ref())?),
-            false => None,
-        };
+        let measure = |sketch| BlockMeasurement::of(plan, &block, start.as_ref(), sketch);
+        let measured = sketch.map(measure).transpose()?;
         let motion = match &measured {
-            Some(measured) => measured.figures.axes,
-            None => AxesMotion::of(&block.points),
+            Some(measured) => Some(measured.figures.axes),
+            None => block.ends_path.then(|| AxesMotion::of(&block.points)),
         };
         let mut points = block.points;
         points.truncate(block.owner.len());

@@ -3,7 +3,7 @@
 use turnpath_core::DEG;
 use turnpath_core::toolpath::ControlPoint;
 
-use crate::fixed_point::ONE;
+use crate::fixed_point::{ONE, to_f64};
 use crate::program_format::{ProgramFormat, TURN_DEG};
 
 /// A revolution in 10⁻¹² deg.
@@ -69,7 +69,7 @@ impl Axes {
     fn point(&self) -> ControlPoint {
         let format = &self.format;
         let (sign, per) = (format.c_sign(), format.velocity_time());
-        let unit = |value: i128| value as f64 / ONE as f64;
+        let unit = |value: i128| to_f64(value) / ONE as f64;
         let [c, x, z] = self.position.unwrap_or_default().map(unit);
         let [vc, vx, vz] = self.velocity.map(|v| unit(v) / per);
         ControlPoint {

@@ -2,22 +2,90 @@
 
 use std::io::Write;
 
+/// Digits of a half of a short number: of all before its point, or of all behind it.
+const HALF: usize = 16;
+/// The powers of ten that a half can hold.
+const POWERS: [u64; HALF + 1] = {
+    let mut powers = [1; HALF + 1];
+    let mut k = 1;
+    while k < powers.len() {
+        powers[k] = 10 * powers[k - 1];
+        k += 1;
+    }
+    powers
+};
+
 /// Appends `units` · 10^−`decimals` without trailing zeros.
 pub(crate) fn push(text: &mut Vec<u8>, units: impl Into<i128>, decimals: u32) {
     let units: i128 = units.into();
-    let (size, one) = (units.unsigned_abs(), 10u128.pow(decimals));
     if units < 0 {
         text.push(b'-');
     }
+    let size = units.unsigned_abs();
+    match short_halves(size, decimals) {
+        Some(halves) => push_short(text, halves),
+        None => push_long(text, size, decimals),
+    }
+}
+
+/// What stands before the point and behind it, the latter in 10⁻¹⁶; `None` if a half cannot hold it.
+fn short_halves(size: u128, decimals: u32) -> Option<[u64; 2]> {
+    let size = u64::try_from(size).ok()?;
+    let one = POWERS.get(decimals as usize)?;
+    let scale = POWERS.get(HALF.checked_sub(decimals as usize)?)?;
+    let (whole, fraction) = (size / one, size % one);
+    (whole < POWERS[HALF]).then_some([whole, fraction * scale])
+}
+
+fn push_short(text: &mut Vec<u8>, [whole, fraction]: [u64; 2]) {
+    let mut line = [b'.'; 2 * HALF + 1];
+    let (before, behind) = (sixteen_digits(whole), sixteen_digits(fraction));
+    line[..HALF].copy_from_slice(&before.to_le_bytes());
+    line[HALF + 1..].copy_from_slice(&behind.to_le_bytes());
+    // The first digit is in the lowest byte.
+    let first = ((before ^ ZEROS).trailing_zeros() as usize / 8).min(HALF - 1);
+    let end = match (behind ^ ZEROS).leading_zeros() as usize / 8 {
+        HALF => HALF,
+        zeros => line.len() - zeros,
+    };
+    text.extend_from_slice(&line[first..end]);
+}
+
+/// Sixteen digits `0`.
+const ZEROS: u128 = u128::from_ne_bytes([b'0'; HALF]);
+
+/// The digits of a number below 10¹⁶, the first one in the lowest byte.
+fn sixteen_digits(number: u64) -> u128 {
+    let (upper, lower) = (number / 100_000_000, number % 100_000_000);
+    u128::from(eight_digits(upper)) | (u128::from(eight_digits(lower)) << 64)
+}
+
+/// The digits of a number below 10⁸, the first one in the lowest byte. Groups of four, two and one
+/// digits are halved side by side: the quotients by 100 and by 10 are products with their reciprocals,
+/// exact for numbers so small.
+fn eight_digits(number: u64) -> u64 {
+    let fours = (number / 10_000) | ((number % 10_000) << 32);
+    let hundreds = ((fours * 10_486) >> 20) & 0x0000_007f_0000_007f;
+    let twos = hundreds | ((fours - 100 * hundreds) << 16);
+    let tens = ((twos * 103) >> 10) & 0x000f_000f_000f_000f;
+    let ones = tens | ((twos - 10 * tens) << 8);
+    ones | 0x3030_3030_3030_3030
+}
+
+fn push_long(text: &mut Vec<u8>, size: u128, decimals: u32) {
+    let one = 10u128.pow(decimals);
     // Writing to memory cannot fail.
     let _ = write!(text, "{}", size / one);
     let fraction = size % one;
     if fraction > 0 {
         let _ = write!(text, ".{fraction:0width$}", width = decimals as usize);
-        while text.last() == Some(&b'0') {
-            text.pop();
-        }
+        drop_zeros(text);
     }
+}
+
+fn drop_zeros(text: &mut Vec<u8>) {
+    let zeros = text.iter().rev().take_while(|digit| **digit == b'0');
+    text.truncate(text.len() - zeros.count());
 }
 
 #[cfg(test)]
@@ -32,10 +100,48 @@ mod tests {
             (12_345, 2, "123.45"),
             (-90_000_000, 7, "-9"),
             (5, 0, "5"),
+            (i64::MAX, 7, "922337203685.4775807"),
+            (i64::MIN, 18, "-9.223372036854775808"),
+            (i64::MIN, 25, "-0.0000009223372036854775808"),
+            (10_200_000, 7, "1.02"),
         ] {
             let mut written = Vec::new();
-            push(&mut written, i64::from(units), decimals);
+            push(&mut written, units, decimals);
             assert_eq!(String::from_utf8(written).unwrap(), text);
+        }
+    }
+
+    /// A short number has the same digits on both ways, whatever its size.
+    #[test]
+    fn short_and_long_numbers_are_written_alike() {
+        for decimals in 0..=16 {
+            let one = 10u64.pow(decimals);
+            for size in [
+                0,
+                1,
+                9,
+                one - 1,
+                one,
+                one + 1,
+                7 * one / 10,
+                one / 1000 * 123_456,
+            ] {
+                let (mut short, mut long) = (Vec::new(), Vec::new());
+                let halves = short_halves(size.into(), decimals).unwrap();
+                push_short(&mut short, halves);
+                push_long(&mut long, size.into(), decimals);
+                assert_eq!(short, long, "{size} {decimals}");
+            }
+        }
+    }
+
+    #[test]
+    fn eight_digits_are_those_of_every_group() {
+        let groups =
+            (0..10_000).flat_map(|four| [four, 10_000 * four, 10_000 * four + 9_999 - four]);
+        for number in groups {
+            let digits = eight_digits(number).to_le_bytes();
+            assert_eq!(format!("{number:08}").as_bytes(), digits);
         }
     }
 }

@@ -8,6 +8,19 @@ use crate::program_format::{ProgramFormat, TURN_DEG};
 
 /// Beyond this a double times a power of ten is not exact.
 const LARGEST_UNITS: f64 = 9e15;
+/// One in last digits, by the decimals of most programs.
+const ONES: [u64; 10] = [
+    1,
+    10,
+    100,
+    1_000,
+    10_000,
+    100_000,
+    1_000_000,
+    10_000_000,
+    100_000_000,
+    1_000_000_000,
+];
 /// The program's axes, in the order in which they are written.
 pub(crate) const AXES: [char; 3] = ['C', 'X', 'Z'];
 
@@ -165,20 +178,34 @@ fn held(value: f64, bits: u32) -> f64 {
     f64::from_bits((value.to_bits() + half) >> cut << cut)
 }
 
+/// One in last digits.
+fn one(decimals: u32) -> u64 {
+    match ONES.get(decimals as usize) {
+        Some(one) => *one,
+        None => 10u64.pow(decimals),
+    }
+}
+
 /// A value in last digits, if it fits.
 fn units(value: f64, decimals: u32) -> Option<i64> {
-    let scaled = (value * 10u64.pow(decimals) as f64).round();
+    let scaled = (value * one(decimals) as f64).round();
     (scaled.abs() <= LARGEST_UNITS).then_some(scaled as i64)
 }
 
 /// The multiple of `step` next to a value.
 fn nearest_multiple(value: i64, step: i64) -> i64 {
+    if step == 1 {
+        return value;
+    }
     (value + step / 2).div_euclid(step) * step
 }
 
 /// The point at a time in or near the segment that ends at `point` with the velocities of the point.
 fn at_time(point: &ControlPoint, segment: Option<&Segment>, time: f64) -> ControlPoint {
     let by = time - point.t;
+    if by == 0.0 {
+        return *point;
+    }
     let bends = segment.map_or([(0.0, 0.0); 3], |segment| {
         let h = segment.duration;
         [&segment.c, &segment.x, &segment.z]

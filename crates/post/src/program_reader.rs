@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use turnpath_core::tally::LINES_READ;
 use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 
 use crate::compression::{Compression, text_name};
@@ -37,6 +38,8 @@ pub struct ProgramReader<R = File> {
     format: ProgramFormat,
     grammar: Box<dyn Grammar>,
     line: u64,
+    /// Lines of all files that were read.
+    lines_read: usize,
     part: Part,
     section: Option<Section>,
     /// The moves before and after the path.
@@ -45,6 +48,9 @@ pub struct ProgramReader<R = File> {
     depths: DepthCheck,
     /// The points that the end mark says, after it was read.
     said_points: Option<u64>,
+    /// The line that is read, and the points that are found on it: their memory is used again.
+    text: Vec<u8>,
+    found: Vec<ControlPoint>,
     /// Points that were read and not given yet.
     waiting: VecDeque<(ControlPoint, Section)>,
     /// The last point that was read from a line.
@@ -88,11 +94,14 @@ impl<R: Read> ProgramReader<R> {
             format: *format,
             grammar: post.dialect.grammar(format),
             line: 0,
+            lines_read: 0,
             part: Part::Header,
             section: None,
             travel: TravelCheck::default(),
             depths: DepthCheck::new(post.dialect),
             said_points: None,
+            text: Vec::new(),
+            found: Vec::new(),
             waiting: VecDeque::new(),
             last: None,
             found_points: 0,
@@ -146,6 +155,7 @@ impl<R: Read> ProgramReader<R> {
             error,
         })?;
         self.line += u64::from(read > 0);
+        self.lines_read += usize::from(read > 0);
         if read as u64 == LONGEST_LINE {
             return Err(self.wrong("this line is longer than any line of a program".to_owned()));
         }
@@ -277,9 +287,14 @@ impl<R: Read> ProgramReader<R> {
             let places = self.post.dialect.read_travel(code.trim(), modes)?;
             return self.travel.go_to(&places, self.line);
         }
-        let mut points = Vec::new();
-        self.grammar.read(code, &mut points)?;
-        self.wait(points);
+        let mut points = std::mem::take(&mut self.found);
+        points.clear();
+        let read = self.grammar.read(code, &mut points);
+        if read.is_ok() {
+            self.wait(points.drain(..));
+        }
+        self.found = points;
+        read?;
         if self.grammar.holds_point() {
             self.held = self.held.or(self.section);
         }
@@ -311,6 +326,7 @@ impl<R: Read> ProgramReader<R> {
     fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
             let count = self.found_points;
+            LINES_READ.add(std::mem::take(&mut self.lines_read));
             self.pass_footer()?;
             self.parts.finish().map_err(|what| self.wrong(what))?;
             return match said == count {
@@ -350,8 +366,10 @@ impl<R: Read> ProgramReader<R> {
 impl<R: Read> ProgramReader<R> {
     /// The file of the part that a line of the main program calls.
     fn called_part(&self, code: &[u8]) -> Option<String> {
-        let code = std::str::from_utf8(code).ok();
-        let code = code.filter(|_| self.part == Part::Path && self.parts.may_be_called())?;
+        if self.part != Part::Path || !self.parts.may_be_called() {
+            return None;
+        }
+        let code = std::str::from_utf8(code).ok()?;
         let own = self.path.file_name().unwrap_or_default().to_string_lossy();
         self.post.dialect.called_part(code, text_name(&own))
     }
@@ -400,9 +418,11 @@ fn said_points(said: &str) -> Option<u64> {
 impl<R: Read> ProgramReader<R> {
     /// The next point with the velocities that its line says.
     fn next_found(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
-        let mut text = Vec::new();
         while self.waiting.is_empty() {
-            if !self.read_on(&mut text)? {
+            let mut text = std::mem::take(&mut self.text);
+            let is_within = self.read_on(&mut text);
+            self.text = text;
+            if !is_within? {
                 return Ok(None);
             }
         }

@@ -65,6 +65,7 @@ mod summary;
 mod surface;
 mod surface_need;
 mod toolpath;
+mod unmeasured;
 mod verify;
 
 pub use ablation::{

@@ -9,7 +9,7 @@ use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 use turnpath_verify::{
     AnomalyDetector, BlockFigures, FirstTouch, LeadBlockFigures, LeadMeter, Meter,
-    ServoBlockFigures, ServoMeter, ServoStart,
+    ProgramBlockFigures, ProgramMeter, ServoBlockFigures, ServoMeter, ServoStart,
 };
 
 use crate::diagnosis::of_measure;
@@ -20,6 +20,28 @@ use crate::figures::form_scope;
 pub const BLOCK_ROWS: usize = 20_000;
 /// Blocks that are measured at a time: enough for every thread, within some hundred megabytes.
 const BLOCKS: usize = 16;
+
+/// What measures a path that is read in blocks.
+pub trait Meters: Sync {
+    /// What must be known of the path before a block, in the order of the blocks.
+    type Start: Send;
+    /// The figures of a block.
+    type Block: Send;
+
+    /// Goes on over the next block.
+    fn advance(&mut self, points: &PathBlock) -> Self::Start;
+
+    /// Measures a block; blocks are measured in parallel.
+    fn measure(
+        &self,
+        section: Section,
+        points: PathBlock,
+        start: Self::Start,
+    ) -> Result<Self::Block, StrategyError>;
+
+    /// Appends the figures of the next block.
+    fn append(&mut self, block: &Self::Block) -> Result<(), StrategyError>;
+}
 
 /// What measures a path.
 pub struct PathMeters {
@@ -66,6 +88,24 @@ impl PathMeters {
             detector.append(points, heights);
         }
     }
+}
+
+impl Meters for PathMeters {
+    type Start = Option<ServoStart>;
+    type Block = MeasuredBlock;
+
+    fn advance(&mut self, points: &PathBlock) -> Option<ServoStart> {
+        self.servo.as_mut().map(|servo| servo.advance(points))
+    }
+
+    fn measure(
+        &self,
+        section: Section,
+        points: PathBlock,
+        start: Option<ServoStart>,
+    ) -> Result<MeasuredBlock, StrategyError> {
+        MeasuredBlock::new(self.cut.touch(), section, points, start)
+    }
 
     fn append(&mut self, block: &MeasuredBlock) -> Result<(), StrategyError> {
         match block {
@@ -92,13 +132,69 @@ impl PathMeters {
     }
 }
 
+/// What measures a motion program on its own text: the figures that digits and times can change.
+pub struct ProgramMeters {
+    /// Its cutting section.
+    pub cut: ProgramMeter,
+    /// Its leads.
+    pub lead: LeadMeter,
+}
+
+impl ProgramMeters {
+    /// Nothing measured yet.
+    pub fn new(recipe: &Recipe, touch: FirstTouch) -> Self {
+        Self {
+            cut: ProgramMeter::new(touch, form_scope(recipe)),
+            lead: LeadMeter::default(),
+        }
+    }
+}
+
+/// The figures of a block of a program.
+pub enum ProgramBlock {
+    /// Of the cut.
+    Cut(ProgramBlockFigures),
+    /// Of a lead.
+    Lead(Box<LeadBlockFigures>),
+}
+
+impl Meters for ProgramMeters {
+    type Start = ();
+    type Block = ProgramBlock;
+
+    fn advance(&mut self, _: &PathBlock) {}
+
+    fn measure(
+        &self,
+        section: Section,
+        points: PathBlock,
+        (): (),
+    ) -> Result<ProgramBlock, StrategyError> {
+        Ok(match section {
+            Section::Cutting => ProgramBlock::Cut(self.cut.measure(&points)?),
+            Section::LeadIn | Section::LeadOut => {
+                let figures = LeadMeter::measure(self.cut.touch(), &points)?;
+                ProgramBlock::Lead(Box::new(figures))
+            }
+        })
+    }
+
+    fn append(&mut self, block: &ProgramBlock) -> Result<(), StrategyError> {
+        match block {
+            ProgramBlock::Cut(figures) => self.cut.append(figures),
+            ProgramBlock::Lead(figures) => self.lead.append(figures),
+        }
+        Ok(())
+    }
+}
+
 /// A block of a path with its figures.
-enum MeasuredBlock {
+pub enum MeasuredBlock {
     Cut(Box<CutBlock>),
     Lead(Box<(LeadBlockFigures, PathBlock)>),
 }
 
-struct CutBlock {
+pub struct CutBlock {
     figures: BlockFigures,
     servo: Option<ServoBlockFigures>,
     points: PathBlock,
@@ -130,38 +226,40 @@ impl MeasuredBlock {
     }
 }
 
-/// Reads a path and measures it, in blocks, in parallel.
-pub fn measure(
+/// Reads a path and measures it, in blocks, in parallel. The next blocks are read meanwhile.
+pub fn measure<M: Meters>(
     recipe: &Recipe,
-    mut meters: PathMeters,
+    mut meters: M,
     shape: SegmentShape,
-    reader: &mut dyn ReadPath,
+    reader: &mut (dyn ReadPath + Send),
     observer: &dyn Observer,
-) -> Result<PathMeters, Error> {
+) -> Result<M, Error> {
     let failed = |error: StrategyError| of_measure(recipe, error);
+    let mut blocks = next_blocks(reader, shape)?;
     loop {
         if observer.is_cancelled() {
             return Err(Error::Cancelled);
         }
-        let blocks = next_blocks(reader, shape)?;
         if blocks.is_empty() {
             return Ok(meters);
         }
-        let starts: Vec<Option<ServoStart>> = blocks
+        let count = blocks.len() as u64;
+        let starts: Vec<M::Start> = blocks
             .iter()
-            .map(|(_, block)| meters.servo.as_mut().map(|servo| servo.advance(block)))
+            .map(|(_, block)| meters.advance(block))
             .collect();
-        let (touch, count) = (meters.cut.touch(), blocks.len() as u64);
-        let measured: Vec<MeasuredBlock> = blocks
-            .into_par_iter()
-            .zip(starts)
-            .map(|((section, block), start)| MeasuredBlock::new(touch, section, block, start))
-            .collect::<Result<_, _>>()
-            .map_err(failed)?;
-        for block in &measured {
+        let of_block = &meters;
+        let measure_all = || -> Result<Vec<M::Block>, StrategyError> {
+            let each = blocks.into_par_iter().zip(starts);
+            each.map(|((section, block), start)| of_block.measure(section, block, start))
+                .collect()
+        };
+        let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape));
+        for block in &measured.map_err(failed)? {
             meters.append(block).map_err(failed)?;
         }
         observer.advance(count);
+        blocks = next?;
     }
 }
 

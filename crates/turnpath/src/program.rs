@@ -20,7 +20,7 @@ use crate::depths::refuse_depths;
 use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
 use crate::figures::{form_error, tolerances};
-use crate::meters::{BLOCK_ROWS, PathMeters, measure};
+use crate::meters::{BLOCK_ROWS, ProgramMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
 use crate::segment_rate::{CountedSegments, SegmentRate};
 use crate::sizes::sampled_bytes;
@@ -46,7 +46,7 @@ pub struct Program {
 /// The text of a program's path, as it is read back.
 pub struct ProgramText<'a> {
     /// Reads it.
-    pub reader: &'a mut dyn ReadPath,
+    pub reader: &'a mut (dyn ReadPath + Send),
     /// The program's file, for messages.
     pub name: &'a Path,
     /// The points that were written.
@@ -316,7 +316,7 @@ impl Program {
             points,
         } = text;
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
-        let meters = PathMeters::new(recipe, touch);
+        let meters = ProgramMeters::new(recipe, touch);
         let mut counted = CountedSegments::new(reader);
         let mut reader = SpeedSteps::new(&mut counted);
         let shape = self.layout.format.shape();
@@ -333,11 +333,10 @@ impl Program {
         let rate = self.carried(counted.rate.within(self.segments_per_second));
         rate.map_err(|error| not_carried(recipe, error))?;
         let failed = |error| of_measure(recipe, error);
-        let figures = measured.cut.figures().map_err(failed)?;
         let form = measured.cut.form().map_err(failed)?;
         let lead_clearance = measured.lead.figures().map(|lead| lead.clearance);
         let figures = ProgramFigures {
-            interpolation_error: figures.playback.max(),
+            interpolation_error: measured.cut.playback().max(),
             path_error,
             c_speed_step: self.layout.post.c_is_even.then_some(speed_step),
             form_error: form_error(form.as_ref(), lead_clearance),

@@ -56,14 +56,14 @@ impl SegmentRate {
 
 /// Reads a path and counts its segments.
 pub struct CountedSegments<'a> {
-    reader: &'a mut dyn ReadPath,
+    reader: &'a mut (dyn ReadPath + Send),
     /// What was counted so far.
     pub rate: SegmentRate,
 }
 
 impl<'a> CountedSegments<'a> {
     /// A path that was not begun.
-    pub fn new(reader: &'a mut dyn ReadPath) -> Self {
+    pub fn new(reader: &'a mut (dyn ReadPath + Send)) -> Self {
         Self {
             reader,
             rate: SegmentRate::default(),

@@ -5,7 +5,7 @@ use turnpath_post::{ReadCount, ReadError, ReadPath};
 
 /// Reads a path, and finds the largest step of the speed of C where each segment has its mean speed.
 pub struct SpeedSteps<'a> {
-    reader: &'a mut dyn ReadPath,
+    reader: &'a mut (dyn ReadPath + Send),
     /// The last point, and the speed of C before it, rad/s.
     last: Option<(ControlPoint, f64)>,
     largest: f64,
@@ -13,7 +13,7 @@ pub struct SpeedSteps<'a> {
 
 impl<'a> SpeedSteps<'a> {
     /// A path that was not begun.
-    pub fn new(reader: &'a mut dyn ReadPath) -> Self {
+    pub fn new(reader: &'a mut (dyn ReadPath + Send)) -> Self {
         Self {
             reader,
             last: None,

@@ -28,6 +28,13 @@ impl Peak {
         }
     }
 
+    /// Rises to an amount at the position `s` of a segment, if that is larger.
+    fn rise(&mut self, segment: &Segment, s: f64, amount: f64) {
+        if amount > self.amount {
+            *self = Self::on(segment, s, amount);
+        }
+    }
+
     /// The larger of the two; `self` if they are equal.
     fn or(self, next: Self) -> Self {
         if next.amount > self.amount {
@@ -110,16 +117,17 @@ impl AxisMotion {
         let (twice, thrice) = (once * once, once * once * once);
         let (first, last) = (cubic.bend(0.0), cubic.bend(1.0));
         let turning = first / (first - last);
-        let peak = |s: f64, amount: f64| Peak::on(segment, s, amount.abs());
         for s in [0.0, turning, 1.0] {
             if (0.0..=1.0).contains(&s) {
-                self.velocity = self.velocity.or(peak(s, cubic.slope(s) * once));
+                let velocity = cubic.slope(s) * once;
+                self.velocity.rise(segment, s, velocity.abs());
             }
         }
         for (s, bend) in [(0.0, first), (1.0, last)] {
-            self.acceleration = self.acceleration.or(peak(s, bend * twice));
+            self.acceleration.rise(segment, s, (bend * twice).abs());
         }
-        self.jerk = self.jerk.or(peak(0.5, cubic.jerk() * thrice));
+        let jerk = cubic.jerk() * thrice;
+        self.jerk.rise(segment, 0.5, jerk.abs());
         let bends = (first * first + first * last + last * last) / 3.0;
         self.squares[0] += mean_square_slope(cubic) * twice * duration;
         self.squares[1] += bends * twice * twice * duration;

@@ -1,7 +1,7 @@
 //! The instants of a batch of segments: the played position and the first touch at each.
 
-use turnpath_core::Result;
 use turnpath_core::toolpath::Segment;
+use turnpath_core::{Result, tally, within_turn};
 
 use crate::touch::{FirstTouch, Touch};
 
@@ -32,11 +32,12 @@ impl InstantBatch {
             for k in 0..INSTANTS {
                 let s = k as f64 / INSTANTS as f64;
                 let c = segment.c.value(s);
-                self.theta.push(c.rem_euclid(std::f64::consts::TAU));
+                self.theta.push(within_turn(c));
                 self.x.push(segment.x.value(s));
                 self.z.push(segment.z.value(s));
             }
         }
+        tally::INSTANTS.add(self.theta.len());
         touch.find(&self.theta, &self.x, &mut self.touches)
     }
 

@@ -7,6 +7,7 @@
 
 mod anomalies;
 mod axes;
+mod batches;
 mod best_sphere;
 mod bracket;
 mod closing;
@@ -27,6 +28,7 @@ mod periodogram;
 mod playback;
 mod points;
 mod profiles;
+mod program_meter;
 mod residual;
 mod scan;
 mod servo;
@@ -54,6 +56,7 @@ pub use meter::{BlockFigures, Meter, PathFigures};
 pub use part_edge::UncutHeight;
 pub use playback::PlaybackFigures;
 pub use points::PointFigures;
+pub use program_meter::{ProgramBlockFigures, ProgramMeter};
 pub use residual::{ResidualFigures, SECTIONS, cusp_heights};
 pub use servo::{FollowingError, ServoBlockFigures, ServoFigures, ServoMeter, ServoStart};
 pub use sketch::{PathSketch, SpiralSample, TurnMotion};

@@ -32,6 +32,7 @@ pub struct BlockFigures {
     /// Cutting speed.
     pub cutting_speed: CuttingSpeed,
     passes: Passes,
+    cusps: Vec<ResidualFigures>,
     sections: SectionPasses,
     /// The passes of the real nose, where the path takes its radius as 0.
     real_nose: Option<SectionPasses>,
@@ -42,6 +43,11 @@ pub struct BlockFigures {
 }
 
 impl BlockFigures {
+    /// Adds what pictures of the block need.
+    pub fn sketch(&mut self, points: &PathBlock) {
+        self.sketch = BlockSketch::of(points, &self.per_segment, &self.cusps);
+    }
+
     /// Plays the block back; the errors of its points are known.
     fn play_back(&mut self, touch: &FirstTouch, points: &PathBlock) -> Result<()> {
         let (part, spokes) = (touch.subject().part, &mut self.spokes);
@@ -142,11 +148,13 @@ impl Meter {
 
     /// Measures the segments between neighbouring points; can run in parallel.
     pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<BlockFigures> {
-        Self::measure_off(touch, points, &[])
+        let mut block = Self::measure_off(touch, points, &[])?;
+        block.sketch(points);
+        Ok(block)
     }
 
-    /// Measures points that were placed off the locus. `offsets` has Z of each point above the
-    /// locus, mm; it may be empty.
+    /// Measures points that were placed off the locus, without what pictures need. `offsets` has Z of
+    /// each point above the locus, mm; it may be empty.
     pub fn measure_off(
         touch: &FirstTouch,
         points: &PathBlock,
@@ -162,9 +170,8 @@ impl Meter {
         block.play_back(touch, points)?;
         block.points = PointFigures::of(points, &block.per_point, offsets);
         block.passes = Passes::of(touch, points)?;
-        let cusps = block.passes.cusps(touch)?;
-        block.residual = ResidualFigures::of(&cusps);
-        block.sketch = BlockSketch::of(points, &block.per_segment, &cusps);
+        block.cusps = block.passes.cusps(touch)?;
+        block.residual = ResidualFigures::of(&block.cusps);
         block.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
         if !touch.subject().compensates_nose {
             let radius = touch.subject().tool.nose_radius;

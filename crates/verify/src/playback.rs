@@ -86,14 +86,19 @@ pub(crate) fn play_back(
     per_segment: &mut Vec<f64>,
     mut seen: impl FnMut(&SegmentPlayback<'_>),
 ) -> Result<PlaybackFigures> {
-    let segments: Vec<Segment> = points.segments().collect();
+    let (mut segments, mut batch) = (points.segments(), Vec::with_capacity(BATCH));
     let mut figures = PlaybackFigures::default();
     let mut instants = InstantBatch::default();
     per_segment.clear();
-    for batch in segments.chunks(BATCH) {
-        instants.play(batch, touch)?;
+    loop {
+        batch.clear();
+        batch.extend(segments.by_ref().take(BATCH));
+        if batch.is_empty() {
+            break;
+        }
+        instants.play(&batch, touch)?;
         let corners = match touch.leaves_seams() {
-            true => at_corners(touch, batch, instants.touches())?,
+            true => at_corners(touch, &batch, instants.touches())?,
             false => Vec::new(),
         };
         for (i, segment) in batch.iter().enumerate() {

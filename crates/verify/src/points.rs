@@ -4,11 +4,10 @@
 //! the sampler's offset: to rounding in a table, to half a digit in a program. A point that someone
 //! moved by hand shows here long before it shows in the interpolation error.
 
-use std::f64::consts::TAU;
-
-use turnpath_core::Result;
 use turnpath_core::toolpath::PathBlock;
+use turnpath_core::{Result, within_turn};
 
+use crate::batches::touches_at;
 use crate::touch::FirstTouch;
 
 /// The error of the control points.
@@ -66,9 +65,8 @@ impl PointFigures {
 
 /// Z − first touch at each control point, mm.
 pub(crate) fn point_errors(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
-    let theta: Vec<f64> = points.c.iter().map(|c| c.rem_euclid(TAU)).collect();
-    let mut touches = Vec::new();
-    touch.find(&theta, &points.x, &mut touches)?;
+    let theta: Vec<f64> = points.c.iter().map(|c| within_turn(*c)).collect();
+    let touches = touches_at(touch, &theta, &points.x)?;
     let pairs = points.z.iter().zip(&touches);
     Ok(pairs.map(|(z, touch)| z - touch.z).collect())
 }

@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 use turnpath_core::toolpath::{PathBlock, Segment};
 use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
+use crate::batches::touches_at;
 use crate::closing::{self, SectionCusp};
 use crate::cusp::{self, Point};
 use crate::subject::Subject;
@@ -190,8 +191,7 @@ impl Passes {
 
 /// The passes with the tool at each angle, rad, and X, mm, from their first touches.
 pub(crate) fn passes_at(touch: &FirstTouch, theta: &[f64], x: &[f64]) -> Result<Vec<Pass>> {
-    let mut touches = Vec::new();
-    touch.find(theta, x, &mut touches)?;
+    let touches = touches_at(touch, theta, x)?;
     let pass = |(x, found): (&f64, &Touch)| Pass::of(touch.subject(), *x, found);
     Ok(x.iter().zip(&touches).map(pass).collect())
 }

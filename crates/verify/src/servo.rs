@@ -8,10 +8,9 @@
 //! zero if both feed-forwards are 1. The lag is integrated from segment to segment, in order.
 
 use std::collections::VecDeque;
-use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{Cubic, PathBlock, Segment};
-use turnpath_core::{AxisServo, Result, Scalar, Servo};
+use turnpath_core::{AxisServo, Result, Scalar, Servo, within_turn};
 
 use crate::instants::{BATCH, INSTANTS};
 use crate::touch::FirstTouch;
@@ -390,7 +389,7 @@ impl ServoStart {
             figures.x.include(x - segment.x.value(s), share);
             figures.z.include(z - segment.z.value(s), share);
             positions.c.push(c);
-            positions.theta.push(c.rem_euclid(TAU));
+            positions.theta.push(within_turn(c));
             positions.x.push(x);
             positions.z.push(z);
             positions.time.push(share);

@@ -5,6 +5,7 @@
 //! the tool's reach, H has a single maximum, which a bracketed secant finds. Elsewhere a scan of the
 //! whole reach ([`crate::scan`]) brackets every maximum that can be the highest.
 
+use turnpath_core::tally::FIRST_TOUCHES;
 use turnpath_core::{Misfit, Result, SurfaceModel};
 
 use crate::bracket::Bracket;
@@ -124,6 +125,7 @@ impl FirstTouch {
         within: impl Fn(usize) -> (f64, f64),
         out: &mut Vec<Touch>,
     ) -> Result<()> {
+        FIRST_TOUCHES.add(x.len());
         let mut profiles = Profiles::new(self.subject.surface.as_ref(), theta);
         out.clear();
         out.resize(x.len(), Touch::NOWHERE);

@@ -5,9 +5,12 @@ use turnpath_core::toolpath::ControlPoint;
 use super::clock::Clock;
 use super::scan::{Axis, Word, split_comment, words};
 use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
-use crate::fixed_point::ONE;
+use crate::fixed_point::{ONE, PLACES};
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
+
+/// The fives of [`ONE`].
+const FIVES: u64 = 5u64.pow(PLACES);
 
 /// The lines of a PVT program, in their order.
 pub(super) struct PvtGrammar {
@@ -57,9 +60,9 @@ impl Grammar for PvtGrammar {
 
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
         let mut line: AxisWords = [None; 3];
-        for word in words(code)? {
+        for word in words(code) {
             let moved = line.iter().any(Option::is_some);
-            match word {
+            match word? {
                 Word::Move(axis, position, velocity) => {
                     add_move(&mut line, axis, position, velocity)?
                 }
@@ -99,17 +102,22 @@ fn held(value: i128, bits: u32) -> i128 {
     }
     let one = ONE.unsigned_abs();
     // The quantum is 2^−fraction: as many of them as the bits can count.
-    let mut fraction = bits;
-    while fraction > 0 && size << fraction >= one << bits {
-        fraction -= 1;
-    }
-    while size << (fraction + 1) < one << bits {
-        fraction += 1;
-    }
-    let nearest = |value: u128, by: u128| (value + by / 2) / by;
-    let count = nearest(size << fraction, one);
-    let size = nearest(count * one, 1 << fraction);
+    let about = (bits + one.ilog2()).saturating_sub(size.ilog2());
+    let fits = size << about < one << bits;
+    let fraction = if fits { about } else { about.saturating_sub(1) };
+    let doubled = 2 * count_of_ones(size, fraction) * one;
+    let size = ((doubled >> fraction) + 1) >> 1;
     i128::try_from(size).map_or(value, |size| value.signum() * size)
+}
+
+/// `size` · 2^`fraction` in ones, rounded. A one is 2¹² · 5¹²: without its twos most numbers are short.
+fn count_of_ones(size: u128, fraction: u32) -> u128 {
+    let without_twos = fraction.checked_sub(PLACES).map(|shift| size << shift);
+    let short = without_twos.and_then(|size| u64::try_from(size).ok());
+    match short.and_then(|short| short.checked_add(FIVES / 2)) {
+        Some(raised) => u128::from(raised / FIVES),
+        None => ((size << fraction) + ONE.unsigned_abs() / 2) / ONE.unsigned_abs(),
+    }
 }
 
 fn add_move(

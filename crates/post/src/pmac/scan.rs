@@ -3,6 +3,8 @@
 //! This follows the manual's description of motion programs and shares nothing with the writer.
 //! Letters may be lower-case or capital. Spaces are allowed everywhere except within numbers and words.
 
+use memchr::memchr2_iter;
+
 use crate::fixed_point::fixed;
 
 /// The axes of a path.
@@ -11,6 +13,27 @@ pub(super) enum Axis {
     C,
     X,
     Z,
+}
+
+impl Axis {
+    /// The axis of this letter, small or capital.
+    pub(super) fn named(letter: &str) -> Option<Self> {
+        match letter {
+            "C" | "c" => Some(Self::C),
+            "X" | "x" => Some(Self::X),
+            "Z" | "z" => Some(Self::Z),
+            _ => None,
+        }
+    }
+
+    /// What messages call its position and its velocity.
+    fn numbers(self) -> (&'static str, &'static str) {
+        match self {
+            Self::C => ("C", "the velocity of C"),
+            Self::X => ("X", "the velocity of X"),
+            Self::Z => ("Z", "the velocity of Z"),
+        }
+    }
 }
 
 /// A statement of a line. Numbers are in 10⁻¹² of the program's unit.
@@ -26,25 +49,20 @@ pub(super) enum Word {
 
 /// The code of a line, before any comment, and the comment, if there is one.
 pub(super) fn split_comment(line: &[u8]) -> (&[u8], Option<&[u8]>) {
-    let slashes = line.windows(2).position(|pair| pair == b"//");
-    let semicolon = line.iter().position(|byte| *byte == b';');
-    match (slashes, semicolon) {
-        (_, Some(at)) if slashes.is_none_or(|slashes| at < slashes) => {
-            (&line[..at], Some(&line[at + 1..]))
+    for at in memchr2_iter(b';', b'/', line) {
+        let (code, rest) = line.split_at(at);
+        let behind = rest.strip_prefix(b";").or(rest.strip_prefix(b"//"));
+        if behind.is_some() {
+            return (code, behind);
         }
-        (Some(at), _) => (&line[..at], Some(&line[at + 2..])),
-        _ => (line, None),
     }
+    (line, None)
 }
 
-/// The words of a line's code.
-pub(super) fn words(code: &str) -> Result<Vec<Word>, String> {
+/// The words of a line's code. Nothing can be read behind an error.
+pub(super) fn words(code: &str) -> impl Iterator<Item = Result<Word, String>> {
     let mut scanner = Scanner::new(code);
-    let mut words = Vec::new();
-    while !scanner.rest.is_empty() {
-        words.extend(scanner.word()?);
-    }
-    Ok(words)
+    std::iter::from_fn(move || scanner.next_word().transpose())
 }
 
 /// What is still to be read of a line.
@@ -54,59 +72,58 @@ pub(super) struct Scanner<'a> {
 
 impl<'a> Scanner<'a> {
     pub(super) fn new(code: &'a str) -> Self {
-        let rest = code.trim_start();
+        let rest = without_spaces(code);
         Self { rest }
     }
 
     /// What is left, from the next word on; `None` at the end.
     pub(super) fn rest_unless_empty(&mut self) -> Option<&'a str> {
-        self.rest = self.rest.trim_start();
+        self.rest = without_spaces(self.rest);
         Some(self.rest).filter(|rest| !rest.is_empty())
     }
 
-    /// The letters that come next, as capitals; empty if there are none.
-    pub(super) fn letters(&mut self) -> String {
-        self.take_while(|c| c.is_ascii_alphabetic()).to_uppercase()
+    /// The letters that come next; empty if there are none.
+    pub(super) fn letters(&mut self) -> &'a str {
+        self.take_while(|byte| byte.is_ascii_alphabetic())
     }
 
-    /// The next word; `None` for a line's label, `N10`.
-    fn word(&mut self) -> Result<Option<Word>, String> {
-        let start = self.rest;
-        let letters = self.letters();
-        match letters.as_str() {
-            "ABS" => Ok(Some(Word::Absolute(true, self.axes()?))),
-            "INC" => Ok(Some(Word::Absolute(false, self.axes()?))),
-            "PVT" | "TM" => Ok(Some(Word::Time(self.number(&letters)?))),
-            "C" => self.axis(Axis::C, &letters),
-            "X" => self.axis(Axis::X, &letters),
-            "Z" => self.axis(Axis::Z, &letters),
-            "N" => self.number(&letters).map(|_| None),
-            _ => {
-                let word: String = start
-                    .chars()
-                    .take_while(|c| !c.is_whitespace())
-                    .take(40)
-                    .collect();
-                Err(format!("`{word}` is not a word of a PVT path"))
+    /// The next word; `None` at the end. Labels of lines, `N10`, are none.
+    fn next_word(&mut self) -> Result<Option<Word>, String> {
+        while let Some(start) = self.rest_unless_empty() {
+            let letters = self.letters();
+            let is = |word: &str| letters.eq_ignore_ascii_case(word);
+            if let Some(axis) = Axis::named(letters) {
+                return self.axis(axis).map(Some);
+            } else if is("PVT") {
+                return Ok(Some(Word::Time(self.number("PVT")?)));
+            } else if is("TM") {
+                return Ok(Some(Word::Time(self.number("TM")?)));
+            } else if is("ABS") || is("INC") {
+                return Ok(Some(Word::Absolute(is("ABS"), self.axes()?)));
+            } else if !is("N") {
+                return Err(no_word(start));
             }
+            self.number("N")?;
         }
+        Ok(None)
     }
 
-    fn axis(&mut self, axis: Axis, letter: &str) -> Result<Option<Word>, String> {
-        let position = self.number(letter)?;
+    fn axis(&mut self, axis: Axis) -> Result<Word, String> {
+        let (position, velocity) = axis.numbers();
+        let position = self.number(position)?;
         let velocity = match self.rest.strip_prefix(':') {
             Some(rest) => {
-                self.rest = rest.trim_start();
-                Some(self.number(&format!("the velocity of {letter}"))?)
+                self.rest = rest;
+                Some(self.number(velocity)?)
             }
             None => None,
         };
-        Ok(Some(Word::Move(axis, position, velocity)))
+        Ok(Word::Move(axis, position, velocity))
     }
 
     /// The axes in parentheses; all axes if there are no parentheses.
     pub(super) fn axes(&mut self) -> Result<[bool; 3], String> {
-        self.rest = self.rest.trim_start();
+        self.rest = without_spaces(self.rest);
         let Some(inside) = self.rest.strip_prefix('(') else {
             return Ok([true; 3]);
         };
@@ -115,22 +132,25 @@ impl<'a> Scanner<'a> {
             .ok_or("a parenthesis is not closed")?;
         let mut axes = [false; 3];
         for letter in list.split(',') {
-            match letter.trim().to_uppercase().as_str() {
-                "C" => axes[0] = true,
-                "X" => axes[1] = true,
-                "Z" => axes[2] = true,
-                other => return Err(format!("`{other}` is not an axis of the path")),
+            match Axis::named(letter.trim()) {
+                Some(axis) => axes[axis as usize] = true,
+                None => {
+                    let other = letter.trim().to_uppercase();
+                    return Err(format!("`{other}` is not an axis of the path"));
+                }
             }
         }
-        self.rest = rest.trim_start();
+        self.rest = without_spaces(rest);
         Ok(axes)
     }
 
     /// Reads a constant, `-12.5`, and the spaces around it.
     pub(super) fn number(&mut self, name: &str) -> Result<i128, String> {
-        self.rest = self.rest.trim_start();
-        let negative = self.rest.starts_with('-');
-        self.rest = self.rest.strip_prefix(['-', '+']).unwrap_or(self.rest);
+        self.rest = without_spaces(self.rest);
+        let without_minus = self.rest.strip_prefix('-');
+        let negative = without_minus.is_some();
+        let without_sign = without_minus.or_else(|| self.rest.strip_prefix('+'));
+        self.rest = without_sign.unwrap_or(self.rest);
         let whole = self.take_digits();
         let fraction = match self.rest.strip_prefix('.') {
             Some(rest) => {
@@ -142,27 +162,46 @@ impl<'a> Scanner<'a> {
         if whole.is_empty() && fraction.is_empty() {
             return Err(format!("{name} has no number"));
         }
-        self.rest = self.rest.trim_start();
+        self.rest = without_spaces(self.rest);
         let size = fixed(whole, fraction).ok_or_else(|| format!("{name} has too many digits"))?;
         Ok(if negative { -size } else { size })
     }
 
     fn take_digits(&mut self) -> &'a str {
-        self.take_while(|c| c.is_ascii_digit())
+        self.take_while(|byte| byte.is_ascii_digit())
     }
 
-    fn take_while(&mut self, matches: impl Fn(char) -> bool) -> &'a str {
-        let end = self.rest.find(|c| !matches(c)).unwrap_or(self.rest.len());
-        let (start, rest) = self.rest.split_at(end);
+    /// Takes what `matches`, which must be characters of ASCII.
+    fn take_while(&mut self, matches: impl Fn(u8) -> bool) -> &'a str {
+        let end = self.rest.bytes().position(|byte| !matches(byte));
+        let (start, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
         self.rest = rest;
         start
     }
+}
+
+/// A text without the spaces at its beginning, of which most texts have none.
+fn without_spaces(text: &str) -> &str {
+    match text.as_bytes().first() {
+        Some(b'!'..=b'~') | None => text,
+        Some(_) => text.trim_start(),
+    }
+}
+
+fn no_word(start: &str) -> String {
+    let until_space = start.chars().take_while(|c| !c.is_whitespace());
+    let word: String = until_space.take(40).collect();
+    format!("`{word}` is not a word of a PVT path")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fixed_point::ONE;
+
+    fn words(code: &str) -> Result<Vec<Word>, String> {
+        super::words(code).collect()
+    }
 
     #[test]
     fn spaces_case_and_order_do_not_matter() {

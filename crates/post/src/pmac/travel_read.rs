@@ -9,7 +9,7 @@ pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places,
     let mut places: Places = [None; 3];
     let mut scanner = Scanner::new(code);
     while let Some(start) = scanner.rest_unless_empty() {
-        let letters = scanner.letters();
+        let letters = scanner.letters().to_ascii_uppercase();
         let axis = match letters.as_str() {
             "C" => Axis::C,
             "X" => Axis::X,

@@ -214,8 +214,10 @@ impl Lines {
     }
 }
 
-/// Sorts passes from left to right, and those at the same position from the lowest up.
+/// Sorts passes from left to right, and those at the same position from the lowest up. On a line the
+/// passes of its two halves take turns, and each half is in order or nearly so: apart they are two runs.
 pub(super) fn sort(passes: &mut [Point]) {
+    passes.sort_by_key(|pass| pass.x >= 0.0);
     passes.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
 }
 

@@ -1,0 +1,104 @@
+//! Vector registers: loops over lanes run in the widest that the CPU has. Series do not: their
+//! coefficients depend on each other, and OAP-213 was no faster with them in wide registers.
+//!
+//! The compiler turns the same loop into other instructions, but neither the operations nor their
+//! order change, and no two of them are fused. So the bytes are the same in all registers.
+//! `TURNPATH_LANES=base`, `avx2` or `avx512` in the environment asks for no wider ones than these.
+
+pub(crate) use pulp::NullaryFnOnce as Loop;
+
+/// Runs a loop, whose `call` must be `#[inline(always)]`.
+pub(crate) fn in_widest<L: Loop>(one: L) -> L::Output {
+    #[cfg(target_arch = "x86_64")]
+    return x86::in_widest(one);
+    #[cfg(not(target_arch = "x86_64"))]
+    return one.call();
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use std::sync::LazyLock;
+
+    use pulp::x86::{V3, V4};
+
+    use super::Loop;
+
+    /// The environment variable that asks for registers.
+    const VARIABLE: &str = "TURNPATH_LANES";
+
+    /// Registers by what pulp proves of the CPU.
+    #[derive(Debug, Clone, Copy)]
+    pub(super) enum Registers {
+        /// 128 bits, which every CPU has.
+        Base,
+        /// 256 bits.
+        Avx2(V3),
+        /// 512 bits.
+        Avx512(V4),
+    }
+
+    static WIDEST: LazyLock<Registers> = LazyLock::new(|| {
+        let asked = std::env::var(VARIABLE).unwrap_or_default();
+        Registers::within(&asked)
+    });
+
+    pub(super) fn in_widest<L: Loop>(one: L) -> L::Output {
+        WIDEST.run(one)
+    }
+
+    impl Registers {
+        /// The widest registers of the CPU that are no wider than those that are asked for. A word that
+        /// asks for none does not count.
+        pub(super) fn within(asked: &str) -> Self {
+            let v3 = || V3::try_new().map(Self::Avx2);
+            let v4 = || V4::try_new().map(Self::Avx512);
+            let found = match asked {
+                "base" => None,
+                "avx2" => v3(),
+                _ => v4().or_else(v3),
+            };
+            found.unwrap_or(Self::Base)
+        }
+
+        pub(super) fn run<L: Loop>(self, one: L) -> L::Output {
+            match self {
+                Self::Base => one.call(),
+                Self::Avx2(registers) => registers.vectorize(one),
+                Self::Avx512(registers) => registers.vectorize(one),
+            }
+        }
+    }
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::Loop;
+    use super::x86::Registers;
+
+    /// Products and sums that would differ if they were fused, and a square root.
+    struct Formula<'a>(&'a [f64], &'a mut [f64]);
+
+    impl Loop for Formula<'_> {
+        type Output = ();
+
+        #[inline(always)]
+        fn call(self) {
+            let Self(x, z) = self;
+            for (z, x) in z.iter_mut().zip(x) {
+                *z = (x * x - 0.1 * x + 0.7).sqrt() / (1.0 + x * x);
+            }
+        }
+    }
+
+    #[test]
+    fn all_registers_give_the_same_bytes() {
+        let x: Vec<f64> = (0..1003).map(|k| 0.137 * f64::from(k) - 40.0).collect();
+        let of = |asked: &str| {
+            let mut z = vec![0.0; x.len()];
+            Registers::within(asked).run(Formula(&x, &mut z));
+            z.into_iter().map(f64::to_bits).collect::<Vec<u64>>()
+        };
+        let base = of("base");
+        assert_eq!((&of("avx2"), &of("avx512")), (&base, &base));
+    }
+}
