@@ -216,6 +216,7 @@ fn the_programs_of_docs_posts_md_are_what_their_commands_write() {
     for (heading, extension) in [
         ("## Aerotech Automation1", "ascript"),
         ("## Siemens Sinumerik 840D", "mpf"),
+        ("## Beckhoff TwinCAT CNC: polynomials", "ncp"),
     ] {
         is_what_its_command_writes(below(&page, heading), extension);
     }

@@ -46,7 +46,7 @@ fn stops(text: &str) -> (Vec<Stop>, f64) {
 
 /// The saddle with leads, with a program of every post. LinuxCNC plays its lines with a faster servo thread.
 fn saddle(more: &str) -> String {
-    let posts = "[output]\nposts = [\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"beckhoff-g93\", \"nanotech-g93\", \"linuxcnc-g93\"]\n";
+    let posts = "[output]\nposts = [\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"beckhoff-poly\", \"beckhoff-g93\", \"nanotech-g93\", \"linuxcnc-g93\"]\n";
     let recipe = changed(SADDLE, "lead = false", "lead = true");
     let recipe = changed(
         &recipe,
@@ -57,11 +57,12 @@ fn saddle(more: &str) -> String {
     format!("{recipe}\n{posts}{servo}{more}")
 }
 
-const FILES: [&str; 7] = [
+const FILES: [&str; 8] = [
     "recipe-dry-run.pmc",
     "recipe-dry-run.ppmc",
     "recipe-dry-run.ascript",
     "recipe-dry-run.mpf",
+    "recipe-dry-run.ncp",
     "recipe-dry-run.cnc",
     "recipe-dry-run.nc",
     "recipe-dry-run.ngc",

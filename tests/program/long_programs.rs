@@ -7,11 +7,12 @@ use crate::support::bench::Bench;
 use crate::support::recipe::{SADDLE, changed};
 
 /// Posts that may have parts, and the endings of their files.
-const POSTS: [(&str, &str); 6] = [
+const POSTS: [(&str, &str); 7] = [
     ("pmac-pvt", "pmc"),
     ("power-pmac-pvt", "ppmc"),
     ("automation1-pvt", "ascript"),
     ("siemens-840d-poly", "mpf"),
+    ("beckhoff-poly", "ncp"),
     ("beckhoff-g93", "cnc"),
     ("linuxcnc-g93", "ngc"),
 ];

@@ -15,6 +15,7 @@ mod compressed_programs;
 mod controller_commands;
 mod damaged_libraries;
 mod data_files;
+mod depths;
 mod drawings;
 mod dry_run;
 mod ending_plugins;

@@ -11,7 +11,7 @@ const PART: f64 = 0.05;
 
 const OUTPUT: &str = r#"
 [output]
-posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly"]
+posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly", "beckhoff-poly"]
 "#;
 
 /// Programs of straight lines: several for each segment of the path.
@@ -23,10 +23,10 @@ posts = ["nanotech-g93", "linuxcnc-g93"]
 servo_period = "0.1 ms"
 "#;
 
-/// The same four programs with other digits, and distances in place of positions.
+/// The same five programs with other digits, and distances in place of positions.
 const SHORT: &str = r#"
 [output]
-posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly"]
+posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly", "beckhoff-poly"]
 
 [output.pmac-pvt]
 position_decimals = 6
@@ -42,6 +42,10 @@ positioning = "incremental"
 
 [output.siemens-840d-poly]
 position_decimals = 9
+
+[output.beckhoff-poly]
+position_decimals = 5
+time_axis_speed = "123.456 mm/s"
 "#;
 
 #[track_caller]

@@ -30,7 +30,7 @@ columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
 report: tests/reference/report/report.cjs, pages in Chromium by playwright-core
 schema: tests/reference/schema/schema.py, the schema of recipes by taplo
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
-programs: tests/reference/programs/siemens_840d.py, an independent evaluation of polynomials
+programs: tests/reference/programs/siemens_840d.py and beckhoff_poly.py, independent evaluations of polynomials
 queues: the scripts of docs/queues by GNU parallel, HyperQueue, dask.distributed and Slurm
 book: `mdbook build docs`, the pages as a book, and tests/reference/book/links.py, its links and its search
 tables: the tables of the ablations as LaTeX, by pdflatex with booktabs
@@ -177,13 +177,13 @@ fn schema() -> Outcome {
 
 /// The dry runs of all posts, by an independent reader.
 fn dry_runs() -> Outcome {
-    let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"beckhoff-g93\", \"nanotech-g93\", \"linuxcnc-g93\"]";
+    let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"beckhoff-poly\", \"beckhoff-g93\", \"nanotech-g93\", \"linuxcnc-g93\"]";
     let changes = ["--dry-run", "--set", "path.lead=true", "--set", posts];
     let folder = match saddle("dry-runs", &changes) {
         Ok(folder) => folder,
         Err(outcome) => return outcome,
     };
-    let files = ["pmc", "ppmc", "ascript", "mpf", "cnc", "nc", "ngc"].map(|end| {
+    let files = ["pmc", "ppmc", "ascript", "mpf", "ncp", "cnc", "nc", "ngc"].map(|end| {
         let name = format!("saddle-dry-run.{end}");
         folder.join(name)
     });
@@ -194,14 +194,19 @@ fn dry_runs() -> Outcome {
     run(script("tests/reference/programs/dry_run.py", &arguments))
 }
 
-/// The table beside the script is what the script makes of the program beside it.
+/// The table beside each script is what the script makes of the program beside it.
 fn programs() -> Outcome {
     let folder = Path::new("tests/reference/programs");
-    let files = ["saddle.mpf", "siemens_840d.csv"].map(|file| folder.join(file));
-    run(script(
-        "tests/reference/programs/siemens_840d.py",
-        &[&files[0], &files[1]],
-    ))
+    let played = |name: &str, program: &str| {
+        let path = |file: &str| folder.join(file);
+        let (program, table) = (path(program), path(&format!("{name}.csv")));
+        let script_file = format!("tests/reference/programs/{name}.py");
+        run(script(&script_file, &[&program, &table]))
+    };
+    match played("siemens_840d", "saddle.mpf") {
+        Outcome::Passed => played("beckhoff_poly", "cutting-speed.ncp"),
+        other => other,
+    }
 }
 
 /// The pages as a book, whose links and search a script tries.

@@ -1,5 +1,6 @@
 //! `turnpath ablate`: the variants of a recipe side by side.
 
+use std::collections::BTreeSet;
 use std::num::NonZero;
 use std::path::Path;
 
@@ -160,11 +161,35 @@ fn human(
         }
     }
     text += "\n\n";
+    text += &not_recorded(report);
     let (runs, columns) = (ordered(args, report), columns(args));
     text += &comparison::table(&runs, &columns, width::of_terminal(), base(args, report));
     text.push('\n');
     for file in &result.files {
         text += &format!("  file  {}\n", printable_line(&file.display().to_string()));
+    }
+    text
+}
+
+/// The runs that are made each time, and why.
+fn not_recorded(report: &AblationReport) -> String {
+    let reasons = report
+        .runs
+        .iter()
+        .filter_map(|run| run.not_recorded.as_ref());
+    let reasons: Vec<&String> = reasons.collect();
+    let distinct: BTreeSet<&String> = reasons.iter().copied().collect();
+    let of = |why: &String| {
+        let count = reasons.iter().filter(|one| **one == why).count();
+        let runs = if count == 1 { "run has" } else { "runs have" };
+        format!(
+            "  {count} {runs} no record, because of {}\n",
+            printable_line(why)
+        )
+    };
+    let mut text: String = distinct.into_iter().map(of).collect();
+    if !text.is_empty() {
+        text.push('\n');
     }
     text
 }

@@ -9,6 +9,7 @@ use turnpath_plugin::Offer;
 
 use crate::error::MOST_COLUMNS;
 use crate::library::Library;
+use crate::own_strategy::OwnTraits;
 use crate::{Admission, LibraryFile, LoadError, OwnPlugin, Plugin, Strategy};
 
 /// The strategies by slot and name, of linked and of loaded plugins.
@@ -41,7 +42,7 @@ impl Catalogue {
         for (crate_name, offers) in by_crate {
             let version = offers.first().map_or("", Offer::crate_version);
             let plugin = plugin(crate_name, version, None);
-            catalogue.add(plugin, offers)?;
+            catalogue.add(plugin, of_crate(offers))?;
         }
         Ok(catalogue)
     }
@@ -144,8 +145,8 @@ impl Catalogue {
     /// # Errors
     /// Those of [`with_own`](Self::with_own). The catalogue then has nothing of the plugin.
     pub fn add_own(&mut self, own: OwnPlugin) -> Result<(), LoadError> {
-        let (plugin, offers) = own.into_parts();
-        self.add(plugin, offers)
+        let (plugin, strategies) = own.into_parts();
+        self.add(plugin, strategies)
     }
 
     fn add_libraries(&mut self, mut libraries: Vec<LibraryFile>) -> Result<(), LoadError> {
@@ -178,16 +179,20 @@ impl Catalogue {
             offers,
         } = library.load()?;
         let from = Some((library.path().to_owned(), library.sha256().to_owned()));
-        self.add(plugin(&crate_name, &version, from), offers)
+        self.add(plugin(&crate_name, &version, from), of_crate(offers))
     }
 
-    fn add(&mut self, plugin: Plugin, offers: Vec<Offer>) -> Result<(), LoadError> {
+    fn add(
+        &mut self,
+        plugin: Plugin,
+        strategies: Vec<(Offer, OwnTraits)>,
+    ) -> Result<(), LoadError> {
         let plugin = Arc::new(plugin);
         let mut joined = self.strategies.clone();
-        for offer in offers {
+        for (offer, own) in strategies {
             let info = offer.info();
             check(&info, &plugin)?;
-            let strategy = Strategy::new(offer, Arc::clone(&plugin));
+            let strategy = Strategy::new(offer, Arc::clone(&plugin), own);
             if let Some(first) = joined.insert((info.slot, info.name), strategy) {
                 return Err(LoadError::TwoOfOneName {
                     slot: info.slot,
@@ -229,6 +234,12 @@ impl Catalogue {
     pub fn plugins(&self) -> &[Arc<Plugin>] {
         &self.plugins
     }
+}
+
+/// The offers of a crate, which has nothing of the program's own.
+fn of_crate(offers: Vec<Offer>) -> Vec<(Offer, OwnTraits)> {
+    let plain = offers.into_iter();
+    plain.map(|offer| (offer, OwnTraits::default())).collect()
 }
 
 /// Refuses a name that no recipe could choose, parameters whose names belong to the host, and rows

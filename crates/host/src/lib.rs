@@ -26,6 +26,7 @@ mod library;
 mod machine;
 mod native;
 mod own_plugin;
+mod own_strategy;
 mod plugin;
 
 pub use admission::Admission;
@@ -34,7 +35,8 @@ pub use error::{LoadError, Refusal};
 pub use hash::{sha256_hex, sha256_hex_of_file};
 pub use image::entry_symbol;
 pub use library::LibraryFile;
-pub use own_plugin::{OwnPlugin, OwnStrategy};
+pub use own_plugin::OwnPlugin;
+pub use own_strategy::{Identity, OwnStrategy, OwnSurface, SurfaceNeed};
 pub use plugin::{Plugin, Strategy};
 pub use turnpath_plugin::calls;
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

@@ -4,9 +4,11 @@ use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use turnpath_core::{StrategyInfo, printable_line};
+use turnpath_core::{Params, Result, StrategyInfo, SurfaceModel, printable_line};
 use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
+
+use crate::own_strategy::{Identity, OwnTraits, SurfaceNeed};
 
 /// A crate that registers strategies, or a part of the program that makes its own. A crate is linked
 /// into the program or loaded from a file.
@@ -44,18 +46,19 @@ impl fmt::Display for Plugin {
 pub struct Strategy {
     offer: Offer,
     plugin: Arc<Plugin>,
+    own: OwnTraits,
 }
 
 impl Strategy {
     /// Calls of the strategy are marked with its name, so that one that ends the process can be named.
-    pub(crate) fn new(offer: Offer, plugin: Arc<Plugin>) -> Self {
+    pub(crate) fn new(offer: Offer, plugin: Arc<Plugin>, own: OwnTraits) -> Self {
         let info = offer.info();
         let text = format!("the {} `{}` of {plugin}", info.slot.noun(), info.name);
         // What the program brings is as little known as a library.
         let is_foreign = plugin.file.is_some() || plugin.source.is_some();
         let callee = Callee::new(printable_line(&text).into_owned(), is_foreign);
         let offer = offer.named(callee);
-        Self { offer, plugin }
+        Self { offer, plugin, own }
     }
 
     /// Slot, name, summary, source and parameters.
@@ -71,5 +74,23 @@ impl Strategy {
     /// The plugin that registered it.
     pub fn plugin(&self) -> &Arc<Plugin> {
         &self.plugin
+    }
+    /// What tells a strategy of the program from another one of its name and its source; `None` for a
+    /// strategy of a crate, which its plugin stands for.
+    pub fn identity(&self) -> Option<&Identity> {
+        self.own.identity()
+    }
+
+    /// Makes the surface model for what a recipe needs of it. Gives it, and whether its answers have
+    /// the same bytes on every machine as far as that depends on its parameters.
+    ///
+    /// # Errors
+    /// When the constructor refuses the parameters or fails.
+    pub fn surface(
+        &self,
+        params: &Params,
+        need: SurfaceNeed,
+    ) -> Result<(Arc<dyn SurfaceModel>, bool)> {
+        self.own.surface(&self.offer, params, need)
     }
 }

@@ -77,6 +77,16 @@ impl Offer {
         Self { callee, ..self }
     }
 
+    /// The offer with another constructor, a value of the program.
+    #[must_use]
+    pub fn made_by(self, maker: Maker) -> Self {
+        let constructor = Constructor::Program(maker);
+        Self {
+            constructor,
+            ..self
+        }
+    }
+
     /// Builds the surface model.
     pub fn surface(&self, params: &Params) -> Result<Arc<dyn SurfaceModel>> {
         self.build(params)

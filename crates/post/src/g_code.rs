@@ -1,7 +1,14 @@
-//! The moves before and after a path in words of G code, which most controllers share.
+//! What controllers of G code share: the words of a line, the commands of headers and footers, and the moves
+//! before and after a path.
 
+mod commands;
 mod read;
+mod travel_words;
+mod words;
 mod write;
 
+pub(crate) use commands::{commands, ends_program};
 pub(crate) use read::read_travel;
+pub(crate) use travel_words::{TravelWords, read_spaced_travel};
+pub(crate) use words::{split_comment, without_comments};
 pub(crate) use write::push_travel;

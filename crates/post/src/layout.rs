@@ -10,7 +10,10 @@ use crate::compression::Compression;
 use crate::ordinary_file;
 use crate::post::Post;
 use crate::program_error::ProgramError;
-use crate::program_format::{APPROACH_MARK, Chords, END_MARK, ProgramFormat, RETREAT_MARK, mark};
+use crate::program_format::{
+    APPROACH_MARK, Chords, DEPTHS_MARK, END_MARK, END_OF_DEPTHS_MARK, ProgramFormat, RETREAT_MARK,
+    mark,
+};
 use crate::program_reader::ProgramReader;
 use crate::read_error::ReadError;
 use crate::text_file::{self, OpenFile};
@@ -93,7 +96,18 @@ impl Layout {
     /// The lines between the header and a path of this extent.
     pub(crate) fn approach(&self, extent: Option<&Extent>) -> Vec<u8> {
         let moves = extent.map(|extent| extent.approach(&self.format));
-        self.marked_travel(APPROACH_MARK, &moves.unwrap_or_default())
+        let approach = self.marked_travel(APPROACH_MARK, &moves.unwrap_or_default());
+        [self.depth_lines(DEPTHS_MARK, 0), approach].concat()
+    }
+
+    /// The lines that begin a loop over depths, or those that end it, behind their mark.
+    fn depth_lines(&self, mark: &str, which: usize) -> Vec<u8> {
+        let Self { post, format } = self;
+        let depths = format.depths.as_ref();
+        let lines = depths.and_then(|depths| post.dialect.depth_lines(format, depths));
+        let lines = lines.and_then(|lines| lines.into_iter().nth(which));
+        let text = lines.map(|lines| format!("{} {mark}\n{lines}", post.comment));
+        text.unwrap_or_default().into_bytes()
     }
 
     fn marked_travel(&self, mark: &str, moves: &[Travel]) -> Vec<u8> {
@@ -123,6 +137,7 @@ impl Layout {
         self.post.dialect.write_last(&mut text, &self.format);
         let moves = extent.map(|extent| extent.retreat(&self.format));
         text.extend(self.marked_travel(RETREAT_MARK, &moves.unwrap_or_default()));
+        text.extend(self.depth_lines(END_OF_DEPTHS_MARK, 1));
         let mark = format!("{} {END_MARK}: {points} points --\n", self.post.comment);
         text.extend_from_slice(mark.as_bytes());
         text
@@ -182,6 +197,13 @@ impl Layout {
     /// `path`.
     pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
         ProgramReader::new(reader, path.into(), self.post, &self.format)
+    }
+
+    /// Reads the lines of a path and what follows them, without what stands before them, as
+    /// [`ProgramPath::text`](crate::ProgramPath::text) has them. So the beginning of a loop over depths is
+    /// missing, and the loop is not checked.
+    pub fn read_path<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
+        self.read(reader, path).of_path_alone()
     }
 
     /// Reads a program of one or several files in memory. The first one is the main program. What its name

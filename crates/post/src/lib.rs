@@ -8,6 +8,8 @@
 mod amount;
 mod automation1;
 mod axes;
+mod beckhoff;
+mod beckhoff_poly;
 mod carry;
 mod chord;
 mod column_files;
@@ -15,6 +17,7 @@ mod columns;
 mod comment;
 mod compression;
 mod decimal;
+mod depth_check;
 mod digits;
 mod dry_run;
 mod fixed_point;
@@ -29,6 +32,7 @@ mod part_name;
 mod parts;
 mod path_reader;
 mod pmac;
+mod polynomial;
 mod post;
 mod posts;
 mod power_pmac;
@@ -69,18 +73,18 @@ pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use part_name::{PartLines, PartName};
 pub use parts::PartsError;
 pub use path_reader::{ReadCount, ReadPath};
-pub use post::{Command, Dialect, Grammar, Post};
+pub use post::{Command, DepthLoop, Dialect, Grammar, Post};
 pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};
 pub use program_error::ProgramError;
-pub use program_format::{Chords, FeedMeaning, ProgramFormat, Slowest};
+pub use program_format::{Chords, Depths, FeedMeaning, ProgramFormat, Slowest, TimeAxis};
 pub use program_reader::ProgramReader;
 pub use program_writer::{ProgramFileBody, ProgramPath, ProgramPathInMemory, ProgramWriter};
 pub use read_csv::PathReader;
 pub use read_error::ReadError;
 pub use row::HEADER;
 pub use settings::{
-    APPROACH_FEED, APPROACH_HEIGHT, C_SIGN, FOOTER as FOOTER_KEY, HEADER as HEADER_KEY, MEMORY,
-    SEGMENTS_PER_SECOND, SPLIT,
+    APPROACH_FEED, APPROACH_HEIGHT, C_SIGN, DEPTH_STEP, DEPTHS, FOOTER as FOOTER_KEY,
+    HEADER as HEADER_KEY, MEMORY, SEGMENTS_PER_SECOND, SPLIT,
 };
 pub use template::{PLACEHOLDERS, Template, TemplateError};
 pub use text_file::{OpenFile, file_bytes};

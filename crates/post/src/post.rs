@@ -10,7 +10,7 @@ use crate::digits::{DigitSegment, Digits};
 use crate::g_code;
 use crate::part_name::{PartLines, PartName};
 use crate::program_error::ProgramError;
-use crate::program_format::{FeedMeaning, ProgramFormat};
+use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
 use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
@@ -95,6 +95,17 @@ pub trait Dialect: Debug + Send + Sync {
         g_code::read_travel(code, modes)
     }
 
+    /// The lines with which the controller begins and ends a loop that plays what is between them once for
+    /// each depth. `None` where turnpath knows no such loop.
+    fn depth_lines(&self, _format: &ProgramFormat, _depths: &Depths) -> Option<[String; 2]> {
+        None
+    }
+
+    /// A reader of such lines.
+    fn depth_loop(&self) -> Option<Box<dyn DepthLoop>> {
+        None
+    }
+
     /// The template of the header that these settings ask for in place of the post's own, if they do,
     /// behind the name of the key that asks.
     fn other_header(&self, _settings: &Params) -> Option<(&'static str, &'static str)> {
@@ -145,6 +156,21 @@ pub trait Grammar: Send + Sync {
     fn finish(&mut self) -> Option<ControlPoint> {
         None
     }
+}
+
+/// Reads the lines with which a controller begins and ends a loop over depths.
+pub trait DepthLoop: Send + Sync {
+    /// Reads a line's code: one before the approach, or one behind the retreat if `ends`.
+    ///
+    /// # Errors
+    /// When it is no line of such a loop: what is wrong with it.
+    fn read(&mut self, code: &str, ends: bool) -> Result<(), String>;
+
+    /// The places of Z's zero each time that the path is played, in 10⁻¹² mm.
+    ///
+    /// # Errors
+    /// When the lines are no loop that ends: what is wrong.
+    fn shifts(&self) -> Result<Vec<i128>, String>;
 }
 
 /// A line of a header or a footer that is more than a comment.

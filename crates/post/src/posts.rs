@@ -1,6 +1,7 @@
 //! The posts, by their names.
 
 use crate::automation1::AUTOMATION1_PVT;
+use crate::beckhoff_poly::BECKHOFF_POLY;
 use crate::g93::{BECKHOFF_G93, LINUXCNC_G93, NANOTECH_G93};
 use crate::pmac::PMAC_PVT;
 use crate::post::Post;
@@ -13,6 +14,7 @@ pub const POSTS: &[Post] = &[
     POWER_PMAC_PVT,
     AUTOMATION1_PVT,
     SIEMENS_840D_POLY,
+    BECKHOFF_POLY,
     BECKHOFF_G93,
     NANOTECH_G93,
     LINUXCNC_G93,

@@ -155,6 +155,12 @@ pub enum ProgramError {
         /// C there, deg.
         c_deg: f64,
     },
+    /// A loop over depths around a path that does not begin and end at rest.
+    #[error("the path begins in motion: a loop over depths cannot play it once more")]
+    DepthsWithoutLeads,
+    /// A loop over depths of which one key is missing.
+    #[error("a loop over depths has both keys, `depths` and `depth_step`")]
+    HalfOfDepths,
     /// The path goes straight from point to point.
     #[error(
         "the path goes straight from point to point, but this program plays cubics: it cannot carry \
@@ -212,6 +218,8 @@ impl ProgramError {
             }
             Self::ManyParts { .. } => "write a larger split",
             Self::NoCalls => "leave out split",
+            Self::DepthsWithoutLeads => "write lead = true in [path]",
+            Self::HalfOfDepths => "write both, or none",
             Self::StillC { .. } => "write a larger position_decimals, or choose another post",
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
         }

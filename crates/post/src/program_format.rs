@@ -12,6 +12,11 @@ pub(crate) const APPROACH_MARK: &str = "-- approach --";
 /// The mark before the retreat.
 pub(crate) const RETREAT_MARK: &str = "-- retreat --";
 
+/// The mark before the lines that begin a loop over depths.
+pub(crate) const DEPTHS_MARK: &str = "-- depths --";
+/// The mark before the lines that end it.
+pub(crate) const END_OF_DEPTHS_MARK: &str = "-- end of depths --";
+
 /// The mark before the calls of parts.
 pub(crate) fn parts_mark(parts: u32) -> String {
     format!("-- {parts} parts --")
@@ -81,6 +86,32 @@ pub struct Chords {
     pub slowest: Option<Slowest>,
 }
 
+/// A path that a loop of the controller plays several times, each time deeper. The last time it is played
+/// where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Depths {
+    /// How often.
+    pub count: i64,
+    /// How much deeper each time, in last digits of positions.
+    pub step: i64,
+}
+
+impl Depths {
+    /// How far above the path it is played first, in last digits.
+    pub fn rise(&self) -> i64 {
+        (self.count - 1).saturating_mul(self.step)
+    }
+}
+
+/// An axis that a controller moves for its time alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TimeAxis {
+    /// Its name.
+    pub name: char,
+    /// How fast it goes, µm/s.
+    pub speed_um_per_s: i64,
+}
+
 /// How a program writes times, positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramFormat {
@@ -112,6 +143,10 @@ pub struct ProgramFormat {
     pub z_above: f64,
     /// Chords in place of cubics: the program has no velocities. `None` where it plays cubics.
     pub chords: Option<Chords>,
+    /// The loop over depths, where the program has one.
+    pub depths: Option<Depths>,
+    /// The axis of time, where the controller has one.
+    pub time_axis: Option<TimeAxis>,
     /// The largest C of the program, to both sides, in last digits, where its axis has an end.
     pub c_limit: Option<i64>,
     /// How far above the highest place of the path X and C move before it, mm.
@@ -139,10 +174,17 @@ impl ProgramFormat {
         if self.per_minute { 60.0 } else { 1.0 }
     }
 
-    /// The height of the approach in last digits, rounded up.
+    /// The height of the approach above the path in last digits, rounded up: that above the first of its
+    /// depths.
     pub(crate) fn approach_digits(&self) -> i64 {
         let one = 10u64.pow(self.position_decimals) as f64;
-        (self.approach_height * one).ceil() as i64
+        let height = (self.approach_height * one).ceil() as i64;
+        height.saturating_add(self.rise())
+    }
+
+    /// How far above the path it is played first, in last digits.
+    pub(crate) fn rise(&self) -> i64 {
+        self.depths.map_or(0, |depths| depths.rise())
     }
 
     /// The most by which the controller's numbers move a position of this size, in its unit; `None` where

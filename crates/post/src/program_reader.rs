@@ -8,11 +8,14 @@ use std::path::{Path, PathBuf};
 use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 
 use crate::compression::{Compression, text_name};
+use crate::depth_check::DepthCheck;
 use crate::forward_rates::ForwardRates;
 use crate::part_calls::{OpenPart, PartCalls};
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
-use crate::program_format::{APPROACH_MARK, END_MARK, ProgramFormat, RETREAT_MARK, mark};
+use crate::program_format::{
+    APPROACH_MARK, DEPTHS_MARK, END_MARK, END_OF_DEPTHS_MARK, ProgramFormat, RETREAT_MARK, mark,
+};
 use crate::read_error::ReadError;
 use crate::travel_check::TravelCheck;
 use crate::turn::check_turn;
@@ -38,6 +41,8 @@ pub struct ProgramReader<R = File> {
     section: Option<Section>,
     /// The moves before and after the path.
     travel: TravelCheck,
+    /// The loop around it.
+    depths: DepthCheck,
     /// The points that the end mark says, after it was read.
     said_points: Option<u64>,
     /// Points that were read and not given yet.
@@ -60,9 +65,11 @@ pub struct ProgramReader<R = File> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Part {
     Header,
+    Depths,
     Approach,
     Path,
     Retreat,
+    EndOfDepths,
     Footer,
 }
 
@@ -84,6 +91,7 @@ impl<R: Read> ProgramReader<R> {
             part: Part::Header,
             section: None,
             travel: TravelCheck::default(),
+            depths: DepthCheck::new(post.dialect),
             said_points: None,
             waiting: VecDeque::new(),
             last: None,
@@ -100,6 +108,14 @@ impl<R: Read> ProgramReader<R> {
     pub(crate) fn with_parts(self, open: OpenPart<R>) -> Self {
         Self {
             parts: PartCalls::new(open),
+            ..self
+        }
+    }
+
+    /// The same for a text that has nothing before its path.
+    pub(crate) fn of_path_alone(self) -> Self {
+        Self {
+            depths: DepthCheck::of_path_alone(),
             ..self
         }
     }
@@ -194,7 +210,7 @@ impl<R: Read> ProgramReader<R> {
         }
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
-            let is_late = self.part == Part::Retreat;
+            let is_late = matches!(self.part, Part::Retreat | Part::EndOfDepths);
             if is_late || self.section.is_some_and(|last| section <= last) {
                 return Err(format!(
                     "`{} {text}` is out of order: the sections are lead-in, cutting, lead-out",
@@ -205,7 +221,15 @@ impl<R: Read> ProgramReader<R> {
             self.part = Part::Path;
             return Ok(true);
         }
-        if text == APPROACH_MARK && self.part == Part::Header {
+        if text == DEPTHS_MARK && self.part == Part::Header {
+            self.part = Part::Depths;
+            return self.depths.begin().map(|()| true);
+        }
+        if text == END_OF_DEPTHS_MARK && self.part == Part::Retreat {
+            self.part = Part::EndOfDepths;
+            return self.depths.end().map(|()| true);
+        }
+        if text == APPROACH_MARK && matches!(self.part, Part::Header | Part::Depths) {
             self.part = Part::Approach;
             return Ok(true);
         }
@@ -216,10 +240,11 @@ impl<R: Read> ProgramReader<R> {
             self.wait(last);
             return Ok(true);
         }
-        if text == APPROACH_MARK || text == RETREAT_MARK {
+        let around = [DEPTHS_MARK, APPROACH_MARK, RETREAT_MARK, END_OF_DEPTHS_MARK];
+        if around.contains(&text.as_str()) {
             let comment = self.post.comment;
             return Err(format!(
-                "`{comment} {text}` is out of order: it is approach, path, retreat"
+                "`{comment} {text}` is out of order: it is depths, approach, path, retreat, end of depths"
             ));
         }
         let Some(said) = text.strip_prefix(END_MARK) else {
@@ -236,6 +261,7 @@ impl<R: Read> ProgramReader<R> {
                 self.wait(last);
             }
             self.part = Part::Footer;
+            self.depths.finish(&self.format)?;
         }
         Ok(true)
     }
@@ -243,6 +269,9 @@ impl<R: Read> ProgramReader<R> {
     /// Reads a line of the path.
     fn read_code(&mut self, code: &[u8]) -> Result<(), String> {
         let code = std::str::from_utf8(code).map_err(|_| "this is not text".to_owned())?;
+        if matches!(self.part, Part::Depths | Part::EndOfDepths) {
+            return self.depths.read(code.trim());
+        }
         if matches!(self.part, Part::Approach | Part::Retreat) {
             let modes = &mut self.travel.modes;
             let places = self.post.dialect.read_travel(code.trim(), modes)?;

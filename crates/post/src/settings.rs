@@ -1,11 +1,11 @@
 //! The settings of posts: keys that dialects may have in their tables, and the format that they give.
 
-use turnpath_core::kind::{Angle, Choice, Count, Number, Text, Time, Velocity};
+use turnpath_core::kind::{Angle, Choice, Count, Length, Number, Text, Time, Velocity};
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{DEG, Param, ParamDefault, Params};
 
 use crate::post::Post;
-use crate::program_format::{Chords, FeedMeaning, ProgramFormat, Slowest};
+use crate::program_format::{Chords, Depths, FeedMeaning, ProgramFormat, Slowest, TimeAxis};
 
 /// Decimals of positions if the recipe gives none: the last one is 0.1 nm.
 const DECIMALS: u64 = 7;
@@ -37,8 +37,16 @@ const STILL: f64 = 1e-7;
 /// The shortest line of LinuxCNC in periods of its servo thread (TP_MIN_SEGMENT_CYCLES in
 /// src/emc/tp/tp_types.h).
 const SHORTEST_PERIODS: f64 = 1.02;
+/// Most depths of a loop: with more, a person has mistaken the key.
+const MOST_DEPTHS: u64 = 1000;
+/// The largest step of depths, mm: far more than a diamond cuts at once.
+const LARGEST_STEP: f64 = 10.0;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
+/// The slowest axis of time, mm/s: its speed is in whole µm/s.
+const SLOWEST_TIME_AXIS: f64 = 1e-3;
+/// The fastest one, mm/s: far beyond any machine's, and its way still fits into the numbers of a reader.
+const FASTEST_TIME_AXIS: f64 = 1e5;
 
 pub(crate) const POSITION_DECIMALS: Param<Count> =
     Param::count("position_decimals", "decimals of positions, mm and deg")
@@ -115,6 +123,19 @@ pub(crate) const FEED_MEANING: Param<Choice> = Param::choice(
     "what F says of a line under `G93`: one over its minutes, or its seconds",
 )
 .default("1/min");
+pub(crate) const TIME_AXIS: Param<Choice> = Param::choice(
+    "time_axis",
+    &["W", "V", "U", "Q", "B", "A", "Y"],
+    "the simulated linear axis of the channel whose position is the time",
+)
+.default("W");
+pub(crate) const TIME_AXIS_SPEED: Param<Velocity> = Param::velocity(
+    "time_axis_speed",
+    "how fast that axis goes, to whole um/s. Faster needs fewer digits of it, and a longer way",
+)
+.default(10.0)
+.min(SLOWEST_TIME_AXIS)
+.max(FASTEST_TIME_AXIS);
 pub(crate) const SHORTEST_SEGMENT: Param<Option<Time>> = Param::time(
     "shortest_segment",
     "the shortest segment that your controller plays, or the time in which it reads one; left out: a \
@@ -150,6 +171,25 @@ pub(crate) const C_LIMIT: Param<Option<Angle>> = Param::angle(
 )
 .positive()
 .example("360000 deg")
+.optional();
+/// How often a loop of the controller plays the path.
+pub const DEPTHS: Param<Option<Count>> = Param::count(
+    "depths",
+    "how often a loop of the controller plays the finishing path, each time `depth_step` deeper; left out: \
+     once",
+)
+.min(1)
+.max(MOST_DEPTHS)
+.example("3")
+.optional();
+/// How much deeper each time.
+pub const DEPTH_STEP: Param<Option<Length>> = Param::length(
+    "depth_step",
+    "how much deeper the path lies each time; the last time it is where it is",
+)
+.positive()
+.max(LARGEST_STEP)
+.example("2 um")
 .optional();
 /// The template of the header.
 pub const HEADER: Param<Option<Text>> = Param::text(
@@ -203,11 +243,25 @@ impl Post {
                 .find(C_LIMIT)
                 .flatten()
                 .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
+            depths: depths(settings, position_decimals),
+            time_axis: self.time_axis(settings),
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)
                 .then(|| self.chords(settings, position_decimals, tolerance)),
         }
+    }
+
+    /// The axis of time, if its table has the keys of one.
+    fn time_axis(&self, settings: &Params) -> Option<TimeAxis> {
+        let own_name = self.default_text(TIME_AXIS.name())?;
+        let own_speed = self.default_number(TIME_AXIS_SPEED.name())?;
+        let name = settings.find(TIME_AXIS).unwrap_or(own_name);
+        let speed = settings.find(TIME_AXIS_SPEED).unwrap_or(own_speed);
+        Some(TimeAxis {
+            name: name.chars().next()?,
+            speed_um_per_s: (1e3 * speed).round() as i64,
+        })
     }
 
     fn chords(&self, settings: &Params, decimals: u32, tolerance: f64) -> Chords {
@@ -275,6 +329,17 @@ impl Post {
             _ => None,
         }
     }
+}
+
+/// The loop over depths, if there is more than one.
+fn depths(settings: &Params, position_decimals: u32) -> Option<Depths> {
+    let count = settings.find(DEPTHS).flatten().filter(|count| *count > 1)?;
+    let step = settings.find(DEPTH_STEP).flatten()?;
+    let step = (step * 10u64.pow(position_decimals) as f64).round() as i64;
+    Some(Depths {
+        count: i64::try_from(count).ok()?,
+        step: step.max(1),
+    })
 }
 
 fn decimals(count: u64) -> u32 {

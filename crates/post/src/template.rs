@@ -22,6 +22,7 @@ pub const PLACEHOLDERS: &[&str] = &[
     "ends",
     "f_means",
     "increments",
+    "time_axis",
     "interpolation_error_nm",
     "form_error_nm",
     "lead_clearance_nm",

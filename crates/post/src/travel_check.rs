@@ -24,6 +24,8 @@ pub(crate) struct TravelCheck {
     lowest: Option<(i128, u64)>,
     /// The highest Z of the path's points, mm.
     highest: Option<f64>,
+    /// How far above the path the first of its depths is, mm.
+    rise: f64,
     /// Whether an approach was read.
     approached: bool,
     /// Whether the path is over.
@@ -82,6 +84,7 @@ impl TravelCheck {
             }
         }
         self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
+        self.rise = format.rise() as f64 / 10u64.pow(format.position_decimals) as f64;
         Ok(())
     }
 
@@ -95,7 +98,7 @@ impl TravelCheck {
     /// The retreat goes nowhere below the path.
     fn refuse_down(&self, to: Option<i128>) -> Result<(), String> {
         let to = to.map(|to| to as f64 / ONE as f64);
-        let below = |highest: f64| to.is_some_and(|to| to < highest - SAME);
+        let below = |highest: f64| to.is_some_and(|to| to < highest + self.rise - SAME);
         match self.retreats && self.highest.is_some_and(below) {
             true => Err("Z goes below the highest place of the path".to_owned()),
             false => Ok(()),
@@ -107,6 +110,7 @@ impl TravelCheck {
         let (Some((lowest, line)), Some(highest)) = (self.lowest, self.highest) else {
             return Ok(());
         };
+        let highest = highest + self.rise;
         let lowest = lowest as f64 / ONE as f64;
         if lowest >= highest - SAME {
             return Ok(());

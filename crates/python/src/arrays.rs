@@ -29,17 +29,50 @@ pub fn values(column: &Column<'_>) -> Vec<f64> {
     column.as_array().to_vec()
 }
 
+/// Kinds of numpy's types that are real numbers. Others would be made numbers without a word: the
+/// imaginary part is dropped, a text is read.
+const REAL: [&str; 3] = ["f", "i", "u"];
+
+/// What Python gave as an array of numbers; the kind of what it gave where that is none.
+fn numbers<'py>(given: &Bound<'py, PyAny>) -> Result<Bound<'py, PyAny>, String> {
+    let read = || -> PyResult<(Bound<'py, PyAny>, String, String)> {
+        let array = given
+            .py()
+            .import("numpy")?
+            .call_method1("asarray", (given,))?;
+        let dtype = array.getattr("dtype")?;
+        let kind = dtype.getattr("kind")?.extract()?;
+        let name = dtype.str()?.to_string();
+        Ok((array, kind, name))
+    };
+    let of_type = || {
+        let name = given.get_type().name();
+        name.map_or_else(|_| String::new(), |name| name.to_string())
+    };
+    match read() {
+        Ok((array, kind, _)) if REAL.contains(&kind.as_str()) => Ok(array),
+        Ok((_, _, name)) => Err(format!("{} of {name}", of_type())),
+        Err(_) => Err(of_type()),
+    }
+}
+
 /// The numbers that Python gave, as a column of any length.
 pub fn column(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
-    let column: Result<Column<'_>, _> = given.extract();
-    column.map(|column| values(&column)).map_err(|_| {
-        let kind = given
-            .get_type()
-            .name()
-            .map_or_else(|_| String::new(), |name| name.to_string());
+    let no_column = |kind: String| {
         PyValueError::new_err(format!(
             "gave {kind} as {what}, which is no column of numbers"
         ))
+    };
+    let array = numbers(given).map_err(no_column)?;
+    let column: Result<Column<'_>, _> = array.extract();
+    let dimensions = || {
+        array
+            .getattr("ndim")
+            .and_then(|count| count.extract::<usize>())
+    };
+    column.map(|column| values(&column)).map_err(|_| {
+        let count = dimensions().map_or_else(|_| String::new(), |count| count.to_string());
+        no_column(format!("an array of {count} dimensions"))
     })
 }
 
@@ -62,7 +95,8 @@ pub fn rows<const N: usize>(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Ve
             "gave {found} as {what}, and rows of {N} numbers belong there"
         ))
     };
-    let rows: Rows<'_> = given
+    let array = numbers(given).map_err(|kind| wrong(&kind))?;
+    let rows: Rows<'_> = array
         .extract()
         .map_err(|_| wrong("no array of two dimensions"))?;
     let rows = rows.as_array();

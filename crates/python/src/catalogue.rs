@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use turnpath::{Catalogue, LoadError, OwnPlugin, OwnStrategy};
+use turnpath::{Catalogue, Identity, LoadError, OwnPlugin, OwnStrategy, SurfaceNeed};
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{Params, Radial, StrategyError};
 
@@ -42,33 +42,52 @@ struct StrategySource<'py> {
     declaration: String,
     /// Binds parameters: it gives a callable, or what a surface is made of.
     bind: Py<PyAny>,
-    /// Whether its answers have the same bytes on every machine.
-    exact: bool,
+    /// The hash of all that its answers depend on, or why there is none.
+    identity: (Option<String>, String),
     /// What the decorator said besides.
     options: Bound<'py, PyDict>,
 }
 
-/// The strategies that are built in, and those of these sources.
-///
-/// # Errors
-/// When a declaration is wrong; then when a library cannot be loaded, or a name is there already.
-pub fn catalogue(sources: &Sources<'_>) -> PyResult<Result<Catalogue, LoadError>> {
-    let Sources(modules, libraries) = sources;
-    let mut owns = Vec::new();
-    for module in modules {
-        let mut own = OwnPlugin::new(&module.name, &module.version)
-            .with_source(&module.place, &module.sha256);
-        for declared in &module.strategies {
-            own = own.with(strategy(declared)?);
+/// What is read from the interpreter: strategies of the program's own, and libraries that are still to
+/// be loaded.
+pub struct Offered {
+    owns: Vec<OwnPlugin>,
+    libraries: Vec<PathBuf>,
+}
+
+impl Offered {
+    /// Reads the declarations.
+    ///
+    /// # Errors
+    /// When one is wrong.
+    pub fn read(sources: &Sources<'_>) -> PyResult<Self> {
+        let Sources(modules, libraries) = sources;
+        let mut owns = Vec::new();
+        for module in modules {
+            let mut own = OwnPlugin::new(&module.name, &module.version)
+                .with_source(&module.place, &module.sha256);
+            for declared in &module.strategies {
+                own = own.with(strategy(declared)?);
+            }
+            owns.push(own);
         }
-        owns.push(own);
+        Ok(Self {
+            owns,
+            libraries: libraries.clone(),
+        })
     }
-    let catalogue = Catalogue::linked().and_then(|linked| {
-        let with_libraries = libraries.iter().try_fold(linked, with_library);
-        owns.into_iter()
-            .try_fold(with_libraries?, Catalogue::with_own)
-    });
-    Ok(catalogue)
+
+    /// The strategies that are built in, and these. It loads libraries, whose initialisers may take
+    /// any time: the caller does not hold the interpreter's lock.
+    ///
+    /// # Errors
+    /// When a library cannot be loaded, or a name is there already.
+    pub fn catalogue(self) -> Result<Catalogue, LoadError> {
+        let linked = Catalogue::linked()?;
+        let with_libraries = self.libraries.iter().try_fold(linked, with_library)?;
+        let mut owns = self.owns.into_iter();
+        owns.try_fold(with_libraries, Catalogue::with_own)
+    }
 }
 
 fn with_library(catalogue: Catalogue, path: &PathBuf) -> Result<Catalogue, LoadError> {
@@ -82,7 +101,12 @@ fn strategy(declared: &StrategySource<'_>) -> PyResult<OwnStrategy> {
     let own = declaration(&declared.declaration)?;
     let strategy = of_slot(declared, own)?;
     let strategy = strategy.with_summary(own.summary).with_params(own.params);
-    Ok(match declared.exact {
+    let strategy = strategy.with_identity(match &declared.identity {
+        (Some(hash), _) => Identity::Hash(hash.clone()),
+        (None, why) => Identity::Unknown(why.clone()),
+    });
+    // Of a surface that is known when it is made: its formula may be exact.
+    Ok(match declared.slot == "surface" {
         true => strategy,
         false => strategy.differs_between_machines(),
     })
@@ -91,9 +115,12 @@ fn strategy(declared: &StrategySource<'_>) -> PyResult<OwnStrategy> {
 fn of_slot(declared: &StrategySource<'_>, own: Declaration) -> PyResult<OwnStrategy> {
     let options = declared.options.as_any();
     let bind = Arc::new(declared.bind.clone_ref(options.py()));
-    let bound = move |params: &Params| bound(&bind, params, own);
+    let own_bind = Arc::clone(&bind);
+    let bound = move |params: &Params| bound(&own_bind, params, own);
     Ok(match declared.slot.as_str() {
-        "surface" => OwnStrategy::surface(own.name, move |params| surface(&bound(params)?)),
+        "surface" => OwnStrategy::surface_for(own.name, move |params, need| {
+            surface(&surface_made(&bind, params, need, own)?)
+        }),
         "feed" => OwnStrategy::feed(own.name, move |params| {
             Ok(Box::new(PyFeed(callable(bound(params)?))))
         }),
@@ -155,6 +182,19 @@ fn bound(bind: &Py<PyAny>, params: &Params, own: Declaration) -> Result<Py<PyAny
     asked(|py| {
         let arguments = arguments(py, params, own.params)?;
         bind.call1(py, (arguments,))
+    })
+}
+
+/// What Python makes of a surface with these parameters, for what a recipe needs of it.
+fn surface_made(
+    bind: &Py<PyAny>,
+    params: &Params,
+    need: SurfaceNeed,
+    own: Declaration,
+) -> Result<Py<PyAny>, StrategyError> {
+    asked(|py| {
+        let arguments = arguments(py, params, own.params)?;
+        bind.call1(py, (arguments, need.half_width, need.error))
     })
 }
 

@@ -15,14 +15,9 @@ use turnpath::{
     Section, ToolPath,
 };
 
-use turnpath_core::Overrun;
-
-use crate::catalogue::{Sources, catalogue};
+use crate::catalogue::{Offered, Sources};
 use crate::failure::exception;
 use crate::observer::Control;
-
-/// The share of the interpolation tolerance that the error of a surface may take before it counts.
-const SHARE: f64 = 0.05;
 
 /// A recipe: its text, the path that messages name and files are relative to, and the changes.
 #[derive(FromPyObject)]
@@ -41,8 +36,8 @@ type RunAnswer<'py> = (
     Option<Bound<'py, PyDict>>,
     Vec<(String, Vec<u8>)>,
 );
-/// Report, files, how many runs had a record, and why runs failed by their rows.
-type AblationAnswer = (String, Vec<PathBuf>, usize, Vec<(usize, String)>);
+/// Report, files, and how many runs had a record.
+type AblationAnswer = (String, Vec<PathBuf>, usize);
 
 /// Does the work of a command on threads of its own, without the interpreter's lock.
 fn work<R: Send>(
@@ -51,14 +46,14 @@ fn work<R: Send>(
     threads: usize,
     work: impl FnOnce(&Catalogue) -> Result<R, Error> + Send,
 ) -> PyResult<R> {
-    let catalogue = catalogue(sources)?;
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let offered = Offered::read(sources)?;
     let done = py.detach(move || {
-        let catalogue = catalogue.map_err(Error::from)?;
-        pool.install(|| work(&catalogue))
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let catalogue = offered.catalogue().map_err(Error::from);
+        Ok(catalogue.and_then(|catalogue| pool.install(|| work(&catalogue))))
     });
-    done.map_err(|error| exception(py, &error))
+    done.and_then(|done| done.map_err(|error| exception(py, &error)))
 }
 
 /// Makes a path, measures it, and gives report, files, columns and programs.
@@ -168,7 +163,7 @@ pub fn verify(
     Ok(to_json(&report))
 }
 
-/// Makes the variants of a recipe: report, files, how many were there already, and why runs failed.
+/// Makes the variants of a recipe: report, files, and how many were there already.
 #[pyfunction]
 #[pyo3(signature = (recipe, sources, control, folder, *, fresh=false, threads=0))]
 pub fn ablate(
@@ -188,30 +183,53 @@ pub fn ablate(
         };
         turnpath::ablate(&recipe.read()?, catalogue, &options, &control)
     })?;
-    let failures = result.failures.iter();
-    let failures = failures.map(|(row, error)| (*row, error.title()));
-    let json = to_json(&result.report);
-    Ok((json, result.files, result.reused, failures.collect()))
+    Ok((to_json(&result.report), result.files, result.reused))
 }
 
-/// Half the side of the square in which a path may meet its surface, and the error of a surface that
-/// does not count beside the interpolation tolerance, both in mm; `None` for a recipe that is wrong,
-/// which the command itself will say.
+/// The runs of an ablation with their keys, as JSON. Nothing is made.
 #[pyfunction]
-pub fn reach(recipe: RecipeText) -> Option<(f64, f64)> {
-    let recipe = recipe.read().ok()?;
-    let part = recipe.part.aperture_radius + recipe.tool.nose_radius;
-    let overrun = match recipe.overrun {
-        Overrun::Length(length) => length,
-        Overrun::Contact | Overrun::None => 0.0,
-    };
-    let places = recipe.surfaces.iter().map(|entry| {
-        let place = &entry.placement;
-        place.decentre_x.hypot(place.decentre_y)
-    });
-    let away = places.fold(0.0, f64::max) + recipe.pose.map_or(0.0, |pose| pose.x.hypot(pose.y));
-    let tolerance = recipe.tolerance.interpolation;
-    Some((part + overrun + away, SHARE * tolerance))
+pub fn plan(
+    py: Python<'_>,
+    recipe: RecipeText,
+    sources: Sources<'_>,
+    folder: PathBuf,
+) -> PyResult<String> {
+    let plan = work(py, &sources, 1, |catalogue| {
+        turnpath::plan_ablation(&recipe.read()?, catalogue, &folder)
+    })?;
+    Ok(to_json(&plan))
+}
+
+/// Makes the run of an ablation that has this key, and leaves its record: the run as JSON.
+#[pyfunction]
+pub fn run_of(
+    py: Python<'_>,
+    recipe: RecipeText,
+    sources: Sources<'_>,
+    control: Control,
+    folder: PathBuf,
+    key: String,
+) -> PyResult<String> {
+    let run = work(py, &sources, 1, |catalogue| {
+        turnpath::run_of_ablation(&recipe.read()?, catalogue, &folder, &key, &control)
+    })?;
+    Ok(to_json(&run))
+}
+
+/// Writes the files of an ablation from the records of its runs: report, files, and how many runs have
+/// figures. Nothing is made.
+#[pyfunction]
+pub fn merge(
+    py: Python<'_>,
+    recipe: RecipeText,
+    sources: Sources<'_>,
+    control: Control,
+    folder: PathBuf,
+) -> PyResult<AblationAnswer> {
+    let result = work(py, &sources, 1, |catalogue| {
+        turnpath::merge_ablation(&recipe.read()?, catalogue, &folder, &control)
+    })?;
+    Ok((to_json(&result.report), result.files, result.reused))
 }
 
 /// Slot, name and summary of every strategy, and where it comes from.
@@ -220,7 +238,9 @@ pub fn strategies(
     py: Python<'_>,
     sources: Sources<'_>,
 ) -> PyResult<Vec<(String, String, String, String)>> {
-    let catalogue = catalogue(&sources)?.map_err(|error| exception(py, &error.into()))?;
+    let offered = Offered::read(&sources)?;
+    let catalogue = py.detach(|| offered.catalogue());
+    let catalogue = catalogue.map_err(|error| exception(py, &error.into()))?;
     let all = catalogue.strategies().map(|strategy| {
         let info = strategy.info();
         let from = strategy.plugin().to_string();
@@ -237,8 +257,8 @@ pub fn strategies(
 /// The whole command line: its exit status. This is for the whole of a process.
 #[pyfunction]
 pub fn main(py: Python<'_>, arguments: Vec<String>, sources: Sources<'_>) -> PyResult<u8> {
-    let catalogue = catalogue(&sources)?;
-    let status = py.detach(|| turnpath_cli::main_with(arguments, catalogue));
+    let offered = Offered::read(&sources)?;
+    let status = py.detach(|| turnpath_cli::main_with(arguments, offered.catalogue()));
     let number = (0..=u8::MAX).find(|number| ExitCode::from(*number) == status);
     Ok(number.unwrap_or(u8::MAX))
 }

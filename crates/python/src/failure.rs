@@ -42,6 +42,7 @@ fn described<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyDict>
     };
     found.set_item("fault", fault)?;
     found.set_item("title", error.title())?;
+    found.set_item("causes", causes(error))?;
     let diagnostics = error.diagnostics();
     let text: Vec<String> = diagnostics.iter().map(|one| one.render(false)).collect();
     found.set_item("text", text.join("\n"))?;
@@ -59,6 +60,14 @@ fn described<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyDict>
     }
     found.set_item("places", places)?;
     Ok(found)
+}
+
+/// What the stages below said, each in its own words: a message that a person reads may be broken over
+/// lines.
+fn causes(error: &Error) -> Vec<String> {
+    let first = std::error::Error::source(error);
+    let all = std::iter::successors(first, |one| one.source());
+    all.map(ToString::to_string).collect()
 }
 
 /// File, line and column, counted from 1, and the text there.

@@ -1,8 +1,9 @@
 //! The native part of the Python package `turnpath`: what crosses between the interpreter and the
 //! library, in arrays and in JSON. Its Python part, in `python/turnpath`, has what a person calls.
 //!
-//! - [`commands`] has the entries: run, check, verify, ablate, and the whole command line. Each gives
-//!   up the interpreter's lock for its whole work.
+//! - [`commands`] has the entries: run, check, verify, ablate and its parts for a queue, and the whole
+//!   command line. Each gives up the interpreter's lock for its whole work, as soon as it has read
+//!   what Python gave.
 //! - [`catalogue`] turns declarations of Python into strategies of the program's own;
 //!   [`strategies`] has one adapter for each slot.
 //! - [`views`] is what a strategy may ask; each question gives up the lock while turnpath answers.
@@ -24,7 +25,7 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = true)]
 mod _turnpath {
     #[pymodule_export]
-    use crate::commands::{ablate, check, main, reach, run, strategies, verify};
+    use crate::commands::{ablate, check, main, merge, plan, run, run_of, strategies, verify};
     #[pymodule_export]
     use crate::declared::{parse_quantity, subdivide};
     #[pymodule_export]

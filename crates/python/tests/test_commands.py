@@ -151,7 +151,10 @@ def test_progress_is_told_and_may_end_the_run(part):
 def test_an_interrupt_ends_a_run_and_leaves_no_result(part, tmp_path):
     program = textwrap.dedent(
         f"""
+        import signal
         import turnpath
+        # A shell starts programs in the background without it.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         part = {part!r}
         part["feed"]["feed"] = "0.02 um/rev"
         print("begun", flush=True)
@@ -167,7 +170,10 @@ def test_an_interrupt_ends_a_run_and_leaves_no_result(part, tmp_path):
     assert child.stdout.readline() == "begun\n"
     time.sleep(1.0)
     os.kill(child.pid, signal.SIGINT)
-    rest, _ = child.communicate(timeout=60)
+    try:
+        rest, _ = child.communicate(timeout=60)
+    finally:
+        child.kill()
     assert rest == "interrupted\n" and child.returncode == 0
     assert not (tmp_path / "out" / "summary.json").exists()
 
@@ -177,16 +183,120 @@ def test_an_ablation_gives_rows_and_keeps_records(part, tmp_path):
     rows = turnpath.ablate(part, {"sampler": steps}, folder=tmp_path)
     assert len(rows) == 2 == len(rows.report["runs"]) and rows.reused == 0
     assert [row["run"] for row in rows] == [1, 2] and not any(row["reason"] for row in rows)
-    assert isinstance(rows[0]["points"], float)
     again = turnpath.ablate(part, {"sampler": steps}, folder=tmp_path)
     assert again.reused == 2 and again == rows
 
 
-def test_a_child_that_was_forked_from_a_run_says_spawn(part):
-    session = turnpath._session
-    session._torn = True
-    try:
-        with pytest.raises(RuntimeError, match="spawn"):
-            turnpath.run(part)
-    finally:
-        session._torn = False
+def in_a_child(program, part, folder):
+    """What a program says in a process of its own, which gets the part."""
+    text = f"part = {part!r}\n" + textwrap.dedent(program)
+    ran = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", text], cwd=folder, capture_output=True, text=True, timeout=120
+    )
+    assert ran.returncode == 0, ran.stderr
+    return ran.stdout
+
+
+FORKS = """
+import os, threading, time
+import numpy as np
+import turnpath
+
+begun, may_end = threading.Event(), threading.Event()
+
+@turnpath.sampler
+def waits(path, block):
+    begun.set()
+    may_end.wait(60)
+    return np.linspace(block.start, block.end, 2000, endpoint=False)
+
+part["sampler"] = {"use": "waits"}
+work = threading.Thread(target=turnpath.run, args=(part,), kwargs={"strategies": [waits], "threads": 1})
+work.start()
+assert begun.wait(60)
+
+def child():
+    pid = os.fork()
+    if pid == 0:
+        part["sampler"] = {"use": "equal-angle", "step": "6 deg"}
+        try:
+            print("runs", turnpath.run(part).holds, flush=True)
+        except RuntimeError as error:
+            print(error, flush=True)
+        os._exit(0)
+    os.waitpid(pid, 0)
+
+child()
+may_end.set()
+work.join()
+child()
+print(turnpath._session._active)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
+def test_a_child_that_was_forked_during_a_run_says_spawn_and_one_afterwards_runs(part, tmp_path):
+    during, after, active = in_a_child(FORKS, part, tmp_path).splitlines()
+    assert "forked while turnpath worked" in during and "`spawn`" in during
+    assert after == "runs True" and active == "0"
+
+
+@pytest.mark.parametrize("threads", [-1, 1025, 100_000])
+def test_a_count_of_threads_that_nobody_has_is_refused(part, threads):
+    before = threading.active_count()
+    for call in (turnpath.run, turnpath.check, turnpath.ablate):
+        with pytest.raises(ValueError, match=f"threads is {threads}"):
+            call(part, threads=threads)
+    assert threading.active_count() == before
+
+
+def test_a_map_and_a_time_limit_that_mean_nothing_are_refused(part):
+    result = turnpath.run(part)
+    for cells in (-1, 0, 1, 30_000):
+        with pytest.raises(ValueError, match="along a side"):
+            result.map(cells)
+    with pytest.raises(TypeError):
+        result.map(2.5)
+    for limit in (0, -1, float("nan")):
+        with pytest.raises(ValueError, match="time_limit"):
+            turnpath.run(part, time_limit=limit)
+
+
+def test_python_goes_on_while_libraries_are_read_and_loaded(part, tmp_path):
+    # A file without an end, which takes its time to hash.
+    library = tmp_path / "liblarge.so"
+    library.write_bytes(b"\x7fELF")
+    os.truncate(library, 100 << 20)
+    for call in (
+        lambda: turnpath.strategies(plugins=[library]),
+        lambda: turnpath.run(part, plugins=[library]),
+    ):
+        ended, ticks = threading.Event(), []
+
+        def count():
+            while not ended.wait(0.002):
+                ticks.append(time.monotonic())
+
+        clock = threading.Thread(target=count)
+        clock.start()
+        begun = time.monotonic()
+        with pytest.raises(turnpath.Error, match="liblarge"):
+            call()
+        passed = time.monotonic() - begun
+        ended.set()
+        clock.join()
+        times = [begun, *(tick for tick in ticks if tick > begun), begun + passed]
+        assert max(after - before for before, after in zip(times, times[1:])) < 0.5 * passed
+
+
+def test_rows_have_the_types_of_their_figures(part):
+    part["part"]["aperture"] = "3 mm"
+    rows = turnpath.ablate(part, {"surface.k": ["0.05 /mm"], "refine": [True]})
+    one = rows[1]
+    assert type(one["run"]) is int and type(one["points"]) is int
+    assert type(one["error_max_nm"]) is float and type(one["within_interpolation"]) is bool
+    assert one["reason"] is None and one["not_recorded"] is None
+    measured = rows.report["runs"][1]
+    assert one["points"] == measured["control_points"] and one["refine"] == measured["varied"]["refine"]
+    # What varies is text, whatever it looks like.
+    assert all(type(row[key]) is str for row in rows for key in ("surface.k", "refine"))

@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import inspect
+import json
 import os
 import subprocess
 import sys
@@ -118,6 +119,48 @@ def test_the_program_ends_where_a_strategy_does_not_come_back(lab, tmp_path, par
     ran = program(lab, tmp_path, "run", name, "-o", "out", "--plugin-time-limit", "1 s")
     text = " ".join(ran.stderr.split())
     assert ran.returncode == 3 and "`lab-endless`" in text, text
+
+
+def test_the_program_fits_for_the_part_that_is_asked_for(lab, tmp_path, part):
+    name = recipe(part, tmp_path, surface={"use": "lab-step", "depth": "3 um"})
+    larger = program(lab, tmp_path, "check", name, "--set", "part.aperture=9 mm", "--format", "json")
+    assert larger.returncode == 0, larger.stderr
+    remarks = [one["kind"] for one in json.loads(larger.stdout)["remarks"]]
+    assert "fitted_surface" in remarks and "beyond_data" not in remarks
+    # The ending says nothing, and another file of this one may stand before it.
+    (tmp_path / "part.recipe").write_text((tmp_path / name).read_text())
+    (tmp_path / "lock.toml").write_text("format = 1\n")
+    for words in (["check", "part.recipe"], ["check", "--plugins-lock", "lock.toml", name]):
+        checked = program(lab, tmp_path, *words)
+        assert checked.returncode == 0, checked.stderr
+
+
+def test_a_package_that_cannot_be_loaded_is_named_and_left_out(lab, tmp_path, part):
+    info = tmp_path / "site" / "broken-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: broken\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[turnpath.strategies]\nall = no_such_module\n")
+    listed = program(lab, tmp_path, "list", "sampler")
+    assert listed.returncode == 0, listed.stderr
+    assert "lab-even" in listed.stdout and "`broken`" in listed.stderr
+    assert "no_such_module" in listed.stderr and "Traceback" not in listed.stderr
+    ran = program(lab, tmp_path, "run", recipe(part, tmp_path, sampler={"use": "lab-even"}), "-o", "out")
+    assert ran.returncode == 0, ran.stderr
+
+
+def test_a_recipe_that_is_no_text_has_the_status_of_files(lab, tmp_path):
+    (tmp_path / "bad.toml").write_bytes(b"\xff\xfe\x00")
+    checked = program(lab, tmp_path, "check", "bad.toml")
+    assert checked.returncode == 4 and "Traceback" not in checked.stderr, checked.stderr
+    assert "bad.toml" in checked.stderr
+
+
+def test_a_name_that_no_recipe_could_choose_is_a_message(lab, tmp_path):
+    text = LAB + "\n\n@turnpath.sampler(name='Über')\ndef odd(path, block):\n    return []\n"
+    (tmp_path / "site" / "lab_strategies.py").write_text(text)
+    listed = program(lab, tmp_path, "list", "sampler")
+    assert listed.returncode == 3 and "Traceback" not in listed.stderr, listed.stderr
+    assert "Über" in listed.stderr
 
 
 def test_wrong_arguments_have_status_two(lab, tmp_path):

@@ -27,6 +27,9 @@ pub struct AblationRun {
     /// Each key that varies, with this variant's value in words.
     #[serde(with = "variations")]
     pub varied: Vec<(String, String)>,
+    /// Why it has no record, and is made each time; `None` where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_recorded: Option<String>,
 }
 
 /// What a variant gave.
@@ -99,6 +102,7 @@ impl AblationRun {
         Self {
             outcome: RunOutcome::Measured(Box::new(run.into())),
             varied,
+            not_recorded: None,
         }
     }
 

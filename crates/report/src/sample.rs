@@ -30,5 +30,6 @@ pub fn failed_run(varied: Vec<(String, String)>, reason: &str) -> AblationRun {
             error: reason.to_owned(),
         }),
         varied,
+        not_recorded: None,
     }
 }

@@ -8,14 +8,23 @@ use turnpath_recipe::Recipe;
 use crate::data_files::DataFiles;
 use crate::error::Error;
 use crate::strategies::{compensator, link, velocity};
-use crate::surface::surface;
+use crate::surface::{MadeSurface, made_surface};
 
-/// The recipe's strategies.
-pub fn chain(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Result<Chain, Error> {
+/// The recipe's strategies, and which of its surfaces, `surface dish`, may have other bytes on another
+/// machine.
+pub fn chain(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<(Chain, Vec<String>), Error> {
     let [feed, sampler, spindle] =
         [Slot::Feed, Slot::Sampler, Slot::Spindle].map(|slot| recipe.choice(slot));
-    Ok(Chain {
-        surface: surface(recipe, catalogue, files)?,
+    let MadeSurface {
+        link: surface,
+        inexact,
+    } = made_surface(recipe, catalogue, files)?;
+    let chain = Chain {
+        surface,
         feed: link(recipe, catalogue, files, feed, |strategy, params| {
             strategy.offer().feed(params)
         })?,
@@ -27,5 +36,6 @@ pub fn chain(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Resul
         spindle: link(recipe, catalogue, files, spindle, |strategy, params| {
             strategy.offer().spindle(params)
         })?,
-    })
+    };
+    Ok((chain, inexact))
 }

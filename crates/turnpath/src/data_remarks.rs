@@ -19,7 +19,11 @@ impl Job {
         let cut_angle = self.preparation.interference.cut_angle().value;
         let mut all = remarks(&self.recipe, path, cut_angle);
         all.extend(self.data_remarks(path.tolerance.interpolation)?);
-        all.extend(inexact(&self.recipe, &self.catalogue));
+        all.extend(inexact(
+            &self.recipe,
+            &self.catalogue,
+            &self.inexact_surfaces,
+        ));
         Ok(all)
     }
 
@@ -31,13 +35,19 @@ impl Job {
     }
 }
 
-/// The recipe's strategies whose last bits depend on the machine, a remark for each plugin.
-fn inexact(recipe: &Recipe, catalogue: &Catalogue) -> Vec<Remark> {
+/// The recipe's strategies whose last bits depend on the machine, a remark for each plugin. Of
+/// `surfaces` that is known since they were made.
+fn inexact(recipe: &Recipe, catalogue: &Catalogue, surfaces: &[String]) -> Vec<Remark> {
     let of_plugin = |plugin: &Plugin| {
         let mut strategies: Vec<String> = Vec::new();
         for choice in Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot)) {
+            let strategy = catalogue.find(choice.slot, choice.name());
+            if strategy.is_none_or(|strategy| strategy.plugin().as_ref() != plugin) {
+                continue;
+            }
             let text = format!("{} {}", choice.slot, choice.name());
-            if plugin.inexact.contains(&text) && !strategies.contains(&text) {
+            let is_inexact = plugin.inexact.contains(&text) || surfaces.contains(&text);
+            if is_inexact && !strategies.contains(&text) {
                 strategies.push(text);
             }
         }

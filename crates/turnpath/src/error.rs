@@ -152,6 +152,12 @@ pub enum Error {
         /// The key.
         key: String,
     },
+    /// A run of the ablation has no key.
+    #[error("a run has no key, because of {why}")]
+    NoKey {
+        /// Its strategies that cannot be told from others of their names.
+        why: String,
+    },
     /// The observer cancelled the work.
     #[error("the run was cancelled")]
     Cancelled,
@@ -185,6 +191,7 @@ impl Error {
                 PageError::NoRecipe | PageError::OtherRecipe { .. } | PageError::NoPath { .. },
             )
             | Self::Exists { .. }
+            | Self::NoKey { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
             Self::Load(error) => fault_of_load(error),
@@ -260,6 +267,10 @@ impl Error {
             Self::NoRunOfKey { .. } => Some(
                 "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \
                  and its plugins",
+            ),
+            Self::NoKey { .. } => Some(
+                "an ablation without a queue makes these runs each time; a queue needs strategies that \
+                 take plain values alone",
             ),
             _ => None,
         }

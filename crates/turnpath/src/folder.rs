@@ -185,7 +185,7 @@ impl<'a> FolderSink<'a> {
         for (program, writer) in self.programs.iter().zip(files.programs.drain(..)) {
             let mut path = writer.close()?;
             let (points, name) = (path.points(), path.file().to_owned());
-            let mut reader = program.layout.read(path.text()?, &name);
+            let mut reader = program.layout.read_path(path.text()?, &name);
             let text = ProgramText {
                 reader: &mut reader,
                 name: &name,

@@ -28,6 +28,8 @@ pub struct Job {
     pub(crate) catalogue: Catalogue,
     pub(crate) data_files: Vec<UsedFile>,
     pub(crate) chain: Chain,
+    /// The surfaces, `surface dish`, that may have other bytes on another machine.
+    pub(crate) inexact_surfaces: Vec<String>,
     pub(crate) preparation: Preparation,
     pub(crate) programs: Vec<Program>,
     /// How a tolerance of form is divided for the path, where that is known already.
@@ -64,7 +66,7 @@ impl Job {
     ) -> Result<Self, Error> {
         recipe.rough_paths().map_err(Error::refused)?;
         refuse_wrong_choices(&recipe, catalogue)?;
-        let chain = chain(&recipe, catalogue, files)?;
+        let (chain, inexact_surfaces) = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;
         let spec = JobSpec {
@@ -84,6 +86,7 @@ impl Job {
             catalogue: catalogue.clone(),
             data_files,
             chain,
+            inexact_surfaces,
             preparation,
             programs,
             split: None,

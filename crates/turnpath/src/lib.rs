@@ -24,6 +24,7 @@ mod check;
 mod commands;
 mod data_files;
 mod data_remarks;
+mod depths;
 mod diagnosis;
 mod drawings;
 mod dry_run;
@@ -63,6 +64,7 @@ mod speed_steps;
 mod strategies;
 mod summary;
 mod surface;
+mod surface_need;
 mod toolpath;
 mod verify;
 
@@ -97,8 +99,8 @@ pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
 pub use turnpath_drawing::{Dots, DrawingError, Figure, Size};
 pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
-    Admission, Catalogue, LibraryFile, LoadError, OwnPlugin, OwnStrategy, Plugin, Refusal,
-    Strategy, calls,
+    Admission, Catalogue, Identity, LibraryFile, LoadError, OwnPlugin, OwnStrategy, OwnSurface,
+    Plugin, Refusal, Strategy, SurfaceNeed, calls,
 };
 pub use turnpath_lens::Side;
 pub use turnpath_maps::{Format as MapFormat, length_unit};

@@ -31,10 +31,13 @@ pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> L
     let none = Params::new();
     let params = settings.map_or(&none, |settings| &settings.params);
     let output = &recipe.output;
+    let format = post.format(params, z_above, recipe.tolerance.interpolation);
     let format = ProgramFormat {
+        // A rough path is played once: the loop is that of the finishing path.
+        depths: format.depths.filter(|_| recipe.rough_name().is_none()),
         approach_height: output.approach_height,
         approach_feed: output.approach_feed * MINUTE,
-        ..post.format(params, z_above, recipe.tolerance.interpolation)
+        ..format
     };
     Layout { post, format }
 }

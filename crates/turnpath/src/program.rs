@@ -16,6 +16,7 @@ use turnpath_report::{AxisNotes, ProgramFigures, ProgramReport, Tolerances};
 use turnpath_verify::FirstTouch;
 
 use crate::axis_notes::axis_notes;
+use crate::depths::refuse_depths;
 use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
 use crate::figures::{form_error, tolerances};
@@ -79,6 +80,7 @@ impl Program {
         if let (Some(_), Some((key, _))) = (split, other) {
             return Err(without_calls(recipe, post, key));
         }
+        refuse_depths(recipe, post, params)?;
         let own_header = other.map_or(post.header, |(_, text)| text);
         let text = format!("{}.{}", recipe.stem(), post.extension);
         Ok(Self {
@@ -251,9 +253,22 @@ impl Program {
             "velocity_unit" => either(format.per_minute, "min", "s"),
             "f_means" => either(self.says_seconds(), "s", "1/min"),
             "ix90" => format.velocity_ms().to_string(),
+            "time_axis" => {
+                self.time_axis(with_leads(outcome.cutting_time, |l| l.in_time + l.out_time))
+            }
             "increments" => 10_u64.pow(format.position_decimals).to_string(),
             _ => String::new(),
         }
+    }
+
+    /// The axis of time and how far it goes in `time`, s, where the controller has one.
+    fn time_axis(&self, time: f64) -> String {
+        let axis = self.layout.format.time_axis;
+        axis.map_or_else(String::new, |axis| {
+            let speed = axis.speed_um_per_s as f64 / 1e3;
+            let (name, way) = (axis.name, time * speed);
+            format!("{name}, {speed} mm in a second, from 0 to {way:.3} mm")
+        })
     }
 
     /// What the axes of the program mean.

@@ -146,7 +146,7 @@ impl Job {
         for (program, writer) in self.programs.iter().zip(sink.writers) {
             let path = writer.close();
             let (points, name) = (path.points(), Path::new(&program.file));
-            let mut reader = program.layout.read(Cursor::new(path.text()), name);
+            let mut reader = program.layout.read_path(Cursor::new(path.text()), name);
             let text = ProgramText {
                 reader: &mut reader,
                 name,

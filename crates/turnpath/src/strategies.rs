@@ -54,7 +54,7 @@ fn unknown(choice: &Choice, catalogue: &Catalogue) -> Diagnostic {
 }
 
 /// All choices of a recipe.
-fn choices(recipe: &Recipe) -> impl Iterator<Item = &Choice> {
+pub fn choices(recipe: &Recipe) -> impl Iterator<Item = &Choice> {
     Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot))
 }
 

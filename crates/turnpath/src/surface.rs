@@ -1,5 +1,6 @@
 //! The surface of a recipe: one strategy, or several in their places, added up and posed.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use turnpath_core::{Placement, Slot, SurfaceModel};
@@ -11,6 +12,15 @@ use crate::data_files::DataFiles;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::strategies::link;
+use crate::surface_need::surface_need;
+
+/// A recipe's surface, and which of those that it is made of may have other bytes on another machine.
+pub struct MadeSurface {
+    /// The surface.
+    pub link: Link<dyn SurfaceModel>,
+    /// Slot and name of each, `surface dish`.
+    pub inexact: Vec<String>,
+}
 
 /// The recipe's surface. A single one that stays as it is is the strategy itself.
 ///
@@ -20,40 +30,71 @@ pub fn surface(
     catalogue: &Catalogue,
     files: &DataFiles,
 ) -> Result<Link<dyn SurfaceModel>, Error> {
-    let wanted = wanted_surface(recipe, catalogue, files)?;
+    made_surface(recipe, catalogue, files).map(|made| made.link)
+}
+
+/// The same, with what it is made of.
+pub fn made_surface(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<MadeSurface, Error> {
+    let mut inexact = Vec::new();
+    let mut links = Vec::new();
+    for entry in &recipe.surfaces {
+        let (link, byte_exact) = entry_surface(recipe, catalogue, files, entry)?;
+        if !byte_exact {
+            inexact.push(format!("{} {}", link.slot, link.name));
+        }
+        links.push(link);
+    }
+    let wanted = wanted_surface(recipe, links)?;
     let piston = recipe.allowance();
     if piston == 0.0 {
-        return Ok(wanted);
+        return Ok(MadeSurface {
+            link: wanted,
+            inexact,
+        });
     }
     let place = Placement {
         piston,
         ..Placement::PLAIN
     };
-    Ok(Link {
+    let link: Link<dyn SurfaceModel> = Link {
         strategy: Arc::new(PlacedSurface::new(wanted.strategy.clone(), place)),
         ..wanted
-    })
+    };
+    Ok(MadeSurface { link, inexact })
 }
 
-fn wanted_surface(
+/// One surface of a recipe, made for its part, and whether it has the same bytes on every machine.
+fn entry_surface(
     recipe: &Recipe,
     catalogue: &Catalogue,
     files: &DataFiles,
+    entry: &SurfaceEntry,
+) -> Result<(Link<dyn SurfaceModel>, bool), Error> {
+    let byte_exact = Cell::new(true);
+    let need = surface_need(recipe, entry);
+    let link = link(
+        recipe,
+        catalogue,
+        files,
+        &entry.choice,
+        |strategy, params| {
+            let (model, exact) = strategy.surface(params, need)?;
+            byte_exact.set(exact);
+            Ok(model)
+        },
+    )?;
+    Ok((link, byte_exact.get()))
+}
+
+/// The surfaces of a recipe as one.
+fn wanted_surface(
+    recipe: &Recipe,
+    links: Vec<Link<dyn SurfaceModel>>,
 ) -> Result<Link<dyn SurfaceModel>, Error> {
-    let entry = |entry: &SurfaceEntry| {
-        link(
-            recipe,
-            catalogue,
-            files,
-            &entry.choice,
-            |strategy, params| strategy.offer().surface(params),
-        )
-    };
-    let links: Vec<Link<dyn SurfaceModel>> = recipe
-        .surfaces
-        .iter()
-        .map(entry)
-        .collect::<Result<_, _>>()?;
     match (links.as_slice(), recipe.surfaces.as_slice()) {
         ([_], [only]) if only.placement.is_plain() && recipe.pose.is_none() => {}
         _ => return composite(recipe, &links),

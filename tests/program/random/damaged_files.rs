@@ -66,6 +66,12 @@ const BECKHOFF: Kind = Kind {
     words: fuzz::pmac::WORDS,
     line: "verify recipe.toml out/recipe.cnc --format json --threads 2",
 };
+const BECKHOFF_POLY: Kind = Kind {
+    name: "program for TwinCAT CNC with polynomials",
+    file: "out/recipe.ncp",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml out/recipe.ncp --format json --threads 2",
+};
 const NANOTECH: Kind = Kind {
     name: "program for Nanotech machines",
     file: "out/recipe.nc",
@@ -79,11 +85,12 @@ const LINUXCNC: Kind = Kind {
     line: "verify recipe.toml out/recipe.ngc --format json --threads 2",
 };
 /// A program of each post.
-const PROGRAMS: [&Kind; 7] = [
+const PROGRAMS: [&Kind; 8] = [
     &PROGRAM,
     &POWER_PMAC,
     &AUTOMATION1,
     &SIEMENS,
+    &BECKHOFF_POLY,
     &BECKHOFF,
     &NANOTECH,
     &LINUXCNC,

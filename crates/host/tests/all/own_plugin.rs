@@ -5,7 +5,9 @@
 use turnpath_core::{
     Param, ParamInfo, Params, Scalar, Slot, StrategyError, Surface, SurfaceModel, kind::Length,
 };
-use turnpath_host::{Catalogue, LoadError, OwnPlugin, OwnStrategy};
+use turnpath_host::{
+    Catalogue, Identity, LoadError, OwnPlugin, OwnStrategy, OwnSurface, SurfaceNeed,
+};
 
 const HEIGHT: Param<Length> = Param::length("height", "of the plane");
 const PARAMS: &[ParamInfo] = &[HEIGHT.info()];
@@ -107,4 +109,67 @@ fn a_strategy_that_differs_between_machines_says_so() {
     let own = lab().with(plane(0.5).differs_between_machines());
     let catalogue = Catalogue::new().with_own(own).unwrap();
     assert_eq!(catalogue.plugins()[0].inexact, ["surface plane"]);
+}
+
+/// A plane at the height of the need, so that the need shows.
+fn needed(params: &Params, need: SurfaceNeed) -> Result<OwnSurface, StrategyError> {
+    let height = params.get(HEIGHT);
+    let (slope, byte_exact) = (need.error, height == 0.0);
+    let height = height + need.half_width;
+    let model = Box::new(Plane { slope, height });
+    Ok(OwnSurface { model, byte_exact })
+}
+
+#[test]
+fn a_surface_is_made_for_each_need_and_says_whether_its_bytes_may_differ() {
+    let own = OwnStrategy::surface_for("needed", needed).with_params(PARAMS);
+    let catalogue = Catalogue::new().with_own(lab().with(own)).unwrap();
+    let found = catalogue.find(Slot::Surface, "needed").unwrap();
+    let made = |height: f64, half_width: f64| {
+        let params = Params::new().with("height", height);
+        let need = SurfaceNeed {
+            half_width,
+            error: 0.5,
+        };
+        let (surface, byte_exact) = found.surface(&params, need).unwrap();
+        let mut z = [0.0];
+        surface.heights(&[2.0], &[0.0], &mut z).unwrap();
+        (z[0], byte_exact)
+    };
+    assert_eq!(made(0.0, 3.0), (4.0, true));
+    assert_eq!(made(1.0, 3.0), (5.0, false));
+    assert_eq!(made(0.0, 7.0), (8.0, true));
+    let params = Params::new().with("height", 0.0);
+    let without = found.offer().surface(&params).map(|_| ()).unwrap_err();
+    assert!(
+        without.to_string().contains("for the part of a recipe"),
+        "{without}"
+    );
+}
+
+#[test]
+fn a_surface_without_needs_is_made_as_it_is() {
+    let catalogue = Catalogue::new().with_own(lab().with(plane(0.5))).unwrap();
+    let found = catalogue.find(Slot::Surface, "plane").unwrap();
+    let need = SurfaceNeed {
+        half_width: 1.0,
+        error: 1.0,
+    };
+    let params = Params::new().with("height", 2.0);
+    let (surface, byte_exact) = found.surface(&params, need).unwrap();
+    let mut z = [0.0];
+    surface.heights(&[4.0], &[0.0], &mut z).unwrap();
+    assert_eq!((z[0], byte_exact), (4.0, true));
+}
+
+#[test]
+fn an_identity_is_that_of_one_strategy() {
+    let known = plane(0.5).with_identity(Identity::Hash("c0ffee".to_owned()));
+    let own = lab().with(known);
+    let catalogue = Catalogue::linked().unwrap().with_own(own).unwrap();
+    let found = catalogue.find(Slot::Surface, "plane").unwrap();
+    assert_eq!(found.identity(), Some(&Identity::Hash("c0ffee".to_owned())));
+    let others = catalogue.strategies();
+    let mut others = others.filter(|one| one.info().name != "plane");
+    assert!(others.all(|one| one.identity().is_none()));
 }

@@ -100,6 +100,7 @@ fn texts_of_a_recipe_do_no_harm_in_the_page_of_an_ablation() {
     report.runs.push(AblationRun {
         outcome: RunOutcome::Failed(failed),
         varied: vec![(HARMFUL.to_owned(), HARMFUL.to_owned())],
+        not_recorded: Some(HARMFUL.to_owned()),
     });
     let page = ablation_page(&AblationPage { report });
     is_harmless(&page);

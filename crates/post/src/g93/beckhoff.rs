@@ -9,16 +9,14 @@
 //! ```
 //!
 //! `G93`: F is the seconds of a line, for linear and rotary axes alike. Facts on the language: Beckhoff,
-//! TF5200 Programming manual, "Machining time or feedrate (G93/G94/G95/G194)", "Exact stop
-//! (G60/G360/G359)", "Block-specific comments", "Global sub-routines", and the tables "Meaning of G
-//! functions" and "Meaning of other M functions" of its system parameters.
+//! TF5200 Programming manual, "Machining time or feedrate (G93/G94/G95/G194)", and those of
+//! [`beckhoff`].
 
 use turnpath_core::toolpath::SegmentShape;
 
-use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
-use super::travel::{push_for_beckhoff, read_for_beckhoff};
 use super::write::{push_first, push_line};
+use crate::beckhoff;
 use crate::digits::{DigitSegment, Digits};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
@@ -80,10 +78,6 @@ struct Beckhoff;
 /// No tool's radius is compensated, X is a radius, units are mm, numbers are positions, F is the seconds
 /// of a line, corners are not stopped at.
 const MODES: &str = "G40 G52 G71 G90 G93 G359";
-/// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
-const HARMLESS: &[&str] = &[
-    "G40", "G52", "G71", "G90", "G93", "G359", "M2", "M02", "M17", "M29", "M30",
-];
 /// The words of a path.
 const WORDS: Words = Words {
     needed: &["G71", "G90", "G93"],
@@ -105,32 +99,26 @@ impl Dialect for Beckhoff {
     }
 
     fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
-        push_for_beckhoff(text, format, travel);
+        beckhoff::TRAVEL.push(text, format, travel);
     }
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        read_for_beckhoff(code, modes)
+        beckhoff::TRAVEL.read(code, modes)
     }
 
     fn part_lines(&self, part: &PartName) -> Option<PartLines> {
-        Some(PartLines {
-            call: format!("L {}", part.file),
-            begin: String::new(),
-            end: "M17\n".to_owned(),
-        })
+        Some(beckhoff::part_lines(part))
     }
 
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {
-        // The blank is a part of the call.
-        let name = code.trim().strip_prefix("L ")?.trim();
-        Some(name.to_owned())
+        beckhoff::called_part(code)
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
-        commands(template, HARMLESS)
+        beckhoff::commands(template)
     }
 
     fn ends_program(&self, command: &str) -> bool {
-        ends_program(command)
+        beckhoff::ends_program(command)
     }
 }

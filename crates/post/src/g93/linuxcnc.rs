@@ -2,12 +2,12 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
-use super::commands::{commands, ends_program};
 use super::read::{LineGrammar, Words};
 use super::timing::{check_time, is_dwell};
-use super::travel::{push_for_linuxcnc, read_for_linuxcnc};
 use super::write::{push_dwell, push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
+use crate::fixed_point::ONE;
+use crate::g_code::{TravelWords, commands, ends_program};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
@@ -70,11 +70,21 @@ struct LinuxCnc;
 const MODES: &str = "G8 G21 G40 G64 G90 G93";
 /// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
 const HARMLESS: &[&str] = &["G8", "G21", "G40", "G64", "G90", "G93", "M2", "M30", "%"];
+/// Numbers of words with M that end a program.
+const ENDS: &[u32] = &[2, 30];
 /// The words of a path.
 const WORDS: Words = Words {
     needed: &["G21", "G90", "G93"],
     allowed: &["G8", "G40", "G64"],
     dwells: true,
+};
+
+/// Numbers are mm, X is a radius, no tool is compensated, and each line ends at rest: `G64` would round the
+/// corners from axis to axis. The path's first line sets `G64` again.
+const TRAVEL: TravelWords = TravelWords {
+    text: " G8 G21 G40 G61",
+    metric: 21 * ONE,
+    without_move: &[8 * ONE, 40 * ONE],
 };
 
 impl Dialect for LinuxCnc {
@@ -102,11 +112,11 @@ impl Dialect for LinuxCnc {
     }
 
     fn write_travel(&self, text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
-        push_for_linuxcnc(text, format, travel);
+        TRAVEL.push(text, format, travel);
     }
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        read_for_linuxcnc(code, modes)
+        TRAVEL.read(code, modes)
     }
 
     fn part_lines(&self, part: &PartName) -> Option<PartLines> {
@@ -130,6 +140,22 @@ impl Dialect for LinuxCnc {
     }
 
     fn ends_program(&self, command: &str) -> bool {
-        ends_program(command)
+        ends_program(command, ENDS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn linuxcnc_does_not_move_before_it_knows_that_numbers_are_mm() {
+        let mut modes = TravelModes::default();
+        assert!(TRAVEL.read("G90 G94 G8 G40 G61", &mut modes).is_ok());
+        let said = TRAVEL.read("G0 Z6.5", &mut modes).unwrap_err();
+        assert_eq!(said, "a move before `G21`");
+        assert!(TRAVEL.read("G21", &mut modes).is_ok());
+        assert!(TRAVEL.read("G0 Z6.5", &mut modes).is_ok());
+        assert!(TRAVEL.read("G20", &mut modes).is_err());
     }
 }

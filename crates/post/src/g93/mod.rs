@@ -20,14 +20,14 @@
 //! The first line brings the axes from wherever they are to the first control point, within a second.
 
 mod beckhoff;
-mod commands;
+mod depth_lines;
+mod depth_loop;
 mod linuxcnc;
 mod nanotech;
 mod read;
 #[cfg(test)]
 mod tests;
 mod timing;
-mod travel;
 mod write;
 
 pub(crate) use beckhoff::BECKHOFF_G93;

@@ -6,16 +6,17 @@
 
 use turnpath_core::toolpath::SegmentShape;
 
-use super::commands::{commands, ends_program};
+use super::depth_lines::depth_lines;
+use super::depth_loop::WhileLoop;
 use super::read::{LineGrammar, Words};
-use super::travel;
 use super::write::{push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
-use crate::post::{Command, Dialect, Grammar, Post};
-use crate::program_format::{FeedMeaning, ProgramFormat};
+use crate::g_code::{commands, ends_program, read_spaced_travel};
+use crate::post::{Command, DepthLoop, Dialect, Grammar, Post};
+use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_LIMIT, C_SIGN, C_WITHIN_TURN, CHORD_SHARE, FEED_MEANING, FOOTER, HEADER, MEMORY,
-    SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SIX_DECIMALS,
+    C_LIMIT, C_SIGN, C_WITHIN_TURN, CHORD_SHARE, DEPTH_STEP, DEPTHS, FEED_MEANING, FOOTER, HEADER,
+    MEMORY, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SIX_DECIMALS,
 };
 use crate::travel::{Places, TravelModes};
 
@@ -32,6 +33,8 @@ pub(crate) const NANOTECH_G93: Post = Post {
         FEED_MEANING.info(),
         C_SIGN.info(),
         C_WITHIN_TURN.info(),
+        DEPTHS.info(),
+        DEPTH_STEP.info(),
         SHORTEST_SEGMENT.info(),
         SEGMENTS_PER_SECOND.info(),
         MEMORY.info(),
@@ -75,6 +78,8 @@ const MODES: &str = "G90 G93";
 const HARMLESS: &[&str] = &[
     "G52", "G63", "G71", "G103", "G40", "G18", "G90", "G93", "G54", "T0202", "M2", "M30",
 ];
+/// Numbers of words with M that end a program.
+const ENDS: &[u32] = &[2, 30];
 /// The words of a path.
 const WORDS: Words = Words {
     needed: &["G90", "G93"],
@@ -96,7 +101,15 @@ impl Dialect for Nanotech {
     }
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        travel::read(code, modes)
+        read_spaced_travel(code, modes)
+    }
+
+    fn depth_lines(&self, format: &ProgramFormat, depths: &Depths) -> Option<[String; 2]> {
+        Some(depth_lines(format, depths))
+    }
+
+    fn depth_loop(&self) -> Option<Box<dyn DepthLoop>> {
+        Some(Box::new(WhileLoop::default()))
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
@@ -104,6 +117,6 @@ impl Dialect for Nanotech {
     }
 
     fn ends_program(&self, command: &str) -> bool {
-        ends_program(command)
+        ends_program(command, ENDS)
     }
 }

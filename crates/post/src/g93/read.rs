@@ -8,6 +8,7 @@ use turnpath_core::toolpath::ControlPoint;
 
 use crate::axes::{Axes, AxisWords, NAMES, steps_of};
 use crate::fixed_point::{ONE, number};
+use crate::g_code::{split_comment, without_comments};
 use crate::post::Grammar;
 use crate::program_format::{FeedMeaning, ProgramFormat, Slowest};
 
@@ -178,23 +179,7 @@ impl LineGrammar {
 
 impl Grammar for LineGrammar {
     fn split_comment<'a>(&self, line: &'a [u8]) -> (&'a [u8], Option<&'a [u8]>) {
-        let text = line.trim_ascii();
-        if let [b'(', inside @ .., b')'] = text
-            && !inside.contains(&b'(')
-            && !inside.contains(&b')')
-        {
-            return (b"", Some(inside));
-        }
-        let mut inside = false;
-        for (at, byte) in line.iter().enumerate() {
-            match byte {
-                b'(' => inside = true,
-                b')' => inside = false,
-                b';' if !inside => return (&line[..at], Some(&line[at + 1..])),
-                _ => {}
-            }
-        }
-        (line, None)
+        split_comment(line)
     }
 
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
@@ -248,25 +233,6 @@ fn played_minutes(
         );
     }
     Ok(length / (length * feed).max(slowest.rate))
-}
-
-/// The code of a line in capitals, without spaces and without comments in parentheses.
-pub(super) fn without_comments(code: &str) -> Result<String, String> {
-    let mut kept = String::with_capacity(code.len());
-    let mut inside = false;
-    for c in code.chars() {
-        match c {
-            '(' if !inside => inside = true,
-            ')' if inside => inside = false,
-            '(' | ')' => return Err(format!("a `{c}` without its partner")),
-            _ if inside || c.is_ascii_whitespace() => {}
-            c => kept.push(c.to_ascii_uppercase()),
-        }
-    }
-    match inside {
-        true => Err("a `(` without its partner".to_owned()),
-        false => Ok(kept),
-    }
 }
 
 fn refuse_twice(name: &str, twice: bool) -> Result<(), String> {

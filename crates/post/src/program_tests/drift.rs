@@ -3,6 +3,17 @@
 use super::*;
 use crate::{FeedMeaning, POSTS};
 
+/// The millimetres that the axis of time goes in a second, by default.
+const TIME_AXIS_MM_PER_S: f64 = 10.0;
+
+/// Where the axis of time stands behind a line, in seconds of the path.
+fn said_instant(line: &str) -> Option<f64> {
+    let place = line
+        .split_whitespace()
+        .find_map(|word| word.strip_prefix('W'));
+    Some(place?.parse::<f64>().unwrap() / TIME_AXIS_MM_PER_S)
+}
+
 /// The time of a segment in seconds, from a line of text alone. F is one over minutes, or seconds.
 fn said_time(line: &str, f_is_seconds: bool) -> Option<f64> {
     if let Some(ms) = line.strip_prefix("PVT") {
@@ -30,6 +41,7 @@ fn times_do_not_drift(layout: &Layout, segments: u32) {
         ..ControlPoint::default()
     };
     let (mut sum, mut time, mut first) = (0i64, 0i64, true);
+    let mut instant = 0i64;
     let mut before: Vec<ControlPoint> = Vec::new();
     for begin in (0..=segments).step_by(10_000) {
         let mut block = PathBlock::default();
@@ -42,6 +54,11 @@ fn times_do_not_drift(layout: &Layout, segments: u32) {
         };
         let lines = String::from_utf8(layout.lines(&stretch).unwrap().text).unwrap();
         for line in lines.lines() {
+            if let Some(s) = said_instant(line) {
+                let last = std::mem::replace(&mut instant, (s * steps_per_s).round() as i64);
+                sum += instant - last;
+                continue;
+            }
             time = said_time(line, f_is_seconds).map_or(time, |s| (s * steps_per_s).round() as i64);
             let moves = ["C", "MovePvt", "G1 ", "POLY ", "PO["];
             let moves = moves.iter().any(|begin| line.starts_with(begin));

@@ -9,6 +9,7 @@ use crate::{Chords, Layout, Lines, Post, ProgramFormat, ProgramWriter, ReadPath}
 #[cfg(feature = "zst")]
 mod compressed;
 mod damage;
+mod depths;
 mod drift;
 mod extremes;
 mod numbers;

@@ -3,15 +3,12 @@
 
 use turnpath_core::toolpath::ControlPoint;
 
-use crate::axes::{Axes, AxisWords, NAMES, times};
+use crate::axes::{NAMES, times};
 use crate::fixed_point::number;
+use crate::polynomial::{Cubic, CubicAxes};
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
 
-/// By how much a polynomial may begin with another velocity than the one before ends with, as a way in
-/// its time, in 10⁻¹² mm or deg. Control points have one velocity; a larger jump is a path that they
-/// cannot say.
-const LARGEST_JUMP: u128 = 1000;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
@@ -19,7 +16,7 @@ const MINUTE: f64 = 60.0;
 pub(super) struct PolyGrammar {
     format: ProgramFormat,
     /// The axes, once the first block said where they stand.
-    state: Option<State>,
+    axes: Option<CubicAxes>,
     modes: Modes,
     /// Whether `POLY` is on.
     poly: bool,
@@ -40,15 +37,6 @@ struct Modes {
     by_parameter: bool,
 }
 
-/// Where the axes are, in 10⁻¹² mm or deg.
-struct State {
-    axes: Axes,
-    position: [i128; 3],
-    /// Ways in the time of the last segment at its last velocity, and its steps; `None` behind the
-    /// first block, whose point waits for the velocity with which the first polynomial begins.
-    last: Option<([i128; 3], i64)>,
-}
-
 /// A polynomial, in 10⁻¹² mm or deg: its end, a2 and a3.
 type Polynomial = [i128; 3];
 
@@ -56,7 +44,7 @@ impl PolyGrammar {
     pub(super) fn new(format: &ProgramFormat) -> Self {
         Self {
             format: *format,
-            state: None,
+            axes: None,
             modes: Modes::default(),
             poly: false,
         }
@@ -85,11 +73,8 @@ impl PolyGrammar {
         if let Some(k) = missing {
             return Err(format!("the first point does not give {}", NAMES[k]));
         }
-        self.state = Some(State {
-            axes: Axes::new(self.format),
-            position: position.map(Option::unwrap_or_default),
-            last: None,
-        });
+        let position = position.map(Option::unwrap_or_default);
+        self.axes = Some(CubicAxes::new(&self.format, position));
         Ok(())
     }
 
@@ -99,19 +84,23 @@ impl PolyGrammar {
         steps: i64,
         points: &mut Vec<ControlPoint>,
     ) -> Result<(), String> {
-        let steps_per_s = self.format.steps_per_s;
-        let state = self.state.as_mut();
-        let state = state.ok_or("a polynomial before the first point")?;
-        let (mut begin, mut end, mut target) = ([0; 3], [0; 3], state.position);
+        let axes = self.axes.as_mut();
+        let axes = axes.ok_or("a polynomial before the first point")?;
+        let position = axes.position();
+        let mut cubics = position.map(|to| Cubic {
+            to,
+            begin: 0,
+            end: 0,
+        });
         for (k, polynomial) in found.into_iter().enumerate() {
-            let from = state.position[k];
+            let from = position[k];
             // An axis without a polynomial stays where it is.
             // Numbers have 15 digits before the point at the most, so these sums are far from the end of
             // 128 bits.
             let [to, square, cube] = polynomial.unwrap_or([from, 0, 0]);
-            begin[k] = to - from - square - cube;
-            end[k] = begin[k] + 2 * square + 3 * cube;
-            target[k] = to;
+            let begin = to - from - square - cube;
+            let end = begin + 2 * square + 3 * cube;
+            cubics[k] = Cubic { to, begin, end };
             if k == 0 && [to - from, square, cube] == [0; 3] {
                 return Err(
                     "C stands still: with `FGROUP(C)` and `UPATH` nothing says when and how the \
@@ -120,47 +109,7 @@ impl PolyGrammar {
                 );
             }
         }
-        match state.last {
-            None => points.push(state.go_to(state.position, begin, steps, steps_per_s)?),
-            Some((last, of_last)) => {
-                for (k, name) in NAMES.into_iter().enumerate() {
-                    let way = last[k].checked_mul(i128::from(steps));
-                    let way = way.ok_or_else(|| too_many_digits(name))?;
-                    let expected = way / i128::from(of_last);
-                    let finer =
-                        LARGEST_JUMP.max(u128::from((8 * (steps / of_last)).unsigned_abs()));
-                    if begin[k].abs_diff(expected) > finer {
-                        return Err(format!(
-                            "the polynomial of {name} does not begin with the velocity with which \
-                             the one before ends"
-                        ));
-                    }
-                }
-            }
-        }
-        points.push(state.go_to(target, end, steps, steps_per_s)?);
-        state.position = target;
-        state.last = Some((end, steps));
-        Ok(())
-    }
-}
-
-impl State {
-    /// The point at a position with a velocity that is given as the way in `steps`.
-    fn go_to(
-        &mut self,
-        position: [i128; 3],
-        way: [i128; 3],
-        steps: i64,
-        steps_per_s: i64,
-    ) -> Result<ControlPoint, String> {
-        let mut words: AxisWords = [None; 3];
-        for (k, word) in words.iter_mut().enumerate() {
-            let velocity = way[k].checked_mul(i128::from(steps_per_s));
-            let velocity = velocity.ok_or_else(|| too_many_digits(NAMES[k]))?;
-            *word = Some((position[k], Some(rounded(velocity, steps))));
-        }
-        self.axes.go_to(&words, [true; 3], steps)
+        axes.play(cubics, steps, points)
     }
 }
 
@@ -186,7 +135,7 @@ impl Grammar for PolyGrammar {
                 "FGROUP()" => self.modes.c_is_path = false,
                 "UPATH" => self.modes.by_parameter = true,
                 "G64" => {}
-                "G1" if self.state.is_some() => {
+                "G1" if self.axes.is_some() => {
                     return Err("`G1` ends the path of polynomials".to_owned());
                 }
                 "G1" => is_straight = true,
@@ -231,21 +180,12 @@ impl Grammar for PolyGrammar {
     }
 
     fn holds_point(&self) -> bool {
-        self.state
-            .as_ref()
-            .is_some_and(|state| state.last.is_none())
+        self.axes.as_ref().is_some_and(CubicAxes::holds_point)
     }
 
     fn finish(&mut self) -> Option<ControlPoint> {
-        let state = self.state.as_mut().filter(|state| state.last.is_none())?;
-        state.go_to(state.position, [0; 3], 1, 1).ok()
+        self.axes.as_mut().and_then(CubicAxes::finish)
     }
-}
-
-/// A quotient, rounded.
-fn rounded(value: i128, by: i64) -> i128 {
-    let by = i128::from(by);
-    (value + by / 2).div_euclid(by)
 }
 
 /// `PO[X]=(1.5,0.1)`: the axis and its polynomial. A coefficient that is left out is zero.
@@ -302,10 +242,6 @@ pub(super) fn without_number(code: &str) -> Result<&str, String> {
 
 fn twice(word: &str) -> String {
     format!("{word} appears twice on this line")
-}
-
-fn too_many_digits(axis: &str) -> String {
-    format!("the velocity of {axis} has too many digits")
 }
 
 fn not_a_word(word: &str) -> String {

@@ -13,14 +13,13 @@ import sys as _sys
 if not getattr(_sys, "_is_gil_enabled", lambda: True)():
     raise ImportError("turnpath does not serve free-threaded interpreters: start Python with its lock")
 
+from ._ablation import Rows, ablate, merge, plan, run_of
 from ._commands import (
     Judgement,
     Map,
     Report,
     Result,
-    Rows,
     ToolPath,
-    ablate,
     check,
     run,
     strategies,
@@ -56,6 +55,7 @@ from ._kinds import (
 from ._laws import between
 from ._recipe import Recipe
 from ._strategies import (
+    EntryPointWarning,
     Strategy,
     TraceWarning,
     compensator,

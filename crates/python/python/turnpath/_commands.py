@@ -1,9 +1,9 @@
-"""The commands: run, check, verify, ablate."""
+"""The commands: run, check, verify, and the list of strategies."""
 
 from __future__ import annotations
 
-import csv
 import json
+import operator
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
@@ -123,6 +123,9 @@ class Result(Judgement):
     def map(self, n: int) -> Map:
         """The machined surface less the wanted one on ``n`` × ``n`` cells over the square around the
         part. The path is made once more for it."""
+        n = operator.index(n)
+        if n not in CELLS:
+            raise ValueError(f"a map of {n} cells; it has from {CELLS[0]} to {CELLS[-1]} along a side")
         with tempfile.TemporaryDirectory(prefix="turnpath-") as folder:
             file = Path(folder) / "map.xyz"
             changes = {"output.data": ["csv"], "output.posts": []}
@@ -155,7 +158,7 @@ class _Run:
         self.strategies = list(strategies)
         self.plugins = list(plugins)
         self.session = session
-        self.threads = threads
+        self.threads = threads_of(threads)
 
     def again(
         self,
@@ -165,7 +168,7 @@ class _Run:
         progress: Progress | None = None,
     ) -> Result:
         native = as_recipe(self.recipe, changes)._native()
-        self.session = _session(native, self.session.time_limit)
+        self.session = Session(self.session.time_limit)
         found = sources(self.strategies, self.plugins, self.session)
         session = self.session
         answer = session.work(
@@ -177,13 +180,18 @@ class _Run:
         return Result(answer, self)
 
 
-def _session(native: Any, time_limit: float | None) -> Session:
-    """A session that knows how large a spline must be, and how fine."""
-    session = Session(time_limit)
-    reach = _turnpath.reach(native)
-    if reach is not None:
-        session.half_width, session.fit_error = reach
-    return session
+#: The most threads that a command may have, as of `turnpath --threads`.
+MOST_THREADS = 1024
+#: The cells along each side that a map may have, as of `turnpath --map-cells`.
+CELLS = range(2, 20_001)
+
+
+def threads_of(threads: int) -> int:
+    """How many threads work, if that is a count."""
+    count = operator.index(threads)
+    if not 0 <= count <= MOST_THREADS:
+        raise ValueError(f"threads is {count}; it is from 1 to {MOST_THREADS}, or 0 for all cores")
+    return count
 
 
 def run(
@@ -231,11 +239,12 @@ def check(
 ) -> Report:
     """Checks a recipe and estimates its path, which is not made. The arguments are those of
     :func:`run`."""
+    count = threads_of(threads)
     native = as_recipe(recipe, set)._native()
-    session = _session(native, time_limit)
+    session = Session(time_limit)
     found = sources(strategies, plugins, session)
     return Report(
-        session.work(lambda: _turnpath.check(native, found, threads=threads)), session
+        session.work(lambda: _turnpath.check(native, found, threads=count)), session
     )
 
 
@@ -252,97 +261,15 @@ def verify(
 ) -> Judgement:
     """Measures the tool path in a file, a ``toolpath.csv`` or a motion program, against a recipe. The
     other arguments are those of :func:`run`."""
+    count = threads_of(threads)
     native = as_recipe(recipe, set)._native()
-    session = _session(native, time_limit)
+    session = Session(time_limit)
     found = sources(strategies, plugins, session)
     text = session.work(
-        lambda: _turnpath.verify(native, found, session.control, Path(file), threads=threads),
+        lambda: _turnpath.verify(native, found, session.control, Path(file), threads=count),
         progress,
     )
     return Judgement(text, session)
-
-
-class Rows(list[dict[str, Any]]):
-    """The rows of an ablation, as ``pandas.DataFrame(rows)`` takes them: a dict for each run. A row has
-    its number ``run``, what varies, the figures with units in their names, and ``reason`` where the run
-    failed.
-
-    Attributes:
-        report: the whole report.
-        files: the files that were written; empty without a folder.
-        reused: how many runs had a record already.
-    """
-
-    report: dict[str, Any]
-    files: list[Path]
-    reused: int
-
-
-def ablate(
-    recipe: RecipeLike,
-    vary: Mapping[str, Any] | None = None,
-    set: Mapping[str, Any] | None = None,
-    strategies: Iterable[Any] = (),
-    *,
-    plugins: Iterable[PathLike] = (),
-    folder: PathLike | None = None,
-    fresh: bool = False,
-    progress: Progress | None = None,
-    threads: int = 0,
-    time_limit: float | None = TIME_LIMIT,
-) -> Rows:
-    """Makes the variants of a recipe and sets their figures side by side.
-
-    Args:
-        vary: lists for the recipe's ``[ablation]``: ``{"sampler": [{"use": "even"}, …]}``.
-        folder: where the table and the records of runs go. A run that has a record is not made again.
-            Without a folder nothing is kept.
-        fresh: whether runs that have a record are made again.
-        threads: how many runs are made at a time; as many as there are cores for 0.
-
-    The other arguments are those of :func:`run`.
-    """
-    changes = dict(set or {})
-    changes |= {f"ablation.{key}": value for key, value in (vary or {}).items()}
-    native = as_recipe(recipe, changes)._native()
-    session = _session(native, time_limit)
-    found = sources(strategies, plugins, session)
-    with tempfile.TemporaryDirectory(prefix="turnpath-") as scratch:
-        answer = session.work(
-            lambda: _turnpath.ablate(
-                native,
-                found,
-                session.control,
-                Path(scratch if folder is None else folder),
-                fresh=fresh,
-                threads=threads,
-            ),
-            progress,
-        )
-        text, files, reused, _ = answer
-        rows = Rows(_rows(files))
-    rows.report = json.loads(text)
-    rows.files = [] if folder is None else [Path(file) for file in files]
-    rows.reused = reused
-    return rows
-
-
-def _rows(files: Iterable[PathLike]) -> list[dict[str, Any]]:
-    """The rows of the table among the files of an ablation."""
-    table = next(Path(file) for file in files if Path(file).suffix == ".csv")
-    with table.open(newline="", encoding="utf-8") as lines:
-        return [{key: _cell(text) for key, text in row.items()} for row in csv.DictReader(lines)]
-
-
-def _cell(text: str) -> Any:
-    """A number, a flag, a text, or nothing."""
-    words = {"": None, "true": True, "false": False}
-    if text in words:
-        return words[text]
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def strategies(
@@ -350,5 +277,7 @@ def strategies(
 ) -> list[dict[str, str]]:
     """All strategies, those of ``own`` and of ``plugins`` among them: dicts with ``slot``, ``name``, ``summary`` and
     ``plugin``."""
-    found = _turnpath.strategies(sources(own, plugins, Session()))
+    session = Session()
+    given = sources(own, plugins, session)
+    found = session.work(lambda: _turnpath.strategies(given))
     return [dict(zip(("slot", "name", "summary", "plugin"), row)) for row in found]

@@ -38,6 +38,8 @@ class Error(Exception):
         self.title = title if title is not None else message
         self.places = places
         self.help = help
+        # What the stages below said, each in its own words.
+        self._causes: tuple[str, ...] = ()
 
     @property
     def place(self) -> Place | None:
@@ -94,9 +96,11 @@ _KINDS: dict[str, type[Error]] = {
 
 def of_native(found: dict[str, Any]) -> Error:
     """The exception for an error that the native part describes."""
-    return _KINDS[found["fault"]](
+    error = _KINDS[found["fault"]](
         found["text"] or found["title"],
         title=found["title"],
         places=tuple(Place(*place) for place in found["places"]),
         help=tuple(found["help"]),
     )
+    error._causes = tuple(found["causes"])
+    return error

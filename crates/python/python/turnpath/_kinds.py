@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import numbers
 import typing
 from dataclasses import dataclass
 from typing import Any, Callable
@@ -93,13 +94,32 @@ def _param(parameter: inspect.Parameter, hint: Any, function: Callable[..., Any]
         "nonzero": limits.nonzero,
         "example": "",
     }
+    if limits != Limits(help=limits.help) and not _is_number(kind):
+        raise TypeError(f"{where} is no number, and has no limits but its line of help")
     least = 0.0 if limits.positive or kind == "count" else None
-    least = _number(limits.min, kind) if limits.min is not None else least
+    least = _number(limits.min, kind, where) if limits.min is not None else least
     if least is not None:
         declared["min"] = least
     if limits.max is not None:
-        declared["max"] = _number(limits.max, kind)
+        declared["max"] = _number(limits.max, kind, where)
+    _refuse_default(declared, where)
     return declared
+
+
+def _is_number(kind: Any) -> bool:
+    return kind in ("number", "count") or (isinstance(kind, dict) and "quantity" in kind)
+
+
+def _refuse_default(declared: dict[str, Any], where: str) -> None:
+    """A default is held to the limits that a recipe's values are held to."""
+    default = declared["default"]
+    if not isinstance(default, dict) or "number" not in default:
+        return
+    number, least, most = default["number"], declared.get("min"), declared.get("max")
+    low = least is not None and (number < least or (number == least and declared["above_min"]))
+    high = most is not None and number > most
+    if low or high or number != number or (number == 0 and declared["nonzero"]):
+        raise ValueError(f"{where} has a default that its own limits do not allow")
 
 
 def _without_none(hint: Any) -> tuple[Any, bool]:
@@ -114,7 +134,10 @@ def _kind(hint: Any, where: str) -> Any:
     if isinstance(hint, Kind):
         return {"quantity": hint.word}
     if typing.get_origin(hint) is typing.Literal:
-        return {"choice": list(typing.get_args(hint))}
+        words = list(typing.get_args(hint))
+        if not all(type(word) is str for word in words):
+            raise TypeError(f"{where} has choices that are no texts: write typing.Literal['1', '2']")
+        return {"choice": words}
     if hint in _PLAIN:
         return _PLAIN[hint]
     raise TypeError(
@@ -123,10 +146,16 @@ def _kind(hint: Any, where: str) -> Any:
     )
 
 
-def _number(value: str | float, kind: Any) -> float:
-    if isinstance(value, str):
-        return _turnpath.parse_quantity(kind["quantity"], value)
-    return float(value)
+def _number(value: str | float, kind: Any, where: str) -> float:
+    """A bound or a default as a number in mm, rad and s."""
+    is_quantity = isinstance(kind, dict)
+    if isinstance(value, str) != is_quantity or isinstance(value, bool):
+        text = "is a quantity: write its limits as texts, such as '1 mm'"
+        raise TypeError(f"{where} {text if is_quantity else 'has a limit that is no number'}")
+    try:
+        return _turnpath.parse_quantity(kind["quantity"], value) if is_quantity else float(value)
+    except ValueError as error:
+        raise ValueError(f"{where}: {error}") from None
 
 
 def _default(parameter: inspect.Parameter, kind: Any, optional: bool, where: str) -> Any:
@@ -138,11 +167,19 @@ def _default(parameter: inspect.Parameter, kind: Any, optional: bool, where: str
     if isinstance(kind, dict) and "quantity" in kind:
         if not isinstance(value, str):
             raise TypeError(f"{where} needs a unit: write its default as a text, such as '1 mm'")
-        return {"number": _turnpath.parse_quantity(kind["quantity"], value)}
-    if kind in ("number", "count"):
-        return {"number": float(value)}
-    if kind == "flag":
-        return {"flag": bool(value)}
+        return {"number": _number(value, kind, where)}
     if kind == "file":
         raise TypeError(f"{where} is a file, which has no default")
-    return {"text": str(value)}
+    words = kind["choice"] if isinstance(kind, dict) else None
+    fits = {
+        "number": isinstance(value, numbers.Real) and not isinstance(value, bool),
+        "count": isinstance(value, numbers.Integral) and not isinstance(value, bool),
+        "flag": isinstance(value, bool),
+        "text": isinstance(value, str),
+    }
+    if value not in words if words is not None else not fits[kind]:
+        told = f"one of {', '.join(words)}" if words is not None else f"a {kind}"
+        raise TypeError(f"{where} has the default {value!r}, which is not {told}")
+    if kind in ("number", "count"):
+        return {"number": float(value)}
+    return {"flag": value} if kind == "flag" else {"text": value}

@@ -28,14 +28,31 @@ GRACE = 5.0
 #: The longest single call of a strategy unless given, s.
 TIME_LIMIT = 600.0
 
+#: How many calls may stay behind whose strategy does not come back. Each keeps the threads of its
+#: pool: nothing ends a thread from outside.
+MOST_LEFT = 8
+
 _PACKAGE = str(Path(__file__).parent) + os.sep
+#: Guards what all calls of the process share.
+_shared = threading.Lock()
 _active = 0
 _torn = False
+_left: list[threading.Thread] = []
 
 
 def _after_fork() -> None:
-    global _torn
+    """In a child that was forked: threads and their locks stayed with the parent."""
+    global _torn, _active, _shared
     _torn = _torn or _active > 0
+    _active = 0
+    _left.clear()
+    _shared = threading.Lock()
+
+
+def _count_active(change: int) -> None:
+    global _active
+    with _shared:
+        _active += change
 
 
 os.register_at_fork(after_in_child=_after_fork)
@@ -65,11 +82,9 @@ class Session:
 
     def __init__(self, time_limit: float | None = TIME_LIMIT) -> None:
         self.control = Control()
+        if time_limit is not None and not time_limit > 0:
+            raise ValueError(f"time_limit is {time_limit} s; it is longer than 0 s, or None")
         self.time_limit = time_limit
-        #: Half the side of the square that a spline covers, mm; ``None`` where it is not known.
-        self.half_width: float | None = None
-        #: The error at which a spline is fine enough, mm.
-        self.fit_error = 1e-8
         #: The strategies of Python that may be called.
         self.strategies: list[Any] = []
         #: What the caller should know of the strategies.
@@ -108,7 +123,9 @@ class Session:
         elif isinstance(error, Interruption):
             text = "was interrupted"
         else:
-            text = f"raised {type(error).__name__}: {error}{place}"
+            text = f"raised {type(error).__name__}: {_text_of(error)}{place}"
+        # The native part takes no halves of surrogates.
+        text = text.encode("utf-8", "backslashreplace").decode()
         with self._lock:
             self._failures.append(_Failure(strategy, text, source, error))
         return text
@@ -123,14 +140,18 @@ class Session:
             raise RuntimeError(
                 "this process was forked while turnpath worked; start it with `spawn` instead of `fork`"
             )
+        _refuse_more()
         done: dict[str, Any] = {}
         thread = threading.Thread(
             target=self._body, args=(command, done), name="turnpath", daemon=True
         )
         thread.start()
-        stop = self._wait(thread, progress)
+        stop, late = self._wait(thread, progress)
         if thread.is_alive():
-            raise stop if stop is not None else self._stuck()
+            self.control.cancel()
+            with _shared:
+                _left.append(thread)
+            raise stop if stop is not None else self._stuck(late)
         if stop is not None:
             raise stop
         if "error" in done:
@@ -139,20 +160,19 @@ class Session:
 
     @staticmethod
     def _body(command: Callable[[], Any], done: dict[str, Any]) -> None:
-        global _active
-        _active += 1
+        _count_active(1)
         try:
             done["answer"] = command()
         except BaseException as error:  # noqa: B902: the waiting thread raises it
             done["error"] = error
         finally:
-            _active -= 1
+            _count_active(-1)
 
     def _wait(
         self, thread: threading.Thread, progress: Callable[[str, int, int], Any] | None
-    ) -> BaseException | None:
-        """Waits until the work has ended, or a strategy does not hear. Gives what stopped it from here;
-        a second Ctrl-C waits no longer."""
+    ) -> tuple[BaseException | None, list[_Call]]:
+        """Waits until the work has ended, or a strategy does not hear. Gives what stopped it from here,
+        and the calls that do not hear; a second Ctrl-C waits no longer."""
         stop: BaseException | None = None
         told: tuple[str, int, int] | None = None
         while thread.is_alive():
@@ -163,7 +183,7 @@ class Session:
                     progress(*told)
             except BaseException as error:  # noqa: B902: Ctrl-C, or what `progress` raises
                 if stop is not None:
-                    return error
+                    return error, []
                 stop = error
                 self.control.cancel()
                 self._end_calls(Interruption, lambda call: True)
@@ -171,9 +191,10 @@ class Session:
             if self.time_limit is not None:
                 limit = self.time_limit
                 self._end_calls(TimeLimit, lambda call: now - call.started > limit)
-            if self._overdue(now):
-                return stop
-        return stop
+            late = self._overdue(now)
+            if late:
+                return stop, late
+        return stop, []
 
     def _end_calls(self, kind: type[BaseException], which: Callable[[_Call], bool]) -> None:
         """Raises an exception in the innermost calls that are to end, each once."""
@@ -185,33 +206,29 @@ class Session:
                         ctypes.c_ulong(thread), ctypes.py_object(kind)
                     )
 
-    def _overdue(self, now: float) -> bool:
-        """Whether a call did not hear that it is to end."""
+    def _overdue(self, now: float) -> list[_Call]:
+        """The calls that did not hear that they are to end."""
         with self._lock:
             calls = [call for calls in self._calls.values() for call in calls[-1:]]
-        return any(call.told is not None and now - call.told > GRACE for call in calls)
+        return [call for call in calls if call.told is not None and now - call.told > GRACE]
 
-    def _stuck(self) -> StrategyError:
-        """The error for a call that does not come back at all. Its thread stays."""
-        self.control.cancel()
-        with self._lock:
-            calls = [call for calls in self._calls.values() for call in calls[-1:]]
-        names = ", ".join(f"{call.strategy.slot} `{call.strategy.name}`" for call in calls)
+    def _stuck(self, late: list[_Call]) -> StrategyError:
+        """The error for calls that do not come back at all. Their threads stay."""
+        names = dict.fromkeys(f"{call.strategy.slot} `{call.strategy.name}`" for call in late)
         error = StrategyError(
-            f"the {names} did not come back within {self.time_limit:g} s, and does not hear that it is to "
-            "end: it is in code that is not Python's"
+            f"the {', '.join(names)} did not come back within {self.time_limit:g} s, and does not hear "
+            "that it is to end: it is in code that is not Python's"
         )
-        if calls:
-            error.strategy = f"{calls[0].strategy.slot} {calls[0].strategy.name}"
+        error.strategy = f"{late[0].strategy.slot} {late[0].strategy.name}"
         return error
 
     def _explained(self, error: BaseException) -> BaseException:
         """The exception of the native part, with what a strategy raised."""
         if not isinstance(error, Error) or isinstance(error, Cancellation):
             return error
-        text = str(error)
-        # A message may be broken over lines where it is underlined.
-        failure = next((one for one in self._failures if one.text in text), None)
+        # Not in the message, which is broken over lines and has no control characters.
+        said = error._causes
+        failure = next((one for one in self._failures if any(one.text in text for text in said)), None)
         if failure is None:
             return self._named(error)
         if not isinstance(error, StrategyError):
@@ -228,6 +245,26 @@ class Session:
                 if f"`{strategy.name}` of " in error.title:
                     error.strategy = f"{strategy.slot} {strategy.name}"
         return error
+
+
+def _refuse_more() -> None:
+    """Too many calls have stayed behind."""
+    with _shared:
+        _left[:] = [thread for thread in _left if thread.is_alive()]
+        if len(_left) >= MOST_LEFT:
+            raise StrategyError(
+                f"{len(_left)} earlier calls have strategies that do not come back, and each keeps its "
+                "threads",
+                help=("start a new process",),
+            )
+
+
+def _text_of(error: BaseException) -> str:
+    """The text of an exception. Its own method may raise as well."""
+    try:
+        return str(error)
+    except Exception as second:
+        return f"(its text raises {type(second).__name__})"
 
 
 def _as_strategy_error(error: Error) -> StrategyError:

@@ -1,4 +1,4 @@
-"""Where a function's source is, and the hash that stands for it."""
+"""Where a function's source is, and the bytes of it."""
 
 from __future__ import annotations
 
@@ -7,74 +7,33 @@ import inspect
 from pathlib import Path
 from typing import Any, Callable
 
-import numpy as np
-
-# Values whose text says all of them.
-_PLAIN = (bool, int, float, complex, str, bytes, type(None))
-# Containers of values are looked into so deep.
-_DEEPEST = 4
-
 
 def file_of(function: Callable[..., Any]) -> str:
     """The file of a function's source, or what stands for one where there is none."""
     return inspect.getsourcefile(function) or function.__code__.co_filename
 
 
-def digest(function: Callable[..., Any]) -> str:
-    """SHA-256 of a function's source, of the plain values that it takes from outside, and of the
-    functions of its own module that it calls.
-
-    What a function does also depends on the modules that it imports. Their sources do not count.
-    """
-    hash = hashlib.sha256()
-    _add(hash, function, set())
-    return hash.hexdigest()
+def has_file(function: Callable[..., Any]) -> bool:
+    """Whether the source is a file; that of a notebook is none."""
+    return Path(file_of(function)).is_file()
 
 
-def _add(hash: Any, function: Callable[..., Any], seen: set[int]) -> None:
-    if id(function) in seen:
-        return
-    seen.add(id(function))
-    path = Path(file_of(function))
-    if path.is_file():
-        hash.update(path.read_bytes())
-    else:
-        hash.update(_text(function).encode())
+def bytes_of(function: Callable[..., Any]) -> bytes:
+    """The bytes of the source: those of the file, or the text of the function where there is none."""
     try:
-        outside = inspect.getclosurevars(function)
-    except (TypeError, ValueError):
-        return
-    for name, value in sorted({**outside.globals, **outside.nonlocals}.items()):
-        inner = inspect.unwrap(value) if callable(value) else value
-        if inspect.isfunction(inner):
-            hash.update(name.encode())
-            # The source of another module is its own affair; a value in a closure is not.
-            if inner.__module__ == function.__module__ or name in outside.nonlocals:
-                _add(hash, inner, seen)
-        else:
-            hash.update(f"{name}={_value(value)}".encode())
+        return Path(file_of(function)).read_bytes()
+    except OSError:
+        return _text(function).encode()
+
+
+def sha256(function: Callable[..., Any]) -> str:
+    """SHA-256 of the bytes of the source, as ``sha256sum`` gives it for the file."""
+    return hashlib.sha256(bytes_of(function)).hexdigest()
 
 
 def _text(function: Callable[..., Any]) -> str:
-    """The source of a function that is in no file, such as one of a notebook."""
+    """The source of a function that is in no file."""
     try:
         return inspect.getsource(function)
     except (OSError, TypeError):
-        code = function.__code__
-        return f"{code.co_code.hex()} {code.co_names} {_value(code.co_consts)}"
-
-
-def _value(value: Any, depth: int = 0) -> str:
-    """A text that is another one for another value, as far as plain values go."""
-    if isinstance(value, _PLAIN):
-        return repr(value)
-    if isinstance(value, np.ndarray):
-        return f"{value.dtype}{value.shape}{hashlib.sha256(value.tobytes()).hexdigest()}"
-    if isinstance(value, np.generic):
-        return repr(value.item())
-    if depth < _DEEPEST and isinstance(value, (list, tuple, set, frozenset)):
-        items = [_value(item, depth + 1) for item in value]
-        return f"{type(value).__name__}{sorted(items) if isinstance(value, (set, frozenset)) else items}"
-    if depth < _DEEPEST and isinstance(value, dict):
-        return str({str(key): _value(item, depth + 1) for key, item in value.items()})
-    return type(value).__qualname__
+        return f"{function.__qualname__} {function.__code__.co_code.hex()}"

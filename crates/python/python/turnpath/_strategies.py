@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import hashlib
 import importlib.metadata
 import inspect
 import json
@@ -15,6 +14,7 @@ from typing import Any, Callable
 
 from . import _kinds, _source, _turnpath
 from ._errors import TraceError
+from ._identity import NoIdentity, identity
 from ._session import Session
 from ._trace import Step, trace
 
@@ -24,6 +24,10 @@ GROUP = "turnpath.strategies"
 
 class TraceWarning(UserWarning):
     """A surface is no formula, and a spline stands for it."""
+
+
+class EntryPointWarning(UserWarning):
+    """An installed package names strategies that cannot be loaded."""
 
 
 class Strategy:
@@ -50,6 +54,7 @@ class Strategy:
         self.name = name or function.__name__.strip("_").replace("_", "-").lower()
         self.summary = (inspect.getdoc(function) or "").partition("\n")[0]
         self.options = options
+        _refuse_options(self.name, options)
         self.params = _kinds.declare(function, skipped)
         self.declaration = json.dumps(
             {"name": self.name, "summary": self.summary, "params": self.params}
@@ -87,20 +92,31 @@ class Strategy:
 
         return {param["name"]: value(param) for param in self.params}
 
-    def digest(self) -> str:
-        """Slot, name, and the SHA-256 of the sources of its functions."""
-        functions = [self.function, *filter(callable, self.options.values())]
-        return " ".join([self.slot, self.name, *map(_source.digest, functions)])
-
-    def is_exact(self) -> bool:
-        """Whether its answers have the same bytes on every machine: it is a surface, and all of it
-        is a formula."""
-        if self.slot != "surface":
-            return False
+    def identity(self) -> tuple[str | None, str]:
+        """The hash of all that its answers depend on besides its parameters; or ``None``, and why there
+        is none. :mod:`turnpath._identity` says what counts."""
         try:
-            return trace(self.function, self._defaults())[1]
-        except TraceError:
-            return False
+            return identity(self._identity_parts(), self._modules()), ""
+        except NoIdentity as error:
+            return None, str(error)
+
+    def _identity_parts(self) -> list[tuple[str, Any]]:
+        """All that its answers depend on, by names for messages."""
+        own = ("slot", "function", "name", "summary", "options", "params", "declaration", "version")
+        known = {*own, *functools.WRAPPER_ASSIGNMENTS, "__wrapped__", "__type_params__"}
+        # What a decorated function had already is written with the function.
+        had = vars(self.function)
+        more = [
+            (key, value)
+            for key, value in sorted(vars(self).items())
+            if key not in known and not (key in had and had[key] is value)
+        ]
+        parts = [("slot", self.slot), ("declaration", self.declaration), ("function", self.function)]
+        return [*parts, *sorted(self.options.items()), *more]
+
+    def _modules(self) -> set[str]:
+        functions = [self.function, *filter(inspect.isfunction, self.options.values())]
+        return {function.__module__ for function in functions}
 
     def _native(self, session: Session) -> dict[str, Any]:
         session.strategies.append(self)
@@ -110,7 +126,7 @@ class Strategy:
             "slot": self.slot,
             "declaration": self.declaration,
             "bind": session.guard(self, functools.partial(bind, session)),
-            "exact": self.is_exact(),
+            "identity": self.identity(),
             "options": {
                 key: value
                 for key, value in self.options.items()
@@ -128,38 +144,58 @@ class Strategy:
             plan = session.guard(self, functools.partial(plan, **parameters))
         return self._callable(session, parameters), plan
 
-    def _surface(self, session: Session, parameters: dict[str, Any]) -> Any:
-        """The steps of the formula, or a function to fit, its half width and the error to reach."""
+    def _surface(
+        self, session: Session, parameters: dict[str, Any], half_width: float, error: float
+    ) -> Any:
+        """The steps of the formula, and whether they are all that the function does; or a function to
+        fit, half the side of the square that it must cover, and the error to reach, mm."""
         try:
-            return trace(self.function, parameters)[0]
-        except TraceError as error:
-            if self.options.get("fit") is False:
+            return trace(self.function, parameters)
+        except TraceError as why:
+            if self.options["fit"] is False:
                 raise
-            half, goal = self._extent(session, error), self._goal(session)
             note = (
-                f"the surface `{self.name}` cannot be traced: {error}; a spline through its heights "
+                f"the surface `{self.name}` cannot be traced: {why}; a spline through its heights "
                 "stands for it"
             )
-            session.notes.append(note)
+            if note not in session.notes:
+                session.notes.append(note)
             warnings.warn(note, TraceWarning, stacklevel=2)
-            return (self._callable(session, parameters), half, goal)
+        extent, goal = self.options["extent"], self.options["fit_error"]
+        half = half_width if extent is None else 0.5 * _turnpath.parse_quantity("length", extent)
+        goal = error if goal is None else _turnpath.parse_quantity("length", goal)
+        return self._callable(session, parameters), half, goal
 
-    def _extent(self, session: Session, why: TraceError) -> float:
-        """Half the width of the square that a spline covers, mm."""
-        if self.options.get("extent") is not None:
-            return 0.5 * _turnpath.parse_quantity("length", self.options["extent"])
-        if session.half_width is None:
-            raise TraceError(
-                f"{why}; for a spline in its place say how large it is: "
-                "@turnpath.surface(extent='60 mm')"
-            ) from why
-        return session.half_width
 
-    def _goal(self, session: Session) -> float:
-        """The error of a spline that is small enough, mm."""
-        if self.options.get("fit_error") is not None:
-            return _turnpath.parse_quantity("length", self.options["fit_error"])
-        return session.fit_error
+#: What options of decorators may be.
+_WORDS = {"radial": ("contact", "centre"), "segments": ("cubic", "linear")}
+_LENGTHS = ("extent", "fit_error")
+#: The most nodes that a velocity solver may ask for on either side of a block.
+_MOST_OVERLAP = 10_000
+
+
+def _refuse_options(name: str, options: dict[str, Any]) -> None:
+    """Options that mean nothing are refused where they are written."""
+    for key, value in options.items():
+        wrong = None
+        if key in _WORDS and value not in _WORDS[key]:
+            wrong = f"{value!r}, and may be {' or '.join(map(repr, _WORDS[key]))}"
+        elif key in _LENGTHS and value is not None:
+            wrong = _wrong_length(value)
+        elif key == "overlap" and (type(value) is not int or not 0 <= value <= _MOST_OVERLAP):
+            wrong = f"{value!r}, and is a count of nodes up to {_MOST_OVERLAP}"
+        elif key == "plan" and not (value is None or callable(value)):
+            wrong = f"{value!r}, and is a function"
+        if wrong is not None:
+            raise ValueError(f"{name}: the option `{key}` is {wrong}")
+
+
+def _wrong_length(text: Any) -> str | None:
+    try:
+        length = _turnpath.parse_quantity("length", text)
+    except (TypeError, ValueError) as error:
+        return f"{text!r}: {error}"
+    return None if length > 0 else f"{text!r}, and is longer than 0 mm"
 
 
 def _decorator(slot: str, skipped: int, function: Any, name: str | None, **options: Any) -> Any:
@@ -301,11 +337,20 @@ def flat(strategies: Iterable[Any] | Any) -> list[Strategy]:
 
 @functools.lru_cache(maxsize=1)
 def installed() -> tuple[Strategy, ...]:
-    """The strategies of installed packages: those that their entry points name."""
+    """The strategies of installed packages: those that their entry points name. A package whose
+    strategies cannot be loaded is named in an :class:`EntryPointWarning`."""
     points = importlib.metadata.entry_points(group=GROUP)
     found: list[Strategy] = []
     for point in points:
-        for strategy in flat(point.load()):
+        try:
+            strategies = flat(point.load())
+        except Exception as error:
+            of = point.dist.name if point.dist is not None else point.value
+            said = f"{type(error).__name__}: {error}"
+            text = f"the strategies of the package `{of}` cannot be loaded, and are left out: {said}"
+            warnings.warn(text, EntryPointWarning, stacklevel=2)
+            continue
+        for strategy in strategies:
             if point.dist is not None and strategy not in found:
                 strategy.version = point.dist.version
             found.append(strategy)
@@ -320,20 +365,25 @@ def sources(
     given = list(dict.fromkeys(flat(strategies)))
     taken = {(one.slot, one.name) for one in given}
     given += [one for one in installed() if (one.slot, one.name) not in taken]
-    files: dict[str, list[Strategy]] = {}
+    # What is in no file stands alone: nothing else of its place can be told from it.
+    places: dict[tuple[str, str], list[Strategy]] = {}
     for strategy in given:
-        files.setdefault(_source.file_of(strategy.function), []).append(strategy)
-    modules = [_module(file, of_file, session) for file, of_file in files.items()]
+        in_file = _source.has_file(strategy.function)
+        place = _source.file_of(strategy.function)
+        of = "" if in_file else f"{strategy.slot} {strategy.name}"
+        places.setdefault((place, of), []).append(strategy)
+    modules = [_module(place, of_place, session) for (place, _), of_place in places.items()]
     return modules, [Path(plugin) for plugin in plugins]
 
 
-def _module(file: str, strategies: list[Strategy], session: Session) -> dict[str, Any]:
-    hashes = sorted(one.digest() for one in strategies)
-    name = strategies[0].function.__module__
+def _module(place: str, strategies: list[Strategy], session: Session) -> dict[str, Any]:
+    """The strategies of one file, or one that is in none, for the native part."""
+    function = strategies[0].function
+    name = function.__module__
     return {
-        "name": Path(file).stem if name == "__main__" else name,
+        "name": Path(place).stem if name == "__main__" else name,
         "version": str(getattr(strategies[0], "version", "0")),
-        "place": file,
-        "sha256": hashlib.sha256("\n".join(hashes).encode()).hexdigest(),
+        "place": place,
+        "sha256": _source.sha256(function),
         "strategies": [one._native(session) for one in strategies],
     }

@@ -48,6 +48,8 @@ _ONE = {
     np.cosh: "cosh",
     np.tanh: "tanh",
 }
+# Steps whose values have the same bits on every machine: numpy rounds each of them correctly.
+_ROUNDED = frozenset(("sum", "difference", "product", "quotient", "negative", "sqrt", "abs", "min", "max"))
 # The value of a step whose operands are plain numbers.
 _VALUES: dict[str, Callable[..., float]] = {
     **{step: function for function, step in _TWO.items()},
@@ -61,8 +63,11 @@ class Tracer:
     def __init__(self) -> None:
         self.steps: list[Step] = []
         self.numbers: dict[tuple[str, tuple[int, ...], str], int] = {}
-        #: Whether no plain number was taken out of the formula and worked on outside of it.
+        #: Whether the formula is all that the function does: no plain number was taken out of it and
+        #: worked on outside, or decided something, with bits that numpy gives on this machine alone.
         self.exact = True
+        #: The numbers of steps whose values numpy worked out with functions that differ.
+        self.inexact: set[int] = set()
 
     def step(self, name: str, operands: tuple[TraceNumber, ...] = (), number: float = 0.0) -> TraceNumber:
         """A step of this name on these operands."""
@@ -70,6 +75,8 @@ class Tracer:
         key = (name, ids, float(number).hex())
         if key not in self.numbers:
             self.numbers[key] = len(self.steps)
+            if not self.inexact.isdisjoint(ids) or (ids and name not in _ROUNDED):
+                self.inexact.add(len(self.steps))
             self.steps.append((name, list(ids), float(number)))
         return TraceNumber(self, self.numbers[key], self._value(name, operands, number))
 
@@ -158,6 +165,8 @@ class TraceNumber:
             base_log = self.tracer.step("ln", (self,))
             return self.tracer.step("exp", (base_log * other,))
         if isinstance(exponent, (int, float, np.number)):
+            if isinstance(other, TraceNumber):
+                other._decide()
             return self.tracer.step("power", (self,), float(exponent))
         raise TraceError(f"it raises to {type(exponent).__name__}, which is no number")
 
@@ -189,7 +198,13 @@ class TraceNumber:
         """The value of what does not depend on x and y; a branch on a parameter is allowed."""
         if self.value is None:
             raise TraceError(f"{what}; {help}")
+        self._decide()
         return self.value
+
+    def _decide(self) -> None:
+        """Its value leaves the formula: it is an exponent, or decides a branch."""
+        if self.id in self.tracer.inexact:
+            self.tracer.exact = False
 
     def __float__(self) -> float:
         value = self._plain(

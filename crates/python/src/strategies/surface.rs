@@ -2,6 +2,7 @@
 //! or a spline through the heights that Python gave once.
 
 use pyo3::prelude::*;
+use turnpath::OwnSurface;
 use turnpath_core::{
     GradientSeries, Gradients, Result, Series, StrategyError, SurfaceData, SurfaceModel,
 };
@@ -21,8 +22,9 @@ const MOST_POINTS: usize = 1025;
 /// What Python made of a surface: the steps of a formula, or a function to fit.
 #[derive(FromPyObject)]
 enum SurfaceSource {
-    /// The steps of a formula, each a name and what it takes.
-    Steps(Vec<Step>),
+    /// The steps of a formula, each a name and what it takes, and whether they hold all that the
+    /// function does.
+    Steps(Vec<Step>, bool),
     /// A function of x and y, the half width of the square that it must cover, mm, and the error that
     /// is small enough, mm.
     Function(Py<PyAny>, f64, f64),
@@ -32,17 +34,19 @@ enum SurfaceSource {
 type Step = (String, Vec<usize>, f64);
 
 /// The surface of what Python made.
-pub fn surface(made: &Py<PyAny>) -> Result<Box<dyn SurfaceModel>> {
+pub fn surface(made: &Py<PyAny>) -> Result<OwnSurface> {
     let made: SurfaceSource = asked(|py| made.extract(py))?;
     match made {
-        SurfaceSource::Steps(steps) => {
+        SurfaceSource::Steps(steps, byte_exact) => {
             let formula = formula(&steps);
             let formula = formula.map_err(|error| StrategyError::failed(error.to_string()))?;
-            Ok(Box::new(formula))
+            let model = Box::new(formula);
+            Ok(OwnSurface { model, byte_exact })
         }
-        SurfaceSource::Function(function, half, goal) => {
-            Ok(Box::new(fitted(&function, half, goal)?))
-        }
+        SurfaceSource::Function(function, half, goal) => Ok(OwnSurface {
+            model: Box::new(fitted(&function, half, goal)?),
+            byte_exact: false,
+        }),
     }
 }
 

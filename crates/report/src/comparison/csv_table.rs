@@ -7,7 +7,7 @@ use super::all_columns::all;
 use super::column::{Column, Form};
 
 /// A header, and a row a run: its number, what varies, all figures, which tolerances and limits
-/// hold, and why it failed.
+/// hold, why it failed, and where a run has no record, why it has none.
 ///
 /// # Errors
 /// When the CSV cannot be put together; its sink is memory, so there is no such case known.
@@ -20,9 +20,13 @@ pub fn csv_table(runs: &[AblationRun]) -> csv::Result<Vec<u8>> {
         .map(|pair| pair.0.as_str())
         .collect();
     let limits = limits(runs);
-    writer.write_record(header(&keys, &limits))?;
+    let unrecorded = runs.iter().any(|run| run.not_recorded.is_some());
+    let last = |text: String| unrecorded.then_some(text);
+    let header = header(&keys, &limits).into_iter();
+    writer.write_record(header.chain(last("not_recorded".to_owned())))?;
     for (index, run) in runs.iter().enumerate() {
-        writer.write_record(row(index + 1, run, &keys, &limits))?;
+        let row = row(index + 1, run, &keys, &limits).into_iter();
+        writer.write_record(row.chain(last(run.not_recorded.clone().unwrap_or_default())))?;
     }
     writer
         .into_inner()

@@ -4,10 +4,10 @@
 //! chooses, and [`FIGURES`]. The key does not depend on comments, on the order of keys, on
 //! the job's name, or on what else the ablation varies.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value as Json, json};
-use turnpath_host::{Catalogue, sha256_hex};
+use turnpath_host::{Catalogue, Identity, sha256_hex};
 use turnpath_post::POST_NAMES;
 use turnpath_recipe::{Recipe, Table, Value, Variant};
 
@@ -15,7 +15,7 @@ use crate::data_files::DataFiles;
 use crate::error::Error;
 use crate::named_files::UsedFile;
 use crate::plugins;
-use crate::strategies::used_files;
+use crate::strategies::{choices, used_files};
 
 /// Counts the changes of what a record holds.
 const RECORD_FORMAT: u32 = 5;
@@ -34,6 +34,8 @@ pub struct Key {
     pub hash: String,
     /// What was hashed.
     pub of: Json,
+    /// Why no record is known to be of this run; `None` where its record is.
+    pub unknown: Option<String>,
 }
 
 /// Makes the keys of runs.
@@ -68,7 +70,7 @@ impl<'a> Keys<'a> {
             (key, json!(file.contents.sha256))
         };
         let files: Map<String, Json> = files.iter().map(hash).collect();
-        let of = json!({
+        let mut of = json!({
             "record": RECORD_FORMAT,
             "turnpath": env!("CARGO_PKG_VERSION"),
             "figures": FIGURES,
@@ -76,10 +78,40 @@ impl<'a> Keys<'a> {
             "files": files,
             "values": values,
         });
+        let own = self.identities(recipe).filter_map(|(name, of)| match of {
+            Identity::Hash(hash) => Some((name, hash)),
+            Identity::Unknown(_) => None,
+        });
+        let own: BTreeMap<String, &String> = own.collect();
+        if !own.is_empty() {
+            of["own"] = json!(own);
+        }
         Key {
             hash: sha256_hex(of.to_string().as_bytes()),
             of,
+            unknown: self.unknown(recipe),
         }
+    }
+
+    /// The strategies of a recipe that cannot be told from others of their names.
+    fn unknown(&self, recipe: &Recipe) -> Option<String> {
+        let texts = self.identities(recipe).filter_map(|(name, of)| match of {
+            Identity::Unknown(why) => Some(format!("the {name}: {why}")),
+            Identity::Hash(_) => None,
+        });
+        let texts: BTreeSet<String> = texts.collect();
+        let texts: Vec<String> = texts.into_iter().collect();
+        (!texts.is_empty()).then(|| texts.join("; "))
+    }
+
+    /// The strategies of the program among those of a recipe, `sampler even`, with what tells them from
+    /// others of their names.
+    fn identities(&self, recipe: &Recipe) -> impl Iterator<Item = (String, &'a Identity)> {
+        choices(recipe).filter_map(|choice| {
+            let strategy = self.catalogue.find(choice.slot, choice.name())?;
+            let name = format!("{} {}", choice.slot, choice.name());
+            Some((name, strategy.identity()?))
+        })
     }
 
     fn plugins(&self, recipe: &Recipe) -> Vec<Json> {

@@ -12,7 +12,7 @@ use crate::error::Error;
 use super::files::AblationFiles;
 use super::observer::AblationObserver;
 use super::record::{Records, RunRecord};
-use super::{AblationResult, failed, row, variants};
+use super::{AblationResult, failed, refuse_unknown, row, variants};
 
 /// What stands in the row of a run without a record.
 const MISSING: &str = "not made yet";
@@ -30,6 +30,7 @@ pub fn merge_ablation(
 ) -> Result<AblationResult, Error> {
     let data = DataFiles::default();
     let (variants, keys) = variants(recipe, catalogue, &data)?;
+    refuse_unknown(&keys)?;
     let files = AblationFiles::new(folder)?;
     let records = Records::of(folder);
     let mut without_figures = 0;

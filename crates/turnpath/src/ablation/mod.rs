@@ -100,12 +100,13 @@ pub fn ablate(
             let (key, variant) = place.ok_or(Error::RunLost)?;
             let folder = Some(files.folder());
             match outcome {
+                _ if key.unknown.is_some() => Ok(()),
                 Ok(run) => records.keep(folder, key, run),
                 Err(error) => records.keep(folder, key, &failed(variant, error.title())),
             }
         },
     )?;
-    let (runs, failures) = rows(&variants, outcomes);
+    let (runs, failures) = rows(&variants, &keys, outcomes);
     let report = AblationReport::new(runs);
     Ok(AblationResult {
         files: files.write(&report)?,
@@ -126,6 +127,12 @@ fn variants(
     refuse_wrong_choices(&variants, catalogue)?;
     let keys = Keys::new(catalogue, data).of_all(&variants)?;
     Ok((variants, keys))
+}
+
+/// A queue knows a run by its key alone, so each run needs one.
+fn refuse_unknown(keys: &[Key]) -> Result<(), Error> {
+    let unknown = keys.iter().find_map(|key| key.unknown.clone());
+    unknown.map_or(Ok(()), |why| Err(Error::NoKey { why }))
 }
 
 /// Strategies that are not there, or do not take the parameters that the lists give them, are
@@ -152,7 +159,7 @@ fn recorded(
     keys: &[Key],
     observer: &dyn AblationObserver,
 ) -> Vec<Option<MeasuredRun>> {
-    let one = |key| match options.fresh {
+    let one = |key: &Key| match options.fresh || key.unknown.is_some() {
         true => None,
         false => match records.read(key, observer) {
             RunRecord::Measured(run) => Some(*run),
@@ -163,9 +170,14 @@ fn recorded(
 }
 
 /// The rows of the report, and why runs failed.
-fn rows(variants: &[Variant], outcomes: Vec<Outcome>) -> (Vec<AblationRun>, Vec<(usize, Error)>) {
+fn rows(
+    variants: &[Variant],
+    keys: &[Key],
+    outcomes: Vec<Outcome>,
+) -> (Vec<AblationRun>, Vec<(usize, Error)>) {
     let (mut runs, mut failures) = (Vec::new(), Vec::new());
-    for (index, (variant, outcome)) in variants.iter().zip(outcomes).enumerate() {
+    let known = variants.iter().zip(keys);
+    for (index, ((variant, key), outcome)) in known.zip(outcomes).enumerate() {
         let outcome = match outcome {
             Ok(run) => RunOutcome::Measured(Box::new(run)),
             Err(error) => {
@@ -174,7 +186,10 @@ fn rows(variants: &[Variant], outcomes: Vec<Outcome>) -> (Vec<AblationRun>, Vec<
                 RunOutcome::Failed(row)
             }
         };
-        runs.push(row(variant, outcome));
+        runs.push(AblationRun {
+            not_recorded: key.unknown.clone(),
+            ..row(variant, outcome)
+        });
     }
     (runs, failures)
 }
@@ -196,6 +211,7 @@ fn row(variant: &Variant, mut outcome: RunOutcome) -> AblationRun {
     AblationRun {
         outcome,
         varied: varied(variant),
+        not_recorded: None,
     }
 }
 

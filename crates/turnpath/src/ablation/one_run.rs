@@ -15,7 +15,7 @@ use crate::plugins;
 use super::observer::AblationObserver;
 use super::record::{Records, RunRecord};
 use super::variant::{self, Sources};
-use super::{failed, row, variants};
+use super::{failed, refuse_unknown, row, variants};
 
 /// Makes the run of a recipe's `[ablation]` that has this key, and leaves its record in `folder`. No
 /// other run is looked at and nothing is locked, so any number of these may work at a time; of two on
@@ -33,6 +33,7 @@ pub fn run_of_ablation(
 ) -> Result<AblationRun, Error> {
     let data = DataFiles::default();
     let (variants, keys) = variants(recipe, catalogue, &data)?;
+    refuse_unknown(&keys)?;
     let found = variants.iter().zip(&keys).find(|(_, of)| of.hash == key);
     let Some((variant, key)) = found else {
         let key = key.to_owned();

@@ -18,7 +18,7 @@ use crate::strategies::used_files;
 
 use super::pack_error::PackError;
 use super::plan::plan_of;
-use super::variants;
+use super::{refuse_unknown, variants};
 
 /// The folder of plugins in a packed folder.
 pub const PLUGINS: &str = "plugins";
@@ -55,6 +55,7 @@ pub fn pack_ablation(
     }
     let data = DataFiles::default();
     let (variants, keys) = variants(recipe, catalogue, &data)?;
+    refuse_unknown(&keys)?;
     let mut contents = Contents::default();
     let name = recipe.path().file_name().map(PathBuf::from);
     let name = name.unwrap_or_else(|| PathBuf::from("recipe.toml"));

@@ -13,7 +13,7 @@ use crate::error::Error;
 
 use super::key::Key;
 use super::record::{Records, RunRecord};
-use super::{variants, varied};
+use super::{refuse_unknown, variants, varied};
 
 /// The form of a plan's JSON.
 const FORMAT: u32 = 1;
@@ -68,6 +68,7 @@ pub fn plan_ablation(
 ) -> Result<AblationPlan, Error> {
     let data = DataFiles::default();
     let (variants, keys) = variants(recipe, catalogue, &data)?;
+    refuse_unknown(&keys)?;
     Ok(plan_of(&variants, &keys, folder))
 }
 

@@ -3,7 +3,7 @@
 use crate::post::{Command, commands_of};
 
 /// The commands of a template, of which these words are harmless. A second `%` ends the program.
-pub(super) fn commands(template: &str, harmless: &[&str]) -> Vec<Command> {
+pub(crate) fn commands(template: &str, harmless: &[&str]) -> Vec<Command> {
     let is_harmless = |code: &str| code.split_whitespace().all(|word| harmless.contains(&word));
     let mut commands = commands_of(template, &[";"], is_harmless);
     let ends = commands.iter_mut().filter(|command| command.text == "%");
@@ -11,16 +11,16 @@ pub(super) fn commands(template: &str, harmless: &[&str]) -> Vec<Command> {
     commands
 }
 
-/// Whether a command has M2 or M30, which end a program. Blanks stand anywhere in RS274, and zeros
-/// before a number.
-pub(super) fn ends_program(command: &str) -> bool {
+/// Whether a command has an M with one of these numbers, which end a program. Blanks stand anywhere in
+/// RS274, and zeros before a number.
+pub(crate) fn ends_program(command: &str, ends: &[u32]) -> bool {
     let code: String = command.split_whitespace().collect();
     let code = code.to_ascii_uppercase();
     let mut words = code.split('M').skip(1);
     words.any(|word| {
         let end = word.find(|c: char| !c.is_ascii_digit());
         let (number, _) = word.split_at(end.unwrap_or(word.len()));
-        matches!(number.parse(), Ok(2u32 | 30))
+        number.parse().is_ok_and(|number| ends.contains(&number))
     })
 }
 
@@ -31,10 +31,10 @@ mod tests {
     #[test]
     fn the_ends_of_a_program_are_known() {
         for command in ["M2", "m02", "G21 M30", "G90M2", "M 3 0"] {
-            assert!(ends_program(command), "{command}");
+            assert!(ends_program(command, &[2, 30]), "{command}");
         }
         for command in ["G54", "M3", "M20", "M300", "G2", "%", "M"] {
-            assert!(!ends_program(command), "{command}");
+            assert!(!ends_program(command, &[2, 30]), "{command}");
         }
     }
 

@@ -1,0 +1,76 @@
+//! What the posts for Beckhoff TwinCAT CNC share: the moves before and after a path, the parts of a program,
+//! and the commands of templates.
+//!
+//! Facts on the language: Beckhoff, TF5200 Programming manual, "Exact stop (G60/G360/G359)", "Block-specific
+//! comments", "Global sub-routines", and the tables "Meaning of G functions" and "Meaning of other M
+//! functions" of its system parameters.
+
+use crate::fixed_point::ONE;
+use crate::g_code::{self, TravelWords};
+use crate::part_name::{PartLines, PartName};
+use crate::post::Command;
+
+/// Numbers are mm, X is a radius, no tool is compensated, and each line ends at rest: `G360`, which the path's
+/// first line takes back.
+pub(crate) const TRAVEL: TravelWords = TravelWords {
+    text: " G40 G52 G71 G360",
+    metric: 71 * ONE,
+    without_move: &[40 * ONE, 52 * ONE, 360 * ONE],
+};
+/// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
+const HARMLESS: &[&str] = &[
+    "G40", "G52", "G71", "G90", "G93", "G359", "M2", "M02", "M17", "M29", "M30",
+];
+/// Numbers of words with M that end a program or a part of one.
+const ENDS: &[u32] = &[2, 17, 29, 30];
+
+/// How the main program calls a part.
+pub(crate) fn part_lines(part: &PartName) -> PartLines {
+    PartLines {
+        call: format!("L {}", part.file),
+        begin: String::new(),
+        end: "M17\n".to_owned(),
+    }
+}
+
+/// The file of the part that a line calls.
+pub(crate) fn called_part(code: &str) -> Option<String> {
+    // The blank is a part of the call.
+    let name = code.trim().strip_prefix("L ")?.trim();
+    Some(name.to_owned())
+}
+
+/// The commands of a template.
+pub(crate) fn commands(template: &str) -> Vec<Command> {
+    g_code::commands(template, HARMLESS)
+}
+
+/// Whether a command ends the program in which it stands.
+pub(crate) fn ends_program(command: &str) -> bool {
+    g_code::ends_program(command, ENDS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::travel::TravelModes;
+
+    #[test]
+    fn twincat_does_not_move_before_it_knows_that_numbers_are_mm() {
+        let mut modes = TravelModes::default();
+        assert!(TRAVEL.read("G90 G94 G40 G52 G360", &mut modes).is_ok());
+        let said = TRAVEL.read("G0 Z6.5", &mut modes).unwrap_err();
+        assert_eq!(said, "a move before `G71`");
+        assert!(TRAVEL.read("G71", &mut modes).is_ok());
+        assert!(TRAVEL.read("G0 Z6.5", &mut modes).is_ok());
+        assert!(TRAVEL.read("G21", &mut modes).is_err());
+    }
+
+    #[test]
+    fn a_subroutine_ends_with_m17_and_m29_too() {
+        for command in ["M2", "M17", "m 29", "G90 M30"] {
+            assert!(ends_program(command), "{command}");
+        }
+        assert!(!ends_program("M3"));
+    }
+}
