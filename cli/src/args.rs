@@ -150,6 +150,21 @@ pub struct PlotArgs {
     pub spectrum: bool,
 }
 
+/// Figures for papers.
+#[derive(Debug, Args)]
+pub struct DrawingArgs {
+    /// Draw a figure for a paper as .svg or .png: map, spiral, feed, axes or spectrum, such as
+    /// map=error.svg, or spectrum.png; may be given several times; a relative name is taken from DIR
+    #[arg(long, value_name = "[FIGURE=]FILE")]
+    pub plot: Vec<String>,
+    /// Width and height of each figure in mm, such as 85x60; the figure's own unless given
+    #[arg(long, value_name = "WxH", requires = "plot")]
+    pub plot_size: Option<String>,
+    /// Dots an inch of a .png
+    #[arg(long, value_name = "N", default_value_t = 300, requires = "plot")]
+    pub plot_dpi: u32,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum MapGrid {
     /// Squares over the square around the part
@@ -173,6 +188,8 @@ pub struct RunArgs {
     #[arg(long)]
     pub no_report: bool,
     #[command(flatten)]
+    pub drawings: DrawingArgs,
+    #[command(flatten)]
     pub plots: PlotArgs,
     #[command(flatten)]
     pub work: WorkArgs,
@@ -186,6 +203,8 @@ pub struct ReportArgs {
     /// The recipe, where its data files lie beside it, or where the summary does not have its text
     #[arg(long, value_name = "FILE")]
     pub recipe: Option<PathBuf>,
+    #[command(flatten)]
+    pub drawings: DrawingArgs,
     #[command(flatten)]
     pub plugins: PluginArgs,
     /// Load the plugins that the recipe itself lists, native code with your rights

@@ -16,7 +16,7 @@ use crate::message::note;
 
 /// How the bar looks.
 const STYLE: &str = "{msg:<32} {bar:30} {percent:>3} %, {eta} left";
-/// The same where nobody knows how long it takes.
+/// The same where nobody knows how long it takes: before the first block and after the last.
 const OPEN_STYLE: &str = "{msg:<32} {spinner} {elapsed}";
 /// How often the bar is drawn while nothing advances.
 const TICK: Duration = Duration::from_millis(250);
@@ -94,17 +94,31 @@ impl Observer for Bar {
         let length = Some(blocks).filter(|blocks| *blocks > 0);
         self.with(|bar| {
             *bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
-            let style = if blocks == 0 { OPEN_STYLE } else { STYLE };
-            if let Ok(style) = ProgressStyle::with_template(style) {
-                bar.set_style(style);
-            }
+            look(bar, OPEN_STYLE);
             bar.set_message(message);
             bar.enable_steady_tick(TICK);
         });
     }
 
     fn advance(&self, blocks: u64) {
-        self.with(|bar| bar.inc(blocks));
+        self.with(|bar| {
+            let first = bar.position() == 0;
+            bar.inc(blocks);
+            let Some(length) = bar.length() else {
+                return;
+            };
+            if bar.position() >= length {
+                look(bar, OPEN_STYLE);
+            } else if first {
+                look(bar, STYLE);
+            }
+        });
+    }
+}
+
+fn look(bar: &ProgressBar, template: &str) {
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
     }
 }
 
@@ -154,9 +168,7 @@ impl AblationObserver for RunsBar {
         self.with(|bar| {
             let runs = u64::try_from(runs).ok();
             *bar = ProgressBar::with_draw_target(runs, ProgressDrawTarget::stderr());
-            if let Ok(style) = ProgressStyle::with_template(RUNS_STYLE) {
-                bar.set_style(style);
-            }
+            look(bar, RUNS_STYLE);
             bar.enable_steady_tick(TICK);
         });
     }

@@ -45,6 +45,9 @@ fn file() -> PathBuf {
     repository().join("tests/reference/recorded-figures.json")
 }
 
+/// Times, and arrays for pictures.
+const NOT_RECORDED: [&str; 3] = ["planning_time_s", "measuring_time_s", "sketch"];
+
 /// The numbers of a run by their keys, to [`DIGITS`].
 fn numbers(path: &str, value: &Value, found: &mut Vec<Value>) {
     match value {
@@ -55,7 +58,7 @@ fn numbers(path: &str, value: &Value, found: &mut Vec<Value>) {
         Value::Object(map) => {
             let known = map
                 .iter()
-                .filter(|(key, _)| *key != "planning_time_s" && *key != "sketch");
+                .filter(|(key, _)| !NOT_RECORDED.contains(&key.as_str()));
             for (key, value) in known {
                 numbers(&format!("{path}/{key}"), value, found);
             }

@@ -57,6 +57,11 @@ const RULES: &[Rule] = &[
         &["turnpath-plugin", PLUGINS],
     ),
     rule("turnpath-report", &["turnpath-core"], &[]),
+    rule(
+        "turnpath-drawing",
+        &["turnpath-core", "turnpath-report"],
+        &[],
+    ),
     rule("turnpath-page", &["turnpath-report"], &[]),
     rule("turnpath", LIBRARIES, &[]),
     rule(
@@ -70,6 +75,7 @@ const RULES: &[Rule] = &[
 /// What the library `turnpath` puts together.
 const LIBRARIES: &[&str] = &[
     "turnpath-core",
+    "turnpath-drawing",
     "turnpath-files",
     "turnpath-host",
     "turnpath-lens",

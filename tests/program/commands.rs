@@ -472,3 +472,28 @@ fn a_feed_beyond_the_axis_is_a_warning_of_its_own() {
     let said = bench.line(&format!("{set} --set feed.inward=backwards"));
     assert!(!said.stdout.contains("crosses the axis"), "{said}");
 }
+
+/// Each program turns the part its own way, and `check` says so for each.
+#[test]
+fn check_says_which_way_each_program_turns_the_part() {
+    let bench = Bench::with(SADDLE);
+    let turned =
+        "--set output.posts=[\"pmac-pvt\",\"nanotech-g93\"] --set output.pmac-pvt.c_sign=-1";
+    let said = bench.line(&format!("check recipe.toml {turned}")).ends(0);
+    let lines: Vec<&str> = said
+        .stdout
+        .lines()
+        .filter(|line| line.contains("turns the part"))
+        .collect();
+    assert_eq!(lines.len(), 2, "{said}");
+    assert!(
+        lines[0].contains("anticlockwise") && lines[0].ends_with(".pmc)"),
+        "{said}"
+    );
+    assert!(
+        lines[1].contains(" clockwise") && lines[1].ends_with(".nc)"),
+        "{said}"
+    );
+    let said = bench.line("check recipe.toml").ends(0);
+    assert_eq!(said.stdout.matches("turns the part").count(), 1, "{said}");
+}

@@ -16,6 +16,7 @@ mod controller_commands;
 mod damaged_libraries;
 mod data_files;
 mod depths;
+mod drawings;
 mod dry_run;
 mod ending_plugins;
 mod first_mile;

@@ -44,7 +44,9 @@ fn table(bench: &Bench, folder: &str) -> Value {
     let text = bench.read(format!("{folder}/ablation.json"));
     let mut table: Value = serde_json::from_str(&text).unwrap();
     for run in table["runs"].as_array_mut().unwrap() {
-        run.as_object_mut().unwrap().remove("planning_time_s");
+        for key in ["planning_time_s", "measuring_time_s"] {
+            run.as_object_mut().unwrap().remove(key);
+        }
     }
     table
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::commands::{cargo, command, repository, run, succeeds, target};
 use crate::python::{script, with_packages, with_packages_of};
 use crate::step::{Outcome, Step};
-use crate::{browser, deny, fuzz, msrv, python_package};
+use crate::{browser, deny, fuzz, latex, msrv, python_package};
 
 /// How many cases each test on random input tries; `.cargo/config.toml` has the number of `.ci/run`.
 /// A larger `PROPTEST_CASES` in the environment counts.
@@ -32,7 +32,8 @@ schema: tests/reference/schema/schema.py, the schema of recipes by taplo
 dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
 programs: tests/reference/programs/siemens_840d.py and beckhoff_poly.py, independent evaluations of polynomials
 queues: the scripts of docs/queues by GNU parallel, HyperQueue, dask.distributed and Slurm
-book: `mdbook build docs`, the pages as a book with search
+book: `mdbook build docs`, the pages as a book, and tests/reference/book/links.py, its links and its search
+tables: the tables of the ablations as LaTeX, by pdflatex with booktabs
 fuzz: `cargo xtask fuzz`, a minute for each target
 msrv: `cargo xtask msrv`
 deny: `cargo xtask deny`
@@ -67,7 +68,8 @@ pub fn run_checks() -> Vec<Step> {
         Step::run("schema", schema),
         Step::run("dry runs", dry_runs),
         Step::run("programs", || with_packages(&[], programs)),
-        Step::run("book", book),
+        Step::run("book", || with_packages(&[], book)),
+        Step::run("tables", || latex::tables(program)),
     ];
     steps.extend(queues());
     steps.extend(fuzz::run_targets(&[]));
@@ -207,12 +209,19 @@ fn programs() -> Outcome {
     }
 }
 
-/// The pages as a book.
+/// The pages as a book, whose links and search a script tries.
 fn book() -> Outcome {
     if !succeeds(command("mdbook", &["--version"])) {
         return Outcome::Skipped("`mdbook` is not installed".to_owned());
     }
-    run(command("mdbook", &["build", "docs"]))
+    match run(command("mdbook", &["build", "docs"])) {
+        Outcome::Passed => {
+            // `book.toml` names the folder, from `docs` on.
+            let book = repository().join("target").join("book");
+            run(script("tests/reference/book/links.py", &[&book]))
+        }
+        failed => failed,
+    }
 }
 
 /// The recipes that the ignored tests leave in their scratch folder, measured with the playback apart,

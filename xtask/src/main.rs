@@ -5,6 +5,7 @@ mod browser;
 mod commands;
 mod deny;
 mod fuzz;
+mod latex;
 mod long;
 mod msrv;
 mod python;

@@ -115,6 +115,11 @@ fn ordered(args: &AblateArgs, report: &AblationReport) -> Vec<AblationRun> {
     )
 }
 
+/// The run to which ratios are: the first of the ablation, in whatever order the rows stand.
+fn base<'a>(args: &AblateArgs, report: &'a AblationReport) -> Option<&'a AblationRun> {
+    report.runs.first().filter(|_| !args.no_ratio)
+}
+
 fn columns(args: &AblateArgs) -> Vec<&'static Column> {
     match args.columns.as_slice() {
         [] => comparison::usual(),
@@ -132,7 +137,7 @@ fn table_alone(args: &AblateArgs, language: TableLanguage, report: &AblationRepo
         TableLanguage::Csv => Language::Csv,
     };
     let (runs, columns) = (ordered(args, report), columns(args));
-    comparison::paper_table(&runs, &columns, language, !args.no_ratio)
+    comparison::paper_table(&runs, &columns, language, base(args, report))
 }
 
 fn human(
@@ -158,7 +163,7 @@ fn human(
     text += "\n\n";
     text += &not_recorded(report);
     let (runs, columns) = (ordered(args, report), columns(args));
-    text += &comparison::table(&runs, &columns, width::of_terminal(), !args.no_ratio);
+    text += &comparison::table(&runs, &columns, width::of_terminal(), base(args, report));
     text.push('\n');
     for file in &result.files {
         text += &format!("  file  {}\n", printable_line(&file.display().to_string()));

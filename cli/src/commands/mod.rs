@@ -3,6 +3,7 @@
 mod ablate;
 mod check;
 mod completions;
+mod drawings;
 mod explain;
 mod import;
 mod init;

@@ -3,9 +3,12 @@
 use std::path::Path;
 
 use serde::Serialize;
-use turnpath::{Catalogue, PageRequest, report, result_recipe, with_listed_plugins, write_page};
+use turnpath::{
+    Catalogue, DrawingRequest, PageRequest, report, result_recipe, with_listed_plugins, write_page,
+};
 use turnpath_core::printable_line;
 
+use super::drawings;
 use super::setup::{refuse_listed_plugins, use_threads, with_plugins};
 use crate::args::ReportArgs;
 use crate::failure::Failure;
@@ -24,11 +27,15 @@ struct Pages {
 pub fn report(args: &ReportArgs, catalogue: Catalogue) -> Outcome {
     use_threads(&args.work);
     let catalogue = with_plugins(catalogue, &args.plugins)?;
-    let page = |folder| page(args, &catalogue, folder);
-    let folders = args.folders.iter().map(AsRef::as_ref);
+    let drawings = drawings::requests(&args.drawings)?;
+    refuse_shared_files(args, &drawings)?;
+    let mut files = Vec::new();
+    for folder in &args.folders {
+        files.extend(page(args, &catalogue, folder, &drawings)?);
+    }
     let pages = Pages {
         format: report::FORMAT,
-        files: folders.map(page).collect::<Result<_, _>>()?,
+        files,
     };
     print_report(args.work.answer(), &pages, |pages| {
         let line = |file: &String| format!("  file            {}\n", printable_line(file));
@@ -37,11 +44,29 @@ pub fn report(args: &ReportArgs, catalogue: Catalogue) -> Outcome {
     Ok(Status::Holds)
 }
 
-/// Makes the page of a result; gives its path.
-fn page(args: &ReportArgs, catalogue: &Catalogue, folder: &Path) -> Result<String, Failure> {
+/// The plots of several results cannot go to one place.
+fn refuse_shared_files(args: &ReportArgs, drawings: &[DrawingRequest]) -> Result<(), Failure> {
+    let shared = drawings.iter().find(|drawing| drawing.file.is_absolute());
+    match shared.filter(|_| args.folders.len() > 1) {
+        Some(drawing) => Err(Failure::Call(format!(
+            "--plot {}: give a relative name, which is taken from each folder",
+            drawing.file.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Makes the page of a result and its plots; gives their paths.
+fn page(
+    args: &ReportArgs,
+    catalogue: &Catalogue,
+    folder: &Path,
+    drawings: &[DrawingRequest],
+) -> Result<Vec<String>, Failure> {
     let request = PageRequest {
         folder: folder.to_owned(),
         recipe: args.recipe.clone(),
+        drawings: drawings.to_vec(),
     };
     let catalogue = match result_recipe(&request)? {
         None => catalogue.clone(),
@@ -53,7 +78,8 @@ fn page(args: &ReportArgs, catalogue: &Catalogue, folder: &Path) -> Result<Strin
         }
     };
     let bar = Bar::new(&args.work);
-    let page = write_page(&request, &catalogue, &bar);
+    let files = write_page(&request, &catalogue, &bar);
     bar.clear();
-    Ok(page?.display().to_string())
+    let paths = files?.into_iter();
+    Ok(paths.map(|path| path.display().to_string()).collect())
 }

@@ -6,7 +6,7 @@ use turnpath::report::text;
 use turnpath::{Catalogue, Outputs};
 
 use super::output::refuse_output;
-use super::{plots, setup};
+use super::{drawings, plots, setup};
 use crate::args::RunArgs;
 use crate::print::print_report;
 use crate::progress::Bar;
@@ -21,6 +21,7 @@ pub fn run(args: &RunArgs, catalogue: Catalogue) -> Outcome {
         None => Path::new("out").join(job.recipe().folder_name()),
     };
     let outputs = Outputs::in_folder(folder)
+        .with_drawings(drawings::requests(&args.drawings)?)
         .with_plots(plots::request(&args.plots)?)
         .with_dry_run(args.dry_run)
         .with_page(!args.no_report);

@@ -18,6 +18,8 @@ pub struct Catalogue {
     strategies: BTreeMap<(Slot, &'static str), Strategy>,
     plugins: Vec<Arc<Plugin>>,
     admissions: Vec<Arc<dyn Admission>>,
+    /// Folders that were added and had no library.
+    empty_folders: Vec<PathBuf>,
 }
 
 impl Catalogue {
@@ -115,7 +117,16 @@ impl Catalogue {
     /// When a library cannot be read, is not admitted, or cannot be loaded. The libraries before one
     /// that cannot be loaded stay in the catalogue.
     pub fn add_folder(&mut self, folder: impl AsRef<Path>) -> Result<(), LoadError> {
-        self.add_libraries(LibraryFile::read_folder(folder)?)
+        let libraries = LibraryFile::read_folder(&folder)?;
+        if libraries.is_empty() {
+            self.empty_folders.push(folder.as_ref().to_owned());
+        }
+        self.add_libraries(libraries)
+    }
+
+    /// The folders that were added and had no library, in the order in which they were.
+    pub fn empty_folders(&self) -> impl Iterator<Item = &Path> {
+        self.empty_folders.iter().map(PathBuf::as_path)
     }
 
     /// Adds the plugin of a file. Nothing happens if the catalogue has the same library already,

@@ -43,8 +43,10 @@
     const [x, y] = [(2 * (i % cells) + 1) / cells - 1, (2 * Math.floor(i / cells) + 1) / cells - 1];
     return x * x + y * y < INNER * INNER;
   });
+  // Numbers that are too long have a power of ten.
+  const POWERS = { exponentformat: "power", minexponent: 4 };
   const axis = (text, more) =>
-    ({ title: { text }, automargin: true, zeroline: false, exponentformat: "power", minexponent: 4, ...more });
+    ({ title: { text }, automargin: true, zeroline: false, ...POWERS, ...more });
   const title = (text) => ({ text, side: "right", font: { size: 12 } });
 
   // A map on the square around the part; rows come from the largest y down.
@@ -54,7 +56,7 @@
     return {
       traces: [{
         type: "heatmap", x: places, y: [...places].reverse(), z: rowsOf(values, cells), hoverongaps: false,
-        colorbar: { title: title(bar), thickness: 12, len: 1, outlinewidth: 0 }, ...scale,
+        colorbar: { title: title(bar), thickness: 12, len: 1, outlinewidth: 0, ...POWERS }, ...scale,
         hovertemplate: "x %{x:.4g} mm, y %{y:.4g} mm<br>%{z:.4g}<extra></extra>",
       }],
       layout: {
@@ -138,7 +140,7 @@
           type: "scatter", mode: "markers", x: numbers(spiral.x_mm), y: numbers(spiral.y_mm), customdata: errors,
           marker: {
             size: 3, color: errors, colorscale: "Cividis", cmin: 0, cmax: most,
-            colorbar: { title: title("error / nm"), thickness: 12, len: 1, outlinewidth: 0 },
+            colorbar: { title: title("error / nm"), thickness: 12, len: 1, outlinewidth: 0, ...POWERS },
           },
           hovertemplate: "x %{x:.4g} mm, y %{y:.4g} mm<br>%{customdata:.4g} nm<extra></extra>",
         }],
@@ -212,7 +214,10 @@
     if (own.annotations) own.annotations = own.annotations.map((one) => ({ font: { color: front, size: 11 }, arrowcolor: front, ...one }));
     return own;
   };
-  const config = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
+  // Without a pointer that hovers, the buttons would always lie over the figures.
+  const hovers = window.matchMedia("(hover: hover)").matches;
+  const config = { responsive: true, displaylogo: false, displayModeBar: hovers ? "hover" : false,
+    modeBarButtonsToRemove: ["lasso2d", "select2d"] };
 
   const drawn = new Map();
   const draw = async (id, make) => {
@@ -313,7 +318,7 @@
     place.style.height = `${Math.ceil(rows * tile + 30)}px`;
     return {
       traces: [{ type: "heatmap", z, colorscale: "Cividis", zmin, zmax, hoverongaps: false, hovertemplate: "%{z:.4g} nm<extra></extra>",
-        colorbar: { title: title("error / nm"), thickness: 12, len: Math.min(300, rows * tile), lenmode: "pixels", y: 1, yanchor: "top", outlinewidth: 0 } }],
+        colorbar: { title: title("error / nm"), thickness: 12, len: Math.min(300, rows * tile), lenmode: "pixels", y: 1, yanchor: "top", outlinewidth: 0, ...POWERS } }],
       layout: {
         annotations, dragmode: "zoom",
         xaxis: { visible: false, constrain: "domain" },
@@ -354,7 +359,7 @@
   };
   document.querySelectorAll("table.runs").forEach(sortable);
 
-  const all = { run: RUN, ablation: ABLATION }[page.kind];
+  const all = { run: RUN, ablation: ABLATION }[page.kind] ?? {};
   (async () => {
     for (const [id, make] of Object.entries(all)) await draw(id, make);
     dark.addEventListener("change", redraw);

@@ -59,7 +59,7 @@ fn hash(script: &str) -> String {
 /// JSON that cannot end its script element, nor begin a comment.
 fn json(data: &impl Serialize) -> String {
     let text = serde_json::to_string(data).unwrap_or_else(|error| {
-        // Only a type that is no JSON could fail, and the script then says that there are no data.
+        // Only a type that is no JSON could fail; the script then draws nothing.
         format!("{{\"error\":{:?}}}", error.to_string())
     });
     text.replace('<', "\\u003c")

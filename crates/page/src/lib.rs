@@ -15,4 +15,4 @@ mod words;
 
 pub use ablation::{AblationPage, ablation_page};
 pub use document::is_page;
-pub use run::{BestFit, RunPage, StageChoice, SurfaceSketch, run_page};
+pub use run::{BestFit, FileAxes, RunPage, StageChoice, SurfaceSketch, run_page};

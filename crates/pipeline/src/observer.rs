@@ -8,7 +8,7 @@ pub enum Stage {
     /// A path made for a tolerance of form; the count of paths is from 1. The stages of the path
     /// follow.
     Form(u32),
-    /// Planning the spiral law; it counts as one block.
+    /// Planning the spiral law; how long that takes is not known.
     Law,
     /// Playing the path back and refining it; the round counts from 1. Its blocks are those that
     /// this round makes again.
@@ -31,6 +31,9 @@ pub trait Observer: Sync {
     fn begin(&self, stage: Stage, blocks: u64);
     /// So many more blocks of the stage are done.
     fn advance(&self, blocks: u64);
+    /// The thread that gives blocks to the sink begins (`true`) or ends to measure them. What comes before
+    /// and between is making the path.
+    fn measures(&self, _begins: bool) {}
     /// Whether the run should stop. The run asks between the steps of the law, before each batch of
     /// blocks, and before each block that it gives to the sink. Where the answer is yes it ends
     /// with [`PipelineError::Cancelled`].

@@ -38,7 +38,10 @@ pub fn run<S: Sink + ?Sized>(
     let mut measurement = Measurement::new(preparation, &options);
     let recorder = Recorder::new(sink, observer, Some(&mut measurement));
     let (plan, lead) = ready.write(recorder, observer)?;
-    Ok(measurement.outcome(&plan, lead)?)
+    observer.measures(true);
+    let outcome = measurement.outcome(&plan, lead);
+    observer.measures(false);
+    Ok(outcome?)
 }
 
 /// Makes the same path as [`run`] and gives it to the sink, without measuring what it would cut.
@@ -75,7 +78,7 @@ impl<'a> ReadyPath<'a> {
         sink: &mut S,
         observer: &dyn Observer,
     ) -> RunResult<Self, S::Error> {
-        observer.begin(Stage::Law, 1);
+        observer.begin(Stage::Law, 0);
         let mut plan = schedule::plan(chain, preparation, observer)?;
         plan.time_steps = options.time_steps;
         let nodes = nodes_per_revolution(&plan)?;
@@ -134,7 +137,9 @@ impl<'a> ReadyPath<'a> {
             close_joints(&mut blocks);
             // The last block waits for the first point of the next one.
             waiting = blocks.split_off(blocks.len() - usize::from(range.end < plan.blocks()));
+            observer.measures(true);
             recorder.record(&plan, blocks)?;
+            observer.measures(false);
             observer.advance(range.len() as u64);
         }
         let lead = match leads.zip(recorder.tail().last_two()) {

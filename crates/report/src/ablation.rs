@@ -51,10 +51,14 @@ pub struct MeasuredRun {
     /// Bytes of the lines that the recipe's first post makes of the points, or else `pmac-pvt`, header
     /// and footer aside; `None` where such a program cannot carry the path.
     pub program_bytes: Option<u64>,
-    /// Processor time that one thread took to make and measure the path, s; `None` where that was
-    /// not measured.
+    /// Processor time that one thread took to make the path, s, with all that refinement plays back;
+    /// `None` where that was not measured.
     #[serde(rename = "planning_time_s", with = "unit::s")]
     pub planning_time: Option<f64>,
+    /// Processor time that it took to measure the path, s; `None` in older files, whose time of
+    /// planning has it too.
+    #[serde(default, rename = "measuring_time_s", with = "unit::s")]
+    pub measuring_time: Option<f64>,
     /// What pictures of its error need; `None` in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sketch: Option<ErrorSketch>,
@@ -86,6 +90,7 @@ impl From<RunReport> for MeasuredRun {
             report,
             program_bytes: None,
             planning_time: None,
+            measuring_time: None,
             sketch: None,
         }
     }

@@ -83,6 +83,9 @@ pub struct ProgramEstimate {
     /// The parts that it calls; `None` if it is one file.
     #[serde(default)]
     pub parts: Option<u64>,
+    /// What its C means, as in [`AxisNotes::c`]; `None` in reports of earlier versions.
+    #[serde(default)]
+    pub c_means: Option<String>,
 }
 
 impl CheckReport {

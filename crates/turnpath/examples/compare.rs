@@ -28,6 +28,6 @@ fn main() -> Result<(), turnpath::Error> {
         "time",
     ];
     let columns: Vec<_> = columns.into_iter().filter_map(by_name).collect();
-    print!("\n{}", table(&runs, &columns, 100, true));
+    print!("\n{}", table(&runs, &columns, 100, runs.first()));
     Ok(())
 }

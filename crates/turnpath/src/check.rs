@@ -40,6 +40,7 @@ impl Job {
                 bytes: sampled.size.bytes,
                 blocks: sampled.size.blocks,
                 parts: sampled.parts,
+                c_means: Some(program.axis_notes(&self.recipe).c),
             })
         };
         let programs: Result<Vec<_>, _> = self.programs.iter().map(size).collect();

@@ -256,7 +256,7 @@ fn gouge(recipe: &Recipe, conflict: &Conflict) -> Diagnostic {
         return cannot_cut_what_fits(recipe, title, help);
     }
     let span = recipe.nearest_span(key);
-    let fits = matches!(conflict, Conflict::NoseRadius { .. }) && help != CUT_WHAT_FITS;
+    let fits = !matches!(conflict, Conflict::Clearance { .. }) && help != CUT_WHAT_FITS;
     let fits = fits.then(|| format!("or {CUT_WHAT_FITS}"));
     let helps = [help.to_owned()].into_iter().chain(fits);
     recipe.diagnostic(span, title, "does not fit", helps)

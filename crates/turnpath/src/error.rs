@@ -11,6 +11,7 @@ use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
 
 use crate::ablation::PackError;
 use crate::data_files::DataFileError;
+use crate::drawings::DrawingFileError;
 use crate::new_plugin::NewPluginError;
 use crate::page::PageError;
 use crate::plots::PlotError;
@@ -86,6 +87,9 @@ pub enum Error {
     /// A plot cannot be drawn as it is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// A figure for a paper cannot be drawn as it is asked for.
+    #[error(transparent)]
+    Drawing(#[from] DrawingFileError),
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] FileError),
@@ -180,9 +184,12 @@ impl Error {
             | Self::Refused { .. }
             | Self::NoProgram
             | Self::Plot(_)
+            | Self::Drawing(_)
             | Self::NewPlugin(_)
             | Self::Pack(_)
-            | Self::Page(PageError::NoRecipe | PageError::OtherRecipe { .. })
+            | Self::Page(
+                PageError::NoRecipe | PageError::OtherRecipe { .. } | PageError::NoPath { .. },
+            )
             | Self::Exists { .. }
             | Self::NoKey { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
@@ -250,6 +257,12 @@ impl Error {
             Self::NewPlugin(error) => Some(error.help()),
             Self::Pack(error) => Some(error.help()),
             Self::Page(PageError::NoRecipe) => Some("`--recipe FILE` gives it"),
+            Self::Page(PageError::NoDataFile { .. }) => {
+                Some("`--recipe FILE` names the recipe, beside which its data files lie")
+            }
+            Self::Page(PageError::NoPath { .. }) => {
+                Some("remove the page first to have one without the figures of the path")
+            }
             Self::Exists { .. } => Some("`--force` replaces it"),
             Self::NoRunOfKey { .. } => Some(
                 "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \

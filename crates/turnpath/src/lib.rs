@@ -26,6 +26,7 @@ mod data_files;
 mod data_remarks;
 mod depths;
 mod diagnosis;
+mod drawings;
 mod dry_run;
 mod error;
 mod figures;
@@ -75,6 +76,7 @@ pub use ablation::{
 };
 pub use commands::{commands_to_trust, controller_commands};
 pub use data_files::DataFileError;
+pub use drawings::{DrawingFileError, DrawingRequest};
 pub use error::{Error, Fault};
 pub use import::{ImportRequest, ImportedRecipe, import};
 pub use job::Job;
@@ -95,6 +97,7 @@ pub use sag::{MapSource, compare_with_map, write_sag, write_sag_to};
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;
 pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
+pub use turnpath_drawing::{Dots, DrawingError, Figure, Size};
 pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
     Admission, Catalogue, Identity, LibraryFile, LoadError, OwnPlugin, OwnStrategy, OwnSurface,

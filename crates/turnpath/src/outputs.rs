@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::drawings::DrawingRequest;
 use crate::plots::PlotRequest;
 
 /// Where a run puts what it makes.
@@ -9,6 +10,7 @@ use crate::plots::PlotRequest;
 pub struct Outputs {
     pub(crate) destination: Destination,
     pub(crate) plots: PlotRequest,
+    pub(crate) drawings: Vec<DrawingRequest>,
     /// Whether each program has its dry run beside it.
     pub(crate) dry_run: bool,
     /// Whether the result has its page, `report.html`.
@@ -50,6 +52,12 @@ impl Outputs {
         Self { plots, ..self }
     }
 
+    /// With figures for papers. They are files, so they need a folder.
+    #[must_use]
+    pub fn with_drawings(self, drawings: Vec<DrawingRequest>) -> Self {
+        Self { drawings, ..self }
+    }
+
     /// With a dry run beside each program. It needs a folder.
     #[must_use]
     pub fn with_dry_run(self, dry_run: bool) -> Self {
@@ -66,6 +74,7 @@ impl Outputs {
         Self {
             destination,
             plots: PlotRequest::default(),
+            drawings: Vec::new(),
             dry_run: false,
             page: false,
         }

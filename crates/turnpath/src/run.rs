@@ -4,17 +4,18 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::{Misfit, Slot};
-use turnpath_files::FileError;
+use turnpath_files::{Draft, FileError};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
 use turnpath_post::file_bytes;
 use turnpath_report as report;
-use turnpath_report::{FormSplit, ProgramReport, RunReport};
-use turnpath_verify::{PathSketch, unreached};
+use turnpath_report::{FormSplit, PathSketch, ProgramReport, RunReport};
+use turnpath_verify::unreached;
 
 use crate::axis_notes::feed_direction;
 use crate::commands::controller_commands;
 use crate::diagnosis::{not_carried, of_measure};
+use crate::drawings::{DrawingFileError, Drawings};
 use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
 use crate::folder::{FolderSink, WholeResult, open_folder};
@@ -23,7 +24,7 @@ use crate::job::Job;
 use crate::memory::MemorySink;
 use crate::named_files::UsedFile;
 use crate::outputs::{Destination, Outputs};
-use crate::page::page_of_run;
+use crate::page::{page_of_run, path_sketch};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
 use crate::program::ProgramText;
@@ -43,6 +44,14 @@ pub struct RunResult {
     pub toolpath: Option<ToolPath>,
     /// The programs by their file names, where they were asked for in memory.
     pub programs: Vec<(String, Vec<u8>)>,
+}
+
+/// What a folder gets beside the path and its programs.
+struct BesidePath {
+    plots: Plots,
+    drawings: Drawings,
+    dry_run: bool,
+    page: bool,
 }
 
 impl RunResult {
@@ -69,16 +78,24 @@ impl Job {
         if !has_folder && outputs.plots != PlotRequest::default() {
             return Err(PlotError::NoFolder.into());
         }
+        if !has_folder && !outputs.drawings.is_empty() {
+            return Err(DrawingFileError::NoFolder.into());
+        }
         match &outputs.destination {
             Destination::Nowhere => self.run_nowhere(observer),
             Destination::Memory => self.run_in_memory(observer),
             Destination::Folder(folder) => {
-                let plots = Plots::new(&outputs.plots, &self.recipe.part, folder)?;
+                let beside = BesidePath {
+                    plots: Plots::new(&outputs.plots, &self.recipe.part, folder)?,
+                    drawings: Drawings::new(&outputs.drawings, folder)?,
+                    dry_run: outputs.dry_run,
+                    page: outputs.page,
+                };
                 let job = Job {
-                    keeps_sketch: outputs.page,
+                    keeps_sketch: beside.page || !beside.drawings.is_empty(),
                     ..self.clone()
                 };
-                job.run_in_folder(folder, &plots, outputs.dry_run, observer)
+                job.run_in_folder(folder, &beside, observer)
             }
         }
     }
@@ -170,15 +187,16 @@ impl Job {
     fn run_in_folder(
         &self,
         folder: &Path,
-        plots: &Plots,
-        dry_run: bool,
+        beside: &BesidePath,
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
+        let (plots, dry_run) = (&beside.plots, beside.dry_run);
         plots.need_toolpath(&self.recipe)?;
         if dry_run && self.programs.is_empty() {
             return Err(Error::NoProgram);
         }
         plots.can_be_in_result(folder)?;
+        beside.drawings.can_be_in_result(folder)?;
         let rough_paths = self.rough_jobs()?;
         can_be_in_result(folder, &rough_paths, dry_run)?;
         let result = open_folder(folder, self, dry_run)?;
@@ -202,6 +220,13 @@ impl Job {
         sink.plot(self, plots, &outcome, observer)?;
         let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
         files.extend(sink.finish()?);
+        let sketch = outcome.sketch.as_ref().map(path_sketch);
+        if let Some(sketch) = &sketch {
+            let begin = |file: &Path| result.draft(file);
+            let drawn = beside.drawings.draw(&report, sketch, &begin)?;
+            let drawn = drawn.into_iter().map(Draft::finish);
+            files.extend(drawn.collect::<Result<Vec<_>, _>>()?);
+        }
         let whole = WholeResult::new(files, result);
         let report = RunReport {
             files: Some(whole.listed()),
@@ -209,7 +234,8 @@ impl Job {
             ..report
         };
         let report = report.with_verdict();
-        let page = self.page(&report, outcome.sketch.as_ref())?;
+        let page = beside.page.then(|| self.page(&report, sketch));
+        let page = page.transpose()?;
         let files = whole.commit(&report::to_json(&report), page.as_deref())?;
         Ok(RunResult {
             files,
@@ -217,18 +243,11 @@ impl Job {
         })
     }
 
-    /// The page of the run, where it is asked for.
-    fn page(
-        &self,
-        report: &RunReport,
-        sketch: Option<&PathSketch>,
-    ) -> Result<Option<String>, Error> {
-        if !self.keeps_sketch {
-            return Ok(None);
-        }
+    /// The page of the run.
+    fn page(&self, report: &RunReport, sketch: Option<PathSketch>) -> Result<String, Error> {
         let surface = &self.chain.surface;
         let made_by = (&self.recipe, &self.catalogue);
-        page_of_run(made_by, surface.strategy.as_ref(), report, sketch).map(Some)
+        page_of_run(made_by, surface.strategy.as_ref(), report, sketch)
     }
 
     /// What a path gave; `split` is how a tolerance of form was divided for it.

@@ -33,9 +33,13 @@ fn unknown(choice: &Choice, catalogue: &Catalogue) -> Diagnostic {
     if known.is_empty() {
         return diagnostic;
     }
+    let empty = catalogue.empty_folders();
+    let diagnostic = empty.fold(diagnostic, |diagnostic, folder| {
+        diagnostic.with_help(format!("{} has no plugin", folder.display()))
+    });
     let loaded = catalogue.plugins().iter();
     let mut loaded = loaded.filter(|plugin| plugin.file.is_some()).peekable();
-    if loaded.peek().is_none() {
+    if loaded.peek().is_none() && catalogue.empty_folders().next().is_none() {
         return diagnostic.with_help("a strategy of a plugin takes `--plugin-dir DIR`");
     }
     loaded.fold(diagnostic, |diagnostic, plugin| {

@@ -65,8 +65,8 @@ pub fn read(bytes: &[u8]) {
 /// The table of an ablation in all widths, and its CSV.
 fn show(report: &AblationReport) {
     for width in WIDTHS {
-        let _ = comparison::table(&report.runs, &comparison::all(), width, true);
-        let _ = comparison::table(&report.runs, &comparison::usual(), width, false);
+        let _ = comparison::table(&report.runs, &comparison::all(), width, report.runs.first());
+        let _ = comparison::table(&report.runs, &comparison::usual(), width, None);
     }
     let table = comparison::csv_table(&report.runs).expect("memory takes a table");
     assert!(std::str::from_utf8(&table).is_ok());

@@ -36,6 +36,7 @@ fn the_csv_has_the_figures_of_the_json() {
             ),
             ("program_bytes", "/program_bytes"),
             ("planning_time_s", "/planning_time_s"),
+            ("measuring_time_s", "/measuring_time_s"),
         ] {
             let figure: f64 = row[column(name)].parse().unwrap();
             assert_eq!(

@@ -2,8 +2,8 @@
 //
 //   node report.cjs CHROMIUM PICTURES RUN ABLATION
 //
-// RUN is the folder of a run with report.html, summary.json and map.gsf (300 cells, cusps far below
-// the error); ABLATION that of an ablation. Pictures of the pages go to PICTURES, and report.png, that of
+// RUN is the folder of a run with report.html, summary.json, toolpath.csv with points on whole turns, and
+// map.gsf (300 cells, cusps far below the error); ABLATION that of an ablation. Pictures of the pages go to PICTURES, and report.png, that of
 // docs/report.md. Needs playwright-core.
 "use strict";
 const fs = require("fs");
@@ -15,6 +15,8 @@ const WIDTHS = [1400, 400];
 const SCHEMES = ["light", "dark"];
 // Values that are read out of each figure.
 const VALUES = 10;
+// A map of means differs from one of points by so much of the peak to valley, where cusps are low.
+const CUSPS = 0.02;
 
 let checks = 0;
 function check(holds, what) {
@@ -96,6 +98,24 @@ function same(drawn, expected, what) {
   }
 }
 
+// On paper nothing is wider than the sheet, the letters are dark, and every figure is there.
+async function prints(browser, name, folder) {
+  const { page, heard } = await open(browser, folder, 720, "dark");
+  await page.emulateMedia({ media: "print", colorScheme: "dark" });
+  await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+  await page.waitForTimeout(1500);
+  const whole = await page.evaluate(() => document.documentElement.scrollWidth);
+  check(whole <= 720, `${name} is ${whole} px wide on paper`);
+  for (const one of await figures(page)) {
+    check(one.ink > 0, `${name}: nothing is printed in ${one.id}`);
+    check(Number(one.colour.match(/\d+/)[0]) < 128, `${name}: the letters of ${one.id} are ${one.colour} on paper`);
+  }
+  await page.screenshot({ path: path.join(pictures, `${name}-print.png`), fullPage: true });
+  await page.pdf({ path: path.join(pictures, `${name}.pdf`), format: "A4", margin: { top: "15mm", bottom: "15mm", left: "10mm", right: "10mm" } });
+  check(heard.length === 0, `${name} on paper: ${heard.join("; ")}`);
+  await page.close();
+}
+
 async function runFigures(browser) {
   const { page } = await open(browser, run, 1400, "light");
   const clip = { x: 0, y: 0, width: 1400, height: 960 };
@@ -129,18 +149,73 @@ async function runFigures(browser) {
   near(most(drawn.spectrum[1].y.slice(2)), summary.spokes.amplitude_nm, 1e-5, "spokes");
   near(most(panels("along")[3]), summary.interpolation_error.max_nm, 1e-5, "interpolation error");
   near(most(drawn.spiral[0].customdata), summary.interpolation_error.max_nm, 1e-5, "error of the spiral");
-  // The map of the page against the one that Gwyddion reads, which has points in place of means.
-  const field = gsf(path.join(run, "map.gsf"));
-  check(field.columns === map.z.length && field.rows === map.z.length, "the maps have other cells");
-  const scale = summary.surface_error.pv_nm;
-  for (let k = 0; k < VALUES; k += 1) {
-    const angle = 0.3 + (2 * Math.PI * k) / VALUES;
-    const radius = field.columns * (0.1 + 0.03 * k);
-    const [column, row] = [0.5 * field.columns + radius * Math.cos(angle), 0.5 * field.rows + radius * Math.sin(angle)].map(Math.round);
-    const [drawnThere, there] = [map.z[row][column], 1e9 * field.data[row * field.columns + column]];
-    check(Math.abs(drawnThere - there) < 0.1 * scale, `map at ${row}, ${column}: ${drawnThere}, not ${there} nm`);
-  }
+  againstGwyddion(drawn, summary);
+  againstTable(panels("along"), drawn.along.find((trace) => trace.y.length > 2).x);
   await page.close();
+}
+
+// The map of the page, its profile and its radial mean against the map that Gwyddion reads, which has points in
+// place of means.
+function againstGwyddion(drawn, summary) {
+  const field = gsf(path.join(run, "map.gsf"));
+  const map = drawn["error-map"][0].z;
+  const size = map.length;
+  check(field.columns === size && field.rows === size, "the maps have other cells");
+  const bound = CUSPS * summary.surface_error.pv_nm;
+  const there = (row, column) => 1e9 * field.data[row * size + column];
+  const places = Array.from({ length: VALUES }, (_, k) => {
+    const [angle, radius] = [0.3 + (2 * Math.PI * k) / VALUES, size * (0.1 + 0.03 * k)];
+    return [0.5 * size + radius * Math.sin(angle), 0.5 * size + radius * Math.cos(angle)].map(Math.round);
+  });
+  const worst = (of) => most(places.map(([row, column]) => Math.abs(of(row, column) - there(row, column))));
+  check(worst((row, column) => map[row][column]) < bound, "the map differs from that of Gwyddion");
+  const wrong = {
+    "upside down": (row, column) => map[size - 1 - row][column],
+    "mirrored": (row, column) => map[row][size - 1 - column],
+    "turned": (row, column) => map[column][row],
+    "shifted by eight cells": (row, column) => map[row][column + 8],
+    "four fifths as high": (row, column) => 0.8 * map[row][column],
+  };
+  for (const [how, of] of Object.entries(wrong)) check(worst(of) > bound, `a map that is ${how} would pass`);
+  // The profile at C = 0 runs along the middle row.
+  const half = (drawn["error-map"][0].x[size - 1] * size) / (size - 1);
+  const profile = drawn.profile[0];
+  for (let k = 0; k < VALUES; k += 1) {
+    const at = Math.floor(((k + 0.5) * profile.x.length) / VALUES);
+    const column = Math.floor((profile.x[at] / half + 1) * 0.5 * size);
+    const mean = 0.5 * (there(size / 2 - 1, column) + there(size / 2, column));
+    check(Math.abs(profile.y[at] - mean) < bound, `profile at ${profile.x[at]} mm: ${profile.y[at]}, not ${mean} nm`);
+  }
+  // The mean over the points of each ring.
+  const mean = drawn["radial-mean"][0];
+  for (let k = 1; k < VALUES; k += 1) {
+    const at = Math.floor((k * (mean.x.length - 4)) / VALUES);
+    const cells = [];
+    for (let row = 0; row < size; row += 1) for (let column = 0; column < size; column += 1) {
+      const [x, y] = [column, row].map((index) => ((2 * index + 1) / size - 1) * half);
+      if (Math.abs(Math.sqrt(x * x + y * y) - mean.x[at]) < half / size) cells.push(there(row, column));
+    }
+    const of = cells.reduce((a, b) => a + b, 0) / cells.length;
+    check(Math.abs(mean.y[at] - of) < bound, `radial mean at ${mean.x[at]} mm: ${mean.y[at]}, not ${of} nm`);
+  }
+}
+
+// Feed, points and speed of the page against the rows of the table, on ten turns.
+function againstTable([feed, points, speed], radii) {
+  const [head, ...lines] = fs.readFileSync(path.join(run, "toolpath.csv"), "utf8").trim().split("\n");
+  const names = head.split(",");
+  const rows = lines.map((text) => Object.fromEntries(text.split(",").map((value, i) => [names[i], Number(value)])));
+  const whole = rows.map((row, i) => ({ ...row, i })).filter((row) => Math.abs(row.c_deg / 360 - Math.round(row.c_deg / 360)) < 1e-9);
+  check(whole.length > VALUES, `only ${whole.length} whole turns in the table`);
+  // An entry of the page may stand for several turns.
+  const turns = Math.round((whole.length - 1) / radii.length);
+  for (let k = 0; k < VALUES; k += 1) {
+    const at = Math.floor((k * (radii.length - 2)) / VALUES);
+    const [from, to] = [whole[at * turns], whole[(at + 1) * turns]];
+    near(feed[at], (1e3 * Math.abs(to.x_mm - from.x_mm)) / turns, 1e-5, `feed of turn ${at}`);
+    near(points[at], (to.i - from.i) / turns, 1e-6, `points of turn ${at}`);
+    near(speed[at], (60 * turns) / (to.time_s - from.time_s), 1e-5, `speed of turn ${at}`);
+  }
 }
 
 async function ablationFigures(browser) {
@@ -190,8 +265,10 @@ async function sorts(page, runs) {
   const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
   try {
     await looks(browser, "run", run);
+    await prints(browser, "run", run);
     await runFigures(browser);
     await looks(browser, "ablation", ablation);
+    await prints(browser, "ablation", ablation);
     await ablationFigures(browser);
   } finally {
     await browser.close();

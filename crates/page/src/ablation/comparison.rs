@@ -1,10 +1,10 @@
-//! Two figures of all runs against each other, and the runs that no other run beats in both.
+//! Two figures of all runs against each other, and the runs that no other run beats in one of them without
+//! losing in the other.
 
 use serde::Serialize;
 use turnpath_report::MeasuredRun;
+use turnpath_report::comparison::{NOISE, by_name};
 use turnpath_report::unit;
-
-use super::table::ROUNDING;
 
 /// Two figures of all runs; of both, less is better.
 #[derive(Debug, PartialEq, Serialize)]
@@ -34,7 +34,9 @@ pub fn comparisons(runs: &[(String, &MeasuredRun)]) -> Vec<Comparison> {
             true => run.report.axes_of_law?,
             false => run.report.path.axes,
         };
-        Some([run.report.cutting_time, axes.x.acceleration.rms])
+        let acceleration = axes.x.acceleration.rms;
+        let tidied = by_name("x-acceleration").map(|column| column.tidy(acceleration));
+        Some([run.report.cutting_time, tidied.unwrap_or(acceleration)])
     };
     let x_acceleration = match of_law {
         true => "X acceleration of the law, RMS / mm/s²",
@@ -61,8 +63,7 @@ impl Comparison {
         places: impl Iterator<Item = Option<[f64; 2]>>,
     ) -> Self {
         let finite = |place: &[f64; 2]| place.iter().all(|value| value.is_finite());
-        let tidy = |value: f64| if value.abs() < ROUNDING { 0.0 } else { value };
-        let places = places.map(|place| place.filter(finite).map(|place| place.map(tidy)));
+        let places = places.map(|place| place.filter(finite));
         let places: Vec<_> = places.collect();
         Self {
             id,
@@ -75,7 +76,8 @@ impl Comparison {
     }
 }
 
-/// The places that no other place beats in one figure without losing in the other.
+/// The places that no other place beats in one figure without losing in the other. A place that is better
+/// by noise alone is not on the front, and of equal ones the first is.
 fn front(places: &[Option<[f64; 2]>]) -> Vec<usize> {
     let known = places.iter().enumerate();
     let mut known: Vec<(usize, [f64; 2])> = known
@@ -86,11 +88,11 @@ fn front(places: &[Option<[f64; 2]>]) -> Vec<usize> {
             .total_cmp(&other[0])
             .then(one[1].total_cmp(&other[1]))
     });
-    let mut least = f64::INFINITY;
+    let mut least: Option<f64> = None;
     let mut front = Vec::new();
     for (index, [_, y]) in known {
-        if y < least {
-            least = y;
+        if least.is_none_or(|least| y < least - NOISE * least.abs()) {
+            least = Some(y);
             front.push(index);
         }
     }
@@ -114,5 +116,12 @@ mod tests {
         ];
         assert_eq!(front(&places), [1, 4, 0]);
         assert_eq!(front(&[None]), Vec::<usize>::new());
+        // Two more points for a better last digit are no step of the front.
+        let noise = [
+            [23983.0, 9.597_265_8],
+            [23985.0, 9.597_265_6],
+            [24032.0, 9.596_16],
+        ];
+        assert_eq!(front(&noise.map(Some)), [0]);
     }
 }

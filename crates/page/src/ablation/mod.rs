@@ -82,7 +82,8 @@ pub fn ablation_page(page: &AblationPage) -> String {
 }
 
 fn figures(drawn: &Drawn<'_>) -> String {
-    let front = "The line joins the runs that no other run beats in both.";
+    let front = "The line joins the runs that no other run beats in one figure without losing in the \
+                 other. What differs by less than 1 % counts as equal.";
     let mut html = String::new();
     for comparison in &drawn.comparisons {
         html += &figure(comparison.id, "", comparison.title, front);

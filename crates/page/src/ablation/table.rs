@@ -8,8 +8,6 @@ use crate::words::number;
 
 /// Columns besides the usual ones.
 const MORE: [&str; 3] = ["surface-pv", "surface-rms", "spindle-max"];
-/// Figures below this are rounding: 1e-8 nm, or mm/s².
-pub const ROUNDING: f64 = 1e-8;
 /// The name of a run that varies nothing.
 const RECIPE: &str = "the recipe";
 
@@ -91,8 +89,7 @@ fn row(run: &AblationRun, columns: &[&Column]) -> String {
 }
 
 fn cell(run: &AblationRun, column: &Column) -> String {
-    let figure = run.measured().and_then(|run| (column.figure)(run));
-    let figure = figure.map(|figure| if figure.abs() < ROUNDING { 0.0 } else { figure });
+    let figure = run.measured().and_then(|run| column.tidied(run));
     let Some(figure) = figure else {
         return "<td class=\"number\"></td>".to_owned();
     };

@@ -36,7 +36,8 @@ fn axes(page: &RunPage) -> String {
     format!(
         "The part is seen as the tool faces it: x to the right, y upwards, z out of the part towards \
          the tool. At C and X the tool is above x = X cos C, y = X sin C. As C grows, the part turns \
-         clockwise as the tool sees it; here {way}."
+         clockwise as the tool sees it; here {way}. What the axes of each file mean, whose C may run the \
+         other way, stands below."
     )
 }
 

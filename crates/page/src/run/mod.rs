@@ -11,7 +11,7 @@ use turnpath_report::{PathSketch, RunReport, text};
 use crate::document::document;
 use crate::html::{element, escaped, section};
 
-pub use model::{BestFit, RunPage, StageChoice, SurfaceSketch};
+pub use model::{BestFit, FileAxes, RunPage, StageChoice, SurfaceSketch};
 
 /// The data that the script draws.
 #[derive(Serialize)]
@@ -34,6 +34,7 @@ pub fn run_page(page: &RunPage) -> String {
         verdict::verdict(report),
         "</header>\n<main>\n".to_owned(),
         figures::figures(page),
+        sources::axes(&page.axes),
         sources::chain(&page.chain),
         all_figures(report),
         sources::recipe(report, page.recipe.as_deref()),

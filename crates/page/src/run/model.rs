@@ -1,7 +1,7 @@
 //! The data of a run's page, in mm, rad and s.
 
 use serde::{Deserialize, Serialize};
-use turnpath_report::{PathSketch, RunReport, Samples, unit};
+use turnpath_report::{AxisNotes, PathSketch, RunReport, Samples, unit};
 
 /// The data of a run's page.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -14,6 +14,8 @@ pub struct RunPage {
     pub surface: SurfaceSketch,
     /// The strategies, in the order of the slots; several of a sum of surfaces.
     pub chain: Vec<StageChoice>,
+    /// What the axes of each file of the path mean.
+    pub axes: Vec<FileAxes>,
     /// The text of the recipe, where it is known.
     pub recipe: Option<String>,
 }
@@ -49,6 +51,15 @@ pub enum BestFit {
     },
     /// A plane.
     Plane,
+}
+
+/// What the axes of a file mean.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileAxes {
+    /// The file's name.
+    pub file: String,
+    /// What X, Z and C of it mean.
+    pub notes: AxisNotes,
 }
 
 /// A strategy that a recipe chooses.

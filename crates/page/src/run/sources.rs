@@ -2,8 +2,21 @@
 
 use turnpath_report::{RecipeSource, RunReport};
 
-use super::model::StageChoice;
+use super::model::{FileAxes, StageChoice};
 use crate::html::{element, escaped, row, section, with_links};
+
+/// What X, Z and C of each file mean.
+pub fn axes(files: &[FileAxes]) -> String {
+    let rows: String = files
+        .iter()
+        .map(|FileAxes { file, notes }| row("td", &[file, &notes.x, &notes.z, &notes.c]))
+        .collect();
+    let head = row("th", &["file", "X", "Z", "C"]);
+    let table = format!(
+        "<div class=\"wide\"><table class=\"axes\"><thead>{head}</thead><tbody>{rows}</tbody></table></div>\n"
+    );
+    section("axes", "Axes and signs", &table)
+}
 
 /// The strategies with their parameters and sources.
 pub fn chain(stages: &[StageChoice]) -> String {

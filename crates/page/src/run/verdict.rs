@@ -1,6 +1,7 @@
 //! The verdict of a run: what holds and what does not, with the figures.
 
-use turnpath_report::{RunReport, unit};
+use turnpath_report::text::{grouped, limit_amount, limit_name};
+use turnpath_report::{LimitFigure, RunReport, unit};
 
 use crate::html::{element, escaped, row};
 use crate::words::{number, small_length};
@@ -23,10 +24,13 @@ pub fn verdict(report: &RunReport) -> String {
     html += &facts(report);
     let rows: String = verdict
         .entries()
-        .filter_map(|(name, holds)| {
-            let (found, limit) = figures(report, name);
-            let word = if holds? { "holds" } else { "EXCEEDED" };
-            Some(row("td", &[name, &found, &limit, word]))
+        .filter_map(|(name, holds)| Some((name, holds?)))
+        .map(|(name, holds)| match name {
+            "machine" => limit_rows(report),
+            _ => {
+                let (found, limit) = figures(report, name);
+                row("td", &[name, &found, &limit, word(holds)])
+            }
         })
         .collect();
     if !rows.is_empty() {
@@ -36,6 +40,34 @@ pub fn verdict(report: &RunReport) -> String {
         );
     }
     html
+}
+
+fn word(holds: bool) -> &'static str {
+    if holds { "holds" } else { "EXCEEDED" }
+}
+
+/// A row for each limit of the machine that was measured, on the cut and on the leads.
+fn limit_rows(report: &RunReport) -> String {
+    let machine = report
+        .path
+        .machine
+        .iter()
+        .flat_map(|machine| &machine.limits);
+    let lead = report.path.lead.iter().flat_map(|lead| &lead.limits);
+    let rows = machine
+        .map(|limit| ("", limit))
+        .chain(lead.map(|limit| ("lead: ", limit)));
+    let rows = rows.filter_map(|(of, figure)| {
+        let LimitFigure { limit, measured } = figure;
+        let (amount, _) = (*measured)?;
+        let name = format!("{of}{}", limit_name(limit.axis, limit.derivative));
+        let (found, most) = (
+            limit_amount(limit, amount),
+            limit_amount(limit, limit.value),
+        );
+        Some(row("td", &[&name, &found, &most, word(figure.holds()?)]))
+    });
+    rows.collect()
 }
 
 /// What was found and what the limit is, where one number says it.
@@ -62,13 +94,6 @@ fn figures(report: &RunReport, name: &str) -> (String, String) {
                 .map(|lead| (-lead.smallest_clearance).max(0.0));
             lengths(deepest, tolerance.deepest())
         }
-        "machine" => {
-            let limits = path
-                .machine
-                .as_ref()
-                .map_or(0, |machine| machine.limits.len());
-            (format!("{limits} limits, below"), String::new())
-        }
         "programs" => (format!("{} programs", report.programs.len()), String::new()),
         "passes" => (
             format!("{} passes", report.rough_paths.len()),
@@ -82,8 +107,8 @@ fn figures(report: &RunReport, name: &str) -> (String, String) {
 fn facts(report: &RunReport) -> String {
     let path = &report.path;
     let mut facts = vec![
-        ("control points", number(report.control_points as f64)),
-        ("revolutions", number(report.revolutions)),
+        ("control points", grouped(report.control_points)),
+        ("revolutions", format!("{:.2}", report.revolutions)),
         ("cutting time", format!("{} s", number(report.cutting_time))),
     ];
     if let Some(error) = &path.surface_error {

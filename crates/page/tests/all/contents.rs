@@ -173,3 +173,27 @@ fn a_run_that_failed_is_a_row_with_its_reason() {
     assert!(page.contains("2 runs, 1 failed") && page.contains(">failed: the tool gouges</td>"));
     assert_eq!(data(&page)["runs"].as_array().unwrap().len(), 1);
 }
+
+#[test]
+fn the_axes_of_each_file_stand_on_the_page_as_its_program_has_them() {
+    let page = run_page(&support::run_page());
+    assert!(page.contains("<td>a.pmc</td>"));
+    assert!(page.contains("+ turns the part anticlockwise, seen from the tool"));
+}
+
+/// The real summary has limits of the machine.
+#[test]
+fn each_limit_has_a_row_with_what_was_found() {
+    let report = support::report();
+    let machine = report.path.machine.as_ref().expect("limits");
+    let page = run_page(&support::run_page());
+    for figure in machine
+        .limits
+        .iter()
+        .filter(|figure| figure.measured.is_some())
+    {
+        let name = turnpath_report::text::limit_name(figure.limit.axis, figure.limit.derivative);
+        let row = format!("<tr><td>{name}</td><td>");
+        assert!(page.contains(&row), "{name}");
+    }
+}

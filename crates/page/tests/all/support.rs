@@ -1,9 +1,10 @@
 //! The data of a page: a real summary, and a sketch of noise as large as a sketch may be.
 
-use turnpath_page::{BestFit, RunPage, StageChoice, SurfaceSketch};
+use turnpath_page::{BestFit, FileAxes, RunPage, StageChoice, SurfaceSketch};
 use turnpath_report::{
-    AblationReport, AblationRun, AxisSketch, EdgeSketch, ErrorMap, ErrorProfile, ErrorSketch,
-    MeasuredRun, PathSketch, RadialMean, RunReport, Samples, SpiralSketch, TurnSketch, from_json,
+    AblationReport, AblationRun, AxisNotes, AxisSketch, Direction, EdgeSketch, ErrorMap,
+    ErrorProfile, ErrorSketch, MeasuredRun, PathSketch, RadialMean, RunReport, Samples,
+    SpiralSketch, TurnSketch, from_json,
 };
 
 /// `summary.json` of a small part.
@@ -100,6 +101,10 @@ pub fn run_page() -> RunPage {
             summary: "a feed".to_owned(),
             source: "doi:10.1364/OE.21.012".to_owned(),
             parameters: vec![("feed".to_owned(), "\"10 um/rev\"".to_owned())],
+        }],
+        axes: vec![FileAxes {
+            file: "a.pmc".to_owned(),
+            notes: AxisNotes::new(Direction::Inward, true, true),
         }],
         recipe: Some("format = 1\n".to_owned()),
     }

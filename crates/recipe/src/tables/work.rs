@@ -47,7 +47,7 @@ const CLEARANCE_ANGLE: Param<Option<Angle>> = Param::angle(
 const INTERFERENCE: Param<Choice> = Param::choice(
     "interference",
     &["refuse", CUT_WHAT_FITS],
-    "what to do where nose, edge or flank do not fit; refuse: exit status 2; cut-what-fits: go where \
+    "what to do where nose or edge do not fit; refuse: exit status 2; cut-what-fits: go where \
      the edge first touches, and report what stays",
 )
 .default("refuse");

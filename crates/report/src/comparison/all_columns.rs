@@ -91,6 +91,14 @@ const ALL: &[Column] = &[
     )
     .best(Best::None),
     column(
+        "measuring-time",
+        &["mea-", "su-", "ring", "s"],
+        "measuring_time_s",
+        Form::Clock,
+        |run| run.measuring_time,
+    )
+    .best(Best::None),
+    column(
         "x-acceleration",
         &["X acc", "RMS", "mm/s²"],
         "x_acceleration_rms_mm_per_s2",
@@ -148,28 +156,28 @@ const ALL: &[Column] = &[
     ),
     column(
         "surface-pv",
-        &["form", "PV", "nm"],
+        &["sur-", "face", "PV", "nm"],
         "surface_error_pv_nm",
         Form::Real,
         |run| nm(path(run).surface_error?.pv),
     ),
     column(
         "surface-rms",
-        &["form", "RMS", "nm"],
+        &["sur-", "face", "RMS", "nm"],
         "surface_error_rms_nm",
         Form::Real,
         |run| nm(path(run).surface_error?.rms),
     ),
     column(
         "surface-sq",
-        &["form", "Sq", "nm"],
+        &["sur-", "face", "Sq", "nm"],
         "surface_error_sq_nm",
         Form::Real,
         |run| nm(path(run).surface_error?.sq),
     ),
     column(
         "surface-sa",
-        &["form", "Sa", "nm"],
+        &["sur-", "face", "Sa", "nm"],
         "surface_error_sa_nm",
         Form::Real,
         |run| nm(path(run).surface_error?.sa),

@@ -4,14 +4,9 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::ablation::AblationRun;
 
-use super::column::{Best, Column, Form};
+use super::column::{Best, Column, Form, NOISE};
 use super::wording::{NONE, ratio_of, written};
 
-/// Figures below this are rounding: 1e-8 nm, or mm/s².
-const ROUNDING: f64 = 1e-8;
-/// Figures that differ by less than this part differ by chance: by where the last step of a refinement
-/// or of a search falls.
-const NOISE: f64 = 0.01;
 /// Marks the best figure of a column.
 const BEST: &str = "*";
 /// Marks a figure that exceeds its tolerance.
@@ -20,7 +15,7 @@ const EXCEEDS: &str = "!";
 /// A run's figure in words.
 pub struct Cell {
     text: String,
-    /// To the first run; empty without.
+    /// To the run that all are compared with; empty without.
     pub ratio: String,
     pub is_best: bool,
     pub exceeds: bool,
@@ -39,25 +34,24 @@ pub struct FigureColumn {
 }
 
 impl FigureColumn {
-    /// The figures of all runs.
-    pub fn of(runs: &[AblationRun], column: &Column) -> Self {
-        let tidy = |number: f64| if number.abs() < ROUNDING { 0.0 } else { number };
-        let figures = runs.iter().map(|run| (column.figure)(run.measured()?));
-        let numbers: Vec<Option<f64>> = figures.map(|number| number.map(tidy)).collect();
+    /// The figures of all runs, with their ratios to one of them.
+    pub fn of(runs: &[AblationRun], column: &Column, base: Option<&AblationRun>) -> Self {
+        let figure = |run: &AblationRun| column.tidied(run.measured()?);
+        let numbers: Vec<Option<f64>> = runs.iter().map(figure).collect();
         let is_best = is_best(&numbers, column);
-        let first = numbers.first().copied().flatten();
+        let of_base = base.and_then(figure);
         let cell = |(row, (run, number)): (usize, (&AblationRun, &Option<f64>))| {
             let exceeds = column
                 .holds
                 .zip(run.verdict())
                 .and_then(|(holds, verdict)| holds(verdict))
                 .map(|holds| !holds);
-            let ratio = number.zip(first).filter(|_| row > 0);
+            let ratio = number.zip(of_base).filter(|_| base != Some(run));
             let text = number.map(|number| written(number, column.form));
             Cell {
                 is_best: is_best.get(row).copied().unwrap_or(false),
                 text: text.unwrap_or_else(|| NONE.to_owned()),
-                ratio: ratio.map_or(String::new(), |(number, first)| ratio_of(number, first)),
+                ratio: ratio.map_or(String::new(), |(number, base)| ratio_of(number, base)),
                 exceeds: exceeds.unwrap_or(false),
             }
         };
@@ -72,14 +66,6 @@ impl FigureColumn {
             best: column.best,
             cells,
         }
-    }
-
-    /// The same without the ratios.
-    pub fn without_ratios(mut self) -> Self {
-        for cell in &mut self.cells {
-            cell.ratio.clear();
-        }
-        self
     }
 
     /// The heading in one line, its broken words made whole.
@@ -117,7 +103,7 @@ impl FigureColumn {
         self.aligned(&cell.marked(), mark)
     }
 
-    /// Its ratio to the first run.
+    /// Its ratio to the run that all are compared with.
     pub fn ratio(&self, run: usize) -> String {
         let ratio = self.cells.get(run).map_or("", |cell| cell.ratio.as_str());
         self.aligned(ratio, "")
@@ -201,6 +187,30 @@ mod tests {
         assert_eq!(best_of("planning-time", &numbers), [false; 3]);
     }
 
+    #[test]
+    fn an_acceleration_that_is_rounding_alone_is_zero() {
+        let [law, error] = ["x-acceleration-law", "error-max"].map(|name| by_name(name).unwrap());
+        assert_eq!([law.tidy(6e-7), law.tidy(-0.44)], [0.0, -0.44]);
+        assert_eq!([error.tidy(6e-7), error.tidy(6e-9)], [6e-7, 0.0]);
+    }
+
+    /// Ratios stay those to the first run when the rows are in another order.
+    #[test]
+    fn rows_in_another_order_keep_their_ratios() {
+        let entry = |name: &str, points: u64| {
+            let varied = vec![("sampler".to_owned(), name.to_owned())];
+            measured_run(varied, |run| run.report.control_points = points)
+        };
+        let (first, other) = (entry("a", 200), entry("b", 100));
+        let column = by_name("points").unwrap();
+        let rows = [other, first.clone()];
+        let cells = FigureColumn::of(&rows, column, Some(&first)).cells;
+        let ratios: Vec<&str> = cells.iter().map(|cell| cell.ratio.as_str()).collect();
+        assert_eq!(ratios, ["×0.50", ""]);
+        let without = FigureColumn::of(&rows, column, None).cells;
+        assert!(without.iter().all(|cell| cell.ratio.is_empty()));
+    }
+
     /// Marks and ratios where figures tie but for chance, are zero, or are not there.
     #[test]
     fn ties_are_all_marked_and_zero_or_nothing_has_no_ratio() {
@@ -221,7 +231,9 @@ mod tests {
         ];
         let cells = |name: &str| {
             let column = by_name(name).unwrap();
-            let cells = FigureColumn::of(&entries, column).cells.into_iter();
+            let cells = FigureColumn::of(&entries, column, entries.first())
+                .cells
+                .into_iter();
             cells
                 .map(|cell| (cell.text, cell.is_best, cell.ratio))
                 .collect::<Vec<_>>()

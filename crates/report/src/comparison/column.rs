@@ -24,6 +24,31 @@ pub struct Column {
     pub of_law: bool,
 }
 
+/// Figures below this are rounding: 1e-8 nm, or mm/s.
+const ROUNDING: f64 = 1e-8;
+/// The same for accelerations, mm/s²: they come from differences of positions over small steps of time,
+/// by the square of which the rounding of the positions is divided. It is a thousand-millionth of g.
+const ROUNDING_OF_ACCELERATION: f64 = 1e-5;
+/// Figures that differ by less than this part differ by chance: by where the last step of a refinement
+/// or of a search falls.
+pub const NOISE: f64 = 0.01;
+
+impl Column {
+    /// A number of this column, 0 where it is rounding alone.
+    pub fn tidy(&self, number: f64) -> f64 {
+        let rounding = match self.name.contains("acceleration") {
+            true => ROUNDING_OF_ACCELERATION,
+            false => ROUNDING,
+        };
+        if number.abs() < rounding { 0.0 } else { number }
+    }
+
+    /// The figure of a run, 0 where it is rounding alone.
+    pub fn tidied(&self, run: &MeasuredRun) -> Option<f64> {
+        (self.figure)(run).map(|number| self.tidy(number))
+    }
+}
+
 /// Which figure of a column is the best.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Best {

@@ -13,7 +13,7 @@ mod tests;
 mod wording;
 
 pub use all_columns::{all, by_name, names, usual};
-pub use column::{Best, Column, Form};
+pub use column::{Best, Column, Form, NOISE};
 pub use csv_table::csv_table;
 pub use order::sorted;
 pub use paper_table::{Language, paper_table};

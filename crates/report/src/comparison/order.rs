@@ -7,7 +7,7 @@ use super::column::{Best, Column};
 /// The runs with the best of a column first; those without the figure come last, in their order.
 pub fn sorted(runs: &[AblationRun], column: &Column) -> Vec<AblationRun> {
     let figure = |run: &AblationRun| {
-        let number = run.measured().and_then(column.figure);
+        let number = run.measured().and_then(|run| column.tidied(run));
         let number = number.filter(|number| !number.is_nan());
         match column.best {
             Best::Largest => number.map_or(f64::INFINITY, |number| -number),

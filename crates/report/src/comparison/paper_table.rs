@@ -21,20 +21,19 @@ pub enum Language {
 const NOTE_BEST: &str = "bold: the best of its column, and what is within 1 % of it";
 const NOTE_EXCEEDS: &str = "dagger: exceeds its tolerance";
 
-/// The runs side by side in a language; `with_ratios` puts the ratio to the first run beside each
-/// figure, except in CSV.
+/// The runs side by side in a language, with the ratio to one of them beside each figure, except in CSV.
 pub fn paper_table(
     runs: &[AblationRun],
     columns: &[&Column],
     language: Language,
-    with_ratios: bool,
+    base: Option<&AblationRun>,
 ) -> String {
     if language == Language::Csv {
         return csv(runs, columns);
     }
     let figures: Vec<FigureColumn> = columns
         .iter()
-        .map(|column| FigureColumn::of(runs, column))
+        .map(|column| FigureColumn::of(runs, column, base))
         .collect();
     let table = Table {
         keys: keys(runs),
@@ -42,9 +41,9 @@ pub fn paper_table(
         rows: runs
             .iter()
             .enumerate()
-            .map(|(row, run)| words(run, row, &figures, language, with_ratios))
+            .map(|(row, run)| words(run, row, &figures, language))
             .collect(),
-        notes: notes(&figures),
+        notes: notes(&figures, base, language),
     };
     match language {
         Language::Latex => table.latex(),
@@ -58,7 +57,7 @@ struct Table {
     keys: Vec<String>,
     headings: Vec<String>,
     rows: Vec<Vec<String>>,
-    notes: Vec<&'static str>,
+    notes: Vec<String>,
 }
 
 impl Table {
@@ -110,22 +109,30 @@ fn words(
     row: usize,
     columns: &[FigureColumn],
     language: Language,
-    with_ratios: bool,
 ) -> Vec<String> {
     let values = run.varied.iter();
     let mut words: Vec<String> = values.map(|(_, value)| escaped(value, language)).collect();
     if let Some(error) = run.error() {
-        words.push(escaped(&format!("failed: {error}"), language));
+        let reason = escaped(&format!("failed: {error}"), language);
+        if language == Language::Latex {
+            // One cell over all columns of figures, since those are as wide as numbers.
+            words.push(format!(
+                "\\multicolumn{{{}}}{{l}}{{{reason}}}",
+                columns.len().max(1)
+            ));
+            return words;
+        }
+        words.push(reason);
         let left = columns.len().saturating_sub(1);
         words.extend(std::iter::repeat_n(String::new(), left));
         return words;
     }
     let cells = columns.iter().filter_map(|column| column.cells.get(row));
-    words.extend(cells.map(|cell| cell_words(cell, language, with_ratios)));
+    words.extend(cells.map(|cell| cell_words(cell, language)));
     words
 }
 
-fn cell_words(cell: &Cell, language: Language, with_ratio: bool) -> String {
+fn cell_words(cell: &Cell, language: Language) -> String {
     let figure = escaped(cell.text(), language);
     let dagger = match (cell.exceeds, language) {
         (false, _) => "",
@@ -138,18 +145,23 @@ fn cell_words(cell: &Cell, language: Language, with_ratio: bool) -> String {
         (true, _) => format!("**{figure}**"),
     };
     match cell.ratio.as_str() {
-        ratio if with_ratio && !ratio.is_empty() => {
+        ratio if !ratio.is_empty() => {
             format!("{figure}{dagger} ({})", escaped(ratio, language))
         }
         _ => format!("{figure}{dagger}"),
     }
 }
 
-fn notes(columns: &[FigureColumn]) -> Vec<&'static str> {
+/// What the marks mean, as far as they occur, and to which run the ratios are.
+fn notes(columns: &[FigureColumn], base: Option<&AblationRun>, language: Language) -> Vec<String> {
     let any = |which: fn(&Cell) -> bool| columns.iter().flat_map(|one| &one.cells).any(which);
+    let values = base.map(|run| run.varied.iter().map(|(_, value)| value.as_str()));
+    let values: Vec<&str> = values.into_iter().flatten().collect();
+    let base = escaped(&format!("×: ratio to {}", values.join(", ")), language);
     let notes = [
-        (any(|cell| cell.is_best), NOTE_BEST),
-        (any(|cell| cell.exceeds), NOTE_EXCEEDS),
+        (any(|cell| cell.is_best), NOTE_BEST.to_owned()),
+        (any(|cell| cell.exceeds), NOTE_EXCEEDS.to_owned()),
+        (any(|cell| !cell.ratio.is_empty()), base),
     ];
     notes
         .into_iter()
@@ -164,6 +176,12 @@ fn escaped(text: &str, language: Language) -> String {
         (Language::Markdown, '|' | '*' | '_' | '`' | '\\' | '<' | '[') => format!("\\{sign}"),
         (Language::Latex, '&' | '%' | '$' | '#' | '_' | '{' | '}') => format!("\\{sign}"),
         (Language::Latex, '\\') => "\\textbackslash{}".to_owned(),
+        (Language::Latex, '<') => "\\textless{}".to_owned(),
+        (Language::Latex, '>') => "\\textgreater{}".to_owned(),
+        (Language::Latex, '|') => "\\textbar{}".to_owned(),
+        (Language::Latex, '"') => "''".to_owned(),
+        (Language::Latex, '°') => "$^\\circ$".to_owned(),
+        (Language::Latex, '−') => "$-$".to_owned(),
         (Language::Latex, '~') => "\\textasciitilde{}".to_owned(),
         (Language::Latex, '^') => "\\textasciicircum{}".to_owned(),
         (Language::Latex, '²') => "$^2$".to_owned(),
@@ -224,7 +242,8 @@ mod tests {
 
     fn table(language: Language) -> String {
         let columns = ["points", "error-max"].map(|name| by_name(name).unwrap());
-        paper_table(&runs(), &columns, language, true)
+        let runs = runs();
+        paper_table(&runs, &columns, language, runs.first())
     }
 
     #[test]
@@ -237,7 +256,7 @@ mod tests {
         | e | **1,000** (×0.50) | 50.00 (×1.00) |
         | b\|c | failed: 100 % & more |  |
 
-        bold: the best of its column, and what is within 1 % of it; dagger: exceeds its tolerance
+        bold: the best of its column, and what is within 1 % of it; dagger: exceeds its tolerance; ×: ratio to a\_1
         ");
     }
 
@@ -252,11 +271,12 @@ mod tests {
         a\_1 & 2,000 & 50.00 \\
         d & \textbf{1,005} ($\times$0.50) & 50.00$^\dagger$ ($\times$1.00) \\
         e & \textbf{1,000} ($\times$0.50) & 50.00 ($\times$1.00) \\
-        b|c & failed: 100 \% \& more &  \\
+        b\textbar{}c & \multicolumn{2}{l}{failed: 100 \% \& more} \\
         \bottomrule
         \end{tabular}
         % bold: the best of its column, and what is within 1 % of it
         % dagger: exceeds its tolerance
+        % $\times$: ratio to a\_1
         ");
     }
 

@@ -17,22 +17,21 @@ const LEAST_LABEL: usize = 14;
 /// What two of the columns are.
 const OF_LAW: &str = "law's: apart from where the feed runs out at the path's ends";
 const PROGRAM: &str = "program: the lines that the post makes of the points, measured";
-const PLANNING: &str = "planning: processor time to make and measure the path";
+const PLANNING: &str = "planning: processor time to make the path, measuring aside";
 
-/// The runs side by side, on so many columns of the terminal, with the ratios to the first run or
-/// without.
+/// The runs side by side, on so many columns of the terminal, with their ratios to one of them, the first
+/// one of the ablation, or without ratios.
 pub fn table(
     runs: &[AblationRun],
     columns: &[&Column],
     widest: usize,
-    with_ratios: bool,
+    base: Option<&AblationRun>,
 ) -> String {
     let labels = Labels::of(runs, widest);
-    let column = |column: &&Column| match FigureColumn::of(runs, column) {
-        figures if with_ratios => figures,
-        figures => figures.without_ratios(),
-    };
-    let columns: Vec<FigureColumn> = columns.iter().map(column).collect();
+    let columns = columns.iter();
+    let columns: Vec<FigureColumn> = columns
+        .map(|column| FigureColumn::of(runs, column, base))
+        .collect();
     let parts = fitting(&columns, widest).into_iter();
     let parts: Vec<String> = parts.map(|part| labels.beside(part, runs)).collect();
     format!("{}{}", parts.join("\n"), legend(&columns, widest))

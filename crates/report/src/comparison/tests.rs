@@ -28,6 +28,7 @@ fn entry(label: &str, points: u64, error_nm: f64) -> AblationRun {
         report.within.machine = Some(error_nm < 100.0);
         run.program_bytes = Some(1_234_567);
         run.planning_time = Some(0.0042);
+        run.measuring_time = Some(0.0031);
     })
 }
 
@@ -59,7 +60,7 @@ fn no_label_reason_or_choice_of_columns_makes_it_wider_than_the_terminal() {
     ];
     for columns in [usual(), all(), all().into_iter().rev().collect()] {
         for widest in [40, 57, 80, 100] {
-            let text = table(&entries, &columns, widest, true);
+            let text = table(&entries, &columns, widest, entries.first());
             assert_narrow(&text, widest);
             assert!(text.contains("failed: the tool"), "{text}");
             for one in ["1.0e12", "!1", "×"] {
@@ -76,7 +77,7 @@ fn the_smallest_of_a_column_is_marked_and_what_exceeds_its_tolerance() {
         failed("panics", "the sampler panicked"),
         entry("equal-arc", 1_300, 198.0),
     ];
-    insta::assert_snapshot!(table(&entries, &usual(), 100, true));
+    insta::assert_snapshot!(table(&entries, &usual(), 100, entries.first()));
 }
 
 #[test]
@@ -85,7 +86,7 @@ fn a_first_run_that_failed_leaves_no_ratios() {
         failed("panics", "it panicked"),
         entry("equal-arc", 1_300, 98.0),
     ];
-    let text = table(&entries, &usual(), 100, true);
+    let text = table(&entries, &usual(), 100, entries.first());
     assert!(!text.contains('×'), "{text}");
 }
 
@@ -104,7 +105,7 @@ fn labels_that_are_too_long_go_on_below_themselves() {
     ];
     for columns in [usual(), all()] {
         for widest in [40, 100] {
-            let text = table(&entries, &columns, widest, true);
+            let text = table(&entries, &columns, widest, entries.first());
             assert_narrow(&text, widest);
             for one in ["= 10", "= 20", "then 1", "then 2"] {
                 assert!(text.contains(one), "{text}");

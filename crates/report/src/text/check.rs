@@ -46,7 +46,7 @@ pub fn check(report: &CheckReport) -> String {
     text += &report
         .axis_notes
         .as_ref()
-        .map(axis_notes)
+        .map(|notes| axis_notes(notes, &expected.programs))
         .unwrap_or_default();
     text += &commands(&report.controller_commands);
     text + &remarks(&report.remarks)

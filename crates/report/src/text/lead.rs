@@ -6,6 +6,9 @@ use crate::lead::LeadReport;
 use super::machine::exceeded;
 use super::numbers::{duration, line, millimetres, path_place, small_length};
 
+/// A lead ends where the cut begins: what rounds to 0.00 nm is a touch, mm.
+const TOUCH: f64 = 5e-9;
+
 /// The lines on the leads; `clears` is their verdict.
 pub fn lead(lead: &LeadReport, clears: Option<bool>) -> String {
     let mut text = String::new();
@@ -30,9 +33,12 @@ pub fn lead(lead: &LeadReport, clears: Option<bool>) -> String {
 fn lowest(lead: &LeadReport, clears: Option<bool>) -> String {
     let lowest = lead.smallest_clearance;
     let height = small_length(lowest.abs());
-    let way = match lowest < 0.0 {
-        true => format!("digs {height} into the wanted surface at most"),
-        false => format!("stays {height} above the wanted surface"),
+    let way = match lowest {
+        lowest if lowest.abs() < TOUCH => {
+            "comes down to the wanted surface and no deeper".to_owned()
+        }
+        lowest if lowest < 0.0 => format!("digs {height} into the wanted surface at most"),
+        _ => format!("stays {height} above the wanted surface"),
     };
     match clears {
         Some(false) => format!("{way}; EXCEEDED, at {}", path_place(&lead.at)),

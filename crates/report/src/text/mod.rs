@@ -23,6 +23,6 @@ mod unreached;
 pub use check::check;
 pub use file::file;
 pub use map_comparison::map_comparison;
-pub use numbers::{bytes, grouped, millimetres, nose_radius};
+pub use numbers::{bytes, grouped, limit_amount, limit_name, millimetres, nose_radius};
 pub use part_shape::refused_check;
 pub use run::{run, verified_figures};

@@ -14,7 +14,7 @@ use crate::job::Job;
 use crate::page::error_sketch;
 use crate::posts::{NotCarried, layout, posts};
 
-use super::clock;
+use super::clock::{self, MeasuringClock};
 use super::observer::AblationObserver;
 
 /// Where the strategies and the data of all runs come from.
@@ -39,30 +39,43 @@ pub fn run(
         keeps_sketch: true,
         ..job
     };
-    let observer = Cancellation(observer);
+    let observer = RunObserver {
+        ablation: observer,
+        measuring: MeasuringClock::default(),
+    };
     let path = search_split(&job, &observer, |job| {
         let mut sizes = SizeSink::new(job);
         let outcome = job.run_into(&mut sizes, &observer)?;
         Ok((sizes, outcome))
     })?;
+    let report = job.report(path.sink.rows, &path.outcome, path.split, Vec::new())?;
+    let measuring = observer.measuring.total();
     Ok(MeasuredRun {
-        report: job.report(path.sink.rows, &path.outcome, path.split, Vec::new())?,
+        report,
         program_bytes: path.sink.program_bytes,
-        planning_time: Some(clock::now() - begun),
+        planning_time: Some(clock::now() - begun - measuring),
+        measuring_time: Some(measuring),
         sketch: path.outcome.sketch.as_ref().map(error_sketch),
     })
 }
 
-/// An observer of one run that hears of nothing, and is cancelled with the ablation.
-struct Cancellation<'a>(&'a dyn AblationObserver);
+/// An observer of one run that shows nothing, and is cancelled with the ablation.
+struct RunObserver<'a> {
+    ablation: &'a dyn AblationObserver,
+    measuring: MeasuringClock,
+}
 
-impl Observer for Cancellation<'_> {
+impl Observer for RunObserver<'_> {
     fn begin(&self, _: Stage, _: u64) {}
 
     fn advance(&self, _: u64) {}
 
+    fn measures(&self, begins: bool) {
+        self.measuring.measures(begins);
+    }
+
     fn is_cancelled(&self) -> bool {
-        self.0.is_cancelled()
+        self.ablation.is_cancelled()
     }
 }
 

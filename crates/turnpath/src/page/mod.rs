@@ -10,4 +10,4 @@ mod surface;
 pub use of_run::page_of_run;
 pub use remake::{result_recipe, write_page};
 pub use request::{PageError, PageRequest};
-pub use sketch::error_sketch;
+pub use sketch::{error_sketch, path_sketch};

@@ -13,8 +13,10 @@ use turnpath_verify::{FirstTouch, PathSketch, Subject};
 
 use super::of_run::page_of_run;
 use super::request::{PageError, PageRequest};
+use super::sketch::path_sketch;
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
+use crate::drawings::{DrawingFileError, Drawings};
 use crate::error::Error;
 use crate::meters::{PathMeters, measure};
 use crate::path_file::SourceFile;
@@ -23,8 +25,8 @@ use crate::strategies;
 use crate::summary::{ABLATION, MOST_BYTES, PAGE, SUMMARY};
 use crate::surface::surface;
 
-/// Writes the page of a result into its folder; gives its path. Its figures of the path are measured
-/// on the path's file.
+/// Writes the page of a result into its folder, and the figures for papers; gives their paths, the page
+/// first. What shows the path is measured on the path's file.
 ///
 /// # Errors
 /// When the folder has no result, or its files have other bytes than listed; when the recipe is not
@@ -33,17 +35,25 @@ pub fn write_page(
     request: &PageRequest,
     catalogue: &Catalogue,
     observer: &dyn Observer,
-) -> Result<PathBuf, Error> {
-    let page = match result_recipe(request)? {
-        Some(recipe) => page_again(request, (&recipe, catalogue), observer)?,
-        None => page_of_ablation(request)?,
+) -> Result<Vec<PathBuf>, Error> {
+    let drawings = Drawings::new(&request.drawings, &request.folder)?;
+    let (page, drafts) = match result_recipe(request)? {
+        Some(recipe) => {
+            let again = page_again((request, &drawings), (&recipe, catalogue), observer);
+            again.map_err(|error| without_data_file(request, error))?
+        }
+        None if drawings.is_empty() => (page_of_ablation(request)?, Vec::new()),
+        None => return Err(no_path(request)),
     };
     let path = request.folder.join(PAGE);
     let mut draft = Draft::begin(&path)?;
     let written = draft.write_all(page.as_bytes());
     written.map_err(FileError::of(&path))?;
-    draft.complete()?;
-    Ok(path)
+    let mut paths = Vec::new();
+    for draft in std::iter::once(draft).chain(drafts) {
+        paths.push(draft.complete()?);
+    }
+    Ok(paths)
 }
 
 /// The recipe of a result, as it was run; `None` for an ablation.
@@ -75,11 +85,12 @@ fn page_of_ablation(request: &PageRequest) -> Result<String, Error> {
 }
 
 fn page_again(
-    request: &PageRequest,
+    (request, drawings): (&PageRequest, &Drawings),
     (recipe, catalogue): (&Recipe, &Catalogue),
     observer: &dyn Observer,
-) -> Result<String, Error> {
+) -> Result<(String, Vec<Draft>), Error> {
     let report = read_result(&request.folder)?;
+    drawings.leave_result(&request.folder, &report)?;
     let files = DataFiles::default();
     let wanted = surface(recipe, catalogue, &files)?;
     let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
@@ -97,8 +108,35 @@ fn page_again(
             Some(sketch_of(recipe, &file, shape, subject, observer)?)
         }
     };
+    if sketch.is_none() && request.has(PAGE) {
+        let folder = request.folder.clone();
+        return Err(PageError::NoPath { folder }.into());
+    }
+    let sketch = sketch.as_ref().map(path_sketch);
+    let drafts = match &sketch {
+        Some(sketch) => drawings.draw(&report, sketch, &|file| Draft::begin(file))?,
+        None if drawings.is_empty() => Vec::new(),
+        None => return Err(no_path(request)),
+    };
     let made_by = (recipe, catalogue);
-    page_of_run(made_by, wanted.strategy.as_ref(), &report, sketch.as_ref())
+    let page = page_of_run(made_by, wanted.strategy.as_ref(), &report, sketch)?;
+    Ok((page, drafts))
+}
+
+/// The recipe of a summary has no place, so the message on a data file says how to give it one.
+fn without_data_file(request: &PageRequest, error: Error) -> Error {
+    match error {
+        Error::DataFile { diagnostic, .. } if request.recipe.is_none() => {
+            let title = diagnostic.title().to_owned();
+            PageError::NoDataFile { title }.into()
+        }
+        other => other,
+    }
+}
+
+fn no_path(request: &PageRequest) -> Error {
+    let folder = request.folder.clone();
+    DrawingFileError::NoPath { folder }.into()
 }
 
 fn recipe_of(request: &PageRequest, report: &RunReport) -> Result<Recipe, Error> {

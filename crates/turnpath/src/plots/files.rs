@@ -199,7 +199,7 @@ fn for_name(value: f64) -> f64 {
 
 /// Finds before the work what would stop it at its end. The folder of all files may still have to
 /// be made, and who writes in it finds out whether it takes files; any other must be there.
-fn can_be_made(file: &Path, folder: &Path) -> Result<(), FileError> {
+pub fn can_be_made(file: &Path, folder: &Path) -> Result<(), FileError> {
     let parent = file.parent().filter(|parent| *parent != Path::new(""));
     let parent = parent.unwrap_or(Path::new("."));
     Draft::can_be(file)?;

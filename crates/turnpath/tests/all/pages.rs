@@ -36,6 +36,7 @@ fn request(folder: &Path) -> PageRequest {
     PageRequest {
         folder: folder.to_owned(),
         recipe: None,
+        drawings: Vec::new(),
     }
 }
 
@@ -216,7 +217,7 @@ fn a_page_that_is_made_again_shows_the_same() {
     fs::remove_file(folder.path().join("report.html")).unwrap();
     let catalogue = Catalogue::linked().unwrap();
     let page = write_page(&request(folder.path()), &catalogue, &SilentObserver).unwrap();
-    assert_eq!(page, folder.path().join("report.html"));
+    assert_eq!(page, [folder.path().join("report.html")]);
     let (after, again) = (data(folder.path()), sketch(folder.path()));
     assert_eq!(
         (&before["report"], &before["surface"]),
@@ -260,6 +261,15 @@ fn a_path_without_a_table_is_read_from_its_program() {
     );
     run(folder.path(), &["output.data=[]", "output.posts=[]"]);
     assert!(!data(folder.path())["sketch"].is_null());
+    // The page of the run has more than a new one would.
+    let refused = write_page(&request(folder.path()), &catalogue, &SilentObserver);
+    let refused = refused.unwrap_err();
+    assert!(
+        matches!(refused, Error::Page(PageError::NoPath { .. })),
+        "{refused}"
+    );
+    assert!(!data(folder.path())["sketch"].is_null());
+    fs::remove_file(folder.path().join("report.html")).unwrap();
     write_page(&request(folder.path()), &catalogue, &SilentObserver).unwrap();
     assert!(data(folder.path())["sketch"].is_null());
 }
@@ -312,7 +322,11 @@ fn a_page_of_another_recipe_is_refused() {
         .unwrap()
         .remove("text");
     fs::write(&summary, summary_of_before.to_string()).unwrap();
-    assert_eq!(refusal(&request(folder.path())), PageError::NoRecipe);
+    let without_text = refusal(&request(folder.path()));
+    assert!(
+        matches!(without_text, PageError::NoRecipe),
+        "{without_text}"
+    );
     let recipe = folder.path().join("saddle.toml");
     fs::write(&recipe, crate::support::SADDLE).unwrap();
     let with_recipe = PageRequest {
