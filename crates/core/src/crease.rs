@@ -139,8 +139,9 @@ impl Section {
     }
 
     fn stretches(&self) -> impl Iterator<Item = [Point; 2]> {
-        let ends = self.points().zip(self.points().skip(1));
-        ends.map(|(from, to)| [from, to])
+        let mut points = self.points();
+        let first = points.next();
+        points.scan(first, |last, to| Some([last.replace(to)?, to]))
     }
 }
 

@@ -24,6 +24,7 @@ pub mod locus;
 mod machine;
 mod neighbours;
 mod node_list;
+mod orders;
 mod pace;
 mod param;
 mod part;
@@ -61,6 +62,7 @@ pub use laws::{SpindleLaw, SpiralLaw, per_radian};
 pub use locus::{CentreBuffers, Locus, ToolLocus};
 pub use machine::{Axis, AxisLimits, Derivative, Limit, Machine};
 pub use node_list::{LARGEST_OFFSET, NodeList, NodeOffset};
+pub use orders::SeriesOrders;
 pub use pace::Pace;
 pub use param::{
     DataFile, NamedConstant, Param, ParamDefault, ParamInfo, ParamKind, ParamValue, Params, kind,

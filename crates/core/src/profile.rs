@@ -44,7 +44,7 @@ pub fn profile_at(
         x[i] = [rho[i] * c, c, 0.0, 0.0, 0.0];
         y[i] = [rho[i] * s, s, 0.0, 0.0, 0.0];
     }
-    surface.height_series(&x, &y, &mut z)?;
+    surface.height_series_to(2, &x, &y, &mut z)?;
     for (profile, z) in out.iter_mut().zip(&z) {
         *profile = Profile {
             height: z[0],

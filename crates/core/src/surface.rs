@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use crate::orders::{SeriesOrders, first_coefficients, first_heights};
 use crate::registers::{Loop, in_widest};
 use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
 
@@ -63,6 +64,33 @@ pub trait SurfaceModel: Send + Sync {
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()>;
     /// The series of z alone along the curves (x(t), y(t)).
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()>;
+
+    /// The same as [`series`](SurfaceModel::series) through the orders that the caller needs, with
+    /// the same bits. Coefficients of higher orders may have any value. The default gives all
+    /// orders.
+    fn series_to(
+        &self,
+        orders: SeriesOrders,
+        x: &[Series],
+        y: &[Series],
+        out: GradientSeries<'_>,
+    ) -> Result<()> {
+        let _ = orders;
+        self.series(x, y, out)
+    }
+
+    /// The same as [`height_series`](SurfaceModel::height_series) through this order, with the same
+    /// bits. Coefficients of higher orders may have any value. The default gives all orders.
+    fn height_series_to(
+        &self,
+        order: usize,
+        x: &[Series],
+        y: &[Series],
+        z: &mut [Series],
+    ) -> Result<()> {
+        let _ = order;
+        self.height_series(x, y, z)
+    }
 
     /// How far each (x, y) lies beyond the data that the surface was made from, mm: 0 where there
     /// are data. A formula has no data, and gives 0 everywhere, which is the default.
@@ -144,6 +172,42 @@ impl<T: Surface> SurfaceModel for T {
             let sag = series_of_sag_and_slopes(self, *x, *y);
             (*z, *zx, *zy) = (sag.map(|c| c.value), sag.map(|c| c.dx), sag.map(|c| c.dy));
         }
+        Ok(())
+    }
+
+    fn series_to(
+        &self,
+        orders: SeriesOrders,
+        x: &[Series],
+        y: &[Series],
+        out: GradientSeries<'_>,
+    ) -> Result<()> {
+        let GradientSeries { z, zx, zy } = out;
+        same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
+        let curves = (x, y);
+        match orders.slopes {
+            0 | 1 => first_coefficients::<2>(|x, y| self.sag(x, y), curves, [&mut *z, zx, zy]),
+            2 => first_coefficients::<3>(|x, y| self.sag(x, y), curves, [&mut *z, zx, zy]),
+            _ => return self.series(x, y, GradientSeries { z, zx, zy }),
+        }
+        match orders.heights > orders.slopes {
+            true => self.height_series(x, y, z),
+            false => Ok(()),
+        }
+    }
+
+    fn height_series_to(
+        &self,
+        order: usize,
+        x: &[Series],
+        y: &[Series],
+        z: &mut [Series],
+    ) -> Result<()> {
+        if order > 2 {
+            return self.height_series(x, y, z);
+        }
+        same_lengths(x.len(), &[y.len(), z.len()])?;
+        first_heights::<3>(|x, y| self.sag(x, y), (x, y), z);
         Ok(())
     }
 
@@ -303,5 +367,72 @@ mod tests {
             error.to_string(),
             "a batch of 3 points came with a slice of length 2"
         );
+    }
+
+    /// A formula with every kind of operation: roots, quotients, waves, powers and choices.
+    struct Mixture;
+
+    impl Surface for Mixture {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let square = x.squared() + y.squared() * 1.3 + 0.7;
+            let root = (square * 0.4 + 2.0).sqrt() + x * 0.1;
+            let wave = (x * 3.0).sin() * (y * 0.5).exp() + y.atan2(x + 9.0);
+            let chosen = x.min(y) + square.ln() * x.powi(3) + square.powf(0.7);
+            square / root + wave.tanh() + chosen - (x - y).tan().squared()
+        }
+    }
+
+    fn curves(count: usize) -> (Vec<Series>, Vec<Series>) {
+        let series = |i: usize| {
+            let t = i as f64;
+            let x = [0.3 * t - 1.0, 1.0, -0.2 * t, 0.05, 0.01];
+            (x, [0.9 - 0.2 * t, 0.4 + t, 0.3, -0.1 * t, 0.02])
+        };
+        (0..count).map(series).unzip()
+    }
+
+    fn same(one: &[Series], other: &[Series], order: usize) {
+        let bits = |all: &[Series]| -> Vec<u64> {
+            all.iter()
+                .flat_map(|c| &c[..=order])
+                .map(|c| c.to_bits())
+                .collect()
+        };
+        assert_eq!(bits(one), bits(other), "order {order}");
+    }
+
+    #[test]
+    fn fewer_orders_have_the_bits_of_all_orders_in_batches_of_any_length() {
+        for count in 0..10 {
+            let (x, y) = curves(count);
+            let blank = vec![[f64::NAN; 5]; count];
+            let all = || [blank.clone(), blank.clone(), blank.clone()];
+            let [mut z, mut zx, mut zy] = all();
+            let out = GradientSeries {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            };
+            SurfaceModel::series(&Mixture, &x, &y, out).unwrap();
+            for (heights, slopes) in [(0, 0), (1, 1), (2, 1), (4, 1), (2, 2), (4, 2), (4, 4)] {
+                let [mut low, mut low_x, mut low_y] = all();
+                let out = GradientSeries {
+                    z: &mut low,
+                    zx: &mut low_x,
+                    zy: &mut low_y,
+                };
+                Mixture
+                    .series_to(SeriesOrders { heights, slopes }, &x, &y, out)
+                    .unwrap();
+                same(&low, &z, heights);
+                same(&low_x, &zx, slopes);
+                same(&low_y, &zy, slopes);
+            }
+            for order in 0..5 {
+                let mut low = blank.clone();
+                Mixture.height_series_to(order, &x, &y, &mut low).unwrap();
+                same(&low, &z, order);
+            }
+        }
     }
 }

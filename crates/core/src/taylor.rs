@@ -18,13 +18,14 @@ pub const ORDER: usize = 4;
 /// k!·c_k.
 pub type Series = [f64; ORDER + 1];
 
-/// The number of coefficients of a series.
-const COUNT: usize = ORDER + 1;
-
 /// 1/k for the recurrences. The first element is never used.
-const OVER: [f64; COUNT] = [0.0, 1.0, 0.5, 1.0 / 3.0, 0.25];
+const OVER: [f64; ORDER + 1] = [0.0, 1.0, 0.5, 1.0 / 3.0, 0.25];
 
-/// A series Σ c_k t^k, truncated after order 4, over any other number type.
+/// A series Σ c_k t^k over any other number type, truncated after `N` coefficients: after order 4
+/// unless another `N` is given, and `N` is 5 at the most.
+///
+/// A coefficient follows from those of its own order and below, by the same operations for every
+/// `N`. So a series with fewer coefficients has the same bits as the beginning of a longer one.
 ///
 /// ```
 /// use turnpath_core::{Scalar, Taylor};
@@ -32,18 +33,18 @@ const OVER: [f64; COUNT] = [0.0, 1.0, 0.5, 1.0 / 3.0, 0.25];
 /// assert_eq!(t.exp().0, [1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0]);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Taylor<T>(pub [T; ORDER + 1]);
+pub struct Taylor<T, const N: usize = { ORDER + 1 }>(pub [T; N]);
 
-impl<T: Scalar> Taylor<T> {
-    /// A series of plain numbers.
+impl<T: Scalar, const N: usize> Taylor<T, N> {
+    /// The beginning of a series of plain numbers.
     #[inline(always)]
     pub fn from_series(series: Series) -> Self {
-        Self(series.map(T::constant))
+        Self(from_fn(|k| T::constant(series[k])))
     }
 
     /// The coefficients k·c_k: those of t·d/dt.
     #[inline(always)]
-    fn weighted(&self) -> [T; COUNT] {
+    fn weighted(&self) -> [T; N] {
         from_fn(|k| self.0[k] * k as f64)
     }
 
@@ -51,8 +52,8 @@ impl<T: Scalar> Taylor<T> {
     #[inline(always)]
     fn integrate(self, value: T, slope: Self) -> Self {
         let inner = self.weighted();
-        let mut out = [value; COUNT];
-        for k in 1..COUNT {
+        let mut out = [value; N];
+        for k in 1..N {
             out[k] = convolve(&inner, &slope.0, 1, k) * OVER[k];
         }
         Self(out)
@@ -62,8 +63,8 @@ impl<T: Scalar> Taylor<T> {
     #[inline(always)]
     fn coupled(self, start: (T, T), sign: f64) -> (Self, Self) {
         let inner = self.weighted();
-        let (mut s, mut c) = ([start.0; COUNT], [start.1; COUNT]);
-        for k in 1..COUNT {
+        let (mut s, mut c) = ([start.0; N], [start.1; N]);
+        for k in 1..N {
             s[k] = convolve(&inner, &c, 1, k) * OVER[k];
             c[k] = convolve(&inner, &s, 1, k) * (sign * OVER[k]);
         }
@@ -75,8 +76,8 @@ impl<T: Scalar> Taylor<T> {
     #[inline(always)]
     fn riccati(self, start: T, slope: T, sign: f64) -> Self {
         let inner = self.weighted();
-        let (mut f, mut w) = ([start; COUNT], [slope; COUNT]);
-        for k in 1..COUNT {
+        let (mut f, mut w) = ([start; N], [slope; N]);
+        for k in 1..N {
             f[k] = convolve(&inner, &w, 1, k) * OVER[k];
             w[k] = convolve(&f, &f, 0, k) * sign;
         }
@@ -86,7 +87,7 @@ impl<T: Scalar> Taylor<T> {
 
 /// Σ a_j·b_{k−j} for j from `first` to `k`.
 #[inline(always)]
-fn convolve<T: Scalar>(a: &[T; COUNT], b: &[T; COUNT], first: usize, k: usize) -> T {
+fn convolve<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N], first: usize, k: usize) -> T {
     let mut sum = a[first] * b[k - first];
     for j in first + 1..k + 1 {
         sum = sum + a[j] * b[k - j];
@@ -94,7 +95,7 @@ fn convolve<T: Scalar>(a: &[T; COUNT], b: &[T; COUNT], first: usize, k: usize) -
     sum
 }
 
-impl<T: Scalar> Add for Taylor<T> {
+impl<T: Scalar, const N: usize> Add for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -102,7 +103,7 @@ impl<T: Scalar> Add for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Sub for Taylor<T> {
+impl<T: Scalar, const N: usize> Sub for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -110,7 +111,7 @@ impl<T: Scalar> Sub for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Mul for Taylor<T> {
+impl<T: Scalar, const N: usize> Mul for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -118,20 +119,20 @@ impl<T: Scalar> Mul for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Div for Taylor<T> {
+impl<T: Scalar, const N: usize> Div for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let scale = other.0[0].recip();
-        let mut out = [self.0[0] / other.0[0]; COUNT];
-        for k in 1..COUNT {
+        let mut out = [self.0[0] / other.0[0]; N];
+        for k in 1..N {
             out[k] = (self.0[k] - convolve(&other.0, &out, 1, k)) * scale;
         }
         Self(out)
     }
 }
 
-impl<T: Scalar> Neg for Taylor<T> {
+impl<T: Scalar, const N: usize> Neg for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -139,7 +140,7 @@ impl<T: Scalar> Neg for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Add<f64> for Taylor<T> {
+impl<T: Scalar, const N: usize> Add<f64> for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn add(mut self, other: f64) -> Self {
@@ -148,7 +149,7 @@ impl<T: Scalar> Add<f64> for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Sub<f64> for Taylor<T> {
+impl<T: Scalar, const N: usize> Sub<f64> for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(mut self, other: f64) -> Self {
@@ -157,7 +158,7 @@ impl<T: Scalar> Sub<f64> for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Mul<f64> for Taylor<T> {
+impl<T: Scalar, const N: usize> Mul<f64> for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
@@ -165,7 +166,7 @@ impl<T: Scalar> Mul<f64> for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Div<f64> for Taylor<T> {
+impl<T: Scalar, const N: usize> Div<f64> for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: f64) -> Self {
@@ -173,12 +174,12 @@ impl<T: Scalar> Div<f64> for Taylor<T> {
     }
 }
 
-impl<T: Scalar> Scalar for Taylor<T> {
+impl<T: Scalar, const N: usize> Scalar for Taylor<T, N> {
     type Mask = T::Mask;
 
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        let mut out = [T::constant(0.0); COUNT];
+        let mut out = [T::constant(0.0); N];
         out[0] = T::constant(value);
         Self(out)
     }
@@ -195,7 +196,7 @@ impl<T: Scalar> Scalar for Taylor<T> {
 
     #[inline(always)]
     fn floor(self) -> Self {
-        let mut out = [T::constant(0.0); COUNT];
+        let mut out = [T::constant(0.0); N];
         out[0] = self.0[0].floor();
         Self(out)
     }
@@ -203,8 +204,8 @@ impl<T: Scalar> Scalar for Taylor<T> {
     #[inline(always)]
     fn recip(self) -> Self {
         let value = self.0[0].recip();
-        let mut out = [value; COUNT];
-        for k in 1..COUNT {
+        let mut out = [value; N];
+        for k in 1..N {
             out[k] = -convolve(&self.0, &out, 1, k) * value;
         }
         Self(out)
@@ -214,9 +215,8 @@ impl<T: Scalar> Scalar for Taylor<T> {
     fn sqrt(self) -> Self {
         let value = self.0[0].sqrt();
         let half = value.recip() * 0.5;
-        let mut out = [value; COUNT];
-        out[1] = self.0[1] * half;
-        for k in 2..COUNT {
+        let mut out = [value; N];
+        for k in 1..N {
             let mut rest = self.0[k];
             for j in 1..k {
                 rest = rest - out[j] * out[k - j];
@@ -228,8 +228,8 @@ impl<T: Scalar> Scalar for Taylor<T> {
 
     fn exp(self) -> Self {
         let inner = self.weighted();
-        let mut out = [self.0[0].exp(); COUNT];
-        for k in 1..COUNT {
+        let mut out = [self.0[0].exp(); N];
+        for k in 1..N {
             out[k] = convolve(&inner, &out, 1, k) * OVER[k];
         }
         Self(out)
@@ -268,7 +268,7 @@ impl<T: Scalar> Scalar for Taylor<T> {
         }));
         let mut out = (turn * scale).0;
         out[0] = self.0[0].atan2(x.0[0]);
-        for k in 1..COUNT {
+        for k in 1..N {
             out[k] = out[k] * OVER[k];
         }
         Self(out)
@@ -285,8 +285,8 @@ impl<T: Scalar> Scalar for Taylor<T> {
 
     fn powf(self, exponent: f64) -> Self {
         let scale = self.0[0].recip();
-        let mut out = [self.0[0].powf(exponent); COUNT];
-        for k in 1..COUNT {
+        let mut out = [self.0[0].powf(exponent); N];
+        for k in 1..N {
             let mut sum = T::constant(0.0);
             for j in 1..k + 1 {
                 let weight = exponent * j as f64 - (k - j) as f64;

@@ -76,7 +76,7 @@ fn duals_within_a_series_are_the_derivative_of_the_series() {
     let slope = |c: Series| [c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0];
     for case in cases() {
         let (function, a, b) = arguments(&case);
-        let dual = |c: Series| {
+        let dual = |c: Series| -> Taylor<Dual<f64>> {
             let rate = slope(c);
             Taylor(std::array::from_fn(|k| Dual {
                 value: c[k],
@@ -105,7 +105,7 @@ fn each_lane_is_bit_for_bit_what_its_number_gives_alone() {
     for case in &cases {
         let (function, a, b) = arguments(case);
         let lane = |c: Series, i: usize| c.map(|c| c * (1.0 + 0.03 * i as f64));
-        let lanes = |c: Series| {
+        let lanes = |c: Series| -> Taylor<Lanes<4>> {
             Taylor(std::array::from_fn(|k| {
                 Lanes::<4>(std::array::from_fn(|i| lane(c, i)[k]))
             }))

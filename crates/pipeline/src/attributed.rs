@@ -8,7 +8,7 @@ use std::sync::Arc;
 use turnpath_core::interference::Interference;
 use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, GradientSeries, Gradients, Radial, RadialRange, Rates,
-    Result, Series, Slot, StrategyError, SurfaceData, SurfaceGap, SurfaceModel,
+    Result, Series, SeriesOrders, Slot, StrategyError, SurfaceData, SurfaceGap, SurfaceModel,
 };
 
 use crate::Link;
@@ -86,6 +86,28 @@ impl SurfaceModel for NamedSurface {
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
         self.name.attribute(self.surface.height_series(x, y, z))
+    }
+
+    fn series_to(
+        &self,
+        orders: SeriesOrders,
+        x: &[Series],
+        y: &[Series],
+        out: GradientSeries<'_>,
+    ) -> Result<()> {
+        self.name
+            .attribute(self.surface.series_to(orders, x, y, out))
+    }
+
+    fn height_series_to(
+        &self,
+        order: usize,
+        x: &[Series],
+        y: &[Series],
+        z: &mut [Series],
+    ) -> Result<()> {
+        self.name
+            .attribute(self.surface.height_series_to(order, x, y, z))
     }
 
     fn beyond_data(&self, x: &[f64], y: &[f64], distance: &mut [f64]) -> Result<()> {

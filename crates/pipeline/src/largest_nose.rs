@@ -12,6 +12,5 @@ use crate::{Chain, Preparation, Result};
 pub fn largest_nose(chain: &Chain, preparation: &Preparation) -> Result<LargestNose> {
     let task = &preparation.task;
     let fit = Fit::new(chain, task.part, task.tool, preparation.overrun);
-    let on_part = fit.interference(task.tool, fit.whole_part())?;
-    fit.largest_nose(on_part.curvature)
+    fit.largest_nose(preparation.curvature_on_part)
 }

@@ -24,8 +24,10 @@ const COMFORTABLE_BLOCK: f64 = 50_000.0;
 /// Nodes of a block that is one of a sample, at least; a revolution may have more. A sampler starts
 /// afresh at each border, which adds half a node: a thousandth of the size of a file.
 const SAMPLED_BLOCK: f64 = 500.0;
-/// Most nodes of a path that are held in memory while its spindle is planned: 100 MB.
-const MOST_HELD: f64 = 4e6;
+/// Most numbers for nodes that are held in memory while a path is planned, refined and written: 160
+/// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked
+/// again in every pass.
+const MOST_HELD: f64 = 2e7;
 /// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
 /// thousands is sequential.
 const MOST_OVERLAP: usize = 10_000;
@@ -131,9 +133,14 @@ impl<'a> Plan<'a> {
     }
 
     /// Holds the nodes of each block as the sampler places them, so that it is not asked again. A
-    /// path with more than [`MOST_HELD`] nodes holds none.
+    /// path whose nodes take more than [`MOST_HELD`] numbers holds none.
     pub fn hold_nodes(&mut self) {
-        if self.density * self.law.end() <= MOST_HELD {
+        let numbers = match self.chain.sampler.strategy.needs_exact_rates() {
+            true => 3.0,
+            false => 1.0,
+        };
+        let is_held = !self.held.is_empty();
+        if !is_held && numbers * self.density * self.law.end() <= MOST_HELD {
             self.held = (0..self.blocks()).map(|_| OnceLock::new()).collect();
         }
     }

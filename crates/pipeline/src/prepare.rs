@@ -1,6 +1,6 @@
 //! Before there is a path: the range of ρ, and whether the tool fits.
 
-use turnpath_core::interference::{Conflict, Interference};
+use turnpath_core::interference::{Conflict, Extreme, Interference};
 use turnpath_core::{Compensator, Misfit, Overrun, Task, Tool, ToolLocus};
 use turnpath_verify::{FirstTouch, Subject};
 
@@ -20,8 +20,10 @@ pub struct Preparation {
     pub overrun: Overrun,
     /// Surface, compensator and tool together.
     pub locus: ToolLocus,
-    /// What the part requires of a tool.
+    /// What the part requires of a tool, with its overrun.
     pub interference: Interference,
+    /// The largest curvature of a radial section of the part itself, without its overrun, 1/mm.
+    pub curvature_on_part: Extreme,
     /// Finds true tool positions.
     pub touch: FirstTouch,
 }
@@ -73,6 +75,7 @@ fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
         overrun,
         locus,
         interference,
+        curvature_on_part: on_part.curvature,
         touch,
     })
 }

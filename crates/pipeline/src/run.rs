@@ -81,6 +81,9 @@ impl<'a> ReadyPath<'a> {
         observer.begin(Stage::Law, 0);
         let mut plan = schedule::plan(chain, preparation, observer)?;
         plan.time_steps = options.time_steps;
+        if options.refine {
+            plan.hold_nodes();
+        }
         let nodes = nodes_per_revolution(&plan)?;
         let estimate = Estimate::of(&plan, nodes)?;
         sink.expect(&estimate).map_err(RunError::Sink)?;

@@ -68,11 +68,11 @@ pub mod prelude {
         AxisLimits, CentreBuffers, CentreSeries, Centres, Compensator, Conicoid, Continuation, Cut,
         DEG, DataFile, Dependence, Direction, Dual, FeedPiece, FeedPlan, FeedStrategy,
         GradientSeries, Gradients, LARGEST_OFFSET, Lanes, Locus, Machine, Mask, Misfit, NM,
-        NamedConstant, NodeList, NodeOffset, Nodes, Pace, Param, ParamInfo, Params, Part, Path,
-        Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler,
-        SamplerPlan, Scalar, Series, Setup, SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw,
-        Strategy, StrategyError, Surface, SurfaceData, SurfaceGap, SurfaceModel, Task, Taylor,
-        Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
+        NamedConstant, NodeList, NodeOffset, Nodes, ORDER, Pace, Param, ParamInfo, Params, Part,
+        Path, Piece, PiecewisePolynomial, Radial, RadialRange, Rates, Result, Revolutions, Sampler,
+        SamplerPlan, Scalar, Series, SeriesOrders, Setup, SpindleAsk, SpindleLaw, SpindleStrategy,
+        SpiralLaw, Strategy, StrategyError, Surface, SurfaceData, SurfaceGap, SurfaceModel, Task,
+        Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
     };
 }
 

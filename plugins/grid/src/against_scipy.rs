@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 use turnpath_maps::Map;
-use turnpath_plugin::prelude::{Gradients, Series, SurfaceModel};
+use turnpath_plugin::prelude::{Gradients, ORDER, Series, SurfaceModel};
 
 use crate::sheet::Sheet;
 use crate::spline::Spline;
@@ -117,8 +117,15 @@ fn series_along_curves_are_those_of_50_digits() {
         };
         for curve in curves {
             let (x, y) = (of(curve, "x"), of(curve, "y"));
-            let [z, zx, zy] = spline.series(&x, &y);
-            assert_eq!(spline.height_series(&x, &y), z);
+            let [z, zx, zy] = spline.series::<ORDER>(&x, &y);
+            assert_eq!(spline.height_series::<ORDER>(&x, &y), z);
+            let low = [spline.series::<1>(&x, &y), spline.series::<2>(&x, &y)];
+            for (to, low) in (1..).zip(low) {
+                for (low, all) in low.iter().zip([z, zx, zy]) {
+                    assert_eq!(low[..=to], all[..=to]);
+                }
+            }
+            assert_eq!(spline.height_series::<2>(&x, &y)[..3], z[..3]);
             for (key, found) in [("z", z), ("zx", zx), ("zy", zy)] {
                 for (order, wanted) in of(curve, key).into_iter().enumerate() {
                     let far = (found[order] - wanted).abs() / size(key, order);

@@ -234,18 +234,47 @@ impl SurfaceModel for GridSag {
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
+        self.series_to(SeriesOrders::ALL, x, y, out)
+    }
+
+    fn series_to(
+        &self,
+        orders: SeriesOrders,
+        x: &[Series],
+        y: &[Series],
+        out: GradientSeries<'_>,
+    ) -> Result<()> {
         let GradientSeries { z, zx, zy } = out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
+        let series = match orders.heights.max(orders.slopes) {
+            0 | 1 => Spline::series::<1>,
+            2 => Spline::series::<2>,
+            _ => Spline::series::<ORDER>,
+        };
         for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
-            [*z, *zx, *zy] = self.spline.series(x, y);
+            [*z, *zx, *zy] = series(&self.spline, x, y);
         }
         Ok(())
     }
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
+        self.height_series_to(ORDER, x, y, z)
+    }
+
+    fn height_series_to(
+        &self,
+        order: usize,
+        x: &[Series],
+        y: &[Series],
+        z: &mut [Series],
+    ) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
+        let series = match order {
+            0..=2 => Spline::height_series::<2>,
+            _ => Spline::height_series::<ORDER>,
+        };
         for ((z, x), y) in z.iter_mut().zip(x).zip(y) {
-            *z = self.spline.height_series(x, y);
+            *z = series(&self.spline, x, y);
         }
         Ok(())
     }

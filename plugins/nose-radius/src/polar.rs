@@ -68,9 +68,10 @@ impl TurningRay {
         ((rho * self.cos).0, (rho * self.sin).0)
     }
 
-    /// The component of a gradient along the ray: g_ρ(t).
-    pub fn along(&self, zx: Series, zy: Series) -> Taylor<f64> {
-        Taylor(zx) * self.cos + Taylor(zy) * self.sin
+    /// The component of a gradient along the ray: the first `N` coefficients of g_ρ(t).
+    pub fn along<const N: usize>(&self, zx: Series, zy: Series) -> Taylor<f64, N> {
+        let [zx, zy, cos, sin] = [zx, zy, self.cos.0, self.sin.0].map(Taylor::from_series);
+        zx * cos + zy * sin
     }
 }
 
@@ -120,5 +121,12 @@ impl Evaluation<Series> {
         self.resize([f64::NAN; 5]);
         let (z, zx, zy) = (&mut self.z, &mut self.zx, &mut self.zy);
         surface.series(&self.x, &self.y, GradientSeries { z, zx, zy })
+    }
+
+    /// Evaluates height and slopes along the curves, through these orders.
+    pub fn series_to(&mut self, orders: SeriesOrders, surface: &dyn SurfaceModel) -> Result<()> {
+        self.resize([f64::NAN; 5]);
+        let (z, zx, zy) = (&mut self.z, &mut self.zx, &mut self.zy);
+        surface.series_to(orders, &self.x, &self.y, GradientSeries { z, zx, zy })
     }
 }

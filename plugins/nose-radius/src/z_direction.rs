@@ -10,6 +10,17 @@ use crate::touch::{Touch, rise};
 /// highest point, except where the section osculates the nose: there the foot moves without bound.
 const LEAST_STEEPNESS: f64 = 1e-6;
 
+/// What the motion of the foot takes: how the slopes change.
+const OF_FOOT: SeriesOrders = SeriesOrders {
+    heights: 1,
+    slopes: 1,
+};
+/// What the height takes, with the foot's motion known to order 1.
+const OF_HEIGHT: SeriesOrders = SeriesOrders {
+    heights: ORDER,
+    slopes: 2,
+};
+
 /// X = ρ; Z = max over ρ′ of g(θ, ρ′) + sqrt(R² − (ρ − ρ′)²), ρ′ within the edge's reach.
 ///
 /// X does not follow the surface, so the X axis moves as smoothly as the feed. Where Rκ < 1 over
@@ -121,17 +132,17 @@ fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>)
 fn heights(cut: Cut<'_>, descents: &mut [Descent], points: &mut Evaluation<Series>) -> Result<()> {
     let radius = cut.tool.nose_radius;
     points.set(descents.iter().map(Descent::section));
-    points.series(cut.surface)?;
+    points.series_to(OF_FOOT, cut.surface)?;
     for (i, descent) in descents.iter_mut().enumerate() {
         descent.learn_steepness(radius, points.zx[i][1], points.zy[i][1]);
     }
     points.set(descents.iter().map(Descent::curve));
-    points.series(cut.surface)?;
+    points.series_to(OF_FOOT, cut.surface)?;
     for (i, descent) in descents.iter_mut().enumerate() {
         descent.move_foot(radius, points.zx[i], points.zy[i]);
     }
     points.set(descents.iter().map(Descent::curve));
-    points.series(cut.surface)?;
+    points.series_to(OF_HEIGHT, cut.surface)?;
     for (i, descent) in descents.iter_mut().enumerate() {
         descent.learn_height(radius, points.z[i], points.zx[i], points.zy[i]);
     }
@@ -185,19 +196,20 @@ impl Descent {
         }
     }
 
-    /// F(t) = g_ρ − d/sqrt(R² − d²) at the foot, to the order that is known so far.
-    fn tilt(&self, radius: f64, zx: Series, zy: Series) -> Taylor<f64> {
-        self.ray.along(zx, zy) - self.offset / rise(radius, self.offset)
+    /// F(t) = g_ρ − d/sqrt(R² − d²) at the foot, in its first `N` coefficients.
+    fn tilt<const N: usize>(&self, radius: f64, zx: Series, zy: Series) -> Taylor<f64, N> {
+        let offset = Taylor::from_series(self.offset.0);
+        self.ray.along(zx, zy) - offset / rise(radius, offset)
     }
 
     /// Gives the foot its speed: F₁ = 0.
     fn move_foot(&mut self, radius: f64, zx: Series, zy: Series) {
-        self.offset.0[1] = -self.tilt(radius, zx, zy).0[1] / self.steepness;
+        self.offset.0[1] = -self.tilt::<2>(radius, zx, zy).0[1] / self.steepness;
     }
 
     /// The height at the foot, and what Z still lacks in the fourth order.
     fn learn_height(&mut self, radius: f64, z: Series, zx: Series, zy: Series) {
-        let rest = self.tilt(radius, zx, zy).0[2];
+        let rest = self.tilt::<3>(radius, zx, zy).0[2];
         self.height = Taylor(z) + rise(radius, self.offset);
         self.height.0[4] -= 0.5 * rest * rest / self.steepness;
     }

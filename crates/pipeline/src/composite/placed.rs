@@ -4,8 +4,8 @@ use std::array::from_fn;
 use std::sync::Arc;
 
 use turnpath_core::{
-    GradientSeries, Gradients, ORDER, Placement, Result, Scalar, Series, SurfaceData, SurfaceGap,
-    SurfaceModel,
+    GradientSeries, Gradients, ORDER, Placement, Result, Scalar, Series, SeriesOrders, SurfaceData,
+    SurfaceGap, SurfaceModel,
 };
 
 use super::rooms::{CURVES, POINTS, ranges, same_lengths};
@@ -113,6 +113,16 @@ impl SurfaceModel for PlacedSurface {
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
+        self.series_to(SeriesOrders::ALL, x, y, out)
+    }
+
+    fn series_to(
+        &self,
+        orders: SeriesOrders,
+        x: &[Series],
+        y: &[Series],
+        out: GradientSeries<'_>,
+    ) -> Result<()> {
         let GradientSeries { z, zx, zy } = out;
         same_lengths(x.len(), [y.len(), z.len(), zx.len(), zy.len()])?;
         let mut own = [[[0.0; ORDER + 1]; CURVES]; 2];
@@ -127,7 +137,7 @@ impl SurfaceModel for PlacedSurface {
                 zy: &mut *zy,
             };
             self.surface
-                .series(&own[0][..count], &own[1][..count], answer)?;
+                .series_to(orders, &own[0][..count], &own[1][..count], answer)?;
             self.lift(z);
             for (zx, zy) in zx.iter_mut().zip(zy) {
                 for (zx, zy) in zx.iter_mut().zip(zy) {
@@ -139,13 +149,23 @@ impl SurfaceModel for PlacedSurface {
     }
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
+        self.height_series_to(ORDER, x, y, z)
+    }
+
+    fn height_series_to(
+        &self,
+        order: usize,
+        x: &[Series],
+        y: &[Series],
+        z: &mut [Series],
+    ) -> Result<()> {
         same_lengths(x.len(), [y.len(), z.len()])?;
         let mut own = [[[0.0; ORDER + 1]; CURVES]; 2];
         for range in ranges(x.len(), CURVES) {
             let (z, count) = (&mut z[range.clone()], range.len());
             self.own_curves(&x[range.clone()], &y[range], &mut own);
             self.surface
-                .height_series(&own[0][..count], &own[1][..count], z)?;
+                .height_series_to(order, &own[0][..count], &own[1][..count], z)?;
             self.lift(z);
         }
         Ok(())

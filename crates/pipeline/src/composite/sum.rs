@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use turnpath_core::{
-    GradientSeries, Gradients, ORDER, Result, Series, SurfaceData, SurfaceGap, SurfaceModel,
+    GradientSeries, Gradients, ORDER, Result, Series, SeriesOrders, SurfaceData, SurfaceGap,
+    SurfaceModel,
 };
 
 use super::rooms::{CURVES, POINTS, ranges, same_lengths};
@@ -77,6 +78,16 @@ impl SurfaceModel for SurfaceSum {
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
+        self.series_to(SeriesOrders::ALL, x, y, out)
+    }
+
+    fn series_to(
+        &self,
+        orders: SeriesOrders,
+        x: &[Series],
+        y: &[Series],
+        out: GradientSeries<'_>,
+    ) -> Result<()> {
         let GradientSeries { z, zx, zy } = out;
         same_lengths(x.len(), [y.len(), z.len(), zx.len(), zy.len()])?;
         let mut more = [[[0.0; ORDER + 1]; CURVES]; 3];
@@ -95,7 +106,7 @@ impl SurfaceModel for SurfaceSum {
                     zx: &mut more_zx[..count],
                     zy: &mut more_zy[..count],
                 };
-                surface.series(x, y, answer)?;
+                surface.series_to(orders, x, y, answer)?;
                 add_series(z, more_z);
                 add_series(zx, more_zx);
                 add_series(zy, more_zy);
@@ -105,6 +116,16 @@ impl SurfaceModel for SurfaceSum {
     }
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
+        self.height_series_to(ORDER, x, y, z)
+    }
+
+    fn height_series_to(
+        &self,
+        order: usize,
+        x: &[Series],
+        y: &[Series],
+        z: &mut [Series],
+    ) -> Result<()> {
         same_lengths(x.len(), [y.len(), z.len()])?;
         let mut more = [[0.0; ORDER + 1]; CURVES];
         for range in ranges(x.len(), CURVES) {
@@ -112,7 +133,7 @@ impl SurfaceModel for SurfaceSum {
             let (z, more) = (&mut z[range.clone()], &mut more[..range.len()]);
             z.fill([0.0; ORDER + 1]);
             for surface in &self.surfaces {
-                surface.height_series(x, y, more)?;
+                surface.height_series_to(order, x, y, more)?;
                 add_series(z, more);
             }
         }

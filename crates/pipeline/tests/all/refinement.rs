@@ -1,10 +1,12 @@
 //! Refinement: the tolerance holds for every solver, or the outcome shows that it does not.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use crate::common::solvers::{Area, Exact, Halting, Resting, Spline};
-use crate::common::{Counting, K, RESIDUAL, RIM, Task, even, feed_of, inward, straight};
-use turnpath_core::{Centres, Compensator, Cut, FeedPiece, Radial, Result, Scalar, VelocitySolver};
+use crate::common::{Counting, K, Nodes, RESIDUAL, RIM, Task, even, feed_of, inward, straight};
+use turnpath_core::{
+    Centres, Compensator, Cut, FeedPiece, Path, Radial, Result, Revolutions, Scalar, VelocitySolver,
+};
 use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
 
 fn refined(velocity: Arc<dyn VelocitySolver>, interpolation: f64) -> Task {
@@ -48,6 +50,25 @@ fn only_segments_beyond_the_tolerance_are_refined() {
     assert!(step(path.len() - 2) > 1.9 * step(0));
     let (_, finer) = refined(Arc::new(Exact), 1e-6).path();
     assert!(finer.control_points > outcome.control_points);
+}
+
+/// Besides the single turns that show how dense the nodes are.
+#[test]
+fn the_sampler_is_asked_once_for_each_block_however_many_passes_there_are() {
+    let asked = Arc::new(Mutex::new(Vec::new()));
+    let calls = asked.clone();
+    let task = Task {
+        sampler: Arc::new(Nodes(move |_: &Path<'_>, block: Revolutions| {
+            calls.lock().unwrap().push([block.start, block.end]);
+            block.turns().flat_map(|turn| turn.subdivide(8.0)).collect()
+        })),
+        ..refined(Arc::new(Exact), 2e-6)
+    };
+    assert!(task.path().1.added_by_refine > 0);
+    let mut blocks = asked.lock().unwrap().clone();
+    blocks.retain(|[start, end]| end - start > 1.0);
+    blocks.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    assert_eq!(blocks, [[0.0, 64.0], [64.0, 128.0], [128.0, 150.0]]);
 }
 
 #[test]

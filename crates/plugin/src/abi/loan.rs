@@ -88,6 +88,7 @@ crossing! {
     ['a, T: 'static] RSliceMut<'a, T> => &'w mut [T], RSliceMut<'a, T>: |slice| slice,
         |slice| slice.as_mut_slice();
     [] f64 => f64, f64: |number| number, |number| *number;
+    [] usize => usize, usize: |number| number, |number| *number;
 }
 
 /// Declares the form of a struct of the core, field by field, and lets both forms cross.

@@ -1,9 +1,10 @@
 //! Surface models: from a plugin to the host, and lent by the host to other strategies.
 
+use abi_stable::StableAbi;
 use abi_stable::sabi_trait::TD_Opaque;
 use abi_stable::sabi_types::RRef;
 use turnpath_core::{
-    GradientSeries, Gradients, Result, Series, SurfaceData, SurfaceGap, SurfaceModel,
+    GradientSeries, Gradients, Result, Series, SeriesOrders, SurfaceData, SurfaceGap, SurfaceModel,
 };
 
 use super::declaration::prelude::*;
@@ -29,8 +30,34 @@ declare! {
             = { distance.into_mut_slice().fill(0.0); Ok(()) };
         fn data(&self) -> Result<Option<SurfaceData>> = Ok(None);
         fn gap(&self, x: f64, y: f64) -> Result<Option<SurfaceGap>> = Ok(None);
+        fn series_to(
+            &self,
+            orders: SeriesOrders,
+            x: &[Series],
+            y: &[Series],
+            out: GradientSeries<'_>
+        ) -> Result<()> = result(self.series(x, y, out));
+        fn height_series_to(&self, order: usize, x: &[Series], y: &[Series], z: &mut [Series])
+            -> Result<()> = result(self.height_series(x, y, z));
     }
     owned by OwnedSurface
+}
+
+/// The orders of heights and of slopes.
+#[repr(C)]
+#[derive(Clone, Copy, StableAbi)]
+pub struct AbiSeriesOrders {
+    heights: usize,
+    slopes: usize,
+}
+
+crossing! {
+    [] SeriesOrders => AbiSeriesOrders, AbiSeriesOrders:
+        |orders| AbiSeriesOrders { heights: orders.heights, slopes: orders.slopes },
+        |orders| *orders;
+    [] AbiSeriesOrders => SeriesOrders, SeriesOrders:
+        |orders| SeriesOrders { heights: orders.heights, slopes: orders.slopes },
+        |orders| *orders;
 }
 
 /// The data of a surface cross as text; a formula has none.

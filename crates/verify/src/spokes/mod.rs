@@ -65,13 +65,18 @@ pub(crate) struct SegmentErrors<'a> {
 }
 
 impl SegmentErrors<'_> {
+    /// Whether C follows a straight line.
+    fn is_straight(&self) -> bool {
+        let [_, rise, square, cube] = self.segment.c.0;
+        square.abs() + cube.abs() <= STRAIGHT * rise.abs()
+    }
+
     /// The place between the instants, counted in instants, where C is `c`.
-    fn place(&self, c: f64) -> f64 {
+    fn place(&self, c: f64, is_straight: bool) -> f64 {
         let [start, end] = self.ends;
         let mut s = (c - start) / (end - start);
-        let played = &self.segment.c;
-        let [_, rise, square, cube] = played.0;
-        if square.abs() + cube.abs() > STRAIGHT * rise.abs() {
+        if !is_straight {
+            let played = &self.segment.c;
             for _ in 0..NEWTON_STEPS {
                 s -= (played.value(s) - c) / played.slope(s);
             }
@@ -105,16 +110,25 @@ impl BlockSpokes {
         if !from.is_finite() || !to.is_finite() {
             return;
         }
-        for cell in from as i64..to as i64 {
-            let place = found.place(cell as f64 / per_radian);
-            let nearest = (place as usize).min(INSTANTS - 1);
-            let foot = found.touches[nearest].foot;
+        let (mut cell, end, is_straight) = (from as i64, to as i64, found.is_straight());
+        let on_part = |cell: i64| {
+            let place = found.place(cell as f64 / per_radian, is_straight);
+            let foot = found.touches[(place as usize).min(INSTANTS - 1)].foot;
             let error = found.error_at(place);
             let counts = (part.inner_radius..=part.aperture_radius).contains(&foot);
-            if counts && error.is_finite() {
-                let angle = cell.rem_euclid(ANGLES as i64) as usize;
-                let turn = cell.div_euclid(ANGLES as i64);
-                self.turn(turn).include(angle, error, foot);
+            (counts && error.is_finite()).then_some((error, foot))
+        };
+        while cell < end {
+            let number = cell.div_euclid(ANGLES as i64);
+            let cells = cell..end.min((number + 1) * ANGLES as i64);
+            cell = cells.end;
+            if let Some(first) = cells.clone().find(|cell| on_part(*cell).is_some()) {
+                let turn = self.turn(number);
+                for cell in first..cells.end {
+                    if let Some((error, foot)) = on_part(cell) {
+                        turn.include(cell.rem_euclid(ANGLES as i64) as usize, error, foot);
+                    }
+                }
             }
         }
     }
