@@ -24,7 +24,6 @@ impl Piece {
         shifted
     }
 
-    /// The value and the derivatives up to the 4th at `n`, each divided by its factorial.
     /// The slope: what [`Self::shifted`] gives for it, without the coefficients above.
     fn rate(&self, n: f64) -> f64 {
         let s = n - self.start;
@@ -37,6 +36,7 @@ impl Piece {
         shifted[1]
     }
 
+    /// The value and the derivatives up to the 4th at `n`, each divided by its factorial.
     fn series(&self, n: f64) -> Series {
         let [value, rate, second, third, fourth, _] = self.shifted(n);
         [value, rate, second, third, fourth]

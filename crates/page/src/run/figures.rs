@@ -62,7 +62,8 @@ fn error_figures() -> String {
             "",
             "Angular spectrum",
             "The amplitude of each harmonic of the error as played, averaged over 64 turns, at its \
-             largest. What stands out above 3 periods a turn are spokes.",
+             largest. What stands out from 3 periods a turn on are spokes. Spiral arms, which turn from \
+             turn to turn, leave little here: the verdict names the largest.",
         ),
         figure(
             "profile",

@@ -122,6 +122,11 @@ fn facts(report: &RunReport) -> String {
             format!("{amplitude}, {} a turn", spokes.per_turn),
         ));
     }
+    if let Some(arms) = &path.arms {
+        let (amplitude, pitch) = (small_length(arms.amplitude), number(arms.pitch));
+        let apart = format!("{amplitude}, {} arms, {pitch} mm apart", arms.per_turn);
+        facts.push(("largest spiral arms", apart));
+    }
     if let Some(highest) = &path.highest_spindle {
         let speed = number(highest.speed * unit::rpm::PER);
         facts.push(("highest spindle speed", format!("{speed} rpm")));
