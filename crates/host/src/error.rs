@@ -259,6 +259,7 @@ impl From<OpenError> for Refusal {
         let ours = BOUNDARY_VERSION;
         match error {
             OpenError::NotAPlugin => Self::NotAPlugin,
+            OpenError::Damaged => Self::Damaged("its description of itself cannot be read"),
             OpenError::Version(found) => Self::OtherVersion { found, ours },
             OpenError::Layout(details) => Self::Layout { ours, details },
             OpenError::UnknownKind(unknown) => Self::UnknownKind(unknown),

@@ -92,6 +92,8 @@ impl EntryHead {
 pub enum OpenError {
     /// The symbol does not point to a plugin entry.
     NotAPlugin,
+    /// The library's description of itself contradicts itself: it cannot be read to its end.
+    Damaged,
     /// The plugin was built against another version of the boundary.
     Version(BoundaryVersion),
     /// The version is the same, but the layout is not: the compiler target differs, or the boundary

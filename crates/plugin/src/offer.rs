@@ -12,6 +12,7 @@ use crate::abi::entry;
 use crate::abi::request::AbiRequest;
 use crate::abi::root::{self, Constructed, RootRef};
 use crate::calls::Callee;
+use crate::guard::guarded;
 use crate::head::OpenError;
 use crate::maker::Maker;
 
@@ -165,7 +166,11 @@ pub fn linked() -> Vec<Offer> {
 /// in a library that stays loaded for the rest of the program.
 #[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
 pub unsafe fn open(entry: *const u8) -> std::result::Result<Vec<Offer>, OpenError> {
-    // SAFETY: the caller makes the same promise.
-    let (root, entries) = unsafe { entry::open(entry) }?;
-    Ok(offers(root, entries))
+    let opened = || {
+        // SAFETY: the caller makes the same promise.
+        let opened = unsafe { entry::open(entry) };
+        Ok(opened.map(|(root, entries)| offers(root, entries)))
+    };
+    // The comparison of layouts panics where a description refers to what is not in it.
+    guarded(opened).unwrap_or(Err(OpenError::Damaged))
 }
