@@ -62,7 +62,7 @@ pub fn run_of_ablation(
     }
 }
 
-/// Why a run is not done whose process has ended: who knows.
+/// The reason in the record of a run that was begun: it stays where the process ends before the run does.
 fn lost(recipe: &Recipe, catalogue: &Catalogue) -> String {
     let used = plugins::used(recipe, catalogue);
     let foreign = used
@@ -71,7 +71,7 @@ fn lost(recipe: &Recipe, catalogue: &Catalogue) -> String {
     let foreign: Vec<String> = foreign.map(|plugin| plugin.to_string()).collect();
     let by_plugin = match foreign.is_empty() {
         true => String::new(),
-        false => format!(", or a plugin ended it: {}", foreign.join(", ")),
+        false => format!(". A plugin may have ended it: {}", foreign.join(", ")),
     };
-    format!("begun and not ended: its process works still, or was killed{by_plugin}")
+    format!("it was begun and has not ended: its process is still at work, or was killed{by_plugin}")
 }

@@ -1,8 +1,9 @@
 //! Spiral arms: the error that comes back a little further on, turn after turn.
 //!
-//! A pattern of k periods a turn that turns by the same angle from turn to turn stands on the part as k
-//! arms. Over the turns of a window its harmonic F_k runs through a circle at an even rate, so the
-//! Fourier transform of F_k over the turns finds it. Spokes are the arms that do not turn at all.
+//! A pattern has k periods on a turn, and lies a little further round on each next turn. On the part it
+//! stands as k spiral arms. Its harmonic F_k then turns evenly in the complex plane from turn to turn. So
+//! a Fourier transform of F_k over the turns of a window finds it. A pattern that lies at the same angles
+//! on all turns is spokes.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
