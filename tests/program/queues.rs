@@ -163,7 +163,10 @@ fn a_run_whose_worker_is_killed_is_not_done_and_is_made_again() {
     assert_eq!(said["runs"][0]["state"], "begun", "{said}");
     let merge = ["ablate", "recipe.toml", "-o", "out", "--merge"];
     let merged = bench.call(merge.iter().chain(&finer)).ends(1);
-    assert!(merged.stdout.contains("it was begun and has not ended"), "{merged}");
+    assert!(
+        merged.stdout.contains("it was begun and has not ended"),
+        "{merged}"
+    );
     bench.call(call.iter().chain(&finer)).ends(0);
     let said = bench.call(plan_again.iter().chain(&finer)).ends(0).json();
     assert_eq!(said["runs"][0]["state"], "done", "{said}");

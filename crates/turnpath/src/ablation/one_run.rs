@@ -73,5 +73,7 @@ fn lost(recipe: &Recipe, catalogue: &Catalogue) -> String {
         true => String::new(),
         false => format!(". A plugin may have ended it: {}", foreign.join(", ")),
     };
-    format!("it was begun and has not ended: its process is still at work, or was killed{by_plugin}")
+    format!(
+        "it was begun and has not ended: its process is still at work, or was killed{by_plugin}"
+    )
 }
