@@ -54,6 +54,7 @@ impl Toric {
 }
 
 impl Surface for Toric {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         revolved(self.base_arc(y), x, self.curvature)
     }
