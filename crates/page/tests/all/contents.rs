@@ -197,3 +197,10 @@ fn each_limit_has_a_row_with_what_was_found() {
         assert!(page.contains(&row), "{name}");
     }
 }
+
+/// A reader of the page sees the whole chain, and what of it the recipe says.
+#[test]
+fn the_chain_has_the_parameters_of_the_recipe_and_the_defaults_of_the_rest() {
+    let page = run_page(&support::run_page());
+    assert!(page.contains("feed = &quot;10 um/rev&quot;<br>at_least = 50 (default)"));
+}
