@@ -175,6 +175,17 @@ fn a_run_that_failed_is_a_row_with_its_reason() {
 }
 
 #[test]
+fn a_run_without_a_record_is_told_with_its_reason() {
+    let mut report = support::ablation(3);
+    for run in &mut report.runs[1..] {
+        run.not_recorded = Some("its surface is < new".to_owned());
+    }
+    let page = ablation_page(&AblationPage { report });
+    let told = "<p>2 runs have no record, and are made each time: its surface is &lt; new</p>";
+    assert!(page.contains(told));
+}
+
+#[test]
 fn the_axes_of_each_file_stand_on_the_page_as_its_program_has_them() {
     let page = run_page(&support::run_page());
     assert!(page.contains("<td>a.pmc</td>"));
