@@ -47,6 +47,7 @@ impl Strategy for Toric {
 
 impl Toric {
     /// The height u of the base arc at y.
+    #[inline(always)]
     fn base_arc<S: Scalar>(&self, y: S) -> S {
         let slope = y * self.base_curvature;
         y * slope / (cosine(slope) + 1.0)
@@ -61,6 +62,7 @@ impl Surface for Toric {
 }
 
 /// sqrt(1 − sine²), without cancellation near 1.
+#[inline(always)]
 fn cosine<S: Scalar>(sine: S) -> S {
     ((-sine + 1.0) * (sine + 1.0)).sqrt()
 }
