@@ -5,6 +5,8 @@
 //! round, and a few angles in a million lie there; beyond [`LARGEST`] the reduction is another
 //! algorithm.
 
+use std::hint::black_box;
+
 use crate::registers::{Loop, in_widest};
 
 /// Angles that go through the kernel together.
@@ -96,6 +98,9 @@ pub(crate) fn of_lanes<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]
         is_exception |= reduced.is_exception;
         (sines[lane], cosines[lane]) = reduced.sin_cos(angles[lane]);
     }
+    // Both are made, also where the caller leaves one out: the compiler would unroll the shorter loop
+    // instead of putting its lanes side by side, which takes five times as long.
+    let (mut sines, mut cosines) = black_box((sines, cosines));
     if is_exception {
         for lane in 0..N {
             (sines[lane], cosines[lane]) = libm::sincos(angles[lane]);

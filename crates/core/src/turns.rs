@@ -23,10 +23,22 @@ pub fn within_turn(c: f64) -> f64 {
 
 /// Takes the whole turns off each angle, as [`within_turn`] does.
 pub fn within_turns(angles: &mut [f64]) {
-    let reducible = |c: &f64| (0.0..=LARGEST_ANGLE).contains(c);
-    match angles.iter().all(reducible) {
+    match in_widest(AreReducible(angles)) {
         true => in_widest(Turns(angles)),
         false => angles.iter_mut().for_each(|c| *c = within_turn(*c)),
+    }
+}
+
+/// The loop that finds out whether [`rest_of_turns`] holds for all angles.
+struct AreReducible<'a>(&'a [f64]);
+
+impl Loop for AreReducible<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        let angles = self.0.iter();
+        angles.fold(true, |all, c| all & (0.0 <= *c) & (*c <= LARGEST_ANGLE))
     }
 }
 

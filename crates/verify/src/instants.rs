@@ -58,10 +58,11 @@ impl InstantBatch {
         tally::INSTANTS.add(self.theta.len());
         touch.find_in(&self.theta, &self.x, &mut self.buffers)?;
         self.errors.resize(self.z.len(), 0.0);
-        let pairs = self.z.iter().zip(&self.buffers.touches.z);
-        for (error, (z, touch)) in self.errors.iter_mut().zip(pairs) {
-            *error = z - touch;
-        }
+        in_widest(Differences(
+            &self.z,
+            &self.buffers.touches.z,
+            &mut self.errors,
+        ));
         Ok(())
     }
 
@@ -114,20 +115,15 @@ impl Loop for AxisPlayback<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let (times, positions, velocities) = (self.times, self.positions, self.velocities);
-        let count = times.len().saturating_sub(1).min(BATCH);
+        let count = self.times.len().saturating_sub(1).min(BATCH);
+        let firsts = [self.times, self.positions, self.velocities].map(|column| &column[..count]);
+        let lasts = [self.times, self.positions, self.velocities].map(|column| &column[1..=count]);
         let [mut a, mut b, mut c, mut d] = [[0.0; BATCH]; 4];
-        let ends = positions
-            .windows(2)
-            .zip(times.windows(2))
-            .zip(velocities.windows(2));
-        for (i, ((position, time), velocity)) in ends.take(BATCH).enumerate() {
+        for i in 0..count {
+            let ([t0, p0, v0], [t1, p1, v1]) = (firsts.map(|f| f[i]), lasts.map(|l| l[i]));
             let cubic = match self.shape {
-                SegmentShape::Cubic => {
-                    let duration = time[1] - time[0];
-                    Cubic::hermite(position[0], velocity[0], position[1], velocity[1], duration)
-                }
-                SegmentShape::Linear => Cubic::straight(position[0], position[1]),
+                SegmentShape::Cubic => Cubic::hermite(p0, v0, p1, v1, t1 - t0),
+                SegmentShape::Linear => Cubic::straight(p0, p1),
             };
             [a[i], b[i], c[i], d[i]] = cubic.0;
         }
@@ -136,6 +132,21 @@ impl Loop for AxisPlayback<'_> {
             for (i, played) in played.iter_mut().enumerate().take(BATCH) {
                 *played = Cubic([a[i], b[i], c[i], d[i]]).value(s);
             }
+        }
+    }
+}
+
+/// The loop over played − true Z.
+struct Differences<'a>(&'a [f64], &'a [f64], &'a mut [f64]);
+
+impl Loop for Differences<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(played, touched, errors) = self;
+        for ((error, played), touched) in errors.iter_mut().zip(played).zip(touched) {
+            *error = played - touched;
         }
     }
 }

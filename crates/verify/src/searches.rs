@@ -35,7 +35,9 @@ type Column = [f64; WIDTH];
 /// is the contact alone.
 pub(crate) struct Searches {
     count: usize,
-    /// The number of each search's touch among those that are found.
+    /// Whether some searches have left, so that the others are not in their first places.
+    left_early: bool,
+    /// The number of each search's touch among those that are found, once some have left.
     owner: [usize; WIDTH],
     /// X of the nose.
     x: Column,
@@ -67,6 +69,7 @@ impl Default for Searches {
         let empty = [0.0; WIDTH];
         Self {
             count: 0,
+            left_early: false,
             owner: [0; WIDTH],
             x: empty,
             sine: empty,
@@ -95,10 +98,7 @@ impl Searches {
         sines_and_cosines(theta, &mut self.sine[..count], &mut self.cosine[..count]);
         self.x[..count].copy_from_slice(x);
         self.start[..count].copy_from_slice(x);
-        for (i, x) in x.iter().enumerate() {
-            (self.low[i], self.high[i]) = (x - reach, x + reach);
-        }
-        self.begin(count);
+        self.begin(count, Some(reach));
     }
 
     /// Begins a search in each bracket, at most [`WIDTH`] of them.
@@ -109,20 +109,13 @@ impl Searches {
             (self.low[i], self.high[i]) = (bracket.low, bracket.high);
             self.start[i] = bracket.start;
         }
-        self.begin(brackets.len());
+        self.begin(brackets.len(), None);
     }
 
-    fn begin(&mut self, count: usize) {
+    fn begin(&mut self, count: usize, reach: Option<f64>) {
         self.count = count;
-        self.at = self.start;
-        for i in 0..count {
-            self.owner[i] = i;
-            self.place[0][i] = self.at[i] * self.cosine[i];
-            self.place[1][i] = self.at[i] * self.sine[i];
-        }
-        for column in [&mut self.z, &mut self.foot, &mut self.slope] {
-            column.fill(f64::NAN);
-        }
+        self.left_early = false;
+        in_widest(Beginning(self, reach));
     }
 
     /// Closes in on the maximum in every bracket. The touches go to `found`, from number `first` on;
@@ -174,7 +167,15 @@ impl Searches {
 
     /// Writes down the touches so far.
     fn deliver(&self, found: &mut Touches, first: usize) {
-        for (i, owner) in self.owner[..self.count].iter().enumerate() {
+        let count = self.count;
+        if !self.left_early {
+            let places = first..first + count;
+            found.z[places.clone()].copy_from_slice(&self.z[..count]);
+            found.foot[places.clone()].copy_from_slice(&self.foot[..count]);
+            found.slope[places].copy_from_slice(&self.slope[..count]);
+            return;
+        }
+        for (i, owner) in self.owner[..count].iter().enumerate() {
             let touch = Touch {
                 z: self.z[i],
                 foot: self.foot[i],
@@ -191,7 +192,10 @@ impl Searches {
             if self.step[i].abs() <= tolerance {
                 continue;
             }
-            self.owner[kept] = self.owner[i];
+            self.owner[kept] = match self.left_early {
+                true => self.owner[i],
+                false => i,
+            };
             let [x, y] = &mut self.place;
             let own = [&mut self.x, &mut self.sine, &mut self.cosine, x, y];
             let bracket = [&mut self.start, &mut self.low, &mut self.high];
@@ -202,7 +206,32 @@ impl Searches {
             }
             kept += 1;
         }
-        self.count = kept;
+        (self.count, self.left_early) = (kept, true);
+    }
+}
+
+/// The loop over the beginnings of all searches: their brackets, where these are the whole reach of the
+/// tool, their first place, and no touch yet.
+struct Beginning<'a>(&'a mut Searches, Option<f64>);
+
+impl Loop for Beginning<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(all, reach) = self;
+        let count = all.count.min(WIDTH);
+        if let Some(reach) = reach {
+            for i in 0..count {
+                (all.low[i], all.high[i]) = (all.x[i] - reach, all.x[i] + reach);
+            }
+        }
+        for i in 0..count {
+            let at = all.start[i];
+            all.at[i] = at;
+            (all.place[0][i], all.place[1][i]) = (at * all.cosine[i], at * all.sine[i]);
+            (all.z[i], all.foot[i], all.slope[i]) = (f64::NAN, f64::NAN, f64::NAN);
+        }
     }
 }
 

@@ -133,14 +133,21 @@ impl FirstTouch {
         buffers: &mut TouchBuffers,
     ) -> Result<()> {
         FIRST_TOUCHES.add(x.len());
-        buffers.touches.clear_for(x.len());
+        buffers.touches.resize(x.len());
         if !self.subject.compensates_nose {
             self.on_surface(theta, x, &mut buffers.touches)
-        } else if x.iter().all(|x| x.abs() <= self.single_to) {
+        } else if self.has_single_maxima(x) {
             self.only_maxima(theta, x, buffers)
         } else {
             self.highest_maxima(theta, x, within, buffers)
         }
+    }
+
+    /// Whether the height has a single maximum at each X.
+    fn has_single_maxima(&self, x: &[f64]) -> bool {
+        // Without a way out of the loop it goes through vector registers.
+        x.iter()
+            .fold(true, |all, x| all & (x.abs() <= self.single_to))
     }
 
     /// The touches on the path of the contact: points of the surface itself.
@@ -178,12 +185,13 @@ impl FirstTouch {
         let within = |point: usize| self.narrowed(x[point], within(point));
         let maxima = scan::maxima(&mut profiles, tool, x, within)?;
         let mut tops = Touches::default();
-        tops.clear_for(maxima.len());
+        tops.resize(maxima.len());
         for (batch, maxima) in maxima.chunks(WIDTH).enumerate() {
             let searches = &mut buffers.searches;
             searches.begin_in_brackets(maxima, &profiles, x);
             searches.close_in(surface.as_ref(), tool.nose_radius, &mut tops, batch * WIDTH)?;
         }
+        buffers.touches.clear();
         for (maximum, top) in maxima.iter().zip(tops.iter()) {
             let highest = buffers.touches.z[maximum.point];
             if highest.is_nan() || top.z > highest {

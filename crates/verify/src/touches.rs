@@ -28,11 +28,17 @@ pub(crate) struct Touches {
 }
 
 impl Touches {
-    /// Makes room for so many touches, and forgets those that were found.
-    pub fn clear_for(&mut self, count: usize) {
+    /// Makes room for so many touches. What they are is open.
+    pub fn resize(&mut self, count: usize) {
         for column in [&mut self.z, &mut self.foot, &mut self.slope] {
-            column.clear();
             column.resize(count, f64::NAN);
+        }
+    }
+
+    /// Forgets all touches.
+    pub fn clear(&mut self) {
+        for column in [&mut self.z, &mut self.foot, &mut self.slope] {
+            column.fill(f64::NAN);
         }
     }
 

@@ -75,6 +75,7 @@ impl Strategy for Chebyshev {
 
 impl Chebyshev {
     /// The polynomials T_j(v) as far as the longest row needs them, which is at most `N`.
+    #[inline(always)]
     fn in_y<S: Scalar, const N: usize>(&self, v: S) -> [S; N] {
         let mut all = [S::constant(1.0); N];
         let (mut before, mut here) = (S::constant(1.0), v);
@@ -86,6 +87,7 @@ impl Chebyshev {
     }
 
     /// The sum, where no row has more than `N` terms.
+    #[inline(always)]
     fn sum<S: Scalar, const N: usize>(&self, u: S, v: S) -> S {
         let in_y = self.in_y::<S, N>(v);
         let mut total = S::constant(0.0);
@@ -107,6 +109,7 @@ impl Chebyshev {
 }
 
 impl Surface for Chebyshev {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (u, v) = (x / self.half_x, y / self.half_y);
         // Room for fewer polynomials is set faster, which counts for series.

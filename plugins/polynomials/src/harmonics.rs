@@ -63,6 +63,7 @@ impl Harmonics {
     }
 
     /// The sum at (x, y).
+    #[inline(always)]
     pub fn sum<S: Scalar>(&self, x: S, y: S, w: S) -> S {
         let mut total = S::constant(0.0);
         let mut turned = (S::constant(1.0), S::constant(0.0));

@@ -30,6 +30,7 @@ impl Family {
     }
 
     /// Σ c_k·p_k(w). The family must have as many polynomials as there are coefficients.
+    #[inline(always)]
     pub fn sum<S: Scalar>(&self, coefficients: &[f64], w: S) -> S {
         let mut sum = S::constant(0.0);
         self.visit(coefficients.len(), w, |k, p| {
@@ -39,6 +40,7 @@ impl Family {
     }
 
     /// The sums of two lists of coefficients.
+    #[inline(always)]
     pub fn sums<S: Scalar>(&self, first: &[f64], second: &[f64], w: S) -> (S, S) {
         let mut sums = (S::constant(0.0), S::constant(0.0));
         self.visit(first.len().max(second.len()), w, |k, p| {

@@ -25,6 +25,7 @@ impl Strategy for Astigmatic {
 }
 
 impl Surface for Astigmatic {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         x * y * self.twice_k
     }

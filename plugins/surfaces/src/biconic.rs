@@ -51,6 +51,7 @@ impl Strategy for Biconic {
 }
 
 impl Surface for Biconic {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (along_x, along_y) = (self.along_x, self.along_y);
         let (x, y) = (x.squared(), y.squared());

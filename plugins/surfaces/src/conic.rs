@@ -30,6 +30,7 @@ impl Strategy for Conic {
 }
 
 impl Surface for Conic {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         self.0.sag(x.squared() + y.squared())
     }

@@ -42,6 +42,7 @@ impl Strategy for EvenAsphere {
 }
 
 impl Surface for EvenAsphere {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();
         self.base.sag(square) + square * powers::sum(&self.terms, square)

@@ -71,6 +71,7 @@ impl Strategy for LensletArray {
 }
 
 impl Surface for LensletArray {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = match self.layout {
             Layout::Square => from_lattice(x, y, self.pitch, self.pitch),

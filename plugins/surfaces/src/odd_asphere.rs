@@ -51,6 +51,7 @@ impl Strategy for OddAsphere {
 }
 
 impl Surface for OddAsphere {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();
         let even = self.base.sag(square) + square * powers::sum(&self.even, square);

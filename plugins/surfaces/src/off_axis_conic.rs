@@ -69,6 +69,7 @@ impl Strategy for OffAxisConic {
 }
 
 impl Surface for OffAxisConic {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let b = -(x * self.shear) + self.lever;
         let q = x.squared() * self.along + y.squared();

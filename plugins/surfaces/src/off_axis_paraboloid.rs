@@ -55,6 +55,7 @@ impl Strategy for OffAxisParaboloid {
 }
 
 impl Surface for OffAxisParaboloid {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let b = x * self.sin_cos + self.slant_radius;
         let q = x.squared() * self.cos_squared + y.squared();

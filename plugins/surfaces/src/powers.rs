@@ -43,6 +43,7 @@ pub fn every_second(dense: &[f64], first: usize) -> Vec<f64> {
 }
 
 /// Σ c_k·sᵏ, by Horner's rule.
+#[inline(always)]
 pub fn sum<S: Scalar>(coefficients: &[f64], s: S) -> S {
     match coefficients {
         [] => S::constant(0.0),

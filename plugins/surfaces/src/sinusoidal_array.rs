@@ -85,6 +85,7 @@ impl Strategy for SinusoidalArray {
 }
 
 impl Surface for SinusoidalArray {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (along_x, along_y) = (x * self.wave_number_x, y * self.wave_number_y);
         match self.form {

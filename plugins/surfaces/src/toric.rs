@@ -47,6 +47,7 @@ impl Strategy for Toric {
 
 impl Toric {
     /// The height u of the base arc at y.
+    #[inline(always)]
     fn base_arc<S: Scalar>(&self, y: S) -> S {
         let slope = y * self.base_curvature;
         y * slope / (cosine(slope) + 1.0)
@@ -54,12 +55,14 @@ impl Toric {
 }
 
 impl Surface for Toric {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         revolved(self.base_arc(y), x, self.curvature)
     }
 }
 
 /// sqrt(1 − sine²), without cancellation near 1.
+#[inline(always)]
 fn cosine<S: Scalar>(sine: S) -> S {
     ((-sine + 1.0) * (sine + 1.0)).sqrt()
 }

@@ -63,6 +63,7 @@ impl Strategy for ToroidYz {
 }
 
 impl Surface for ToroidYz {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = y.squared();
         let u = self.section.sag(square) + square * powers::sum(&self.terms, square);

@@ -77,6 +77,7 @@ impl Strategy for XyPolynomial {
 }
 
 impl Surface for XyPolynomial {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (x, y) = (x * self.scale, y * self.scale);
         let mut rows = self.rows.iter().rev().map(Vec::as_slice);

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::common::{Ball, Groove, Plane, Trough, Waves, touch_of, touch_on, touches};
 use turnpath_core::{DEG, Scalar, Surface, Tool};
+use turnpath_verify::Touch;
 
 const STEPS: usize = 40;
 
@@ -154,5 +155,32 @@ fn far_beyond_the_part_a_single_maximum_is_not_taken_for_granted() {
     for (found, x) in touches(&touch, 0.0, &x).iter().zip(&x) {
         let exact = by_brute_force(&Shore, 0.5, 0.0, *x);
         assert!((found.z - exact).abs() < 1e-10, "X = {x}: {found:?}");
+    }
+}
+
+/// Searches go side by side, and those that end first leave. On the axis of a ball the first step ends
+/// a search; beyond the small ball there is no height.
+#[test]
+fn a_touch_in_a_batch_has_the_bits_of_the_touch_alone() {
+    let all = [
+        (touch_on(Ball { radius: 10.0 }, 8.0, 1.0, true), 8.0),
+        (touch_on(Ball { radius: 2.0 }, 1.9, 0.5, true), 2.4),
+        (touch_on(Ball { radius: -5.0 }, 4.9, 1.0, true), 4.9),
+        (touch_on(Plane { slope: 1.0 }, 5.0, 0.5, false), 5.0),
+    ];
+    for (touch, rim) in all {
+        let theta: Vec<f64> = (0..300).map(|i| 0.37 * f64::from(i)).collect();
+        let at = |i: usize| match i % 3 {
+            0 => rim * (i as f64 / 150.0 - 1.0),
+            _ => 0.0,
+        };
+        let x: Vec<f64> = (0..300).map(at).collect();
+        let (mut batch, mut alone) = (Vec::new(), Vec::new());
+        touch.find(&theta, &x, &mut batch).unwrap();
+        for (i, found) in batch.iter().enumerate() {
+            touch.find(&theta[i..=i], &x[i..=i], &mut alone).unwrap();
+            let bits = |touch: &Touch| [touch.z, touch.foot, touch.slope].map(f64::to_bits);
+            assert_eq!(bits(found), bits(&alone[0]), "X = {}", x[i]);
+        }
     }
 }

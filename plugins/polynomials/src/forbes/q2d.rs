@@ -76,6 +76,7 @@ impl Strategy for ForbesQ2d {
 }
 
 impl Surface for ForbesQ2d {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();
         let radius = self.normalization_radius;

@@ -45,6 +45,7 @@ impl Strategy for ForbesQbfs {
 }
 
 impl Surface for ForbesQbfs {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();
         let radius = self.normalization_radius;

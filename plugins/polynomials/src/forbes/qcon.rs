@@ -44,6 +44,7 @@ impl Strategy for ForbesQcon {
 }
 
 impl Surface for ForbesQcon {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();
         let radius = self.normalization_radius;

@@ -97,6 +97,7 @@ fn rms_norm(degree: i32, order: i32) -> f64 {
 }
 
 impl Surface for Zernike {
+    #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (x, y) = (x / self.normalization_radius, y / self.normalization_radius);
         let w = (x.squared() + y.squared()) * 2.0 - 1.0;
