@@ -41,7 +41,7 @@ pub struct Lines {
 }
 
 /// The text in the file at `path`.
-fn open_file(compression: Compression, path: &Path) -> io::Result<OpenFile> {
+pub(crate) fn open_file(compression: Compression, path: &Path) -> io::Result<OpenFile> {
     text_file::open(compression, ordinary_file::open(path)?)
 }
 
@@ -197,13 +197,6 @@ impl Layout {
     /// `path`.
     pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
         ProgramReader::new(reader, path.into(), self.post, &self.format)
-    }
-
-    /// Reads the lines of a path and what follows them, without what stands before them, as
-    /// [`ProgramPath::text`](crate::ProgramPath::text) has them. So the beginning of a loop over depths is
-    /// missing, and the loop is not checked.
-    pub fn read_path<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
-        self.read(reader, path).of_path_alone()
     }
 
     /// Reads a program of one or several files in memory. The first one is the main program. What its name
