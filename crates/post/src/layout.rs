@@ -40,6 +40,9 @@ pub struct Lines {
     pub extent: Option<Extent>,
 }
 
+/// Room for the lines of a point, bytes: most need less, and where more is needed the text grows.
+const BYTES_OF_POINT: usize = 96;
+
 /// The text in the file at `path`.
 pub(crate) fn open_file(compression: Compression, path: &Path) -> io::Result<OpenFile> {
     text_file::open(compression, ordinary_file::open(path)?)
@@ -53,7 +56,7 @@ impl Layout {
     /// When a program cannot carry the path.
     pub fn lines(&self, stretch: &SectionBlock<'_>) -> Result<Lines, ProgramError> {
         let Self { post, format } = self;
-        let mut text = Vec::new();
+        let mut text = Vec::with_capacity(BYTES_OF_POINT * stretch.points.len());
         let opening = format!("{} {}\n", post.comment, mark(stretch.section));
         let mut opening = stretch.opens_section.then_some(opening);
         // Lines between a lead-in and the cut belong to the lead-in: the cut begins at its first point.
