@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{CentreBuffers, Dependence, Locus, NodeList, Rates, Velocities, angle};
+use turnpath_core::{CentreBuffers, Dependence, NodeList, Rates, Velocities, angle};
 
 use crate::Result;
 use crate::columns::Columns;
@@ -197,10 +197,6 @@ fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
     let rho: Vec<f64> = n.iter().map(|n| plan.law.value(*n)).collect();
     let mut centres = CentreBuffers::default();
     centres.resize(n.len());
-    let locus = &plan.preparation.locus;
-    locus
-        .centre(&theta, &rho, centres.as_centres())
-        .map_err(|error| compensator.failed(context(), error))?;
     let blank = vec![f64::NAN; n.len()];
     let (mut x_theta, mut x_rho) = (blank.clone(), blank.clone());
     let (mut z_theta, mut z_x) = (blank.clone(), blank);
@@ -210,8 +206,9 @@ fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
         z_theta: &mut z_theta,
         z_x: &mut z_x,
     };
+    let locus = &plan.preparation.locus;
     locus
-        .rates(&theta, &rho, rates)
+        .centre_and_rates(&theta, &rho, centres.as_centres(), rates)
         .map_err(|error| compensator.failed(context(), error))?;
     let c_rate: Vec<f64> = n.iter().map(|n| plan.spindle.speed_at(*n)).collect();
     let x_rate = (0..n.len())
