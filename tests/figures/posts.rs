@@ -22,6 +22,7 @@ fn call(command: &str, recipe: &Path, rest: &[&str]) -> Output {
     call.arg(command).arg(recipe).args(rest);
     let posts = POST_NAMES.join("\", \"");
     call.args(["--set", &format!("output.posts=[\"{posts}\"]")]);
+    call.args(["--set", "output.nanotech-g93.f_means=1/min"]);
     // LinuxCNC of today on a fast machine: what it refuses is tested in tests/program.
     for word in ["lowest_rate=0mm/min", "servo_period=10us"] {
         call.args(["--set", &format!("output.linuxcnc-g93.{word}")]);

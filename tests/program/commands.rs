@@ -477,8 +477,7 @@ fn a_feed_beyond_the_axis_is_a_warning_of_its_own() {
 #[test]
 fn check_says_which_way_each_program_turns_the_part() {
     let bench = Bench::with(SADDLE);
-    let turned =
-        "--set output.posts=[\"pmac-pvt\",\"nanotech-g93\"] --set output.pmac-pvt.c_sign=-1";
+    let turned = "--set output.posts=[\"pmac-pvt\",\"nanotech-g93\"] --set output.pmac-pvt.c_sign=-1 --set output.nanotech-g93.f_means=s";
     let said = bench.line(&format!("check recipe.toml {turned}")).ends(0);
     let lines: Vec<&str> = said
         .stdout

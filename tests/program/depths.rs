@@ -14,7 +14,10 @@ const THREE: &str = "depths = 3\ndepth_step = \"2 um\"\n";
 
 fn saddle(table: &str) -> String {
     let recipe = changed(SADDLE, "lead = false", "lead = true");
-    format!("{recipe}\n[output]\nposts = [\"nanotech-g93\"]\n\n[output.nanotech-g93]\n{table}")
+    let means = "f_means = \"s\"";
+    format!(
+        "{recipe}\n[output]\nposts = [\"nanotech-g93\"]\n\n[output.nanotech-g93]\n{means}\n{table}"
+    )
 }
 
 /// The moves of a program: the place of Z's zero, and C, X and Z from there.

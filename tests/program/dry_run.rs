@@ -53,7 +53,7 @@ fn saddle(more: &str) -> String {
         "k = \"0.08 /mm\"",
         "k = \"0.08 /mm\"\n\n[part.pose]\nx = \"0.5 mm\"",
     );
-    let servo = "\n[output.linuxcnc-g93]\nservo_period = \"0.1 ms\"\n";
+    let servo = "\n[output.linuxcnc-g93]\nservo_period = \"0.1 ms\"\n\n[output.nanotech-g93]\nf_means = \"s\"\n";
     format!("{recipe}\n{posts}{servo}{more}")
 }
 

@@ -18,6 +18,7 @@ posts = ["pmac-pvt", "power-pmac-pvt", "automation1-pvt", "siemens-840d-poly", "
 const LINES: &str = r#"
 [output]
 posts = ["nanotech-g93", "linuxcnc-g93"]
+nanotech-g93.f_means = "1/min"
 
 [output.linuxcnc-g93]
 servo_period = "0.1 ms"

@@ -71,7 +71,7 @@ fn a_rough_path_leaves_straight_lines_their_share_of_its_own_tolerance() {
     let coarse = changed(SADDLE, "step = \"9 deg\"", "step = \"40 deg\"");
     let rough = "[passes.rough]\nallowance = \"30 um\"\ntolerance.interpolation = \"400 nm\"";
     let bench = Bench::with(&format!(
-        "{coarse}\n{rough}\n\n[output]\nposts = [\"nanotech-g93\"]\n"
+        "{coarse}\n{rough}\n\n[output]\nposts = [\"nanotech-g93\"]\nnanotech-g93.f_means = \"s\"\n"
     ));
     let report = bench
         .line("run recipe.toml -o out --format json")
@@ -97,4 +97,31 @@ fn a_rough_path_leaves_straight_lines_their_share_of_its_own_tolerance() {
         assert!((half..=tolerance).contains(&played), "{program}");
         assert!(program["straight_lines"]["per_segment"].as_f64() > Some(1.0));
     }
+}
+
+/// Nobody has a manual that says what F means on a Moore Nanotech, so no default stands for it.
+#[test]
+fn what_f_means_must_be_said() {
+    let asked = format!("{SADDLE}\n[output]\nposts = [\"nanotech-g93\"]\n");
+    let bench = Bench::with(&asked);
+    let said = bench.line("run recipe.toml -o out").ends(2);
+    let lacks = "the recipe lacks the table [output.nanotech-g93]";
+    assert!(said.stderr.contains(lacks), "{said}");
+    assert!(said.stderr.contains("f_means"), "{said}");
+    let said = bench
+        .line("check recipe.toml --set output.nanotech-g93.decimals=6")
+        .ends(2);
+    assert!(said.stderr.contains("lacks `f_means`"), "{said}");
+    let seconds = "--set output.nanotech-g93.f_means=s";
+    bench
+        .line(&format!("run recipe.toml -o out {seconds}"))
+        .ends(0);
+    bench.write("recipe.toml", SADDLE);
+    let said = bench
+        .line("verify recipe.toml out/recipe.nc -o again")
+        .ends(2);
+    let unread = "a program of `nanotech-g93` cannot be read without `f_means`";
+    assert!(said.stderr.contains(unread), "{said}");
+    let verify = format!("verify recipe.toml out/recipe.nc -o again {seconds}");
+    bench.line(&verify).ends(0);
 }

@@ -219,6 +219,7 @@ impl<T: Scalar> Scalar for Dual<T> {
         self.chain(self.value.ln(), self.value.recip())
     }
 
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         (self.chain(sin, cos), self.chain(cos, -sin))

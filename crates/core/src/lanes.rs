@@ -3,7 +3,11 @@
 use std::array::from_fn;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use crate::{Mask, Scalar};
+use crate::{Mask, Scalar, sine};
+
+/// So many lanes go through loops in wide registers. Fewer are those of series, which stay in base
+/// registers, where functions are faster one by one.
+const FULL: usize = 8;
 
 /// `N` numbers that go through a formula together.
 ///
@@ -114,8 +118,13 @@ impl<const N: usize> Scalar for Lanes<N> {
         self.map(Scalar::ln)
     }
 
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        self.map_pair(Scalar::sin_cos)
+        if N < FULL {
+            return self.map_pair(Scalar::sin_cos);
+        }
+        let (sines, cosines) = sine::of_lanes(&self.0);
+        (Self(sines), Self(cosines))
     }
 
     fn tan(self) -> Self {

@@ -5,10 +5,10 @@
 //! order change, and no two of them are fused. So the bytes are the same in all registers.
 //! `TURNPATH_LANES=base`, `avx2` or `avx512` in the environment asks for no wider ones than these.
 
-pub(crate) use pulp::NullaryFnOnce as Loop;
+pub use pulp::NullaryFnOnce as Loop;
 
 /// Runs a loop, whose `call` must be `#[inline(always)]`.
-pub(crate) fn in_widest<L: Loop>(one: L) -> L::Output {
+pub fn in_widest<L: Loop>(one: L) -> L::Output {
     #[cfg(target_arch = "x86_64")]
     return x86::in_widest(one);
     #[cfg(not(target_arch = "x86_64"))]
@@ -28,7 +28,7 @@ mod x86 {
 
     /// Registers by what pulp proves of the CPU.
     #[derive(Debug, Clone, Copy)]
-    pub(super) enum Registers {
+    pub(crate) enum Registers {
         /// 128 bits, which every CPU has.
         Base,
         /// 256 bits.
@@ -49,7 +49,7 @@ mod x86 {
     impl Registers {
         /// The widest registers of the CPU that are no wider than those that are asked for. A word that
         /// asks for none does not count.
-        pub(super) fn within(asked: &str) -> Self {
+        pub(crate) fn within(asked: &str) -> Self {
             let v3 = || V3::try_new().map(Self::Avx2);
             let v4 = || V4::try_new().map(Self::Avx512);
             let found = match asked {
@@ -60,13 +60,21 @@ mod x86 {
             found.unwrap_or(Self::Base)
         }
 
-        pub(super) fn run<L: Loop>(self, one: L) -> L::Output {
+        pub(crate) fn run<L: Loop>(self, one: L) -> L::Output {
             match self {
                 Self::Base => one.call(),
                 Self::Avx2(registers) => registers.vectorize(one),
                 Self::Avx512(registers) => registers.vectorize(one),
             }
         }
+    }
+}
+
+/// Calls a test once for each width of registers that the CPU has.
+#[cfg(all(test, target_arch = "x86_64"))]
+pub(crate) fn each_width(mut test: impl FnMut(x86::Registers)) {
+    for asked in ["base", "avx2", "avx512"] {
+        test(x86::Registers::within(asked));
     }
 }
 

@@ -138,6 +138,15 @@ impl PathBlock {
         (0..self.len()).filter_map(|index| self.get(index))
     }
 
+    /// The segment from the point at `index` to the next one, in the block's shape.
+    pub fn segment(&self, index: usize) -> Option<Segment> {
+        let (from, to) = (self.get(index)?, self.get(index + 1)?);
+        Some(match self.shape {
+            SegmentShape::Cubic => Segment::between(&from, &to),
+            SegmentShape::Linear => Segment::straight(&from, &to),
+        })
+    }
+
     /// The segments between neighbouring points, in the block's shape.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
         let between = match self.shape {
@@ -171,17 +180,20 @@ pub struct Cubic(pub [f64; 4]);
 
 impl Cubic {
     /// The cubic Hermite polynomial from (p0, v0) to (p1, v1) within `duration`.
+    #[inline(always)]
     pub fn hermite(p0: f64, v0: f64, p1: f64, v1: f64, duration: f64) -> Self {
         let (rise, m0, m1) = (p1 - p0, v0 * duration, v1 * duration);
         Self([p0, m0, 3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise])
     }
 
     /// The straight line from p0 to p1.
+    #[inline(always)]
     pub fn straight(p0: f64, p1: f64) -> Self {
         Self([p0, p1 - p0, 0.0, 0.0])
     }
 
     /// The value at `s`.
+    #[inline(always)]
     pub fn value(&self, s: f64) -> f64 {
         let [a, b, c, d] = self.0;
         a + s * (b + s * (c + s * d))

@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use crate::registers::{Loop, in_widest};
+
 /// θ after `n` revolutions. The function reduces `n` to one turn before it scales, so that large N
 /// keep their digits.
 pub fn angle(n: f64) -> f64 {
@@ -13,15 +15,43 @@ pub fn angle(n: f64) -> f64 {
 /// An angle without its whole turns, in 0 to 2π: the same double as `c.rem_euclid(TAU)`, without the
 /// division that takes longer the more turns there are.
 pub fn within_turn(c: f64) -> f64 {
-    if !(0.0..=LARGEST_ANGLE).contains(&c) {
-        return c.rem_euclid(TAU);
+    match (0.0..=LARGEST_ANGLE).contains(&c) {
+        true => rest_of_turns(c),
+        false => c.rem_euclid(TAU),
     }
+}
+
+/// Takes the whole turns off each angle, as [`within_turn`] does.
+pub fn within_turns(angles: &mut [f64]) {
+    let reducible = |c: &f64| (0.0..=LARGEST_ANGLE).contains(c);
+    match angles.iter().all(reducible) {
+        true => in_widest(Turns(angles)),
+        false => angles.iter_mut().for_each(|c| *c = within_turn(*c)),
+    }
+}
+
+/// The loop of [`within_turns`].
+struct Turns<'a>(&'a mut [f64]);
+
+impl Loop for Turns<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for c in self.0 {
+            *c = rest_of_turns(*c);
+        }
+    }
+}
+
+/// What whole turns leave of an angle of 0 to [`LARGEST_ANGLE`].
+#[inline(always)]
+fn rest_of_turns(c: f64) -> f64 {
     let rest = |turns: f64| (c - turns * TAU_HIGH) - turns * TAU_LOW;
-    // The quotient may be rounded up or down to the next whole number.
-    let turns = (c * TURNS_PER_RAD) as i64 as f64;
+    // The nearest whole number: the turns, or one more of them.
+    let turns = (c * TURNS_PER_RAD + TO_WHOLE) - TO_WHOLE;
     match rest(turns) {
         below if below < 0.0 => rest(turns - 1.0),
-        beyond if beyond >= TAU => rest(turns + 1.0),
         within => within,
     }
 }
@@ -30,6 +60,8 @@ pub fn within_turn(c: f64) -> f64 {
 /// leave of an angle: a multiple of 2⁻⁵⁰ below 8. It is more than the longest path turns.
 const LARGEST_ANGLE: f64 = 1e8;
 const TURNS_PER_RAD: f64 = 1.0 / TAU;
+/// Adding this rounds a number to a whole one.
+const TO_WHOLE: f64 = 1.5 / f64::EPSILON;
 /// The upper 26 bits of 2π.
 const TAU_HIGH: f64 = f64::from_bits(TAU.to_bits() >> 27 << 27);
 /// The lower 27 bits.
@@ -99,16 +131,30 @@ mod tests {
     /// Angles at and beside whole turns, and in between, up to beyond the largest.
     #[test]
     fn an_angle_within_a_turn_is_the_remainder_to_the_last_bit() {
-        let mut turns = 0.0_f64;
+        let (mut turns, mut angles) = (0.0_f64, Vec::new());
         while turns < 3e7 {
             for part in [0.0, 1e-9, 0.1, 0.25, 0.5, 0.79, 0.999_999_999] {
                 let c = TAU * (turns + part);
                 for c in [c.next_down().next_down(), c.next_down(), c, c.next_up(), -c] {
                     let (fast, exact) = (within_turn(c), c.rem_euclid(TAU));
                     assert_eq!(fast.to_bits(), exact.to_bits(), "{c:e}");
+                    angles.push(c);
                 }
             }
             turns = (turns * 1.003).floor() + 1.0;
+        }
+        // Batches with angles that are not reducible, and without.
+        let reducible: Vec<f64> = angles
+            .iter()
+            .copied()
+            .filter(|c| (0.0..1e8).contains(c))
+            .collect();
+        for angles in [angles, reducible] {
+            let mut reduced = angles.clone();
+            within_turns(&mut reduced);
+            for (c, reduced) in angles.iter().zip(reduced) {
+                assert_eq!(reduced.to_bits(), c.rem_euclid(TAU).to_bits(), "{c:e}");
+            }
         }
         assert!(within_turn(f64::NAN).is_nan() && within_turn(f64::INFINITY).is_nan());
     }

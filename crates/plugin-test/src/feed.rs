@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::{Continuation, Direction, Setup, SpiralLaw, Task};
+use turnpath_pipeline::CLOSED_WITHIN;
 
 use crate::chain::TrialChain;
 use crate::fault::FaultKind;
@@ -14,9 +15,6 @@ const ANGLES: usize = 72;
 /// The feed of a law that follows the angle differs within a turn by more than this part from what
 /// its neighbouring turns have at the same angle on average.
 const FOLLOWS: f64 = 0.05;
-/// How far inside of the range's end the outermost pass may lie, as a part of the distance to the next
-/// pass, so that the host leaves the end alone.
-const CLOSED: f64 = 0.41;
 
 /// Checks the feed of a chain.
 pub fn check(chain: &TrialChain) -> Vec<FaultKind> {
@@ -88,7 +86,7 @@ fn open_ends(law: &SpiralLaw, task: &Task) -> Vec<FaultKind> {
                 true => task.range.outer - rho,
                 false => rho - task.range.inner,
             };
-            (at(m), inside, CLOSED * (next - rho).abs())
+            (at(m), inside, CLOSED_WITHIN * (next - rho).abs())
         });
         let worst = passes.max_by(|one, other| (one.1 - one.2).total_cmp(&(other.1 - other.2)));
         let (n, inside, most) = worst.filter(|(_, inside, most)| inside > most)?;

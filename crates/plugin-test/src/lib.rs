@@ -12,15 +12,8 @@
 //! from the rim inward. The test fails with what is wrong and where, and prints what each strategy
 //! came to (`cargo test -- --nocapture` shows it where the test passes).
 //!
-//! | strategies | what is checked |
-//! |---|---|
-//! | all | parameters and constructor; whole paths as the host checks them: lengths, order, numbers, ranges; the same bits on one thread, on several, and by a strategy made anew; the tolerance as played after refinement |
-//! | surfaces | a height all over the part; batches of any length; slopes and series against differences |
-//! | feeds | a law that follows the angle closes by itself; [`Promise::Residual`] |
-//! | samplers | blocks in any order and on several threads; [`Promise::Tolerance`] |
-//! | compensators | no gouge and no gap at the first touch of the nose; ρ and the contact; series and rates against differences |
-//! | velocity solvers | exact on straight lines, and on cubics where the rates are said to be exact or [`Promise::ExactOnCubics`]; neighbours as declared |
-//! | spindles | the factors, and the machine's limits, where the strategy follows them |
+//! `docs/plugins.md`, "Check a strategy", says what is checked of the strategies of each slot. A
+//! [`Promise`] holds a strategy to more.
 //!
 //! A strategy whose parameters have no defaults gets values from a [`Trial`]:
 //!

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use turnpath_core::toolpath::{ControlPoint, SegmentShape};
-use turnpath_core::{ParamInfo, Params};
+use turnpath_core::{ParamDefault, ParamInfo, Params};
 
 use crate::comment::code_before_comment;
 use crate::digits::{DigitSegment, Digits};
@@ -50,6 +50,16 @@ pub struct Post {
     pub delivered_decimals: Option<u32>,
     /// How it writes and reads lines.
     pub dialect: &'static dyn Dialect,
+}
+
+impl Post {
+    /// The first key that its table must have and that `settings` has no value of: what no default can
+    /// know of a machine.
+    pub fn undecided(&self, settings: &Params) -> Option<&'static ParamInfo> {
+        let has = |key: &ParamInfo| settings.iter().any(|(name, _)| name == key.name);
+        let is_missing = |key: &&ParamInfo| key.default == ParamDefault::Required && !has(key);
+        self.keys.iter().find(is_missing)
+    }
 }
 
 /// How a dialect writes the lines of a path, and how it reads them. Writer and reader share no code.

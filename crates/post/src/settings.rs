@@ -120,9 +120,9 @@ pub(crate) const SERVO_PERIOD: Param<Time> = Param::time(
 pub(crate) const FEED_MEANING: Param<Choice> = Param::choice(
     "f_means",
     &["1/min", SECONDS],
-    "what F says of a line under `G93`: one over its minutes, or its seconds",
-)
-.default("1/min");
+    "what F says of a line under `G93`: one over its minutes, or its seconds. See a program that your \
+     machine has run",
+);
 pub(crate) const TIME_AXIS: Param<Choice> = Param::choice(
     "time_axis",
     &["W", "V", "U", "Q", "B", "A", "Y"],

@@ -44,13 +44,26 @@ pub fn kind_with_example(param: &ParamInfo) -> String {
 
 /// What counts if the recipe leaves the key out: "required", "may be left out", "default 0.5".
 pub fn default(param: &ParamInfo) -> String {
+    match (param.default, default_value(param)) {
+        (ParamDefault::Number(value), _) => format!("default {}", shown(param.kind, value)),
+        (_, Some(value)) => format!("default {value}"),
+        (ParamDefault::Required, None) => "required".to_owned(),
+        (_, None) => "may be left out".to_owned(),
+    }
+}
+
+/// The value that counts if the recipe leaves the key out, as a recipe would write it; `None` if none
+/// does.
+pub fn default_value(param: &ParamInfo) -> Option<String> {
     match param.default {
-        ParamDefault::Required => "required".to_owned(),
-        ParamDefault::Absent => "may be left out".to_owned(),
-        ParamDefault::Number(value) => format!("default {}", shown(param.kind, value)),
-        ParamDefault::Flag(value) => format!("default {value}"),
-        ParamDefault::Text(word) => format!("default \"{word}\""),
-        ParamDefault::List(words) => format!("default [{}]", in_quotes(words, ", ")),
+        ParamDefault::Required | ParamDefault::Absent => None,
+        ParamDefault::Number(value) => Some(match param.kind.quantity() {
+            Some(quantity) => format!("\"{}\"", quantity.format(value)),
+            None => value.to_string(),
+        }),
+        ParamDefault::Flag(value) => Some(value.to_string()),
+        ParamDefault::Text(word) => Some(format!("\"{word}\"")),
+        ParamDefault::List(words) => Some(format!("[{}]", in_quotes(words, ", "))),
     }
 }
 

@@ -464,7 +464,10 @@ pub(crate) fn build(
     let output = tables::output(&mut sections.open("output"));
     let posts = POSTS.iter();
     let post_settings = posts
-        .map(|post| tables::post_settings(post, &mut sections.open(post.table)))
+        .map(|post| {
+            let is_asked = output.posts.iter().any(|asked| asked.value == post.name);
+            tables::post_settings(post, &mut sections.open(post.table), is_asked)
+        })
         .collect();
     let surfaces = surface_entries(&mut sections);
     let mut choose = |slot: Slot| Choice::read(slot, &mut sections.open(slot.key()));

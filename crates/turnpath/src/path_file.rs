@@ -8,7 +8,8 @@ use turnpath_post::{Layout, PathReader, ReadError, ReadPath, post_of_extension, 
 use turnpath_recipe::Recipe;
 use turnpath_verify::HalfDigits;
 
-use crate::posts::layout;
+use crate::error::Error;
+use crate::posts::{layout, refuse_undecided};
 
 /// A file of a tool path, which can be read more than once.
 #[derive(Debug, Clone)]
@@ -21,14 +22,20 @@ pub struct SourceFile {
 
 impl SourceFile {
     /// The file at `path`. What its name ends with says whether it is a program.
-    pub fn new(path: &Path, recipe: &Recipe, compensates_nose: bool) -> Self {
+    ///
+    /// # Errors
+    /// When it is a program, and the recipe lacks a key that says what the words of its post mean.
+    pub fn new(path: &Path, recipe: &Recipe, compensates_nose: bool) -> Result<Self, Error> {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         let extension = text_name(&file).rsplit_once('.').map(|(_, end)| end);
         let post = extension.and_then(post_of_extension);
-        Self {
+        if let Some(post) = post {
+            refuse_undecided(recipe, post)?;
+        }
+        Ok(Self {
             path: path.to_owned(),
             program: post.map(|post| layout(recipe, post, compensates_nose)),
-        }
+        })
     }
 
     /// Opens the file at its beginning.

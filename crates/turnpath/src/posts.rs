@@ -4,6 +4,8 @@ use turnpath_core::Params;
 use turnpath_post::{Layout, Post, ProgramError, ProgramFormat, post_named};
 use turnpath_recipe::{Recipe, ZReference};
 
+use crate::error::Error;
+
 /// Seconds of a minute: a format has the feed of its approach per minute.
 const MINUTE: f64 = 60.0;
 
@@ -20,6 +22,24 @@ pub struct NotCarried {
 pub fn posts(recipe: &Recipe) -> impl Iterator<Item = &'static Post> {
     let names = recipe.output.posts.iter();
     names.filter_map(|name| post_named(&name.value))
+}
+
+/// Refuses to read a program of a post if the recipe lacks a key that has no default.
+pub fn refuse_undecided(recipe: &Recipe, post: &Post) -> Result<(), Error> {
+    let none = Params::new();
+    let settings = recipe.settings_of(post.name);
+    let settings = settings.map_or(&none, |settings| &settings.params);
+    let Some(key) = post.undecided(settings) else {
+        return Ok(());
+    };
+    let title = format!(
+        "a program of `{}` cannot be read without `{}`",
+        post.name, key.name
+    );
+    let help = format!("give it in [{}]: {}", post.table, key.help);
+    let span = recipe.nearest_span(post.table);
+    let diagnostic = recipe.diagnostic(span, title, "the recipe has no such key", [help]);
+    Err(Error::refused(diagnostic))
 }
 
 /// How a recipe lays out the programs of a post. A path that is not compensated is that of the

@@ -2,7 +2,7 @@
 
 use turnpath_core::Result;
 
-use crate::touch::{FirstTouch, Touch};
+use crate::touch::{FirstTouch, Touch, TouchBuffers};
 
 /// Positions of a batch: their columns take some tens of kilobytes.
 const BATCH: usize = 1024;
@@ -13,10 +13,10 @@ const BATCH: usize = 1024;
 /// When the surface fails.
 pub(crate) fn touches_at(touch: &FirstTouch, theta: &[f64], x: &[f64]) -> Result<Vec<Touch>> {
     let mut all = Vec::with_capacity(x.len());
-    let mut batch = Vec::new();
+    let mut buffers = TouchBuffers::default();
     for (theta, x) in theta.chunks(BATCH).zip(x.chunks(BATCH)) {
-        touch.find(theta, x, &mut batch)?;
-        all.extend_from_slice(&batch);
+        touch.find_in(theta, x, &mut buffers)?;
+        all.extend(buffers.touches.iter());
     }
     Ok(all)
 }

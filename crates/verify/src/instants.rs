@@ -1,9 +1,12 @@
 //! The instants of a batch of segments: the played position and the first touch at each.
 
-use turnpath_core::toolpath::Segment;
-use turnpath_core::{Result, tally, within_turn};
+use std::ops::Range;
 
-use crate::touch::{FirstTouch, Touch};
+use turnpath_core::registers::{Loop, in_widest};
+use turnpath_core::toolpath::{Cubic, PathBlock, SegmentShape};
+use turnpath_core::{Result, tally, within_turns};
+
+use crate::touch::{FirstTouch, Touch, TouchBuffers};
 
 /// Instants of each segment at which the played position is compared, including its start and its
 /// middle. The error of a cubic has one maximum over the segment, or a few. The largest of 16
@@ -13,49 +16,126 @@ pub const INSTANTS: usize = 16;
 /// Segments that are played back in one batch.
 pub(crate) const BATCH: usize = 64;
 
-/// The instants of a batch of segments. Its memory is used again for the next batch.
+/// The instants of a batch of segments: the first instant of all segments, the second one of all
+/// segments, and so on, so that neighbouring segments are side by side in vector registers. Its memory
+/// is used again for the next batch.
 #[derive(Default)]
 pub(crate) struct InstantBatch {
+    segments: usize,
     theta: Vec<f64>,
     x: Vec<f64>,
     z: Vec<f64>,
-    touches: Vec<Touch>,
+    errors: Vec<f64>,
+    buffers: TouchBuffers,
 }
 
 impl InstantBatch {
-    /// Plays segments, and finds the first touch at each instant.
-    pub fn play(&mut self, batch: &[Segment], touch: &FirstTouch) -> Result<()> {
-        for column in [&mut self.theta, &mut self.x, &mut self.z] {
-            column.clear();
+    /// Plays segments of a block, at most [`BATCH`], and finds the first touch at each instant.
+    pub fn play(
+        &mut self,
+        points: &PathBlock,
+        segments: Range<usize>,
+        touch: &FirstTouch,
+    ) -> Result<()> {
+        self.segments = segments.len();
+        let axes = [
+            (&points.c, &points.vc, &mut self.theta),
+            (&points.x, &points.vx, &mut self.x),
+            (&points.z, &points.vz, &mut self.z),
+        ];
+        let ends = segments.start..segments.end + 1;
+        for (position, velocity, played) in axes {
+            played.resize(self.segments * INSTANTS, 0.0);
+            in_widest(AxisPlayback {
+                shape: points.shape,
+                times: &points.t[ends.clone()],
+                positions: &position[ends.clone()],
+                velocities: &velocity[ends.clone()],
+                played,
+            });
         }
-        for segment in batch {
-            for k in 0..INSTANTS {
-                let s = k as f64 / INSTANTS as f64;
-                let c = segment.c.value(s);
-                self.theta.push(within_turn(c));
-                self.x.push(segment.x.value(s));
-                self.z.push(segment.z.value(s));
-            }
-        }
+        within_turns(&mut self.theta);
         tally::INSTANTS.add(self.theta.len());
-        touch.find(&self.theta, &self.x, &mut self.touches)
+        touch.find_in(&self.theta, &self.x, &mut self.buffers)?;
+        self.errors.resize(self.z.len(), 0.0);
+        let pairs = self.z.iter().zip(&self.buffers.touches.z);
+        for (error, (z, touch)) in self.errors.iter_mut().zip(pairs) {
+            *error = z - touch;
+        }
+        Ok(())
+    }
+
+    /// Played − true Z of all segments, mm: a chunk for each instant.
+    pub fn each_instant(&self) -> impl Iterator<Item = &[f64]> {
+        self.errors.chunks_exact(self.segments.max(1))
     }
 
     /// Played − true Z at the instants of one segment of the batch, mm.
     pub fn errors(&self, segment: usize) -> [f64; INSTANTS] {
-        std::array::from_fn(|k| {
-            let instant = segment * INSTANTS + k;
-            self.z[instant] - self.touches[instant].z
+        std::array::from_fn(|instant| self.errors[self.place(segment, instant)])
+    }
+
+    /// The errors at an instant and its neighbours; `None` at the last one and the first one.
+    pub fn around(&self, segment: usize, instant: usize) -> Option<[f64; 3]> {
+        let is_inside = (1..INSTANTS - 1).contains(&instant);
+        is_inside.then(|| {
+            [instant - 1, instant, instant + 1].map(|k| self.errors[self.place(segment, k)])
         })
     }
 
     /// Played X at one instant of one segment of the batch, mm.
     pub fn x(&self, segment: usize, instant: usize) -> f64 {
-        self.x[segment * INSTANTS + instant]
+        self.x[self.place(segment, instant)]
     }
 
-    /// The first touch at each instant, one segment after the other.
-    pub fn touches(&self) -> &[Touch] {
-        &self.touches
+    /// The first touches at the instants of one segment of the batch.
+    pub fn touches(&self, segment: usize) -> [Touch; INSTANTS] {
+        std::array::from_fn(|instant| self.buffers.touches.at(self.place(segment, instant)))
+    }
+
+    fn place(&self, segment: usize, instant: usize) -> usize {
+        instant * self.segments + segment
+    }
+}
+
+/// The loop over the segments of a batch for one axis.
+struct AxisPlayback<'a> {
+    shape: SegmentShape,
+    /// Of both ends of all segments.
+    times: &'a [f64],
+    positions: &'a [f64],
+    velocities: &'a [f64],
+    /// The played positions, a chunk for each instant.
+    played: &'a mut [f64],
+}
+
+impl Loop for AxisPlayback<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let (times, positions, velocities) = (self.times, self.positions, self.velocities);
+        let count = times.len().saturating_sub(1).min(BATCH);
+        let [mut a, mut b, mut c, mut d] = [[0.0; BATCH]; 4];
+        let ends = positions
+            .windows(2)
+            .zip(times.windows(2))
+            .zip(velocities.windows(2));
+        for (i, ((position, time), velocity)) in ends.take(BATCH).enumerate() {
+            let cubic = match self.shape {
+                SegmentShape::Cubic => {
+                    let duration = time[1] - time[0];
+                    Cubic::hermite(position[0], velocity[0], position[1], velocity[1], duration)
+                }
+                SegmentShape::Linear => Cubic::straight(position[0], position[1]),
+            };
+            [a[i], b[i], c[i], d[i]] = cubic.0;
+        }
+        for (instant, played) in self.played.chunks_exact_mut(count.max(1)).enumerate() {
+            let s = instant as f64 / INSTANTS as f64;
+            for (i, played) in played.iter_mut().enumerate().take(BATCH) {
+                *played = Cubic([a[i], b[i], c[i], d[i]]).value(s);
+            }
+        }
     }
 }

@@ -131,8 +131,9 @@ impl LeadMeter {
         };
         block.figures.axes = AxesMotion::of(points);
         let mut instants = InstantBatch::default();
-        for batch in segments.chunks(BATCH) {
-            instants.play(batch, touch)?;
+        for (number, batch) in segments.chunks(BATCH).enumerate() {
+            let first = number * BATCH;
+            instants.play(points, first..first + batch.len(), touch)?;
             for (i, segment) in batch.iter().enumerate() {
                 let smallest = block.figures.include_segment(touch, &instants, i, segment);
                 block.per_segment.push(smallest);

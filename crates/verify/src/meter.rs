@@ -53,15 +53,18 @@ impl BlockFigures {
         let (part, spokes) = (touch.subject().part, &mut self.spokes);
         let at_points = &self.per_point;
         self.playback = play_back(touch, points, &mut self.per_segment, |found| {
-            let end = found.number + 1;
+            let Some(segment) = points.segment(found.number) else {
+                return;
+            };
+            let (end, errors) = (found.number + 1, found.errors());
             let errors = SegmentErrors {
-                segment: found.segment,
+                segment: &segment,
                 ends: [points.c[end - 1], points.c[end]],
-                errors: std::array::from_fn(|k| match found.errors.get(k) {
+                errors: std::array::from_fn(|k| match errors.get(k) {
                     Some(error) => *error,
                     None => at_points[end],
                 }),
-                touches: found.touches,
+                touches: &found.touches(),
             };
             spokes.add(&errors, &part);
         })?;

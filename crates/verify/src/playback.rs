@@ -1,6 +1,9 @@
 //! Playback: how far the played tool centre is from the true one, along z.
 
+use std::ops::Range;
+
 use turnpath_core::Result;
+use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::toolpath::{PathBlock, Segment};
 
 use crate::corners::at_corners;
@@ -44,10 +47,11 @@ impl PlaybackFigures {
         }
     }
 
-    fn include(&mut self, worst: Worst, segment: &Segment) {
+    /// Includes the largest error of a segment.
+    fn include(&mut self, worst: Worst, segment: impl FnOnce() -> Option<Segment>) {
         let worse =
             !self.broken && (worst.error.is_nan() || worst.error.abs() > self.extreme.abs());
-        if worse {
+        if let Some(segment) = worse.then(segment).flatten() {
             self.broken = worst.error.is_nan();
             self.extreme = worst.error;
             self.at_c = segment.c.value(worst.at);
@@ -70,12 +74,20 @@ impl PlaybackFigures {
 pub(crate) struct SegmentPlayback<'a> {
     /// The number of the segment in its block.
     pub number: usize,
-    /// What is played.
-    pub segment: &'a Segment,
+    instants: &'a InstantBatch,
+    index: usize,
+}
+
+impl SegmentPlayback<'_> {
     /// Played − true Z at each instant, mm.
-    pub errors: [f64; INSTANTS],
+    pub fn errors(&self) -> [f64; INSTANTS] {
+        self.instants.errors(self.index)
+    }
+
     /// The first touch at each instant.
-    pub touches: &'a [Touch],
+    pub fn touches(&self) -> [Touch; INSTANTS] {
+        self.instants.touches(self.index)
+    }
 }
 
 /// Plays `points` back, writes the largest |error| of each segment to `per_segment`, mm, and
@@ -86,36 +98,64 @@ pub(crate) fn play_back(
     per_segment: &mut Vec<f64>,
     mut seen: impl FnMut(&SegmentPlayback<'_>),
 ) -> Result<PlaybackFigures> {
-    let (mut segments, mut batch) = (points.segments(), Vec::with_capacity(BATCH));
+    let count = points.len().saturating_sub(1);
     let mut figures = PlaybackFigures::default();
     let mut instants = InstantBatch::default();
     per_segment.clear();
-    loop {
-        batch.clear();
-        batch.extend(segments.by_ref().take(BATCH));
-        if batch.is_empty() {
-            break;
-        }
-        instants.play(&batch, touch)?;
+    for first in (0..count).step_by(BATCH) {
+        let batch = first..count.min(first + BATCH);
+        instants.play(points, batch.clone(), touch)?;
         let corners = match touch.leaves_seams() {
-            true => at_corners(touch, &batch, instants.touches())?,
+            true => corners(touch, points, batch.clone(), &instants)?,
             false => Vec::new(),
         };
-        for (i, segment) in batch.iter().enumerate() {
-            let errors = instants.errors(i);
-            let square: f64 = errors.iter().map(|error| error * error).sum();
-            figures.square += square * segment.duration / INSTANTS as f64;
-            figures.time += segment.duration;
-            let worst = Worst::of(&errors).or(corners.get(i).copied().flatten());
-            figures.include(worst, segment);
+        let squares = in_widest(Squares(&instants));
+        let largest = Worst::of_batch(&instants).zip(squares);
+        for (index, (number, (worst, square))) in batch.zip(largest).enumerate() {
+            let duration = points.t[number + 1] - points.t[number];
+            figures.square += square * duration / INSTANTS as f64;
+            figures.time += duration;
+            let worst = worst.or(corners.get(index).copied().flatten());
+            figures.include(worst, || points.segment(number));
             seen(&SegmentPlayback {
-                number: per_segment.len(),
-                segment,
-                errors,
-                touches: &instants.touches()[i * INSTANTS..(i + 1) * INSTANTS],
+                number,
+                instants: &instants,
+                index,
             });
             per_segment.push(worst.amount());
         }
     }
     Ok(figures)
+}
+
+/// The largest error at the corners of each segment of a batch.
+fn corners(
+    touch: &FirstTouch,
+    points: &PathBlock,
+    batch: Range<usize>,
+    instants: &InstantBatch,
+) -> Result<Vec<Option<Worst>>> {
+    let touches: Vec<Touch> = (0..batch.len())
+        .flat_map(|index| instants.touches(index))
+        .collect();
+    let segments: Vec<Segment> = batch.filter_map(|number| points.segment(number)).collect();
+    at_corners(touch, &segments, &touches)
+}
+
+/// The loop that sums up the squares of the errors of each segment.
+struct Squares<'a>(&'a InstantBatch);
+
+impl Loop for Squares<'_> {
+    type Output = [f64; BATCH];
+
+    #[inline(always)]
+    fn call(self) -> [f64; BATCH] {
+        let mut squares = [0.0; BATCH];
+        for errors in self.0.each_instant() {
+            for (square, error) in squares.iter_mut().zip(errors) {
+                *square += error * error;
+            }
+        }
+        squares
+    }
 }

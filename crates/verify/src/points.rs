@@ -5,7 +5,7 @@
 //! moved by hand shows here long before it shows in the interpolation error.
 
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{Result, within_turn};
+use turnpath_core::{Result, within_turns};
 
 use crate::batches::touches_at;
 use crate::touch::FirstTouch;
@@ -65,7 +65,8 @@ impl PointFigures {
 
 /// Z − first touch at each control point, mm.
 pub(crate) fn point_errors(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
-    let theta: Vec<f64> = points.c.iter().map(|c| within_turn(*c)).collect();
+    let mut theta = points.c.clone();
+    within_turns(&mut theta);
     let touches = touches_at(touch, &theta, &points.x)?;
     let pairs = points.z.iter().zip(&touches);
     Ok(pairs.map(|(z, touch)| z - touch.z).collect())

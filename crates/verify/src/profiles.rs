@@ -1,11 +1,12 @@
 //! Radial profiles: height and slope of the surface along rays from the spindle axis.
 
-use turnpath_core::{Gradients, Result, Scalar, SurfaceModel};
+use turnpath_core::{Gradients, Result, SurfaceModel, sines_and_cosines};
 
 /// Radial profiles at a set of angles, in batches.
 pub(crate) struct Profiles<'a> {
     surface: &'a dyn SurfaceModel,
-    turned: Vec<(f64, f64)>,
+    sine: Vec<f64>,
+    cosine: Vec<f64>,
     x: Vec<f64>,
     y: Vec<f64>,
     zx: Vec<f64>,
@@ -19,12 +20,14 @@ pub(crate) struct Profiles<'a> {
 impl<'a> Profiles<'a> {
     /// The profiles at these angles, rad.
     pub fn new(surface: &'a dyn SurfaceModel, theta: &[f64]) -> Self {
-        let turned = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
+        let (mut sine, mut cosine) = (vec![0.0; theta.len()], vec![0.0; theta.len()]);
+        sines_and_cosines(theta, &mut sine, &mut cosine);
         let empty = Vec::new;
         let (x, y, zx, zy) = (empty(), empty(), empty(), empty());
         Self {
             surface,
-            turned,
+            sine,
+            cosine,
             x,
             y,
             zx,
@@ -32,6 +35,11 @@ impl<'a> Profiles<'a> {
             height: empty(),
             slope: empty(),
         }
+    }
+
+    /// Sine and cosine of an angle.
+    pub fn turned(&self, index: usize) -> (f64, f64) {
+        (self.sine[index], self.cosine[index])
     }
 
     /// Computes height and slope at one radius for each angle.
@@ -44,7 +52,7 @@ impl<'a> Profiles<'a> {
         self.x.clear();
         self.y.clear();
         for (index, rho) in points.clone() {
-            let (s, c) = self.turned[index];
+            let (s, c) = self.turned(index);
             self.x.push(rho * c);
             self.y.push(rho * s);
         }
@@ -64,7 +72,7 @@ impl<'a> Profiles<'a> {
         };
         self.surface.gradient(&self.x, &self.y, out)?;
         for (i, (index, _)) in points.enumerate() {
-            let (s, c) = self.turned[index];
+            let (s, c) = self.turned(index);
             self.slope[i] = self.zx[i] * c + self.zy[i] * s;
         }
         Ok(())

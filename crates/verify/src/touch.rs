@@ -8,20 +8,14 @@
 use turnpath_core::tally::FIRST_TOUCHES;
 use turnpath_core::{Misfit, Result, SurfaceModel};
 
-use crate::bracket::Bracket;
 use crate::contact_bounds;
 use crate::profiles::Profiles;
 use crate::scan;
+use crate::searches::{Searches, WIDTH};
 use crate::subject::Subject;
+pub use crate::touches::Touch;
+use crate::touches::Touches;
 
-/// The secant stops when it moves less than this part of the nose radius. The error of the height
-/// is the square of this: 1e-16 of the radius.
-const FOOT_TOLERANCE: f64 = 1e-8;
-/// Largest number of steps of the search.
-const MOST_STEPS: usize = 80;
-/// After this many steps every second one halves the bracket. Halving alone reaches
-/// [`FOOT_TOLERANCE`] in 28 steps.
-const PATIENCE: usize = 16;
 /// Angles and radii at which the profile's curvature is computed, to find out whether the height
 /// has a single maximum.
 const CURVATURE_GRID: (usize, usize) = (90, 400);
@@ -41,23 +35,12 @@ pub struct FirstTouch {
     contact_to: f64,
 }
 
-/// The position at which the part stops the tool.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Touch {
-    /// Z of the nose centre, mm; Z of the contact if the path is that of the contact.
-    pub z: f64,
-    /// Radius of the contact, mm; negative beyond the axis.
-    pub foot: f64,
-    /// Slope of the profile at the contact.
-    pub slope: f64,
-}
-
-impl Touch {
-    pub(crate) const NOWHERE: Self = Self {
-        z: f64::NAN,
-        foot: f64::NAN,
-        slope: f64::NAN,
-    };
+/// What the search for first touches needs again and again, and what it found last.
+#[derive(Default)]
+pub(crate) struct TouchBuffers {
+    searches: Box<Searches>,
+    /// The touches of the last search.
+    pub touches: Touches,
 }
 
 /// The bounds of a contact when nothing is known about it.
@@ -125,29 +108,89 @@ impl FirstTouch {
         within: impl Fn(usize) -> (f64, f64),
         out: &mut Vec<Touch>,
     ) -> Result<()> {
-        FIRST_TOUCHES.add(x.len());
-        let mut profiles = Profiles::new(self.subject.surface.as_ref(), theta);
+        let mut buffers = TouchBuffers::default();
+        self.search(theta, x, within, &mut buffers)?;
         out.clear();
-        out.resize(x.len(), Touch::NOWHERE);
-        let tool = &self.subject.tool;
+        out.extend(buffers.touches.iter());
+        Ok(())
+    }
+
+    /// Like [`Self::find`], without an allocation for each batch: the touches are in the buffers.
+    pub(crate) fn find_in(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        buffers: &mut TouchBuffers,
+    ) -> Result<()> {
+        self.search(theta, x, |_| ANYWHERE, buffers)
+    }
+
+    fn search(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        within: impl Fn(usize) -> (f64, f64),
+        buffers: &mut TouchBuffers,
+    ) -> Result<()> {
+        FIRST_TOUCHES.add(x.len());
+        buffers.touches.clear_for(x.len());
         if !self.subject.compensates_nose {
-            on_surface(&mut profiles, x, out)
+            self.on_surface(theta, x, &mut buffers.touches)
         } else if x.iter().all(|x| x.abs() <= self.single_to) {
-            let mut brackets = Bracket::of_reach(tool, x);
-            close_in(&mut profiles, tool.nose_radius, x, &mut brackets, out)
+            self.only_maxima(theta, x, buffers)
         } else {
-            let within = |point: usize| self.narrowed(x[point], within(point));
-            let mut maxima = scan::maxima(&mut profiles, tool, x, within)?;
-            let mut tops = vec![Touch::NOWHERE; maxima.len()];
-            close_in(&mut profiles, tool.nose_radius, x, &mut maxima, &mut tops)?;
-            for (maximum, top) in maxima.iter().zip(tops) {
-                let touch = &mut out[maximum.point];
-                if touch.z.is_nan() || top.z > touch.z {
-                    *touch = top;
-                }
-            }
-            Ok(())
+            self.highest_maxima(theta, x, within, buffers)
         }
+    }
+
+    /// The touches on the path of the contact: points of the surface itself.
+    fn on_surface(&self, theta: &[f64], x: &[f64], found: &mut Touches) -> Result<()> {
+        let mut profiles = Profiles::new(self.subject.surface.as_ref(), theta);
+        profiles.at_all(x)?;
+        found.z.copy_from_slice(&profiles.height);
+        found.foot.copy_from_slice(x);
+        found.slope.copy_from_slice(&profiles.slope);
+        Ok(())
+    }
+
+    /// The touches where the height has a single maximum.
+    fn only_maxima(&self, theta: &[f64], x: &[f64], buffers: &mut TouchBuffers) -> Result<()> {
+        let Subject { surface, tool, .. } = &self.subject;
+        let TouchBuffers { searches, touches } = buffers;
+        let batches = theta.chunks(WIDTH).zip(x.chunks(WIDTH));
+        for (batch, (theta, x)) in batches.enumerate() {
+            searches.begin_in_reach(theta, x, tool.reach());
+            searches.close_in(surface.as_ref(), tool.nose_radius, touches, batch * WIDTH)?;
+        }
+        Ok(())
+    }
+
+    /// The touches where the height may have several maxima.
+    fn highest_maxima(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        within: impl Fn(usize) -> (f64, f64),
+        buffers: &mut TouchBuffers,
+    ) -> Result<()> {
+        let Subject { surface, tool, .. } = &self.subject;
+        let mut profiles = Profiles::new(surface.as_ref(), theta);
+        let within = |point: usize| self.narrowed(x[point], within(point));
+        let maxima = scan::maxima(&mut profiles, tool, x, within)?;
+        let mut tops = Touches::default();
+        tops.clear_for(maxima.len());
+        for (batch, maxima) in maxima.chunks(WIDTH).enumerate() {
+            let searches = &mut buffers.searches;
+            searches.begin_in_brackets(maxima, &profiles, x);
+            searches.close_in(surface.as_ref(), tool.nose_radius, &mut tops, batch * WIDTH)?;
+        }
+        for (maximum, top) in maxima.iter().zip(tops.iter()) {
+            let highest = buffers.touches.z[maximum.point];
+            if highest.is_nan() || top.z > highest {
+                buffers.touches.set(maximum.point, top);
+            }
+        }
+        Ok(())
     }
 
     /// Narrows the bounds of the contact with the nose at `x` to what the surface's slopes allow.
@@ -155,117 +198,6 @@ impl FirstTouch {
         match x.abs() <= self.contact_to {
             true => (low.max(x - self.contact), high.min(x + self.contact)),
             false => (low, high),
-        }
-    }
-}
-
-/// The touches on the path of the contact: points of the surface itself.
-fn on_surface(profiles: &mut Profiles<'_>, x: &[f64], out: &mut [Touch]) -> Result<()> {
-    profiles.at_all(x)?;
-    for (i, touch) in out.iter_mut().enumerate() {
-        *touch = Touch {
-            z: profiles.height[i],
-            foot: x[i],
-            slope: profiles.slope[i],
-        };
-    }
-    Ok(())
-}
-
-/// One search in one bracket: F(s) = g_ρ q − (s − X), with q = sqrt(R² − (s − X)²), falls through
-/// zero at a maximum.
-#[derive(Clone, Copy)]
-struct Search {
-    /// Index of the bracket.
-    bracket: usize,
-    /// The present s.
-    at: f64,
-    /// The previous s, and F there.
-    before: Option<(f64, f64)>,
-}
-
-/// Closes in on the maximum in every bracket. `out` has one entry for each bracket.
-fn close_in(
-    profiles: &mut Profiles<'_>,
-    radius: f64,
-    x: &[f64],
-    brackets: &mut [Bracket],
-    out: &mut [Touch],
-) -> Result<()> {
-    let begin = |(bracket, within): (usize, &Bracket)| Search {
-        bracket,
-        at: within.start,
-        before: None,
-    };
-    let mut open: Vec<Search> = brackets.iter().enumerate().map(begin).collect();
-    for step in 0..MOST_STEPS {
-        if open.is_empty() {
-            break;
-        }
-        let point = |search: &Search| brackets[search.bracket].point;
-        profiles.at(open.iter().map(|search| (point(search), search.at)))?;
-        let mut i = 0;
-        open.retain_mut(|search| {
-            let (height, slope) = (profiles.height[i], profiles.slope[i]);
-            i += 1;
-            let bracket = &mut brackets[search.bracket];
-            let offset = search.at - x[bracket.point];
-            let lift = (radius * radius - offset * offset).max(0.0).sqrt();
-            if height.is_finite() {
-                out[search.bracket] = Touch {
-                    z: height + lift,
-                    foot: search.at,
-                    slope,
-                };
-            }
-            let here = Evaluation {
-                fall: slope * lift - offset,
-                by_normal: x[bracket.point] + radius * slope / (1.0 + slope * slope).sqrt(),
-            };
-            let halve = step > PATIENCE && step % 2 == 0;
-            let next = search.next(&here, bracket, halve);
-            if (next - search.at).abs() <= FOOT_TOLERANCE * radius {
-                return false;
-            }
-            search.before = Some((search.at, here.fall));
-            search.at = next;
-            true
-        });
-    }
-    Ok(())
-}
-
-/// The values of one step of a search.
-struct Evaluation {
-    /// F at the present s.
-    fall: f64,
-    /// The next s by the normal through this contact: the first guess.
-    by_normal: f64,
-}
-
-impl Search {
-    /// The next s. The first step follows the normal through the contact, later steps the secant.
-    /// If the proposed s lies outside the bracket, or `halve` is set, the next s is the middle of
-    /// the bracket. Where the surface has no value, the bracket shrinks towards its start, where
-    /// the surface has one.
-    fn next(&self, here: &Evaluation, bracket: &mut Bracket, halve: bool) -> f64 {
-        let nowhere = here.fall.is_nan();
-        if here.fall > 0.0 || (nowhere && self.at < bracket.start) {
-            bracket.low = self.at;
-        } else if here.fall < 0.0 || (nowhere && self.at > bracket.start) {
-            bracket.high = self.at;
-        }
-        let proposed = match self.before {
-            None => here.by_normal,
-            Some((at, then)) if then != here.fall => {
-                self.at - here.fall * (self.at - at) / (here.fall - then)
-            }
-            Some(_) => self.at,
-        };
-        if !halve && (bracket.low..=bracket.high).contains(&proposed) {
-            proposed
-        } else {
-            0.5 * (bracket.low + bracket.high)
         }
     }
 }

@@ -1,6 +1,8 @@
-//! The largest error of one segment, from the errors at its instants.
+//! The largest error of a segment, from the errors at its instants.
 
-use crate::instants::INSTANTS;
+use turnpath_core::registers::{Loop, in_widest};
+
+use crate::instants::{BATCH, INSTANTS, InstantBatch};
 
 /// The largest error of one segment.
 #[derive(Debug, Clone, Copy)]
@@ -12,26 +14,21 @@ pub(crate) struct Worst {
 }
 
 impl Worst {
-    /// The largest of the errors at a segment's instants, and of the parabola through it and its
-    /// neighbours.
-    pub fn of(errors: &[f64; INSTANTS]) -> Self {
-        let mut worst = 0;
-        for (k, error) in errors.iter().enumerate() {
-            if error.is_nan() || error.abs() > errors[worst].abs() {
-                worst = k;
+    /// The largest of the errors at each segment's instants, and of the parabola through it and its
+    /// neighbours. The first error that is NaN outweighs all.
+    pub fn of_batch(instants: &InstantBatch) -> impl Iterator<Item = Self> {
+        let largest = in_widest(LargestInstants(instants));
+        let segments = largest.instant.into_iter().zip(largest.error).enumerate();
+        segments.map(|(segment, (instant, error))| {
+            let (rise, shift) = match instants.around(segment, instant as usize) {
+                Some([before, top, after]) => beyond_sample(before, top, after),
+                None => (0.0, 0.0),
+            };
+            Self {
+                error: error + rise,
+                at: (instant + shift) / INSTANTS as f64,
             }
-            if error.is_nan() {
-                break;
-            }
-        }
-        let (rise, shift) = match worst.checked_sub(1).and_then(|k| errors.get(k..k + 3)) {
-            Some(&[before, top, after]) => beyond_sample(before, top, after),
-            _ => (0.0, 0.0),
-        };
-        Self {
-            error: errors[worst] + rise,
-            at: (worst as f64 + shift) / INSTANTS as f64,
-        }
+        })
     }
 
     /// The larger of the two; `self` if they are equal.
@@ -48,6 +45,36 @@ impl Worst {
             f64::INFINITY
         } else {
             self.error.abs()
+        }
+    }
+}
+
+/// The loop that finds the instant with the largest error of each segment.
+struct LargestInstants<'a>(&'a InstantBatch);
+
+/// The largest error of each segment at its instants, and the number of the instant.
+struct LargestErrors {
+    error: [f64; BATCH],
+    instant: [f64; BATCH],
+}
+
+impl Loop for LargestInstants<'_> {
+    type Output = LargestErrors;
+
+    #[inline(always)]
+    fn call(self) -> LargestErrors {
+        let (mut largest, mut at) = ([0.0_f64; BATCH], [0.0; BATCH]);
+        for (instant, errors) in self.0.each_instant().enumerate() {
+            for ((error, largest), at) in errors.iter().zip(&mut largest).zip(&mut at) {
+                let is_larger =
+                    (error.abs() > largest.abs()) | (error.is_nan() & !largest.is_nan());
+                *largest = if is_larger { *error } else { *largest };
+                *at = if is_larger { instant as f64 } else { *at };
+            }
+        }
+        LargestErrors {
+            error: largest,
+            instant: at,
         }
     }
 }

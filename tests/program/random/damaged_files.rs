@@ -84,6 +84,12 @@ const LINUXCNC: Kind = Kind {
     words: fuzz::pmac::WORDS,
     line: "verify recipe.toml out/recipe.ngc --format json --threads 2",
 };
+const COMPRESSED: Kind = Kind {
+    name: "compressed program",
+    file: "compressed/recipe.pmc.zst",
+    words: fuzz::pmac::WORDS,
+    line: "verify recipe.toml compressed/recipe.pmc.zst --format json --threads 2",
+};
 /// A program of each post.
 const PROGRAMS: [&Kind; 8] = [
     &PROGRAM,
@@ -129,11 +135,13 @@ fn originals() -> &'static Path {
         let posts = POST_NAMES.join("\", \"");
         bench.write(
             "recipe.toml",
-            format!("{recipe}\n[output]\nposts = [\"{posts}\"]\n"),
+            format!("{recipe}\n[output]\nposts = [\"{posts}\"]\nnanotech-g93.f_means = \"s\"\n"),
         );
         let lists = "[ablation]\ncompensator = [{ use = \"none\" }]\n";
         bench.write("ablation.toml", format!("{recipe}\n{lists}"));
         bench.line("run recipe.toml -o out").ends(0);
+        let compressed = "run recipe.toml -o compressed --set output.compress=zst --no-report";
+        bench.line(compressed).ends(0);
         bench.line("ablate ablation.toml -o ablation").ends(0);
         bench
     });
@@ -193,7 +201,7 @@ fn try_kind(kind: &Kind, cases: u64) -> Tally {
 
 #[test]
 fn damaged_files_are_measured_or_refused() {
-    let others = [&CSV, &SUMMARY, &SUMMARY_UNDER_A_RUN, &RECORD];
+    let others = [&CSV, &COMPRESSED, &SUMMARY, &SUMMARY_UNDER_A_RUN, &RECORD];
     for kind in others.into_iter().chain(PROGRAMS) {
         try_kind(kind, CASES);
     }
@@ -202,7 +210,7 @@ fn damaged_files_are_measured_or_refused() {
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_five_hundred_damaged_files_of_each_kind_are_measured_or_refused() {
-    for kind in [&CSV].into_iter().chain(PROGRAMS) {
+    for kind in [&CSV, &COMPRESSED].into_iter().chain(PROGRAMS) {
         let tally = try_kind(kind, MANY_CASES);
         let refused = tally.count(End::Status(4));
         assert!(refused > 50, "{}: few are refused: {tally}", kind.name);

@@ -3,8 +3,10 @@
 mod comparison;
 mod table;
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
-use turnpath_report::{AblationReport, ErrorSketch};
+use turnpath_report::{AblationReport, AblationRun, ErrorSketch};
 
 use comparison::{Comparison, comparisons};
 
@@ -70,15 +72,32 @@ pub fn ablation_page(page: &AblationPage) -> String {
     };
     let body = [
         format!(
-            "<header><p class=\"made-by\">turnpath {}</p><h1>{}: ablation</h1><p>{counts}</p></header>\n<main>\n",
+            "<header><p class=\"made-by\">turnpath {}</p><h1>{}: ablation</h1><p>{counts}</p>{}</header>\n<main>\n",
             escaped(version),
-            escaped(name)
+            escaped(name),
+            without_record(runs)
         ),
         table::table(runs),
         figures(&drawn),
         "</main>\n".to_owned(),
     ];
     document(&format!("{name}: ablation"), &body.concat(), &drawn)
+}
+
+/// How many runs have no record, for each reason why.
+fn without_record(runs: &[AblationRun]) -> String {
+    let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
+    for reason in runs.iter().filter_map(|run| run.not_recorded.as_deref()) {
+        *reasons.entry(reason).or_default() += 1;
+    }
+    let line = |(reason, count): (&str, usize)| {
+        let which = match count {
+            1 => "One run has no record, and is made each time".to_owned(),
+            count => format!("{count} runs have no record, and are made each time"),
+        };
+        element("p", "", &escaped(&format!("{which}: {reason}")))
+    };
+    reasons.into_iter().map(line).collect()
 }
 
 fn figures(drawn: &Drawn<'_>) -> String {

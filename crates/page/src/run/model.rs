@@ -75,4 +75,6 @@ pub struct StageChoice {
     pub source: String,
     /// Its parameters as the recipe gives them.
     pub parameters: Vec<(String, String)>,
+    /// Those that the recipe leaves out, with the values that count for them.
+    pub defaults: Vec<(String, String)>,
 }

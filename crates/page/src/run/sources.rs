@@ -21,8 +21,11 @@ pub fn axes(files: &[FileAxes]) -> String {
 /// The strategies with their parameters and sources.
 pub fn chain(stages: &[StageChoice]) -> String {
     let stage = |stage: &StageChoice| {
-        let parameters = stage.parameters.iter();
-        let parameters = parameters.map(|(key, value)| escaped(&format!("{key} = {value}")));
+        let given = stage.parameters.iter();
+        let given = given.map(|(key, value)| format!("{key} = {value}"));
+        let left_out = stage.defaults.iter();
+        let left_out = left_out.map(|(key, value)| format!("{key} = {value} (default)"));
+        let parameters = given.chain(left_out).map(|line| escaped(&line));
         let parameters = parameters.collect::<Vec<_>>().join("<br>");
         let cells = [
             escaped(&stage.slot),

@@ -175,6 +175,17 @@ fn a_run_that_failed_is_a_row_with_its_reason() {
 }
 
 #[test]
+fn a_run_without_a_record_is_told_with_its_reason() {
+    let mut report = support::ablation(3);
+    for run in &mut report.runs[1..] {
+        run.not_recorded = Some("its surface is < new".to_owned());
+    }
+    let page = ablation_page(&AblationPage { report });
+    let told = "<p>2 runs have no record, and are made each time: its surface is &lt; new</p>";
+    assert!(page.contains(told));
+}
+
+#[test]
 fn the_axes_of_each_file_stand_on_the_page_as_its_program_has_them() {
     let page = run_page(&support::run_page());
     assert!(page.contains("<td>a.pmc</td>"));
@@ -196,4 +207,11 @@ fn each_limit_has_a_row_with_what_was_found() {
         let row = format!("<tr><td>{name}</td><td>");
         assert!(page.contains(&row), "{name}");
     }
+}
+
+/// A reader of the page sees the whole chain, and what of it the recipe says.
+#[test]
+fn the_chain_has_the_parameters_of_the_recipe_and_the_defaults_of_the_rest() {
+    let page = run_page(&support::run_page());
+    assert!(page.contains("feed = &quot;10 um/rev&quot;<br>at_least = 50 (default)"));
 }

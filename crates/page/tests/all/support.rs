@@ -101,6 +101,7 @@ pub fn run_page() -> RunPage {
             summary: "a feed".to_owned(),
             source: "doi:10.1364/OE.21.012".to_owned(),
             parameters: vec![("feed".to_owned(), "\"10 um/rev\"".to_owned())],
+            defaults: vec![("at_least".to_owned(), "50".to_owned())],
         }],
         axes: vec![FileAxes {
             file: "a.pmc".to_owned(),

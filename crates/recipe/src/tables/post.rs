@@ -3,6 +3,7 @@
 use turnpath_core::Params;
 use turnpath_post::{C_SIGN, FOOTER_KEY, HEADER_KEY, POSTS, Post};
 
+use crate::declared::example;
 use crate::diagnostic::Diagnostic;
 use crate::read::Section;
 use crate::span::Spanned;
@@ -42,13 +43,21 @@ pub struct PostSettings {
     pub footer: Option<Spanned<String>>,
 }
 
-/// Reads a post's table.
-pub(crate) fn post_settings(post: &'static Post, section: &mut Section<'_>) -> PostSettings {
+/// Reads a post's table. A post that `is_asked` for a program needs the keys that have no default, with
+/// or without a table.
+pub(crate) fn post_settings(
+    post: &'static Post,
+    section: &mut Section<'_>,
+    is_asked: bool,
+) -> PostSettings {
     // Templates keep their places, since the post reads them later.
     let templates = [HEADER_KEY.name(), FOOTER_KEY.name()];
     let params = section.bind_but(&table(post), &templates);
     section.report_unless_table();
     check_c_sign(section, &params);
+    if let (true, None, Some(key)) = (is_asked, section.table, post.undecided(&params)) {
+        section.missing_table(&format!("{} = {}", key.name, example(key)));
+    }
     PostSettings {
         post: post.name,
         params,

@@ -1,8 +1,9 @@
 //! The strategies of a recipe, with what they say of themselves.
 
-use turnpath_core::Slot;
+use turnpath_core::{ParamInfo, Slot};
 use turnpath_host::Catalogue;
 use turnpath_page::StageChoice;
+use turnpath_recipe::declared::default_value;
 use turnpath_recipe::{Choice, Entry, Recipe, Value};
 
 /// The key that names the strategy.
@@ -18,8 +19,12 @@ fn stage(recipe: &Recipe, choice: &Choice, catalogue: &Catalogue) -> StageChoice
     let info = catalogue
         .find(choice.slot, choice.name())
         .map(|strategy| strategy.info());
-    let parameters = entries(recipe, choice).iter();
-    let parameters = parameters.filter(|entry| entry.key != USE);
+    let entries = entries(recipe, choice);
+    let params = info.as_ref().map_or(&[][..], |info| info.params);
+    let is_left_out = |param: &&ParamInfo| entries.iter().all(|entry| entry.key != param.name);
+    let left_out = params.iter().filter(is_left_out);
+    let default = |param: &ParamInfo| Some((param.name.to_owned(), default_value(param)?));
+    let parameters = entries.iter().filter(|entry| entry.key != USE);
     let parameters = parameters.map(|entry| (entry.key.clone(), text_of(&entry.node.value)));
     StageChoice {
         slot: choice.path.clone(),
@@ -27,6 +32,7 @@ fn stage(recipe: &Recipe, choice: &Choice, catalogue: &Catalogue) -> StageChoice
         summary: info.as_ref().map_or("", |info| info.summary).to_owned(),
         source: info.as_ref().map_or("", |info| info.source).to_owned(),
         parameters: parameters.collect(),
+        defaults: left_out.filter_map(default).collect(),
     }
 }
 

@@ -100,7 +100,7 @@ fn page_again(
         tool: recipe.tool,
         compensates_nose: compensator.compensates_nose(),
     };
-    let sketch = match path_file(&request.folder, &report, recipe, &subject) {
+    let sketch = match path_file(&request.folder, &report, recipe, &subject)? {
         None => None,
         Some(file) => {
             let velocity = strategies::velocity(recipe, catalogue, &files)?.strategy;
@@ -167,17 +167,14 @@ fn path_file(
     report: &RunReport,
     recipe: &Recipe,
     subject: &Subject,
-) -> Option<SourceFile> {
+) -> Result<Option<SourceFile>, Error> {
     let files = report.files.iter().flatten();
     let is_table = |file: &&ResultFile| file.file == crate::folder::TOOLPATH;
     let table = files.clone().find(is_table).map(|file| &file.file);
     let programs = report.programs.iter().map(|program| &program.file);
-    let name = table.or_else(|| programs.into_iter().next())?;
-    Some(SourceFile::new(
-        &folder.join(name),
-        recipe,
-        subject.compensates_nose,
-    ))
+    let name = table.or_else(|| programs.into_iter().next());
+    let open = |name| SourceFile::new(&folder.join(name), recipe, subject.compensates_nose);
+    name.map(open).transpose()
 }
 
 fn sketch_of(

@@ -55,7 +55,7 @@ pub fn verify(
     let target = Target::new(recipe, catalogue)?;
     let plots = Plots::new(request, &recipe.part, folder)?;
     plots.try_folder(folder)?;
-    let file = SourceFile::new(file, recipe, target.subject.compensates_nose);
+    let file = SourceFile::new(file, recipe, target.subject.compensates_nose)?;
     target.verify(&file, (&plots, folder), observer)
 }
 
