@@ -5,6 +5,9 @@ use std::io::Write;
 use super::*;
 use crate::{POSTS, ProgramPathInMemory};
 
+/// What happens to the bytes of a file.
+type Damage = fn(&mut Vec<u8>);
+
 const STEPS: [[f64; 6]; 4] = [[0.003, 9.0, 2.5, 1.0, -0.2, 5.0]; 4];
 
 fn in_memory(layout: &Layout) -> ProgramPathInMemory {
@@ -87,7 +90,7 @@ fn a_file_with_other_bytes_than_the_measured_text_is_refused() {
     let layout = plain(&POSTS[0]);
     let around = ["OPEN PROG 1 CLEAR\n", "CLOSE\n"];
     let good = in_memory(&layout).assemble(around, "p").unwrap();
-    let damages: [(&str, fn(&mut Vec<u8>)); 4] = [
+    let damages: [(&str, Damage); 4] = [
         ("as it is", |_| {}),
         ("cut off", |bytes| bytes.truncate(bytes.len() - 1)),
         ("longer", |bytes| bytes.push(b'\n')),
