@@ -11,11 +11,14 @@ pub struct SurfaceSpeed {
     lowest: f64,
 }
 
+/// The slowest cut, mm/s: at a millimetre from the axis a turn takes two hours. Nobody cuts so slowly,
+/// and times of a path stay numbers.
+const SLOWEST_CUT: f64 = 1e-3;
 const CUTTING_SPEED: Param<Velocity> = Param::velocity(
     "cutting_speed",
     "speed of the part under the nose: the spindle's speed times |X|, such as \"100 m/min\"",
 )
-.positive()
+.min(SLOWEST_CUT)
 .example("100 m/min");
 const LOWEST: Param<RotationSpeed> = Param::rotation_speed(
     "lowest",

@@ -83,6 +83,8 @@ def arms(of_turns):
     if 2 * np.count_nonzero(whole) < len(whole):
         return (0.0, 0, 0.0)
     harmonics = np.fft.rfft(np.where(whole[:, None], of_turns, 0.0), axis=1)[:, :HIGHEST] / ANGLES
+    # What stays is spokes, and would stand at all rates by the edges of the window.
+    harmonics[whole] -= harmonics[whole].mean(axis=0)
     rates = np.fft.fft(harmonics, RATES, axis=0)
     slowest = -(-RATES // len(whole))
     kept = np.arange(slowest, RATES // FEWEST_TURNS + 1)

@@ -100,6 +100,13 @@ impl Arms {
             for (slot, turn) in over_turns.iter_mut().zip(&self.turns) {
                 *slot = of_turn(turn);
             }
+            let still = over_turns.iter().sum::<Complex<f64>>() / whole.len() as f64;
+            // What stays is spokes, and would stand at all rates by the edges of the window.
+            for (slot, turn) in over_turns.iter_mut().zip(&self.turns) {
+                if !turn.is_empty() {
+                    *slot -= still;
+                }
+            }
             self.over_turns.process(&mut over_turns);
             let found = largest_rate(&over_turns, self.turns.len());
             let Some((rate, size)) = found else { continue };
