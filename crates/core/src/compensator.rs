@@ -86,6 +86,21 @@ pub trait Compensator: Send + Sync {
         None
     }
 
+    /// The nose centre and its exact partial rates at once, from one search for each contact: the
+    /// numbers of [`centre`](Compensator::centre) and [`exact_rates`](Compensator::exact_rates).
+    /// `None` if the compensator has no exact rates, or if it would search for each of both.
+    fn centre_and_rates(
+        &self,
+        cut: Cut<'_>,
+        theta: &[f64],
+        rho: &[f64],
+        centres: Centres<'_>,
+        rates: Rates<'_>,
+    ) -> Option<Result<()>> {
+        let _ = (cut, theta, rho, centres, rates);
+        None
+    }
+
     /// Looks for points within `region` (radii of the contact) that the tool cannot cut.
     fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
         interference::check(cut, region)

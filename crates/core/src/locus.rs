@@ -109,6 +109,41 @@ impl ToolLocus {
         }
     }
 
+    /// The nose centre, the contact and the partial rates of the centre for each (θ, ρ), as
+    /// [`centre`](Locus::centre) and [`rates`](Locus::rates) give them.
+    ///
+    /// # Errors
+    /// When the compensator or the surface fails.
+    pub fn centre_and_rates(
+        &self,
+        theta: &[f64],
+        rho: &[f64],
+        centres: Centres<'_>,
+        rates: Rates<'_>,
+    ) -> Result<()> {
+        let at_once = (
+            Centres {
+                x: &mut *centres.x,
+                z: &mut *centres.z,
+                foot: &mut *centres.foot,
+            },
+            Rates {
+                x_theta: &mut *rates.x_theta,
+                x_rho: &mut *rates.x_rho,
+                z_theta: &mut *rates.z_theta,
+                z_x: &mut *rates.z_x,
+            },
+        );
+        let compensator = &self.compensator;
+        match compensator.centre_and_rates(self.cut(), theta, rho, at_once.0, at_once.1) {
+            Some(answer) => answer,
+            None => {
+                self.centre(theta, rho, centres)?;
+                self.rates(theta, rho, rates)
+            }
+        }
+    }
+
     fn fitted_series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
         let mut room = CentreBuffers::default();
         let places = fit::STENCIL * fit::LADDER;

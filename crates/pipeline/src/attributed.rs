@@ -182,6 +182,19 @@ impl Compensator for NamedCompensator {
         Some(self.name.attribute(answer))
     }
 
+    fn centre_and_rates(
+        &self,
+        cut: Cut<'_>,
+        theta: &[f64],
+        rho: &[f64],
+        centres: Centres<'_>,
+        rates: Rates<'_>,
+    ) -> Option<Result<()>> {
+        let compensator = &self.compensator;
+        let answer = compensator.centre_and_rates(cut, theta, rho, centres, rates)?;
+        Some(self.name.attribute(answer))
+    }
+
     fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
         match self.compensator.interference(cut, region) {
             // The check itself refuses the surface: that is the recipe's fault, not a plugin's.

@@ -58,6 +58,18 @@ impl Columns {
         }
     }
 
+    /// All quantities of a node.
+    pub fn node(&self, node: usize) -> Option<[f64; 9]> {
+        (node < self.len()).then(|| self.each().map(|column| column[node]))
+    }
+
+    /// Appends a node.
+    pub fn push(&mut self, node: [f64; 9]) {
+        for (own, value) in self.each_mut().into_iter().zip(node) {
+            own.push(value);
+        }
+    }
+
     /// Moves the nodes off the locus. The offsets must not have been added yet.
     pub fn shift(&mut self, nodes: &NodeList) {
         if !nodes.has_offsets() {

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{CentreBuffers, Dependence, Locus, NodeList, Rates, Velocities, angle};
+use turnpath_core::{CentreBuffers, Dependence, NodeList, Rates, Velocities, angle};
 
 use crate::Result;
 use crate::columns::Columns;
@@ -52,13 +52,19 @@ pub fn make(
     };
     let row = locate_with_neighbours(plan, range.clone(), overlap, depths)?;
     let mut blocks: Vec<BlockPoints> = match solver_state {
-        Some(state) => range
-            .map(|index| solve(plan, &row, index, overlap, Some(&mut *state)))
-            .collect::<Result<_>>()?,
+        Some(state) => {
+            let windows = row.into_windows(plan, range.end).into_iter();
+            let solved = windows.map(|window| solve(plan, window, Some(&mut *state)));
+            solved.collect::<Result<_>>()?
+        }
+        None if overlap == 0 => {
+            let windows = row.into_windows(plan, range.end).into_par_iter();
+            in_order(windows.map(|window| solve(plan, window, None)))?
+        }
         None => in_order(
             range
                 .into_par_iter()
-                .map(|index| solve(plan, &row, index, overlap, None)),
+                .map(|index| solve(plan, row.window(plan, index, overlap), None)),
         )?,
     };
     close_joints(&mut blocks);
@@ -174,7 +180,13 @@ fn locate_block(
 
 /// Nodes and their times. Where the controller has steps of time, the nodes are moved onto them.
 fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
-    let (n, t): (Vec<f64>, Vec<f64>) = nodes.iter().map(|n| plan.on_time(*n)).unzip();
+    let mut t = Vec::with_capacity(nodes.len() + 1);
+    let on_time = nodes.iter().map(|node| {
+        let (n, time) = plan.on_time(*node);
+        t.push(time);
+        n
+    });
+    let n: Vec<f64> = on_time.collect();
     match t.windows(2).position(|pair| pair[1] <= pair[0]) {
         None => Ok((n, t)),
         Some(i) => Err(plan.chain.sampler.bad_answer(format!(
@@ -183,6 +195,13 @@ fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
             nodes[i + 1]
         ))),
     }
+}
+
+/// A quantity of a block's nodes, with room for that of the joint with the next block.
+fn column(values: impl ExactSizeIterator<Item = f64>) -> Vec<f64> {
+    let mut column = Vec::with_capacity(values.len() + 1);
+    column.extend(values);
+    column
 }
 
 /// Puts nodes on the locus, or as far off it as the sampler placed them.
@@ -195,32 +214,32 @@ fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
     };
     let theta: Vec<f64> = n.iter().map(|n| angle(*n)).collect();
     let rho: Vec<f64> = n.iter().map(|n| plan.law.value(*n)).collect();
-    let mut centres = CentreBuffers::default();
-    centres.resize(n.len());
-    let locus = &plan.preparation.locus;
-    locus
-        .centre(&theta, &rho, centres.as_centres())
-        .map_err(|error| compensator.failed(context(), error))?;
-    let blank = vec![f64::NAN; n.len()];
-    let (mut x_theta, mut x_rho) = (blank.clone(), blank.clone());
-    let (mut z_theta, mut z_x) = (blank.clone(), blank);
+    let unset = || column((0..n.len()).map(|_| f64::NAN));
+    let mut centres = CentreBuffers {
+        x: unset(),
+        z: unset(),
+        foot: unset(),
+    };
+    let (mut x_theta, mut x_rho) = (unset(), unset());
+    let (mut z_theta, mut z_x) = (unset(), unset());
     let rates = Rates {
         x_theta: &mut x_theta,
         x_rho: &mut x_rho,
         z_theta: &mut z_theta,
         z_x: &mut z_x,
     };
+    let locus = &plan.preparation.locus;
     locus
-        .rates(&theta, &rho, rates)
+        .centre_and_rates(&theta, &rho, centres.as_centres(), rates)
         .map_err(|error| compensator.failed(context(), error))?;
-    let c_rate: Vec<f64> = n.iter().map(|n| plan.spindle.speed_at(*n)).collect();
-    let x_rate = (0..n.len())
-        .map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU))
-        .collect();
+    let c_rate = column(n.iter().map(|n| plan.spindle.speed_at(*n)));
+    let x_rate = column(
+        (0..n.len()).map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU)),
+    );
     let mut columns = Columns {
-        dz: vec![0.0; n.len()],
+        dz: column(n.iter().map(|_| 0.0)),
         t,
-        c: n.iter().map(|n| TAU * (n + plan.start.turns)).collect(),
+        c: column(n.iter().map(|n| TAU * (n + plan.start.turns))),
         x: centres.x,
         z: centres.z,
         c_rate,
@@ -240,19 +259,16 @@ fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
 }
 
 /// Gives the points of a block their velocities.
-fn solve(
-    plan: &Plan<'_>,
-    row: &NodeRow,
-    index: usize,
-    overlap: usize,
-    state: Option<&mut Vec<f64>>,
-) -> Result<BlockPoints> {
+fn solve(plan: &Plan<'_>, window: Window, state: Option<&mut Vec<f64>>) -> Result<BlockPoints> {
     let Window {
+        index,
+        owner,
+        sampled,
         columns,
         own,
         at_start,
         at_end,
-    } = row.window(plan, index, overlap);
+    } = window;
     let (mut c, mut x, mut z) = (columns.unset(), columns.unset(), columns.unset());
     let nodes = columns.nodes(at_start, at_end);
     let out = Velocities {
@@ -269,15 +285,18 @@ fn solve(
     answer.map_err(|error| link.failed(format!("from {start:.6} s on"), error))?;
     // One more than its own: the joint with the next block.
     let with_joint = own.start..(own.end + 1).min(columns.len());
-    let part = |column: &[f64]| column[with_joint.clone()].to_vec();
+    let part = |column: Vec<f64>| match with_joint == (0..column.len()) {
+        true => column,
+        false => column[with_joint.clone()].to_vec(),
+    };
     let points = PathBlock {
-        t: part(&columns.t),
-        c: part(&columns.c),
-        x: part(&columns.x),
-        z: part(&columns.z),
-        vc: part(&c),
-        vx: part(&x),
-        vz: part(&z),
+        t: part(columns.t),
+        c: part(columns.c),
+        x: part(columns.x),
+        z: part(columns.z),
+        vc: part(c),
+        vx: part(x),
+        vz: part(z),
         shape: link.strategy.segments(),
     };
     if let Some(point) = points.points().find(|point| !point.is_finite()) {
@@ -287,12 +306,9 @@ fn solve(
         );
         return Err(link.bad_answer(what));
     }
-    let (owner, sampled) = row.get(index).map_or((Vec::new(), 0), |block| {
-        (block.owner.clone(), block.sampled)
-    });
     Ok(BlockPoints {
         points,
-        offsets: columns.dz[with_joint].to_vec(),
+        offsets: part(columns.dz),
         owner,
         sampled,
         ends_path: plan.is_last(index),

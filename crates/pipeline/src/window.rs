@@ -26,6 +26,12 @@ pub struct NodeRow {
 
 /// The nodes that a velocity solver gets for one block.
 pub struct Window {
+    /// The number of the block.
+    pub index: usize,
+    /// As [`NodeBlock`] has them.
+    pub owner: Vec<u32>,
+    /// As [`NodeBlock`] has it.
+    pub sampled: usize,
     /// All nodes.
     pub columns: Columns,
     /// Which of them are the block's own.
@@ -37,9 +43,38 @@ pub struct Window {
 }
 
 impl NodeRow {
-    /// The block of that number, if the row has it.
-    pub fn get(&self, index: usize) -> Option<&NodeBlock> {
-        self.blocks.get(index.checked_sub(self.first)?)
+    /// The nodes of the blocks up to number `end`, each with the joint with the next block and with no
+    /// other neighbour. They stay where they are in memory.
+    pub fn into_windows(self, plan: &Plan<'_>, end: usize) -> Vec<Window> {
+        let is_rest = self.first + self.blocks.len() == plan.blocks();
+        let first_nodes = self.blocks.iter().map(|block| block.columns.node(0));
+        let first_nodes: Vec<Option<[f64; 9]>> = first_nodes.collect();
+        let mut behind: usize = self.blocks.iter().map(|block| block.columns.len()).sum();
+        let mut is_first = self.first == 0;
+        let blocks = self.blocks.into_iter().enumerate();
+        let window = |(at, block): (usize, NodeBlock)| {
+            let NodeBlock {
+                owner,
+                sampled,
+                mut columns,
+            } = block;
+            let own = 0..columns.len();
+            behind -= own.end;
+            let joint = first_nodes[at + 1..].iter().flatten().next();
+            joint.into_iter().for_each(|node| columns.push(*node));
+            let at_start = is_first;
+            is_first &= own.is_empty();
+            Window {
+                index: self.first + at,
+                owner,
+                sampled,
+                columns,
+                own,
+                at_start,
+                at_end: is_rest && behind <= 1,
+            }
+        };
+        blocks.take(end - self.first).map(window).collect()
     }
 
     /// The nodes of a block, with `overlap` nodes of its neighbours on either side, and with the
@@ -61,7 +96,13 @@ impl NodeRow {
             }
             start = end;
         }
+        let (owner, sampled) = rest.first().map_or((Vec::new(), 0), |block| {
+            (block.owner.clone(), block.sampled)
+        });
         Window {
+            index,
+            owner,
+            sampled,
             columns,
             own: own.start - window.start..own.end - window.start,
             at_start: self.first == 0 && window.start == 0,

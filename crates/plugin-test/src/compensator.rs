@@ -41,6 +41,7 @@ pub fn check(chain: &TrialChain) -> Vec<FaultKind> {
         touches(chain, &all),
         series(chain, &some),
         rates(chain, &some),
+        at_once(chain, &some),
     ];
     checks.into_iter().filter_map(Result::err).collect()
 }
@@ -177,34 +178,92 @@ fn series(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
 
 /// ∂X/∂θ, ∂X/∂ρ, ∂Z/∂θ at constant X, and ∂Z/∂X.
 type RateColumns = [Vec<f64>; 4];
+/// What messages call them.
+const RATE_NAMES: [&str; 4] = [
+    "∂X/∂θ at constant ρ",
+    "∂X/∂ρ at constant θ",
+    "∂Z/∂θ at constant X",
+    "∂Z/∂X at constant θ",
+];
+
+fn blank_rates(count: usize) -> RateColumns {
+    std::array::from_fn(|_| vec![f64::NAN; count])
+}
+
+fn as_rates([x_theta, x_rho, z_theta, z_x]: &mut RateColumns) -> Rates<'_> {
+    Rates {
+        x_theta,
+        x_rho,
+        z_theta,
+        z_x,
+    }
+}
+
+/// Centres and rates at once are those of the two calls, to the last bit.
+fn at_once(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
+    let (theta, rho) = polar(points);
+    let mut room = CentreBuffers::default();
+    room.resize(points.len());
+    let mut rates = blank_rates(points.len());
+    let (centres_out, rates_out) = (room.as_centres(), as_rates(&mut rates));
+    let asked =
+        compensator(chain).centre_and_rates(cut(chain), &theta, &rho, centres_out, rates_out);
+    let Some(asked) = asked else {
+        return Ok(());
+    };
+    asked.map_err(failed("centre_and_rates"))?;
+    let alone = centres(chain, &theta, &rho).map_err(failed("centre"))?;
+    let mut exact = blank_rates(points.len());
+    let out = as_rates(&mut exact);
+    if let Some(asked) = compensator(chain).exact_rates(cut(chain), &theta, &rho, out) {
+        asked.map_err(failed("exact_rates"))?;
+    }
+    let [x_theta, x_rho, z_theta, z_x] = &exact;
+    let of_two_calls = [
+        &alone.x,
+        &alone.z,
+        &alone.foot,
+        x_theta,
+        x_rho,
+        z_theta,
+        z_x,
+    ];
+    let [x_theta, x_rho, z_theta, z_x] = &rates;
+    let of_one = [&room.x, &room.z, &room.foot, x_theta, x_rho, z_theta, z_x];
+    let names = [
+        "X of the centre",
+        "Z of the centre",
+        "the contact's radius",
+        RATE_NAMES[0],
+        RATE_NAMES[1],
+        RATE_NAMES[2],
+        RATE_NAMES[3],
+    ];
+    for ((of, first), second) in names.into_iter().zip(of_two_calls).zip(of_one) {
+        let differs = |i: &usize| first[*i].to_bits() != second[*i].to_bits();
+        if let Some(i) = (0..points.len()).find(differs) {
+            return Err(FaultKind::Repeat {
+                what: format!("{of} at {}", points[i]),
+                when: "as an answer of `centre_and_rates`",
+                first: first[i],
+                second: second[i],
+            });
+        }
+    }
+    Ok(())
+}
 
 /// The exact rates against those of the host's fit of centres.
 fn rates(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
     let (theta, rho) = polar(points);
-    let blank = vec![f64::NAN; points.len()];
-    let mut exact: RateColumns = std::array::from_fn(|_| blank.clone());
-    let asked = {
-        let [x_theta, x_rho, z_theta, z_x] = &mut exact;
-        let out = Rates {
-            x_theta,
-            x_rho,
-            z_theta,
-            z_x,
-        };
-        compensator(chain).exact_rates(cut(chain), &theta, &rho, out)
-    };
-    let Some(asked) = asked else {
+    let mut exact = blank_rates(points.len());
+    let out = as_rates(&mut exact);
+    let Some(asked) = compensator(chain).exact_rates(cut(chain), &theta, &rho, out) else {
         return Ok(());
     };
     asked.map_err(failed("exact_rates"))?;
     let fitted = fitted_rates(chain, &theta, &rho).map_err(failed("centre"))?;
-    let names = [
-        "∂X/∂θ at constant ρ",
-        "∂X/∂ρ at constant θ",
-        "∂Z/∂θ at constant X",
-        "∂Z/∂X at constant θ",
-    ];
-    for ((which, exact), fitted) in names.into_iter().zip(&exact).zip(&fitted) {
+    for ((which, exact), fitted) in RATE_NAMES.into_iter().zip(&exact).zip(&fitted) {
         let largest = fitted.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
         let slack = RATE_GAP * largest.max(chain.task().tool.nose_radius * RATE_GAP);
         let differs = |i: &usize| {

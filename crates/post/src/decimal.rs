@@ -4,6 +4,8 @@ use std::io::Write;
 
 /// Digits of a half of a short number: of all before its point, or of all behind it.
 const HALF: usize = 16;
+/// Most digits that go through 64 bits; most halves have no more.
+const QUARTER: usize = 8;
 /// The powers of ten that a half can hold.
 const POWERS: [u64; HALF + 1] = {
     let mut powers = [1; HALF + 1];
@@ -23,32 +25,58 @@ pub(crate) fn push(text: &mut Vec<u8>, units: impl Into<i128>, decimals: u32) {
     }
     let size = units.unsigned_abs();
     match short_halves(size, decimals) {
-        Some(halves) => push_short(text, halves),
+        Some(halves) => push_short(text, halves, decimals),
         None => push_long(text, size, decimals),
     }
 }
 
-/// What stands before the point and behind it, the latter in 10⁻¹⁶; `None` if a half cannot hold it.
+/// What stands before the point and behind it, the latter in 10⁻⁸ where it has no more decimals, and else in
+/// 10⁻¹⁶; `None` if a half cannot hold it.
 fn short_halves(size: u128, decimals: u32) -> Option<[u64; 2]> {
     let size = u64::try_from(size).ok()?;
-    let one = POWERS.get(decimals as usize)?;
-    let scale = POWERS.get(HALF.checked_sub(decimals as usize)?)?;
+    let decimals = decimals as usize;
+    let places = if decimals <= QUARTER { QUARTER } else { HALF };
+    let one = POWERS.get(decimals)?;
+    let scale = POWERS.get(places.checked_sub(decimals)?)?;
     let (whole, fraction) = (size / one, size % one);
     (whole < POWERS[HALF]).then_some([whole, fraction * scale])
 }
 
-fn push_short(text: &mut Vec<u8>, [whole, fraction]: [u64; 2]) {
-    let mut line = [b'.'; 2 * HALF + 1];
-    let (before, behind) = (sixteen_digits(whole), sixteen_digits(fraction));
-    line[..HALF].copy_from_slice(&before.to_le_bytes());
-    line[HALF + 1..].copy_from_slice(&behind.to_le_bytes());
-    // The first digit is in the lowest byte.
-    let first = ((before ^ ZEROS).trailing_zeros() as usize / 8).min(HALF - 1);
-    let end = match (behind ^ ZEROS).leading_zeros() as usize / 8 {
-        HALF => HALF,
-        zeros => line.len() - zeros,
-    };
-    text.extend_from_slice(&line[first..end]);
+fn push_short(text: &mut Vec<u8>, [whole, fraction]: [u64; 2], decimals: u32) {
+    if whole < POWERS[QUARTER] {
+        push_whole_digits(text, u128::from(eight_digits(whole)), QUARTER);
+    } else {
+        push_whole_digits(text, sixteen_digits(whole), HALF);
+    }
+    if fraction == 0 {
+        return;
+    }
+    text.push(b'.');
+    if decimals as usize <= QUARTER {
+        push_decimals(text, u128::from(eight_digits(fraction)), QUARTER);
+    } else {
+        push_decimals(text, sixteen_digits(fraction), HALF);
+    }
+}
+
+/// Appends so many digits without the zeros before them, and at least one digit.
+fn push_whole_digits(text: &mut Vec<u8>, digits: u128, count: usize) {
+    let zeros = ((digits ^ ZEROS).trailing_zeros() as usize / 8).min(count - 1);
+    push_digits(text, digits >> (8 * zeros), count - zeros);
+}
+
+/// Appends so many digits without the zeros behind them.
+fn push_decimals(text: &mut Vec<u8>, digits: u128, count: usize) {
+    let zeros = ((digits ^ ZEROS) << (8 * (HALF - count))).leading_zeros() as usize / 8;
+    push_digits(text, digits, count - zeros);
+}
+
+/// Appends the first of some digits. To copy all of them and take back the others is faster than to copy
+/// some.
+fn push_digits(text: &mut Vec<u8>, digits: u128, count: usize) {
+    let end = text.len() + count;
+    text.extend_from_slice(&digits.to_le_bytes());
+    text.truncate(end);
 }
 
 /// Sixteen digits `0`.
@@ -128,7 +156,7 @@ mod tests {
             ] {
                 let (mut short, mut long) = (Vec::new(), Vec::new());
                 let halves = short_halves(size.into(), decimals).unwrap();
-                push_short(&mut short, halves);
+                push_short(&mut short, halves, decimals);
                 push_long(&mut long, size.into(), decimals);
                 assert_eq!(short, long, "{size} {decimals}");
             }

@@ -20,8 +20,6 @@ enum Place {
     Begun,
     /// It has ended.
     Ended,
-    /// The text does not say how it begins.
-    Unknown,
 }
 
 impl DepthCheck {
@@ -29,14 +27,6 @@ impl DepthCheck {
         Self {
             found: dialect.depth_loop(),
             place: Place::Before,
-        }
-    }
-
-    /// No check, for a text that lacks the beginning of a loop.
-    pub(crate) fn of_path_alone() -> Self {
-        Self {
-            found: None,
-            place: Place::Unknown,
         }
     }
 
@@ -56,7 +46,6 @@ impl DepthCheck {
                 self.place = Place::Ended;
                 Ok(())
             }
-            Place::Unknown => Ok(()),
             Place::Before | Place::Ended => {
                 Err("a loop over depths ends that has not begun".to_owned())
             }
@@ -76,7 +65,6 @@ impl DepthCheck {
     pub(crate) fn finish(&self, format: &ProgramFormat) -> Result<(), String> {
         let expected = expected_shifts(format);
         let found = match (self.place, &self.found) {
-            (Place::Unknown, _) => return Ok(()),
             (Place::Before, _) | (_, None) => vec![0],
             (Place::Begun, _) => return Err("the loop over depths does not end".to_owned()),
             (Place::Ended, Some(found)) => found.shifts()?,

@@ -94,7 +94,11 @@ pub(crate) struct Place<'a> {
 
 /// The time of a point in steps.
 pub(crate) fn steps_of(format: &ProgramFormat, point: &ControlPoint) -> i64 {
-    (point.t * format.steps_per_s as f64).round() as i64
+    let steps = point.t * format.steps_per_s as f64;
+    match steps.abs() <= LARGEST_UNITS {
+        true => rounded(steps),
+        false => steps.round() as i64,
+    }
 }
 
 impl Digits {
@@ -188,8 +192,16 @@ fn one(decimals: u32) -> u64 {
 
 /// A value in last digits, if it fits.
 fn units(value: f64, decimals: u32) -> Option<i64> {
-    let scaled = (value * one(decimals) as f64).round();
-    (scaled.abs() <= LARGEST_UNITS).then_some(scaled as i64)
+    let scaled = value * one(decimals) as f64;
+    (scaled.abs() <= LARGEST_UNITS).then(|| rounded(scaled))
+}
+
+/// The whole number next to a value of at most [`LARGEST_UNITS`], and of two the one farther from zero, as
+/// [`f64::round`] has it, without a call.
+fn rounded(value: f64) -> i64 {
+    let whole = value as i64;
+    let rest = value - whole as f64;
+    whole + i64::from(rest >= 0.5) - i64::from(rest <= -0.5)
 }
 
 /// The multiple of `step` next to a value.
@@ -228,4 +240,28 @@ fn at_time(point: &ControlPoint, segment: Option<&Segment>, time: f64) -> Contro
 /// A revolution in last digits.
 pub(crate) fn turn(format: &ProgramFormat) -> i64 {
     TURN_DEG * 10i64.pow(format.position_decimals)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_rounded_as_the_standard_library_rounds_them() {
+        let halves = (-9..9).map(|k| f64::from(k) + 0.5);
+        let large = [
+            LARGEST_UNITS,
+            4_503_599_627_370_496.5,
+            4_503_599_627_370_495.5,
+            1e15 + 0.5,
+        ];
+        let values = halves
+            .chain(large)
+            .chain([0.0, 0.499_999_999_999_999_94, 1e-300]);
+        for value in values.flat_map(|value| [value, value.next_up(), value.next_down()]) {
+            for value in [value, -value] {
+                assert_eq!(rounded(value), value.round() as i64, "{value:?}");
+            }
+        }
+    }
 }

@@ -6,8 +6,8 @@ pub(crate) const PLACES: u32 = 12;
 pub(crate) const ONE: i128 = 10i128.pow(PLACES);
 /// Most digits before the point: with them all sums fit into 128 bits by far.
 const MOST_DIGITS: usize = 15;
-/// The largest whole number that fits into 64 bits with its twelve decimals, and with one up.
-const LARGEST_SHORT: u64 = u64::MAX / POWERS[PLACES as usize] - 2;
+/// Digits of any number that fits into 64 bits.
+const SHORT_DIGITS: usize = 19;
 /// The powers of ten up to that of [`PLACES`].
 const POWERS: [u64; PLACES as usize + 1] = {
     let mut powers = [1; PLACES as usize + 1];
@@ -19,24 +19,82 @@ const POWERS: [u64; PLACES as usize + 1] = {
     powers
 };
 
+/// The decimal number without a sign with which a text begins.
+pub(crate) struct LeadingDecimal {
+    /// All digits as one number, if they are no more than [`SHORT_DIGITS`].
+    digits: u64,
+    /// Digits before the point, and behind it.
+    whole: usize,
+    fraction: usize,
+    /// The bytes of the number, with its point.
+    pub(crate) length: usize,
+}
+
+impl LeadingDecimal {
+    /// The number; `None` if the text begins with another one or with none.
+    #[inline]
+    pub(crate) fn of(text: &[u8]) -> Option<Self> {
+        let (mut digits, mut at) = (0, 0);
+        take_digits(text, &mut at, &mut digits);
+        let whole = at;
+        let mut fraction = 0;
+        if text.get(at) == Some(&b'.') {
+            at += 1;
+            take_digits(text, &mut at, &mut digits);
+            fraction = at - whole - 1;
+        }
+        (whole + fraction > 0).then_some(Self {
+            digits,
+            whole,
+            fraction,
+            length: at,
+        })
+    }
+
+    /// The number in 10⁻¹², rounded; `None` if it has too many digits before the point. `text` is the one that
+    /// begins with it.
+    #[inline]
+    pub(crate) fn size(&self, text: &[u8]) -> Option<i128> {
+        let is_short = self.whole <= MOST_DIGITS && self.whole + self.fraction <= SHORT_DIGITS;
+        match POWERS.get((PLACES as usize).wrapping_sub(self.fraction)) {
+            Some(power) if is_short => Some(i128::from(self.digits) * i128::from(*power)),
+            _ => long_decimal(text.get(..self.length).unwrap_or_default(), self.whole),
+        }
+    }
+}
+
+/// Goes on over digits, and appends them to a sum. One of more than [`SHORT_DIGITS`] is of no use.
+#[inline]
+fn take_digits(text: &[u8], at: &mut usize, sum: &mut u64) {
+    while let Some(digit) = text.get(*at).filter(|byte| byte.is_ascii_digit()) {
+        *sum = sum.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
+        *at += 1;
+    }
+}
+
+/// A number of any length with so many digits before the point. Apart, so that short numbers do not go
+/// through it too.
+#[cold]
+#[inline(never)]
+fn long_decimal(text: &[u8], whole: usize) -> Option<i128> {
+    let (whole, fraction) = text.split_at(whole);
+    fixed(whole, fraction.strip_prefix(b".").unwrap_or(fraction))
+}
+
 /// The number of these digits before and after the point in 10⁻¹², rounded; `None` if it has too
 /// many digits before the point.
-pub(crate) fn fixed(whole: &str, fraction: &str) -> Option<i128> {
-    let zeros = whole.bytes().take_while(|digit| *digit == b'0');
+fn fixed(whole: &[u8], fraction: &[u8]) -> Option<i128> {
+    let zeros = whole.iter().take_while(|digit| **digit == b'0');
     let whole = whole.get(zeros.count()..).unwrap_or_default();
     if whole.len() > MOST_DIGITS {
         return None;
     }
     let count = fraction.len().min(PLACES as usize);
-    let (kept, cut) = fraction.as_bytes().split_at(count);
+    let (kept, cut) = fraction.split_at(count);
     let scaled = digits_of(kept) * POWERS[PLACES as usize - count];
     let up = cut.first().is_some_and(|digit| *digit >= b'5');
     let part = scaled + u64::from(up);
-    let whole = digits_of(whole.as_bytes());
-    Some(match whole <= LARGEST_SHORT {
-        true => i128::from(whole * POWERS[PLACES as usize] + part),
-        false => i128::from(whole) * ONE + i128::from(part),
-    })
+    Some(i128::from(digits_of(whole)) * ONE + i128::from(part))
 }
 
 /// The number of at most eighteen digits.
@@ -66,11 +124,40 @@ pub(crate) fn number(what: &str, text: &str) -> Result<i128, String> {
         Some(size) => (true, size),
         None => (false, text),
     };
-    let (whole, fraction) = size.split_once('.').unwrap_or((size, ""));
-    let are_digits = |digits: &str| digits.bytes().all(|byte| byte.is_ascii_digit());
-    if whole.len() + fraction.len() == 0 || !are_digits(whole) || !are_digits(fraction) {
-        return Err(format!("{what} has no number"));
-    }
-    let size = fixed(whole, fraction).ok_or_else(|| format!("{what} has too many digits"))?;
+    let decimal = LeadingDecimal::of(size.as_bytes()).filter(|found| found.length == size.len());
+    let decimal = decimal.ok_or_else(|| format!("{what} has no number"))?;
+    let size = decimal.size(size.as_bytes());
+    let size = size.ok_or_else(|| format!("{what} has too many digits"))?;
     Ok(if negative { -size } else { size })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// Short numbers and long ones, with zeros before them, are the same by both ways.
+        #[test]
+        fn a_number_of_any_length_is_that_of_its_digits(
+            whole in "0{0,9}[0-9]{0,17}",
+            fraction in proptest::option::of("[0-9]{0,16}"),
+            behind in "|:|X|-1|\\.5| 7",
+        ) {
+            let point = if fraction.is_some() { "." } else { "" };
+            let fraction = fraction.unwrap_or_default();
+            let text = format!("{whole}{point}{fraction}{behind}");
+            let found = LeadingDecimal::of(text.as_bytes());
+            if point.is_empty() && behind == ".5" {
+                prop_assert!(found.is_some_and(|found| found.length == whole.len() + 2));
+            } else if whole.len() + fraction.len() == 0 {
+                prop_assert!(found.is_none());
+            } else {
+                let found = found.unwrap();
+                prop_assert_eq!(found.length, text.len() - behind.len());
+                prop_assert_eq!(found.size(text.as_bytes()), fixed(whole.as_bytes(), fraction.as_bytes()));
+            }
+        }
+    }
 }

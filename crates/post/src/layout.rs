@@ -40,8 +40,11 @@ pub struct Lines {
     pub extent: Option<Extent>,
 }
 
+/// Room for the lines of a point, bytes: most need less, and where more is needed the text grows.
+const BYTES_OF_POINT: usize = 96;
+
 /// The text in the file at `path`.
-fn open_file(compression: Compression, path: &Path) -> io::Result<OpenFile> {
+pub(crate) fn open_file(compression: Compression, path: &Path) -> io::Result<OpenFile> {
     text_file::open(compression, ordinary_file::open(path)?)
 }
 
@@ -53,7 +56,7 @@ impl Layout {
     /// When a program cannot carry the path.
     pub fn lines(&self, stretch: &SectionBlock<'_>) -> Result<Lines, ProgramError> {
         let Self { post, format } = self;
-        let mut text = Vec::new();
+        let mut text = Vec::with_capacity(BYTES_OF_POINT * stretch.points.len());
         let opening = format!("{} {}\n", post.comment, mark(stretch.section));
         let mut opening = stretch.opens_section.then_some(opening);
         // Lines between a lead-in and the cut belong to the lead-in: the cut begins at its first point.
@@ -197,13 +200,6 @@ impl Layout {
     /// `path`.
     pub fn read<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
         ProgramReader::new(reader, path.into(), self.post, &self.format)
-    }
-
-    /// Reads the lines of a path and what follows them, without what stands before them, as
-    /// [`ProgramPath::text`](crate::ProgramPath::text) has them. So the beginning of a loop over depths is
-    /// missing, and the loop is not checked.
-    pub fn read_path<R: Read>(&self, reader: R, path: impl Into<PathBuf>) -> ProgramReader<R> {
-        self.read(reader, path).of_path_alone()
     }
 
     /// Reads a program of one or several files in memory. The first one is the main program. What its name

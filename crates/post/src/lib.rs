@@ -25,6 +25,7 @@ mod forward_rates;
 mod g93;
 mod g_code;
 mod layout;
+mod lines;
 mod maps;
 mod ordinary_file;
 mod part_calls;
@@ -56,6 +57,7 @@ mod trail;
 mod travel;
 mod travel_check;
 mod turn;
+mod whole_program;
 mod write_csv;
 #[cfg(feature = "npz")]
 mod write_npz;
@@ -87,6 +89,7 @@ pub use settings::{
     HEADER as HEADER_KEY, MEMORY, SEGMENTS_PER_SECOND, SPLIT,
 };
 pub use template::{PLACEHOLDERS, Template, TemplateError};
-pub use text_file::{OpenFile, file_bytes};
+pub use text_file::OpenFile;
 pub use travel::{Extent, Places, Travel, TravelModes};
+pub use whole_program::WholeProgram;
 pub use write_csv::PathWriter;

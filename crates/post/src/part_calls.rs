@@ -1,7 +1,9 @@
 //! The parts that a main program calls, as they are read: in their order, and each of them whole.
 
-use std::io::{self, BufReader, Read};
+use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
+
+use crate::lines::LineReader;
 
 /// Opens a part by the name of its file.
 pub(crate) type OpenPart<R> = Box<dyn Fn(&str) -> io::Result<R> + Send + Sync>;
@@ -14,7 +16,7 @@ pub(crate) struct PartCalls<R> {
     /// The parts that it has called so far.
     called: u32,
     /// The main program, while a part of it is read: its lines, its file, and the line of the call.
-    pub(crate) caller: Option<(BufReader<R>, PathBuf, u64)>,
+    pub(crate) caller: Option<(LineReader<R>, PathBuf, u64)>,
     place: Place,
 }
 

@@ -2,7 +2,8 @@
 
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::Read;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::tally::LINES_READ;
@@ -11,6 +12,7 @@ use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 use crate::compression::{Compression, text_name};
 use crate::depth_check::DepthCheck;
 use crate::forward_rates::ForwardRates;
+use crate::lines::LineReader;
 use crate::part_calls::{OpenPart, PartCalls};
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
@@ -23,16 +25,14 @@ use crate::turn::check_turn;
 
 /// Longest line that is read, bytes: far longer than any line of a program, so that a file that is no
 /// program does not fill the memory.
-const LONGEST_LINE: u64 = 1 << 16;
+const LONGEST_LINE: usize = 1 << 16;
 /// Most text without a point of the path, bytes: far more than any header or footer, so that a small file
 /// that decompresses to very much is not read for hours.
 const MOST_WITHOUT_POINT: u64 = 1 << 23;
-/// Size of the buffer, bytes.
-const BUFFER: usize = 1 << 18;
 
 /// Reads a program's path point by point, from a file or from any other [`Read`].
 pub struct ProgramReader<R = File> {
-    lines: BufReader<R>,
+    lines: LineReader<R>,
     path: PathBuf,
     post: &'static Post,
     format: ProgramFormat,
@@ -48,8 +48,7 @@ pub struct ProgramReader<R = File> {
     depths: DepthCheck,
     /// The points that the end mark says, after it was read.
     said_points: Option<u64>,
-    /// The line that is read, and the points that are found on it: their memory is used again.
-    text: Vec<u8>,
+    /// The points that are found on the line that is read: their memory is used again.
     found: Vec<ControlPoint>,
     /// Points that were read and not given yet.
     waiting: VecDeque<(ControlPoint, Section)>,
@@ -88,7 +87,7 @@ impl<R: Read> ProgramReader<R> {
     ) -> Self {
         let has_rates = post.shape == SegmentShape::Linear;
         Self {
-            lines: BufReader::with_capacity(BUFFER, reader),
+            lines: LineReader::new(reader),
             path,
             post,
             format: *format,
@@ -100,7 +99,6 @@ impl<R: Read> ProgramReader<R> {
             travel: TravelCheck::default(),
             depths: DepthCheck::new(post.dialect),
             said_points: None,
-            text: Vec::new(),
             found: Vec::new(),
             waiting: VecDeque::new(),
             last: None,
@@ -121,14 +119,6 @@ impl<R: Read> ProgramReader<R> {
         }
     }
 
-    /// The same for a text that has nothing before its path.
-    pub(crate) fn of_path_alone(self) -> Self {
-        Self {
-            depths: DepthCheck::of_path_alone(),
-            ..self
-        }
-    }
-
     /// Errors name this file instead of the one that is read.
     pub fn named(self, path: impl AsRef<Path>) -> Self {
         Self {
@@ -145,35 +135,52 @@ impl<R: Read> ProgramReader<R> {
         }
     }
 
-    /// Reads the next line into `text`; `false` at the end of the file.
-    fn read_line(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
-        text.clear();
-        let mut limited = (&mut self.lines).take(LONGEST_LINE);
-        let read = limited.read_until(b'\n', text);
-        let read = read.map_err(|error| ReadError::File {
-            path: self.path.clone(),
-            error,
-        })?;
-        self.line += u64::from(read > 0);
-        self.lines_read += usize::from(read > 0);
-        if read as u64 == LONGEST_LINE {
+    /// Where the next line is in the buffer of the lines; `None` at the end of the file.
+    fn next_line(&mut self) -> Result<Option<Range<usize>>, ReadError> {
+        let line = self.lines.next_line(LONGEST_LINE);
+        let Some(line) = line.map_err(|error| ReadError::of(&self.path)(error))? else {
+            return Ok(None);
+        };
+        self.line += 1;
+        self.lines_read += 1;
+        if line.len() >= LONGEST_LINE {
             return Err(self.wrong("this line is longer than any line of a program".to_owned()));
         }
-        self.bytes_without_point += read as u64;
+        self.bytes_without_point += line.len() as u64;
         if self.bytes_without_point > MOST_WITHOUT_POINT {
             return Err(self.much_without_point());
         }
-        Ok(read > 0)
+        Ok(Some(line))
+    }
+
+    /// Reads lines to the end of their text. None of them is a mark of the path, and each has its end: so they
+    /// leave the reader as it was.
+    pub(crate) fn pass_header(&mut self) -> Result<(), ReadError> {
+        while let Some(line) = self.next_line()? {
+            let buffer = self.lines.lend();
+            let passed = self.pass_header_line(&buffer[line]);
+            self.lines.take_back(buffer);
+            passed.map_err(|what| self.wrong(what))?;
+        }
+        Ok(())
+    }
+
+    fn pass_header_line(&mut self, line: &[u8]) -> Result<(), String> {
+        let (_, comment) = self.grammar.split_comment(line);
+        let is_mark = comment.map_or(Ok(false), |comment| self.read_comment(comment));
+        if is_mark? {
+            return Err("a mark of the path stands in the header".to_owned());
+        }
+        match line.ends_with(b"\n") {
+            true => Ok(()),
+            false => Err("the header ends within a line".to_owned()),
+        }
     }
 
     /// Reads on to the end of the file: a compressed one shows only there whether it is whole.
-    fn pass_footer(&mut self) -> Result<(), ReadError> {
-        let mut footer = (&mut self.lines).take(MOST_WITHOUT_POINT);
-        let read = io::copy(&mut footer, &mut io::sink());
-        let bytes = read.map_err(|error| ReadError::File {
-            path: self.path.clone(),
-            error,
-        })?;
+    pub(crate) fn pass_footer(&mut self) -> Result<(), ReadError> {
+        let bytes = self.lines.pass_rest(MOST_WITHOUT_POINT);
+        let bytes = bytes.map_err(|error| ReadError::of(&self.path)(error))?;
         match bytes < MOST_WITHOUT_POINT {
             true => Ok(()),
             false => Err(self.much_without_point()),
@@ -323,7 +330,7 @@ impl<R: Read> ProgramReader<R> {
     }
 
     /// Reads the next line; `false` at the end of the path.
-    fn read_on(&mut self, text: &mut Vec<u8>) -> Result<bool, ReadError> {
+    fn read_on(&mut self) -> Result<bool, ReadError> {
         if let Some(said) = self.said_points {
             let count = self.found_points;
             LINES_READ.add(std::mem::take(&mut self.lines_read));
@@ -336,30 +343,39 @@ impl<R: Read> ProgramReader<R> {
                 ))),
             };
         }
-        if !self.read_line(text)? {
+        let Some(line) = self.next_line()? else {
             return self.end_file();
+        };
+        let buffer = self.lines.lend();
+        let read = self.read_line(&buffer[line]);
+        self.lines.take_back(buffer);
+        if let Some(part) = read.map_err(|what| self.wrong(what))? {
+            self.call(&part)?;
         }
-        let (code, comment) = self.grammar.split_comment(text);
-        if let Some(comment) = comment {
-            let read = self.read_comment(comment);
-            let is_mark = read.map_err(|what| self.wrong(what))?;
-            if is_mark && !code.trim_ascii().is_empty() {
-                let what = "code stands before a mark of the path: a mark has a line of its own";
-                return Err(self.wrong(what.to_owned()));
-            }
+        Ok(true)
+    }
+
+    /// Reads a line; gives the file of the part that it calls, if it calls one.
+    fn read_line(&mut self, line: &[u8]) -> Result<Option<String>, String> {
+        let (code, comment) = self.grammar.split_comment(line);
+        if let Some(comment) = comment
+            && self.read_comment(comment)?
+            && !code.trim_ascii().is_empty()
+        {
+            let what = "code stands before a mark of the path: a mark has a line of its own";
+            return Err(what.to_owned());
         }
         if self.parts.is_outside() {
-            return Ok(true);
+            return Ok(None);
         }
         if let Some(name) = self.called_part(code) {
-            self.call(&name)?;
-            return Ok(true);
+            return Ok(Some(name));
         }
         // The lines before the path belong to the header, and those after it to the footer.
         if !matches!(self.part, Part::Header | Part::Footer) {
-            self.read_code(code).map_err(|what| self.wrong(what))?;
+            self.read_code(code)?;
         }
-        Ok(true)
+        Ok(None)
     }
 }
 
@@ -383,8 +399,7 @@ impl<R: Read> ProgramReader<R> {
             path: path.clone(),
             error,
         })?;
-        let part = BufReader::with_capacity(BUFFER, part);
-        let main = std::mem::replace(&mut self.lines, part);
+        let main = std::mem::replace(&mut self.lines, LineReader::new(part));
         let own = std::mem::replace(&mut self.path, path);
         self.parts.caller = Some((main, own, self.line));
         self.line = 0;
@@ -419,10 +434,7 @@ impl<R: Read> ProgramReader<R> {
     /// The next point with the velocities that its line says.
     fn next_found(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
         while self.waiting.is_empty() {
-            let mut text = std::mem::take(&mut self.text);
-            let is_within = self.read_on(&mut text);
-            self.text = text;
-            if !is_within? {
+            if !self.read_on()? {
                 return Ok(None);
             }
         }

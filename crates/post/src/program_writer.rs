@@ -1,7 +1,7 @@
 //! Writes a program: first the path, then the header and the footer around it.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, Write};
+use std::io::{self, BufReader, Cursor, Read, Seek, Write};
 use std::path::Path;
 
 use turnpath_files::{Draft, FileError, Scratch};
@@ -10,8 +10,10 @@ use crate::amount::{Amount, TextSize};
 use crate::compression::Compression;
 use crate::layout::{Layout, Lines};
 use crate::parts::{Cutter, PartsError};
+use crate::read_error::ReadError;
 use crate::text_file::{TextFile, file_bytes};
 use crate::travel::Extent;
+use crate::whole_program::{WholeProgram, proven_in_memory};
 
 /// Writes a program to a file or to memory. The header reports what is known only when the path was
 /// measured on its own text, so the path waits until then: in a file without a name, or in memory.
@@ -27,7 +29,7 @@ use crate::travel::Extent;
 /// writer.append(&Lines { text, ..Lines::default() })?;
 /// let path = writer.close();
 /// assert!(path.text().ends_with(b"; -- end of path: 0 points --\n"));
-/// let program = path.assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n");
+/// let program = path.assemble(["OPEN PROG 1 CLEAR\n", "CLOSE\n"], "part.pmc")?;
 /// assert!(program.starts_with(b"OPEN PROG 1 CLEAR\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -49,12 +51,12 @@ pub struct ProgramFileBody {
     draft: Draft,
 }
 
-/// A whole path of a program with its end mark, which still lacks header and footer.
+/// A whole path of a program with its approach and its end mark, which still lacks header and footer.
 #[derive(Debug)]
 pub struct ProgramPath {
     lines: File,
     draft: Draft,
-    /// The approach, which stands behind the header.
+    /// The approach, which stands before the first line.
     approach: Vec<u8>,
     /// What stands behind the last line, which is at the end of `lines` too.
     end: Vec<u8>,
@@ -133,13 +135,13 @@ impl ProgramPath {
         self.draft.path()
     }
 
-    /// The path's text from its beginning.
+    /// The path's text from its beginning: approach, lines and end mark.
     ///
     /// # Errors
     /// When the file cannot be read.
-    pub fn text(&mut self) -> Result<&mut File, FileError> {
+    pub fn text(&mut self) -> Result<impl Read + Send, FileError> {
         match self.lines.rewind() {
-            Ok(()) => Ok(&mut self.lines),
+            Ok(()) => Ok(self.approach.as_slice().chain(&mut self.lines)),
             Err(error) => Err(FileError::of(self.draft.path())(error)),
         }
     }
@@ -184,24 +186,36 @@ impl ProgramPath {
         Ok((main, parts))
     }
 
-    /// The complete program as a file that still lacks its name. What its name ends with says whether it
+    /// The complete program as one file that still lacks its name. What its name ends with says whether it
     /// is compressed.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn assemble(self, header: &str, footer: &str) -> Result<Draft, FileError> {
+    pub fn assemble(
+        self,
+        [header, footer]: [&str; 2],
+    ) -> Result<WholeProgram<impl Read>, FileError> {
         let Self {
             mut lines,
             draft,
             approach,
+            layout,
             ..
         } = self;
-        written(draft, |text| {
+        let file = written(draft, |text| {
             lines.rewind()?;
             text.write_all(header.as_bytes())?;
             text.write_all(&approach)?;
             io::copy(&mut lines, text)?;
-            text.write_all(footer.as_bytes())
+            text.write_all(footer.as_bytes())?;
+            lines.rewind()
+        })?;
+        Ok(WholeProgram {
+            file,
+            header: header.to_owned(),
+            text: Cursor::new(approach).chain(lines),
+            footer: footer.to_owned(),
+            layout,
         })
     }
 }
@@ -231,7 +245,7 @@ impl ProgramWriter<Vec<u8>> {
         let end = self.layout.end(self.points, self.extent.as_ref());
         let approach = self.layout.approach(self.extent.as_ref());
         ProgramPathInMemory {
-            text: [self.body.as_slice(), &end].concat(),
+            text: [approach.as_slice(), &self.body, &end].concat(),
             approach,
             end,
             layout: self.layout,
@@ -247,7 +261,7 @@ impl ProgramPathInMemory {
         self.points
     }
 
-    /// The path's text.
+    /// The path's text: approach, lines and end mark.
     pub fn text(&self) -> &[u8] {
         &self.text
     }
@@ -275,8 +289,8 @@ impl ProgramPathInMemory {
         (file, most): (&str, Amount),
     ) -> Result<Vec<(String, Vec<u8>)>, PartsError> {
         let mut names = Vec::new();
-        let body = self.text.len().saturating_sub(self.end.len());
-        let mut lines = self.text.get(..body).unwrap_or_default();
+        let end = self.text.len().saturating_sub(self.end.len());
+        let mut lines = self.text.get(self.approach.len()..end).unwrap_or_default();
         let cutter = Cutter::new(&self.layout, file, most);
         let (parts, calls) = cutter.cut(&mut lines, &mut |name| {
             names.push(name.to_owned());
@@ -295,10 +309,13 @@ impl ProgramPathInMemory {
         Ok(files.chain(names.into_iter().zip(parts)).collect())
     }
 
-    /// The complete program.
-    pub fn assemble(self, header: &str, footer: &str) -> Vec<u8> {
-        let Self { text, approach, .. } = self;
-        [header.as_bytes(), &approach, &text, footer.as_bytes()].concat()
+    /// The complete program as one file of this name. What it ends with says whether it is compressed. It is
+    /// proven that the file is read as its text.
+    ///
+    /// # Errors
+    /// When header or footer change what is read, or this build writes no files that are compressed so.
+    pub fn assemble(self, around: [&str; 2], file: &str) -> Result<Vec<u8>, ReadError> {
+        proven_in_memory(&self.layout, file, &self.text, around)
     }
 }
 

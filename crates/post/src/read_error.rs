@@ -27,6 +27,12 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    /// Makes the error of an operation on this file.
+    pub(crate) fn of(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |error| Self::File { path, error }
+    }
+
     /// The error with another name of the file, where the file is read under a temporary name.
     pub fn named(mut self, name: &Path) -> Self {
         let (Self::File { path, .. } | Self::Line { path, .. }) = &mut self;

@@ -80,7 +80,7 @@ impl<W: Write> Write for TextFile<W> {
 ///
 /// # Errors
 /// When this build writes no files that are compressed so.
-pub fn file_bytes(file: &str, text: Vec<u8>) -> io::Result<Vec<u8>> {
+pub(crate) fn file_bytes(file: &str, text: Vec<u8>) -> io::Result<Vec<u8>> {
     match Compression::of_file(Path::new(file)) {
         Compression::None => Ok(text),
         compression => {

@@ -170,7 +170,7 @@ impl<'a> FolderSink<'a> {
     }
 
     /// Measures each program on the text of its path, puts it together with its figures in the header, and
-    /// reads it as a whole.
+    /// proves that the whole is read as this text.
     pub fn read_back(
         &mut self,
         job: &Job,
@@ -185,7 +185,7 @@ impl<'a> FolderSink<'a> {
         for (program, writer) in self.programs.iter().zip(files.programs.drain(..)) {
             let mut path = writer.close()?;
             let (points, name) = (path.points(), path.file().to_owned());
-            let mut reader = program.layout.read_path(path.text()?, &name);
+            let mut reader = program.layout.read(path.text()?, &name);
             let text = ProgramText {
                 reader: &mut reader,
                 name: &name,
@@ -203,10 +203,8 @@ impl<'a> FolderSink<'a> {
                 draft.write_all(&text).map_err(FileError::of(&file))?;
                 files.drafts.push(draft);
             }
-            let assembled = assemble((job, program), path, &frame, self.folder)?;
-            files
-                .drafts
-                .extend(whole_program(program, assembled, &name, points)?);
+            let whole = whole_program((job, program), path, &frame, self.folder)?;
+            files.drafts.extend(whole);
             reports.push(report);
         }
         Ok(reports)
@@ -258,31 +256,22 @@ impl<'a> FolderSink<'a> {
     }
 }
 
-/// The files of a whole program, in the making: its own, and its parts with their names.
-struct AssembledProgram {
-    main: Draft,
-    parts: Vec<(String, Draft)>,
-}
-
-/// Puts a program together, in one file or with its parts.
-fn assemble(
+/// Puts a program together, in one file or with its parts; gives its files.
+fn whole_program(
     (job, program): (&Job, &Program),
     path: ProgramPath,
     frame: &Frame,
     folder: &ResultFolder,
-) -> Result<AssembledProgram, Error> {
+) -> Result<Vec<Draft>, Error> {
+    let around = [frame.header.as_str(), &frame.footer];
     let size = path.size(&frame.header, &frame.footer);
     let fits = program.refuse_large(size);
     fits.map_err(|error| not_carried(&job.recipe, error))?;
     let Some(most) = program.split_of(size) else {
-        let main = path.assemble(&frame.header, &frame.footer)?;
-        return Ok(AssembledProgram {
-            main,
-            parts: Vec::new(),
-        });
+        return Ok(vec![path.assemble(around)?.proven()?]);
     };
+    let (points, file) = (path.points(), path.file().to_owned());
     let mut names = Vec::new();
-    let around = [frame.header.as_str(), &frame.footer];
     let assembled = path.assemble_parts(around, (&program.file, most), &mut |name| {
         names.push(name.to_owned());
         folder.draft(&folder.path().join(name))
@@ -290,17 +279,16 @@ fn assemble(
     let divided = assembled.map_err(|error| program.not_divided(&job.recipe, error));
     let (main, parts) = divided?;
     let parts = names.into_iter().zip(parts).collect();
-    Ok(AssembledProgram { main, parts })
+    read_files(program, (main, parts), &file, points)
 }
 
-/// Reads a program to its end, with its parts; gives its files.
-fn whole_program(
+/// Reads a program of several files to its end; gives its files.
+fn read_files(
     program: &Program,
-    assembled: AssembledProgram,
+    (mut main, parts): (Draft, Vec<(String, Draft)>),
     name: &Path,
     points: u64,
 ) -> Result<Vec<Draft>, Error> {
-    let AssembledProgram { mut main, parts } = assembled;
     let (mut drafts, mut places) = (Vec::new(), BTreeMap::new());
     for (name, mut draft) in parts {
         places.insert(name, draft.readable()?.to_owned());

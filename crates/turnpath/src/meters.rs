@@ -15,6 +15,8 @@ use turnpath_verify::{
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures::form_scope;
+use crate::segment_rate::SegmentRate;
+use crate::speed_steps::SpeedSteps;
 
 /// Rows that are measured in one go.
 pub const BLOCK_ROWS: usize = 20_000;
@@ -138,6 +140,12 @@ pub struct ProgramMeters {
     pub cut: ProgramMeter,
     /// Its leads.
     pub lead: LeadMeter,
+    /// How many of its segments the controller has to read in a second.
+    pub rate: SegmentRate,
+    /// The steps of the speed of C, where the controller keeps it within a segment.
+    pub speed_steps: Option<SpeedSteps>,
+    /// Whether a block was begun.
+    has_begun: bool,
 }
 
 impl ProgramMeters {
@@ -146,7 +154,16 @@ impl ProgramMeters {
         Self {
             cut: ProgramMeter::new(touch, form_scope(recipe)),
             lead: LeadMeter::default(),
+            rate: SegmentRate::default(),
+            speed_steps: None,
+            has_begun: false,
         }
+    }
+
+    /// The same with the steps of the speed of C, if the controller keeps it within a segment.
+    pub fn with_speed_steps(mut self, c_is_even: bool) -> Self {
+        self.speed_steps = c_is_even.then(SpeedSteps::default);
+        self
     }
 }
 
@@ -162,7 +179,16 @@ impl Meters for ProgramMeters {
     type Start = ();
     type Block = ProgramBlock;
 
-    fn advance(&mut self, _: &PathBlock) {}
+    fn advance(&mut self, points: &PathBlock) {
+        // A block begins with the last point of the one before.
+        let known = usize::from(std::mem::replace(&mut self.has_begun, true));
+        for point in points.points().skip(known) {
+            self.rate.pass(&point);
+            if let Some(steps) = &mut self.speed_steps {
+                steps.pass(&point);
+            }
+        }
+    }
 
     fn measure(
         &self,

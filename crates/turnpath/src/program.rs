@@ -22,9 +22,8 @@ use crate::error::Error;
 use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, ProgramMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
-use crate::segment_rate::{CountedSegments, SegmentRate};
+use crate::segment_rate::SegmentRate;
 use crate::sizes::sampled_bytes;
-use crate::speed_steps::SpeedSteps;
 
 /// A program that a recipe asks for.
 #[derive(Clone)]
@@ -282,7 +281,8 @@ impl Program {
         chords.is_some_and(|chords| chords.feed == FeedMeaning::Seconds)
     }
 
-    /// Reads a whole program to its end. Its path was measured; header and footer must not hide any of it.
+    /// Reads a whole program of several files to its end. Its path was measured; header, footer and cuts must
+    /// not hide any of it.
     pub fn read_whole(
         &self,
         reader: &mut dyn ReadPath,
@@ -317,10 +317,9 @@ impl Program {
         } = text;
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = ProgramMeters::new(recipe, touch);
-        let mut counted = CountedSegments::new(reader);
-        let mut reader = SpeedSteps::new(&mut counted);
+        let meters = meters.with_speed_steps(self.layout.post.c_is_even);
         let shape = self.layout.format.shape();
-        let measured = measure(recipe, meters, shape, &mut reader, observer)?;
+        let measured = measure(recipe, meters, shape, reader, observer)?;
         let found = reader.read_count().points();
         if found != points {
             return Err(Error::PointsLost {
@@ -329,8 +328,7 @@ impl Program {
                 expected: points,
             });
         }
-        let speed_step = reader.largest();
-        let rate = self.carried(counted.rate.within(self.segments_per_second));
+        let rate = self.carried(measured.rate.within(self.segments_per_second));
         rate.map_err(|error| not_carried(recipe, error))?;
         let failed = |error| of_measure(recipe, error);
         let form = measured.cut.form().map_err(failed)?;
@@ -338,7 +336,7 @@ impl Program {
         let figures = ProgramFigures {
             interpolation_error: measured.cut.playback().max(),
             path_error,
-            c_speed_step: self.layout.post.c_is_even.then_some(speed_step),
+            c_speed_step: measured.speed_steps.map(|steps| steps.largest()),
             form_error: form_error(form.as_ref(), lead_clearance),
             lead_clearance,
             lines: (self.layout.format.shape() == SegmentShape::Linear)

@@ -1,13 +1,11 @@
 //! A run: the path made, measured, put where it is wanted, and reported.
 
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::{Misfit, Slot};
-use turnpath_files::{Draft, FileError};
+use turnpath_files::Draft;
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
-use turnpath_post::file_bytes;
 use turnpath_report as report;
 use turnpath_report::{FormSplit, PathSketch, ProgramReport, RunReport};
 use turnpath_verify::unreached;
@@ -146,7 +144,7 @@ impl Job {
         for (program, writer) in self.programs.iter().zip(sink.writers) {
             let path = writer.close();
             let (points, name) = (path.points(), Path::new(&program.file));
-            let mut reader = program.layout.read_path(Cursor::new(path.text()), name);
+            let mut reader = program.layout.read(path.text(), name);
             let text = ProgramText {
                 reader: &mut reader,
                 name,
@@ -161,21 +159,20 @@ impl Job {
             let failed = |error| not_carried(&self.recipe, error);
             program.refuse_large(size).map_err(failed)?;
             let around = [frame.header.as_str(), &frame.footer];
-            let files = match program.split_of(size) {
+            match program.split_of(size) {
                 None => {
-                    let text = path.assemble(around[0], around[1]);
-                    let bytes = file_bytes(&program.file, text);
-                    vec![(program.file.clone(), bytes.map_err(FileError::of(name))?)]
+                    let bytes = path.assemble(around, &program.file)?;
+                    programs.push((program.file.clone(), bytes));
                 }
                 Some(most) => {
                     let files = path.assemble_parts(around, (&program.file, most));
-                    files.map_err(|error| program.not_divided(&self.recipe, error))?
+                    let files = files.map_err(|error| program.not_divided(&self.recipe, error))?;
+                    let mut whole = program.layout.read_files(files.clone())?;
+                    program.read_whole(&mut whole, name, points)?;
+                    programs.extend(files);
                 }
-            };
-            let mut whole = program.layout.read_files(files.clone())?;
-            program.read_whole(&mut whole, name, points)?;
+            }
             reports.push(report);
-            programs.extend(files);
         }
         Ok(RunResult {
             toolpath: Some(sink.toolpath),

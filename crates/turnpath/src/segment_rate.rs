@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use turnpath_core::DEG;
-use turnpath_core::toolpath::{ControlPoint, Section};
-use turnpath_post::{ProgramError, ReadCount, ReadError, ReadPath};
+use turnpath_core::toolpath::ControlPoint;
+use turnpath_post::ProgramError;
 
 /// The time over which segments are counted, s. Controllers read ahead, so a few short segments in a row
 /// cost nothing; how far they read is not known of most.
@@ -51,41 +51,6 @@ impl SegmentRate {
                 c_deg: self.at.c / DEG,
             }),
         }
-    }
-}
-
-/// Reads a path and counts its segments.
-pub struct CountedSegments<'a> {
-    reader: &'a mut (dyn ReadPath + Send),
-    /// What was counted so far.
-    pub rate: SegmentRate,
-}
-
-impl<'a> CountedSegments<'a> {
-    /// A path that was not begun.
-    pub fn new(reader: &'a mut (dyn ReadPath + Send)) -> Self {
-        Self {
-            reader,
-            rate: SegmentRate::default(),
-        }
-    }
-}
-
-impl ReadPath for CountedSegments<'_> {
-    fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
-        let next = self.reader.next_point()?;
-        if let Some((point, _)) = &next {
-            self.rate.pass(point);
-        }
-        Ok(next)
-    }
-
-    fn read_count(&self) -> &ReadCount {
-        self.reader.read_count()
-    }
-
-    fn read_count_mut(&mut self) -> &mut ReadCount {
-        self.reader.read_count_mut()
     }
 }
 

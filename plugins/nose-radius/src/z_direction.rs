@@ -49,19 +49,11 @@ impl Compensator for ZDirection {
         true
     }
 
-    fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
-        let (mut finder, mut points) = (FootFinder::default(), Evaluation::default());
-        for batch in batches(theta.len()) {
-            let touches = finder.find(cut, &theta[batch.clone()], &rho[batch.clone()])?;
-            points.set(touches.iter().map(|touch| touch.ray.point(touch.foot())));
-            points.gradient(cut.surface)?;
-            for ((touch, height), at) in touches.iter().zip(&points.z).zip(batch) {
-                out.x[at] = touch.rho;
-                out.z[at] = height + rise(cut.tool.nose_radius, touch.offset);
-                out.foot[at] = touch.foot();
-            }
-        }
-        Ok(())
+    fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], mut out: Centres<'_>) -> Result<()> {
+        let radius = cut.tool.nose_radius;
+        at_feet(cut, theta, rho, |at, foot| {
+            foot.write_centre(radius, &mut out, at);
+        })
     }
 
     fn exact_series(
@@ -80,26 +72,74 @@ impl Compensator for ZDirection {
         cut: Cut<'_>,
         theta: &[f64],
         rho: &[f64],
-        out: Rates<'_>,
+        mut out: Rates<'_>,
     ) -> Option<Result<()>> {
-        Some(rates(cut, theta, rho, out))
+        Some(at_feet(cut, theta, rho, |at, foot| {
+            foot.write_rates(&mut out, at);
+        }))
+    }
+
+    fn centre_and_rates(
+        &self,
+        cut: Cut<'_>,
+        theta: &[f64],
+        rho: &[f64],
+        mut centres: Centres<'_>,
+        mut rates: Rates<'_>,
+    ) -> Option<Result<()>> {
+        let radius = cut.tool.nose_radius;
+        Some(at_feet(cut, theta, rho, |at, foot| {
+            foot.write_centre(radius, &mut centres, at);
+            foot.write_rates(&mut rates, at);
+        }))
     }
 }
 
-fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
+/// A touch, and the surface at its foot.
+struct Foot<'a> {
+    touch: &'a Touch,
+    height: f64,
+    /// ∂z/∂x and ∂z/∂y.
+    slopes: [f64; 2],
+}
+
+impl Foot<'_> {
+    fn write_centre(&self, radius: f64, out: &mut Centres<'_>, at: usize) {
+        out.x[at] = self.touch.rho;
+        out.z[at] = self.height + rise(radius, self.touch.offset);
+        out.foot[at] = self.touch.foot();
+    }
+
+    fn write_rates(&self, out: &mut Rates<'_>, at: usize) {
+        let (touch, [zx, zy]) = (self.touch, self.slopes);
+        out.x_theta[at] = 0.0;
+        out.x_rho[at] = 1.0;
+        out.z_theta[at] = touch.foot() * touch.ray.across(zx, zy);
+        out.z_x[at] = touch.ray.along(zx, zy);
+    }
+}
+
+/// Finds the foot at each (θ, ρ), and gives it with its index.
+fn at_feet(
+    cut: Cut<'_>,
+    theta: &[f64],
+    rho: &[f64],
+    mut take: impl FnMut(usize, Foot<'_>),
+) -> Result<()> {
     let (mut finder, mut points) = (FootFinder::default(), Evaluation::default());
     for batch in batches(theta.len()) {
         let touches = finder.find(cut, &theta[batch.clone()], &rho[batch.clone()])?;
         points.set(touches.iter().map(|touch| touch.ray.point(touch.foot())));
         points.gradient(cut.surface)?;
         for ((i, touch), at) in touches.iter().enumerate().zip(batch) {
-            let (zx, zy) = (points.zx[i], points.zy[i]);
-            out.z_theta[at] = touch.foot() * touch.ray.across(zx, zy);
-            out.z_x[at] = touch.ray.along(zx, zy);
+            let foot = Foot {
+                touch,
+                height: points.z[i],
+                slopes: [points.zx[i], points.zy[i]],
+            };
+            take(at, foot);
         }
     }
-    out.x_theta.fill(0.0);
-    out.x_rho.fill(1.0);
     Ok(())
 }
 

@@ -11,7 +11,7 @@ use turnpath_plugin_test::Check::{
 use turnpath_plugin_test::{Check, Conformance, Promise, Trial};
 
 /// Each strategy, the check that sees its fault, and words of the message.
-const TABLE: [(&str, Check, &str); 20] = [
+const TABLE: [(&str, Check, &str); 21] = [
     ("slope-off", Derivatives, "∂z/∂x is"),
     ("slope-off-in-part", Derivatives, "∂z/∂x is"),
     ("curvature-off", Derivatives, "wrong in its term t^2"),
@@ -26,6 +26,7 @@ const TABLE: [(&str, Check, &str); 20] = [
     ("wrong-foot", Touch, "`foot` is"),
     ("foot-in-bands", Touch, "the contact's radius is NaN"),
     ("wrong-rates", Derivatives, "∂X/∂θ at constant ρ is"),
+    ("torn", Repetition, "as an answer of `centre_and_rates`"),
     ("open", Closing, "does not close at its"),
     ("coarse", Residual, "a cusp of"),
     ("counts", Repetition, "several threads ask in another order"),
@@ -228,6 +229,37 @@ compensator!(
     }
 );
 
+compensator!(
+    Torn,
+    "torn",
+    Radial::Contact,
+    1.0,
+    |foot| foot,
+    // Half a nanometre below the centre that `centre` gives, and without slopes.
+    fn centre_and_rates(
+        &self,
+        cut: Cut<'_>,
+        theta: &[f64],
+        rho: &[f64],
+        centres: Centres<'_>,
+        rates: Rates<'_>,
+    ) -> Option<Result<()>> {
+        rates.x_theta.fill(0.0);
+        rates.x_rho.fill(1.0);
+        rates.z_theta.fill(0.0);
+        rates.z_x.fill(0.0);
+        let Centres { x, z, foot } = centres;
+        let out = Centres {
+            x,
+            z: &mut *z,
+            foot,
+        };
+        let answer = self.centre(cut, theta, rho, out);
+        z.iter_mut().for_each(|z| *z -= 5e-7);
+        Some(answer)
+    }
+);
+
 /// A law of one call.
 struct Whole(Vec<FeedPiece>);
 
@@ -407,7 +439,7 @@ turnpath_plugin::export!(
     surface_models: [SlopeOff, SlopeOffInPart, CurvatureOff, BatchOff],
     feeds: [Open, Coarse],
     samplers: [Counts, Learns, Sparse],
-    compensators: [Gouges, Hangs, Misnamed, WrongFoot, FootInBands, WrongRates],
+    compensators: [Gouges, Hangs, Misnamed, WrongFoot, FootInBands, WrongRates, Torn],
     velocities: [Slow, LooksAround, LooksFar, Parabolas],
     spindles: [Deaf],
 );

@@ -53,5 +53,10 @@ declare! {
         ) -> Option<Result<()>>;
         fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference>;
     }
+    later {
+        fn centre_and_rates(
+            &self, cut: Cut<'_>, theta: &[f64], rho: &[f64], centres: Centres<'_>, rates: Rates<'_>
+        ) -> Option<Result<()>> = None;
+    }
     owned by OwnedCompensator
 }

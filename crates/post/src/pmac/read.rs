@@ -3,7 +3,7 @@
 use turnpath_core::toolpath::ControlPoint;
 
 use super::clock::Clock;
-use super::scan::{Axis, Word, split_comment, words};
+use super::scan::{Axis, Scanner, Word, split_comment};
 use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
 use crate::fixed_point::{ONE, PLACES};
 use crate::post::Grammar;
@@ -60,11 +60,13 @@ impl Grammar for PvtGrammar {
 
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
         let mut line: AxisWords = [None; 3];
-        for word in words(code) {
-            let moved = line.iter().any(Option::is_some);
-            match word? {
+        let mut scanner = Scanner::new(code);
+        let mut moved = false;
+        while let Some(word) = scanner.next_word()? {
+            match word {
                 Word::Move(axis, position, velocity) => {
-                    add_move(&mut line, axis, position, velocity)?
+                    add_move(&mut line, axis, position, velocity)?;
+                    moved = true;
                 }
                 _ if moved => return Err("a mode follows a move on the same line".to_owned()),
                 Word::Absolute(absolute, axes) => {
@@ -75,7 +77,7 @@ impl Grammar for PvtGrammar {
                 Word::Time(ms) => self.time = Some(self.steps(ms)?),
             }
         }
-        if line.iter().all(Option::is_none) {
+        if !moved {
             return Ok(());
         }
         let time = self.time.ok_or("a move without a `PVT` time before it")?;

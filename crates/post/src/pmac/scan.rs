@@ -5,7 +5,7 @@
 
 use memchr::memchr2_iter;
 
-use crate::fixed_point::fixed;
+use crate::fixed_point::LeadingDecimal;
 
 /// The axes of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,36 +59,62 @@ pub(super) fn split_comment(line: &[u8]) -> (&[u8], Option<&[u8]>) {
     (line, None)
 }
 
-/// The words of a line's code. Nothing can be read behind an error.
-pub(super) fn words(code: &str) -> impl Iterator<Item = Result<Word, String>> {
-    let mut scanner = Scanner::new(code);
-    std::iter::from_fn(move || scanner.next_word().transpose())
-}
-
-/// What is still to be read of a line.
+/// A line, and how far it is read. Only whole characters are read.
 pub(super) struct Scanner<'a> {
-    rest: &'a str,
+    code: &'a str,
+    at: usize,
 }
 
 impl<'a> Scanner<'a> {
     pub(super) fn new(code: &'a str) -> Self {
-        let rest = without_spaces(code);
-        Self { rest }
+        Self { code, at: 0 }
     }
 
     /// What is left, from the next word on; `None` at the end.
     pub(super) fn rest_unless_empty(&mut self) -> Option<&'a str> {
-        self.rest = without_spaces(self.rest);
-        Some(self.rest).filter(|rest| !rest.is_empty())
+        self.pass_spaces();
+        Some(self.rest()).filter(|rest| !rest.is_empty())
+    }
+
+    fn rest(&self) -> &'a str {
+        self.code.get(self.at..).unwrap_or_default()
+    }
+
+    /// The next byte.
+    fn next_byte(&self) -> Option<u8> {
+        self.code.as_bytes().get(self.at).copied()
+    }
+
+    /// Takes this byte, which is one of ASCII, if it is the next.
+    fn take(&mut self, byte: u8) -> bool {
+        let is_next = self.next_byte() == Some(byte);
+        self.at += usize::from(is_next);
+        is_next
+    }
+
+    /// Passes spaces, of which there is one or none at most places.
+    fn pass_spaces(&mut self) {
+        self.take(b' ');
+        if !matches!(self.next_byte(), Some(b'!'..=b'~') | None) {
+            self.at = self.code.len() - self.rest().trim_start().len();
+        }
     }
 
     /// The letters that come next; empty if there are none.
     pub(super) fn letters(&mut self) -> &'a str {
-        self.take_while(|byte| byte.is_ascii_alphabetic())
+        let begin = self.at;
+        while self
+            .next_byte()
+            .is_some_and(|byte| byte.is_ascii_alphabetic())
+        {
+            self.at += 1;
+        }
+        self.code.get(begin..self.at).unwrap_or_default()
     }
 
     /// The next word; `None` at the end. Labels of lines, `N10`, are none.
-    fn next_word(&mut self) -> Result<Option<Word>, String> {
+    #[inline]
+    pub(super) fn next_word(&mut self) -> Result<Option<Word>, String> {
         while let Some(start) = self.rest_unless_empty() {
             let letters = self.letters();
             let is = |word: &str| letters.eq_ignore_ascii_case(word);
@@ -111,20 +137,17 @@ impl<'a> Scanner<'a> {
     fn axis(&mut self, axis: Axis) -> Result<Word, String> {
         let (position, velocity) = axis.numbers();
         let position = self.number(position)?;
-        let velocity = match self.rest.strip_prefix(':') {
-            Some(rest) => {
-                self.rest = rest;
-                Some(self.number(velocity)?)
-            }
-            None => None,
+        let velocity = match self.take(b':') {
+            true => Some(self.number(velocity)?),
+            false => None,
         };
         Ok(Word::Move(axis, position, velocity))
     }
 
     /// The axes in parentheses; all axes if there are no parentheses.
     pub(super) fn axes(&mut self) -> Result<[bool; 3], String> {
-        self.rest = without_spaces(self.rest);
-        let Some(inside) = self.rest.strip_prefix('(') else {
+        self.pass_spaces();
+        let Some(inside) = self.rest().strip_prefix('(') else {
             return Ok([true; 3]);
         };
         let (list, rest) = inside
@@ -140,51 +163,28 @@ impl<'a> Scanner<'a> {
                 }
             }
         }
-        self.rest = without_spaces(rest);
+        self.at = self.code.len() - rest.len();
+        self.pass_spaces();
         Ok(axes)
     }
 
     /// Reads a constant, `-12.5`, and the spaces around it.
+    #[inline]
     pub(super) fn number(&mut self, name: &str) -> Result<i128, String> {
-        self.rest = without_spaces(self.rest);
-        let without_minus = self.rest.strip_prefix('-');
-        let negative = without_minus.is_some();
-        let without_sign = without_minus.or_else(|| self.rest.strip_prefix('+'));
-        self.rest = without_sign.unwrap_or(self.rest);
-        let whole = self.take_digits();
-        let fraction = match self.rest.strip_prefix('.') {
-            Some(rest) => {
-                self.rest = rest;
-                self.take_digits()
-            }
-            None => "",
-        };
-        if whole.is_empty() && fraction.is_empty() {
-            return Err(format!("{name} has no number"));
+        self.pass_spaces();
+        let negative = self.take(b'-');
+        if !negative {
+            self.take(b'+');
         }
-        self.rest = without_spaces(self.rest);
-        let size = fixed(whole, fraction).ok_or_else(|| format!("{name} has too many digits"))?;
+        let rest = self.code.as_bytes().get(self.at..).unwrap_or_default();
+        let Some(decimal) = LeadingDecimal::of(rest) else {
+            return Err(format!("{name} has no number"));
+        };
+        self.at += decimal.length;
+        self.pass_spaces();
+        let size = decimal.size(rest);
+        let size = size.ok_or_else(|| format!("{name} has too many digits"))?;
         Ok(if negative { -size } else { size })
-    }
-
-    fn take_digits(&mut self) -> &'a str {
-        self.take_while(|byte| byte.is_ascii_digit())
-    }
-
-    /// Takes what `matches`, which must be characters of ASCII.
-    fn take_while(&mut self, matches: impl Fn(u8) -> bool) -> &'a str {
-        let end = self.rest.bytes().position(|byte| !matches(byte));
-        let (start, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
-        self.rest = rest;
-        start
-    }
-}
-
-/// A text without the spaces at its beginning, of which most texts have none.
-fn without_spaces(text: &str) -> &str {
-    match text.as_bytes().first() {
-        Some(b'!'..=b'~') | None => text,
-        Some(_) => text.trim_start(),
     }
 }
 
@@ -200,7 +200,8 @@ mod tests {
     use crate::fixed_point::ONE;
 
     fn words(code: &str) -> Result<Vec<Word>, String> {
-        super::words(code).collect()
+        let mut scanner = Scanner::new(code);
+        std::iter::from_fn(|| scanner.next_word().transpose()).collect()
     }
 
     #[test]

@@ -3,7 +3,8 @@
 use std::io::Read;
 
 use super::{assembled, lines, path_of, plain};
-use crate::{Amount, Compression, POSTS, ProgramWriter, ReadPath, file_bytes, text_name};
+use crate::text_file::file_bytes;
+use crate::{Amount, Compression, POSTS, ProgramWriter, ReadPath, text_name};
 
 /// Programs of all posts with the names of their files, in one file and in parts where the post has calls.
 fn programs() -> Vec<Vec<(String, Vec<u8>)>> {
@@ -103,8 +104,8 @@ fn a_writer_compresses_by_the_name_of_the_file_with_the_same_text_in_parts_and_i
     let draft = turnpath_files::Draft::begin(&path).unwrap();
     let mut writer = ProgramWriter::begin(draft, layout).unwrap();
     writer.append(&lines).unwrap();
-    let draft = writer.close().unwrap().assemble("", "").unwrap();
-    draft.complete().unwrap();
+    let whole = writer.close().unwrap().assemble(["", ""]).unwrap();
+    whole.proven().unwrap().complete().unwrap();
     let bytes = std::fs::read(&path).unwrap();
     let mut reader = layout.open(&path).unwrap();
     let mut found = 0;

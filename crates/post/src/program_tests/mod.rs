@@ -16,6 +16,7 @@ mod numbers;
 mod parts;
 mod round_trips;
 mod travel;
+mod whole;
 
 /// A path from random steps: time in s, angle in deg, the rest in the units used inside.
 pub(crate) fn path_of(steps: &[[f64; 6]]) -> Vec<ControlPoint> {
@@ -99,10 +100,8 @@ pub(crate) fn assembled(layout: &Layout, lines: &Lines) -> String {
     let mut writer = ProgramWriter::begin(Draft::begin(&path).unwrap(), *layout).unwrap();
     writer.append(lines).unwrap();
     let path_text = writer.close().unwrap();
-    let draft = path_text
-        .assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n")
-        .unwrap();
-    draft.complete().unwrap();
+    let whole = path_text.assemble(["OPEN PROG 1 CLEAR\n", "CLOSE\n"]);
+    whole.unwrap().proven().unwrap().complete().unwrap();
     std::fs::read_to_string(path).unwrap()
 }
 

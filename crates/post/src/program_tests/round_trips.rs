@@ -379,7 +379,8 @@ fn a_program_in_memory_has_the_bytes_of_its_file() {
         let file = assembled(&layout, &lines);
         let mut writer = ProgramWriter::in_memory(layout);
         writer.append(&lines).unwrap();
-        let memory = writer.close().assemble("OPEN PROG 1 CLEAR\n", "CLOSE\n");
+        let around = ["OPEN PROG 1 CLEAR\n", "CLOSE\n"];
+        let memory = writer.close().assemble(around, "path").unwrap();
         assert_eq!(String::from_utf8(memory).unwrap(), file);
     }
 }
