@@ -1,12 +1,15 @@
 //! Suggestions for misspelt words, and lists of known words.
 
-/// The known word that is closest to a misspelt one, if any is close.
+/// The known word that is closest to a misspelt one, if any is close. Known words are in ASCII.
 pub(crate) fn closest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let tidy = |text: &str| text.to_lowercase().replace(['_', ' '], "-");
     let word = tidy(word);
-    let allowed = (word.chars().count() / 3).max(1);
+    let length = word.chars().count();
+    let allowed = (length / 3).max(1);
     known
         .iter()
+        // Words of such different lengths are as far apart.
+        .filter(|name| name.chars().count().abs_diff(length) <= allowed)
         .map(|name| (strsim::osa_distance(&word, &tidy(name)), *name))
         .filter(|(distance, _)| *distance <= allowed)
         .min_by_key(|(distance, _)| *distance)

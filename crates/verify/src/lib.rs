@@ -15,6 +15,7 @@ mod comparison;
 mod contact_bounds;
 mod corners;
 mod coverage;
+mod crossings;
 mod cusp;
 mod cutting_speed;
 mod edge_crossings;

@@ -24,10 +24,11 @@ use turnpath_core::toolpath::{PathBlock, Segment};
 use turnpath_core::{Result, Tool};
 
 use crate::closing;
+use crate::crossings::crossing;
 use crate::cusp::Point;
 use crate::edge_crossings::{EdgeCrossings, PassNumber};
 use crate::profiles::Profiles;
-use crate::residual::{self, Pass, Passes, SECTIONS, angle_of, crossing};
+use crate::residual::{self, Pass, Passes, SECTIONS, angle_of};
 use crate::touch::FirstTouch;
 
 /// Sections of a revolution.

@@ -8,11 +8,12 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::toolpath::{PathBlock, Segment};
+use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
 use crate::batches::touches_at;
 use crate::closing::{self, SectionCusp};
+use crate::crossings::Sections;
 use crate::cusp::{self, Point};
 use crate::subject::Subject;
 use crate::touch::{FirstTouch, Touch};
@@ -23,8 +24,6 @@ pub const SECTIONS: i64 = 360;
 /// Steps from a cusp to the nearest point of the profile. Each step leaves (height × curvature) of
 /// the distance, which is 1e-4 or less.
 const FOOT_STEPS: usize = 5;
-/// Steps of Newton's method for the instant at which C passes a section. C is nearly linear.
-const CROSSING_STEPS: usize = 8;
 
 /// The residual of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -128,15 +127,12 @@ impl Passes {
     pub fn of(touch: &FirstTouch, points: &PathBlock) -> Result<Self> {
         let width = TAU / SECTIONS as f64;
         let (mut numbers, mut x) = (Vec::new(), Vec::new());
+        let sections = Sections { offset: 0.0, width };
         for (segment, c) in points.segments().zip(points.c.windows(2)) {
-            let (from, to) = (c[0] / width, c[1] / width);
-            let mut number = from.ceil();
-            while number < to {
-                let instant = crossing(&segment, number * width);
-                numbers.push(number as i64);
+            sections.crossings(&segment, [c[0], c[1]], |number, instant| {
+                numbers.push(number);
                 x.push(segment.x.value(instant));
-                number += 1.0;
-            }
+            });
         }
         let first = numbers.first().copied().unwrap_or_default();
         let theta: Vec<f64> = numbers.iter().map(|number| angle_of(*number)).collect();
@@ -199,24 +195,6 @@ pub(crate) fn passes_at(touch: &FirstTouch, theta: &[f64], x: &[f64]) -> Result<
 /// The angle of a section, rad.
 pub(crate) fn angle_of(number: i64) -> f64 {
     TAU * number.rem_euclid(SECTIONS) as f64 / SECTIONS as f64
-}
-
-/// The instant at which C passes `angle`, as a part of the segment, 0 to 1.
-pub(crate) fn crossing(segment: &Segment, angle: f64) -> f64 {
-    let (from, to) = (segment.c.value(0.0), segment.c.value(1.0));
-    let mut s = (angle - from) / (to - from);
-    for _ in 0..CROSSING_STEPS {
-        let step = (segment.c.value(s) - angle) / segment.c.slope(s);
-        if !step.is_finite() {
-            break;
-        }
-        let next = (s - step).clamp(0.0, 1.0);
-        if next == s {
-            break;
-        }
-        s = next;
-    }
-    s
 }
 
 /// The centre of the nose that touches the profile at a contact.

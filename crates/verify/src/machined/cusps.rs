@@ -4,11 +4,9 @@
 //! played. A pass that is played too high may cut nothing, so the tips are those of the envelope of
 //! all passes of a line.
 
-use rayon::prelude::*;
 use turnpath_core::{Result, Scalar, Tool};
 
-use super::envelope::{Arc, lower_arc, lower_envelope};
-use super::sections::{Lines, sort};
+use super::envelope::{Arc, lower_arc};
 use crate::closing::{self, SectionCusp};
 use crate::cusp::Point;
 use crate::profiles::Profiles;
@@ -38,65 +36,36 @@ struct Tip {
     centres: [Point; 2],
 }
 
-impl Lines {
-    /// The highest cusp between passes that meet on the part; `None` without one. Cusps between
-    /// passes of the two sides of the axis count if `counts_centre` says so.
+/// The tips that the arcs of lines leave between passes that meet on the part.
+pub(super) struct Tips<'a> {
+    pub touch: &'a FirstTouch,
+    /// Whether those between the passes of the two sides of the axis count.
+    pub counts_centre: bool,
+}
+
+impl Tips<'_> {
+    /// The highest cusp of a line by its number, with its arcs from left to right; `None` without
+    /// one.
     ///
     /// # Errors
     /// When the surface fails.
-    pub(crate) fn highest_cusp(
-        &self,
-        touch: &FirstTouch,
-        counts_centre: bool,
-    ) -> Result<Option<HighestCusp>> {
-        let stride = match touch.leaves_seams() {
-            true => SEAM_STRIDE,
-            false => 1,
-        };
-        let lines: Vec<(f64, &[Point])> = self.all().into_iter().step_by(stride).collect();
-        let of_line = |rooms: &mut Rooms, (angle, passes): &(f64, &[Point])| {
-            let tips = rooms.tips(touch, *angle, passes, counts_centre)?;
-            match touch.leaves_seams() {
-                true => highest_over_closing(touch, *angle, &tips),
-                false => highest_over_surface(touch, *angle, &tips),
+    pub fn highest(&self, number: usize, angle: f64, arcs: &[Arc]) -> Result<Option<HighestCusp>> {
+        let touch = self.touch;
+        match touch.leaves_seams() {
+            false => highest_over_surface(touch, angle, &self.on_line(angle, arcs)?),
+            true if number.is_multiple_of(SEAM_STRIDE) => {
+                highest_over_closing(touch, angle, &self.on_line(angle, arcs)?)
             }
-        };
-        let found: Vec<Option<HighestCusp>> = lines
-            .par_iter()
-            .map_init(Rooms::default, of_line)
-            .collect::<Result<_>>()?;
-        let higher = |one: HighestCusp, other: HighestCusp| match other.height > one.height {
-            true => other,
-            false => one,
-        };
-        Ok(found.into_iter().flatten().reduce(higher))
+            true => Ok(None),
+        }
     }
-}
 
-/// Memory that is used again for the next line.
-#[derive(Default)]
-struct Rooms {
-    passes: Vec<Point>,
-    arcs: Vec<Arc>,
-}
-
-impl Rooms {
     /// The tips of one line on the part, each with the profile's height and slope there.
-    fn tips(
-        &mut self,
-        touch: &FirstTouch,
-        angle: f64,
-        passes: &[Point],
-        counts_centre: bool,
-    ) -> Result<Vec<(Tip, [f64; 2])>> {
-        let subject = touch.subject();
+    fn on_line(&self, angle: f64, arcs: &[Arc]) -> Result<Vec<(Tip, [f64; 2])>> {
+        let subject = self.touch.subject();
         let (tool, part) = (&subject.tool, &subject.part);
-        self.passes.clear();
-        self.passes.extend_from_slice(passes);
-        sort(&mut self.passes);
-        lower_envelope(&self.passes, tool.nose_radius, tool.reach(), &mut self.arcs);
         let on_part = part.inner_radius..=part.aperture_radius;
-        let pairs = self.arcs.windows(2).filter(|pair| {
+        let pairs = arcs.windows(2).filter(|pair| {
             let meet = pair[0].to == pair[1].from;
             meet && on_part.contains(&pair[0].to.abs())
         });
@@ -114,7 +83,7 @@ impl Rooms {
                 true => tool.nose_radius * slope / Scalar::sqrt(1.0 + slope * slope),
                 false => 0.0,
             };
-            counts_centre || !tip.spans_axis(offset)
+            self.counts_centre || !tip.spans_axis(offset)
         };
         Ok(all.filter(counts).collect())
     }
@@ -185,6 +154,15 @@ fn highest_over_closing(
 }
 
 impl HighestCusp {
+    /// The highest of these; the first of several that are equally high.
+    pub(super) fn of(each: Vec<Option<Self>>) -> Option<Self> {
+        let higher = |one: Self, other: Self| match other.height > one.height {
+            true => other,
+            false => one,
+        };
+        each.into_iter().flatten().reduce(higher)
+    }
+
     /// The cusp at a signed radius of a line.
     fn new(height: f64, angle: f64, s: f64) -> Self {
         let turned = match s < 0.0 {

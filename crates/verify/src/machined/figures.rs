@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use turnpath_core::{Part, Result};
 
-use super::cusps::HighestCusp;
+use super::cusps::{HighestCusp, Tips};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
 use super::sections::Lines;
 use super::strip::{Sample, Strip};
@@ -56,6 +56,14 @@ struct Sums {
 }
 
 impl Sums {
+    /// The integrals along the line of a strip.
+    fn of(subject: &Subject, strip: &mut Strip) -> Result<Self> {
+        strip.look_up(subject.surface.as_ref())?;
+        let mut sums = Self::default();
+        strip.samples().for_each(|sample| sums.include(&sample));
+        Ok(sums)
+    }
+
     fn include(&mut self, sample: &Sample) {
         for k in 0..4 {
             let (weight, error, slope) = (sample.weight[k], sample.error[k], sample.slope[k]);
@@ -82,7 +90,11 @@ impl Lines {
     ) -> Result<Option<MachinedFigures>> {
         let subject = touch.subject();
         let lines = self.all();
-        let sums = sums(subject, &lines)?;
+        let tips = Tips {
+            touch,
+            counts_centre,
+        };
+        let (sums, cusps) = sums_and_cusps(&tips, &lines)?;
         let total = |of: fn(&Sums) -> f64| sums.iter().map(of).sum::<f64>();
         let area = total(|line| line.area);
         if area <= 0.0 {
@@ -104,7 +116,7 @@ impl Lines {
             rms_slope: (total(|line| line.slope_square) / area).sqrt(),
             uncut: uncut(&subject.part, &sums),
             lines: lines.len(),
-            cusp: self.highest_cusp(touch, counts_centre)?,
+            cusp: HighestCusp::of(cusps),
             real_nose: None,
         }))
     }
@@ -124,8 +136,7 @@ impl Lines {
         let of_line = |strip: &mut Strip, (angle, passes): (f64, &[_])| {
             strip.set_line(subject, angle, passes);
             strip.look_up_heights(subject.surface.as_ref())?;
-            let amount = |sample: Sample| sample.amount_about(mean);
-            Ok(strip.samples().map(amount).sum())
+            Ok(strip.amount_about(mean))
         };
         let amounts: Vec<f64> = self
             .all()
@@ -140,15 +151,31 @@ impl Lines {
 fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
     let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[Point])| {
         strip.set_line(subject, *angle, passes);
-        strip.look_up(subject.surface.as_ref())?;
-        let mut sums = Sums::default();
-        strip.samples().for_each(|sample| sums.include(&sample));
-        Ok(sums)
+        Sums::of(subject, strip)
     };
     lines
         .par_iter()
         .map_init(Strip::default, of_line)
         .collect::<Result<_>>()
+}
+
+/// The integrals along each line, and its highest cusp.
+fn sums_and_cusps(
+    tips: &Tips<'_>,
+    lines: &[(f64, &[Point])],
+) -> Result<(Vec<Sums>, Vec<Option<HighestCusp>>)> {
+    let subject = tips.touch.subject();
+    let of_line = |strip: &mut Strip, (number, (angle, passes)): (usize, &(f64, &[Point]))| {
+        strip.set_line(subject, *angle, passes);
+        let cusp = tips.highest(number, *angle, strip.arcs())?;
+        Ok((Sums::of(subject, strip)?, cusp))
+    };
+    let each: Vec<(Sums, Option<HighestCusp>)> = lines
+        .par_iter()
+        .enumerate()
+        .map_init(Strip::default, of_line)
+        .collect::<Result<_>>()?;
+    Ok(each.into_iter().unzip())
 }
 
 /// The highest and the lowest point over all lines.

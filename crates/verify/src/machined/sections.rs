@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Gradients, Result, Scalar};
 
+use crate::crossings::Sections;
 use crate::cusp::Point;
-use crate::residual::crossing;
 use crate::touch::FirstTouch;
 
 /// Number of sections at the start of a path. 23 is prime, so the sections fall everywhere between
@@ -23,6 +23,8 @@ const FIRST: f64 = 0.37;
 const MOST_PASSES: usize = 4_000_000;
 /// A line that is full grows by its length over this number: doubling would take twice the memory.
 const GROWTH: usize = 8;
+/// A line that is full grows by so many passes at least, or doubles: all lines together waste little.
+const LEAST_GROWTH: usize = 1024;
 
 /// Sections at equal distances around the axis. Their number is even, so each has an opposite one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,19 +89,16 @@ impl SectionPasses {
     /// The played points on the sections.
     fn played(fan: &Fan, points: &PathBlock) -> Self {
         let (mut first, mut centres) = (None, Vec::new());
-        let width = fan.width();
+        let sections = Sections {
+            offset: fan.offset,
+            width: fan.width(),
+        };
         for (segment, c) in points.segments().zip(points.c.windows(2)) {
-            let section = |c: f64| (c - fan.offset) / width;
-            let (mut number, end) = (section(c[0]).ceil(), section(c[1]));
-            while number < end {
-                let instant = crossing(&segment, fan.offset + number * width);
-                centres.push(Point::new(
-                    segment.x.value(instant),
-                    segment.z.value(instant),
-                ));
-                first.get_or_insert(number as i64);
-                number += 1.0;
-            }
+            sections.crossings(&segment, [c[0], c[1]], |number, instant| {
+                let (x, z) = (segment.x.value(instant), segment.z.value(instant));
+                centres.push(Point::new(x, z));
+                first.get_or_insert(number);
+            });
         }
         let first = first.unwrap_or_default();
         Self { first, centres }
@@ -170,23 +169,26 @@ impl Lines {
 
     /// Appends the passes of the path's next block.
     pub fn append(&mut self, next: &SectionPasses) {
-        for (number, centre) in (next.first..).zip(&next.centres) {
-            if number.rem_euclid(self.stride) != 0 {
-                continue;
-            }
-            let half = self.fan.count / 2;
-            let section = number.rem_euclid(self.fan.count);
-            let (section, sign) = match section < half {
-                true => (section, 1.0),
-                false => (section - half, -1.0),
-            };
-            if let Some(line) = self.lines.get_mut((section / self.stride) as usize) {
-                if line.len() == line.capacity() {
-                    line.reserve_exact(line.len() / GROWTH + FEWEST as usize);
+        let half = self.fan.count / 2;
+        let mut section = next.first.rem_euclid(self.fan.count);
+        let mut after_kept = next.first.rem_euclid(self.stride);
+        for centre in &next.centres {
+            if after_kept == 0 {
+                let (number, sign) = match section < half {
+                    true => (section, 1.0),
+                    false => (section - half, -1.0),
+                };
+                if let Some(line) = self.lines.get_mut((number / self.stride) as usize) {
+                    if line.len() == line.capacity() {
+                        let doubled = line.len().clamp(FEWEST as usize, LEAST_GROWTH);
+                        line.reserve_exact(doubled.max(line.len() / GROWTH));
+                    }
+                    line.push(Point::new(sign * centre.x, centre.y));
+                    self.kept += 1;
                 }
-                line.push(Point::new(sign * centre.x, centre.y));
-                self.kept += 1;
             }
+            section = following(section, self.fan.count);
+            after_kept = following(after_kept, self.stride);
         }
         while self.kept > MOST_PASSES && self.fan.count / self.stride > FEWEST {
             self.thin_out();
@@ -211,6 +213,14 @@ impl Lines {
         lines
             .map(|(index, line)| (angle(index).rem_euclid(TAU), line.as_slice()))
             .collect()
+    }
+}
+
+/// The number after this one where numbers come round after `count`.
+fn following(number: i64, count: i64) -> i64 {
+    match number + 1 == count {
+        true => 0,
+        false => number + 1,
     }
 }
 

@@ -1,8 +1,9 @@
 //! The machined profile along one line, in pieces that a cubic describes.
 
+use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Gradients, Part, Result, Scalar, SurfaceModel};
 
-use super::envelope::{Arc, lower_arc, lower_envelope};
+use super::envelope::{Arc, lower_envelope};
 use super::no_height::no_height;
 use super::sections::sort;
 use crate::cusp::Point;
@@ -17,6 +18,18 @@ const INNER: f64 = 0.447_213_595_499_957_9;
 const WEIGHTS: [f64; 4] = [1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0];
 /// Steps of a piece in the integral of the mean amount. Kinks between them cost 1e-3 of it.
 const AMOUNT_STEPS: usize = 32;
+/// The middles of these steps on −1 … 1.
+const MIDDLES: [f64; AMOUNT_STEPS] = {
+    let mut middles = [0.0; AMOUNT_STEPS];
+    let mut i = 0;
+    while i < AMOUNT_STEPS {
+        middles[i] = (2 * i + 1) as f64 / AMOUNT_STEPS as f64 - 1.0;
+        i += 1;
+    }
+    middles
+};
+/// Sums of the integral that grow side by side.
+const LANES: usize = 8;
 
 /// All signed positions on a line.
 pub(super) const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -83,16 +96,23 @@ impl Strip {
         lower_envelope(&self.passes, self.radius, tool.reach(), &mut self.arcs);
         self.pieces.clear();
         self.nodes.clear();
-        for arc in std::mem::take(&mut self.arcs) {
-            for (from, to) in on_part(&arc, part, spans) {
+        let arcs = std::mem::take(&mut self.arcs);
+        for arc in &arcs {
+            for (from, to) in on_part(arc, part, spans) {
                 self.divide(arc.centre, from, to);
             }
         }
+        self.arcs = arcs;
         let (sin, cos) = self.turned;
         self.x.clear();
         self.x.extend(self.nodes.iter().map(|s| s * cos));
         self.y.clear();
         self.y.extend(self.nodes.iter().map(|s| s * sin));
+    }
+
+    /// The whole envelope of the line, from left to right.
+    pub fn arcs(&self) -> &[Arc] {
+        &self.arcs
     }
 
     fn divide(&mut self, centre: Point, from: f64, to: f64) {
@@ -163,22 +183,48 @@ impl Strip {
         self.pieces.iter().map(|piece| self.sample(piece))
     }
 
+    /// The integral of |error − mean| along the line, weighted by area.
+    pub fn amount_about(&self, mean: f64) -> f64 {
+        in_widest(Amounts(self, mean))
+    }
+
+    #[inline(always)]
     fn sample(&self, piece: &ArcPiece) -> Sample {
-        let s = piece.nodes.map(|node| self.nodes[node]);
         let (sin, cos) = self.turned;
-        let of = |k: usize, f: &dyn Fn(usize, f64) -> f64| f(piece.nodes[k], s[k]);
-        let error = |node: usize, s: f64| lower_arc(piece.centre, self.radius, s) - self.z[node];
-        let slope = |node: usize, s: f64| {
-            let off = s - piece.centre.x;
-            let lift = (self.radius * self.radius - off * off).max(0.0).sqrt();
-            off / lift - self.zx[node] * cos - self.zy[node] * sin
-        };
+        let square = self.radius * self.radius;
+        let s = piece.nodes.map(|node| self.nodes[node]);
+        let [z, zx, zy] = [&self.z, &self.zx, &self.zy].map(|c| piece.nodes.map(|node| c[node]));
+        let (mut error, mut slope, mut weight) = ([0.0; 4], [0.0; 4], WEIGHTS);
+        for k in 0..4 {
+            let off = s[k] - piece.centre.x;
+            let lift = (square - off * off).max(0.0).sqrt();
+            error[k] = piece.centre.y - lift - z[k];
+            slope[k] = off / lift - zx[k] * cos - zy[k] * sin;
+            weight[k] = weight[k] * piece.half * s[k].abs();
+        }
         Sample {
             s,
-            error: std::array::from_fn(|k| of(k, &error)),
-            slope: std::array::from_fn(|k| of(k, &slope)),
-            weight: std::array::from_fn(|k| WEIGHTS[k] * piece.half * s[k].abs()),
+            error,
+            slope,
+            weight,
         }
+    }
+}
+
+/// The loop that sums up the amounts of a line's pieces.
+struct Amounts<'a>(&'a Strip, f64);
+
+impl Loop for Amounts<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self(strip, mean) = self;
+        let mut sum = 0.0;
+        for piece in &strip.pieces {
+            sum += strip.sample(piece).amount_about(mean);
+        }
+        sum
     }
 }
 
@@ -204,6 +250,7 @@ pub(super) fn on_part<'a>(
 
 impl Sample {
     /// The coefficients of the cubic through the errors, on −1 … 1.
+    #[inline(always)]
     fn cubic(&self) -> [f64; 4] {
         let [e0, e1, e2, e3] = self.error;
         let (outer, inner) = (0.5 * (e0 + e3), 0.5 * (e1 + e2));
@@ -215,17 +262,19 @@ impl Sample {
 
     /// The integral of |error − mean| over the area, computed on the cubic. Four nodes are too few
     /// for an absolute value, which may have a kink anywhere.
-    pub fn amount_about(&self, mean: f64) -> f64 {
+    #[inline(always)]
+    fn amount_about(&self, mean: f64) -> f64 {
         let [a, b, c, d] = self.cubic();
         let half = 0.5 * (self.s[3] - self.s[0]);
         let middle = 0.5 * (self.s[3] + self.s[0]);
-        let of_step = |i: usize| {
-            let t = (2 * i + 1) as f64 / AMOUNT_STEPS as f64 - 1.0;
-            let error = a + t * (b + t * (c + t * d));
-            (error - mean).abs() * (middle + t * half).abs()
-        };
-        let sum: f64 = (0..AMOUNT_STEPS).map(of_step).sum();
-        sum * (self.s[3] - self.s[0]) / AMOUNT_STEPS as f64
+        let mut sums = [0.0; LANES];
+        for steps in MIDDLES.as_chunks::<LANES>().0 {
+            for (sum, t) in sums.iter_mut().zip(steps) {
+                let error = a + t * (b + t * (c + t * d));
+                *sum += (error - mean).abs() * (middle + t * half).abs();
+            }
+        }
+        sums.iter().sum::<f64>() * (self.s[3] - self.s[0]) / AMOUNT_STEPS as f64
     }
 
     /// Positions and errors that can be the largest or smallest of the piece: those at its ends,

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use turnpath_core::toolpath::{PathBlock, Segment};
 
+use crate::crossings::crossing;
 use crate::cusp::Point;
-use crate::residual::crossing;
 
 /// Turns closer together than this, mm, show no direction of feed.
 const NO_FEED: f64 = 1e-9;

@@ -11,7 +11,8 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 
-use super::turn::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
+use super::real_transform::RealTransform;
+use super::turn::{HIGHEST, LOWEST, Turn, WINDOW};
 
 /// Rates that are tried, all around: four for each one that fits into a window, so that at most a
 /// fortieth of an amplitude is lost between two of them.
@@ -38,12 +39,20 @@ pub struct SpiralArms {
 /// The harmonics of the last turns of a path, and the largest arms on it so far.
 #[derive(Clone)]
 pub(super) struct Arms {
-    of_turn: Arc<dyn Fft<f64>>,
+    of_turn: RealTransform,
     over_turns: Arc<dyn Fft<f64>>,
-    /// F_k of each turn of the window from the lowest harmonic on; empty for a turn that lies in part
-    /// beside the part.
-    turns: VecDeque<Vec<Complex<f64>>>,
+    /// Those of each turn of the window; empty for a turn that lies in part beside the part.
+    turns: VecDeque<TurnHarmonics>,
     largest: Option<SpiralArms>,
+}
+
+/// The harmonics of one turn from the lowest on.
+#[derive(Clone, Default)]
+struct TurnHarmonics {
+    /// F_k, mm.
+    values: Vec<Complex<f64>>,
+    /// |F_k|, mm.
+    sizes: Vec<f64>,
 }
 
 impl Default for Arms {
@@ -51,7 +60,7 @@ impl Default for Arms {
         // The scalar planner uses no vector instructions, which not every CPU has.
         let mut planner = FftPlannerScalar::new();
         Self {
-            of_turn: planner.plan_fft_forward(ANGLES),
+            of_turn: RealTransform::default(),
             over_turns: planner.plan_fft_forward(RATES),
             turns: VecDeque::with_capacity(WINDOW),
             largest: None,
@@ -62,61 +71,65 @@ impl Default for Arms {
 impl Arms {
     /// Adds the path's next turn, which is whole.
     pub(super) fn include(&mut self, turn: &Turn) {
-        if self.turns.len() == WINDOW {
-            self.turns.pop_front();
+        let oldest = match self.turns.len() {
+            WINDOW => self.turns.pop_front(),
+            _ => None,
+        };
+        let mut harmonics = oldest.unwrap_or_default();
+        let TurnHarmonics { values, sizes } = &mut harmonics;
+        values.clear();
+        if turn.errors.iter().all(|error| !error.is_nan()) {
+            self.of_turn.harmonics(&turn.errors, values);
         }
-        self.turns.push_back(self.harmonics(turn));
-    }
-
-    fn harmonics(&self, turn: &Turn) -> Vec<Complex<f64>> {
-        if turn.errors.iter().any(|error| error.is_nan()) {
-            return Vec::new();
-        }
-        let errors = turn.errors.iter().map(|error| Complex::new(*error, 0.0));
-        let mut harmonics: Vec<_> = errors.collect();
-        self.of_turn.process(&mut harmonics);
-        let counted = harmonics.get(LOWEST..=HIGHEST).unwrap_or_default();
-        let of_mean = |value: &Complex<f64>| value / ANGLES as f64;
-        counted.iter().map(of_mean).collect()
+        sizes.clear();
+        sizes.extend(values.iter().map(|value| value.norm_sqr().sqrt()));
+        self.turns.push_back(harmonics);
     }
 
     /// Looks for larger arms on the turns of the window, whose contacts lie between two radii.
     pub(super) fn look(&mut self, [from, to]: [f64; 2]) {
-        let whole: Vec<&Vec<_>> = self.turns.iter().filter(|turn| !turn.is_empty()).collect();
+        let whole = self.turns.iter().filter(|turn| !turn.values.is_empty());
+        let mut sizes = vec![0.0; HIGHEST + 1 - LOWEST];
+        let mut count = 0;
+        for turn in whole {
+            let each = sizes.iter_mut().zip(&turn.sizes);
+            each.for_each(|(sum, size)| *sum += size);
+            count += 1;
+        }
         // Where many turns lie in part beside the part, nothing is known of the others.
-        if 2 * whole.len() < self.turns.len() {
+        if 2 * count < self.turns.len() {
             return;
         }
         let mut largest = self.largest.map_or(0.0, |arms| arms.amplitude);
         let mut over_turns = vec![Complex::default(); RATES];
-        for k in LOWEST..=HIGHEST {
-            let of_turn = |turn: &[Complex<f64>]| turn.get(k - LOWEST).copied().unwrap_or_default();
-            let sizes = whole.iter().map(|turn| of_turn(turn).norm());
+        let mut scratch = vec![Complex::default(); self.over_turns.get_inplace_scratch_len()];
+        for (number, size) in sizes.iter().enumerate() {
             // No pattern is larger than its harmonic on the turns is in the mean.
-            if 2.0 * sizes.sum::<f64>() <= largest * whole.len() as f64 {
+            if 2.0 * size <= largest * count as f64 {
                 continue;
             }
             over_turns.fill(Complex::default());
             for (slot, turn) in over_turns.iter_mut().zip(&self.turns) {
-                *slot = of_turn(turn);
+                *slot = turn.values.get(number).copied().unwrap_or_default();
             }
-            let still = over_turns.iter().sum::<Complex<f64>>() / whole.len() as f64;
+            let still = over_turns.iter().sum::<Complex<f64>>() / count as f64;
             // What stays is spokes, and would stand at all rates by the edges of the window.
             for (slot, turn) in over_turns.iter_mut().zip(&self.turns) {
-                if !turn.is_empty() {
+                if !turn.values.is_empty() {
                     *slot -= still;
                 }
             }
-            self.over_turns.process(&mut over_turns);
+            self.over_turns
+                .process_with_scratch(&mut over_turns, &mut scratch);
             let found = largest_rate(&over_turns, self.turns.len());
             let Some((rate, size)) = found else { continue };
-            let amplitude = 2.0 * size / whole.len() as f64;
+            let amplitude = 2.0 * size / count as f64;
             if amplitude > largest {
                 let turns_round = RATES as f64 / rate as f64;
                 largest = amplitude;
                 self.largest = Some(SpiralArms {
                     amplitude,
-                    per_turn: k,
+                    per_turn: LOWEST + number,
                     pitch: turns_round * (to - from) / self.turns.len() as f64,
                     from,
                     to,

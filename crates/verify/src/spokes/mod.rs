@@ -14,30 +14,27 @@
 //! A pattern that turns slowly does not stay at its angles: [`arms`] finds it.
 
 mod arms;
+mod cells;
+mod real_transform;
 mod turn;
 
 use std::collections::VecDeque;
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 use turnpath_core::Part;
-use turnpath_core::toolpath::Segment;
-
-use crate::instants::INSTANTS;
-use crate::touch::Touch;
 
 use arms::Arms;
 pub use arms::SpiralArms;
+pub(crate) use cells::SegmentErrors;
+use cells::{Cells, PER_RADIAN, TOGETHER};
 use turn::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
 
 /// Turns from one window to the next: a pattern that stays for as many fills half of a window.
 const ADVANCE: usize = 32;
-/// C follows a straight line if it leaves it by less than this part of the segment.
-const STRAIGHT: f64 = 1e-9;
-/// Newton's method finds an instant to rounding in so many steps from the straight line.
-const NEWTON_STEPS: usize = 5;
+/// Cells of a turn.
+const TURN: i64 = ANGLES as i64;
 
 /// The largest spoke of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,49 +49,6 @@ pub struct Spoke {
     pub to: f64,
 }
 
-/// What was found on one segment.
-pub(crate) struct SegmentErrors<'a> {
-    /// What is played.
-    pub segment: &'a Segment,
-    /// C at both ends, rad, as its control points have it.
-    pub ends: [f64; 2],
-    /// Machined − wanted at each instant and at the end, mm.
-    pub errors: [f64; INSTANTS + 1],
-    /// The first touch at each instant.
-    pub touches: &'a [Touch],
-}
-
-impl SegmentErrors<'_> {
-    /// Whether C follows a straight line.
-    fn is_straight(&self) -> bool {
-        let [_, rise, square, cube] = self.segment.c.0;
-        square.abs() + cube.abs() <= STRAIGHT * rise.abs()
-    }
-
-    /// The place between the instants, counted in instants, where C is `c`.
-    fn place(&self, c: f64, is_straight: bool) -> f64 {
-        let [start, end] = self.ends;
-        let mut s = (c - start) / (end - start);
-        if !is_straight {
-            let played = &self.segment.c;
-            for _ in 0..NEWTON_STEPS {
-                s -= (played.value(s) - c) / played.slope(s);
-            }
-        }
-        INSTANTS as f64 * s.clamp(0.0, 1.0)
-    }
-
-    /// The error at a place: the cubic through the four values around it.
-    fn error_at(&self, place: f64) -> f64 {
-        let first = (place as usize).saturating_sub(1).min(INSTANTS - 3);
-        let [a, b, c, d] = std::array::from_fn(|k| self.errors[first + k]);
-        let u = place - first as f64;
-        let third = d - 3.0 * (c - b) - a;
-        let bend = c - 2.0 * b + a + (u - 2.0) / 3.0 * third;
-        a + u * (b - a + 0.5 * (u - 1.0) * bend)
-    }
-}
-
 /// The turns of one block of a path.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BlockSpokes {
@@ -105,31 +59,21 @@ pub(crate) struct BlockSpokes {
 impl BlockSpokes {
     /// Adds the block's next segment. Only contacts on the part count.
     pub fn add(&mut self, found: &SegmentErrors<'_>, part: &Part) {
-        let per_radian = ANGLES as f64 / TAU;
-        let [from, to] = found.ends.map(|c| (c * per_radian).ceil());
+        let [from, to] = found.ends.map(|c| (c * PER_RADIAN).ceil());
         if !from.is_finite() || !to.is_finite() {
             return;
         }
-        let (mut cell, end, is_straight) = (from as i64, to as i64, found.is_straight());
-        let on_part = |cell: i64| {
-            let place = found.place(cell as f64 / per_radian, is_straight);
-            let foot = found.touches[(place as usize).min(INSTANTS - 1)].foot;
-            let error = found.error_at(place);
-            let counts = (part.inner_radius..=part.aperture_radius).contains(&foot);
-            (counts && error.is_finite()).then_some((error, foot))
-        };
+        let cells = Cells::new(found, &(part.inner_radius..=part.aperture_radius));
+        let (mut cell, end) = (from as i64, to as i64);
+        let mut errors = [f64::NAN; TOGETHER];
         while cell < end {
-            let number = cell.div_euclid(ANGLES as i64);
-            let cells = cell..end.min((number + 1) * ANGLES as i64);
-            cell = cells.end;
-            if let Some(first) = cells.clone().find(|cell| on_part(*cell).is_some()) {
-                let turn = self.turn(number);
-                for cell in first..cells.end {
-                    if let Some((error, foot)) = on_part(cell) {
-                        turn.include(cell.rem_euclid(ANGLES as i64) as usize, error, foot);
-                    }
-                }
+            let (number, angle) = (cell.div_euclid(TURN), cell.rem_euclid(TURN));
+            let count = (end - cell).min(TURN - angle).min(TOGETHER as i64);
+            let errors = &mut errors[..count as usize];
+            if let Some(feet) = cells.errors(cell, errors) {
+                self.turn(number).include(angle as usize, errors, feet);
             }
+            cell += count;
         }
     }
 
@@ -179,13 +123,13 @@ impl Spokes {
         for turn in &next.turns {
             match self.window.back_mut() {
                 Some(last) if last.number == turn.number => last.join(turn),
-                _ => self.push(turn.clone()),
+                _ => self.push(turn),
             }
         }
     }
 
     /// Begins the path's next turn: the one before is whole.
-    fn push(&mut self, turn: Turn) {
+    fn push(&mut self, turn: &Turn) {
         if let Some(last) = self.window.back() {
             self.arms.include(last);
         }
@@ -196,10 +140,15 @@ impl Spokes {
             self.harmonics = largest_of_each(&self.harmonics, &amplitudes);
             self.until_next = ADVANCE;
         }
-        if self.window.len() == WINDOW {
-            self.window.pop_front();
+        let mut newest = match self.window.len() {
+            WINDOW => self.window.pop_front(),
+            _ => None,
+        };
+        match &mut newest {
+            Some(oldest) => oldest.clone_from(turn),
+            None => newest = Some(turn.clone()),
         }
-        self.window.push_back(turn);
+        self.window.extend(newest);
         self.until_next -= 1;
     }
 
@@ -294,13 +243,15 @@ fn larger(one: Option<Spoke>, other: Option<Spoke>) -> Option<Spoke> {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
+    use std::f64::consts::{PI, TAU};
     use std::ops::Range;
 
     use turnpath_core::Scalar;
-    use turnpath_core::toolpath::ControlPoint;
+    use turnpath_core::toolpath::{ControlPoint, Segment};
 
     use super::*;
+    use crate::instants::INSTANTS;
+    use crate::touch::Touch;
 
     const PART: Part = Part {
         aperture_radius: 1000.0,

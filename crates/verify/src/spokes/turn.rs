@@ -9,7 +9,7 @@ pub(super) const HIGHEST: usize = 512;
 /// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
 pub(super) const WINDOW: usize = 64;
 /// The errors of one turn.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Turn {
     /// C in turns, rounded down.
     pub(super) number: i64,
@@ -31,19 +31,33 @@ impl Turn {
         }
     }
 
-    pub(super) fn include(&mut self, angle: usize, error: f64, foot: f64) {
-        self.errors[angle] = error;
-        self.from = self.from.min(foot);
-        self.to = self.to.max(foot);
+    /// Adds errors at the angles from number `first` on, NaN where there is none. Their contacts lie
+    /// between two radii, mm.
+    pub(super) fn include(&mut self, first: usize, errors: &[f64], [from, to]: [f64; 2]) {
+        for (own, error) in self.errors[first..].iter_mut().zip(errors) {
+            *own = if error.is_nan() { *own } else { *error };
+        }
+        self.from = self.from.min(from);
+        self.to = self.to.max(to);
     }
 
     /// Adds the part of this turn that lies in the next block.
     pub(super) fn join(&mut self, rest: &Self) {
-        let known = rest.errors.iter().enumerate().filter(|(_, e)| !e.is_nan());
-        for (angle, error) in known {
-            self.errors[angle] = *error;
+        self.include(0, &rest.errors, [rest.from, rest.to]);
+    }
+}
+
+impl Clone for Turn {
+    fn clone(&self) -> Self {
+        Self {
+            errors: self.errors.clone(),
+            ..*self
         }
-        self.from = self.from.min(rest.from);
-        self.to = self.to.max(rest.to);
+    }
+
+    /// Keeps the memory of the errors.
+    fn clone_from(&mut self, other: &Self) {
+        self.errors.clone_from(&other.errors);
+        (self.number, self.from, self.to) = (other.number, other.from, other.to);
     }
 }
