@@ -304,6 +304,16 @@ fn what_is_not_beyond_doubt_is_refused_with_its_line() {
             "line 21: the design ignores this surface",
         ),
         (
+            "SURF 0\n",
+            "UNIT IN X W X CM MR CPMM\nSURF 0\n",
+            "line 5: `UNIT` stands there a second time",
+        ),
+        (
+            "  CURV -0.01 0 0 0 0\n",
+            "",
+            "line 16: surface 2 has no line `CURV`",
+        ),
+        (
             "SURF 4",
             "SURF 5",
             "line 28: surface 4 follows here, and the line says `5`",
@@ -327,6 +337,29 @@ fn what_is_not_beyond_doubt_is_refused_with_its_line() {
             .contains("line 21: SQAP 5 5 is not in the recipe"),
         "{given}"
     );
+}
+
+/// A copy that stopped half-way: within the surface, between its lines, and behind it.
+#[test]
+fn a_file_that_is_cut_off_is_refused_wherever_it_ends() {
+    let surface = DESIGN.find("SURF 2\n").unwrap();
+    let next = DESIGN.find("SURF 3\n").unwrap();
+    let bench = Bench::empty();
+    let refused = |end: usize, wanted: &str| {
+        bench.write("lens.zmx", &DESIGN[..end]);
+        let said = bench.line("import lens.zmx --surface 2").ends(2);
+        assert!(said.stderr.contains(wanted), "{}: {said}", &DESIGN[..end]);
+    };
+    for (end, _) in DESIGN.match_indices('\n').filter(|(end, _)| *end > surface) {
+        // A character of the line is lost, then its end alone.
+        refused(end - 1, "the file ends within this line");
+        refused(end, "the file ends within this line");
+        if end < next {
+            refused(end + 1, "line 16: surface 2 is the file's last");
+        }
+    }
+    bench.write("lens.zmx", format!("{DESIGN}\u{1a}"));
+    bench.line("import lens.zmx --surface 2").ends(0);
 }
 
 #[test]

@@ -3,6 +3,10 @@
 use crate::kind::{Length, Number};
 use crate::{Param, Params, Result, Scalar};
 
+/// The largest amount of (1 + K)c², 1/mm²: with the fourth powers in a series, and with the places of
+/// the largest part, all figures stay far from the end of the numbers.
+const MOST_BEND: f64 = 1e40;
+
 /// z = cρ² / (1 + sqrt(1 − (1 + K)c²ρ²)), c the curvature at the vertex, K the conic number.
 ///
 /// K = 0 is a sphere, −1 a paraboloid. Where the conicoid has no point, z is NaN.
@@ -23,9 +27,21 @@ impl Conicoid {
     .nonzero()
     .optional();
 
+    /// The largest amount of a conic number. Those of designs stay far below it, and the derivatives
+    /// of the formula stay numbers.
+    pub const MOST_CONIC: f64 = 1e9;
+
     /// The parameter of every conicoid: the conic number K.
     pub const CONIC: Param<Number> =
-        Param::number("conic", "conic number K; 0: sphere, -1: paraboloid").default(0.0);
+        Self::conic_number("conic", "conic number K; 0: sphere, -1: paraboloid");
+
+    /// A parameter that is a conic number.
+    pub const fn conic_number(name: &'static str, help: &'static str) -> Param<Number> {
+        Param::number(name, help)
+            .default(0.0)
+            .min(-Self::MOST_CONIC)
+            .max(Self::MOST_CONIC)
+    }
 
     /// Why a radius is refused that is too small for the formula.
     pub const TOO_SMALL: &str =
@@ -45,7 +61,7 @@ impl Conicoid {
     pub fn new(radius: Option<f64>, conic: f64) -> Option<Self> {
         let curvature = radius.map_or(0.0, f64::recip);
         let bend = (1.0 + conic) * curvature * curvature;
-        bend.is_finite().then_some(Self { curvature, bend })
+        (bend.abs() <= MOST_BEND).then_some(Self { curvature, bend })
     }
 
     /// The height at a squared distance ρ² from the axis, mm².

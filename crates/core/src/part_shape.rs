@@ -18,7 +18,31 @@ pub struct PartShape {
     pub most_hollow: Extreme,
     /// Smallest principal curvature, 1/mm; negative on a dome.
     pub most_domed: Extreme,
+    /// Whether the surface is not smooth where it is most hollow: on the way there the curvature
+    /// grows without bound, and the figure is that of the closest place that was looked at.
+    pub has_hollow_tip: bool,
+    /// The same where it is most domed: the tip of a cone.
+    pub has_domed_tip: bool,
 }
+
+/// How often the way to a tip is halved.
+const HALVINGS: usize = 32;
+
+/// A curvature that grows by this much on that way has no bound: beside a tip it grows by 2³², and on a
+/// smooth place by little, since the search has been there.
+const NO_BOUND: f64 = 1e4;
+
+/// Directions from the closest place to a tip, and lengths of steps there: (1, 0) to (−1, −1).
+const AROUND: [(f64, f64); 8] = [
+    (1.0, 0.0),
+    (1.0, 1.0),
+    (0.0, 1.0),
+    (-1.0, 1.0),
+    (-1.0, 0.0),
+    (-1.0, -1.0),
+    (0.0, -1.0),
+    (1.0, -1.0),
+];
 
 /// Looks for the extremes of a surface within `region`: first on a grid, then closer and closer
 /// around its highest points.
@@ -47,6 +71,8 @@ pub fn of(surface: &dyn SurfaceModel, region: RadialRange) -> Result<PartShape> 
         room.measure(surface, theta, rho, out)
     })?;
     let [low, highest, steepest, most_hollow, dome] = found;
+    let has_hollow_tip = room.grows(surface, region, 3, most_hollow)?;
+    let has_domed_tip = room.grows(surface, region, 4, dome)?;
     let opposite = |extreme: Extreme| Extreme {
         value: -extreme.value,
         ..extreme
@@ -57,6 +83,8 @@ pub fn of(surface: &dyn SurfaceModel, region: RadialRange) -> Result<PartShape> 
         steepest,
         most_hollow,
         most_domed: opposite(dome),
+        has_hollow_tip,
+        has_domed_tip,
     })
 }
 
@@ -110,6 +138,44 @@ impl Room {
             }
         }
         Ok(())
+    }
+
+    /// Whether the figure number `which` grows without bound around its largest value, within a
+    /// radius of curvature.
+    fn grows(
+        &mut self,
+        surface: &dyn SurfaceModel,
+        region: RadialRange,
+        which: usize,
+        found: Extreme,
+    ) -> Result<bool> {
+        let first = found.value;
+        // A place that is not hollow at all, or not domed, is no tip.
+        if first <= 0.0 {
+            return Ok(false);
+        }
+        let (sin, cos) = Scalar::sin_cos(found.theta);
+        let (mut at, mut best) = ((found.rho * cos, found.rho * sin), first);
+        let mut step = first.recip().min(region.outer - region.inner);
+        for _ in 0..HALVINGS {
+            let around = AROUND.map(|(x, y)| (at.0 + step * x, at.1 + step * y));
+            let on_part = around
+                .iter()
+                .copied()
+                .filter(|(x, y)| (region.inner..=region.outer).contains(&Scalar::hypot(*x, *y)));
+            let places: Vec<(f64, f64)> = on_part.collect();
+            let theta: Vec<f64> = places.iter().map(|(x, y)| Scalar::atan2(*y, *x)).collect();
+            let rho: Vec<f64> = places.iter().map(|(x, y)| Scalar::hypot(*x, *y)).collect();
+            let mut out = vec![[0.0; 5]; places.len()];
+            self.measure(surface, &theta, &rho, &mut out)?;
+            for (place, figures) in places.iter().zip(&out) {
+                if figures[which] > best {
+                    (at, best) = (*place, figures[which]);
+                }
+            }
+            step *= 0.5;
+        }
+        Ok(best > NO_BOUND * first)
     }
 
     /// Straight lines along x and along y through each place.
@@ -263,6 +329,46 @@ mod tests {
         near(torus.most_domed.value, cos / (12.0 + 8.0 * cos));
         near(torus.highest.value, 8.0 - 8.0 * cos);
         near(torus.steepest.value, Scalar::asin(0.75));
+    }
+
+    /// z = s·((x − a)² + y²)^½ and the same with the other sign.
+    struct Cone {
+        slope: f64,
+        middle: f64,
+    }
+
+    impl Surface for Cone {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let square = (x - self.middle).squared() + y.squared();
+            let at_tip = square.less(S::constant(1e-50));
+            let beside = S::select(at_tip, S::constant(1.0), square).sqrt();
+            S::select(at_tip, S::constant(0.0), beside) * self.slope
+        }
+    }
+
+    #[test]
+    fn a_tip_has_no_curvature() {
+        let tips = |surface: &dyn SurfaceModel| {
+            let found = of(surface, REGION).unwrap();
+            (found.has_hollow_tip, found.has_domed_tip)
+        };
+        for middle in [0.0, 1.0, 2.3] {
+            for slope in [0.3, 0.001] {
+                assert_eq!(tips(&Cone { slope, middle }), (true, false), "{middle}");
+                let slope = -slope;
+                assert_eq!(tips(&Cone { slope, middle }), (false, true), "{middle}");
+            }
+        }
+        assert_eq!(tips(&Conic { c: 0.1, k: 0.0 }), (false, false));
+        assert_eq!(
+            tips(&Conic {
+                c: -0.08,
+                k: -300.0
+            }),
+            (false, false)
+        );
+        assert_eq!(tips(&Torus), (false, false));
+        assert_eq!(tips(&Cylinder), (false, false));
     }
 
     /// A hole keeps out what lies in it.

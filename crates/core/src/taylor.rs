@@ -8,7 +8,7 @@ use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
-use crate::dual::one_minus_square;
+use crate::dual::{one_minus_square, tanh_slope};
 
 /// The order of all series. It is the order of the derivative that bounds the error of a cubic
 /// segment.
@@ -279,8 +279,8 @@ impl<T: Scalar, const N: usize> Scalar for Taylor<T, N> {
     }
 
     fn tanh(self) -> Self {
-        let slope = self.0[0].cosh().recip().squared();
-        self.riccati(self.0[0].tanh(), slope, -1.0)
+        let value = self.0[0];
+        self.riccati(value.tanh(), tanh_slope(value), -1.0)
     }
 
     fn powf(self, exponent: f64) -> Self {

@@ -155,3 +155,30 @@ fn whole_powers_have_their_derivatives_at_zero() {
     assert_eq!(t.powi(1).0, t.0);
     assert_eq!(t.powi(0).0, [1.0, 0.0, 0.0, 0.0, 0.0]);
 }
+
+/// cosh is not finite from 711 on, and tanh is smooth.
+#[test]
+fn tanh_is_smooth_however_large_its_argument() {
+    for size in [1e2, 1e3, 1e6, 1e300] {
+        for u in [size, -size] {
+            let rate = Taylor([u, 360.0, 25.0, -3.0, 7.0]);
+            let series = rate.tanh().0;
+            assert_eq!(series[0], u.signum(), "tanh {u}");
+            let of_dual = Taylor(rate.0.map(|value| Dual {
+                value,
+                dx: 360.0,
+                dy: -360.0,
+            }));
+            let nested = of_dual.tanh().0;
+            for k in 0..=ORDER {
+                let Dual { value, dx, dy } = nested[k];
+                assert_eq!(value, series[k], "tanh {u}: {k}");
+                for small in [if k == 0 { 0.0 } else { series[k] }, dx, dy] {
+                    assert!(small.abs() < 1e-70, "tanh {u}: {k}: {small}");
+                }
+            }
+            let dual = Dual::variable_x(u).tanh();
+            assert!(dual.dx < 1e-80 && dual.dy == 0.0, "tanh {u}: {dual:?}");
+        }
+    }
+}

@@ -85,6 +85,11 @@ impl LensText {
         let lines = Lines::sort(&self.0)?;
         let block = lines.choose(selection.number)?;
         let mut problems = lines.system_problems();
+        problems.extend(cut_off(&self.0));
+        if block.number + 1 == lines.blocks.len() {
+            let number = block.number;
+            problems.push(ProblemKind::LastSurface { number }.at(block.line));
+        }
         let unit = keep(lines.unit(), &mut problems).unwrap_or(1.0);
         problems.extend(block_problems(block));
         let shape = match read_shape(block, unit) {
@@ -114,6 +119,15 @@ impl LensText {
 
 fn keep<T>(read: Result<T, LensProblem>, problems: &mut Vec<LensProblem>) -> Option<T> {
     read.map_err(|problem| problems.push(problem)).ok()
+}
+
+/// A last line without its end: what a copy that stopped half-way leaves. A number in it may lack
+/// digits.
+fn cut_off(text: &str) -> Option<LensProblem> {
+    // The character that ends a file on old systems stands behind the last line.
+    let whole = text.trim_end_matches('\u{1a}');
+    let ends = whole.is_empty() || whole.ends_with(['\n', '\r']);
+    (!ends).then(|| ProblemKind::CutOff.at(text.lines().count()))
 }
 
 /// What a surface's own lines have that is not known or not fixed.
@@ -184,8 +198,14 @@ impl<'a> Lines<'a> {
 
     /// The file's unit, mm.
     fn unit(&self) -> Result<f64, LensProblem> {
-        let record = self.system.iter().find(|record| record.key == "UNIT");
-        let record = record.ok_or_else(|| ProblemKind::NoUnit.of_file())?;
+        let mut records = self.system.iter().filter(|record| record.key == "UNIT");
+        let record = records
+            .next()
+            .ok_or_else(|| ProblemKind::NoUnit.of_file())?;
+        if let Some(second) = records.next() {
+            let key = "UNIT".to_owned();
+            return Err(ProblemKind::Twice { key }.at(second.line));
+        }
         let name = record.words().next().unwrap_or_default();
         Ok(match name.to_ascii_uppercase().as_str() {
             "MM" => 1.0,

@@ -39,6 +39,23 @@ pub enum ProblemKind {
     /// The file does not say its unit.
     #[error("the file does not say its unit: it has no line `UNIT`")]
     NoUnit,
+    /// The last line does not end.
+    #[error("the file ends within this line, so more of it may be missing: save it again")]
+    CutOff,
+    /// No surface follows the one that is asked for.
+    #[error(
+        "surface {number} is the file's last, where a design has its image: the file may be cut off"
+    )]
+    LastSurface {
+        /// The surface.
+        number: usize,
+    },
+    /// The surface does not say its curvature.
+    #[error("surface {number} has no line `CURV`; that of a plane says 0")]
+    NoCurvature {
+        /// The surface.
+        number: usize,
+    },
     /// The unit is unknown.
     #[error("the unit `{name}` is unknown: MM, CM, IN and METER are known")]
     Unit {

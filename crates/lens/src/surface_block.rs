@@ -65,7 +65,10 @@ impl<'a> SurfaceBlock<'a> {
     /// The curvature at the vertex, 1 by the file's unit.
     pub fn curvature(&self) -> Result<f64, LensProblem> {
         match self.only("CURV")? {
-            None => Ok(0.0),
+            None => {
+                let number = self.number;
+                Err(ProblemKind::NoCurvature { number }.at(self.line))
+            }
             Some(record) => {
                 let curvature = fixed_number(record, "CURV")?;
                 match curvature == 0.0 || (LARGEST_UNIT / curvature).is_finite() {

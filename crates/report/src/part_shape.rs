@@ -46,6 +46,10 @@ pub struct PartCurvature {
     /// 1/mm; positive in a hollow, negative on a dome.
     #[serde(rename = "curvature_per_mm", with = "unit::mm")]
     pub curvature: f64,
+    /// Whether the surface is not smooth there, as on the tip of a cone: the curvature has no bound,
+    /// and the figure is that of the closest place that was looked at.
+    #[serde(default)]
+    pub tip: bool,
     /// Where it is.
     pub at: PartPlace,
 }

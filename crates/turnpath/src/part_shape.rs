@@ -8,8 +8,8 @@ use turnpath_recipe::Recipe;
 use turnpath_report as report;
 
 use crate::data_files::DataFiles;
-use crate::diagnosis::of_pipeline;
 use crate::error::Error;
+use crate::gap::of_preparation;
 use crate::surface::surface;
 
 /// What is known of the part of a recipe that `refusal` refuses.
@@ -42,7 +42,8 @@ pub fn shape(
         outer: part.aperture_radius,
     };
     let found = part_shape::of(&NamedSurface::new(surface), region);
-    let found = found.map_err(|error| of_pipeline(recipe, PipelineError::NoSurface(error)))?;
+    let found =
+        found.map_err(|error| of_preparation(recipe, surface, PipelineError::NoSurface(error)))?;
     let place = |extreme: &Extreme| {
         let at = extreme.position();
         report::PartPlace { x: at.x, y: at.y }
@@ -51,8 +52,9 @@ pub fn shape(
         height: extreme.value,
         at: place(&extreme),
     };
-    let curvature = |extreme: Extreme| report::PartCurvature {
+    let curvature = |extreme: Extreme, tip: bool| report::PartCurvature {
         curvature: extreme.value,
+        tip,
         at: place(&extreme),
     };
     Ok(report::PartShape {
@@ -62,7 +64,7 @@ pub fn shape(
             angle: found.steepest.value,
             at: place(&found.steepest),
         },
-        most_hollow: curvature(found.most_hollow),
-        most_domed: curvature(found.most_domed),
+        most_hollow: curvature(found.most_hollow, found.has_hollow_tip),
+        most_domed: curvature(found.most_domed, found.has_domed_tip),
     })
 }

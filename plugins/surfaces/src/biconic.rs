@@ -24,8 +24,8 @@ const RADIUS_Y: Param<Option<Length>> = Param::length(
 )
 .nonzero()
 .optional();
-const CONIC_X: Param<Number> = Param::number("conic_x", "conic number along x").default(0.0);
-const CONIC_Y: Param<Number> = Param::number("conic_y", "conic number along y").default(0.0);
+const CONIC_X: Param<Number> = Conicoid::conic_number("conic_x", "conic number along x");
+const CONIC_Y: Param<Number> = Conicoid::conic_number("conic_y", "conic number along y");
 
 impl Strategy for Biconic {
     const NAME: &'static str = "biconic";
