@@ -10,6 +10,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
+use turnpath_core::Scalar;
 
 use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::seeded::SeededNumbers;
@@ -245,7 +246,7 @@ fn shaken(summary: &Value, with_atpg: &Value) -> Option<String> {
     let wrong = |(key, of_rise, order): &(&str, f64, i32)| {
         let of = |summary: &Value| summary["axes"]["z"][*key].as_f64();
         let (own, atpg) = (of(summary)?, of(with_atpg)?);
-        let most = most * atpg + of_rise * swing / step.powi(*order);
+        let most = most * atpg + of_rise * swing / Scalar::powi(step, *order);
         (own > most).then(|| format!("{key} is {own}, at most {most}; with atpg {atpg}"))
     };
     MOTION.iter().find_map(wrong)
