@@ -281,6 +281,7 @@ fn the_difference_is_a_map_with_holes_where_nothing_is_compared() {
     }
 }
 
+fn what_is_read_is_not_replaced_by_what_is_written() {
 #[test]
 fn what_a_maps_file_does_not_say_is_given() {
     let bench = Bench::with(SADDLE);

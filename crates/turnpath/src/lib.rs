@@ -34,6 +34,7 @@ mod folder;
 mod form;
 mod gap;
 mod import;
+mod input_files;
 mod job;
 mod memory;
 mod meters;
