@@ -7,3 +7,4 @@ mod support;
 mod architecture;
 mod circles;
 mod pages;
+mod reference_files;

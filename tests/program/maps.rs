@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::support::bench::Bench;
+use crate::support::bench::{Bench, TURNPATH, answer};
 use crate::support::recipe::{SADDLE, changed};
 use crate::support::repository;
 use serde_json::Value;
@@ -241,5 +241,56 @@ fn files_that_are_no_map_end_with_status_2_and_the_line() {
         assert!(said.stderr.contains(wanted), "{file}: {said}");
         assert!(said.stderr.contains("recipe.toml:"), "{file}: {said}");
         assert!(!bench.path("out").exists());
+    }
+}
+
+/// Points along an edge of the largest maps that are measured.
+#[cfg(unix)]
+const LARGE: usize = 4096;
+
+/// Pixels of the saddle z = 0.16 x y on 6 × 6 mm. Beyond a disc of data there are none, and grains of
+/// dust have left holes.
+#[cfg(unix)]
+fn large_field() -> Vec<u8> {
+    let mut header = format!(
+        "Gwyddion Simple Field 1.0\nXRes = {LARGE}\nYRes = {LARGE}\nXReal = 0.006\nYReal = 0.006\n\
+         XYUnits = m\nZUnits = m\n"
+    )
+    .into_bytes();
+    // One to four zeros, up to a whole number of words.
+    header.resize(header.len() / 4 * 4 + 4, 0);
+    header.reserve(4 * LARGE * LARGE);
+    let place = |k: usize| 6.0 * ((k as f64 + 0.5) / LARGE as f64 - 0.5);
+    for row in 0..LARGE {
+        for column in 0..LARGE {
+            let (x, y) = (place(column), -place(row));
+            let is_dust = row % 512 < 8 && column % 512 < 12;
+            let z = match is_dust || x * x + y * y > 2.9 * 2.9 {
+                true => f32::NAN,
+                false => (0.16e-3 * x * y) as f32,
+            };
+            header.extend(z.to_le_bytes());
+        }
+    }
+    header
+}
+
+/// The limit is that of the address space, three times what the pages say of the memory.
+#[cfg(unix)]
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_a_map_of_sixteen_million_points_with_holes_is_read_in_bounded_memory() {
+    let bench = Bench::with(&recipe("map.gsf", ""));
+    bench.write("map.gsf", large_field());
+    let script = "ulimit -v 2500000; exec \"$0\" sag recipe.toml --grid 41 -o sag.csv";
+    let mut shell = bench.command_of("sh".as_ref(), ["-c", script]);
+    answer(shell.arg(TURNPATH)).ends(0);
+    for line in bench.read("sag.csv").lines().skip(1) {
+        let numbers: Vec<f64> = line.split(',').map(|one| one.parse().unwrap()).collect();
+        let [x, y, z] = [numbers[0], numbers[1], numbers[2]];
+        if x * x + y * y <= 2.5 * 2.5 {
+            // A unit in the last place of a 32-bit number of metres, up to 1 mm.
+            assert!((z - 0.16 * x * y).abs() < 1.2e-7, "{line}");
+        }
     }
 }

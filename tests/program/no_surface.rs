@@ -43,6 +43,87 @@ fn heights_that_no_part_has() {
     assert!(said.contains("a division by 0 at x = 0.0000 mm"), "{said}");
 }
 
+#[test]
+fn conic_numbers_that_no_design_has() {
+    for (surface, name) in [
+        (
+            "use = \"conic\"\nradius = \"20 mm\"\nconic = -1e300",
+            "conic",
+        ),
+        (
+            "use = \"even-asphere\"\nradius = \"20 mm\"\nconic = -2e9",
+            "conic",
+        ),
+        (
+            "use = \"biconic\"\nradius_x = \"20 mm\"\nconic_x = -1e30",
+            "conic_x",
+        ),
+    ] {
+        let said = refused(surface, &[]);
+        assert!(said.contains(&format!("`{name}`")), "{surface}: {said}");
+    }
+    let most = "use = \"conic\"\nradius = \"1000 m\"\nconic = -1e9";
+    let bench = Bench::with(&saddle_with("surface", most));
+    bench.line("check recipe.toml").ends(0);
+}
+
+/// The whole is smooth, and a part of it is too large for a number.
+#[test]
+fn a_formula_whose_part_overflows_is_underlined() {
+    let z = "nm/(1+exp(-300*(x-0.3333*mm)/mm))";
+    for aperture in ["5 mm", "4 mm"] {
+        let part = format!("aperture = \"{aperture}\"");
+        let said = refused(
+            &format!("use = \"formula\"\nz = \"{z}\""),
+            &[("part", &part)],
+        );
+        let is_told = said.contains("no slope") || said.contains("no finite derivatives");
+        assert!(is_told, "{aperture}: {said}");
+        let line = said.lines().find(|line| line.contains("^^^")).unwrap();
+        assert_eq!(
+            line.matches('^').count(),
+            "exp(-300*(x-0.3333*mm)/mm)".len(),
+            "{said}"
+        );
+        assert!(!said.contains("smaller aperture"), "{said}");
+    }
+    let same = "0.5*nm*(1+tanh(-150*(x-0.3333*mm)/mm))";
+    let bench = Bench::with(&saddle_with(
+        "surface",
+        &format!("use = \"formula\"\nz = \"{same}\""),
+    ));
+    bench.line("check recipe.toml").ends(0);
+}
+
+/// Walls that do not go out from the axis, by an angle and without one. The part ends at 2.5 mm.
+#[test]
+fn a_height_that_jumps_on_the_part() {
+    for (z, jump) in [
+        ("um*atan2(y - 0.5*mm, x - 1*mm)", "6.283e-3 mm"),
+        ("um*atan2(x - 0.3*mm, y + 1*mm)", "6.283e-3 mm"),
+        ("um*atan(mm/(x - 0.7*mm))", "3.142e-3 mm"),
+        ("um*(x + 0.4*mm)/abs(x + 0.4*mm)", "2.000e-3 mm"),
+        (
+            "nm*max(x, 2*mm)/mm + 2*nm*abs(y - x - 0.2*mm)/(y - x - 0.2*mm)",
+            "4.000e-6 mm",
+        ),
+    ] {
+        let said = refused(&format!("use = \"formula\"\nz = \"{z}\""), &[]);
+        let what = format!("the height jumps by {jump} at x = ");
+        assert!(said.contains(&what), "{z}: {said}");
+    }
+    // The wall lies beyond the part, or is a steep slope, or a crease.
+    for z in [
+        "um*atan2(y - 0.5*mm, x + 4*mm)",
+        "0.01*um*tanh(360*x/mm)",
+        "-0.001*abs(x - 0.3*mm)",
+    ] {
+        let surface = format!("use = \"formula\"\nz = \"{z}\"");
+        let bench = Bench::with(&saddle_with("surface", &surface));
+        bench.line("check recipe.toml").ends(0);
+    }
+}
+
 /// A map of zeros, 8 mm wide.
 fn flat_map(middle: f64) -> String {
     format!("9 9 1 1 0 {middle} 0\n{}", "0.001 0 0 0\n".repeat(81))

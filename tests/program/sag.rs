@@ -282,6 +282,38 @@ fn the_difference_is_a_map_with_holes_where_nothing_is_compared() {
 }
 
 #[test]
+fn what_is_read_is_not_replaced_by_what_is_written() {
+    let bench = Bench::with(SADDLE);
+    measured(&bench);
+    let saddle = SADDLE.replace("[surface]", "[[surface]]");
+    let map = "[[surface]]\nuse = \"grid-sag\"\nfile = \"measured.DAT\"\n";
+    bench.write("sum.toml", format!("{saddle}\n{map}"));
+    let before = bench.read("measured.DAT");
+    let recipe = bench.read("sum.toml");
+    let mut lines = vec![
+        "sag recipe.toml --against measured.DAT -o measured.DAT",
+        "sag recipe.toml --against measured.DAT -o ./measured.DAT",
+        "sag recipe.toml --against ./measured.DAT -o recipe.toml",
+        "sag sum.toml --grid 9 -o measured.DAT",
+        "sag sum.toml --grid 9 -o sum.toml",
+    ];
+    #[cfg(unix)]
+    {
+        let link = bench.path("link.DAT");
+        std::os::unix::fs::symlink(bench.path("measured.DAT"), link).unwrap();
+        lines.push("sag recipe.toml --against measured.DAT -o link.DAT");
+        lines.push("sag recipe.toml --against link.DAT -o measured.DAT");
+    }
+    for line in lines {
+        let said = bench.line(line).ends(2);
+        assert!(said.stderr.contains("is read here"), "{line}: {said}");
+        assert_eq!(bench.read("measured.DAT"), before, "{line}");
+        assert_eq!(bench.read("sum.toml"), recipe, "{line}");
+    }
+    bench.line("sag sum.toml --grid 9 -o other.DAT").ends(0);
+}
+
+#[test]
 fn what_a_maps_file_does_not_say_is_given() {
     let bench = Bench::with(SADDLE);
     let mut text = String::new();
@@ -301,6 +333,10 @@ fn what_a_maps_file_does_not_say_is_given() {
     assert!(json["pv_nm"].as_f64().unwrap() < 1e-6, "{json}");
     let json = bench.line(&format!("{line} --format json")).ends(0).json();
     assert!(json["pv_nm"].as_f64().unwrap() > 1e5, "{json}");
+    bench.write(
+        "small.DAT",
+        format!("3 3 1 1 0 0 0\n{}", "0 0 0 0\n".repeat(9)),
+    );
     for (call, wanted) in [
         (
             "sag recipe.toml --against map.txt",
@@ -309,6 +345,14 @@ fn what_a_maps_file_does_not_say_is_given() {
         (
             "sag recipe.toml --against map.txt --map-format xyz",
             "map.txt: the file does not say its unit",
+        ),
+        (
+            "sag recipe.toml --against map.txt --map-format xyz --pitch 0mm",
+            "--pitch: the distance of neighbouring points lies between 1e-9 mm and 1e9 mm",
+        ),
+        (
+            "sag recipe.toml --against small.DAT",
+            "small.DAT: line 1: the grid has 3 × 3 points; a map has 6 × 6 at the least",
         ),
         (
             "sag recipe.toml --against map.txt --xy-unit ell",

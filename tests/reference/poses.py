@@ -137,4 +137,5 @@ def cases():
 
 if __name__ == "__main__":
     lines = ",\n".join(json.dumps(case) for case in cases())
-    print(f"[\n{lines}\n]")
+    made = {"script": "tests/reference/poses.py", "packages": f"mpmath {mpmath.__version__}"}
+    print(f'{{"made_by": {json.dumps(made)}, "cases": [\n{lines}\n]}}')

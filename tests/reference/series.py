@@ -83,4 +83,6 @@ def cases():
                 yield {"function": name, "a": a, "b": b, "out": doubles(out)}
 
 
-print("[\n" + ",\n".join(json.dumps(case) for case in cases()) + "\n]")
+made = {"script": "tests/reference/series.py", "packages": f"mpmath {mpmath.__version__}"}
+lines = ",\n".join(json.dumps(case) for case in cases())
+print(f'{{"made_by": {json.dumps(made)}, "cases": [\n{lines}\n]}}')

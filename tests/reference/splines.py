@@ -7,6 +7,7 @@ differ by up to 1 : 1000; and from two to five nodes.
 """
 
 import json
+from importlib.metadata import version
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -55,4 +56,7 @@ def cases():
 
 
 if __name__ == "__main__":
-    print("[\n" + ",\n".join(json.dumps(case) for case in cases()) + "\n]")
+    packages = ", ".join(f"{name} {version(name)}" for name in ["numpy", "scipy"])
+    made = {"script": "tests/reference/splines.py", "packages": packages}
+    lines = ",\n".join(json.dumps(case) for case in cases())
+    print(f'{{"made_by": {json.dumps(made)}, "cases": [\n{lines}\n]}}')

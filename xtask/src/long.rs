@@ -25,6 +25,7 @@ random input: the tests of the crates once more, with eight times as many cases
 playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
 random recipes: tests/reference/playback/measure_random.py, those of the test of five hundred
 maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
+correction: tests/reference/grids/correction.py, a part that is corrected by its own measured error
 linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
 columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
 report: tests/reference/report/report.cjs, pages in Chromium by playwright-core
@@ -60,6 +61,7 @@ pub fn run_checks() -> Vec<Step> {
             with_packages(&["numpy"], random_recipes)
         }),
         Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
+        Step::run("correction", || with_packages(&["numpy"], correction)),
         Step::run("linuxcnc", || {
             with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
         }),
@@ -237,6 +239,14 @@ fn random_recipes() -> Outcome {
             measure.args(["--seconds", MEASURING_S]);
             run(measure)
         }
+        Err(outcome) => outcome,
+    }
+}
+
+/// The bound of 15 nm RMS on what a correction leaves stands in the script.
+fn correction() -> Outcome {
+    match program() {
+        Ok(program) => run(script("tests/reference/grids/correction.py", &[&program])),
         Err(outcome) => outcome,
     }
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use turnpath::report::text;
 use turnpath::{
-    Catalogue, Error, MapFormat, MapSource, Recipe, compare_with_map, length_unit, write_sag,
-    write_sag_to,
+    Catalogue, Error, LARGEST_MAP_LENGTH, LEAST_MAP_PITCH, MapFormat, MapSource, Recipe,
+    compare_with_map, length_unit, write_sag, write_sag_to,
 };
 use turnpath_core::Quantity;
 
@@ -77,8 +77,15 @@ fn note_missing(missing: usize, count: usize) {
 fn source(args: &SagArgs, file: &Path) -> Result<MapSource, Failure> {
     let map = &args.map;
     let pitch = map.pitch.as_deref().map(|text| {
+        let refused = |why: String| Failure::Call(format!("--pitch: {why}"));
         let parsed = Quantity::Length.parse(text);
-        parsed.map_err(|error| Failure::Call(format!("--pitch: {error}")))
+        match parsed.map_err(|error| refused(error.to_string()))? {
+            pitch if (LEAST_MAP_PITCH..=LARGEST_MAP_LENGTH).contains(&pitch) => Ok(pitch),
+            _ => Err(refused(format!(
+                "the distance of neighbouring points lies between {LEAST_MAP_PITCH:e} mm and \
+                 {LARGEST_MAP_LENGTH:e} mm"
+            ))),
+        }
     });
     let format = map.map_format.as_deref().and_then(MapFormat::of_word);
     Ok(MapSource {

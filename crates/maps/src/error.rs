@@ -111,7 +111,7 @@ pub enum MapProblem {
     },
     /// The grid is too small.
     #[error(
-        "the grid has {columns} × {rows} points; a spline of degree 5 needs {LEAST_POINTS} × {LEAST_POINTS}"
+        "the grid has {columns} × {rows} points; a map has {LEAST_POINTS} × {LEAST_POINTS} at the least"
     )]
     TooFew {
         /// Points along x.

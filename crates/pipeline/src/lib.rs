@@ -44,6 +44,7 @@ mod size;
 mod spindle;
 mod tail;
 mod taper;
+mod walls;
 mod window;
 
 pub use aim::AIM;

@@ -9,6 +9,7 @@ use crate::fit::Fit;
 use crate::job_spec::JobSpec;
 use crate::on_part::{check_data, check_heights};
 use crate::size::check_part;
+use crate::walls::check_walls;
 use crate::{Chain, PipelineError, Result};
 
 /// A task whose tool fits its part.
@@ -32,7 +33,7 @@ pub struct Preparation {
 ///
 /// # Errors
 /// When the tool does not fit, when the surface has no height somewhere on the part or on its
-/// overrun, when its map lies elsewhere, or when a strategy fails.
+/// overrun, when its map lies elsewhere, when the height jumps, or when a strategy fails.
 pub fn prepare(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     check_part(&spec)?;
     if spec.tool.misfit == Misfit::Refuse {
@@ -55,6 +56,7 @@ fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
     check_heights(chain, &part)?;
     check_data(chain, &part)?;
+    check_walls(chain, &part)?;
     // How far the contact goes beyond the rim is known only if the nose fits the part itself.
     let on_part = fit.interference(tool, fit.whole_part())?;
     let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });

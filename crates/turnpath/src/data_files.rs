@@ -77,6 +77,12 @@ impl DataFiles {
         known.insert(path.to_owned(), contents.clone());
         Ok(contents)
     }
+
+    /// The files that were read.
+    pub fn paths(&self) -> Vec<PathBuf> {
+        let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        known.keys().cloned().collect()
+    }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, DataFileError> {

@@ -67,6 +67,12 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// An output would replace a file that the same command reads.
+    #[error("{} is read here, so it is not replaced", path.display())]
+    OutputIsInput {
+        /// The file, as the output is named.
+        path: PathBuf,
+    },
     /// A plugin could not be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -191,6 +197,7 @@ impl Error {
                 PageError::NoRecipe | PageError::OtherRecipe { .. } | PageError::NoPath { .. },
             )
             | Self::Exists { .. }
+            | Self::OutputIsInput { .. }
             | Self::NoKey { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
@@ -264,6 +271,7 @@ impl Error {
                 Some("remove the page first to have one without the figures of the path")
             }
             Self::Exists { .. } => Some("`--force` replaces it"),
+            Self::OutputIsInput { .. } => Some("give the output another name"),
             Self::NoRunOfKey { .. } => Some(
                 "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \
                  and its plugins",

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Gradients, Part, Result, Scalar, Slot, SurfaceGap, SurfaceModel};
+use turnpath_core::{
+    GradientSeries, Gradients, Part, Result, Scalar, Series, Slot, SurfaceGap, SurfaceModel,
+};
 use turnpath_pipeline::{Link, PipelineError};
 use turnpath_recipe::Recipe;
 use turnpath_report::text::millimetres;
@@ -49,32 +51,64 @@ pub fn of_preparation(
     Error::refused_by(diagnostic, error)
 }
 
-/// The innermost of many places of the part that has no height or no slope, and the reason, if the
-/// surface knows it.
+/// The innermost of many places of the part that has no height or no slope, else the innermost that
+/// has no derivatives, and the reason, if the surface knows it.
 fn first_gap(surface: &dyn SurfaceModel, part: &Part) -> Result<Option<([f64; 2], SurfaceGap)>> {
     let width = part.aperture_radius - part.inner_radius;
     let turned: Vec<(f64, f64)> = (0..ANGLES)
         .map(|k| Scalar::sin_cos(TAU * k as f64 / ANGLES as f64))
         .collect();
-    let [mut z, mut zx, mut zy] = [(); 3].map(|()| vec![0.0; ANGLES]);
-    for ring in 0..=RINGS {
+    let rings = (0..=RINGS).map(|ring| {
         let rho = part.inner_radius + width * ring as f64 / RINGS as f64;
-        let x: Vec<f64> = turned.iter().map(|(_, cos)| rho * cos).collect();
-        let y: Vec<f64> = turned.iter().map(|(sin, _)| rho * sin).collect();
-        let out = Gradients {
-            z: &mut z,
-            zx: &mut zx,
-            zy: &mut zy,
-        };
-        surface.gradient(&x, &y, out)?;
+        let places = turned.iter().map(|(sin, cos)| [rho * cos, rho * sin]);
+        places.collect::<Vec<[f64; 2]>>()
+    });
+    let rings: Vec<Vec<[f64; 2]>> = rings.collect();
+    for has_gap in [without_slope, without_derivatives] {
+        for ring in &rings {
+            if let Some([x, y]) = has_gap(surface, ring)? {
+                let gap = surface.gap(x, y)?;
+                return Ok(gap.map(|gap| ([x, y], gap)));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// The first place without a height or a slope.
+fn without_slope(surface: &dyn SurfaceModel, places: &[[f64; 2]]) -> Result<Option<[f64; 2]>> {
+    let (x, y): (Vec<f64>, Vec<f64>) = places.iter().map(|[x, y]| (*x, *y)).unzip();
+    let [mut z, mut zx, mut zy] = [(); 3].map(|()| vec![0.0; places.len()]);
+    let out = Gradients {
+        z: &mut z,
+        zx: &mut zx,
+        zy: &mut zy,
+    };
+    surface.gradient(&x, &y, out)?;
+    let figures = z.iter().zip(zx.iter().zip(&zy));
+    let mut all = places.iter().zip(figures);
+    let found = all.find(|(_, (z, (zx, zy)))| ![z, zx, zy].iter().all(|one| one.is_finite()));
+    Ok(found.map(|(place, _)| *place))
+}
+
+/// The first place without derivatives of height and slope along x or along y.
+fn without_derivatives(
+    surface: &dyn SurfaceModel,
+    places: &[[f64; 2]],
+) -> Result<Option<[f64; 2]>> {
+    let line = |from: f64, rate: f64| [from, rate, 0.0, 0.0, 0.0];
+    let [mut z, mut zx, mut zy] = [(); 3].map(|()| vec![[0.0; 5]; places.len()]);
+    for [rate_x, rate_y] in [[1.0, 0.0], [0.0, 1.0]] {
+        let x: Vec<Series> = places.iter().map(|[x, _]| line(*x, rate_x)).collect();
+        let y: Vec<Series> = places.iter().map(|[_, y]| line(*y, rate_y)).collect();
+        let (z, zx, zy) = (&mut z, &mut zx, &mut zy);
+        surface.series(&x, &y, GradientSeries { z, zx, zy })?;
         let is_gap = |k: &usize| {
-            ![z[*k], zx[*k], zy[*k]]
-                .iter()
-                .all(|value| value.is_finite())
+            let mut all = z[*k].iter().chain(&zx[*k]).chain(&zy[*k]);
+            !all.all(|one| one.is_finite())
         };
-        if let Some(k) = (0..ANGLES).find(is_gap) {
-            let gap = surface.gap(x[k], y[k])?;
-            return Ok(gap.map(|gap| ([x[k], y[k]], gap)));
+        if let Some(k) = (0..places.len()).find(is_gap) {
+            return Ok(Some(places[k]));
         }
     }
     Ok(None)

@@ -34,6 +34,7 @@ mod folder;
 mod form;
 mod gap;
 mod import;
+mod input_files;
 mod job;
 mod memory;
 mod meters;
@@ -104,7 +105,10 @@ pub use turnpath_host::{
     Plugin, Refusal, Strategy, SurfaceNeed, calls,
 };
 pub use turnpath_lens::Side;
-pub use turnpath_maps::{Format as MapFormat, length_unit};
+pub use turnpath_maps::{
+    Format as MapFormat, LARGEST_LENGTH as LARGEST_MAP_LENGTH, LEAST_PITCH as LEAST_MAP_PITCH,
+    length_unit,
+};
 pub use turnpath_pipeline::{Observer, SilentObserver, Stage};
 pub use turnpath_post::{ProgramError, ReadError};
 pub use turnpath_recipe::{

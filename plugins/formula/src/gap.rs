@@ -1,4 +1,4 @@
-//! Why a formula has no height or no slope at a place: which part of its text, and what happens
+//! Why a formula has no height, no slope or no derivative at a place: which part of its text, and what happens
 //! there.
 
 use std::ops::Range;
@@ -21,8 +21,8 @@ pub struct Source {
 }
 
 impl Source {
-    /// The part of the text that has no value or no slope at (x, y), and what happens there; `None`
-    /// where the formula has both.
+    /// The part of the text that has no value, no slope or no derivative at (x, y), and what happens
+    /// there; `None` where the formula has all.
     pub fn gap(&self, x: f64, y: f64) -> Option<(Range<usize>, &'static str)> {
         let mut here = self.root;
         if self.is_smooth(here, x, y)? {
@@ -41,12 +41,31 @@ impl Source {
         self.places.get(usize::from(id)).cloned().flatten()
     }
 
-    /// Whether a subexpression has a value and slopes. `None` if it needs too many registers.
+    /// Whether a subexpression has a value and slopes, and the derivatives of these along x and along
+    /// y. `None` if it needs too many registers.
     fn is_smooth(&self, id: Id, x: f64, y: f64) -> Option<bool> {
         let tape = Tape::new(&self.graph, id)?;
-        let value = tape.at(Dual::variable_x(x), Dual::variable_y(y));
-        let all = [value.value, value.dx, value.dy];
-        Some(all.iter().all(|number| number.is_finite()))
+        let (of_x, of_y) = (Dual::variable_x(x), Dual::variable_y(y));
+        let are_finite = |rates: [f64; 2]| {
+            let line = |from: Dual<f64>, rate: f64| {
+                let mut line = Taylor::<Dual<f64>>::constant(0.0);
+                line.0[0] = from;
+                line.0[1] = Dual::constant(rate);
+                line
+            };
+            let series = tape.at(line(of_x, rates[0]), line(of_y, rates[1])).0;
+            let all = series.iter().flat_map(|one| [one.value, one.dx, one.dy]);
+            all.into_iter().all(f64::is_finite)
+        };
+        Some(are_finite([1.0, 0.0]) && are_finite([0.0, 1.0]))
+    }
+
+    /// Whether a subexpression has slopes.
+    fn has_slope(&self, id: Id, x: f64, y: f64) -> bool {
+        Tape::new(&self.graph, id).is_some_and(|tape| {
+            let value = tape.at(Dual::variable_x(x), Dual::variable_y(y));
+            value.dx.is_finite() && value.dy.is_finite()
+        })
     }
 
     fn rough_operand(&self, id: Id, x: f64, y: f64) -> Option<Id> {
@@ -73,6 +92,7 @@ impl Source {
             Node::Quotient(_, b) if of(b) == 0.0 => "a division by 0",
             Node::Power(a, exponent) if exponent < 0 && of(a) == 0.0 => "a division by 0",
             Node::RealPower(a, _) if of(a) < 0.0 => "a broken power of a negative number",
+            _ if self.has_slope(id, x, y) => "no finite derivatives up to the fourth",
             _ if self.value(id, x, y).is_finite() => "no slope",
             _ => "no finite value",
         }
@@ -122,6 +142,22 @@ mod tests {
             ),
             ("mm*sqrt(x/mm)", 0.0, ("sqrt(x/mm)", "no slope")),
             ("mm*exp(x/mm)", 1e3, ("exp(x/mm)", "no finite value")),
+            // The value of the whole is 0 there.
+            (
+                "nm/(1 + exp(-300*x/mm))",
+                -2.4,
+                ("exp(-300*x/mm)", "no finite value"),
+            ),
+            (
+                "nm/(1 + exp(-300*x/mm))",
+                -2.34,
+                ("exp(-300*x/mm)", "no finite derivatives up to the fourth"),
+            ),
+            (
+                "mm*(x/mm)^1.5",
+                0.0,
+                ("(x/mm)^1.5", "no finite derivatives up to the fourth"),
+            ),
         ] {
             assert_eq!(gap(text, x, 0.25), Some(expected), "{text}");
         }

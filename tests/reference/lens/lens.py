@@ -274,8 +274,9 @@ def case(name, encoding, unit, surfaces, number, from_minus_z, radius, middle, w
 def main():
     """All files and all heights."""
     FILES.mkdir(exist_ok=True)
-    packages = {name: version(name) for name in ("optiland", "rayoptics", "numpy")}
-    json.dump({"packages": packages, "cases": [case(*one) for one in CASES]}, sys.stdout, indent=1)
+    packages = ", ".join(f"{name} {version(name)}" for name in ("optiland", "rayoptics", "numpy"))
+    made = {"script": "tests/reference/lens/lens.py", "packages": packages}
+    json.dump({"made_by": made, "cases": [case(*one) for one in CASES]}, sys.stdout, indent=1)
     print()
 
 

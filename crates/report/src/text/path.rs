@@ -62,7 +62,9 @@ fn cutting_speed(speed: Option<&CuttingSpeed>) -> String {
     };
     let spindle = [speed.spindle_least, speed.spindle_most];
     let [lowest, highest] = spindle.map(|speed| significant(speed * unit::rpm::PER));
-    let spindle = match lowest == highest {
+    // Two speeds that differ by rounding may have other words and the same digits.
+    let same = lowest.parse::<f64>().ok() == highest.parse::<f64>().ok();
+    let spindle = match same {
         true => format!("at {highest} rpm"),
         false => format!("at {lowest} to {highest} rpm"),
     };
@@ -170,5 +172,27 @@ mod tests {
         assert!(never.contains("the real nose gouges nowhere\n"), "{never}");
         let always = real_nose(Some(&nose(-1e-4, -1e-6)));
         assert!(!always.contains("leaves"), "{always}");
+    }
+
+    #[test]
+    fn a_range_of_speeds_whose_ends_look_alike_is_one_speed() {
+        let line = |least: f64, most: f64| {
+            cutting_speed(Some(&CuttingSpeed {
+                least: 1.0,
+                mean: 2.0,
+                most: 3.0,
+                spindle_least: least / unit::rpm::PER,
+                spindle_most: most / unit::rpm::PER,
+            }))
+        };
+        for (least, most, wanted) in [
+            (999.96, 1000.0, "at 1000 rpm\n"),
+            (9.9996, 10.0, "at 10.00 rpm\n"),
+            (10.0, 10.0, "at 10.00 rpm\n"),
+            (999.9, 1000.0, "at 999.9 to 1000 rpm\n"),
+        ] {
+            let said = line(least, most);
+            assert!(said.ends_with(wanted), "{said}");
+        }
     }
 }

@@ -15,6 +15,7 @@ use super::grid_file::{GridForm, GridWriter, not_written};
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
+use crate::input_files::refuse_as_output;
 use crate::surface::surface;
 
 /// Largest map that is read: that of a data file.
@@ -46,7 +47,8 @@ pub struct MapSource {
 ///
 /// # Errors
 /// When the map cannot be read or no point of it can be compared, when the surface is not there or
-/// fails, or when the file cannot be written.
+/// fails, when the output is the map or another file that is read here, or when the file cannot be
+/// written.
 pub fn compare_with_map(
     recipe: &Recipe,
     catalogue: &Catalogue,
@@ -54,7 +56,14 @@ pub fn compare_with_map(
     output: Option<&Path>,
 ) -> Result<MapComparison, Error> {
     let map = read_map(source)?;
-    let surface = surface(recipe, catalogue, &DataFiles::default())?;
+    let files = DataFiles::default();
+    let surface = surface(recipe, catalogue, &files)?;
+    if let Some(output) = output {
+        let read = files.paths();
+        let named = [source.file.as_path(), recipe.path()];
+        let read = read.iter().map(|file| file.as_path());
+        refuse_as_output(output, read.chain(named))?;
+    }
     let difference = Difference::new(recipe, &surface, &map)?;
     let Some(report) = difference.report(recipe, source) else {
         let nothing = NoPoints {

@@ -14,6 +14,7 @@ use super::grid_file::{GridForm, GridWriter, not_written};
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_pipeline;
 use crate::error::Error;
+use crate::input_files::refuse_as_output;
 use crate::plots::check_grid;
 use crate::surface::surface;
 
@@ -24,7 +25,8 @@ use crate::surface::surface;
 ///
 /// # Errors
 /// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there, has no
-/// height at a point of the part, or fails, or when the file cannot be written.
+/// height at a point of the part, or fails, when the file is one that is read here, or when it cannot
+/// be written.
 pub fn write_sag(
     recipe: &Recipe,
     catalogue: &Catalogue,
@@ -33,16 +35,20 @@ pub fn write_sag(
 ) -> Result<usize, Error> {
     check_grid(count)?;
     let form = GridForm::of(file);
+    let files = DataFiles::default();
+    let (surface, grid) = (
+        surface(recipe, catalogue, &files)?,
+        Grid::new(recipe, count),
+    );
+    let read = files.paths();
+    let read = read.iter().map(|file| file.as_path());
+    refuse_as_output(file, read.chain([recipe.path()]))?;
     if form == GridForm::Csv {
         let mut draft = Draft::begin(file)?;
-        let missing = write_sag_to(recipe, catalogue, count, &mut draft, file)?;
+        let missing = write_rows(recipe, &grid, &surface, &mut draft, file)?;
         draft.complete()?;
         return Ok(missing);
     }
-    let (surface, grid) = (
-        surface(recipe, catalogue, &DataFiles::default())?,
-        Grid::new(recipe, count),
-    );
     let title = format!("{}: surface", recipe.name);
     let Some(mut writer) = GridWriter::begin(form, file, &title, &grid.points())? else {
         return Ok(0);
@@ -71,13 +77,23 @@ pub fn write_sag_to(
 ) -> Result<usize, Error> {
     check_grid(count)?;
     let surface = surface(recipe, catalogue, &DataFiles::default())?;
-    let grid = Grid::new(recipe, count);
+    write_rows(recipe, &Grid::new(recipe, count), &surface, output, name)
+}
+
+/// The lines of a grid, from the lowest row up.
+fn write_rows(
+    recipe: &Recipe,
+    grid: &Grid,
+    surface: &Link<dyn SurfaceModel>,
+    output: &mut impl io::Write,
+    name: &Path,
+) -> Result<usize, Error> {
     let mut rows = csv::Writer::from_writer(output);
     rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"])
         .map_err(|error| not_written(name, error))?;
     let mut missing = 0;
     for j in 0..grid.count {
-        let row = grid.row(j, &surface);
+        let row = grid.row(j, surface);
         let row = row.map_err(|error| of_pipeline(recipe, error))?;
         missing += without_height(&row);
         for point in row {
