@@ -5,7 +5,6 @@
 //! comments", "Global sub-routines", and the tables "Meaning of G functions" and "Meaning of other M
 //! functions" of its system parameters.
 
-use crate::fixed_point::ONE;
 use crate::g_code::{self, TravelWords};
 use crate::part_name::{PartLines, PartName};
 use crate::post::Command;
@@ -14,8 +13,7 @@ use crate::post::Command;
 /// first line takes back.
 pub(crate) const TRAVEL: TravelWords = TravelWords {
     text: " G40 G52 G71 G360",
-    metric: 71 * ONE,
-    without_move: &[40 * ONE, 52 * ONE, 360 * ONE],
+    needed: &["G90", "G94", "G40", "G52", "G71", "G360"],
 };
 /// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
 const HARMLESS: &[&str] = &[

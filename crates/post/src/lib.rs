@@ -88,5 +88,5 @@ pub use settings::{
 };
 pub use template::{PLACEHOLDERS, Template, TemplateError};
 pub use text_file::{OpenFile, file_bytes};
-pub use travel::{Extent, Places, Travel, TravelModes};
+pub use travel::{Extent, Motion, Places, Speed, Travel, TravelModes};
 pub use write_csv::PathWriter;

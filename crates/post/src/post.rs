@@ -102,7 +102,7 @@ pub trait Dialect: Debug + Send + Sync {
     /// # Errors
     /// When the line is not of the dialect: what is wrong with it.
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        g_code::read_travel(code, modes)
+        g_code::read_spaced_travel(code, modes)
     }
 
     /// The lines with which the controller begins and ends a loop that plays what is between them once for

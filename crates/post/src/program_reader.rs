@@ -245,7 +245,7 @@ impl<R: Read> ProgramReader<R> {
         }
         if text == RETREAT_MARK && self.part == Part::Path {
             self.part = Part::Retreat;
-            self.travel.begin_retreat();
+            self.travel.begin_retreat(self.line);
             let last = self.grammar.finish();
             self.wait(last);
             return Ok(true);
@@ -270,6 +270,8 @@ impl<R: Read> ProgramReader<R> {
                 let last = self.grammar.finish();
                 self.wait(last);
             }
+            self.travel
+                .check_retreat(self.section == Some(Section::LeadOut))?;
             self.part = Part::Footer;
             self.depths.finish(&self.format)?;
         }
@@ -285,7 +287,7 @@ impl<R: Read> ProgramReader<R> {
         if matches!(self.part, Part::Approach | Part::Retreat) {
             let modes = &mut self.travel.modes;
             let places = self.post.dialect.read_travel(code.trim(), modes)?;
-            return self.travel.go_to(&places, self.line);
+            return self.travel.go_to(&places, self.line, &self.format);
         }
         let mut points = std::mem::take(&mut self.found);
         points.clear();

@@ -102,6 +102,8 @@ struct BeckhoffPoly;
 
 /// F is the feed of the controller's own setting again.
 const DEFAULT_FEED_AXES: &[u8] = b"#FGROUP\n";
+/// The command that a reader knows for it.
+const FEED_AXES: &str = "#FGROUP";
 
 impl Dialect for BeckhoffPoly {
     fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
@@ -129,9 +131,14 @@ impl Dialect for BeckhoffPoly {
     }
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        match block::feed_axes(code) {
-            Some(axes) if axes.is_empty() => Ok(Places::default()),
-            _ => beckhoff::TRAVEL.read(code, modes),
+        if block::feed_axes(code).is_some_and(|axes| axes.is_empty()) {
+            modes.say(FEED_AXES);
+            return Ok(Places::default());
+        }
+        let places = beckhoff::TRAVEL.read(code, modes)?;
+        match places == Places::default() {
+            true => Ok(places),
+            false => modes.need(&[FEED_AXES]).map(|()| places),
         }
     }
 

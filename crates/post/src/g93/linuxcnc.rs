@@ -6,7 +6,6 @@ use super::read::{LineGrammar, Words};
 use super::timing::{check_time, is_dwell};
 use super::write::{push_dwell, push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
-use crate::fixed_point::ONE;
 use crate::g_code::{TravelWords, commands, ends_program};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
@@ -83,8 +82,7 @@ const WORDS: Words = Words {
 /// corners from axis to axis. The path's first line sets `G64` again.
 const TRAVEL: TravelWords = TravelWords {
     text: " G8 G21 G40 G61",
-    metric: 21 * ONE,
-    without_move: &[8 * ONE, 40 * ONE],
+    needed: &["G90", "G94", "G8", "G21", "G40", "G61"],
 };
 
 impl Dialect for LinuxCnc {
