@@ -31,6 +31,11 @@ pub(crate) fn part_lines(part: &PartName) -> PartLines {
     }
 }
 
+/// A reader finds nothing before the lines of a part, and the end of a subroutine behind them.
+pub(crate) fn part_frame() -> [Vec<String>; 2] {
+    [Vec::new(), vec!["M17".to_owned()]]
+}
+
 /// The file of the part that a line calls.
 pub(crate) fn called_part(code: &str) -> Option<String> {
     // The blank is a part of the call.

@@ -128,6 +128,12 @@ pub trait Dialect: Debug + Send + Sync {
         None
     }
 
+    /// The lines of code that a reader finds before those of a part and behind them, in capitals and without
+    /// blanks. Nothing else stands there.
+    fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
+        [Vec::new(), Vec::new()]
+    }
+
     /// The file of the part that a line of the main program calls, if it calls one. `program` is the
     /// main program's own file.
     fn called_part(&self, _code: &str, _program: &str) -> Option<String> {

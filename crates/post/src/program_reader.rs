@@ -12,6 +12,7 @@ use crate::compression::{Compression, text_name};
 use crate::depth_check::DepthCheck;
 use crate::forward_rates::ForwardRates;
 use crate::part_calls::{OpenPart, PartCalls};
+use crate::part_name::PartName;
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
 use crate::program_format::{
@@ -351,7 +352,8 @@ impl<R: Read> ProgramReader<R> {
             }
         }
         if self.parts.is_outside() {
-            return Ok(true);
+            let taken = self.parts.take_outside(code);
+            return taken.map(|()| true).map_err(|what| self.wrong(what));
         }
         if let Some(name) = self.called_part(code) {
             self.call(&name)?;
@@ -388,6 +390,14 @@ impl<R: Read> ProgramReader<R> {
         let part = BufReader::with_capacity(BUFFER, part);
         let main = std::mem::replace(&mut self.lines, part);
         let own = std::mem::replace(&mut self.path, path);
+        let text = text_name(&name);
+        let stem = text.rsplit_once('.').map_or(text, |(stem, _)| stem);
+        let around = self.post.dialect.part_frame(&PartName {
+            stem: stem.to_owned(),
+            file: text.to_owned(),
+            number: self.parts.number(),
+        });
+        self.parts.expect(around);
         self.parts.caller = Some((main, own, self.line));
         self.line = 0;
         Ok(())

@@ -146,6 +146,10 @@ impl Dialect for BeckhoffPoly {
         Some(beckhoff::part_lines(part))
     }
 
+    fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
+        beckhoff::part_frame()
+    }
+
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {
         beckhoff::called_part(code)
     }

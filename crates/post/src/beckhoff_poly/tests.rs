@@ -164,11 +164,12 @@ fn second_with(old: &str, new: &str) -> String {
 fn lines_before_the_first_polynomial_are_needed() {
     for (line, new, says) in [
         (3, "G71 G90 G95", "line 3: `G95` is not a word"),
-        (3, "G90 G93", "line 4: a move before `G71` and `G90`"),
-        (3, "G71 G93", "line 4: a move before `G71` and `G90`"),
+        (3, "G90 G93", "line 4: a move before `G71`"),
+        (3, "G71 G93", "line 4: a move before `G90`"),
+        (3, "G40 G52 G71 G90 G93", "line 4: a move before `G359`"),
         (
             3,
-            "G71 G90",
+            "G40 G52 G71 G90 G359",
             "line 4: the line to the first point is not one of",
         ),
         (

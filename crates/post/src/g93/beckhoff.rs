@@ -80,8 +80,8 @@ struct Beckhoff;
 const MODES: &str = "G40 G52 G71 G90 G93 G359";
 /// The words of a path.
 const WORDS: Words = Words {
-    needed: &["G71", "G90", "G93"],
-    allowed: &["G40", "G52", "G359"],
+    needed: &["G40", "G52", "G71", "G90", "G93", "G359"],
+    allowed: &[],
     dwells: false,
 };
 
@@ -108,6 +108,10 @@ impl Dialect for Beckhoff {
 
     fn part_lines(&self, part: &PartName) -> Option<PartLines> {
         Some(beckhoff::part_lines(part))
+    }
+
+    fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
+        beckhoff::part_frame()
     }
 
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {

@@ -73,8 +73,8 @@ const HARMLESS: &[&str] = &["G8", "G21", "G40", "G64", "G90", "G93", "M2", "M30"
 const ENDS: &[u32] = &[2, 30];
 /// The words of a path.
 const WORDS: Words = Words {
-    needed: &["G21", "G90", "G93"],
-    allowed: &["G8", "G40", "G64"],
+    needed: &["G8", "G21", "G40", "G64", "G90", "G93"],
+    allowed: &[],
     dwells: true,
 };
 
@@ -124,6 +124,12 @@ impl Dialect for LinuxCnc {
             begin: format!("o<{name}> sub\n"),
             end: format!("o<{name}> endsub\nM2\n"),
         })
+    }
+
+    fn part_frame(&self, part: &PartName) -> [Vec<String>; 2] {
+        let name = part.stem.to_ascii_uppercase();
+        let end = [format!("O<{name}>ENDSUB"), "M2".to_owned()];
+        [vec![format!("O<{name}>SUB")], end.to_vec()]
     }
 
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {

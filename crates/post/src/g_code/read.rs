@@ -1,5 +1,6 @@
 //! Reads the moves. This follows the words of G code, and shares nothing with the writer.
 
+use super::groups::Groups;
 use super::words::numbered;
 use crate::axes::NAMES;
 use crate::fixed_point::number;
@@ -16,6 +17,7 @@ pub(crate) fn read_travel(
 ) -> Result<Places, String> {
     let mut places: Places = [None; 3];
     let (mut motion, mut speed) = (None, None);
+    let mut groups = Groups::default();
     for word in code.split_whitespace() {
         if let Some(axis) = NAMES.iter().position(|name| word.starts_with(name)) {
             let name = NAMES[axis];
@@ -29,13 +31,16 @@ pub(crate) fn read_travel(
             continue;
         }
         let word = numbered(word);
+        if let Some(Ok(number)) = word.strip_prefix('G').map(str::parse) {
+            groups.take(number)?;
+        }
         let of_motion = match word.as_str() {
             "G0" => Some(Motion::Rapid),
             "G1" => Some(Motion::Fed),
             _ => None,
         };
-        if let Some(found) = of_motion {
-            refuse_twice("`G0` or `G1`", motion.replace(found).is_some())?;
+        if of_motion.is_some() {
+            motion = of_motion;
         } else if let Some(known) = needed.iter().find(|known| **known == word) {
             modes.say(known);
         } else if !WITHOUT_MOVE.contains(&word.as_str()) {

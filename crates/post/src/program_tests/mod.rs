@@ -12,6 +12,7 @@ mod damage;
 mod depths;
 mod drift;
 mod extremes;
+mod modes;
 mod numbers;
 mod parts;
 mod round_trips;

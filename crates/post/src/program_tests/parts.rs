@@ -133,7 +133,8 @@ fn a_part_that_is_missing_damaged_or_out_of_order_is_refused_with_its_place() {
             (files[1].1, files[2].1) = (two, one);
         });
         assert!(
-            swapped.contains("is out of order in part 1"),
+            swapped.contains("is out of order in part 1")
+                || swapped.contains("outside the marks of part 1"),
             "{name}: {swapped}"
         );
         let lost = refused(&|files| {
@@ -142,9 +143,84 @@ fn a_part_that_is_missing_damaged_or_out_of_order_is_refused_with_its_place() {
             files[0].1 = kept.collect::<String>().into_bytes();
         });
         assert!(
-            lost.contains("parts, and calls") || lost.contains("out of order"),
+            lost.contains("parts, and calls")
+                || lost.contains("out of order")
+                || lost.contains("outside the marks of part 3"),
             "{name}: {lost}"
         );
+    }
+}
+
+/// A controller runs all lines of a part, those outside the marks too.
+#[test]
+fn code_outside_the_marks_of_a_part_is_refused_and_so_is_a_line_that_is_missing() {
+    for layout in layouts() {
+        let files = files(&layout, Amount::Blocks(25)).unwrap();
+        let name = layout.post.name;
+        let text = String::from_utf8(files[2].1.clone()).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        let begin = lines
+            .iter()
+            .position(|line| line.contains("-- part 2"))
+            .unwrap();
+        let end = lines
+            .iter()
+            .position(|line| line.contains("-- end of part 2"))
+            .unwrap();
+        let refused = |lines: &[&str]| {
+            let mut files = files.clone();
+            files[2].1 = lines.join("\n").into_bytes();
+            let said = read_all(&layout, files);
+            said.expect_err(&format!("{name}: {lines:#?}"))
+        };
+        let outside = (0..begin).chain(end + 1..lines.len());
+        let is_code = |line: &&str| !line.starts_with(layout.post.comment);
+        for number in outside.clone().filter(|number| is_code(&lines[*number])) {
+            let mut fewer = lines.clone();
+            let missing = fewer.remove(number);
+            let said = refused(&fewer);
+            assert!(
+                said.contains("part 2 lacks its line") || said.contains("outside the marks"),
+                "{name} without {missing}: {said}"
+            );
+        }
+        let others = [
+            "G0 Z-5",
+            "MoveRapid([Z], [-5])",
+            "Z-5",
+            "M30",
+            "M17",
+            "M2",
+            "RET",
+            "CLOSE",
+            "/*",
+            "%",
+            "OPEN PROG 101 CLEAR",
+            "open prog 101",
+            "o<my_part-part-1> sub",
+            "N10 M17",
+            "O1234",
+        ];
+        for other in others {
+            for number in [0, begin, end + 1, lines.len()] {
+                let mut more = lines.clone();
+                more.insert(number, other);
+                let said = refused(&more);
+                let place = format!("my_part-part-2.{}, line ", layout.post.extension);
+                assert!(said.contains(&place), "{name}, {other} at {number}: {said}");
+            }
+            for number in outside.clone().filter(|number| is_code(&lines[*number])) {
+                if lines[number]
+                    .replace(' ', "")
+                    .eq_ignore_ascii_case(&other.replace(' ', ""))
+                {
+                    continue;
+                }
+                let mut changed = lines.clone();
+                changed[number] = other;
+                refused(&changed);
+            }
+        }
     }
 }
 

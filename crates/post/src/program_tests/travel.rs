@@ -359,7 +359,11 @@ fn a_move_at_another_speed_than_the_recipes_is_refused() {
             "`approach_feed` of the recipe is 60",
         ),
         ("G1 Z1.5 F60", "G1 Z1.5 F0", "F is no positive number"),
-        ("G1 Z1.5 F60", "G1 G0 Z1.5 F60", "appears twice"),
+        (
+            "G1 Z1.5 F60",
+            "G1 G0 Z1.5 F60",
+            "`G0` is the second word of its group",
+        ),
         ("G0 X2.46", "G1 X2.46 F60", "X goes by a feed"),
     ];
     let pmac = [
