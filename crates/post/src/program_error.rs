@@ -161,6 +161,16 @@ pub enum ProgramError {
     /// A loop over depths of which one key is missing.
     #[error("a loop over depths has both keys, `depths` and `depth_step`")]
     HalfOfDepths,
+    /// The step of a loop over depths has more digits than the program.
+    #[error(
+        "`depth_step` is {step} mm, which is no whole number of last digits of the program: {digit} mm"
+    )]
+    DepthStep {
+        /// The step, mm.
+        step: f64,
+        /// The last digit, mm.
+        digit: f64,
+    },
     /// The path goes straight from point to point.
     #[error(
         "the path goes straight from point to point, but this program plays cubics: it cannot carry \
@@ -220,6 +230,9 @@ impl ProgramError {
             Self::NoCalls => "leave out split",
             Self::DepthsWithoutLeads => "write lead = true in [path]",
             Self::HalfOfDepths => "write both, or none",
+            Self::DepthStep { .. } => {
+                "write a depth_step of whole last digits, or a larger position_decimals"
+            }
             Self::StillC { .. } => "write a larger position_decimals, or choose another post",
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
         }

@@ -274,7 +274,7 @@ fn assemble(
     let size = path.size(&frame.header, &frame.footer);
     let fits = program.refuse_large(size);
     fits.map_err(|error| not_carried(&job.recipe, error))?;
-    let Some(most) = program.split_of(size) else {
+    let Some(limits) = program.limits_of(size) else {
         let main = path.assemble(&frame.header, &frame.footer)?;
         return Ok(AssembledProgram {
             main,
@@ -283,7 +283,7 @@ fn assemble(
     };
     let mut names = Vec::new();
     let around = [frame.header.as_str(), &frame.footer];
-    let assembled = path.assemble_parts(around, (&program.file, most), &mut |name| {
+    let assembled = path.assemble_parts(around, (&program.file, limits), &mut |name| {
         names.push(name.to_owned());
         folder.draft(&folder.path().join(name))
     });

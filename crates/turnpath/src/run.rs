@@ -161,14 +161,14 @@ impl Job {
             let failed = |error| not_carried(&self.recipe, error);
             program.refuse_large(size).map_err(failed)?;
             let around = [frame.header.as_str(), &frame.footer];
-            let files = match program.split_of(size) {
+            let files = match program.limits_of(size) {
                 None => {
                     let text = path.assemble(around[0], around[1]);
                     let bytes = file_bytes(&program.file, text);
                     vec![(program.file.clone(), bytes.map_err(FileError::of(name))?)]
                 }
-                Some(most) => {
-                    let files = path.assemble_parts(around, (&program.file, most));
+                Some(limits) => {
+                    let files = path.assemble_parts(around, (&program.file, limits));
                     files.map_err(|error| program.not_divided(&self.recipe, error))?
                 }
             };

@@ -22,9 +22,10 @@ fn programs() -> Vec<Vec<(String, Vec<u8>)>> {
         let mut writer = ProgramWriter::in_memory(layout);
         writer.append(&lines).unwrap();
         let frame = ["OPEN PROG 1 CLEAR\n", "CLOSE\n"];
-        let parts = writer
-            .close()
-            .assemble_parts(frame, (&name, Amount::Blocks(25)));
+        let parts = writer.close().assemble_parts(
+            frame,
+            (&name, super::parts::limits(Amount::Blocks(25), None)),
+        );
         programs.extend(parts.ok());
     }
     programs
@@ -87,7 +88,7 @@ fn a_writer_compresses_by_the_name_of_the_file_with_the_same_text_in_parts_and_i
         let most = Amount::Blocks(25);
         writer
             .close()
-            .assemble_parts(["", ""], (file, most))
+            .assemble_parts(["", ""], (file, super::parts::limits(most, None)))
             .unwrap()
     };
     let (text, zst) = (parts("part.cnc"), parts("part.cnc.zst"));

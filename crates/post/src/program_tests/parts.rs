@@ -3,7 +3,7 @@
 
 use super::travel::with_leads;
 use super::*;
-use crate::{Amount, POSTS, PartsError, TextSize};
+use crate::{Amount, POSTS, PartLimits, PartsError, TextSize};
 
 type Files = Vec<(String, Vec<u8>)>;
 
@@ -11,6 +11,10 @@ const FRAME: [&str; 2] = ["OPEN PROG 1 CLEAR\n", "CLOSE\n"];
 /// The main program's file name.
 fn main_of(layout: &Layout) -> String {
     format!("My Part.{}", layout.post.extension)
+}
+
+pub(super) fn limits(part: Amount, memory: Option<Amount>) -> PartLimits {
+    PartLimits { part, memory }
 }
 
 /// A path with leads around a cut of some segments, in many blocks.
@@ -39,7 +43,7 @@ fn files(layout: &Layout, most: Amount) -> Result<Files, PartsError> {
     writer.append(&lines_of(layout)).unwrap();
     writer
         .close()
-        .assemble_parts(FRAME, (&main_of(layout), most))
+        .assemble_parts(FRAME, (&main_of(layout), limits(most, None)))
 }
 
 fn whole(layout: &Layout) -> Vec<u8> {
@@ -224,6 +228,42 @@ fn code_outside_the_marks_of_a_part_is_refused_and_so_is_a_line_that_is_missing(
     }
 }
 
+/// What counts is the file that is written, by either unit, and the main program too.
+#[test]
+fn a_file_that_is_larger_than_the_memory_is_refused_by_its_name() {
+    for layout in layouts() {
+        for part in ["25 blocks", "1.5 kB"] {
+            let part: Amount = part.parse().unwrap();
+            let sizes: Vec<(String, TextSize)> = files(&layout, part)
+                .unwrap()
+                .into_iter()
+                .map(|(file, text)| (file, TextSize::of(&text)))
+                .collect();
+            let bytes = sizes.iter().map(|(_, size)| size.bytes).max().unwrap();
+            let blocks = sizes.iter().map(|(_, size)| size.blocks).max().unwrap();
+            let written = |memory: Amount| {
+                let mut writer = ProgramWriter::in_memory(layout);
+                writer.append(&lines_of(&layout)).unwrap();
+                let limits = limits(part, Some(memory));
+                let path = writer.close();
+                path.assemble_parts(FRAME, (&main_of(&layout), limits))
+            };
+            for memory in [Amount::Bytes(bytes), Amount::Blocks(blocks)] {
+                assert!(written(memory).is_ok());
+            }
+            for memory in [Amount::Bytes(bytes - 1), Amount::Blocks(blocks - 1)] {
+                let said = written(memory).unwrap_err().to_string();
+                let first = sizes.iter().skip(1).chain(&sizes[..1]);
+                let large = first
+                    .clone()
+                    .find(|(_, size)| !memory.holds(*size))
+                    .unwrap();
+                assert!(said.contains(&large.0), "{}: {said}", layout.post.name);
+            }
+        }
+    }
+}
+
 /// Whether a line calls the part of this number.
 fn is_call(line: &str, number: u32) -> bool {
     let by_number = format!("call{}", 100 + number);
@@ -283,7 +323,7 @@ fn more_parts_than_controllers_can_name_are_refused() {
         .unwrap();
     let refused = writer
         .close()
-        .assemble_parts(FRAME, (&main_of(&layout), Amount::Bytes(1)));
+        .assemble_parts(FRAME, (&main_of(&layout), limits(Amount::Bytes(1), None)));
     assert!(
         refused
             .unwrap_err()
