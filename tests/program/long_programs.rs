@@ -145,6 +145,45 @@ fn what_a_controller_does_not_take_is_refused_by_check_and_by_run() {
     bench.line("run recipe.toml -o out").ends(0);
 }
 
+/// The range that TwinCAT's maker documents, and a channel of a lab that reaches farther.
+#[test]
+fn what_is_beyond_the_numbers_of_twincat_is_refused_by_check_and_by_run() {
+    let recipe = |post: &str, changes: &str| {
+        let saddle = changed(SADDLE, "lead = false", "lead = true");
+        format!("{saddle}\n[output]\nposts = [\"{post}\"]\n\n[output.{post}]\n{changes}\n")
+    };
+    // The saddle takes some seconds and some turns, so the axis of time is fast.
+    for (post, table, says, helps) in [
+        (
+            "beckhoff-poly",
+            "time_axis_speed = \"100000 mm/s\"\ntime_axis_limit = \"1 m\"",
+            "W, the axis of time, is at",
+            "smaller time_axis_speed",
+        ),
+        (
+            "beckhoff-poly",
+            "c_limit = \"720 deg\"",
+            "c_limit is 720 deg",
+            "your own c_limit",
+        ),
+        (
+            "beckhoff-g93",
+            "c_limit = \"720 deg\"",
+            "c_limit is 720 deg",
+            "c_wrap = \"0-360\"",
+        ),
+    ] {
+        let bench = Bench::with(&recipe(post, table));
+        for line in ["check recipe.toml", "run recipe.toml -o out"] {
+            let said = bench.line(line).ends(2);
+            assert!(
+                said.stderr.contains(says) && said.stderr.contains(helps),
+                "{said}"
+            );
+        }
+    }
+}
+
 /// `memory` of the other unit than `split` counts for the largest file, and for the main program too.
 #[test]
 fn memory_counts_for_each_file_that_is_written() {

@@ -39,8 +39,9 @@ pub(crate) fn part_frame() -> [Vec<String>; 2] {
 /// The file of the part that a line calls.
 pub(crate) fn called_part(code: &str) -> Option<String> {
     // The blank is a part of the call.
-    let name = code.trim().strip_prefix("L ")?.trim();
-    Some(name.to_owned())
+    let code = code.trim();
+    let name = code.strip_prefix("L ").or(code.strip_prefix("l "))?;
+    Some(name.trim().to_owned())
 }
 
 /// The commands of a template.
@@ -67,6 +68,14 @@ mod tests {
         assert!(TRAVEL.read("G71", &mut modes).is_ok());
         assert!(TRAVEL.read("G0 Z6.5", &mut modes).is_ok());
         assert!(TRAVEL.read("G21", &mut modes).is_err());
+    }
+
+    #[test]
+    fn a_call_has_a_capital_letter_or_a_small_one() {
+        for code in ["L a-part-1.cnc", " l a-part-1.cnc "] {
+            assert_eq!(called_part(code).as_deref(), Some("a-part-1.cnc"));
+        }
+        assert_eq!(called_part("La-part-1.cnc"), None);
     }
 
     #[test]

@@ -22,8 +22,8 @@ use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_LIMIT, C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, MEMORY, POSITION_DECIMALS,
-    SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SPLIT,
+    C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, SEGMENTS_PER_SECOND,
+    SHORTEST_SEGMENT, SPLIT, TWINCAT_C_LIMIT,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -43,7 +43,7 @@ pub(crate) const BECKHOFF_G93: Post = Post {
         SEGMENTS_PER_SECOND.info(),
         MEMORY.info(),
         SPLIT.info(),
-        C_LIMIT.info(),
+        TWINCAT_C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
