@@ -292,7 +292,8 @@ impl Program {
         axis.map_or_else(String::new, |axis| {
             let speed = axis.speed_um_per_s as f64 / 1e3;
             let (name, way) = (axis.name, time * speed);
-            format!("{name}, {speed} mm in a second, from 0 to {way:.3} mm")
+            let step = speed / self.layout.format.steps_per_s as f64;
+            format!("{name}, {speed} mm in a second, from 0 to {way:.3} mm in steps of {step} mm")
         })
     }
 
