@@ -119,7 +119,7 @@ impl Program {
         let of_lines = |what: fn(TextSize) -> u64| {
             sampled_bytes(sample, |block| {
                 let size = TextSize::of(&self.lines(block)?.text);
-                sampled.borrow_mut().push(size);
+                sampled.borrow_mut().push((block.section, size));
                 Ok(what(size) as usize)
             })
         };
@@ -197,7 +197,7 @@ impl Program {
         &self,
         limits: &PartLimits,
         parts: u64,
-        sampled: &[TextSize],
+        sampled: &[(Section, TextSize)],
     ) -> Result<(), NotCarried> {
         let parts = u32::try_from(parts).unwrap_or(u32::MAX);
         let around = self.layout.size_around_parts(&self.file, parts);
@@ -205,8 +205,16 @@ impl Program {
             return Ok(());
         };
         let file = text_name(&self.file);
-        for lines in sampled.iter().filter(|lines| lines.blocks > 0) {
-            let largest = limits.largest_part(*lines, around);
+        let of = |cuts: bool| {
+            let sampled = sampled.iter().filter(|(_, lines)| lines.blocks > 0);
+            sampled
+                .filter(move |(section, _)| (*section == Section::Cutting) == cuts)
+                .map(|(_, lines)| *lines)
+        };
+        let with_leads = of(true).flat_map(|cut| of(false).map(move |lead| (lead, cut)));
+        let with_leads = with_leads.map(|(lead, cut)| filled(lead, cut, limits.part));
+        for lines in of(true).chain(with_leads) {
+            let largest = limits.largest_part(lines, around);
             let part = PartName::of(file, parts);
             self.carried(limits.refuse_large(&part.file, largest))?;
         }
@@ -377,6 +385,24 @@ impl Program {
             &figures,
             &tolerances,
         ))
+    }
+}
+
+/// The lines of a lead, and behind them so many lines of the cut that they fill a part.
+fn filled(lead: TextSize, cut: TextSize, part: Amount) -> TextSize {
+    let rest = |own: u64, room: u64, of: u64, by: u64| {
+        let rest = room.saturating_sub(own) as f64;
+        (rest * of as f64 / by.max(1) as f64).ceil() as u64
+    };
+    match part {
+        Amount::Bytes(room) => TextSize {
+            bytes: lead.bytes.max(room),
+            blocks: lead.blocks + rest(lead.bytes, room, cut.blocks, cut.bytes),
+        },
+        Amount::Blocks(room) => TextSize {
+            bytes: lead.bytes + rest(lead.blocks, room, cut.bytes, cut.blocks),
+            blocks: lead.blocks.max(room),
+        },
     }
 }
 
