@@ -205,15 +205,17 @@ impl Program {
             return Ok(());
         };
         let file = text_name(&self.file);
-        let of = |cuts: bool| {
+        let of = |wanted: Section| {
             let sampled = sampled.iter().filter(|(_, lines)| lines.blocks > 0);
             sampled
-                .filter(move |(section, _)| (*section == Section::Cutting) == cuts)
+                .filter(move |(section, _)| *section == wanted)
                 .map(|(_, lines)| *lines)
         };
-        let with_leads = of(true).flat_map(|cut| of(false).map(move |lead| (lead, cut)));
+        // The first part begins with the lead-in; a lead-out may be cut anywhere.
+        let cuts = || of(Section::Cutting);
+        let with_leads = cuts().flat_map(|cut| of(Section::LeadIn).map(move |lead| (lead, cut)));
         let with_leads = with_leads.map(|(lead, cut)| filled(lead, cut, limits.part));
-        for lines in of(true).chain(with_leads) {
+        for lines in cuts().chain(with_leads) {
             let largest = limits.largest_part(lines, around);
             let part = PartName::of(file, parts);
             self.carried(limits.refuse_large(&part.file, largest))?;
