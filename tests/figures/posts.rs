@@ -23,6 +23,10 @@ fn call(command: &str, recipe: &Path, rest: &[&str]) -> Output {
     let posts = POST_NAMES.join("\", \"");
     call.args(["--set", &format!("output.posts=[\"{posts}\"]")]);
     call.args(["--set", "output.nanotech-g93.f_means=1/min"]);
+    // Channels of TwinCAT that reach farther than by default: what they refuse is tested in tests/program.
+    for word in ["beckhoff-poly.c_limit", "beckhoff-g93.c_limit"] {
+        call.args(["--set", &format!("output.{word}=1e7deg")]);
+    }
     // LinuxCNC of today on a fast machine: what it refuses is tested in tests/program.
     for word in ["lowest_rate=0mm/min", "servo_period=10us"] {
         call.args(["--set", &format!("output.linuxcnc-g93.{word}")]);

@@ -130,6 +130,34 @@ fn the_loop_is_that_of_the_finishing_path() {
     bench.line("verify recipe.toml out/recipe-rough.nc").ends(0);
 }
 
+/// A step that the program's six decimals cannot say would be rounded, and all depths with it.
+#[test]
+fn a_step_of_parts_of_the_last_digit_is_refused() {
+    for (step, shown) in [
+        ("2.0005 um", "0.0020005 mm"),
+        ("0.4 nm", "0.0000004 mm"),
+        ("0.1 nm", "mm"),
+    ] {
+        let bench = Bench::with(&saddle(&format!("depths = 3\ndepth_step = \"{step}\"\n")));
+        for command in ["run recipe.toml -o out", "check recipe.toml"] {
+            let said = bench.line(command).ends(2);
+            let says = "no whole number of last digits of the program: 0.000001 mm";
+            assert!(
+                said.stderr.contains(says) && said.stderr.contains(shown),
+                "{said}"
+            );
+        }
+    }
+    // A seventh decimal says the first of them.
+    for (step, decimals) in [("1 nm", 6), ("0.3 um", 6), ("2.0005 um", 7)] {
+        let table =
+            format!("depths = 3\ndepth_step = \"{step}\"\nposition_decimals = {decimals}\n");
+        Bench::with(&saddle(&table))
+            .line("check recipe.toml")
+            .ends(0);
+    }
+}
+
 #[test]
 fn depths_without_leads_or_of_one_key_alone_are_refused() {
     for (table, lead, says) in [

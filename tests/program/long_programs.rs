@@ -145,6 +145,104 @@ fn what_a_controller_does_not_take_is_refused_by_check_and_by_run() {
     bench.line("run recipe.toml -o out").ends(0);
 }
 
+/// The range that TwinCAT's maker documents, and a channel of a lab that reaches farther.
+#[test]
+fn what_is_beyond_the_numbers_of_twincat_is_refused_by_check_and_by_run() {
+    let recipe = |post: &str, changes: &str| {
+        let saddle = changed(SADDLE, "lead = false", "lead = true");
+        format!("{saddle}\n[output]\nposts = [\"{post}\"]\n\n[output.{post}]\n{changes}\n")
+    };
+    // The saddle takes some seconds and some turns, so the axis of time is fast.
+    for (post, table, says, helps) in [
+        (
+            "beckhoff-poly",
+            "time_axis_speed = \"100000 mm/s\"\ntime_axis_limit = \"1 m\"",
+            "W, the axis of time, is at",
+            "smaller time_axis_speed",
+        ),
+        (
+            "beckhoff-poly",
+            "c_limit = \"720 deg\"",
+            "c_limit is 720 deg",
+            "your own c_limit",
+        ),
+        (
+            "beckhoff-g93",
+            "c_limit = \"720 deg\"",
+            "c_limit is 720 deg",
+            "c_wrap = \"0-360\"",
+        ),
+    ] {
+        let bench = Bench::with(&recipe(post, table));
+        for line in ["check recipe.toml", "run recipe.toml -o out"] {
+            let said = bench.line(line).ends(2);
+            assert!(
+                said.stderr.contains(says) && said.stderr.contains(helps),
+                "{said}"
+            );
+        }
+    }
+}
+
+/// `memory` of the other unit than `split` counts for the largest file, and for the main program too.
+#[test]
+fn memory_counts_for_each_file_that_is_written() {
+    let recipe = |table: &str| {
+        let saddle = changed(SADDLE, "lead = false", "lead = true");
+        format!("{saddle}\n[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\n{table}\n")
+    };
+    for (split, unit) in [("16 kB", "blocks"), ("300 blocks", "B")] {
+        let split = format!("split = \"{split}\"\n");
+        let bench = Bench::with(&recipe(&split));
+        let run = bench
+            .line("run recipe.toml -o out --format json")
+            .ends(0)
+            .json();
+        let files = run["files"].as_array().unwrap().iter();
+        let programs = files.filter_map(|file| file["file"].as_str());
+        let size = |file: &str| {
+            let text = bench.read(&format!("out/{file}"));
+            match unit {
+                "B" => text.len(),
+                _ => text.lines().count(),
+            }
+        };
+        let sizes: Vec<usize> = programs
+            .filter(|file| file.ends_with(".pmc"))
+            .map(size)
+            .collect();
+        assert!(sizes.len() > 2, "{sizes:?}");
+        let largest = sizes.into_iter().max().unwrap();
+        let with = |memory: usize| recipe(&format!("{split}memory = \"{memory} {unit}\"\n"));
+        Bench::with(&with(largest))
+            .line("run recipe.toml -o out")
+            .ends(0);
+        let small = Bench::with(&with(largest - 1));
+        let said = small.line("run recipe.toml -o out").ends(2);
+        assert!(
+            said.stderr.contains(&format!("memory is {}", largest - 1)) || unit == "B",
+            "{said}"
+        );
+        assert!(
+            said.stderr.contains("memory is") && !small.path("out").exists(),
+            "{said}"
+        );
+        // A sample of the path shows it within some percent.
+        let smaller = Bench::with(&with(largest * 19 / 20));
+        let said = smaller.line("check recipe.toml").ends(2);
+        assert!(said.stderr.contains("memory is"), "{said}");
+        Bench::with(&with(largest * 21 / 20))
+            .line("check recipe.toml")
+            .ends(0);
+    }
+    // The main program alone is larger.
+    let bench = Bench::with(&recipe("split = \"500 B\"\nmemory = \"600 B\"\n"));
+    for line in ["check recipe.toml", "run recipe.toml -o out"] {
+        let said = bench.line(line).ends(2);
+        assert!(said.stderr.contains("and memory is 600 B"), "{said}");
+    }
+}
+
 #[test]
 fn amounts_that_are_none_and_parts_of_a_rotary_buffer_are_refused() {
     for (table, says) in [

@@ -197,6 +197,14 @@ fn wrong_passes_are_underlined() {
             "cannot be the end of a file's name",
         ),
         (
+            "[passes.part-1]\nallowance = \"1 um\"\n",
+            "cannot be the end of a file's name",
+        ),
+        (
+            "[passes.Part-20]\nallowance = \"1 um\"\n",
+            "cannot be the end of a file's name",
+        ),
+        (
             "[passes.rough]\nallowance = \"1 um\"\ntolerance.residual = \"1 deg\"\n",
             "is an angle",
         ),

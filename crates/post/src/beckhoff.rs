@@ -5,7 +5,6 @@
 //! comments", "Global sub-routines", and the tables "Meaning of G functions" and "Meaning of other M
 //! functions" of its system parameters.
 
-use crate::fixed_point::ONE;
 use crate::g_code::{self, TravelWords};
 use crate::part_name::{PartLines, PartName};
 use crate::post::Command;
@@ -14,8 +13,7 @@ use crate::post::Command;
 /// first line takes back.
 pub(crate) const TRAVEL: TravelWords = TravelWords {
     text: " G40 G52 G71 G360",
-    metric: 71 * ONE,
-    without_move: &[40 * ONE, 52 * ONE, 360 * ONE],
+    needed: &["G90", "G94", "G40", "G52", "G71", "G360"],
 };
 /// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
 const HARMLESS: &[&str] = &[
@@ -33,11 +31,17 @@ pub(crate) fn part_lines(part: &PartName) -> PartLines {
     }
 }
 
+/// A reader finds nothing before the lines of a part, and the end of a subroutine behind them.
+pub(crate) fn part_frame() -> [Vec<String>; 2] {
+    [Vec::new(), vec!["M17".to_owned()]]
+}
+
 /// The file of the part that a line calls.
 pub(crate) fn called_part(code: &str) -> Option<String> {
     // The blank is a part of the call.
-    let name = code.trim().strip_prefix("L ")?.trim();
-    Some(name.to_owned())
+    let code = code.trim();
+    let name = code.strip_prefix("L ").or(code.strip_prefix("l "))?;
+    Some(name.trim().to_owned())
 }
 
 /// The commands of a template.
@@ -64,6 +68,14 @@ mod tests {
         assert!(TRAVEL.read("G71", &mut modes).is_ok());
         assert!(TRAVEL.read("G0 Z6.5", &mut modes).is_ok());
         assert!(TRAVEL.read("G21", &mut modes).is_err());
+    }
+
+    #[test]
+    fn a_call_has_a_capital_letter_or_a_small_one() {
+        for code in ["L a-part-1.cnc", " l a-part-1.cnc "] {
+            assert_eq!(called_part(code).as_deref(), Some("a-part-1.cnc"));
+        }
+        assert_eq!(called_part("La-part-1.cnc"), None);
     }
 
     #[test]

@@ -100,7 +100,7 @@ impl Layout {
             if inside {
                 let code = String::from_utf8_lossy(code);
                 let places = self.post.dialect.read_travel(code.trim(), &mut check.modes);
-                let went = places.and_then(|places| check.go_to(&places, number));
+                let went = places.and_then(|places| check.go_to(&places, number, &self.format));
                 went.map_err(wrong)?;
             }
         }

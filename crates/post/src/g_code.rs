@@ -2,12 +2,14 @@
 //! before and after a path.
 
 mod commands;
+mod groups;
 mod read;
 mod travel_words;
 mod words;
 mod write;
 
 pub(crate) use commands::{commands, ends_program};
+pub(crate) use groups::Groups;
 pub(crate) use read::read_travel;
 pub(crate) use travel_words::{TravelWords, read_spaced_travel};
 pub(crate) use words::{split_comment, without_comments};

@@ -73,7 +73,7 @@ pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use part_name::{PartLines, PartName};
-pub use parts::PartsError;
+pub use parts::{PartLimits, PartsError};
 pub use path_reader::{ReadCount, ReadPath};
 pub use post::{Command, DepthLoop, Dialect, Grammar, Post};
 pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};
@@ -90,6 +90,6 @@ pub use settings::{
 };
 pub use template::{PLACEHOLDERS, Template, TemplateError};
 pub use text_file::OpenFile;
-pub use travel::{Extent, Places, Travel, TravelModes};
+pub use travel::{Extent, Motion, Places, Speed, Travel, TravelModes};
 pub use whole_program::WholeProgram;
 pub use write_csv::PathWriter;

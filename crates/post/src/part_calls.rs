@@ -1,5 +1,6 @@
 //! The parts that a main program calls, as they are read: in their order, and each of them whole.
 
+use std::collections::VecDeque;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
@@ -18,6 +19,9 @@ pub(crate) struct PartCalls<R> {
     /// The main program, while a part of it is read: its lines, its file, and the line of the call.
     pub(crate) caller: Option<(LineReader<R>, PathBuf, u64)>,
     place: Place,
+    /// The lines of code that are still to come before and behind those of the part, in capitals and without
+    /// blanks.
+    around: [VecDeque<String>; 2],
 }
 
 /// Where in the file of a part the reader is.
@@ -36,6 +40,7 @@ impl<R> Default for PartCalls<R> {
             called: 0,
             caller: None,
             place: Place::Before,
+            around: Default::default(),
         }
     }
 }
@@ -87,8 +92,53 @@ impl<R: Read> PartCalls<R> {
         if number != Some(self.called) || self.place != from {
             return Err(format!("`{mark}` is out of order in part {}", self.called));
         }
+        if to == Place::Within {
+            self.refuse_missing(0)?;
+        }
         self.place = to;
         Ok(true)
+    }
+
+    /// Sets the lines of code that stand before and behind those of the part that is read.
+    pub(crate) fn expect(&mut self, around: [Vec<String>; 2]) {
+        self.around = around.map(VecDeque::from);
+    }
+
+    /// The number of the part that is read.
+    pub(crate) fn number(&self) -> u32 {
+        self.called
+    }
+
+    /// Takes code of a part that is no line of the path. A controller runs it too, so only what begins and ends
+    /// a part may stand there.
+    pub(crate) fn take_outside(&mut self, code: &[u8]) -> Result<(), String> {
+        let code = String::from_utf8_lossy(code);
+        let joined: String = code.split_whitespace().collect();
+        if joined.is_empty() {
+            return Ok(());
+        }
+        let [before, behind] = &mut self.around;
+        let expected = match self.place {
+            Place::Behind => behind,
+            Place::Before | Place::Within => before,
+        };
+        if expected.front() == Some(&joined.to_ascii_uppercase()) {
+            expected.pop_front();
+            return Ok(());
+        }
+        let shown: String = code.trim().chars().take(40).collect();
+        Err(format!(
+            "`{shown}` stands outside the marks of part {}, where its controller would run it",
+            self.called
+        ))
+    }
+
+    /// Refuses a part that lacks a line before its own ones, or behind them.
+    fn refuse_missing(&self, which: usize) -> Result<(), String> {
+        let missing = self.around.get(which).and_then(VecDeque::front);
+        missing.map_or(Ok(()), |line| {
+            Err(format!("part {} lacks its line `{line}`", self.called))
+        })
     }
 
     /// Opens the part that the main program calls next.
@@ -116,7 +166,7 @@ impl<R: Read> PartCalls<R> {
     /// When it is not whole: what is wrong.
     pub(crate) fn finish_part(&mut self) -> Result<(), String> {
         match self.place {
-            Place::Behind => Ok(()),
+            Place::Behind => self.refuse_missing(1),
             Place::Before | Place::Within => Err(format!(
                 "part {0} ends without its mark `-- end of part {0} --`: it is not complete",
                 self.called

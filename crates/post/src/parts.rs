@@ -31,6 +31,59 @@ pub enum PartsError {
     Program(#[from] ProgramError),
 }
 
+/// How large the files of a program may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartLimits {
+    /// The size at which a part ends. A line that is larger makes a larger part.
+    pub part: Amount,
+    /// The largest file that the controller takes; `None` for any.
+    pub memory: Option<Amount>,
+}
+
+impl PartLimits {
+    /// The largest part whose lines are as long as those of a text of this size, with `around` around them.
+    pub fn largest_part(&self, lines: TextSize, around: TextSize) -> TextSize {
+        let scaled = |room: u64, of: u64, by: u64| {
+            let scaled = room as f64 * of as f64 / by.max(1) as f64;
+            scaled.ceil() as u64
+        };
+        match self.part {
+            Amount::Bytes(bytes) => TextSize {
+                bytes,
+                blocks: around.blocks
+                    + scaled(
+                        bytes.saturating_sub(around.bytes),
+                        lines.blocks,
+                        lines.bytes,
+                    )
+                    .max(1),
+            },
+            Amount::Blocks(blocks) => {
+                let room = blocks.saturating_sub(around.blocks).max(1);
+                TextSize {
+                    bytes: around.bytes + scaled(room, lines.bytes, lines.blocks),
+                    blocks,
+                }
+            }
+        }
+    }
+
+    /// Refuses a file of this size that the controller does not take.
+    ///
+    /// # Errors
+    /// When it is larger than the memory.
+    pub fn refuse_large(&self, file: &str, size: TextSize) -> Result<(), ProgramError> {
+        match self.memory.filter(|most| !most.holds(size)) {
+            None => Ok(()),
+            Some(most) => Err(ProgramError::Large {
+                file: file.to_owned(),
+                size: most.said(size),
+                most: most.to_string(),
+            }),
+        }
+    }
+}
+
 /// The lines of a path, on their way into parts.
 pub(crate) struct Cutter<'a> {
     layout: &'a Layout,
@@ -38,7 +91,7 @@ pub(crate) struct Cutter<'a> {
     program: &'a str,
     /// How its file and those of its parts are compressed.
     compression: Compression,
-    most: Amount,
+    limits: PartLimits,
     /// The lines that call the parts so far.
     calls: String,
     number: u32,
@@ -46,12 +99,12 @@ pub(crate) struct Cutter<'a> {
 
 impl<'a> Cutter<'a> {
     /// Cuts the lines of the program whose file is `file` into parts of this size at the most.
-    pub(crate) fn new(layout: &'a Layout, file: &'a str, most: Amount) -> Self {
+    pub(crate) fn new(layout: &'a Layout, file: &'a str, limits: PartLimits) -> Self {
         Self {
             layout,
             program: text_name(file),
             compression: Compression::of_file(Path::new(file)),
-            most,
+            limits,
             calls: String::new(),
             number: 0,
         }
@@ -73,21 +126,23 @@ impl<'a> Cutter<'a> {
             let file = self.compression.file_of(&name.file);
             let failed = |error| FileError::of(Path::new(&file))(error);
             let mut part = TextFile::begin(self.compression, begin(&file)?).map_err(failed)?;
-            let [before, behind] = self.frame(&name, &around);
+            let [before, behind] = frame(self.layout, self.program, &name, &around);
             part.write_all(before.as_bytes()).map_err(failed)?;
             let mut size = TextSize::of(before.as_bytes()).and(TextSize::of(behind.as_bytes()));
             let mut is_first = true;
             while !line.is_empty() {
-                size = size.and(TextSize::of(&line));
-                if !is_first && !self.most.holds(size) {
+                let larger = size.and(TextSize::of(&line));
+                if !is_first && !self.limits.part.holds(larger) {
                     break;
                 }
+                size = larger;
                 is_first = false;
                 part.write_all(&line).map_err(failed)?;
                 line.clear();
                 lines.read_until(b'\n', &mut line).map_err(failed)?;
             }
             part.write_all(behind.as_bytes()).map_err(failed)?;
+            self.limits.refuse_large(&name.file, size)?;
             parts.push(part.whole().map_err(failed)?);
             self.calls.push_str(&around.call);
             self.calls.push('\n');
@@ -107,19 +162,38 @@ impl<'a> Cutter<'a> {
         let lines = self.layout.post.dialect.part_lines(&name);
         Ok((name, lines.ok_or(ProgramError::NoCalls)?))
     }
+}
 
-    /// What a part has before and behind its lines.
-    fn frame(&self, name: &PartName, around: &PartLines) -> [String; 2] {
-        let comment = self.layout.post.comment;
-        let program = crate::template::plain_text(self.program);
-        let number = name.number;
-        [
-            format!(
-                "{comment} part {number} of {program}: to be called by it\n{}{comment} {}\n",
-                around.begin,
-                part_mark(number)
-            ),
-            format!("{comment} {}\n{}", end_of_part_mark(number), around.end),
-        ]
+/// What a part has before and behind its lines.
+fn frame(layout: &Layout, program: &str, name: &PartName, around: &PartLines) -> [String; 2] {
+    let comment = layout.post.comment;
+    let program = crate::template::plain_text(program);
+    let number = name.number;
+    [
+        format!(
+            "{comment} part {number} of {program}: to be called by it\n{}{comment} {}\n",
+            around.begin,
+            part_mark(number)
+        ),
+        format!("{comment} {}\n{}", end_of_part_mark(number), around.end),
+    ]
+}
+
+impl Layout {
+    /// The size of what stands around the lines of the last of `parts` parts of the program `file`, and that of
+    /// the lines that call them all. `None` where the dialect has no calls.
+    pub fn size_around_parts(&self, file: &str, parts: u32) -> Option<[TextSize; 2]> {
+        let program = text_name(file);
+        let name = PartName::of(program, parts.max(1));
+        let lines = self.post.dialect.part_lines(&name)?;
+        let around = frame(self, program, &name, &lines).concat();
+        let call = TextSize::of(format!("{}\n", lines.call).as_bytes());
+        let calls = TextSize {
+            bytes: call.bytes * u64::from(parts),
+            blocks: call.blocks * u64::from(parts),
+        };
+        let mark = format!("{} {}\n", self.post.comment, parts_mark(parts));
+        let calls = calls.and(TextSize::of(mark.as_bytes()));
+        Some([TextSize::of(around.as_bytes()), calls])
     }
 }

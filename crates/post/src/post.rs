@@ -102,7 +102,7 @@ pub trait Dialect: Debug + Send + Sync {
     /// # Errors
     /// When the line is not of the dialect: what is wrong with it.
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        g_code::read_travel(code, modes)
+        g_code::read_spaced_travel(code, modes)
     }
 
     /// The lines with which the controller begins and ends a loop that plays what is between them once for
@@ -126,6 +126,12 @@ pub trait Dialect: Debug + Send + Sync {
     /// where no document says how the controller does that.
     fn part_lines(&self, _part: &PartName) -> Option<PartLines> {
         None
+    }
+
+    /// The lines of code that a reader finds before those of a part and behind them, in capitals and without
+    /// blanks. Nothing else stands there.
+    fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
+        [Vec::new(), Vec::new()]
     }
 
     /// The file of the part that a line of the main program calls, if it calls one. `program` is the

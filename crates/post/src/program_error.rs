@@ -1,6 +1,6 @@
 //! The errors of a path that a program cannot carry.
 
-use turnpath_core::ParamInfo;
+use turnpath_core::{ParamDefault, ParamInfo};
 
 /// Why a program cannot carry a path, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -110,6 +110,20 @@ pub enum ProgramError {
         /// The time, s.
         t: f64,
     },
+    /// The axis of time goes beyond the controller's numbers.
+    #[error(
+        "{axis}, the axis of time, is at {way:.3} mm at {t:.6} s, and time_axis_limit is {limit} mm"
+    )]
+    BeyondTimeAxis {
+        /// Its name.
+        axis: char,
+        /// Its place, mm.
+        way: f64,
+        /// The farthest, mm.
+        limit: f64,
+        /// The time, s.
+        t: f64,
+    },
     /// The controller would have to read too many segments in a second.
     #[error(
         "{segments} segments end in the second before {t:.6} s, C = {c_deg:.3} deg, and \
@@ -161,6 +175,16 @@ pub enum ProgramError {
     /// A loop over depths of which one key is missing.
     #[error("a loop over depths has both keys, `depths` and `depth_step`")]
     HalfOfDepths,
+    /// The step of a loop over depths has more digits than the program.
+    #[error(
+        "`depth_step` is {step} mm, which is no whole number of last digits of the program: {digit} mm"
+    )]
+    DepthStep {
+        /// The step, mm.
+        step: f64,
+        /// The last digit, mm.
+        digit: f64,
+    },
     /// The path goes straight from point to point.
     #[error(
         "the path goes straight from point to point, but this program plays cubics: it cannot carry \
@@ -173,6 +197,10 @@ impl ProgramError {
     /// What the user can do with these keys, which a post has.
     pub fn help(&self, keys: &[ParamInfo]) -> &'static str {
         let has = |key: &str| keys.iter().any(|info| info.name == key);
+        let has_default = |key: &str| {
+            let mut infos = keys.iter().filter(|info| info.name == key);
+            infos.any(|info| matches!(info.default, ParamDefault::Number(_)))
+        };
         match self {
             Self::ShorterThanSaid { .. } if has("chord_share") => {
                 "turn the spindle slower, or give more tolerance of interpolation, so that lines are \
@@ -202,6 +230,18 @@ impl ProgramError {
             Self::ManyChords { .. } => {
                 "place points closer together, or give more tolerance of interpolation"
             }
+            Self::BeyondC { .. } if has_default("c_limit") && has("c_wrap") => {
+                "write c_wrap = \"0-360\" if the axis has a rollover, or feed faster; write your own \
+                 c_limit where your controller has other increments"
+            }
+            Self::BeyondC { .. } if has_default("c_limit") => {
+                "feed faster, so that the path has fewer revolutions; write your own c_limit where your \
+                 controller has other increments"
+            }
+            Self::BeyondTimeAxis { .. } => {
+                "write a smaller time_axis_speed; write your own time_axis_limit where your controller \
+                 has other increments"
+            }
             Self::BeyondC { .. } if has("c_wrap") => {
                 "write c_wrap = \"0-360\" if the axis has a rollover, or feed faster"
             }
@@ -220,6 +260,9 @@ impl ProgramError {
             Self::NoCalls => "leave out split",
             Self::DepthsWithoutLeads => "write lead = true in [path]",
             Self::HalfOfDepths => "write both, or none",
+            Self::DepthStep { .. } => {
+                "write a depth_step of whole last digits, or a larger position_decimals"
+            }
             Self::StillC { .. } => "write a larger position_decimals, or choose another post",
             Self::Straight => "choose a velocity solver that gives cubics, or write posts = []",
         }

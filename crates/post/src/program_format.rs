@@ -110,6 +110,8 @@ pub struct TimeAxis {
     pub name: char,
     /// How fast it goes, µm/s.
     pub speed_um_per_s: i64,
+    /// The farthest place from zero, µm.
+    pub limit_um: i64,
 }
 
 /// How a program writes times, positions and velocities.

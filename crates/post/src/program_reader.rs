@@ -14,6 +14,7 @@ use crate::depth_check::DepthCheck;
 use crate::forward_rates::ForwardRates;
 use crate::lines::LineReader;
 use crate::part_calls::{OpenPart, PartCalls};
+use crate::part_name::PartName;
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
 use crate::program_format::{
@@ -252,7 +253,7 @@ impl<R: Read> ProgramReader<R> {
         }
         if text == RETREAT_MARK && self.part == Part::Path {
             self.part = Part::Retreat;
-            self.travel.begin_retreat();
+            self.travel.begin_retreat(self.line);
             let last = self.grammar.finish();
             self.wait(last);
             return Ok(true);
@@ -277,6 +278,8 @@ impl<R: Read> ProgramReader<R> {
                 let last = self.grammar.finish();
                 self.wait(last);
             }
+            self.travel
+                .check_retreat(self.section == Some(Section::LeadOut))?;
             self.part = Part::Footer;
             self.depths.finish(&self.format)?;
         }
@@ -292,7 +295,7 @@ impl<R: Read> ProgramReader<R> {
         if matches!(self.part, Part::Approach | Part::Retreat) {
             let modes = &mut self.travel.modes;
             let places = self.post.dialect.read_travel(code.trim(), modes)?;
-            return self.travel.go_to(&places, self.line);
+            return self.travel.go_to(&places, self.line, &self.format);
         }
         let mut points = std::mem::take(&mut self.found);
         points.clear();
@@ -366,7 +369,7 @@ impl<R: Read> ProgramReader<R> {
             return Err(what.to_owned());
         }
         if self.parts.is_outside() {
-            return Ok(None);
+            return self.parts.take_outside(code).map(|()| None);
         }
         if let Some(name) = self.called_part(code) {
             return Ok(Some(name));
@@ -401,6 +404,14 @@ impl<R: Read> ProgramReader<R> {
         })?;
         let main = std::mem::replace(&mut self.lines, LineReader::new(part));
         let own = std::mem::replace(&mut self.path, path);
+        let text = text_name(&name);
+        let stem = text.rsplit_once('.').map_or(text, |(stem, _)| stem);
+        let around = self.post.dialect.part_frame(&PartName {
+            stem: stem.to_owned(),
+            file: text.to_owned(),
+            number: self.parts.number(),
+        });
+        self.parts.expect(around);
         self.parts.caller = Some((main, own, self.line));
         self.line = 0;
         Ok(())

@@ -6,10 +6,10 @@ use std::path::Path;
 
 use turnpath_files::{Draft, FileError, Scratch};
 
-use crate::amount::{Amount, TextSize};
-use crate::compression::Compression;
+use crate::amount::TextSize;
+use crate::compression::{Compression, text_name};
 use crate::layout::{Layout, Lines};
-use crate::parts::{Cutter, PartsError};
+use crate::parts::{Cutter, PartLimits, PartsError};
 use crate::read_error::ReadError;
 use crate::text_file::{TextFile, file_bytes};
 use crate::travel::Extent;
@@ -167,13 +167,13 @@ impl ProgramPath {
     pub fn assemble_parts(
         mut self,
         [header, footer]: [&str; 2],
-        (file, most): (&str, Amount),
+        (file, limits): (&str, PartLimits),
         begin: &mut dyn FnMut(&str) -> Result<Draft, FileError>,
     ) -> Result<(Draft, Vec<Draft>), PartsError> {
         let rewound = self.lines.rewind();
         rewound.map_err(FileError::of(self.draft.path()))?;
         let lines = Read::take(&mut self.lines, self.size.bytes);
-        let cutter = Cutter::new(&self.layout, file, most);
+        let cutter = Cutter::new(&self.layout, file, limits);
         let (parts, calls) = cutter.cut(&mut BufReader::new(lines), begin)?;
         let main = [
             header.as_bytes(),
@@ -182,6 +182,7 @@ impl ProgramPath {
             &self.end,
             footer.as_bytes(),
         ];
+        limits.refuse_large(text_name(file), TextSize::of(&main.concat()))?;
         let main = written(self.draft, |text| text.write_all(&main.concat()))?;
         Ok((main, parts))
     }
@@ -286,12 +287,12 @@ impl ProgramPathInMemory {
     pub fn assemble_parts(
         self,
         [header, footer]: [&str; 2],
-        (file, most): (&str, Amount),
+        (file, limits): (&str, PartLimits),
     ) -> Result<Vec<(String, Vec<u8>)>, PartsError> {
         let mut names = Vec::new();
         let end = self.text.len().saturating_sub(self.end.len());
         let mut lines = self.text.get(self.approach.len()..end).unwrap_or_default();
-        let cutter = Cutter::new(&self.layout, file, most);
+        let cutter = Cutter::new(&self.layout, file, limits);
         let (parts, calls) = cutter.cut(&mut lines, &mut |name| {
             names.push(name.to_owned());
             Ok(Vec::new())
@@ -303,7 +304,9 @@ impl ProgramPathInMemory {
             &self.end,
             footer.as_bytes(),
         ];
-        let main = file_bytes(file, main.concat());
+        let main = main.concat();
+        limits.refuse_large(text_name(file), TextSize::of(&main))?;
+        let main = file_bytes(file, main);
         let main = main.map_err(FileError::of(Path::new(file)))?;
         let files = [(file.to_owned(), main)].into_iter();
         Ok(files.chain(names.into_iter().zip(parts)).collect())

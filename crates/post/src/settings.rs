@@ -136,6 +136,12 @@ pub(crate) const TIME_AXIS_SPEED: Param<Velocity> = Param::velocity(
 .default(10.0)
 .min(SLOWEST_TIME_AXIS)
 .max(FASTEST_TIME_AXIS);
+pub(crate) const TIME_AXIS_LIMIT: Param<Length> = Param::length(
+    "time_axis_limit",
+    "how far that axis may be from zero; the default is what the maker documents for increments of 0.1 um",
+)
+.default(214_000.0)
+.positive();
 pub(crate) const SHORTEST_SEGMENT: Param<Option<Time>> = Param::time(
     "shortest_segment",
     "the shortest segment that your controller plays, or the time in which it reads one; left out: a \
@@ -172,6 +178,14 @@ pub(crate) const C_LIMIT: Param<Option<Angle>> = Param::angle(
 .positive()
 .example("360000 deg")
 .optional();
+/// That of TwinCAT CNC: 1190 turns, which its maker documents for increments of 0.0001 deg.
+pub(crate) const TWINCAT_C_LIMIT: Param<Angle> = Param::angle(
+    "c_limit",
+    "how far C of your machine may be from zero, to both sides, where C is not wrapped; the default is the \
+     1190 turns that the maker documents for increments of 0.0001 deg",
+)
+.default(1190.0 * 360.0 * DEG)
+.positive();
 /// How often a loop of the controller plays the path.
 pub const DEPTHS: Param<Option<Count>> = Param::count(
     "depths",
@@ -242,6 +256,7 @@ impl Post {
             c_limit: settings
                 .find(C_LIMIT)
                 .flatten()
+                .or(self.default_number(C_LIMIT.name()))
                 .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
             depths: depths(settings, position_decimals),
             time_axis: self.time_axis(settings),
@@ -258,7 +273,10 @@ impl Post {
         let own_speed = self.default_number(TIME_AXIS_SPEED.name())?;
         let name = settings.find(TIME_AXIS).unwrap_or(own_name);
         let speed = settings.find(TIME_AXIS_SPEED).unwrap_or(own_speed);
+        let own_limit = self.default_number(TIME_AXIS_LIMIT.name())?;
+        let limit = settings.find(TIME_AXIS_LIMIT).unwrap_or(own_limit);
         Some(TimeAxis {
+            limit_um: (1e3 * limit).floor() as i64,
             name: name.chars().next()?,
             speed_um_per_s: (1e3 * speed).round() as i64,
         })

@@ -4,6 +4,8 @@
 //! has a sum of its contents, so that a damaged one is refused and not read as another text.
 
 use std::io::{self, Read, Write};
+#[cfg(feature = "zst")]
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use crate::compression::Compression;
@@ -19,6 +21,19 @@ const LEVEL: i32 = 1;
 /// unless it is asked for more. A file that asks for more is refused.
 #[cfg(feature = "zst")]
 const WINDOW_LOG: u32 = 27;
+
+/// The first bytes of a frame of Zstandard (RFC 8878, 3.1.1).
+#[cfg(feature = "zst")]
+const MAGIC: [u8; 4] = [0x28, 0xB5, 0x2F, 0xFD];
+/// Those of a frame without a text; the first of them is any of sixteen.
+#[cfg(feature = "zst")]
+const SKIPPABLE: [u8; 4] = [0x50, 0x2A, 0x4D, 0x18];
+/// The bit of the byte behind them that says that a sum of the contents ends the frame.
+#[cfg(feature = "zst")]
+const HAS_SUM: u8 = 1 << 2;
+/// These bytes together.
+#[cfg(feature = "zst")]
+const HEADER_BYTES: u64 = 5;
 
 /// A file of text that is read, or bytes in place of one.
 pub type OpenFile = Box<dyn Read + Send + Sync>;
@@ -99,14 +114,61 @@ pub(crate) fn open(
     match compression {
         Compression::None => Ok(Box::new(file)),
         #[cfg(feature = "zst")]
-        Compression::Zst => {
-            let mut decoder = Decoder::new(file)?;
-            decoder.window_log_max(WINDOW_LOG)?;
-            Ok(Box::new(decoder))
-        }
+        Compression::Zst => Ok(Box::new(OneFrame::new(file)?)),
         #[cfg(not(feature = "zst"))]
         Compression::Zst => Err(left_out()),
     }
+}
+
+/// The text of a file of one frame, which has a sum of its contents.
+#[cfg(feature = "zst")]
+struct OneFrame<R: Read> {
+    decoder: Decoder<'static, BufReader<Whole<R>>>,
+}
+
+/// A file whose first bytes were read already.
+#[cfg(feature = "zst")]
+type Whole<R> = io::Chain<io::Cursor<Vec<u8>>, R>;
+
+#[cfg(feature = "zst")]
+impl<R: Read> OneFrame<R> {
+    fn new(mut file: R) -> io::Result<Self> {
+        let mut begin = Vec::new();
+        (&mut file).take(HEADER_BYTES).read_to_end(&mut begin)?;
+        let has_sum = match begin.split_first_chunk() {
+            Some((magic, rest)) if *magic == MAGIC => rest
+                .first()
+                .is_some_and(|descriptor| descriptor & HAS_SUM > 0),
+            // A frame without a text, which other frames may follow.
+            Some((magic, _)) => magic.get(1..) != SKIPPABLE.get(1..),
+            None => true,
+        };
+        if !has_sum {
+            return Err(damaged(
+                "this file has no sum of its contents, so that damage would not show: `zstd --check` writes one",
+            ));
+        }
+        let mut decoder = Decoder::new(io::Cursor::new(begin).chain(file))?.single_frame();
+        decoder.window_log_max(WINDOW_LOG)?;
+        Ok(Self { decoder })
+    }
+}
+
+#[cfg(feature = "zst")]
+impl<R: Read> Read for OneFrame<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.decoder.read(buffer)?;
+        let is_end = read == 0 && !buffer.is_empty();
+        match is_end && !self.decoder.get_mut().fill_buf()?.is_empty() {
+            true => Err(damaged("something stands behind the text of this file")),
+            false => Ok(read),
+        }
+    }
+}
+
+#[cfg(feature = "zst")]
+fn damaged(what: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, what)
 }
 
 /// A build may have been made without a compression.

@@ -42,13 +42,63 @@ pub enum Travel {
     Stop,
 }
 
+/// Which of the two motions a move is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// At the machine's own speed.
+    Rapid,
+    /// At the speed that the program says.
+    Fed,
+}
+
+/// What a program says of the speed of such a move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Speed {
+    /// mm/min.
+    Feed(f64),
+    /// Its time in whole milliseconds.
+    Milliseconds(f64),
+}
+
 /// The modes of a controller that a reader of such moves keeps.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct TravelModes {
-    /// Whether the program has said that numbers are positions.
-    pub absolute: bool,
-    /// Whether it has said that they are mm, on a controller that also reads inches.
-    pub metric: bool,
+    /// The words of modes that the program has said.
+    pub said: Vec<&'static str>,
+    /// How the axes move.
+    pub motion: Option<Motion>,
+    /// How fast they move, unless the move is a rapid one.
+    pub speed: Option<Speed>,
+    /// Whether the last move would be blended with the path, because nothing has ended it.
+    pub blends: bool,
+}
+
+impl TravelModes {
+    /// Takes a word of a mode.
+    pub fn say(&mut self, word: &'static str) {
+        self.said.push(word);
+    }
+
+    /// Checks that all of these words were said before a move.
+    ///
+    /// # Errors
+    /// The first of them that is missing.
+    pub fn need(&self, words: &[&str]) -> Result<(), String> {
+        let missing = words.iter().find(|word| !self.said.contains(*word));
+        missing.map_or(Ok(()), |word| Err(format!("a move before `{word}`")))
+    }
+}
+
+/// A speed as it stands in a program: a positive decimal number.
+pub(crate) fn speed_of(what: &str, text: &str) -> Result<f64, String> {
+    let is_plain = text
+        .bytes()
+        .all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let speed = text
+        .parse()
+        .ok()
+        .filter(|speed: &f64| is_plain && *speed > 0.0);
+    speed.ok_or_else(|| format!("{what} is no positive number"))
 }
 
 /// The positions that one line of such moves gives to C, X and Z, in 10⁻¹² mm or deg.

@@ -1,5 +1,5 @@
 //! Checks the moves before and after a path, as they stand in a program's text: nothing moves beside the
-//! part but Z, and the approach ends where the path begins.
+//! part but Z, each move goes as the recipe says, and the approach ends where the path begins.
 
 use turnpath_core::DEG;
 use turnpath_core::toolpath::ControlPoint;
@@ -7,11 +7,15 @@ use turnpath_core::toolpath::ControlPoint;
 use crate::axes::NAMES;
 use crate::fixed_point::ONE;
 use crate::program_format::ProgramFormat;
-use crate::travel::{C, Places, TravelModes, Z};
+use crate::travel::{C, Motion, Places, Speed, TravelModes, Z};
 
 /// By how much a place of the approach and one of the path may differ, mm or deg: doubles have more
 /// digits than any program.
 const SAME: f64 = 1e-9;
+/// By how much a feed or a time may differ from the recipe's, as a part of it: rounding alone.
+const SAME_SPEED: f64 = 1e-9;
+/// Milliseconds of a minute.
+const MINUTE_MS: f64 = 60_000.0;
 
 /// What is known of the moves around a path.
 #[derive(Debug, Default)]
@@ -22,6 +26,12 @@ pub(crate) struct TravelCheck {
     at: Places,
     /// The lowest Z at which X or C moved, and its line.
     lowest: Option<(i128, u64)>,
+    /// The lowest Z to which Z went by a rapid move, and its line.
+    lowest_rapid: Option<(i128, u64)>,
+    /// How far above the path X, C and rapid moves of Z stay, mm.
+    clearance: f64,
+    /// The line of the mark of a retreat, until Z has gone up behind it.
+    unfinished_retreat: Option<u64>,
     /// The highest Z of the path's points, mm.
     highest: Option<f64>,
     /// How far above the path the first of its depths is, mm.
@@ -42,8 +52,14 @@ impl TravelCheck {
         }
     }
 
-    /// Takes the places that a line gives. Only one axis may move, and Z must have moved first.
-    pub(crate) fn go_to(&mut self, places: &Places, line: u64) -> Result<(), String> {
+    /// Takes the places that a line gives. Only one axis may move, Z must have moved first, and each move is a
+    /// rapid one but that of Z down to the path.
+    pub(crate) fn go_to(
+        &mut self,
+        places: &Places,
+        line: u64,
+        format: &ProgramFormat,
+    ) -> Result<(), String> {
         let moved: Vec<usize> = (0..3).filter(|k| places[*k].is_some()).collect();
         let [axis] = moved[..] else {
             return match moved.is_empty() {
@@ -51,8 +67,16 @@ impl TravelCheck {
                 false => Err("more than one axis moves outside the path".to_owned()),
             };
         };
+        self.check_speed(axis, places[axis], format)?;
         match (axis, self.at[Z]) {
-            (Z, _) => self.refuse_down(places[Z])?,
+            (Z, _) => {
+                self.unfinished_retreat = None;
+                if let (Some(Motion::Rapid), Some(z)) = (self.modes.motion, places[Z]) {
+                    let here = (z, line);
+                    self.lowest_rapid =
+                        Some(self.lowest_rapid.map_or(here, |lowest| lowest.min(here)));
+                }
+            }
             (axis, None) => return Err(format!("{} moves before Z has gone up", NAMES[axis])),
             (_, Some(z)) => {
                 let here = (z, line);
@@ -64,6 +88,42 @@ impl TravelCheck {
         Ok(())
     }
 
+    /// Holds a move against what the recipe says of it.
+    fn check_speed(
+        &self,
+        axis: usize,
+        to: Option<i128>,
+        format: &ProgramFormat,
+    ) -> Result<(), String> {
+        let name = NAMES[axis];
+        let motion = self.modes.motion;
+        let motion = motion.ok_or("nothing says whether this move is a rapid one")?;
+        let way = self.at[Z].zip(to).map(|(from, to)| from - to);
+        let way = way.filter(|way| axis == Z && *way > 0 && !self.retreats);
+        match (motion, way) {
+            (Motion::Rapid, _) => Ok(()),
+            (Motion::Fed, None) => Err(format!(
+                "{name} goes by a feed: only Z does, on its way down to the path"
+            )),
+            (Motion::Fed, Some(way)) => {
+                let speed = self.modes.speed;
+                let speed = speed.ok_or("Z goes down by a feed that nothing says")?;
+                let expected = format.approach_feed;
+                let way = way as f64 / ONE as f64;
+                if is_feed(speed, way, expected) {
+                    return Ok(());
+                }
+                let said = match speed {
+                    Speed::Feed(feed) => format!("{feed} mm/min"),
+                    Speed::Milliseconds(ms) => format!("{way} mm in {ms} ms"),
+                };
+                Err(format!(
+                    "Z goes down at {said}; `approach_feed` of the recipe is {expected} mm/min"
+                ))
+            }
+        }
+    }
+
     /// Takes a point of the path. The first one must be where the approach ends, if there is one.
     pub(crate) fn pass(
         &mut self,
@@ -71,6 +131,9 @@ impl TravelCheck {
         format: &ProgramFormat,
     ) -> Result<(), String> {
         let z = point.z - format.z_above;
+        if self.highest.is_none() && self.modes.blends && !self.retreats {
+            return Err("the approach does not come to rest before the path".to_owned());
+        }
         if self.highest.is_none() && self.approached {
             let begin = [format.c_sign() * point.c / DEG, point.x, z];
             for (axis, begin) in begin.into_iter().enumerate() {
@@ -85,42 +148,68 @@ impl TravelCheck {
         }
         self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
         self.rise = format.rise() as f64 / 10u64.pow(format.position_decimals) as f64;
+        self.clearance = format.approach_height;
         Ok(())
     }
 
-    /// Begins the retreat: the axes are where the path ends, so Z may move at once, and nothing else.
-    pub(crate) fn begin_retreat(&mut self) {
-        self.modes = TravelModes::default();
-        self.at = Places::default();
-        self.retreats = true;
-    }
-
-    /// The retreat goes nowhere below the path.
-    fn refuse_down(&self, to: Option<i128>) -> Result<(), String> {
-        let to = to.map(|to| to as f64 / ONE as f64);
-        let below = |highest: f64| to.is_some_and(|to| to < highest + self.rise - SAME);
-        match self.retreats && self.highest.is_some_and(below) {
-            true => Err("Z goes below the highest place of the path".to_owned()),
+    /// Checks, at the end of a path, that one whose approach was read does not end in the part.
+    pub(crate) fn check_retreat(&self, ends_at_rest: bool) -> Result<(), String> {
+        match self.approached && ends_at_rest && !self.retreats {
+            true => Err("there is an approach and no retreat".to_owned()),
             false => Ok(()),
         }
     }
 
+    /// Begins the retreat: the axes are where the path ends, so Z may move at once, and nothing else.
+    /// `line` is that of its mark.
+    pub(crate) fn begin_retreat(&mut self, line: u64) {
+        self.modes = TravelModes::default();
+        self.at = Places::default();
+        self.retreats = true;
+        self.unfinished_retreat = Some(line);
+    }
+
+    /// The plane of the approach over a path whose highest place is this.
+    fn plane(&self, highest: f64) -> f64 {
+        highest + self.rise + self.clearance
+    }
+
     /// Checks the heights, at the end of the path: the line of the first wrong move, and what is wrong.
     pub(crate) fn finish(&self) -> Result<(), (u64, String)> {
-        let (Some((lowest, line)), Some(highest)) = (self.lowest, self.highest) else {
+        if let Some(line) = self.unfinished_retreat {
+            return Err((line, "Z does not go up behind the path".to_owned()));
+        }
+        let Some(highest) = self.highest else {
             return Ok(());
         };
-        let highest = highest + self.rise;
-        let lowest = lowest as f64 / ONE as f64;
-        if lowest >= highest - SAME {
-            return Ok(());
+        let plane = self.plane(highest);
+        let sideways = format!("{} or {} moves at", NAMES[C], NAMES[1]);
+        for (lowest, what) in [
+            (self.lowest, sideways.as_str()),
+            (self.lowest_rapid, "a rapid move goes to"),
+        ] {
+            let lowest = lowest.map(|(lowest, line)| (lowest as f64 / ONE as f64, line));
+            if let Some((lowest, line)) = lowest.filter(|(lowest, _)| *lowest < plane - SAME) {
+                return Err((
+                    line,
+                    format!(
+                        "{what} Z = {lowest} mm, below {plane} mm, which is `approach_height` above the path"
+                    ),
+                ));
+            }
         }
-        let axes = format!("{} or {}", NAMES[C], NAMES[1]);
-        Err((
-            line,
-            format!(
-                "{axes} moves at Z = {lowest} mm, below the highest place of the path, {highest} mm"
-            ),
-        ))
+        Ok(())
+    }
+}
+
+/// Whether Z goes a way at this feed. A time is a whole number of milliseconds, rounded up.
+fn is_feed(speed: Speed, way: f64, feed: f64) -> bool {
+    match speed {
+        Speed::Feed(said) => (said - feed).abs() <= SAME_SPEED * feed,
+        Speed::Milliseconds(said) => {
+            let exact = way / feed * MINUTE_MS;
+            let most = (exact + 1.0).max(1.0) * (1.0 + SAME_SPEED);
+            (exact * (1.0 - SAME_SPEED)..=most).contains(&said)
+        }
     }
 }

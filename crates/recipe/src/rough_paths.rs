@@ -23,6 +23,8 @@ use crate::tables::{self, PASSES_TABLE, USE};
 const OF_A_ROUGH_PATH: [&str; 4] = ["feed", "sampler", "tolerance", "spindle"];
 /// A name that the files of dry runs have.
 const TAKEN: &str = "dry-run";
+/// What names of the parts of long programs begin with, before their number.
+const PART: &str = "part-";
 
 /// A path before the finishing one.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,9 +102,9 @@ fn own_values(
         diagnostics.push(Diagnostic::new(entry.span.clone(), title).with_help(help));
         return None;
     };
-    if !is_of_a_file(&entry.key) || entry.key == TAKEN {
+    if !is_of_a_file(&entry.key) || is_taken(&entry.key) {
         let title = format!("{} cannot be the end of a file's name", quoted(&entry.key));
-        let help = "use letters, digits, `-` and `_`, and not `dry-run`";
+        let help = "use letters, digits, `-` and `_`, and not `dry-run` or `part-1`";
         diagnostics.push(Diagnostic::new(entry.span.clone(), title).with_help(help));
         return None;
     }
@@ -154,4 +156,12 @@ fn settings(entry: &Entry) -> Vec<Setting> {
 fn is_of_a_file(name: &str) -> bool {
     let good = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
     !name.is_empty() && name.chars().all(good)
+}
+
+/// Whether other files of a result have this name. Names of parts are in small letters.
+fn is_taken(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    let number = name.strip_prefix(PART);
+    let is_part = number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()));
+    name == TAKEN || is_part
 }

@@ -267,12 +267,12 @@ fn whole_program(
     let size = path.size(&frame.header, &frame.footer);
     let fits = program.refuse_large(size);
     fits.map_err(|error| not_carried(&job.recipe, error))?;
-    let Some(most) = program.split_of(size) else {
+    let Some(limits) = program.limits_of(size) else {
         return Ok(vec![path.assemble(around)?.proven()?]);
     };
     let (points, file) = (path.points(), path.file().to_owned());
     let mut names = Vec::new();
-    let assembled = path.assemble_parts(around, (&program.file, most), &mut |name| {
+    let assembled = path.assemble_parts(around, (&program.file, limits), &mut |name| {
         names.push(name.to_owned());
         folder.draft(&folder.path().join(name))
     });

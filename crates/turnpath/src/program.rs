@@ -1,5 +1,6 @@
 //! The motion programs of a recipe: how they are laid out, put together and measured.
 
+use std::cell::RefCell;
 use std::path::Path;
 
 use turnpath_core::Params;
@@ -7,8 +8,8 @@ use turnpath_core::toolpath::{PathBlock, Section, SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
 use turnpath_post::{
-    Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartsError, Post, ProgramError,
-    ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize, text_name,
+    Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartLimits, PartName, PartsError,
+    Post, ProgramError, ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize, text_name,
 };
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
@@ -113,24 +114,29 @@ impl Program {
     /// What the program will take, from a sample of its path: within some percent. What the controller
     /// does not take is refused as a run refuses it.
     pub fn sampled_size(&self, sample: &PathSample) -> Result<SampledSize, NotCarried> {
+        let sampled = RefCell::new(Vec::new());
         let of_lines = |what: fn(TextSize) -> u64| {
             sampled_bytes(sample, |block| {
-                self.lines(block)
-                    .map(|lines| what(TextSize::of(&lines.text)) as usize)
+                let size = TextSize::of(&self.lines(block)?.text);
+                sampled.borrow_mut().push((block.section, size));
+                Ok(what(size) as usize)
             })
         };
-        let frame = self.header.len() + self.footer.len();
-        let size = TextSize {
-            bytes: of_lines(|size| size.bytes)? as u64 + frame as u64,
+        let lines = TextSize {
+            bytes: of_lines(|size| size.bytes)? as u64,
             blocks: of_lines(|size| size.blocks)? as u64,
         };
+        let size = lines.and(self.frame_size());
         for block in &sample.blocks {
             let rate = self.sampled_rate(&block.points)?;
             self.carried(rate.within(self.segments_per_second))?;
         }
-        let split = self.split.filter(|most| !most.holds(size));
-        let parts = split.map(|most| most.parts_of(size));
         self.refuse_large(size)?;
+        let limits = self.limits_of(size);
+        let parts = limits.map(|limits| limits.part.parts_of(size));
+        if let Some((limits, parts)) = limits.zip(parts) {
+            self.refuse_large_parts(&limits, parts, &sampled.into_inner())?;
+        }
         Ok(SampledSize { size, parts })
     }
 
@@ -171,38 +177,67 @@ impl Program {
         })
     }
 
-    /// Refuses a program of this size whose largest file is larger than the controller's memory.
+    /// Refuses a program of this size in one file that is larger than the controller's memory. The files of
+    /// a program of parts are judged as they are written.
     pub fn refuse_large(&self, size: TextSize) -> Result<(), NotCarried> {
-        let size = self.largest_file(size);
-        match self.memory.filter(|most| !most.holds(size)) {
-            None => Ok(()),
-            Some(most) => self.carried(Err(ProgramError::Large {
-                file: text_name(&self.file).to_owned(),
-                size: most.said(size),
-                most: most.to_string(),
-            })),
+        let limits = PartLimits {
+            part: Amount::Bytes(size.bytes),
+            memory: self.memory,
+        };
+        match self.limits_of(size) {
+            None => self.carried(limits.refuse_large(text_name(&self.file), size)),
+            Some(_) => Ok(()),
         }
     }
 
-    /// The size of the largest file of a program of this size: of one part, where it has parts.
-    fn largest_file(&self, size: TextSize) -> TextSize {
-        let part = |own: u64, most: u64, other: u64| own.div_ceil(other.div_ceil(most).max(1));
-        match self.split_of(size) {
-            None => size,
-            Some(Amount::Bytes(bytes)) => TextSize {
-                bytes,
-                blocks: part(size.blocks, bytes, size.bytes),
-            },
-            Some(Amount::Blocks(blocks)) => TextSize {
-                blocks,
-                bytes: part(size.bytes, blocks, size.blocks),
-            },
+    /// Refuses a program of parts whose files are larger than the controller's memory: by the densest of these
+    /// blocks, and by the calls of the main program.
+    fn refuse_large_parts(
+        &self,
+        limits: &PartLimits,
+        parts: u64,
+        sampled: &[(Section, TextSize)],
+    ) -> Result<(), NotCarried> {
+        let parts = u32::try_from(parts).unwrap_or(u32::MAX);
+        let around = self.layout.size_around_parts(&self.file, parts);
+        let Some([around, calls]) = around else {
+            return Ok(());
+        };
+        let file = text_name(&self.file);
+        let of = |wanted: Section| {
+            let sampled = sampled.iter().filter(|(_, lines)| lines.blocks > 0);
+            sampled
+                .filter(move |(section, _)| *section == wanted)
+                .map(|(_, lines)| *lines)
+        };
+        // The first part begins with the lead-in; a lead-out may be cut anywhere.
+        let cuts = || of(Section::Cutting);
+        let with_leads = cuts().flat_map(|cut| of(Section::LeadIn).map(move |lead| (lead, cut)));
+        let with_leads = with_leads.map(|(lead, cut)| filled(lead, cut, limits.part));
+        for lines in cuts().chain(with_leads) {
+            let largest = limits.largest_part(lines, around);
+            let part = PartName::of(file, parts);
+            self.carried(limits.refuse_large(&part.file, largest))?;
+        }
+        self.carried(limits.refuse_large(file, self.frame_size().and(calls)))
+    }
+
+    /// The size of header and footer as templates.
+    fn frame_size(&self) -> TextSize {
+        let bytes = self.header.len() + self.footer.len();
+        TextSize {
+            bytes: bytes as u64,
+            blocks: 0,
         }
     }
 
-    /// The size of the parts that a program of this size calls; `None` if it is one file.
-    pub fn split_of(&self, size: TextSize) -> Option<Amount> {
-        self.split.filter(|most| !most.holds(size))
+    /// The limits of the files of a program of this size that calls parts; `None` if it is one file.
+    pub fn limits_of(&self, size: TextSize) -> Option<PartLimits> {
+        let part = self.split.filter(|most| !most.holds(size))?;
+        Some(PartLimits {
+            part,
+            memory: self.memory,
+        })
     }
 
     /// Header and footer with the figures of a path and those of its program.
@@ -266,7 +301,8 @@ impl Program {
         axis.map_or_else(String::new, |axis| {
             let speed = axis.speed_um_per_s as f64 / 1e3;
             let (name, way) = (axis.name, time * speed);
-            format!("{name}, {speed} mm in a second, from 0 to {way:.3} mm")
+            let step = speed / self.layout.format.steps_per_s as f64;
+            format!("{name}, {speed} mm in a second, from 0 to {way:.3} mm in steps of {step} mm")
         })
     }
 
@@ -349,6 +385,24 @@ impl Program {
             &figures,
             &tolerances,
         ))
+    }
+}
+
+/// The lines of a lead, and behind them so many lines of the cut that they fill a part.
+fn filled(lead: TextSize, cut: TextSize, part: Amount) -> TextSize {
+    let rest = |own: u64, room: u64, of: u64, by: u64| {
+        let rest = room.saturating_sub(own) as f64;
+        (rest * of as f64 / by.max(1) as f64).ceil() as u64
+    };
+    match part {
+        Amount::Bytes(room) => TextSize {
+            bytes: lead.bytes.max(room),
+            blocks: lead.blocks + rest(lead.bytes, room, cut.blocks, cut.bytes),
+        },
+        Amount::Blocks(room) => TextSize {
+            bytes: lead.bytes + rest(lead.blocks, room, cut.bytes, cut.blocks),
+            blocks: lead.blocks.max(room),
+        },
     }
 }
 

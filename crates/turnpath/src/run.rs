@@ -159,13 +159,13 @@ impl Job {
             let failed = |error| not_carried(&self.recipe, error);
             program.refuse_large(size).map_err(failed)?;
             let around = [frame.header.as_str(), &frame.footer];
-            match program.split_of(size) {
+            match program.limits_of(size) {
                 None => {
                     let bytes = path.assemble(around, &program.file)?;
                     programs.push((program.file.clone(), bytes));
                 }
-                Some(most) => {
-                    let files = path.assemble_parts(around, (&program.file, most));
+                Some(limits) => {
+                    let files = path.assemble_parts(around, (&program.file, limits));
                     let files = files.map_err(|error| program.not_divided(&self.recipe, error))?;
                     let mut whole = program.layout.read_files(files.clone())?;
                     program.read_whole(&mut whole, name, points)?;

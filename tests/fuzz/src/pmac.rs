@@ -48,6 +48,7 @@ pub const WORDS: &[&str] = &[
     "\u{b5}",
     "// -- cutting --\n",
     "// -- end of path: 1 points --\n",
+    "SetupTaskDistanceUnits(DistanceUnits.Primary)\n",
     "SetupTaskTimeUnits(TimeUnits.Seconds)\n",
     "SetupTaskTargetMode(TargetMode.Absolute)\n",
     "SetupTaskTargetMode(TargetMode.Incremental)\n",

@@ -3,22 +3,28 @@
 
 use crate::axes::NAMES;
 use crate::fixed_point::number;
-use crate::travel::{Places, TravelModes};
+use crate::travel::{Motion, Places, Speed, TravelModes, speed_of};
+
+/// Seconds of a minute.
+const MINUTE: f64 = 60.0;
+/// The calls that a program must have before it moves: units, positions, and that each move comes to rest.
+const NEEDED: &[&str] = &[
+    "SetupTaskDistanceUnits(DistanceUnits.Primary)",
+    "SetupTaskTimeUnits(TimeUnits.Seconds)",
+    "SetupTaskTargetMode(TargetMode.Absolute)",
+    "SetupTaskWaitMode(WaitMode.MotionDone)",
+];
 
 /// The positions that a call gives.
 pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
     let code = code.trim();
-    let none = [None; 3];
-    match code {
-        "" | "ProgramPause()" => return Ok(none),
-        "SetupTaskTargetMode(TargetMode.Absolute)" => {
-            modes.absolute = true;
-            return Ok(none);
-        }
-        "SetupTaskTimeUnits(TimeUnits.Seconds)" | "SetupTaskWaitMode(WaitMode.MotionDone)" => {
-            return Ok(none);
-        }
-        _ => {}
+    let mut places = [None; 3];
+    if code.is_empty() || code == "ProgramPause()" {
+        return Ok(places);
+    }
+    if let Some(call) = NEEDED.iter().find(|call| **call == code) {
+        modes.say(call);
+        return Ok(places);
     }
     let call = code.split_once('(').and_then(|(name, rest)| {
         let arguments = rest.strip_suffix(')')?;
@@ -26,23 +32,29 @@ pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places,
         let (place, rest) = rest.split_once('[')?.1.split_once(']')?;
         Some((name.trim(), axis.trim(), place.trim(), rest.trim()))
     });
-    let Some(("MoveRapid" | "MoveLinear", axis, place, rest)) = call else {
+    let Some((name @ ("MoveRapid" | "MoveLinear"), axis, place, rest)) = call else {
         let shown: String = code.chars().take(40).collect();
         return Err(format!(
             "`{shown}` is not a call of an approach or a retreat"
         ));
     };
-    if let Some(speed) = rest.strip_prefix(',') {
-        number("the speed", speed.trim())?;
-    } else if !rest.is_empty() {
-        return Err("a comma is missing before the speed".to_owned());
-    }
+    (modes.motion, modes.speed) = match (name, rest.strip_prefix(',')) {
+        ("MoveRapid", None) if rest.is_empty() => (Some(Motion::Rapid), None),
+        ("MoveLinear", Some(speed)) => {
+            let per_second = speed_of("the speed", speed.trim())?;
+            (Some(Motion::Fed), Some(Speed::Feed(per_second * MINUTE)))
+        }
+        ("MoveLinear", None) if rest.is_empty() => {
+            return Err("`MoveLinear` has no speed".to_owned());
+        }
+        ("MoveRapid", Some(_)) => {
+            return Err("`MoveRapid` has a speed, which no move of the recipe has".to_owned());
+        }
+        _ => return Err("a comma is missing before the speed".to_owned()),
+    };
     let k = NAMES.iter().position(|name| *name == axis);
     let k = k.ok_or_else(|| format!("`{axis}` is not one axis of the path"))?;
-    if !modes.absolute {
-        return Err("a move before `SetupTaskTargetMode(TargetMode.Absolute)`".to_owned());
-    }
-    let mut places = none;
+    modes.need(NEEDED)?;
     places[k] = Some(number(axis, place)?);
     Ok(places)
 }

@@ -1,5 +1,6 @@
 //! Writes the calls before and after a path.
 //!
+//! A program begins with what the last one left, so the units of distances and of times come first.
 //! `WaitMode.MotionDone` makes the task wait until an axis rests before the next one moves. The speed of
 //! `MoveLinear` is in mm/s, since the task's time units are seconds.
 
@@ -15,7 +16,8 @@ const MINUTE: f64 = 60.0;
 pub(super) fn push_travel(text: &mut Vec<u8>, format: &ProgramFormat, travel: Travel) {
     match travel {
         Travel::Begin => text.extend_from_slice(
-            b"SetupTaskTimeUnits(TimeUnits.Seconds)\n\
+            b"SetupTaskDistanceUnits(DistanceUnits.Primary)\n\
+              SetupTaskTimeUnits(TimeUnits.Seconds)\n\
               SetupTaskTargetMode(TargetMode.Absolute)\n\
               SetupTaskWaitMode(WaitMode.MotionDone)\n",
         ),

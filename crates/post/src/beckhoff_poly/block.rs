@@ -2,6 +2,7 @@
 
 use crate::axes::NAMES;
 use crate::fixed_point::{ONE, number};
+use crate::g_code::Groups;
 
 /// Coefficients of a cubic.
 const COEFFICIENTS: usize = 4;
@@ -14,6 +15,8 @@ pub(super) type Polynomial = [i128; COEFFICIENTS];
 pub(super) struct Block {
     /// The numbers of its words with G.
     pub(super) modes: Vec<u32>,
+    /// Their groups.
+    groups: Groups,
     /// The place of the axis of time, in 10⁻¹² mm.
     pub(super) time: Option<i128>,
     /// Places of C, X and Z.
@@ -63,7 +66,9 @@ impl Block {
             // The number of a block does nothing.
             ('N', ..) if is_whole(rest) => false,
             ('G', ..) if is_whole(rest) => {
-                self.modes.push(rest.parse().map_err(|_| not_a_word(word))?);
+                let mode = rest.parse().map_err(|_| not_a_word(word))?;
+                self.groups.take(mode)?;
+                self.modes.push(mode);
                 false
             }
             (letter, _, None) if letter == time_axis => {

@@ -44,10 +44,11 @@ use crate::beckhoff;
 use crate::digits::{DigitSegment, Digits};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
+use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_LIMIT, C_SIGN, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, SEGMENTS_PER_SECOND,
-    SHORTEST_SEGMENT, SPLIT, TIME_AXIS, TIME_AXIS_SPEED,
+    C_SIGN, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT,
+    SPLIT, TIME_AXIS, TIME_AXIS_LIMIT, TIME_AXIS_SPEED, TWINCAT_C_LIMIT,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -62,12 +63,13 @@ pub(crate) const BECKHOFF_POLY: Post = Post {
         POSITION_DECIMALS.info(),
         TIME_AXIS.info(),
         TIME_AXIS_SPEED.info(),
+        TIME_AXIS_LIMIT.info(),
         C_SIGN.info(),
         SHORTEST_SEGMENT.info(),
         SEGMENTS_PER_SECOND.info(),
         MEMORY.info(),
         SPLIT.info(),
-        C_LIMIT.info(),
+        TWINCAT_C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -102,6 +104,8 @@ struct BeckhoffPoly;
 
 /// F is the feed of the controller's own setting again.
 const DEFAULT_FEED_AXES: &[u8] = b"#FGROUP\n";
+/// The command that a reader knows for it.
+const FEED_AXES: &str = "#FGROUP";
 
 impl Dialect for BeckhoffPoly {
     fn write_first(&self, text: &mut Vec<u8>, format: &ProgramFormat, point: &Digits) {
@@ -110,6 +114,28 @@ impl Dialect for BeckhoffPoly {
 
     fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment) {
         push_segment(text, format, segment);
+    }
+
+    /// The axis of time goes no farther than the controller's numbers.
+    fn check_time(
+        &self,
+        format: &ProgramFormat,
+        segment: &DigitSegment,
+    ) -> Result<(), ProgramError> {
+        let Some(axis) = format.time_axis else {
+            return Ok(());
+        };
+        let speed = i128::from(axis.speed_um_per_s);
+        let way = i128::from(segment.to.steps) * speed;
+        if way <= i128::from(axis.limit_um) * i128::from(format.steps_per_s) {
+            return Ok(());
+        }
+        Err(ProgramError::BeyondTimeAxis {
+            axis: axis.name,
+            way: way as f64 / format.steps_per_s as f64 / 1e3,
+            limit: axis.limit_um as f64 / 1e3,
+            t: segment.end(format).0,
+        })
     }
 
     fn write_last(&self, text: &mut Vec<u8>, _format: &ProgramFormat) {
@@ -129,14 +155,23 @@ impl Dialect for BeckhoffPoly {
     }
 
     fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        match block::feed_axes(code) {
-            Some(axes) if axes.is_empty() => Ok(Places::default()),
-            _ => beckhoff::TRAVEL.read(code, modes),
+        if block::feed_axes(code).is_some_and(|axes| axes.is_empty()) {
+            modes.say(FEED_AXES);
+            return Ok(Places::default());
+        }
+        let places = beckhoff::TRAVEL.read(code, modes)?;
+        match places == Places::default() {
+            true => Ok(places),
+            false => modes.need(&[FEED_AXES]).map(|()| places),
         }
     }
 
     fn part_lines(&self, part: &PartName) -> Option<PartLines> {
         Some(beckhoff::part_lines(part))
+    }
+
+    fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
+        beckhoff::part_frame()
     }
 
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {

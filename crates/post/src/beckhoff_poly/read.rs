@@ -33,6 +33,12 @@ struct Modes {
     metric: bool,
     /// `G90`: positions.
     absolute: bool,
+    /// `G40`: no tool's radius is compensated.
+    uncompensated: bool,
+    /// `G52`: X is a radius.
+    radius: bool,
+    /// `G359`: the path is not stopped at the ends of blocks.
+    goes_on: bool,
     /// What F says.
     feed: Option<Feed>,
     /// F under `G94`, in 10⁻¹² mm/min.
@@ -171,7 +177,9 @@ impl PolyGrammar {
                 // F of the other meaning does not count any more.
                 93 => (modes.feed, modes.speed) = (Some(Feed::Seconds), None),
                 94 => (modes.feed, modes.speed) = (Some(Feed::PerMinute), None),
-                40 | 52 | 359 => {}
+                40 => modes.uncompensated = true,
+                52 => modes.radius = true,
+                359 => modes.goes_on = true,
                 other => return Err(super::block::not_a_word(&format!("G{other}"))),
             }
         }
@@ -185,8 +193,16 @@ impl PolyGrammar {
         let Some(axis) = self.format.time_axis else {
             return Err("this layout has no axis of time".to_owned());
         };
-        if !(self.modes.metric && self.modes.absolute) {
-            return Err("a move before `G71` and `G90`".to_owned());
+        let modes = &self.modes;
+        let needed = [
+            (modes.metric, "G71"),
+            (modes.absolute, "G90"),
+            (modes.uncompensated, "G40"),
+            (modes.radius, "G52"),
+            (modes.goes_on, "G359"),
+        ];
+        if let Some((_, word)) = needed.iter().find(|(is_said, _)| !is_said) {
+            return Err(format!("a move before `{word}`"));
         }
         match (block.time, block.has_places(), block.has_polynomials()) {
             (None, true, false) => self.straight(block),

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use turnpath_core::toolpath::{PathBlock, Section, SectionBlock, Segment};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock, Segment};
 use turnpath_core::{DEG, ParamValue, Params};
 
 use super::BECKHOFF_POLY;
-use crate::Layout;
 use crate::program_tests::{path_of, plain, program, read};
+use crate::{Layout, Post};
 
 fn good() -> String {
     let steps: Vec<[f64; 6]> = (1..=2)
@@ -164,11 +164,12 @@ fn second_with(old: &str, new: &str) -> String {
 fn lines_before_the_first_polynomial_are_needed() {
     for (line, new, says) in [
         (3, "G71 G90 G95", "line 3: `G95` is not a word"),
-        (3, "G90 G93", "line 4: a move before `G71` and `G90`"),
-        (3, "G71 G93", "line 4: a move before `G71` and `G90`"),
+        (3, "G90 G93", "line 4: a move before `G71`"),
+        (3, "G71 G93", "line 4: a move before `G90`"),
+        (3, "G40 G52 G71 G90 G93", "line 4: a move before `G359`"),
         (
             3,
-            "G71 G90",
+            "G40 G52 G71 G90 G359",
             "line 4: the line to the first point is not one of",
         ),
         (
@@ -351,4 +352,48 @@ fn words_of_a_recipe_that_may_move_something_are_told() {
         .map(|one| (one.line, one.harmless))
         .collect();
     assert_eq!(told, [(2, true), (3, false), (4, false), (5, true)]);
+}
+
+/// 1190 turns of C, and 214 m of the axis of time: what the maker documents for the increments on delivery.
+#[test]
+fn what_is_beyond_the_documented_numbers_is_refused_and_a_lab_may_say_others() {
+    let refused = |post: &'static Post, table: Params, point: ControlPoint| {
+        let format = post.format(&table, 0.0, f64::INFINITY);
+        let layout = Layout { post, format };
+        let before = ControlPoint {
+            t: point.t - 0.1,
+            c: point.c - 0.2,
+            ..point
+        };
+        let mut block = PathBlock::default();
+        block.push(point);
+        let stretch = SectionBlock {
+            section: Section::Cutting,
+            opens_section: false,
+            before: &[before],
+            points: &block,
+        };
+        layout.lines(&stretch).err()
+    };
+    let at = |t: f64, turns: f64| ControlPoint {
+        t,
+        c: turns * 360.0 * DEG,
+        vc: 2.0,
+        x: 1.0,
+        ..ControlPoint::default()
+    };
+    for post in [&BECKHOFF_POLY, crate::post_named("beckhoff-g93").unwrap()] {
+        assert_eq!(refused(post, Params::new(), at(100.0, 1189.9)), None);
+        let said = refused(post, Params::new(), at(100.0, 1190.1)).unwrap();
+        assert!(said.to_string().contains("c_limit is 428400 deg"), "{said}");
+        assert!(said.help(post.keys).contains("your own c_limit"));
+    }
+    // 10 mm/s: 214 m in 21400 s.
+    assert_eq!(
+        refused(&BECKHOFF_POLY, Params::new(), at(21399.9, 5.0)),
+        None
+    );
+    let said = refused(&BECKHOFF_POLY, Params::new(), at(21400.1, 5.0)).unwrap();
+    let says = "W, the axis of time, is at 214001.000 mm at 21400.100000 s, and time_axis_limit is 214000 mm";
+    assert_eq!(said.to_string(), says);
 }

@@ -22,8 +22,8 @@ use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
-    C_LIMIT, C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, MEMORY, POSITION_DECIMALS,
-    SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SPLIT,
+    C_SIGN, C_WRAP, CHORD_SHARE, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, SEGMENTS_PER_SECOND,
+    SHORTEST_SEGMENT, SPLIT, TWINCAT_C_LIMIT,
 };
 use crate::travel::{Places, Travel, TravelModes};
 
@@ -43,7 +43,7 @@ pub(crate) const BECKHOFF_G93: Post = Post {
         SEGMENTS_PER_SECOND.info(),
         MEMORY.info(),
         SPLIT.info(),
-        C_LIMIT.info(),
+        TWINCAT_C_LIMIT.info(),
         HEADER.info(),
         FOOTER.info(),
     ],
@@ -80,8 +80,8 @@ struct Beckhoff;
 const MODES: &str = "G40 G52 G71 G90 G93 G359";
 /// The words of a path.
 const WORDS: Words = Words {
-    needed: &["G71", "G90", "G93"],
-    allowed: &["G40", "G52", "G359"],
+    needed: &["G40", "G52", "G71", "G90", "G93", "G359"],
+    allowed: &[],
     dwells: false,
 };
 
@@ -108,6 +108,10 @@ impl Dialect for Beckhoff {
 
     fn part_lines(&self, part: &PartName) -> Option<PartLines> {
         Some(beckhoff::part_lines(part))
+    }
+
+    fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
+        beckhoff::part_frame()
     }
 
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {

@@ -1,9 +1,9 @@
 //! Reads a loop over depths in the words of Moore Nanotech's machines, and plays it: what Z's zero is each time.
 //! This shares nothing with the writer.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::fixed_point::number;
+use crate::fixed_point::{ONE, number};
 use crate::g_code::without_comments;
 use crate::post::DepthLoop;
 
@@ -11,6 +11,8 @@ use crate::post::DepthLoop;
 const MOST_TURNS: usize = 2000;
 /// Most statements of a loop.
 const MOST_STATEMENTS: usize = 100;
+/// Whole numbers up to this one are exact as doubles.
+const LARGEST_COUNT: u128 = 1 << 53;
 
 /// A loop as it is read.
 #[derive(Debug, Default)]
@@ -92,7 +94,15 @@ impl DepthLoop for WhileLoop {
     fn shifts(&self) -> Result<Vec<i128>, String> {
         let head = self.head.as_ref().filter(|_| self.ended);
         let head = head.ok_or("the loop over depths has no `WHILE`, or no `END`")?;
-        let mut state = State::default();
+        let mut state = State {
+            counters: self.counters(head),
+            ..State::default()
+        };
+        for limit in [&head.left, &head.right] {
+            if let Term::Number(value) = limit {
+                refuse_part(*value)?;
+            }
+        }
         state.play(&self.before)?;
         let mut shifts = Vec::new();
         while state.value(&head.left)? < state.value(&head.right)? {
@@ -110,9 +120,54 @@ impl DepthLoop for WhileLoop {
     }
 }
 
+impl WhileLoop {
+    /// The variables on which the number of turns depends.
+    fn counters(&self, head: &Head) -> BTreeSet<u32> {
+        let mut counters: BTreeSet<u32> = head.left.variable().into_iter().collect();
+        counters.extend(head.right.variable());
+        loop {
+            let before = counters.len();
+            for statement in [&self.before, &self.above, &self.below]
+                .into_iter()
+                .flatten()
+            {
+                if let Statement::Set(name, first, second) = statement
+                    && counters.contains(name)
+                {
+                    counters.extend(first.variable());
+                    counters.extend(second.as_ref().and_then(|(_, term)| term.variable()));
+                }
+            }
+            if counters.len() == before {
+                return counters;
+            }
+        }
+    }
+}
+
+impl Term {
+    fn variable(&self) -> Option<u32> {
+        match self {
+            Self::Number(_) => None,
+            Self::Variable(name) => Some(*name),
+        }
+    }
+}
+
+/// A controller counts in doubles, in which tenths are not exact: after eight steps of 0.1 it may make one more.
+fn refuse_part(value: i128) -> Result<i128, String> {
+    let is_exact = value % ONE == 0 && value.unsigned_abs() / ONE.unsigned_abs() <= LARGEST_COUNT;
+    is_exact.then_some(value).ok_or_else(|| {
+        let shown = value as f64 / ONE as f64;
+        format!("the loop over depths counts by {shown}, and not in whole numbers")
+    })
+}
+
 /// What the controller knows, in 10⁻¹².
 #[derive(Debug, Default)]
 struct State {
+    /// The variables that count: their values are whole numbers.
+    counters: BTreeSet<u32>,
     variables: BTreeMap<u32, i128>,
     shift: i128,
 }
@@ -133,11 +188,20 @@ impl State {
             match statement {
                 Statement::Shift(term) => self.shift = self.value(term)?,
                 Statement::Set(name, first, second) => {
+                    let counts = self.counters.contains(name);
+                    let value = |term: &Term| {
+                        let value = self.value(term)?;
+                        if counts {
+                            refuse_part(value)
+                        } else {
+                            Ok(value)
+                        }
+                    };
                     let more = match second {
                         None => 0,
-                        Some((sign, term)) => sign * self.value(term)?,
+                        Some((sign, term)) => sign * value(term)?,
                     };
-                    let sum = self.value(first)?.checked_add(more);
+                    let sum = value(first)?.checked_add(more);
                     let sum = sum.ok_or_else(|| format!("#{name} has too many digits"))?;
                     self.variables.insert(*name, sum);
                 }
@@ -239,9 +303,9 @@ mod tests {
     #[test]
     fn a_loop_is_played_as_the_controller_plays_it() {
         assert_eq!(shifts(BEGIN, END), Ok(vec![0.004, 0.002, 0.0]));
-        let other = "#5=0\nwhile[#5 lt 1]do1\n#8=0.5-#5\nG52 X0 Y0 Z[#8]";
-        let end = "#5=#5+0.5\nG52 X0 Y0 Z[0]\nend1";
-        assert_eq!(shifts(other, end), Ok(vec![0.5, 0.0]));
+        let other = "#5=0\nwhile[#5 lt 2]do1\n#8=1-#5\nG52 X0 Y0 Z[#8]";
+        let end = "#5=#5+1\nG52 X0 Y0 Z[0]\nend1";
+        assert_eq!(shifts(other, end), Ok(vec![1.0, 0.0]));
         // The form of another generator of programs for these machines.
         let five = "#501=5 ( ROUGH TIMES )\n#502=0\n#503=+0.020\n#504=-0.005\n\
                     WHILE[#502LT#501]DO 1\nG52 Z[#503]";
@@ -249,6 +313,29 @@ mod tests {
         assert_eq!(shifts(five, end), Ok(vec![0.02, 0.015, 0.01, 0.005, 0.0]));
         let none = "#5 = 0\nWHILE[#5 LT 0] DO 2";
         assert_eq!(shifts(none, "END 2"), Ok(vec![]));
+    }
+
+    /// In doubles eight steps of 0.1 are less than 0.8, so that a controller makes a ninth turn.
+    #[test]
+    fn a_loop_that_does_not_count_in_whole_numbers_is_refused() {
+        let count = (1..=8).fold(0.0_f64, |sum, _| sum + 0.1);
+        assert!(count < 0.8);
+        for (from, to, step) in [
+            ("#100 = 3", "#100 = 0.8", "#5 = #5 + 0.1"),
+            ("#100 = 3", "#100 = 3", "#5 = #5 + 0.5"),
+            ("#100 = 3", "#100 = 2.5", "#5 = #5 + 1"),
+            ("#5 = 0\n", "#5 = 0.1 - 0.1\n", "#5 = #5 + 1"),
+            ("LT #100", "LT 2.5", "#5 = #5 + 1"),
+            (
+                "#5 = 0\n",
+                "#5 = 0\n#7 = 0.5 + 0.5\n#6 = #7\n",
+                "#5 = #5 + #6",
+            ),
+        ] {
+            let end = format!("{step}\nEND 2");
+            let said = shifts(&BEGIN.replacen(from, to, 1), &end).unwrap_err();
+            assert!(said.contains("not in whole numbers"), "{to} {step}: {said}");
+        }
     }
 
     #[test]

@@ -6,7 +6,6 @@ use super::read::{LineGrammar, Words};
 use super::timing::{check_time, is_dwell};
 use super::write::{push_dwell, push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
-use crate::fixed_point::ONE;
 use crate::g_code::{TravelWords, commands, ends_program};
 use crate::part_name::{PartLines, PartName};
 use crate::post::{Command, Dialect, Grammar, Post};
@@ -74,8 +73,8 @@ const HARMLESS: &[&str] = &["G8", "G21", "G40", "G64", "G90", "G93", "M2", "M30"
 const ENDS: &[u32] = &[2, 30];
 /// The words of a path.
 const WORDS: Words = Words {
-    needed: &["G21", "G90", "G93"],
-    allowed: &["G8", "G40", "G64"],
+    needed: &["G8", "G21", "G40", "G64", "G90", "G93"],
+    allowed: &[],
     dwells: true,
 };
 
@@ -83,8 +82,7 @@ const WORDS: Words = Words {
 /// corners from axis to axis. The path's first line sets `G64` again.
 const TRAVEL: TravelWords = TravelWords {
     text: " G8 G21 G40 G61",
-    metric: 21 * ONE,
-    without_move: &[8 * ONE, 40 * ONE],
+    needed: &["G90", "G94", "G8", "G21", "G40", "G61"],
 };
 
 impl Dialect for LinuxCnc {
@@ -126,6 +124,12 @@ impl Dialect for LinuxCnc {
             begin: format!("o<{name}> sub\n"),
             end: format!("o<{name}> endsub\nM2\n"),
         })
+    }
+
+    fn part_frame(&self, part: &PartName) -> [Vec<String>; 2] {
+        let name = part.stem.to_ascii_uppercase();
+        let end = [format!("O<{name}>ENDSUB"), "M2".to_owned()];
+        [vec![format!("O<{name}>SUB")], end.to_vec()]
     }
 
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {

@@ -11,14 +11,13 @@ use super::depth_loop::WhileLoop;
 use super::read::{LineGrammar, Words};
 use super::write::{push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
-use crate::g_code::{commands, ends_program, read_spaced_travel};
+use crate::g_code::{commands, ends_program};
 use crate::post::{Command, DepthLoop, Dialect, Grammar, Post};
 use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
 use crate::settings::{
     C_LIMIT, C_SIGN, C_WITHIN_TURN, CHORD_SHARE, DEPTH_STEP, DEPTHS, FEED_MEANING, FOOTER, HEADER,
     MEMORY, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SIX_DECIMALS,
 };
-use crate::travel::{Places, TravelModes};
 
 /// Programs for Moore Nanotech machines.
 pub(crate) const NANOTECH_G93: Post = Post {
@@ -98,10 +97,6 @@ impl Dialect for Nanotech {
 
     fn grammar(&self, format: &ProgramFormat) -> Box<dyn Grammar> {
         Box::new(LineGrammar::new(format, WORDS))
-    }
-
-    fn read_travel(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        read_spaced_travel(code, modes)
     }
 
     fn depth_lines(&self, format: &ProgramFormat, depths: &Depths) -> Option<[String; 2]> {

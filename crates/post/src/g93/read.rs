@@ -8,7 +8,7 @@ use turnpath_core::toolpath::ControlPoint;
 
 use crate::axes::{Axes, AxisWords, NAMES, steps_of};
 use crate::fixed_point::{ONE, number};
-use crate::g_code::{split_comment, without_comments};
+use crate::g_code::{Groups, split_comment, without_comments};
 use crate::post::Grammar;
 use crate::program_format::{FeedMeaning, ProgramFormat, Slowest};
 
@@ -53,6 +53,7 @@ struct Line {
     /// P of a dwell, in 10⁻¹² s.
     wait: Option<i128>,
     dwells: bool,
+    modes: Groups,
 }
 
 impl LineGrammar {
@@ -91,6 +92,9 @@ impl LineGrammar {
     fn take_mode(&mut self, line: &mut Line, text: &str) -> Result<(), String> {
         let digits = text.trim_start_matches('0');
         let word = format!("G{}", if digits.is_empty() { "0" } else { digits });
+        if let Ok(number) = digits.parse() {
+            line.modes.take(number)?;
+        }
         let is_said = |known: &&&str| **known == word;
         if word == "G1" {
             self.straight = true;

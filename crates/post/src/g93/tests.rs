@@ -311,7 +311,8 @@ fn damaged_lines_are_refused_with_their_number() {
     for (line, new, says) in [
         (3, "G20 G90 G93", "line 3: `G20` is not a word"),
         (3, "G21 G90 G94", "line 3: `G94` is not a word"),
-        (3, "G21 G90", "line 4: a move before `G93`"),
+        (3, "G8 G21 G40 G64 G90", "line 4: a move before `G93`"),
+        (3, "G8 G21 G40 G90 G93", "line 4: a move before `G64`"),
         (4, "C0 X2.5 Z0 F60", "line 4: a move before `G1`"),
         (
             4,
@@ -434,7 +435,7 @@ fn a_lead_at_rest_meets_the_cut_in_lines_that_are_not_too_slow() {
 
 #[test]
 fn a_program_by_hand_is_read() {
-    let text = "(a header)\n%\n( -- cutting -- )\nn10 g90g93 g21 (modes) g1\n\
+    let text = "(a header)\n%\n( -- cutting -- )\nn10 g90g93 g21 g8g40 (modes) g64 g1\n\
                 N20 G01 c0x2.5z0 f60 ; begin\nN30 C9. (a third) X2.499 Z1 F20000.0\n\
                 \nX2.498 F20000 C18.0\n; -- end of path: 3 points --\nM2\n";
     let own = read(&plain(&LINUXCNC_G93), good().as_bytes()).unwrap();

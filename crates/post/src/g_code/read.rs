@@ -1,43 +1,66 @@
 //! Reads the moves. This follows the words of G code, and shares nothing with the writer.
 
+use super::groups::Groups;
+use super::words::numbered;
 use crate::axes::NAMES;
 use crate::fixed_point::number;
-use crate::travel::{Places, TravelModes};
+use crate::travel::{Motion, Places, Speed, TravelModes, speed_of};
 
-/// Words that move nothing: positions, feeds per minute, exact stops, and stops of the program.
-const WITHOUT_MOVE: [&str; 6] = ["G94", "G9", "G60", "G61", "M0", "M00"];
+/// Words that move nothing and that no move needs: exact stops, and stops of the program.
+const WITHOUT_MOVE: [&str; 4] = ["G9", "G60", "G61", "M0"];
 
-/// The positions that a line gives.
-pub(crate) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+/// The positions that a line gives. The program must have said the words of `needed` before an axis moves.
+pub(crate) fn read_travel(
+    code: &str,
+    needed: &[&'static str],
+    modes: &mut TravelModes,
+) -> Result<Places, String> {
     let mut places: Places = [None; 3];
+    let (mut motion, mut speed) = (None, None);
+    let mut groups = Groups::default();
     for word in code.split_whitespace() {
-        let axis = NAMES.iter().position(|name| word.starts_with(name));
-        match axis {
-            Some(axis) => {
-                let name = NAMES[axis];
-                let place = number(name, word.get(1..).unwrap_or_default())?;
-                if places[axis].replace(place).is_some() {
-                    return Err(format!("{name} appears twice on this line"));
-                }
-            }
-            None if word == "G90" => modes.absolute = true,
-            None if matches!(word, "G0" | "G00" | "G1" | "G01") => {}
-            None if WITHOUT_MOVE.contains(&word) || is_feed(word) => {}
-            None => {
-                let shown: String = word.chars().take(40).collect();
-                return Err(format!(
-                    "`{shown}` is not a word of an approach or a retreat"
-                ));
-            }
+        if let Some(axis) = NAMES.iter().position(|name| word.starts_with(name)) {
+            let name = NAMES[axis];
+            let place = number(name, word.get(1..).unwrap_or_default())?;
+            refuse_twice(name, places[axis].replace(place).is_some())?;
+            continue;
+        }
+        if let Some(feed) = word.strip_prefix('F') {
+            let feed = Speed::Feed(speed_of("F", feed)?);
+            refuse_twice("F", speed.replace(feed).is_some())?;
+            continue;
+        }
+        let word = numbered(word);
+        if let Some(Ok(number)) = word.strip_prefix('G').map(str::parse) {
+            groups.take(number)?;
+        }
+        let of_motion = match word.as_str() {
+            "G0" => Some(Motion::Rapid),
+            "G1" => Some(Motion::Fed),
+            _ => None,
+        };
+        if of_motion.is_some() {
+            motion = of_motion;
+        } else if let Some(known) = needed.iter().find(|known| **known == word) {
+            modes.say(known);
+        } else if !WITHOUT_MOVE.contains(&word.as_str()) {
+            let shown: String = word.chars().take(40).collect();
+            return Err(format!(
+                "`{shown}` is not a word of an approach or a retreat"
+            ));
         }
     }
-    if !modes.absolute && places.iter().any(Option::is_some) {
-        return Err("a move before `G90`".to_owned());
+    modes.motion = motion.or(modes.motion);
+    modes.speed = speed.or(modes.speed);
+    if places.iter().any(Option::is_some) {
+        modes.need(needed)?;
     }
     Ok(places)
 }
 
-fn is_feed(word: &str) -> bool {
-    word.strip_prefix('F')
-        .is_some_and(|feed| number("F", feed).is_ok_and(|feed| feed > 0))
+fn refuse_twice(name: &str, twice: bool) -> Result<(), String> {
+    match twice {
+        true => Err(format!("{name} appears twice on this line")),
+        false => Ok(()),
+    }
 }

@@ -3,18 +3,18 @@
 
 use super::words::spaced;
 use super::{read, write};
-use crate::fixed_point::{ONE, number};
 use crate::program_format::ProgramFormat;
 use crate::travel::{Places, Travel, TravelModes};
+
+/// What every controller of G code must have been told: positions, and feeds per minute.
+const NEEDED: &[&str] = &["G90", "G94"];
 
 /// What the first of a controller's moves says besides `G90` and `G94`, and how a reader knows it.
 pub(crate) struct TravelWords {
     /// The words as they are written.
     pub(crate) text: &'static str,
-    /// The number of the word that makes numbers mm, in 10⁻¹².
-    pub(crate) metric: i128,
-    /// The numbers of words that move nothing.
-    pub(crate) without_move: &'static [i128],
+    /// The words that a program must have said before an axis moves, `G90` and `G94` among them.
+    pub(crate) needed: &'static [&'static str],
 }
 
 impl TravelWords {
@@ -23,34 +23,21 @@ impl TravelWords {
         write::push_travel(text, format, self.text, travel);
     }
 
-    /// Reads a line. The program must have said that numbers are mm before an axis moves.
+    /// Reads a line.
     pub(crate) fn read(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        let code = spaced(code)?;
-        let mut rest = Vec::new();
-        for word in code.split_whitespace() {
-            let mode = word.strip_prefix('G').map(|text| number("G", text));
-            match mode.and_then(Result::ok) {
-                Some(mode) if mode == self.metric => modes.metric = true,
-                Some(mode) if self.without_move.contains(&mode) => {}
-                _ => rest.push(word),
-            }
-        }
-        let places = read::read_travel(&rest.join(" "), modes)?;
-        match !modes.metric && places.iter().any(Option::is_some) {
-            true => Err(format!("a move before `G{}`", self.metric / ONE)),
-            false => Ok(places),
-        }
+        read::read_travel(&spaced(code)?, self.needed, modes)
     }
 }
 
 /// Reads a line of a controller that has no such words.
 pub(crate) fn read_spaced_travel(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-    read::read_travel(&spaced(code)?, modes)
+    read::read_travel(&spaced(code)?, NEEDED, modes)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixed_point::ONE;
 
     #[test]
     fn words_stand_with_and_without_spaces_and_comments() {

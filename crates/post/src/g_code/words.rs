@@ -20,6 +20,17 @@ pub(crate) fn without_comments(code: &str) -> Result<String, String> {
     }
 }
 
+/// A word without the zeros before its number: `G00` is `G0`.
+pub(super) fn numbered(word: &str) -> String {
+    let (letter, number) = word.split_at_checked(1).unwrap_or((word, ""));
+    let is_whole = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+    match number.trim_start_matches('0') {
+        _ if !is_whole => word.to_owned(),
+        "" => format!("{letter}0"),
+        number => format!("{letter}{number}"),
+    }
+}
+
 /// The words of a line in capitals with a space between them, without its comments.
 pub(super) fn spaced(code: &str) -> Result<String, String> {
     let mut spaced = String::with_capacity(2 * code.len());

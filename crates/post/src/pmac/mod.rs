@@ -214,6 +214,16 @@ impl Dialect for Pvt {
         })
     }
 
+    fn part_frame(&self, part: &PartName) -> [Vec<String>; 2] {
+        let open = format!("OPENPROG{}", FIRST_PART + part.number);
+        let open = match self.dialect {
+            PmacDialect::Turbo => format!("{open}CLEAR"),
+            PmacDialect::Power => open,
+        };
+        let close = "CLOSE".to_owned();
+        [vec![close.clone(), open], vec![close]]
+    }
+
     /// A controller of this family knows programs by their numbers, and files by their names alone.
     fn called_part(&self, code: &str, program: &str) -> Option<String> {
         let code = code.trim();

@@ -2,7 +2,11 @@
 //! and shares nothing with the writer.
 
 use super::scan::{Axis, Scanner};
-use crate::travel::{Places, TravelModes};
+use crate::fixed_point::ONE;
+use crate::travel::{Motion, Places, Speed, TravelModes};
+
+/// The word that makes numbers positions.
+const POSITIONS: &str = "ABS";
 
 /// The positions that a line gives.
 pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
@@ -15,11 +19,31 @@ pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places,
             "X" => Axis::X,
             "Z" => Axis::Z,
             "ABS" => {
-                modes.absolute = scanner.axes()? == [true; 3] || modes.absolute;
+                if scanner.axes()? == [true; 3] {
+                    modes.say(POSITIONS);
+                }
                 continue;
             }
-            "RAPID" | "RPD" | "LINEAR" | "LIN" | "STOP" => continue,
-            "TM" | "DWELL" | "N" => {
+            "RAPID" | "RPD" => {
+                modes.motion = Some(Motion::Rapid);
+                continue;
+            }
+            "LINEAR" | "LIN" => {
+                modes.motion = Some(Motion::Fed);
+                continue;
+            }
+            "STOP" => continue,
+            "TM" => {
+                let ms = scanner.number(&letters)? as f64 / ONE as f64;
+                modes.speed = Some(Speed::Milliseconds(ms));
+                continue;
+            }
+            "DWELL" => {
+                scanner.number(&letters)?;
+                modes.blends = false;
+                continue;
+            }
+            "N" => {
                 scanner.number(&letters)?;
                 continue;
             }
@@ -36,8 +60,10 @@ pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places,
             return Err(format!("{letters} appears twice on this line"));
         }
     }
-    if !modes.absolute && places.iter().any(Option::is_some) {
-        return Err("a move before `ABS`".to_owned());
+    if places.iter().any(Option::is_some) {
+        modes.need(&[POSITIONS])?;
+        // A rapid move is never blended with another.
+        modes.blends = modes.motion == Some(Motion::Fed);
     }
     Ok(places)
 }

@@ -23,9 +23,10 @@ fn programs() -> Vec<Vec<(String, Vec<u8>)>> {
         let mut writer = ProgramWriter::in_memory(layout);
         writer.append(&lines).unwrap();
         let frame = ["OPEN PROG 1 CLEAR\n", "CLOSE\n"];
-        let parts = writer
-            .close()
-            .assemble_parts(frame, (&name, Amount::Blocks(25)));
+        let parts = writer.close().assemble_parts(
+            frame,
+            (&name, super::parts::limits(Amount::Blocks(25), None)),
+        );
         programs.extend(parts.ok());
     }
     programs
@@ -88,7 +89,7 @@ fn a_writer_compresses_by_the_name_of_the_file_with_the_same_text_in_parts_and_i
         let most = Amount::Blocks(25);
         writer
             .close()
-            .assemble_parts(["", ""], (file, most))
+            .assemble_parts(["", ""], (file, super::parts::limits(most, None)))
             .unwrap()
     };
     let (text, zst) = (parts("part.cnc"), parts("part.cnc.zst"));
@@ -150,10 +151,48 @@ fn a_damaged_file_is_refused_and_never_read_as_another_path() {
     }
 }
 
+/// Without its sum a changed byte may give another text of the same form.
+#[test]
+fn a_frame_without_a_sum_and_a_second_frame_are_refused() {
+    let files = &programs()[0];
+    let zst = compressed(files);
+    let with = |bytes: Vec<u8>| {
+        let mut others = zst.clone();
+        others[0].1 = bytes;
+        points(&others)
+    };
+    let encode = |text: &[u8], sum: bool| {
+        let mut encoder = zstd::Encoder::new(Vec::new(), 3).unwrap();
+        encoder.include_checksum(sum).unwrap();
+        std::io::Write::write_all(&mut encoder, text).unwrap();
+        encoder.finish().unwrap()
+    };
+    let text = &files[0].1;
+    assert_eq!(with(encode(text, true)), points(&zst));
+    let said = with(encode(text, false)).unwrap_err();
+    assert!(
+        said.contains(&zst[0].0) && said.contains("no sum of its contents"),
+        "{said}"
+    );
+    // One whose flag was changed.
+    let mut changed = zst[0].1.clone();
+    changed[4] &= !4;
+    assert!(with(changed).is_err());
+    let more = [encode(text, true), encode(b"M30\n", false)].concat();
+    let said = with(more).unwrap_err();
+    assert!(said.contains("behind the text"), "{said}");
+    let skipped = [
+        &[0x53, 0x2A, 0x4D, 0x18, 0, 0, 0, 0][..],
+        &encode(text, false),
+    ]
+    .concat();
+    assert!(with(skipped).unwrap_err().contains("no sum"));
+}
+
 #[test]
 fn text_that_is_no_program_ends_early_however_much_of_it_there_is() {
     const FRAME: usize = 1 << 26;
-    // Frames one behind the other are one text: this one has 64 GiB and a few bytes.
+    // This file has 64 GiB and a few bytes.
     let frame = file_bytes("lines.zst", vec![b'\n'; FRAME]).unwrap();
     let mut file = Vec::new();
     for _ in 0..=1 << 10 {
@@ -172,6 +211,7 @@ fn text_that_is_no_program_ends_early_however_much_of_it_there_is() {
 #[test]
 fn a_frame_that_asks_for_a_gigabyte_of_memory_is_refused() {
     let mut encoder = zstd::Encoder::new(Vec::new(), 3).unwrap();
+    encoder.include_checksum(true).unwrap();
     encoder.window_log(30).unwrap();
     std::io::copy(&mut std::io::repeat(b'\n').take(1 << 21), &mut encoder).unwrap();
     let file = encoder.finish().unwrap();

@@ -177,18 +177,18 @@ fn damaged_loops_are_refused_with_their_line() {
             at("G0 X2.46"),
             "is out of order",
         ),
-        // 5 mm above the path is not 5 mm above the first depth, but above it.
+        // 5 mm above the path is not 5 mm above the first depth.
         (
             "G0 Z6.504\nG0 X2.46",
-            "G0 Z1.503\nG0 X2.46",
+            "G0 Z6.503\nG0 X2.46",
             at("G0 X2.46"),
-            "below the highest place",
+            "below 6.504 mm",
         ),
         (
             "G0 Z6.504\n; -- end of depths",
-            "G0 Z1.503\n; -- end of depths",
+            "G0 Z6.503\n; -- end of depths",
             at("; -- end of depths --") - 1,
-            "Z goes below",
+            "a rapid move goes to Z = 6.503 mm",
         ),
     ] {
         assert!(good.contains(old), "{old}");

@@ -4,7 +4,7 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock, Se
 use turnpath_core::{DEG, Params};
 use turnpath_files::Draft;
 
-use crate::{Chords, Layout, Lines, Post, ProgramFormat, ProgramWriter, ReadPath};
+use crate::{Chords, Layout, Lines, Post, ProgramFormat, ProgramWriter, ReadPath, TimeAxis};
 
 #[cfg(feature = "zst")]
 mod compressed;
@@ -12,6 +12,7 @@ mod damage;
 mod depths;
 mod drift;
 mod extremes;
+mod modes;
 mod numbers;
 mod parts;
 mod round_trips;
@@ -220,8 +221,8 @@ fn assert_same(layout: &Layout, points: &[ControlPoint], read: &[ControlPoint]) 
     }
 }
 
-/// A post with its defaults, with one line for each segment and none too slow. What chords and slow
-/// lines are is tested with the dialects that have them.
+/// A post with its defaults, with one line for each segment and none too slow, and axes without an end. What
+/// chords, slow lines and ends are is tested with the dialects that have them.
 pub(crate) fn plain(post: &'static Post) -> Layout {
     let format = post.format(&Params::new(), 0.0, f64::INFINITY);
     let chords = format.chords.map(|chords| Chords {
@@ -229,6 +230,15 @@ pub(crate) fn plain(post: &'static Post) -> Layout {
         slowest: None,
         ..chords
     });
-    let format = ProgramFormat { chords, ..format };
+    let time_axis = format.time_axis.map(|axis| TimeAxis {
+        limit_um: i64::MAX,
+        ..axis
+    });
+    let format = ProgramFormat {
+        chords,
+        time_axis,
+        c_limit: None,
+        ..format
+    };
     Layout { post, format }
 }

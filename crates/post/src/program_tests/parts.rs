@@ -3,7 +3,7 @@
 
 use super::travel::with_leads;
 use super::*;
-use crate::{Amount, POSTS, PartsError, TextSize};
+use crate::{Amount, POSTS, PartLimits, PartsError, TextSize};
 
 type Files = Vec<(String, Vec<u8>)>;
 
@@ -11,6 +11,10 @@ const FRAME: [&str; 2] = ["OPEN PROG 1 CLEAR\n", "CLOSE\n"];
 /// The main program's file name.
 fn main_of(layout: &Layout) -> String {
     format!("My Part.{}", layout.post.extension)
+}
+
+pub(super) fn limits(part: Amount, memory: Option<Amount>) -> PartLimits {
+    PartLimits { part, memory }
 }
 
 /// A path with leads around a cut of some segments, in many blocks.
@@ -39,7 +43,7 @@ fn files(layout: &Layout, most: Amount) -> Result<Files, PartsError> {
     writer.append(&lines_of(layout)).unwrap();
     writer
         .close()
-        .assemble_parts(FRAME, (&main_of(layout), most))
+        .assemble_parts(FRAME, (&main_of(layout), limits(most, None)))
 }
 
 fn whole(layout: &Layout) -> Vec<u8> {
@@ -133,7 +137,8 @@ fn a_part_that_is_missing_damaged_or_out_of_order_is_refused_with_its_place() {
             (files[1].1, files[2].1) = (two, one);
         });
         assert!(
-            swapped.contains("is out of order in part 1"),
+            swapped.contains("is out of order in part 1")
+                || swapped.contains("outside the marks of part 1"),
             "{name}: {swapped}"
         );
         let lost = refused(&|files| {
@@ -142,9 +147,120 @@ fn a_part_that_is_missing_damaged_or_out_of_order_is_refused_with_its_place() {
             files[0].1 = kept.collect::<String>().into_bytes();
         });
         assert!(
-            lost.contains("parts, and calls") || lost.contains("out of order"),
+            lost.contains("parts, and calls")
+                || lost.contains("out of order")
+                || lost.contains("outside the marks of part 3"),
             "{name}: {lost}"
         );
+    }
+}
+
+/// A controller runs all lines of a part, those outside the marks too.
+#[test]
+fn code_outside_the_marks_of_a_part_is_refused_and_so_is_a_line_that_is_missing() {
+    for layout in layouts() {
+        let files = files(&layout, Amount::Blocks(25)).unwrap();
+        let name = layout.post.name;
+        let text = String::from_utf8(files[2].1.clone()).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        let begin = lines
+            .iter()
+            .position(|line| line.contains("-- part 2"))
+            .unwrap();
+        let end = lines
+            .iter()
+            .position(|line| line.contains("-- end of part 2"))
+            .unwrap();
+        let refused = |lines: &[&str]| {
+            let mut files = files.clone();
+            files[2].1 = lines.join("\n").into_bytes();
+            let said = read_all(&layout, files);
+            said.expect_err(&format!("{name}: {lines:#?}"))
+        };
+        let outside = (0..begin).chain(end + 1..lines.len());
+        let is_code = |line: &&str| !line.starts_with(layout.post.comment);
+        for number in outside.clone().filter(|number| is_code(&lines[*number])) {
+            let mut fewer = lines.clone();
+            let missing = fewer.remove(number);
+            let said = refused(&fewer);
+            assert!(
+                said.contains("part 2 lacks its line") || said.contains("outside the marks"),
+                "{name} without {missing}: {said}"
+            );
+        }
+        let others = [
+            "G0 Z-5",
+            "MoveRapid([Z], [-5])",
+            "Z-5",
+            "M30",
+            "M17",
+            "M2",
+            "RET",
+            "CLOSE",
+            "/*",
+            "%",
+            "OPEN PROG 101 CLEAR",
+            "open prog 101",
+            "o<my_part-part-1> sub",
+            "N10 M17",
+            "O1234",
+        ];
+        for other in others {
+            for number in [0, begin, end + 1, lines.len()] {
+                let mut more = lines.clone();
+                more.insert(number, other);
+                let said = refused(&more);
+                let place = format!("my_part-part-2.{}, line ", layout.post.extension);
+                assert!(said.contains(&place), "{name}, {other} at {number}: {said}");
+            }
+            for number in outside.clone().filter(|number| is_code(&lines[*number])) {
+                if lines[number]
+                    .replace(' ', "")
+                    .eq_ignore_ascii_case(&other.replace(' ', ""))
+                {
+                    continue;
+                }
+                let mut changed = lines.clone();
+                changed[number] = other;
+                refused(&changed);
+            }
+        }
+    }
+}
+
+/// What counts is the file that is written, by either unit, and the main program too.
+#[test]
+fn a_file_that_is_larger_than_the_memory_is_refused_by_its_name() {
+    for layout in layouts() {
+        for part in ["25 blocks", "1.5 kB"] {
+            let part: Amount = part.parse().unwrap();
+            let sizes: Vec<(String, TextSize)> = files(&layout, part)
+                .unwrap()
+                .into_iter()
+                .map(|(file, text)| (file, TextSize::of(&text)))
+                .collect();
+            let bytes = sizes.iter().map(|(_, size)| size.bytes).max().unwrap();
+            let blocks = sizes.iter().map(|(_, size)| size.blocks).max().unwrap();
+            let written = |memory: Amount| {
+                let mut writer = ProgramWriter::in_memory(layout);
+                writer.append(&lines_of(&layout)).unwrap();
+                let limits = limits(part, Some(memory));
+                let path = writer.close();
+                path.assemble_parts(FRAME, (&main_of(&layout), limits))
+            };
+            for memory in [Amount::Bytes(bytes), Amount::Blocks(blocks)] {
+                assert!(written(memory).is_ok());
+            }
+            for memory in [Amount::Bytes(bytes - 1), Amount::Blocks(blocks - 1)] {
+                let said = written(memory).unwrap_err().to_string();
+                let first = sizes.iter().skip(1).chain(&sizes[..1]);
+                let large = first
+                    .clone()
+                    .find(|(_, size)| !memory.holds(*size))
+                    .unwrap();
+                assert!(said.contains(&large.0), "{}: {said}", layout.post.name);
+            }
+        }
     }
 }
 
@@ -207,7 +323,7 @@ fn more_parts_than_controllers_can_name_are_refused() {
         .unwrap();
     let refused = writer
         .close()
-        .assemble_parts(FRAME, (&main_of(&layout), Amount::Bytes(1)));
+        .assemble_parts(FRAME, (&main_of(&layout), limits(Amount::Bytes(1), None)));
     assert!(
         refused
             .unwrap_err()

@@ -115,8 +115,12 @@ fn z_goes_up_before_x_and_c_move_and_down_at_a_feed_of_its_own() {
     );
     let aerotech = good("automation1-pvt");
     assert_eq!(
-        between(&aerotech, "// -- approach --", "// -- lead-in")[3..],
+        between(&aerotech, "// -- approach --", "// -- lead-in"),
         [
+            "SetupTaskDistanceUnits(DistanceUnits.Primary)",
+            "SetupTaskTimeUnits(TimeUnits.Seconds)",
+            "SetupTaskTargetMode(TargetMode.Absolute)",
+            "SetupTaskWaitMode(WaitMode.MotionDone)",
             "MoveRapid([Z], [6.5])",
             "MoveRapid([X], [2.46])",
             "MoveRapid([C], [360])",
@@ -172,9 +176,15 @@ fn moves_that_could_collide_are_refused_with_their_line() {
     for (text, from, to, says) in [
         (
             pmac(),
+            "Z6.5\nX2.46\n",
+            "Z6.5\nZ2\nX2.46\nZ6.5\n",
+            "line 7: C or X moves at Z = 2 mm, below 6.5 mm",
+        ),
+        (
+            pmac(),
             "RAPID\nZ6.5\nX2.46\n",
             "RAPID\nZ1.4\nX2.46\n",
-            "line 6: C or X moves at Z = 1.4 mm",
+            "line 9: Z goes by a feed: only Z does, on its way down",
         ),
         (
             pmac(),
@@ -197,7 +207,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
         (
             pmac(),
             "TM5000\nZ1.5\n",
-            "TM5000\nZ1.6\n",
+            "TM4900\nZ1.6\n",
             "does not end at the path's first Z",
         ),
         (
@@ -210,7 +220,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             pmac(),
             "RAPID\nZ6.5\n; -- end",
             "RAPID\nZ1.2\n; -- end",
-            "Z goes below the highest place",
+            "line 25: a rapid move goes to Z = 1.2 mm, below 6.5 mm",
         ),
         (
             pmac(),
@@ -226,9 +236,9 @@ fn moves_that_could_collide_are_refused_with_their_line() {
         ),
         (
             siemens(),
-            "G0 Z6.5\nG0 X",
-            "G0 Z1\nG0 X",
-            "line 5: C or X moves at Z = 1 mm",
+            "G0 Z6.5\nG0 X2.46",
+            "G0 Z6.5\nG0 Z2\nG0 X2.46\nZ6.5",
+            "line 6: C or X moves at Z = 2 mm",
         ),
         (
             siemens(),
@@ -251,9 +261,9 @@ fn moves_that_could_collide_are_refused_with_their_line() {
         ),
         (
             linuxcnc(),
-            "G0 Z6.5\nG0 X",
-            "G0 Z1\nG0 X",
-            "line 5: C or X moves at Z = 1 mm",
+            "G0 Z6.5\nG0 X2.46",
+            "G0 Z6.5\nG0 Z2\nG0 X2.46\nZ6.5",
+            "line 6: C or X moves at Z = 2 mm",
         ),
         (
             linuxcnc(),
@@ -263,9 +273,9 @@ fn moves_that_could_collide_are_refused_with_their_line() {
         ),
         (
             aerotech(),
-            "MoveRapid([Z], [6.5])\nM",
-            "MoveRapid([Z], [1])\nM",
-            "moves at Z = 1 mm",
+            "MoveRapid([C]",
+            "MoveRapid([Z], [2])\nMoveRapid([C]",
+            "moves at Z = 2 mm",
         ),
         (
             aerotech(),
@@ -292,6 +302,151 @@ fn moves_that_could_collide_are_refused_with_their_line() {
         let said = read(&plain(post.unwrap()), spoiled.as_bytes()).unwrap_err();
         assert!(said.contains(says), "{to}: {said}");
     }
+}
+
+/// The numbers of the lines of the approach and of the retreat.
+fn lines_around(text: &str) -> Vec<usize> {
+    let mut inside = false;
+    let lines = text.lines().enumerate().filter(|(_, line)| {
+        if line.contains("-- ") {
+            inside = line.contains("-- approach") || line.contains("-- retreat");
+            return false;
+        }
+        inside
+    });
+    lines.map(|(number, _)| number).collect()
+}
+
+#[test]
+fn no_word_of_an_approach_or_a_retreat_may_be_missing() {
+    for post in POSTS {
+        let layout = plain(post);
+        let text = text(&layout);
+        let lines: Vec<&str> = text.lines().collect();
+        let around = lines_around(&text);
+        assert!(around.len() >= 7, "{text}");
+        for number in around {
+            let words: Vec<&str> = lines[number].split_whitespace().collect();
+            // A motion goes on until another one is said.
+            let goes_on = lines[number - 1].starts_with("G0 ");
+            for missing in usize::from(goes_on && words[0] == "G0")..words.len() {
+                let mut kept = words.clone();
+                kept.remove(missing);
+                let line = kept.join(" ");
+                let mut spoiled = lines.clone();
+                spoiled[number] = &line;
+                let said = read(&layout, spoiled.join("\n").as_bytes());
+                let (name, was) = (post.name, lines[number]);
+                assert!(said.is_err(), "{name}: `{line}` for `{was}` is read");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_move_at_another_speed_than_the_recipes_is_refused() {
+    let g_code = [
+        ("G1 Z1.5 F60", "G0 Z1.5", "a rapid move goes to Z = 1.5 mm"),
+        (
+            "G1 Z1.5 F60",
+            "G0 Z1.5 F60",
+            "a rapid move goes to Z = 1.5 mm",
+        ),
+        ("G1 Z1.5 F60", "G1 Z1.5 F600000", "at 600000 mm/min"),
+        (
+            "G1 Z1.5 F60",
+            "G1 Z1.5 F59.9",
+            "`approach_feed` of the recipe is 60",
+        ),
+        ("G1 Z1.5 F60", "G1 Z1.5 F0", "F is no positive number"),
+        (
+            "G1 Z1.5 F60",
+            "G1 G0 Z1.5 F60",
+            "`G0` is the second word of its group",
+        ),
+        ("G0 X2.46", "G1 X2.46 F60", "X goes by a feed"),
+    ];
+    let pmac = [
+        ("TM5000", "TM5", "at 5 mm in 5 ms"),
+        ("TM5000", "TM4999", "at 5 mm in 4999 ms"),
+        ("TM5000", "TM5002", "at 5 mm in 5002 ms"),
+        (
+            "LINEAR TM5000",
+            "RAPID TM5000",
+            "a rapid move goes to Z = 1.5 mm",
+        ),
+        ("DWELL0\n", "", "does not come to rest"),
+        ("RAPID\nZ6.5", "LINEAR TM5\nZ6.5", "Z goes by a feed"),
+    ];
+    let aerotech = [
+        ("[1.5], 1)", "[1.5])", "`MoveLinear` has no speed"),
+        ("[1.5], 1)", "[1.5], 10)", "at 600 mm/min"),
+        (
+            "MoveLinear([Z], [1.5], 1)",
+            "MoveRapid([Z], [1.5])",
+            "a rapid move goes to",
+        ),
+        (
+            "MoveRapid([X], [2.46])",
+            "MoveRapid([X], [2.46], 1)",
+            "`MoveRapid` has a speed",
+        ),
+        (
+            "MoveRapid([X], [2.46])",
+            "MoveLinear([X], [2.46], 1)",
+            "X goes by a feed",
+        ),
+    ];
+    for post in POSTS {
+        let cases: &[(&str, &str, &str)] = match post.name {
+            "automation1-pvt" => &aerotech,
+            "pmac-pvt" | "power-pmac-pvt" => &pmac,
+            _ => &g_code,
+        };
+        let (layout, text) = (plain(post), good(post.name));
+        for (from, to, says) in cases {
+            let at = text.find(from).unwrap_or_else(|| panic!("{from}: {text}"));
+            let line = text[..at].matches('\n').count() + 1;
+            let spoiled = text.replacen(from, to, 1);
+            let said = read(&layout, spoiled.as_bytes()).unwrap_err();
+            assert!(said.contains(says), "{}: {to}: {said}", post.name);
+            // What comes to rest too late shows at the first point.
+            let near = (line..line + 4).any(|line| said.contains(&format!("line {line}: ")));
+            assert!(near, "{}: {to}: {said}", post.name);
+        }
+    }
+}
+
+/// A plane that clears the path, but not by the recipe's height.
+#[test]
+fn a_plane_below_the_recipes_height_is_refused() {
+    for post in POSTS {
+        let (layout, text) = (plain(post), good(post.name));
+        for (from, to) in [("Z6.5", "Z6.4"), ("[6.5]", "[6.4]")] {
+            if !text.contains(from) {
+                continue;
+            }
+            let lower = text.replace(from, to).replace("TM5000", "TM4900");
+            let said = read(&layout, lower.as_bytes()).unwrap_err();
+            assert!(
+                said.contains("6.4 mm, below 6.5 mm"),
+                "{}: {said}",
+                post.name
+            );
+        }
+        let higher = text.replace("Z6.5", "Z7").replace("[6.5]", "[7]");
+        let higher = higher.replace("TM5000", "TM5500");
+        assert!(read(&layout, higher.as_bytes()).is_ok(), "{}", post.name);
+    }
+}
+
+#[test]
+fn an_approach_without_a_retreat_is_refused() {
+    let text = good("pmac-pvt");
+    let (path, rest) = text.split_once("; -- retreat").unwrap();
+    let (_, end) = rest.split_once("; -- end").unwrap();
+    let said = read(&plain(&POSTS[0]), format!("{path}; -- end{end}").as_bytes()).unwrap_err();
+    assert!(said.contains("an approach and no retreat"), "{said}");
 }
 
 #[test]

@@ -156,6 +156,10 @@ impl Dialect for Poly {
         })
     }
 
+    fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
+        [Vec::new(), vec!["RET".to_owned()]]
+    }
+
     fn called_part(&self, code: &str, _program: &str) -> Option<String> {
         travel::called_part(code)
     }

@@ -5,6 +5,7 @@ use turnpath_core::toolpath::ControlPoint;
 
 use crate::axes::{NAMES, times};
 use crate::fixed_point::number;
+use crate::g_code::Groups;
 use crate::polynomial::{Cubic, CubicAxes};
 use crate::post::Grammar;
 use crate::program_format::ProgramFormat;
@@ -31,6 +32,10 @@ struct Modes {
     absolute: bool,
     /// `G93`: F is one over minutes.
     inverse_time: bool,
+    /// `G64`: the path is not stopped at the ends of blocks.
+    goes_on: bool,
+    /// `FGROUP()`: F refers to no chosen axis, as the way to the first point needs it.
+    no_chosen_axis: bool,
     /// `FGROUP(C)`: C alone is the path to which F refers.
     c_is_path: bool,
     /// `UPATH`: the other axes follow the parameter.
@@ -126,15 +131,25 @@ impl Grammar for PolyGrammar {
         let code = code.to_ascii_uppercase();
         let (mut straight, mut found, mut feed) = (Vec::new(), [None; 3], None);
         let mut is_straight = false;
+        let mut groups = Groups::default();
         for word in without_number(&code)?.split_whitespace() {
+            if let Some(Ok(number)) = word.strip_prefix('G').map(str::parse) {
+                groups.take(number)?;
+            }
             match word {
                 "G71" | "G710" => self.modes.metric = true,
                 "G90" => self.modes.absolute = true,
                 "G93" => self.modes.inverse_time = true,
-                "FGROUP(C)" => self.modes.c_is_path = true,
-                "FGROUP()" => self.modes.c_is_path = false,
+                "FGROUP(C)" => {
+                    self.modes.c_is_path = true;
+                    self.modes.no_chosen_axis = false;
+                }
+                "FGROUP()" => {
+                    self.modes.c_is_path = false;
+                    self.modes.no_chosen_axis = true;
+                }
                 "UPATH" => self.modes.by_parameter = true,
-                "G64" => {}
+                "G64" => self.modes.goes_on = true,
                 "G1" if self.axes.is_some() => {
                     return Err("`G1` ends the path of polynomials".to_owned());
                 }
@@ -161,8 +176,15 @@ impl Grammar for PolyGrammar {
             return Ok(());
         }
         let modes = &self.modes;
-        if !(modes.metric && modes.absolute && modes.inverse_time) {
-            return Err("a move before `G71`, `G90` and `G93`".to_owned());
+        let needed = [
+            (modes.metric, "G71"),
+            (modes.absolute, "G90"),
+            (modes.inverse_time, "G93"),
+            (modes.goes_on, "G64"),
+            (moves || modes.no_chosen_axis, "FGROUP()"),
+        ];
+        if let Some((_, word)) = needed.iter().find(|(is_said, _)| !is_said) {
+            return Err(format!("a move before `{word}`"));
         }
         if moves && !(modes.c_is_path && modes.by_parameter) {
             return Err("a polynomial before `FGROUP(C)` and `UPATH`".to_owned());

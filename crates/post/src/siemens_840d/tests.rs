@@ -85,8 +85,10 @@ fn refusal(line: usize, new: &str) -> String {
 fn damaged_lines_are_refused_with_their_number() {
     for (line, new, says) in [
         (3, "G71 G90 G94", "line 3: `G94` is not a word"),
-        (3, "G90 G93", "line 4: a move before `G71`, `G90` and `G93`"),
-        (3, "G71 G90", "line 4: a move before `G71`, `G90` and `G93`"),
+        (3, "G90 G93", "line 4: a move before `G71`"),
+        (3, "G71 G90", "line 4: a move before `G93`"),
+        (3, "G71 G90 G93 FGROUP()", "line 4: a move before `G64`"),
+        (3, "G71 G90 G93 G64", "line 4: a move before `FGROUP()`"),
         (5, "", "line 6: a polynomial before `FGROUP(C)` and `UPATH`"),
         (5, "FGROUP(C)", "line 6: a polynomial before `FGROUP(C)`"),
         (5, "FGROUP(C) UPATH FGROUP()", "line 6: a polynomial before"),
@@ -203,14 +205,15 @@ fn coefficients_of_any_size_are_refused_with_their_line() {
     let poly = format!("POLY PO[C]=(0.48,{huge},{huge}) F60000000000");
     let lines = [
         "; -- lead-in --",
-        "G71 G90 G93 G64 FGROUP(C) UPATH",
+        "G71 G90 G93 G64 FGROUP()",
         "G1 C0 X2.5 Z0 F60",
+        "FGROUP(C) UPATH",
         &poly,
         "PO[C]=(0.5) F0.06",
         "; -- end of path: 3 points --",
     ];
     let message = read(&plain(&SIEMENS_840D_POLY), lines.join("\n").as_bytes()).unwrap_err();
-    let says = "line 5: the velocity of C has too many digits";
+    let says = "line 6: the velocity of C has too many digits";
     assert!(message.contains(says), "{message}");
 }
 

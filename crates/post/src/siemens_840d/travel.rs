@@ -5,24 +5,28 @@ use crate::travel::{Places, TravelModes};
 
 use super::read::without_number;
 
-/// Words that move nothing, besides those of all G code: what F refers to.
-const WITHOUT_MOVE: &str = "FGROUP()";
+/// What F refers to: the axis that moves.
+const FEED_AXES: &str = "FGROUP()";
+/// The words that a program must have said before an axis moves. `G71` serves for `G710`.
+const NEEDED: &[&str] = &["G90", "G94", METRIC, "G60"];
+/// Lengths and feeds are metric.
+const METRIC: &str = "G710";
 
-/// The positions that a line gives. Lengths must be metric before an axis moves.
+/// The positions that a line gives.
 pub(super) fn read(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
     let code = code.to_ascii_uppercase();
     let mut rest = Vec::new();
     for word in without_number(&code)?.split_whitespace() {
         match word {
-            "G71" | "G710" => modes.metric = true,
-            WITHOUT_MOVE => {}
+            "G71" | METRIC => modes.say(METRIC),
+            FEED_AXES => modes.say(FEED_AXES),
             word => rest.push(word),
         }
     }
-    let places = g_code::read_travel(&rest.join(" "), modes)?;
-    match !modes.metric && places.iter().any(Option::is_some) {
-        true => Err("a move before `G71` or `G710`".to_owned()),
-        false => Ok(places),
+    let places = g_code::read_travel(&rest.join(" "), NEEDED, modes)?;
+    match places == Places::default() {
+        true => Ok(places),
+        false => modes.need(&[FEED_AXES]).map(|()| places),
     }
 }
 
@@ -47,10 +51,10 @@ mod tests {
         let mut modes = TravelModes::default();
         assert!(read("G90 G94 G60 FGROUP()", &mut modes).is_ok());
         let said = read("G0 Z6.5", &mut modes).unwrap_err();
-        assert_eq!(said, "a move before `G71` or `G710`");
+        assert_eq!(said, "a move before `G710`");
         for metric in ["G71", "N10 g710"] {
             let mut modes = TravelModes::default();
-            read("G90 G94", &mut modes).unwrap();
+            read("G90 G94 G60 FGROUP()", &mut modes).unwrap();
             read(metric, &mut modes).unwrap();
             let places = read("n20 g0 z6.5", &mut modes).unwrap();
             assert_eq!(places, [None, None, Some(ONE * 13 / 2)], "{metric}");
