@@ -201,7 +201,7 @@ fn memory_counts_for_each_file_that_is_written() {
         let files = run["files"].as_array().unwrap().iter();
         let programs = files.filter_map(|file| file["file"].as_str());
         let size = |file: &str| {
-            let text = bench.read(&format!("out/{file}"));
+            let text = bench.read(format!("out/{file}"));
             match unit {
                 "B" => text.len(),
                 _ => text.lines().count(),
