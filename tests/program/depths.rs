@@ -76,7 +76,12 @@ fn a_loop_plays_the_path_of_the_recipe_three_times_each_deeper() {
     let once = Bench::with(&saddle(""));
     once.line("run recipe.toml -o out").ends(0);
     let bench = Bench::with(&saddle(THREE));
-    bench.line("run recipe.toml -o out --dry-run").ends(0);
+    let said = bench.line("run recipe.toml -o out --dry-run").ends(0);
+    assert!(said.stdout.contains("the program plays the cut 3 times"));
+    assert!(
+        said.stdout
+            .contains("the first is 4000.00 nm above the path")
+    );
     bench.line("verify recipe.toml out/recipe.nc").ends(0);
     let path = played(&once.read("out/recipe.nc"));
     let deep = played(&bench.read("out/recipe.nc"));

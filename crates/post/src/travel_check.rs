@@ -14,6 +14,9 @@ use crate::travel::{C, Motion, Places, Speed, TravelModes, Z};
 const SAME: f64 = 1e-9;
 /// By how much a feed or a time may differ from the recipe's, as a part of it: rounding alone.
 const SAME_SPEED: f64 = 1e-9;
+/// The part of the recipe's approach height that a program must keep. A path whose heights somebody has
+/// changed a little is still read and measured, and a hundredth of a few millimetres is no danger.
+const KEPT_HEIGHT: f64 = 0.99;
 /// Milliseconds of a minute.
 const MINUTE_MS: f64 = 60_000.0;
 
@@ -171,7 +174,7 @@ impl TravelCheck {
 
     /// The plane of the approach over a path whose highest place is this.
     fn plane(&self, highest: f64) -> f64 {
-        highest + self.rise + self.clearance
+        highest + self.rise + KEPT_HEIGHT * self.clearance
     }
 
     /// Checks the heights, at the end of the path: the line of the first wrong move, and what is wrong.
@@ -193,7 +196,7 @@ impl TravelCheck {
                 return Err((
                     line,
                     format!(
-                        "{what} Z = {lowest} mm, below {plane} mm, which is `approach_height` above the path"
+                        "{what} Z = {lowest} mm, below {plane} mm, which is 0.99 of `approach_height` above the path"
                     ),
                 ));
             }

@@ -85,6 +85,19 @@ pub enum Remark {
         #[serde(rename = "tolerance_nm", with = "unit::nm")]
         tolerance: f64,
     },
+    /// A loop of the controller plays the path several times.
+    SeveralDepths {
+        /// The post.
+        post: String,
+        /// How often.
+        depths: u32,
+        /// By how much deeper each time, mm.
+        #[serde(rename = "step_nm", with = "unit::nm")]
+        step: f64,
+        /// Time of all cutting sections, without the moves between them, s.
+        #[serde(rename = "cutting_time_s", with = "unit::s")]
+        cutting_time: f64,
+    },
     /// The machine must keep more digits than controllers of this kind have on delivery.
     NeedsDigits {
         /// The post.

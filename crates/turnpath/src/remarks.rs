@@ -43,7 +43,21 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject, cut_angle: f64) -> Vec<Remar
         slope_along_cut: Scalar::tan(cut_angle.max(0.0)),
         digits: layouts.map(|layout| digits(&layout, path)).collect(),
     };
-    subject.remarks()
+    let layouts = posts(recipe).map(|post| layout(recipe, post, true));
+    let depths = layouts.filter_map(|layout| several_depths(&layout, path.cutting_time));
+    subject.remarks().into_iter().chain(depths).collect()
+}
+
+/// The remark on a loop over depths, whose program takes longer than the path.
+fn several_depths(layout: &Layout, cutting_time: f64) -> Option<Remark> {
+    let depths = layout.format.depths?;
+    let one = 10_u64.pow(layout.format.position_decimals) as f64;
+    Some(Remark::SeveralDepths {
+        post: layout.post.name.to_owned(),
+        depths: u32::try_from(depths.count).unwrap_or(u32::MAX),
+        step: depths.step as f64 / one,
+        cutting_time: depths.count as f64 * cutting_time,
+    })
 }
 
 fn digits(layout: &Layout, path: &PathSubject) -> ProgramDigits {

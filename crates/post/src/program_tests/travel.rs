@@ -429,7 +429,7 @@ fn a_plane_below_the_recipes_height_is_refused() {
             let lower = text.replace(from, to).replace("TM5000", "TM4900");
             let said = read(&layout, lower.as_bytes()).unwrap_err();
             assert!(
-                said.contains("6.4 mm, below 6.5 mm"),
+                said.contains("6.4 mm, below 6.45 mm"),
                 "{}: {said}",
                 post.name
             );

@@ -67,6 +67,20 @@ fn sentence(remark: &Remark) -> String {
                 of_post(post)
             )
         }
+        Remark::SeveralDepths {
+            post,
+            depths,
+            step,
+            cutting_time,
+        } => {
+            let first = small_length(f64::from(depths.saturating_sub(1)) * step);
+            format!(
+                "{}the program plays the cut {depths} times, in {} together: the first is {first} above the \
+                 path, and the last is the path. All other figures are those of the last",
+                of_post(post),
+                duration(*cutting_time)
+            )
+        }
         Remark::NeedsDigits {
             post,
             position_decimals,
