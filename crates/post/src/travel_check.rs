@@ -196,7 +196,7 @@ impl TravelCheck {
                 return Err((
                     line,
                     format!(
-                        "{what} Z = {lowest} mm, below {plane} mm, which is 0.99 of `approach_height` above the path"
+                        "{what} Z = {lowest} mm, below {plane:.4} mm, which is 0.99 of `approach_height` above the path"
                     ),
                 ));
             }

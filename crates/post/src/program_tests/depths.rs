@@ -180,15 +180,15 @@ fn damaged_loops_are_refused_with_their_line() {
         // 5 mm above the path is not 5 mm above the first depth.
         (
             "G0 Z6.504\nG0 X2.46",
-            "G0 Z6.503\nG0 X2.46",
+            "G0 Z6.403\nG0 X2.46",
             at("G0 X2.46"),
-            "below 6.504 mm",
+            "below 6.4540 mm",
         ),
         (
             "G0 Z6.504\n; -- end of depths",
-            "G0 Z6.503\n; -- end of depths",
+            "G0 Z6.403\n; -- end of depths",
             at("; -- end of depths --") - 1,
-            "a rapid move goes to Z = 6.503 mm",
+            "a rapid move goes to Z = 6.403 mm",
         ),
     ] {
         assert!(good.contains(old), "{old}");

@@ -178,7 +178,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             pmac(),
             "Z6.5\nX2.46\n",
             "Z6.5\nZ2\nX2.46\nZ6.5\n",
-            "line 7: C or X moves at Z = 2 mm, below 6.5 mm",
+            "line 7: C or X moves at Z = 2 mm, below 6.4500 mm",
         ),
         (
             pmac(),
@@ -220,7 +220,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             pmac(),
             "RAPID\nZ6.5\n; -- end",
             "RAPID\nZ1.2\n; -- end",
-            "line 25: a rapid move goes to Z = 1.2 mm, below 6.5 mm",
+            "line 25: a rapid move goes to Z = 1.2 mm, below 6.4500 mm",
         ),
         (
             pmac(),
@@ -429,7 +429,7 @@ fn a_plane_below_the_recipes_height_is_refused() {
             let lower = text.replace(from, to).replace("TM5000", "TM4900");
             let said = read(&layout, lower.as_bytes()).unwrap_err();
             assert!(
-                said.contains("6.4 mm, below 6.45 mm"),
+                said.contains("6.4 mm, below 6.4500 mm"),
                 "{}: {said}",
                 post.name
             );
