@@ -4,7 +4,7 @@ use std::io::Read;
 
 use super::{assembled, lines, path_of, plain};
 use crate::text_file::file_bytes;
-use crate::{Amount, Compression, POSTS, ProgramWriter, ReadPath, text_name};
+use crate::{Amount, Compression, POSTS, ProgramWriter, ReadError, ReadPath, text_name};
 
 /// Programs of all posts with the names of their files, in one file and in parts where the post has calls.
 fn programs() -> Vec<Vec<(String, Vec<u8>)>> {
@@ -51,15 +51,13 @@ fn points(files: &[(String, Vec<u8>)]) -> Result<Vec<String>, String> {
     let text = text_name(&files[0].0);
     let (_, extension) = text.rsplit_once('.').unwrap();
     let layout = plain(crate::post_of_extension(extension).unwrap());
-    let mut reader = layout.read_files(files.to_vec()).unwrap();
+    let said = |error: ReadError| format!("{error}: {:?}", std::error::Error::source(&error));
+    let mut reader = layout.read_files(files.to_vec()).map_err(said)?;
     let mut points = Vec::new();
-    loop {
-        match reader.next_point() {
-            Ok(Some(point)) => points.push(format!("{point:?}")),
-            Ok(None) => return Ok(points),
-            Err(error) => return Err(format!("{error}: {:?}", std::error::Error::source(&error))),
-        }
+    while let Some(point) = reader.next_point().map_err(said)? {
+        points.push(format!("{point:?}"));
     }
+    Ok(points)
 }
 
 #[test]
