@@ -39,6 +39,14 @@ fn number(value: &Value, pointer: &str) -> f64 {
     found.unwrap_or_else(|| panic!("no number at {pointer} of {value}"))
 }
 
+/// A length as the header shows it, from nm.
+fn shown(error: f64) -> String {
+    match error < 1e4 {
+        true => format!("{error:.2} nm"),
+        false => format!("{:.2} um", error / 1e3),
+    }
+}
+
 /// Runs a recipe with all posts. Each program holds the tolerance or the status is 1, and its digits
 /// and times cost what seven decimals cost.
 fn all_posts_carry(recipe: &Path, rest: &[&str]) {
@@ -78,8 +86,11 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
         let text = fs::read_to_string(&file).unwrap();
         assert!(text.contains(summary["recipe"]["sha256"].as_str().unwrap()));
         // The header has the figures of the report.
-        let verified = format!("verified on this text: interpolation error {error:.2} nm");
-        assert!(text.contains(&verified), "{verified}");
+        let verified = format!(
+            "verified on this text: interpolation error {}",
+            shown(error)
+        );
+        assert!(text.contains(&verified), "{}: {verified}", recipe.display());
         let verify = call(
             "verify",
             recipe,

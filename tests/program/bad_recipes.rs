@@ -178,6 +178,23 @@ fn several_mistakes_are_reported_at_once() {
 }
 
 #[test]
+fn wrong_strategies_are_reported_beside_a_missing_key() {
+    let recipe = changed(SADDLE, "speed = \"500 rpm\"\n", "");
+    let recipe = changed(&recipe, "use = \"astigmatic\"", "use = \"Astigmatic\"");
+    let recipe = changed(&recipe, "use = \"equal-angle\"", "use = \"equal_angle\"");
+    insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
+}
+
+/// Its plugins are not loaded, so nobody knows which strategies there are.
+#[test]
+fn strategies_of_a_wrong_recipe_that_lists_plugins_are_not_called_unknown() {
+    let recipe = changed(SADDLE, "speed = \"500 rpm\"\n", "");
+    let recipe = changed(&recipe, "use = \"astigmatic\"", "use = \"our-own\"");
+    let recipe = format!("plugins = [\"lib\"]\n{recipe}");
+    insta::assert_snapshot!(answer(recipe, "run recipe.toml"));
+}
+
+#[test]
 fn a_file_that_is_no_toml() {
     insta::assert_snapshot!(with_change("[spindle]", "[spindle"));
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use turnpath::report::ControllerCommand;
 use turnpath::{
     Catalogue, Diagnostic, Error, Job, PluginsLock, Recipe, commands_to_trust, with_listed_plugins,
+    with_wrong_strategies,
 };
 
 use super::output::is_standard;
@@ -59,9 +60,24 @@ fn read(recipe: Option<&Path>, sets: &[String]) -> Result<Recipe, Failure> {
     })
 }
 
+/// The failure of a recipe that could not be read, with what is wrong with its strategies. Where plugins
+/// cannot be loaded, that comes later: the recipe is to be mended first.
+fn with_strategies(failure: Failure, catalogue: Catalogue, args: &PluginArgs) -> Failure {
+    match failure {
+        Failure::Work(error) => match with_plugins(catalogue, args) {
+            Ok(catalogue) => with_wrong_strategies(error, &catalogue).into(),
+            Err(_) => error.into(),
+        },
+        other => other,
+    }
+}
+
 /// The recipe, and the catalogue with the plugins that the recipe lists, if the user trusts it.
 pub fn recipe(args: &RecipeArgs, catalogue: Catalogue) -> Result<(Recipe, Catalogue), Failure> {
-    let recipe = read(args.recipe.as_deref(), &args.set)?;
+    let recipe = match read(args.recipe.as_deref(), &args.set) {
+        Ok(recipe) => recipe,
+        Err(failure) => return Err(with_strategies(failure, catalogue, &args.plugins)),
+    };
     if !args.trust_recipe {
         refuse_listed_plugins(&recipe)?;
     }

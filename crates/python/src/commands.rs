@@ -12,7 +12,7 @@ use rayon::ThreadPoolBuilder;
 use turnpath::report::to_json;
 use turnpath::{
     AblationOptions, Catalogue, Error, Job, MapGrid, MapRequest, Outputs, PlotRequest, Recipe,
-    Section, ToolPath,
+    Section, ToolPath, with_wrong_strategies,
 };
 
 use crate::catalogue::{Offered, Sources};
@@ -51,7 +51,10 @@ fn work<R: Send>(
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         let catalogue = offered.catalogue().map_err(Error::from);
-        Ok(catalogue.and_then(|catalogue| pool.install(|| work(&catalogue))))
+        Ok(catalogue.and_then(|catalogue| {
+            let done = pool.install(|| work(&catalogue));
+            done.map_err(|error| with_wrong_strategies(error, &catalogue))
+        }))
     });
     done.and_then(|done| done.map_err(|error| exception(py, &error)))
 }

@@ -28,7 +28,11 @@ pub struct Diagnostic {
 ///
 /// `Display` gives the titles, one a line. [`render`](Self::render) gives what the user sees.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Diagnostics(Vec<Diagnostic>);
+pub struct Diagnostics {
+    /// At most [`MOST_MESSAGES`], and one that says how many more there are.
+    messages: Vec<Diagnostic>,
+    left_out: usize,
+}
 
 impl Diagnostic {
     /// A message about a span, without label and help.
@@ -140,12 +144,12 @@ impl Diagnostic {
 impl Diagnostics {
     /// All messages.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
-        self.0.iter()
+        self.messages.iter()
     }
 
     /// The messages as the user sees them, with an empty line between two.
     pub fn render(&self, color: bool) -> String {
-        let rendered: Vec<String> = self.0.iter().map(|one| one.render(color)).collect();
+        let rendered: Vec<String> = self.messages.iter().map(|one| one.render(color)).collect();
         rendered.join("\n\n")
     }
 
@@ -157,37 +161,45 @@ impl Diagnostics {
         }
     }
 
-    fn sorted(mut diagnostics: Vec<Diagnostic>) -> Self {
-        diagnostics.sort_by_key(Diagnostic::order);
-        Self::limited(diagnostics)
+    /// These and more, in the order of their spans.
+    pub(crate) fn and(mut self, more: impl IntoIterator<Item = Diagnostic>) -> Self {
+        self.messages.truncate(MOST_MESSAGES);
+        self.messages.extend(more);
+        self.messages.sort_by_key(Diagnostic::order);
+        Self::limited(self.messages, self.left_out)
     }
 
-    /// The first messages, and how many more there are.
-    fn limited(mut diagnostics: Vec<Diagnostic>) -> Self {
-        let more = diagnostics.len().saturating_sub(MOST_MESSAGES);
-        if more > 0 {
-            diagnostics.truncate(MOST_MESSAGES);
-            diagnostics.push(Diagnostic {
-                title: format!("messages left out: {more} more"),
+    fn sorted(mut diagnostics: Vec<Diagnostic>) -> Self {
+        diagnostics.sort_by_key(Diagnostic::order);
+        Self::limited(diagnostics, 0)
+    }
+
+    /// The first messages, and how many more there are besides those that were left out before.
+    fn limited(mut messages: Vec<Diagnostic>, left_out_before: usize) -> Self {
+        let left_out = left_out_before + messages.len().saturating_sub(MOST_MESSAGES);
+        if left_out > 0 {
+            messages.truncate(MOST_MESSAGES);
+            messages.push(Diagnostic {
+                title: format!("messages left out: {left_out} more"),
                 span: None,
                 label: String::new(),
                 help: Vec::new(),
             });
         }
-        Self(diagnostics)
+        Self { messages, left_out }
     }
 }
 
 impl FromIterator<Diagnostic> for Diagnostics {
     /// Messages in the order in which they come.
     fn from_iter<I: IntoIterator<Item = Diagnostic>>(diagnostics: I) -> Self {
-        Self::limited(diagnostics.into_iter().collect())
+        Self::limited(diagnostics.into_iter().collect(), 0)
     }
 }
 
 impl From<Diagnostic> for Diagnostics {
     fn from(one: Diagnostic) -> Self {
-        Self(vec![one])
+        Self::limited(vec![one], 0)
     }
 }
 
@@ -201,7 +213,7 @@ impl Error for Diagnostic {}
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let titles: Vec<&str> = self.0.iter().map(Diagnostic::title).collect();
+        let titles: Vec<&str> = self.messages.iter().map(Diagnostic::title).collect();
         f.write_str(&titles.join("\n"))
     }
 }

@@ -65,6 +65,7 @@ mod surface_list;
 mod table_info;
 mod tables;
 mod value;
+mod wrong_recipe;
 
 pub use ablation::{Variant, Variation};
 pub use bind::{Binding, NamedFile};
@@ -80,3 +81,4 @@ pub use table_info::TableInfo;
 pub use tables::{
     AskedTolerances, DataFormat, Output, PostSettings, ZReference, slot_keys, tables,
 };
+pub use wrong_recipe::WrongRecipe;

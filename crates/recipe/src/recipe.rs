@@ -18,6 +18,7 @@ use crate::set;
 use crate::span::{Source, Span, Spanned};
 use crate::surface_entry::{SurfaceEntry, surface_entries};
 use crate::tables::{self, AskedTolerances, DEFAULT_SPINDLE, Output, PostSettings};
+use crate::wrong_recipe::{WrongRecipe, readable_choices};
 
 /// Largest recipe, in bytes: a hundred times as much as a person writes.
 const LARGEST: u64 = 1 << 20;
@@ -89,7 +90,7 @@ pub enum RecipeError {
     },
     /// The recipe, or a `--set`, is wrong.
     #[error(transparent)]
-    Wrong(#[from] Diagnostics),
+    Wrong(#[from] WrongRecipe),
 }
 
 /// Why a file could not be read as a recipe.
@@ -119,7 +120,7 @@ impl RecipeError {
     /// The messages as the user sees them; `color` adds the colours of a terminal.
     pub fn render(&self, color: bool) -> String {
         match self {
-            Self::Wrong(diagnostics) => diagnostics.render(color),
+            Self::Wrong(wrong) => wrong.messages().render(color),
             Self::File { .. } => Diagnostic::from_error(self).render(color),
         }
     }
@@ -174,12 +175,17 @@ impl Recipe {
             text: text.to_owned(),
             rank: 0,
         });
-        let mut document = read_document(&source)?;
+        let mut document = read_document(&source).map_err(WrongRecipe::from)?;
         let mut diagnostics = Vec::new();
         set::apply_all(&mut document, sets, &mut diagnostics);
         let whole = Span::whole(source);
-        let recipe = build(document, sets.to_vec(), whole, path, &mut diagnostics);
-        Ok(Diagnostics::unless_any(recipe, diagnostics)?)
+        Ok(read_whole(
+            document,
+            sets.to_vec(),
+            whole,
+            path,
+            diagnostics,
+        )?)
     }
 
     /// The recipe with one more value, as the argument `--set key=value` gives it: it replaces the
@@ -213,15 +219,21 @@ impl Recipe {
     /// When the key or the value is wrong.
     pub fn set(mut self, key: &str, value: &str) -> Result<Self, RecipeError> {
         let rank = self.sets.len() + 1;
-        let argument = set::argument(key, value, rank).map_err(Diagnostics::from)?;
+        let argument = set::argument(key, value, rank);
+        let argument = argument.map_err(|wrong| WrongRecipe::from(Diagnostics::from(wrong)))?;
         let applied = set::apply(&mut self.document, &argument, rank);
-        let mut diagnostics: Vec<Diagnostic> = applied.err().into_iter().collect();
+        let diagnostics = applied.err().into_iter().collect();
         self.sets.push(argument);
         // The document has all values of the text and of the sets before, so it need not be read
         // again; and a variant of an ablation keeps its own values.
         let (document, sets) = (self.document, self.sets);
-        let recipe = build(document, sets, self.whole, &self.path, &mut diagnostics);
-        Ok(Diagnostics::unless_any(recipe, diagnostics)?)
+        Ok(read_whole(
+            document,
+            sets,
+            self.whole,
+            &self.path,
+            diagnostics,
+        )?)
     }
 
     /// The `--set` arguments that were applied, in their order.
@@ -428,6 +440,25 @@ fn read_document(source: &Arc<Source>) -> Result<Table, Diagnostics> {
             Err(Diagnostic::new(span, title).into())
         }
     }
+}
+
+/// Reads a recipe's values, in whose document the `diagnostics` were found already.
+fn read_whole(
+    document: Table,
+    sets: Vec<String>,
+    whole: Span,
+    path: &Path,
+    mut diagnostics: Vec<Diagnostic>,
+) -> Result<Recipe, WrongRecipe> {
+    let recipe = build(
+        document.clone(),
+        sets,
+        whole.clone(),
+        path,
+        &mut diagnostics,
+    );
+    Diagnostics::unless_any(recipe, diagnostics)
+        .map_err(|messages| WrongRecipe::new(messages, readable_choices(&document, &whole)))
 }
 
 /// Reads a recipe's values and adds a message for each that is wrong.

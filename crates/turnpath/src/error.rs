@@ -246,9 +246,10 @@ impl Error {
     /// The messages that have a place in the recipe; empty where the error's text is all.
     pub fn diagnostics(&self) -> Vec<&Diagnostic> {
         match self {
-            Self::Recipe(RecipeError::Wrong(diagnostics))
-            | Self::Refused { diagnostics, .. }
-            | Self::Strategy { diagnostics, .. } => diagnostics.iter().collect(),
+            Self::Recipe(RecipeError::Wrong(wrong)) => wrong.messages().iter().collect(),
+            Self::Refused { diagnostics, .. } | Self::Strategy { diagnostics, .. } => {
+                diagnostics.iter().collect()
+            }
             Self::ListedPlugin { diagnostic, .. } | Self::DataFile { diagnostic, .. } => {
                 vec![diagnostic]
             }

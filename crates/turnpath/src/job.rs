@@ -19,7 +19,7 @@ use crate::gap::of_preparation;
 use crate::named_files::UsedFile;
 use crate::posts::NotCarried;
 use crate::program::{Program, programs};
-use crate::strategies::{used_files, wrong_choices};
+use crate::strategies::{choices, used_files, wrong_choices};
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
 #[derive(Clone)]
@@ -40,7 +40,7 @@ pub struct Job {
 
 /// Refuses what is wrong with all of the strategies in one go.
 fn refuse_wrong_choices(recipe: &Recipe, catalogue: &Catalogue) -> Result<(), Error> {
-    let wrong = wrong_choices(recipe, catalogue);
+    let wrong = wrong_choices(choices(recipe), catalogue);
     match wrong.is_empty() {
         true => Ok(()),
         false => Err(Error::refused(wrong.into_iter().collect::<Diagnostics>())),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use turnpath_core::{Compensator, Params, Slot, StrategyError, VelocitySolver};
 use turnpath_host::{Catalogue, Strategy};
 use turnpath_pipeline::Link;
-use turnpath_recipe::{Binding, Choice, Diagnostic, Diagnostics, Recipe};
+use turnpath_recipe::{Binding, Choice, Diagnostic, Diagnostics, Recipe, RecipeError};
 
 use crate::data_files::DataFiles;
 use crate::diagnosis::wrong_parameter;
@@ -58,13 +58,29 @@ pub fn choices(recipe: &Recipe) -> impl Iterator<Item = &Choice> {
     Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot))
 }
 
-/// What is wrong with a recipe's choices as far as it is known before the strategies are made: all
-/// of it.
-pub fn wrong_choices(recipe: &Recipe, catalogue: &Catalogue) -> Vec<Diagnostic> {
-    let wrong = choices(recipe).filter_map(|choice| chosen(choice, catalogue).err());
+/// What is wrong with choices as far as it is known before the strategies are made: all of it.
+pub fn wrong_choices<'a>(
+    choices: impl IntoIterator<Item = &'a Choice>,
+    catalogue: &Catalogue,
+) -> Vec<Diagnostic> {
+    let wrong = choices.into_iter();
+    let wrong = wrong.filter_map(|choice| chosen(choice, catalogue).err());
     wrong
         .flat_map(|found| found.iter().cloned().collect::<Vec<_>>())
         .collect()
+}
+
+/// The error with what a catalogue knows to be wrong with the strategies, where a recipe could not be
+/// read: so all that is wrong is said in one go. Any other error stays.
+#[must_use]
+pub fn with_wrong_strategies(error: Error, catalogue: &Catalogue) -> Error {
+    match error {
+        Error::Recipe(RecipeError::Wrong(wrong)) => {
+            let more = wrong_choices(wrong.choices(), catalogue);
+            RecipeError::Wrong(wrong.with_messages(more)).into()
+        }
+        other => other,
+    }
 }
 
 /// The data files of a recipe's strategies.

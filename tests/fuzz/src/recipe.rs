@@ -115,7 +115,7 @@ pub fn read(bytes: &[u8]) {
 
 fn check_error(error: &RecipeError) {
     match error {
-        RecipeError::Wrong(wrong) => check_messages(wrong),
+        RecipeError::Wrong(wrong) => check_messages(wrong.messages()),
         RecipeError::File { .. } => panic!("no file was read"),
     }
 }

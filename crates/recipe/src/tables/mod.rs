@@ -35,7 +35,7 @@ pub(crate) use schema::SCHEMA;
 pub(crate) use servo::servo;
 pub(crate) use strategy::USE;
 pub(crate) use surface::placement;
-pub(crate) use top::{TOP, format_is_one, top};
+pub(crate) use top::{TOP, format_is_one, may_list_plugins, top};
 pub(crate) use work::{part, tool};
 
 use crate::table_info::TableInfo;

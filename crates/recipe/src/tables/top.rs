@@ -77,6 +77,12 @@ pub(crate) fn top(section: &mut Section<'_>) -> Top {
     }
 }
 
+/// Whether a recipe lists plugins, or a key that may be meant so.
+pub(crate) fn may_list_plugins(root: &Table) -> bool {
+    let key = PLUGINS.name();
+    root.get(key).is_some() || root.has_like(key)
+}
+
 /// Whether this version reads the recipe's format. Another format is reported.
 pub(crate) fn format_is_one(section: &mut Section<'_>) -> bool {
     let key = FORMAT_KEY.name();

@@ -10,7 +10,8 @@ use turnpath_recipe::{Recipe, RecipeError};
 fn reads_without_panic(text: &str, sets: &[String]) {
     match Recipe::parse(text, "odd.toml", sets) {
         Ok(_) => {}
-        Err(RecipeError::Wrong(messages)) => {
+        Err(RecipeError::Wrong(wrong)) => {
+            let messages = wrong.messages();
             assert!(messages.iter().count() > 0);
             assert!(messages.render(false).starts_with("error"));
             assert!(messages.render(true).len() > 5);

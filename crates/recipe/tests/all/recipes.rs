@@ -511,10 +511,14 @@ fn a_set_on_a_recipe_is_the_same_as_a_set_on_its_text() {
         .unwrap();
     assert_eq!(one_by_one, at_once);
     let error = one_by_one.set("tool.nose_radius", "1 s").unwrap_err();
-    let RecipeError::Wrong(messages) = error else {
+    let RecipeError::Wrong(wrong) = error else {
         panic!("{error}");
     };
-    let spans: Vec<_> = messages.iter().filter_map(|one| one.span()).collect();
+    let spans: Vec<_> = wrong
+        .messages()
+        .iter()
+        .filter_map(|one| one.span())
+        .collect();
     assert_eq!(spans[0].source().text, "tool.nose_radius=1 s");
     assert_eq!(spans[0].source().rank, 4);
 }

@@ -26,7 +26,7 @@ use turnpath_report::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOu
 use crate::data_files::DataFiles;
 use crate::error::Error;
 use crate::run::chain_names;
-use crate::strategies::wrong_choices;
+use crate::strategies::{choices, wrong_choices};
 
 use files::AblationFiles;
 pub use key::FIGURES;
@@ -140,7 +140,7 @@ fn refuse_unknown(keys: &[Key]) -> Result<(), Error> {
 fn refuse_wrong_choices(variants: &[Variant], catalogue: &Catalogue) -> Result<(), Error> {
     let mut all: Vec<Diagnostic> = Vec::new();
     for variant in variants {
-        for diagnostic in wrong_choices(&variant.recipe, catalogue) {
+        for diagnostic in wrong_choices(choices(&variant.recipe), catalogue) {
             if !all.contains(&diagnostic) {
                 all.push(diagnostic);
             }
