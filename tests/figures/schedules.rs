@@ -129,7 +129,8 @@ const WITH_SCHEDULE: [&str; 6] = [
     "sampler={ use = \"minimax\" }",
     "velocity={ use = \"analytic\" }",
     "path={ overrun = \"contact\", lead = true }",
-    "output={ posts = [\"pmac-pvt\"], data = [\"csv\"] }",
+    // Beyond a million degrees the controller's own digits of an unwrapped C take a part of the tolerance.
+    "output={ posts = [\"pmac-pvt\"], data = [\"csv\"], pmac-pvt = { c_wrap = \"0-360\" } }",
 ];
 
 /// Everything holds on this recipe with the fewest points in the least time, with leads and a program.

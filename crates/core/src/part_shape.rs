@@ -21,16 +21,25 @@ pub struct PartShape {
     /// Whether the surface is not smooth where it is most hollow: on the way there the curvature
     /// grows without bound, and the figure is that of the closest place that was looked at.
     pub has_hollow_tip: bool,
-    /// The same where it is most domed: the tip of a cone.
+    /// The same where it is most domed: at the tip of a cone, for example.
     pub has_domed_tip: bool,
 }
 
-/// How often the way to a tip is halved.
-const HALVINGS: usize = 32;
+/// Places of the two principal curvatures among the figures of a place: of the more hollow one, and of the
+/// more domed one with the other sign.
+const HOLLOW: usize = 3;
+const DOMED: usize = 4;
 
-/// A curvature that grows by this much on that way has no bound: beside a tip it grows by 2³², and on a
-/// smooth place by little, since the search has been there.
-const NO_BOUND: f64 = 1e4;
+/// The ring around a place that may be a tip, over the outer radius: far above the rounding of positions.
+const CLOSE_RING: f64 = 4e-12;
+/// The ring that it is compared with, over the same.
+const WIDE_RING: f64 = 256.0 * CLOSE_RING;
+/// A curvature that is larger by this much on the close ring has no bound. Around the tip of a cone it is
+/// 256 times as large, where it follows the logarithm of the distance 1.3 times, and at a smooth place it
+/// is the same to less than 10⁻⁶.
+const NO_BOUND: f64 = 1.05;
+/// A curvature below this part of the other one at its place, or of one over the outer radius, is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Directions from the closest place to a tip, and lengths of steps there: (1, 0) to (−1, −1).
 const AROUND: [(f64, f64); 8] = [
@@ -71,8 +80,8 @@ pub fn of(surface: &dyn SurfaceModel, region: RadialRange) -> Result<PartShape> 
         room.measure(surface, theta, rho, out)
     })?;
     let [low, highest, steepest, most_hollow, dome] = found;
-    let has_hollow_tip = room.grows(surface, region, 3, most_hollow)?;
-    let has_domed_tip = room.grows(surface, region, 4, dome)?;
+    let has_hollow_tip = room.grows(surface, region, [HOLLOW, DOMED], most_hollow);
+    let has_domed_tip = room.grows(surface, region, [DOMED, HOLLOW], dome);
     let opposite = |extreme: Extreme| Extreme {
         value: -extreme.value,
         ..extreme
@@ -140,42 +149,68 @@ impl Room {
         Ok(())
     }
 
-    /// Whether the figure number `which` grows without bound around its largest value, within a
-    /// radius of curvature.
+    /// Whether a curvature grows without bound around its largest value; `other` is the one across.
     fn grows(
         &mut self,
         surface: &dyn SurfaceModel,
         region: RadialRange,
-        which: usize,
+        [which, other]: [usize; 2],
         found: Extreme,
-    ) -> Result<bool> {
-        let first = found.value;
+    ) -> bool {
         // A place that is not hollow at all, or not domed, is no tip.
-        if first <= 0.0 {
-            return Ok(false);
+        if found.value <= 0.0 {
+            return false;
         }
         let (sin, cos) = Scalar::sin_cos(found.theta);
-        let (mut at, mut best) = ((found.rho * cos, found.rho * sin), first);
-        let mut step = first.recip().min(region.outer - region.inner);
-        for _ in 0..HALVINGS {
-            let around = AROUND.map(|(x, y)| (at.0 + step * x, at.1 + step * y));
-            let on_part = around
-                .iter()
-                .copied()
-                .filter(|(x, y)| (region.inner..=region.outer).contains(&Scalar::hypot(*x, *y)));
-            let places: Vec<(f64, f64)> = on_part.collect();
-            let theta: Vec<f64> = places.iter().map(|(x, y)| Scalar::atan2(*y, *x)).collect();
-            let rho: Vec<f64> = places.iter().map(|(x, y)| Scalar::hypot(*x, *y)).collect();
-            let mut out = vec![[0.0; 5]; places.len()];
-            self.measure(surface, &theta, &rho, &mut out)?;
-            for (place, figures) in places.iter().zip(&out) {
-                if figures[which] > best {
-                    (at, best) = (*place, figures[which]);
-                }
+        let (mut at, mut best) = ((found.rho * cos, found.rho * sin), found.value);
+        let close = CLOSE_RING * region.outer;
+        // A tip is no farther than a radius of curvature.
+        let mut step = best.recip().min(region.outer - region.inner);
+        while step > 0.25 * close {
+            if let Some((place, figure)) = self.largest_around(surface, region, which, (at, step))
+                && figure > best
+            {
+                (at, best) = (place, figure);
             }
             step *= 0.5;
         }
-        Ok(best > NO_BOUND * first)
+        let mut ring = |radius: f64| self.largest_around(surface, region, which, (at, radius));
+        let (close, wide) = (ring(close), ring(WIDE_RING * region.outer));
+        close.zip(wide).is_some_and(|((place, close), (_, wide))| {
+            let across = self
+                .figures_at(surface, place)
+                .map_or(0.0, |figures| figures[other]);
+            let rounding = ROUNDING * (region.outer.recip() + across.abs());
+            close > rounding && close > NO_BOUND * wide
+        })
+    }
+
+    /// The largest of a figure in eight directions from a place, on the part, where the surface has it.
+    fn largest_around(
+        &mut self,
+        surface: &dyn SurfaceModel,
+        region: RadialRange,
+        which: usize,
+        ((x, y), distance): ((f64, f64), f64),
+    ) -> Option<((f64, f64), f64)> {
+        let around =
+            AROUND.map(|(along_x, along_y)| (x + distance * along_x, y + distance * along_y));
+        let on_part = around
+            .into_iter()
+            .filter(|(x, y)| (region.inner..=region.outer).contains(&Scalar::hypot(*x, *y)));
+        let figures = on_part.filter_map(|place| {
+            let figures = self.figures_at(surface, place)?;
+            Some((place, figures[which]))
+        });
+        figures.max_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    /// The figures at a place; `None` where the surface has none, as on a tip itself.
+    fn figures_at(&mut self, surface: &dyn SurfaceModel, (x, y): (f64, f64)) -> Option<[f64; 5]> {
+        let (theta, rho) = (Scalar::atan2(y, x), Scalar::hypot(x, y));
+        let mut figures = [[0.0; 5]];
+        let measured = self.measure(surface, &[theta], &[rho], &mut figures);
+        measured.ok().map(|()| figures[0])
     }
 
     /// Straight lines along x and along y through each place.
@@ -343,6 +378,50 @@ mod tests {
             let at_tip = square.less(S::constant(1e-50));
             let beside = S::select(at_tip, S::constant(1.0), square).sqrt();
             S::select(at_tip, S::constant(0.0), beside) * self.slope
+        }
+    }
+
+    /// The same without a slope at its tip.
+    struct BareCone {
+        slope: f64,
+        middle: [f64; 2],
+    }
+
+    impl Surface for BareCone {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let [to_x, to_y] = self.middle;
+            ((x - to_x).squared() + (y - to_y).squared()).sqrt() * self.slope
+        }
+    }
+
+    /// z = s·ρ^(3/2), whose curvature grows with ρ^(−1/2), and flat within 10⁻¹⁵ mm.
+    struct Thorn(f64);
+
+    impl Surface for Thorn {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let square = x.squared() + y.squared();
+            let at_tip = square.less(S::constant(1e-30));
+            let root = S::select(at_tip, S::constant(1.0), square).sqrt();
+            S::select(at_tip, S::constant(0.0), root * root.sqrt()) * self.0
+        }
+    }
+
+    #[test]
+    fn a_curvature_that_grows_slowly_without_bound_is_a_tip_too() {
+        let found = of(&Thorn(0.01), REGION).unwrap();
+        assert!(found.has_hollow_tip && !found.has_domed_tip);
+        let found = of(&Thorn(-0.1), REGION).unwrap();
+        assert!(!found.has_hollow_tip && found.has_domed_tip);
+    }
+
+    /// The search comes to the tip itself, where there is no slope.
+    #[test]
+    fn a_tip_without_a_slope_stops_no_search() {
+        for middle in [[1.0, 0.0], [0.1, 0.0], [2.5, -1.0]] {
+            for slope in [0.01, 0.3] {
+                let found = of(&BareCone { slope, middle }, REGION).unwrap();
+                assert!(found.has_hollow_tip && !found.has_domed_tip, "{middle:?}");
+            }
         }
     }
 

@@ -40,7 +40,7 @@ const BORDERS: [f64; 5] = [
     first_with(0x4015_fdbd),
     first_with(0x401c_463c),
 ];
-/// Below this angle, 2²⁰ π/2, the reduction is that of [`Reduced`].
+/// Below this angle, 2²⁰ π/2, the reduction is that of [`Remainder`].
 const LARGEST: f64 = first_with(0x4139_21fb);
 
 /// Coefficients of x³, x⁵, … of the sine.
@@ -94,7 +94,7 @@ pub(crate) fn of_lanes<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]
     let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
     let mut is_exception = false;
     for lane in 0..N {
-        let reduced = Reduced::of(angles[lane]);
+        let reduced = Remainder::of(angles[lane]);
         is_exception |= reduced.is_exception;
         (sines[lane], cosines[lane]) = reduced.sin_cos(angles[lane]);
     }
@@ -110,7 +110,7 @@ pub(crate) fn of_lanes<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]
 }
 
 /// An angle without its nearest multiple of π/2.
-struct Reduced {
+struct Remainder {
     /// The rest, −π/4 to π/4.
     rest: f64,
     /// What `rest` leaves out.
@@ -121,7 +121,7 @@ struct Reduced {
     is_exception: bool,
 }
 
-impl Reduced {
+impl Remainder {
     /// libm's `rem_pio2` in its first round.
     #[inline(always)]
     fn of(angle: f64) -> Self {
@@ -200,7 +200,7 @@ fn exponent(value: f64) -> i64 {
     (value.to_bits() >> 52) as i64 & 0x7ff
 }
 
-#[cfg(test)]
+#[cfg(all(test, target_arch = "x86_64"))]
 mod tests {
     use super::*;
     use crate::registers::each_width;
@@ -265,7 +265,7 @@ mod tests {
     fn few_angles_of_a_turn_are_exceptions() {
         let turn = (0..1_000_000).map(|k| f64::from(k) * 6.283e-6);
         let exceptions = turn
-            .filter(|angle| Reduced::of(*angle).is_exception)
+            .filter(|angle| Remainder::of(*angle).is_exception)
             .count();
         assert!(exceptions < 20, "{exceptions}");
     }

@@ -68,4 +68,4 @@ pub use refine::{MOST_ROUNDS, SMALLEST_SEGMENT};
 pub use run::{make_unmeasured, run};
 pub use sample::{PathSample, SampledBlock, sample_path};
 pub use sink::Sink;
-pub use taper::CLOSED_WITHIN;
+pub use taper::LARGEST_END_GAP;

@@ -33,9 +33,9 @@ const MOST_HELD: f64 = 2e7;
 const MOST_OVERLAP: usize = 10_000;
 /// Places a turn at which two laws of the spindle are compared.
 const PLACES_A_TURN: f64 = 4.0;
-/// A law is another one by a factor alone if the factor changes by no more than this part from place to
-/// place. The error of a cubic then changes by some such part of itself, and the samplers leave 2 % of
-/// the tolerance free. More would give refinement something to do.
+/// Two laws differ by a factor alone if their ratio changes by no more than this part from place to place.
+/// The error of a cubic then changes by about the same part, and samplers leave 2 % of the tolerance free.
+/// A larger part would leave points to refinement.
 const LARGEST_CHANGE: f64 = 2.5e-3;
 /// Where and when the cutting section begins: after the lead-in, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

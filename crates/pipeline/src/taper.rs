@@ -15,7 +15,7 @@ const TURNS: f64 = 1.25;
 /// this part of the distance to the next pass. A law that follows the angle until every angle has
 /// passed the rim does so. It gets no taper, since a taper turns the rest of the law by a part of a
 /// turn.
-pub const CLOSED_WITHIN: f64 = 0.41;
+pub const LARGEST_END_GAP: f64 = 0.41;
 /// A law that moves at its end by less than this part of its pitch a turn is at rest there.
 const REST: f64 = 0.01;
 /// Turns for which a law that ends at rest stays there. With the C² start of a turn that follows,
@@ -190,7 +190,7 @@ impl EndView<'_> {
         let pitch = (self.rho(1.0) - self.rho(0.0)).abs();
         let closes = |m: f64| {
             let next = (self.rho(m + 1.0) - self.rho(m)).abs();
-            inside(self.rho(m)) <= CLOSED_WITHIN * next
+            inside(self.rho(m)) <= LARGEST_END_GAP * next
         };
         let closed = (0..ANGLES).all(|i| closes(i as f64 / ANGLES as f64));
         if closed || !pitch.is_normal() {

@@ -10,10 +10,10 @@ use turnpath_core::{Gradients, Part, Scalar, StrategyError};
 
 use crate::{Chain, PipelineError, Result};
 
-/// Rings of the part, besides the inner one, and angles between whose crossings walls are looked
-/// for. A wall that crosses neither a ring nor a radius between two neighbours is not found.
+/// Circles about the axis on which walls are looked for, besides the innermost one. A wall that crosses no
+/// circle and no radius is not found.
 const RINGS: usize = 32;
-/// See [`RINGS`].
+/// Radii on which walls are looked for.
 const ANGLES: usize = 360;
 /// Lower jumps are none, mm: a nanometre is below what a tool leaves.
 const LOWEST: f64 = 1e-6;

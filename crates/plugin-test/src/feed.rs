@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::{Continuation, Direction, Setup, SpiralLaw, Task};
-use turnpath_pipeline::CLOSED_WITHIN;
+use turnpath_pipeline::LARGEST_END_GAP;
 
 use crate::chain::TrialChain;
 use crate::fault::FaultKind;
@@ -86,7 +86,7 @@ fn open_ends(law: &SpiralLaw, task: &Task) -> Vec<FaultKind> {
                 true => task.range.outer - rho,
                 false => rho - task.range.inner,
             };
-            (at(m), inside, CLOSED_WITHIN * (next - rho).abs())
+            (at(m), inside, LARGEST_END_GAP * (next - rho).abs())
         });
         let worst = passes.max_by(|one, other| (one.1 - one.2).total_cmp(&(other.1 - other.2)));
         let (n, inside, most) = worst.filter(|(_, inside, most)| inside > most)?;

@@ -92,6 +92,9 @@ impl Source {
             Node::Quotient(_, b) if of(b) == 0.0 => "a division by 0",
             Node::Power(a, exponent) if exponent < 0 && of(a) == 0.0 => "a division by 0",
             Node::RealPower(a, _) if of(a) < 0.0 => "a broken power of a negative number",
+            Node::RealPower(a, _) if of(a) == 0.0 => {
+                "a broken power of 0, whose derivatives turnpath does not know"
+            }
             _ if self.has_slope(id, x, y) => "no finite derivatives up to the fourth",
             _ if self.value(id, x, y).is_finite() => "no slope",
             _ => "no finite value",
@@ -156,7 +159,10 @@ mod tests {
             (
                 "mm*(x/mm)^1.5",
                 0.0,
-                ("(x/mm)^1.5", "no finite derivatives up to the fourth"),
+                (
+                    "(x/mm)^1.5",
+                    "a broken power of 0, whose derivatives turnpath does not know",
+                ),
             ),
         ] {
             assert_eq!(gap(text, x, 0.25), Some(expected), "{text}");

@@ -51,8 +51,8 @@ pub(super) struct Arms {
 struct TurnHarmonics {
     /// F_k, mm.
     values: Vec<Complex<f64>>,
-    /// |F_k|, mm.
-    sizes: Vec<f64>,
+    /// |F_k|², mm².
+    squares: Vec<f64>,
 }
 
 impl Default for Arms {
@@ -76,24 +76,24 @@ impl Arms {
             _ => None,
         };
         let mut harmonics = oldest.unwrap_or_default();
-        let TurnHarmonics { values, sizes } = &mut harmonics;
+        let TurnHarmonics { values, squares } = &mut harmonics;
         values.clear();
         if turn.errors.iter().all(|error| !error.is_nan()) {
             self.of_turn.harmonics(&turn.errors, values);
         }
-        sizes.clear();
-        sizes.extend(values.iter().map(|value| value.norm_sqr().sqrt()));
+        squares.clear();
+        squares.extend(values.iter().map(|value| value.norm_sqr()));
         self.turns.push_back(harmonics);
     }
 
     /// Looks for larger arms on the turns of the window, whose contacts lie between two radii.
     pub(super) fn look(&mut self, [from, to]: [f64; 2]) {
         let whole = self.turns.iter().filter(|turn| !turn.values.is_empty());
-        let mut sizes = vec![0.0; HIGHEST + 1 - LOWEST];
+        let mut squares = vec![0.0; HIGHEST + 1 - LOWEST];
         let mut count = 0;
         for turn in whole {
-            let each = sizes.iter_mut().zip(&turn.sizes);
-            each.for_each(|(sum, size)| *sum += size);
+            let each = squares.iter_mut().zip(&turn.squares);
+            each.for_each(|(sum, square)| *sum += square);
             count += 1;
         }
         // Where many turns lie in part beside the part, nothing is known of the others.
@@ -103,9 +103,10 @@ impl Arms {
         let mut largest = self.largest.map_or(0.0, |arms| arms.amplitude);
         let mut over_turns = vec![Complex::default(); RATES];
         let mut scratch = vec![Complex::default(); self.over_turns.get_inplace_scratch_len()];
-        for (number, size) in sizes.iter().enumerate() {
-            // No pattern is larger than its harmonic on the turns is in the mean.
-            if 2.0 * size <= largest * count as f64 {
+        for (number, square) in squares.iter().enumerate() {
+            // No pattern is larger than the root of the mean square of its harmonic on the turns, with or
+            // without what stays.
+            if 2.0 * (square / count as f64).sqrt() <= largest {
                 continue;
             }
             over_turns.fill(Complex::default());
