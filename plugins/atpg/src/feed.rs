@@ -51,8 +51,8 @@ impl Strategy for AtpgFeed {
     const NAME: &'static str = "atpg";
     const SUMMARY: &'static str = "at each radius the largest feed that holds the residual at \
         every angle, made smooth";
-    const SOURCE: &'static str = "Wang et al. 2019, Micromachines 10, §3.2 and 3.3; fit = \
-        \"smooth\" stays below the feed, which the paper's cubic does not; large feeds from the \
+    const SOURCE: &'static str = "Wang et al. 2019, Materials 12, 810, \
+        doi:10.3390/ma12050810, §3.2 and 3.3; fit = \"smooth\" stays below the feed, which the paper's cubic does not; large feeds from the \
         exact cusp, as far as neighbouring noses meet within their edges";
     const PARAMS: &'static [ParamInfo] = &[RESIDUAL.info(), FIT.info()];
 

@@ -20,8 +20,8 @@ impl Strategy for AtpgSampler {
     const NAME: &'static str = "atpg";
     const SUMMARY: &'static str = "steps as long as the interpolation tolerance allows, from the \
         4th derivative of the tool centre's own path";
-    const SOURCE: &'static str = "Wang et al. 2019, Micromachines 10, §3.4, eq. 10; on the \
-        compensated path, and with the step's own maximum";
+    const SOURCE: &'static str = "Wang et al. 2019, Materials 12, 810, \
+        doi:10.3390/ma12050810, §3.4, eq. 10; on the compensated path, and with the step's own maximum";
     const PARAMS: &'static [ParamInfo] = &[MAX_STEP.info(), WANDER.info()];
 
     fn new(params: &Params) -> Result<Self> {

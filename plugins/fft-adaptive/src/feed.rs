@@ -64,8 +64,9 @@ impl Strategy for FftAdaptiveFeed {
     const NAME: &'static str = "fft-adaptive";
     const SUMMARY: &'static str = "one feed a revolution, whose chord stays within a tolerance on \
         every radial profile";
-    const SOURCE: &'static str = "Zhong et al., adaptive toolpath planning for diamond face \
-        turning, eq. 1–3 and 5; limit_residual is not the paper's";
+    const SOURCE: &'static str = "Zhong, Tong, Chen and Jiang, Development of an adaptive toolpath \
+        planning strategy for diamond face turning of freeform surfaces (no DOI is known), \
+        eq. 1–3 and 5; limit_residual is not the paper's";
     const PARAMS: &'static [ParamInfo] = &[
         CHORD.info(),
         TOLERANCE.info(),

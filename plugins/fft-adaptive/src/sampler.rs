@@ -51,8 +51,9 @@ impl Strategy for FftAdaptiveSampler {
     const NAME: &'static str = "fft-adaptive";
     const SUMMARY: &'static str = "steps whose chord stays within the tolerance, and never longer \
         than half the shortest wave that is as high as it";
-    const SOURCE: &'static str = "Zhong et al., adaptive toolpath planning for diamond face \
-        turning, eq. 1 and 4; the printed rule is curvature = \"start\"";
+    const SOURCE: &'static str = "Zhong, Tong, Chen and Jiang, Development of an adaptive toolpath \
+        planning strategy for diamond face turning of freeform surfaces (no DOI is known), \
+        eq. 1 and 4; the printed rule is curvature = \"start\"";
     const PARAMS: &'static [ParamInfo] = &[CHORD.info(), CURVATURE.info(), MAX_STEP.info()];
 
     fn new(params: &Params) -> Result<Self> {
