@@ -14,7 +14,8 @@ const K: Param<PerLength> =
 impl Strategy for Astigmatic {
     const NAME: &'static str = "astigmatic";
     const SUMMARY: &'static str = "a saddle, z = k ρ² sin 2θ";
-    const SOURCE: &'static str = "the astigmatic mirror of Wang et al. 2019, Materials 12, 810, doi:10.3390/ma12050810";
+    const SOURCE: &'static str =
+        "the astigmatic mirror of Wang et al. 2019, Materials 12, 810, doi:10.3390/ma12050810";
     const PARAMS: &'static [ParamInfo] = &[K.info()];
 
     fn new(params: &Params) -> Result<Self> {
