@@ -10,8 +10,9 @@ keys=$(mktemp)
 trap 'rm -f "$keys"' EXIT
 $turnpath ablate "$recipe" -o "$folder" "$@" --plan=open >"$keys" || exit
 if [ -s "$keys" ]; then
-    # A task whose worker dies is given to another one. HQ_ENTRY is a line of the file.
-    hq submit --wait --stdout=none --stderr=none --each-line "$keys" --cpus=1 -- \
+    # A task whose worker dies is given to another one. HQ_ENTRY is a line of the file. A worker has the
+    # PATH with which it was started, which need not lead to turnpath.
+    hq submit --wait --stdout=none --stderr=none --each-line "$keys" --cpus=1 --env "PATH=$PATH" -- \
         sh -c 'turnpath=$0; exec $turnpath ablate "$@" --quiet --only "$HQ_ENTRY"' \
         "$turnpath" "$recipe" -o "$folder" "$@"
 fi
