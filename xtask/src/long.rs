@@ -20,65 +20,148 @@ const SYSTEM_PYTHON: &str = "/usr/bin/python3";
 /// How long random recipes are measured, s: a sample of them, some seconds each.
 const MEASURING_S: &str = "300";
 
-const OTHER_CHECKS: &str = "\
-random input: the tests of the crates once more, with eight times as many cases
-playback: tests/reference/playback/selftest.py, the independent measurement on closed forms
-random recipes: tests/reference/playback/measure_random.py, those of the test of five hundred
-maps: tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader
-correction: tests/reference/grids/correction.py, a part that is corrected by its own measured error
-linuxcnc: tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it
-columns: tests/reference/data/columns.py, columns of a path by pyarrow and numpy
-report: tests/reference/report/report.cjs, pages in Chromium by playwright-core
-schema: tests/reference/schema/schema.py, the schema of recipes by taplo
-dry runs: tests/reference/programs/dry_run.py, dry runs by an independent reader
-programs: tests/reference/programs/siemens_840d.py and beckhoff_poly.py, independent evaluations of polynomials
-queues: the scripts of docs/queues by GNU parallel, HyperQueue, dask.distributed and Slurm
-book: `mdbook build docs`, the pages as a book, and tests/reference/book/links.py, its links and its search
-tables: the tables of the ablations as LaTeX, by pdflatex with booktabs
-fuzz: `cargo xtask fuzz`, a minute for each target
-msrv: `cargo xtask msrv`
-deny: `cargo xtask deny`
-python: `cargo xtask python`, the wheel of the Python package in an empty environment";
-
-/// What `run` would do, a line each.
-pub fn list() -> String {
-    let tests = ignored_tests().into_iter();
-    let tests: Vec<String> = tests.map(|name| format!("test: {name}\n")).collect();
-    format!("{}{OTHER_CHECKS}", tests.concat())
+/// A check that `.ci/run` leaves out.
+struct Check {
+    name: &'static str,
+    what: &'static str,
+    run: Run,
 }
 
-/// Runs all of them.
-pub fn run_checks() -> Vec<Step> {
-    let mut steps = vec![
-        Step::run("tests that `.ci/run` ignores", ignored),
-        Step::run("random input", random_input),
-        Step::run("playback", || {
-            with_packages(&["numpy"], || {
-                run(script("tests/reference/playback/selftest.py", &[]))
-            })
-        }),
-        Step::run("random recipes", || {
-            with_packages(&["numpy"], random_recipes)
-        }),
-        Step::run("maps", || with_packages(&["numpy", "gsffile"], maps)),
-        Step::run("correction", || with_packages(&["numpy"], correction)),
-        Step::run("linuxcnc", || {
-            with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)
-        }),
-        Step::run("columns", || with_packages(&["numpy", "pyarrow"], columns)),
-        Step::run("report", || browser::report(program)),
-        Step::run("schema", schema),
-        Step::run("dry runs", dry_runs),
-        Step::run("programs", || with_packages(&[], programs)),
-        Step::run("book", || with_packages(&[], book)),
-        Step::run("tables", || latex::tables(program)),
-    ];
-    steps.extend(queues());
-    steps.extend(fuzz::run_targets(&[]));
-    steps.extend(msrv::run_checks());
-    steps.extend(deny::run_checks());
-    steps.extend(python_package::run_checks());
-    steps
+/// How a check runs.
+enum Run {
+    /// In one step.
+    Step(fn() -> Outcome),
+    /// In steps of its own.
+    Steps(fn() -> Vec<Step>),
+}
+
+const CHECKS: &[Check] = &[
+    Check {
+        name: "tests",
+        what: "the tests above",
+        run: Run::Step(ignored),
+    },
+    Check {
+        name: "random-input",
+        what: "the tests of the crates once more, with eight times as many cases",
+        run: Run::Step(random_input),
+    },
+    Check {
+        name: "playback",
+        what: "tests/reference/playback/selftest.py, the independent measurement on closed forms",
+        run: Run::Step(playback),
+    },
+    Check {
+        name: "random-recipes",
+        what: "tests/reference/playback/measure_random.py, those of the test of five hundred",
+        run: Run::Step(|| with_packages(&["numpy"], random_recipes)),
+    },
+    Check {
+        name: "maps",
+        what: "tests/reference/maps/check_maps.py, maps of the machined surface by an independent reader",
+        run: Run::Step(|| with_packages(&["numpy", "gsffile"], maps)),
+    },
+    Check {
+        name: "correction",
+        what: "tests/reference/grids/correction.py, a part that is corrected by its own measured error",
+        run: Run::Step(|| with_packages(&["numpy"], correction)),
+    },
+    Check {
+        name: "linuxcnc",
+        what: "tests/reference/programs/linuxcnc.py, a program as LinuxCNC's own interpreter reads it",
+        run: Run::Step(|| with_packages_of(SYSTEM_PYTHON, &["gcode"], linuxcnc)),
+    },
+    Check {
+        name: "columns",
+        what: "tests/reference/data/columns.py, columns of a path by pyarrow and numpy",
+        run: Run::Step(|| with_packages(&["numpy", "pyarrow"], columns)),
+    },
+    Check {
+        name: "report",
+        what: "tests/reference/report/report.cjs, pages in Chromium by playwright-core",
+        run: Run::Step(|| browser::report(program)),
+    },
+    Check {
+        name: "schema",
+        what: "tests/reference/schema/schema.py, the schema of recipes by taplo",
+        run: Run::Step(schema),
+    },
+    Check {
+        name: "dry-runs",
+        what: "tests/reference/programs/dry_run.py, dry runs by an independent reader",
+        run: Run::Step(dry_runs),
+    },
+    Check {
+        name: "programs",
+        what: "tests/reference/programs/siemens_840d.py and beckhoff_poly.py, independent evaluations of polynomials",
+        run: Run::Step(|| with_packages(&[], programs)),
+    },
+    Check {
+        name: "book",
+        what: "`mdbook build docs`, the pages as a book, and tests/reference/book/links.py, its links and its search",
+        run: Run::Step(|| with_packages(&[], book)),
+    },
+    Check {
+        name: "tables",
+        what: "the tables of the ablations as LaTeX, by pdflatex with booktabs",
+        run: Run::Step(|| latex::tables(program)),
+    },
+    Check {
+        name: "queues",
+        what: "the scripts of docs/queues by GNU parallel, HyperQueue, dask.distributed and Slurm",
+        run: Run::Steps(queues),
+    },
+    Check {
+        name: "fuzz",
+        what: "`cargo xtask fuzz`, a minute for each target",
+        run: Run::Steps(|| fuzz::run_targets(&[])),
+    },
+    Check {
+        name: "msrv",
+        what: "`cargo xtask msrv`",
+        run: Run::Steps(msrv::run_checks),
+    },
+    Check {
+        name: "deny",
+        what: "`cargo xtask deny`",
+        run: Run::Steps(deny::run_checks),
+    },
+    Check {
+        name: "python",
+        what: "`cargo xtask python`, the wheel of the Python package in an empty environment",
+        run: Run::Steps(python_package::run_checks),
+    },
+];
+
+/// What the checks do, a line each.
+pub fn list() -> String {
+    let tests = ignored_tests().into_iter();
+    let tests = tests.map(|name| format!("test: {name}"));
+    let checks = CHECKS.iter();
+    let checks = checks.map(|check| format!("{}: {}", check.name, check.what));
+    tests.chain(checks).collect::<Vec<_>>().join("\n")
+}
+
+/// Runs the checks of these names, or all of them.
+pub fn run_named(names: &[&str]) -> Result<Vec<Step>, String> {
+    let is_known = |name: &str| CHECKS.iter().any(|check| check.name == name);
+    if let Some(unknown) = names.iter().find(|name| !is_known(name)) {
+        let known: Vec<&str> = CHECKS.iter().map(|check| check.name).collect();
+        return Err(format!("no check `{unknown}`: {}", known.join(", ")));
+    }
+    let chosen = CHECKS.iter();
+    let chosen = chosen.filter(|check| names.is_empty() || names.contains(&check.name));
+    let steps = chosen.map(|check| match check.run {
+        Run::Step(run) => vec![Step::run(check.name, run)],
+        Run::Steps(run) => run(),
+    });
+    Ok(steps.flatten().collect())
+}
+
+fn playback() -> Outcome {
+    with_packages(&["numpy"], || {
+        run(script("tests/reference/playback/selftest.py", &[]))
+    })
 }
 
 fn ignored() -> Outcome {

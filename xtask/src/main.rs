@@ -20,7 +20,8 @@ use step::{Step, report};
 const HELP: &str = "\
 cargo xtask COMMAND
 
-  long [--list]       every check that `.ci/run` leaves out, or their names
+  long [NAME…]        every check that `.ci/run` leaves out, or those of these names
+  long --list         what they are
   reference [NAME…]   makes the reference figures again, or those of these names
   bench [WORD…]       times the program against scripts of the same chain, for docs/benchmarks.md
   fuzz [NAME…]        fuzzes the targets of tests/fuzz with cargo-fuzz, or those of these names
@@ -38,23 +39,26 @@ fn main() -> ExitCode {
             println!("{}", long::list());
             return ExitCode::SUCCESS;
         }
-        ["long"] => long::run_checks(),
+        ["long", names @ ..] => match long::run_named(names) {
+            Ok(steps) => steps,
+            Err(unknown) => return refuse(&unknown),
+        },
         ["reference", names @ ..] => match reference::run_named(names) {
             Ok(steps) => steps,
-            Err(unknown) => {
-                eprintln!("{unknown}");
-                return ExitCode::from(2);
-            }
+            Err(unknown) => return refuse(&unknown),
         },
         ["bench", words @ ..] => bench::run_bench(words),
         ["fuzz", names @ ..] => fuzz::run_targets(names),
         ["msrv"] => msrv::run_checks(),
         ["deny"] => deny::run_checks(),
         ["python"] => python_package::run_checks(),
-        _ => {
-            eprintln!("{HELP}");
-            return ExitCode::from(2);
-        }
+        _ => return refuse(HELP),
     };
     report(&steps)
+}
+
+/// Ends a call that is wrong.
+fn refuse(why: &str) -> ExitCode {
+    eprintln!("{why}");
+    ExitCode::from(2)
 }
