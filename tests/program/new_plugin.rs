@@ -9,7 +9,7 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::support::bench::{Answer, Bench, answer};
 use crate::support::builds::target_folder;
@@ -28,9 +28,6 @@ const SLOTS: [&str; 6] = [
 /// The slot and the name of the page's own commands.
 const PAGE_SLOT: &str = "sampler";
 const PAGE_NAME: &str = "my-steps";
-
-/// From nothing to a row in the comparison, compiling included.
-const FIVE_MINUTES: Duration = Duration::from_secs(300);
 
 /// The commands of the page for a strategy of this slot.
 fn commands(slot: &str, name: &str) -> Vec<String> {
@@ -128,18 +125,17 @@ fn a_new_sampler_is_a_row_of_the_comparison_by_the_commands_of_the_page() {
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_new_plugins_of_all_slots_are_rows_by_the_commands_of_the_page() {
-    // Nothing is compiled yet for the first one.
+    // Nothing is compiled yet for the first one, whose time is that of a newcomer.
     let _ = fs::remove_dir_all(target_folder("new-plugins"));
     let first = SLOTS.iter().position(|slot| *slot == PAGE_SLOT).unwrap();
     let mut slots = SLOTS;
     slots.swap(0, first);
-    for (i, slot) in slots.into_iter().enumerate() {
+    for slot in slots {
         let (bench, name, begin) = (Bench::empty(), format!("my-{slot}"), Instant::now());
         let table = follow_the_page(&bench, slot, &name, Build::AsThePageSays);
         let took = begin.elapsed();
         println!("{slot}: {:.1} s\n{table}", took.as_secs_f64());
         assert!(table.contains(&name), "{slot}\n{table}");
-        assert!(i > 0 || took < FIVE_MINUTES, "{took:?}");
     }
 }
 
