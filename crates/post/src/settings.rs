@@ -181,8 +181,8 @@ pub(crate) const C_LIMIT: Param<Option<Angle>> = Param::angle(
 /// That of TwinCAT CNC: 1190 turns, which its maker documents for increments of 0.0001 deg.
 pub(crate) const TWINCAT_C_LIMIT: Param<Angle> = Param::angle(
     "c_limit",
-    "how far C of your machine may be from zero, to both sides, where C is not wrapped; the default is the \
-     1190 turns that the maker documents for increments of 0.0001 deg",
+    "how far C of your machine may be from zero, to both sides; the default is the 1190 turns that the maker \
+     documents for increments of 0.0001 deg",
 )
 .default(1190.0 * 360.0 * DEG)
 .positive();

@@ -213,7 +213,7 @@ impl Program {
         // The first part begins with the lead-in; a lead-out may be cut anywhere.
         let cuts = || of(Section::Cutting);
         let with_leads = cuts().flat_map(|cut| of(Section::LeadIn).map(move |lead| (lead, cut)));
-        let with_leads = with_leads.map(|(lead, cut)| filled(lead, cut, limits.part));
+        let with_leads = with_leads.map(|(lead, cut)| lead_and_cut(lead, cut, limits.part));
         for lines in cuts().chain(with_leads) {
             let largest = limits.largest_part(lines, around);
             let part = PartName::of(file, parts);
@@ -389,7 +389,7 @@ impl Program {
 }
 
 /// The lines of a lead, and behind them so many lines of the cut that they fill a part.
-fn filled(lead: TextSize, cut: TextSize, part: Amount) -> TextSize {
+fn lead_and_cut(lead: TextSize, cut: TextSize, part: Amount) -> TextSize {
     let rest = |own: u64, room: u64, of: u64, by: u64| {
         let rest = room.saturating_sub(own) as f64;
         (rest * of as f64 / by.max(1) as f64).ceil() as u64

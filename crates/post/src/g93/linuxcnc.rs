@@ -83,6 +83,7 @@ const WORDS: Words = Words {
 const TRAVEL: TravelWords = TravelWords {
     text: " G8 G21 G40 G61",
     needed: &["G90", "G94", "G8", "G21", "G40", "G61"],
+    allowed: &[],
 };
 
 impl Dialect for LinuxCnc {
@@ -160,6 +161,8 @@ mod tests {
         assert_eq!(said, "a move before `G21`");
         assert!(TRAVEL.read("G21", &mut modes).is_ok());
         assert!(TRAVEL.read("G0 Z6.5", &mut modes).is_ok());
-        assert!(TRAVEL.read("G20", &mut modes).is_err());
+        for unknown in ["G20", "G60", "G9"] {
+            assert!(TRAVEL.read(unknown, &mut modes).is_err(), "{unknown}");
+        }
     }
 }
