@@ -2,6 +2,8 @@
 
 use turnpath_core::toolpath::{Section, SegmentShape};
 
+use crate::part_name::PartNumbers;
+
 /// Degrees of a revolution.
 pub(crate) const TURN_DEG: i64 = 360;
 /// The beginning of the line after the path, in its comment.
@@ -151,6 +153,8 @@ pub struct ProgramFormat {
     pub time_axis: Option<TimeAxis>,
     /// The largest C of the program, to both sides, in last digits, where its axis has an end.
     pub c_limit: Option<i64>,
+    /// The numbers of the path's parts, where the controller calls programs by numbers.
+    pub part_numbers: PartNumbers,
     /// How far above the highest place of the path X and C move before it, mm.
     pub approach_height: f64,
     /// How fast Z goes down to the path's first point, mm/min.

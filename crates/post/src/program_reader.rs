@@ -391,7 +391,8 @@ impl<R: Read> ProgramReader<R> {
         }
         let code = std::str::from_utf8(code).ok()?;
         let own = self.path.file_name().unwrap_or_default().to_string_lossy();
-        self.post.dialect.called_part(code, text_name(&own))
+        let main = (text_name(&own), &self.format.part_numbers);
+        self.post.dialect.called_part(code, main)
     }
 
     /// Goes on with the lines of a part. Its file is compressed as that of the main program is.
@@ -407,10 +408,12 @@ impl<R: Read> ProgramReader<R> {
         let own = std::mem::replace(&mut self.path, path);
         let text = text_name(&name);
         let stem = text.rsplit_once('.').map_or(text, |(stem, _)| stem);
+        let numbers = self.format.part_numbers;
         let around = self.post.dialect.part_frame(&PartName {
             stem: stem.to_owned(),
             file: text.to_owned(),
             number: self.parts.number(),
+            program_number: numbers.program_of(self.parts.number()),
         });
         self.parts.expect(around);
         self.parts.caller = Some((main, own, self.line));

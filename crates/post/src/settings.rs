@@ -4,6 +4,7 @@ use turnpath_core::kind::{Angle, Choice, Count, Length, Number, Text, Time, Velo
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{DEG, Param, ParamDefault, Params};
 
+use crate::part_name::PartNumbers;
 use crate::post::Post;
 use crate::program_format::{Chords, Depths, FeedMeaning, ProgramFormat, Slowest, TimeAxis};
 
@@ -260,6 +261,7 @@ impl Post {
                 .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
             depths: depths(settings, position_decimals),
             time_axis: self.time_axis(settings),
+            part_numbers: PartNumbers::ALONE,
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)

@@ -7,7 +7,7 @@ use super::timing::{check_time, is_dwell};
 use super::write::{push_dwell, push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code::{TravelWords, commands, ends_program};
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
@@ -133,7 +133,7 @@ impl Dialect for LinuxCnc {
         [vec![format!("O<{name}>SUB")], end.to_vec()]
     }
 
-    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+    fn called_part(&self, code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         let code: String = code.split_whitespace().collect();
         let code = code.to_ascii_lowercase();
         let name = code.strip_prefix("o<")?.strip_suffix(">call")?;
