@@ -269,7 +269,7 @@ fn no_two_parts_of_a_run_have_one_number_on_a_controller_that_calls_by_numbers()
     for extension in ["pmc", "ppmc"] {
         let mut numbers = Vec::new();
         for (path, hundred) in [("recipe", 1), ("recipe-rough", 2), ("recipe-middle", 3)] {
-            let main = bench.read(&format!("out/{path}.{extension}"));
+            let main = bench.read(format!("out/{path}.{extension}"));
             let calls: Vec<u32> = main
                 .lines()
                 .filter_map(|line| {
@@ -288,7 +288,7 @@ fn no_two_parts_of_a_run_have_one_number_on_a_controller_that_calls_by_numbers()
             assert!(!calls.is_empty(), "{path}: {main}");
             assert_eq!(calls, expected, "{path}");
             for (part, number) in calls.iter().enumerate() {
-                let text = bench.read(&format!("out/{path}-part-{}.{extension}", part + 1));
+                let text = bench.read(format!("out/{path}-part-{}.{extension}", part + 1));
                 let opens = format!("open prog {number}");
                 assert!(text.to_ascii_lowercase().contains(&opens), "{text}");
             }

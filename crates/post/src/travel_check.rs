@@ -185,7 +185,7 @@ impl TravelCheck {
         }
         if let Some(begin) = self.begin {
             refuse_below(begin, self.lowest_fed, "Z goes down to", || {
-                format!("the path begins at {begin} mm, and nothing before it goes lower")
+                format!("the path begins at {begin:.4} mm, and nothing before it goes lower")
             })?;
         }
         let Some(highest) = self.highest else {

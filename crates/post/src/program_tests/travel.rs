@@ -484,7 +484,7 @@ fn an_approach_that_goes_through_the_part_is_refused_with_its_line() {
             let Err(said) = read else {
                 continue;
             };
-            let down = format!("Z goes down to Z = {z} mm; the path begins at 1.5 mm");
+            let down = format!("Z goes down to Z = {z} mm; the path begins at 1.5000 mm");
             assert!(said.contains(&down), "{}: {said}", post.name);
             let number = 1 + head.lines().count() + usize::from(post.name.contains("pmac"));
             let line = format!("line {number}: ");
