@@ -6,6 +6,7 @@
 //! A reader shares no code with the writer of its format.
 
 mod amount;
+mod around_path;
 mod automation1;
 mod axes;
 mod beckhoff;
@@ -65,6 +66,7 @@ mod write_npz;
 mod write_parquet;
 
 pub use amount::{Amount, AmountError, TextSize};
+pub use around_path::AroundPath;
 pub use carry::CarriedPoints;
 pub use columns::{ColumnFormat, Columns, WriteColumns};
 pub use compression::{Compression, text_name};

@@ -24,6 +24,12 @@ pub(crate) fn parts_mark(parts: u32) -> String {
     format!("-- {parts} parts --")
 }
 
+/// The parts that such a mark says.
+pub(crate) fn says_parts(mark: &str) -> Option<u32> {
+    let rest = mark.strip_prefix("-- ")?;
+    rest.strip_suffix(" parts --")?.parse().ok()
+}
+
 /// The mark before the lines of a part.
 pub(crate) fn part_mark(number: u32) -> String {
     format!("-- part {number} --")

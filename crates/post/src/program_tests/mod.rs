@@ -6,6 +6,7 @@ use turnpath_files::Draft;
 
 use crate::{Chords, Layout, Lines, Post, ProgramFormat, ProgramWriter, ReadPath, TimeAxis};
 
+mod around_path;
 #[cfg(feature = "zst")]
 mod compressed;
 mod damage;
