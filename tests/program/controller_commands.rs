@@ -162,3 +162,72 @@ fn a_rotary_buffer_that_a_recipe_asks_for_needs_trust_and_the_path_stays_the_sam
     assert_eq!(path(&rotary), path(&program));
     bench.line("verify recipe.toml out/recipe.pmc").ends(0);
 }
+
+/// `verify` judges what a file tells the controller outside of its path, too: no reader of paths sees it.
+#[test]
+fn verify_names_what_a_program_tells_besides_its_recipe() {
+    let posts = ["pmac-pvt", "siemens-840d-poly", "beckhoff-g93"];
+    let names = posts.map(|post| format!("\"{post}\"")).join(", ");
+    let bench = Bench::with(&format!("{SADDLE}\n[output]\nposts = [{names}]\n"));
+    bench.line("run recipe.toml -o out").ends(0);
+    for (file, command) in [
+        ("recipe.pmc", "X0Z-5"),
+        ("recipe.pmc", "ENABLE PLC 1"),
+        ("recipe.mpf", "G0 Z-5"),
+        ("recipe.cnc", "G70"),
+    ] {
+        let text = bench.read(format!("out/{file}"));
+        let verify = format!("verify recipe.toml {file}");
+        bench.write(file, &text);
+        let said = bench.line(&verify).ends(0);
+        assert!(!said.stdout.contains("may move"), "{said}");
+        let begin = text.find("-- cutting").unwrap();
+        let at = text[..begin].rfind('\n').unwrap() + 1;
+        let (head, rest) = text.split_at(at);
+        bench.write(file, format!("{head}{command}\n{rest}{command}\n"));
+        let said = bench.line(&verify).ends(0);
+        let first = head.lines().count() + 1;
+        let last = text.lines().count() + 2;
+        for (line, template) in [(first, "header"), (last, "footer")] {
+            let says = format!(
+                "line {line}: {command}, which the recipe's {template} does not have there"
+            );
+            assert!(said.stdout.contains(&says), "{says}: {said}");
+        }
+        let report = bench
+            .line(&format!("{verify} --format json"))
+            .ends(0)
+            .json();
+        let named = &report["controller_commands"];
+        assert_eq!(
+            (&named[0]["command"], &named[0]["line"]),
+            (&command.into(), &first.into())
+        );
+    }
+}
+
+/// A word that is harmless where the recipe has it may end the program at another place.
+#[test]
+fn verify_names_a_harmless_word_at_a_place_where_the_path_does_not_follow() {
+    let bench = bench("");
+    bench.line("run recipe.toml -o out").ends(0);
+    let text = bench.read("out/recipe.pmc");
+    let opens = "OPEN PROG 1 CLEAR\n";
+    assert!(text.contains(opens));
+    bench.write(
+        "recipe.pmc",
+        text.replacen(opens, &format!("{opens}CLOSE\n"), 1),
+    );
+    let said = bench.line("verify recipe.toml recipe.pmc").ends(0);
+    let says = ": CLOSE, which the recipe's header does not have there; it may move";
+    assert!(said.stdout.contains(says), "{said}");
+}
+
+/// What the recipe's own header has is the recipe's, and `run` has asked for trust.
+#[test]
+fn verify_does_not_name_what_the_recipe_has() {
+    let bench = bench(COOLANT);
+    bench.line("run recipe.toml -o out --trust-recipe").ends(0);
+    let said = bench.line("verify recipe.toml out/recipe.pmc").ends(0);
+    assert!(!said.stdout.contains("may move"), "{said}");
+}

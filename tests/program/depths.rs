@@ -77,7 +77,7 @@ fn a_loop_plays_the_path_of_the_recipe_three_times_each_deeper() {
     once.line("run recipe.toml -o out").ends(0);
     let bench = Bench::with(&saddle(THREE));
     let said = bench.line("run recipe.toml -o out --dry-run").ends(0);
-    assert!(said.stdout.contains("the program plays the cut 3 times"));
+    assert!(said.stdout.contains("the program plays the path 3 times"));
     assert!(
         said.stdout
             .contains("the first is 4000.00 nm above the path")
@@ -112,6 +112,50 @@ fn a_loop_plays_the_path_of_the_recipe_three_times_each_deeper() {
         once.read("out/toolpath.csv"),
         bench.read("out/toolpath.csv")
     );
+}
+
+/// The time of one turn of a loop by the lines of its program, s: F of a line is its seconds, and that of Z's
+/// way down is mm/min. Rapid moves take none.
+fn time_of_a_turn(text: &str) -> f64 {
+    let (mut z, mut seconds) = (f64::NAN, 0.0);
+    let mut is_timed = false;
+    for line in text.lines().filter(|line| !line.starts_with(';')) {
+        let word = |letter: char| {
+            let mut words = line.split_whitespace();
+            words.find_map(|word| word.strip_prefix(letter)?.parse::<f64>().ok())
+        };
+        is_timed = (is_timed || line.contains("G93")) && !line.contains("G94");
+        if let Some(feed) = word('F') {
+            let way = |to: f64| (z - to).abs() / feed * 60.0;
+            // The way to the first point has F too, and the axes are there.
+            seconds += match (is_timed, line.starts_with("G1 C")) {
+                (true, false) => feed,
+                (true, true) => 0.0,
+                (false, _) => word('Z').map_or(0.0, way),
+            };
+        }
+        z = word('Z').unwrap_or(z);
+    }
+    seconds
+}
+
+/// A remark says how long the machine is busy: with leads, and with the approach of each depth.
+#[test]
+fn the_time_of_all_depths_is_that_of_their_lines() {
+    let bench = Bench::with(&saddle(THREE));
+    let said = ["check recipe.toml", "run recipe.toml -o out"].map(|command| {
+        let report = bench
+            .line(&format!("{command} --format json"))
+            .ends(0)
+            .json();
+        let remarks = report["remarks"].as_array().unwrap().clone();
+        let of_depths = remarks.iter().find_map(|remark| remark["time_s"].as_f64());
+        of_depths.unwrap_or_else(|| panic!("{remarks:?}"))
+    });
+    let lines = 3.0 * time_of_a_turn(&bench.read("out/recipe.nc"));
+    for time in said {
+        assert!((time / lines - 1.0).abs() < 1e-3, "{said:?} {lines}");
+    }
 }
 
 #[test]

@@ -205,6 +205,18 @@ fn wrong_passes_are_underlined() {
             "cannot be the end of a file's name",
         ),
         (
+            "[passes.x]\nallowance = \"5 um\"\n[passes.X-part-1]\nallowance = \"1 um\"\n",
+            "`X-part-1` is the name of other files of `x`",
+        ),
+        (
+            "[passes.x-dry-run]\nallowance = \"5 um\"\n[passes.x]\nallowance = \"1 um\"\n",
+            "`x-dry-run` is the name of other files of `x`",
+        ),
+        (
+            "[passes.x]\nallowance = \"5 um\"\n[passes.X]\nallowance = \"1 um\"\n",
+            "`X` and `x` have the same letters, but for small and capital ones",
+        ),
+        (
             "[passes.rough]\nallowance = \"1 um\"\ntolerance.residual = \"1 deg\"\n",
             "is an angle",
         ),
@@ -217,5 +229,101 @@ fn wrong_passes_are_underlined() {
         let said = bench.line("run recipe.toml -o out").ends(2);
         assert!(said.stderr.contains(says), "{lines}: {said}");
         assert_eq!(bench.files(), ["recipe.toml"]);
+    }
+}
+
+/// What only begins like the names of parts and of dry runs is a name like any other.
+#[test]
+fn names_that_no_other_file_has_are_taken() {
+    for [first, second] in [
+        ["part-", "part-1-fine"],
+        ["x", "x-part-"],
+        ["x", "xpart-1"],
+        ["x", "x-dry"],
+        ["part-0", "my-dry-run"],
+    ] {
+        let tables = format!(
+            "[passes.{first}]\nallowance = \"5 um\"\n[passes.{second}]\nallowance = \"1 um\"\n"
+        );
+        let bench = Bench::with(&format!("{}\n{tables}", saddle()));
+        bench.line("check recipe.toml").ends(0);
+    }
+}
+
+/// All paths may lie in one controller, where a second program of a number takes the place of the first.
+#[test]
+fn no_two_parts_of_a_run_have_one_number_on_a_controller_that_calls_by_numbers() {
+    let posts = "posts = [\"pmac-pvt\", \"power-pmac-pvt\"]";
+    let recipe = changed(
+        &saddle(),
+        "posts = [\"pmac-pvt\", \"automation1-pvt\"]",
+        posts,
+    );
+    let tables = ["pmac-pvt", "power-pmac-pvt"]
+        .map(|post| format!("\n[output.{post}]\nsplit = \"50 kB\"\n"))
+        .concat();
+    let alone = Bench::with(&format!("{recipe}{tables}"));
+    alone.line("run recipe.toml -o out").ends(0);
+    let bench = Bench::with(&format!("{recipe}{tables}{PASSES}"));
+    bench.line("run recipe.toml -o out").ends(0);
+    for extension in ["pmc", "ppmc"] {
+        let mut numbers = Vec::new();
+        for (path, hundred) in [("recipe", 1), ("recipe-rough", 2), ("recipe-middle", 3)] {
+            let main = bench.read(format!("out/{path}.{extension}"));
+            let calls: Vec<u32> = main
+                .lines()
+                .filter_map(|line| {
+                    line.to_ascii_lowercase()
+                        .strip_prefix("call")?
+                        .trim()
+                        .parse()
+                        .ok()
+                })
+                .collect();
+            let expected: Vec<u32> = (1..)
+                .map(|part| 100 * hundred + part)
+                .take(calls.len())
+                .collect();
+            assert!(calls.len() > 1 || path != "recipe", "{main}");
+            assert!(!calls.is_empty(), "{path}: {main}");
+            assert_eq!(calls, expected, "{path}");
+            for (part, number) in calls.iter().enumerate() {
+                let text = bench.read(format!("out/{path}-part-{}.{extension}", part + 1));
+                let opens = format!("open prog {number}");
+                assert!(text.to_ascii_lowercase().contains(&opens), "{text}");
+            }
+            numbers.extend(calls);
+            bench
+                .line(&format!("verify recipe.toml out/{path}.{extension}"))
+                .ends(0);
+        }
+        let count = numbers.len();
+        numbers.sort_unstable();
+        numbers.dedup();
+        assert_eq!(numbers.len(), count);
+        // The finishing path has the bytes of the recipe without passes, its parts too.
+        for file in [
+            format!("out/recipe-part-1.{extension}"),
+            format!("out/recipe.{extension}"),
+        ] {
+            let (all, alone) = (bench.read(&file), alone.read(&file));
+            assert_eq!(without_hash(&all), without_hash(&alone));
+        }
+    }
+}
+
+/// Beyond the numbers of motion programs there is none for the parts of a path.
+#[test]
+fn a_ninth_rough_path_has_no_parts_on_a_controller_that_calls_by_numbers() {
+    let paths = |count: u32| -> String {
+        let table = |k: u32| format!("\n[passes.p{k}]\nallowance = \"{} um\"\n", 20 - k);
+        (0..count).map(table).collect()
+    };
+    let split = "\n[output.pmac-pvt]\nsplit = \"50 kB\"\n";
+    for (count, split, status) in [(8, split, 0), (9, split, 2), (9, "", 0)] {
+        let bench = Bench::with(&format!("{}{split}{}", saddle(), paths(count)));
+        let said = bench.line("check recipe.toml").ends(status);
+        let says = "has them for the parts of 8 rough paths";
+        assert_eq!(said.stderr.contains(says), status > 0, "{said}");
     }
 }

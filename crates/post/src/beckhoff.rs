@@ -1,8 +1,9 @@
 //! What the posts for Beckhoff TwinCAT CNC share: the moves before and after a path, the parts of a program,
 //! and the commands of templates.
 //!
-//! Facts on the language: Beckhoff, TF5200 Programming manual, "Exact stop (G60/G360/G359)", "Block-specific
-//! comments", "Global sub-routines", and the tables "Meaning of G functions" and "Meaning of other M
+//! Facts on the language: Beckhoff, TF5200 Programming manual, "Exact stop (G60/G360/G359)" (206301707),
+//! "Polynomial contouring (G61/G261/G260)" (206307595), "Determining acceleration/deceleration
+//! (G08/G09/G900/G901)" (206238219), "Block-specific comments", "Global sub-routines", and the tables "Meaning of G functions" and "Meaning of other M
 //! functions" of its system parameters.
 
 use crate::g_code::{self, TravelWords};
@@ -14,6 +15,9 @@ use crate::post::Command;
 pub(crate) const TRAVEL: TravelWords = TravelWords {
     text: " G40 G52 G71 G360",
     needed: &["G90", "G94", "G40", "G52", "G71", "G360"],
+    // An exact stop at the end of its block. `G61` is none here: it rounds the corner by polynomials. `G9` ends a
+    // block at the speed of the next one.
+    allowed: &["G60"],
 };
 /// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
 const HARMLESS: &[&str] = &[
@@ -68,6 +72,17 @@ mod tests {
         assert!(TRAVEL.read("G71", &mut modes).is_ok());
         assert!(TRAVEL.read("G0 Z6.5", &mut modes).is_ok());
         assert!(TRAVEL.read("G21", &mut modes).is_err());
+    }
+
+    /// An exact stop of other controllers rounds a corner on this one.
+    #[test]
+    fn twincat_stops_by_g60_and_not_by_g61_or_g9() {
+        for (word, is_read) in [("G60", true), ("G61", false), ("G9", false), ("G09", false)] {
+            let mut modes = TravelModes::default();
+            TRAVEL.read("G90 G94 G40 G52 G71 G360", &mut modes).unwrap();
+            let read = TRAVEL.read(&format!("G0 {word} Z6.5"), &mut modes);
+            assert_eq!(read.is_ok(), is_read, "{word}: {read:?}");
+        }
     }
 
     #[test]

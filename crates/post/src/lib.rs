@@ -6,6 +6,7 @@
 //! A reader shares no code with the writer of its format.
 
 mod amount;
+mod around_path;
 mod automation1;
 mod axes;
 mod beckhoff;
@@ -65,6 +66,7 @@ mod write_npz;
 mod write_parquet;
 
 pub use amount::{Amount, AmountError, TextSize};
+pub use around_path::AroundPath;
 pub use carry::CarriedPoints;
 pub use columns::{ColumnFormat, Columns, WriteColumns};
 pub use compression::{Compression, text_name};
@@ -72,7 +74,7 @@ pub use digits::{DigitSegment, Digits};
 pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
-pub use part_name::{PartLines, PartName};
+pub use part_name::{PartLines, PartName, PartNumbers};
 pub use parts::{PartLimits, PartsError};
 pub use path_reader::{ReadCount, ReadPath};
 pub use post::{Command, DepthLoop, Dialect, Grammar, Post};

@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
 use crate::lines::LineReader;
+use crate::program_format::says_parts;
 
 /// Opens a part by the name of its file.
 pub(crate) type OpenPart<R> = Box<dyn Fn(&str) -> io::Result<R> + Send + Sync>;
@@ -55,10 +56,7 @@ impl<R: Read> PartCalls<R> {
 
     /// Takes the mark of the main program that says how many parts it has.
     pub(crate) fn begin(&mut self, mark: &str) -> bool {
-        let number = mark
-            .strip_prefix("-- ")
-            .and_then(|rest| rest.strip_suffix(" parts --"));
-        let Some(parts) = number.and_then(|number| number.parse().ok()) else {
+        let Some(parts) = says_parts(mark) else {
             return false;
         };
         self.said = Some(parts);

@@ -9,6 +9,62 @@ pub struct PartName {
     pub file: String,
     /// Its number, from 1.
     pub number: u32,
+    /// Its number among all programs of a controller that calls them by numbers.
+    pub program_number: u32,
+}
+
+/// The number of the program with the first part: few programs of a machine's maker have one above 100.
+const FIRST: u32 = 101;
+/// From this number on a Turbo PMAC runs four programs as its G, M, T and D codes, and may protect all of them
+/// by a password.
+const END: u32 = 1000;
+/// How far the first parts of the paths of a run are apart: each path has a hundred of its own, which a person
+/// knows by the first digit.
+const OF_A_PATH: u32 = 100;
+
+/// The numbers of the programs with the parts of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartNumbers {
+    first: u32,
+    most: u32,
+}
+
+impl PartNumbers {
+    /// Those of a path that is the only one of its run, and of any path where parts are called by names.
+    pub const ALONE: Self = Self {
+        first: FIRST,
+        most: END - FIRST,
+    };
+    /// How many rough paths have numbers beside the finishing path.
+    pub const MOST_ROUGH_PATHS: u32 = END / OF_A_PATH - 2;
+
+    /// Those of one path of several: 0 is the finishing path, 1 the first rough one. They do not depend on how
+    /// many parts the other paths have. A path beyond the last numbers has none.
+    pub fn of_path(path: u32) -> Self {
+        Self {
+            first: FIRST.saturating_add(path.saturating_mul(OF_A_PATH)),
+            most: match path <= Self::MOST_ROUGH_PATHS {
+                true => OF_A_PATH - 1,
+                false => 0,
+            },
+        }
+    }
+
+    /// How many parts the path may have.
+    pub fn most(&self) -> u32 {
+        self.most
+    }
+
+    /// The number of the program with a part, whose own number is from 1.
+    pub(crate) fn program_of(&self, part: u32) -> u32 {
+        self.first.saturating_add(part).saturating_sub(1)
+    }
+
+    /// The part that a program of this number has; `None` if it has none of the path.
+    pub(crate) fn part_of(&self, program: u32) -> Option<u32> {
+        let part = program.checked_sub(self.first)?.checked_add(1)?;
+        (part <= self.most).then_some(part)
+    }
 }
 
 /// What a dialect writes for a part.
@@ -23,9 +79,9 @@ pub struct PartLines {
 }
 
 impl PartName {
-    /// That of the part of this number of a program. Controllers differ in the characters that they
+    /// That of the part of this number of a program, whose parts have these numbers. Controllers differ in the characters that they
     /// take in names, so only letters, digits and `-` and `_` are kept, in lower case.
-    pub fn of(program: &str, number: u32) -> Self {
+    pub fn of(program: &str, number: u32, numbers: &PartNumbers) -> Self {
         let (stem, extension) = program.rsplit_once('.').unwrap_or((program, ""));
         let plain = |c: char| match c {
             'a'..='z' | '0'..='9' | '-' | '_' => c,
@@ -38,6 +94,34 @@ impl PartName {
             file: format!("{stem}.{extension}"),
             stem,
             number,
+            program_number: numbers.program_of(number),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The hundreds of the paths do not meet, and none reaches the programs of codes.
+    #[test]
+    fn no_two_paths_of_a_run_have_a_number_in_common() {
+        let mut seen = Vec::new();
+        for path in 0..=PartNumbers::MOST_ROUGH_PATHS {
+            let numbers = PartNumbers::of_path(path);
+            assert_eq!(numbers.most(), 99);
+            for part in 1..=numbers.most() {
+                let program = numbers.program_of(part);
+                assert!((101..1000).contains(&program) && !seen.contains(&program));
+                assert_eq!(numbers.part_of(program), Some(part));
+                seen.push(program);
+            }
+            assert_eq!(numbers.part_of(numbers.program_of(100)), None);
+            assert_eq!(numbers.part_of(numbers.program_of(1) - 1), None);
+        }
+        let beyond = PartNumbers::of_path(PartNumbers::MOST_ROUGH_PATHS + 1);
+        assert_eq!((beyond.most(), beyond.part_of(1001)), (0, None));
+        assert_eq!(PartNumbers::ALONE.program_of(899), 999);
+        assert_eq!(PartNumbers::of_path(u32::MAX).most(), 0);
     }
 }

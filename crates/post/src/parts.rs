@@ -17,9 +17,6 @@ use crate::program_error::ProgramError;
 use crate::program_format::{end_of_part_mark, part_mark, parts_mark};
 use crate::text_file::TextFile;
 
-/// Most parts of a program. A controller that knows programs by numbers has them from 101 to 999.
-pub(crate) const MOST_PARTS: u32 = 899;
-
 /// Why a program could not be divided into parts.
 #[derive(Debug, thiserror::Error)]
 pub enum PartsError {
@@ -155,10 +152,12 @@ impl<'a> Cutter<'a> {
     /// The next part, and what stands around its lines.
     fn next(&mut self) -> Result<(PartName, PartLines), ProgramError> {
         self.number += 1;
-        if self.number > MOST_PARTS {
-            return Err(ProgramError::ManyParts { most: MOST_PARTS });
+        let numbers = &self.layout.format.part_numbers;
+        let most = numbers.most();
+        if self.number > most {
+            return Err(ProgramError::ManyParts { most });
         }
-        let name = PartName::of(self.program, self.number);
+        let name = PartName::of(self.program, self.number, numbers);
         let lines = self.layout.post.dialect.part_lines(&name);
         Ok((name, lines.ok_or(ProgramError::NoCalls)?))
     }
@@ -184,7 +183,7 @@ impl Layout {
     /// the lines that call them all. `None` where the dialect has no calls.
     pub fn size_around_parts(&self, file: &str, parts: u32) -> Option<[TextSize; 2]> {
         let program = text_name(file);
-        let name = PartName::of(program, parts.max(1));
+        let name = PartName::of(program, parts.max(1), &self.format.part_numbers);
         let lines = self.post.dialect.part_lines(&name)?;
         let around = frame(self, program, &name, &lines).concat();
         let call = TextSize::of(format!("{}\n", lines.call).as_bytes());

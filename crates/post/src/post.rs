@@ -8,7 +8,7 @@ use turnpath_core::{ParamDefault, ParamInfo, Params};
 use crate::comment::code_before_comment;
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code;
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::program_error::ProgramError;
 use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
 use crate::travel::{Places, Travel, TravelModes};
@@ -134,10 +134,15 @@ pub trait Dialect: Debug + Send + Sync {
         [Vec::new(), Vec::new()]
     }
 
-    /// The file of the part that a line of the main program calls, if it calls one. `program` is the
-    /// main program's own file.
-    fn called_part(&self, _code: &str, _program: &str) -> Option<String> {
+    /// The file of the part that a line of the main program calls, if it calls one. `main` is the main
+    /// program's own file, with the numbers of its parts.
+    fn called_part(&self, _code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         None
+    }
+
+    /// Whether the controller calls a part by a number, and not by a name.
+    fn calls_by_number(&self) -> bool {
+        false
     }
 
     /// Whether the path's lines go into a program after a header. Where a file is a program as it is,

@@ -155,6 +155,14 @@ pub enum ProgramError {
         /// The most.
         most: u32,
     },
+    /// The controller calls parts by numbers, and there are none for the parts of this path.
+    #[error(
+        "this controller calls parts by numbers, and has them for the parts of {most} rough paths"
+    )]
+    ManyRoughPaths {
+        /// How many rough paths may have parts.
+        most: u32,
+    },
     /// No document says how the controller calls a part of a program.
     #[error("turnpath knows no call of parts for this controller")]
     NoCalls,
@@ -257,6 +265,7 @@ impl ProgramError {
                 "give more tolerance of interpolation, or feed faster, so that the program is shorter"
             }
             Self::ManyParts { .. } => "write a larger split",
+            Self::ManyRoughPaths { .. } => "leave out split, or list fewer rough paths in [passes]",
             Self::NoCalls => "leave out split",
             Self::DepthsWithoutLeads => "write lead = true in [path]",
             Self::HalfOfDepths => "write both, or none",

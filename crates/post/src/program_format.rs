@@ -2,6 +2,8 @@
 
 use turnpath_core::toolpath::{Section, SegmentShape};
 
+use crate::part_name::PartNumbers;
+
 /// Degrees of a revolution.
 pub(crate) const TURN_DEG: i64 = 360;
 /// The beginning of the line after the path, in its comment.
@@ -20,6 +22,12 @@ pub(crate) const END_OF_DEPTHS_MARK: &str = "-- end of depths --";
 /// The mark before the calls of parts.
 pub(crate) fn parts_mark(parts: u32) -> String {
     format!("-- {parts} parts --")
+}
+
+/// The parts that such a mark says.
+pub(crate) fn says_parts(mark: &str) -> Option<u32> {
+    let rest = mark.strip_prefix("-- ")?;
+    rest.strip_suffix(" parts --")?.parse().ok()
 }
 
 /// The mark before the lines of a part.
@@ -151,6 +159,8 @@ pub struct ProgramFormat {
     pub time_axis: Option<TimeAxis>,
     /// The largest C of the program, to both sides, in last digits, where its axis has an end.
     pub c_limit: Option<i64>,
+    /// The numbers of the path's parts, where the controller calls programs by numbers.
+    pub part_numbers: PartNumbers,
     /// How far above the highest place of the path X and C move before it, mm.
     pub approach_height: f64,
     /// How fast Z goes down to the path's first point, mm/min.

@@ -41,7 +41,7 @@ pub struct ProgramReader<R = File> {
     line: u64,
     /// Lines of all files that were read.
     lines_read: usize,
-    part: Part,
+    place: Place,
     section: Option<Section>,
     /// The moves before and after the path.
     travel: TravelCheck,
@@ -67,9 +67,9 @@ pub struct ProgramReader<R = File> {
     read_count: ReadCount,
 }
 
-/// The part of a program that is read.
+/// Where in a program the reader is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Part {
+enum Place {
     Header,
     Depths,
     Approach,
@@ -95,7 +95,7 @@ impl<R: Read> ProgramReader<R> {
             grammar: post.dialect.grammar(format),
             line: 0,
             lines_read: 0,
-            part: Part::Header,
+            place: Place::Header,
             section: None,
             travel: TravelCheck::default(),
             depths: DepthCheck::new(post.dialect),
@@ -221,14 +221,14 @@ impl<R: Read> ProgramReader<R> {
         if self.parts.is_outside() {
             return Ok(false);
         }
-        let is_before = matches!(self.part, Part::Header | Part::Approach);
+        let is_before = matches!(self.place, Place::Header | Place::Approach);
         if is_before && self.parts.begin(&text) {
-            self.part = Part::Path;
+            self.place = Place::Path;
             return Ok(true);
         }
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
-            let is_late = matches!(self.part, Part::Retreat | Part::EndOfDepths);
+            let is_late = matches!(self.place, Place::Retreat | Place::EndOfDepths);
             if is_late || self.section.is_some_and(|last| section <= last) {
                 return Err(format!(
                     "`{} {text}` is out of order: the sections are lead-in, cutting, lead-out",
@@ -236,23 +236,24 @@ impl<R: Read> ProgramReader<R> {
                 ));
             }
             self.section = Some(section);
-            self.part = Part::Path;
+            self.place = Place::Path;
             return Ok(true);
         }
-        if text == DEPTHS_MARK && self.part == Part::Header {
-            self.part = Part::Depths;
+        if text == DEPTHS_MARK && self.place == Place::Header {
+            self.place = Place::Depths;
             return self.depths.begin().map(|()| true);
         }
-        if text == END_OF_DEPTHS_MARK && self.part == Part::Retreat {
-            self.part = Part::EndOfDepths;
+        if text == END_OF_DEPTHS_MARK && self.place == Place::Retreat {
+            self.place = Place::EndOfDepths;
             return self.depths.end().map(|()| true);
         }
-        if text == APPROACH_MARK && matches!(self.part, Part::Header | Part::Depths) {
-            self.part = Part::Approach;
+        if text == APPROACH_MARK && matches!(self.place, Place::Header | Place::Depths) {
+            self.place = Place::Approach;
+            self.travel.begin_approach();
             return Ok(true);
         }
-        if text == RETREAT_MARK && self.part == Part::Path {
-            self.part = Part::Retreat;
+        if text == RETREAT_MARK && self.place == Place::Path {
+            self.place = Place::Retreat;
             self.travel.begin_retreat(self.line);
             let last = self.grammar.finish();
             self.wait(last);
@@ -274,13 +275,13 @@ impl<R: Read> ProgramReader<R> {
         if self.section.is_some() {
             let points = said_points(said);
             self.said_points = Some(points.ok_or("the end mark must give the number of points")?);
-            if self.part == Part::Path {
+            if self.place == Place::Path {
                 let last = self.grammar.finish();
                 self.wait(last);
             }
             self.travel
                 .check_retreat(self.section == Some(Section::LeadOut))?;
-            self.part = Part::Footer;
+            self.place = Place::Footer;
             self.depths.finish(&self.format)?;
         }
         Ok(true)
@@ -289,10 +290,10 @@ impl<R: Read> ProgramReader<R> {
     /// Reads a line of the path.
     fn read_code(&mut self, code: &[u8]) -> Result<(), String> {
         let code = std::str::from_utf8(code).map_err(|_| "this is not text".to_owned())?;
-        if matches!(self.part, Part::Depths | Part::EndOfDepths) {
+        if matches!(self.place, Place::Depths | Place::EndOfDepths) {
             return self.depths.read(code.trim());
         }
-        if matches!(self.part, Part::Approach | Part::Retreat) {
+        if matches!(self.place, Place::Approach | Place::Retreat) {
             let modes = &mut self.travel.modes;
             let places = self.post.dialect.read_travel(code.trim(), modes)?;
             return self.travel.go_to(&places, self.line, &self.format);
@@ -375,7 +376,7 @@ impl<R: Read> ProgramReader<R> {
             return Ok(Some(name));
         }
         // The lines before the path belong to the header, and those after it to the footer.
-        if !matches!(self.part, Part::Header | Part::Footer) {
+        if !matches!(self.place, Place::Header | Place::Footer) {
             self.read_code(code)?;
         }
         Ok(None)
@@ -385,12 +386,13 @@ impl<R: Read> ProgramReader<R> {
 impl<R: Read> ProgramReader<R> {
     /// The file of the part that a line of the main program calls.
     fn called_part(&self, code: &[u8]) -> Option<String> {
-        if self.part != Part::Path || !self.parts.may_be_called() {
+        if self.place != Place::Path || !self.parts.may_be_called() {
             return None;
         }
         let code = std::str::from_utf8(code).ok()?;
         let own = self.path.file_name().unwrap_or_default().to_string_lossy();
-        self.post.dialect.called_part(code, text_name(&own))
+        let main = (text_name(&own), &self.format.part_numbers);
+        self.post.dialect.called_part(code, main)
     }
 
     /// Goes on with the lines of a part. Its file is compressed as that of the main program is.
@@ -406,10 +408,12 @@ impl<R: Read> ProgramReader<R> {
         let own = std::mem::replace(&mut self.path, path);
         let text = text_name(&name);
         let stem = text.rsplit_once('.').map_or(text, |(stem, _)| stem);
+        let numbers = self.format.part_numbers;
         let around = self.post.dialect.part_frame(&PartName {
             stem: stem.to_owned(),
             file: text.to_owned(),
             number: self.parts.number(),
+            program_number: numbers.program_of(self.parts.number()),
         });
         self.parts.expect(around);
         self.parts.caller = Some((main, own, self.line));

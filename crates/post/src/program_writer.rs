@@ -13,7 +13,7 @@ use crate::parts::{Cutter, PartLimits, PartsError};
 use crate::read_error::ReadError;
 use crate::text_file::{TextFile, file_bytes};
 use crate::travel::Extent;
-use crate::whole_program::{WholeProgram, proven_in_memory};
+use crate::whole_program::{WholeProgram, prove_in_memory};
 
 /// Writes a program to a file or to memory. The header reports what is known only when the path was
 /// measured on its own text, so the path waits until then: in a file without a name, or in memory.
@@ -318,7 +318,7 @@ impl ProgramPathInMemory {
     /// # Errors
     /// When header or footer change what is read, or this build writes no files that are compressed so.
     pub fn assemble(self, around: [&str; 2], file: &str) -> Result<Vec<u8>, ReadError> {
-        proven_in_memory(&self.layout, file, &self.text, around)
+        prove_in_memory(&self.layout, file, &self.text, around)
     }
 }
 

@@ -4,6 +4,7 @@ use turnpath_core::kind::{Angle, Choice, Count, Length, Number, Text, Time, Velo
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{DEG, Param, ParamDefault, Params};
 
+use crate::part_name::PartNumbers;
 use crate::post::Post;
 use crate::program_format::{Chords, Depths, FeedMeaning, ProgramFormat, Slowest, TimeAxis};
 
@@ -181,8 +182,8 @@ pub(crate) const C_LIMIT: Param<Option<Angle>> = Param::angle(
 /// That of TwinCAT CNC: 1190 turns, which its maker documents for increments of 0.0001 deg.
 pub(crate) const TWINCAT_C_LIMIT: Param<Angle> = Param::angle(
     "c_limit",
-    "how far C of your machine may be from zero, to both sides, where C is not wrapped; the default is the \
-     1190 turns that the maker documents for increments of 0.0001 deg",
+    "how far C of your machine may be from zero, to both sides; the default is the 1190 turns that the maker \
+     documents for increments of 0.0001 deg",
 )
 .default(1190.0 * 360.0 * DEG)
 .positive();
@@ -260,6 +261,7 @@ impl Post {
                 .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
             depths: depths(settings, position_decimals),
             time_axis: self.time_axis(settings),
+            part_numbers: PartNumbers::ALONE,
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)

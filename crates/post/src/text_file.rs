@@ -123,12 +123,12 @@ pub(crate) fn open(
 /// The text of a file of one frame, which has a sum of its contents.
 #[cfg(feature = "zst")]
 struct OneFrame<R: Read> {
-    decoder: Decoder<'static, BufReader<Whole<R>>>,
+    decoder: Decoder<'static, BufReader<StartAndRest<R>>>,
 }
 
-/// A file whose first bytes were read already.
+/// The first bytes of a file, which were read already, and the rest of it.
 #[cfg(feature = "zst")]
-type Whole<R> = io::Chain<io::Cursor<Vec<u8>>, R>;
+type StartAndRest<R> = io::Chain<io::Cursor<Vec<u8>>, R>;
 
 #[cfg(feature = "zst")]
 impl<R: Read> OneFrame<R> {

@@ -7,7 +7,7 @@ use turnpath_core::toolpath::ControlPoint;
 use crate::axes::NAMES;
 use crate::fixed_point::ONE;
 use crate::program_format::ProgramFormat;
-use crate::travel::{C, Motion, Places, Speed, TravelModes, Z};
+use crate::travel::{C, Motion, Places, Speed, TravelModes, X, Z};
 
 /// By how much a place of the approach and one of the path may differ, mm or deg: doubles have more
 /// digits than any program.
@@ -31,15 +31,19 @@ pub(crate) struct TravelCheck {
     lowest: Option<(i128, u64)>,
     /// The lowest Z to which Z went by a rapid move, and its line.
     lowest_rapid: Option<(i128, u64)>,
+    /// The lowest Z to which Z went by a feed, and its line.
+    lowest_fed: Option<(i128, u64)>,
     /// How far above the path X, C and rapid moves of Z stay, mm.
     clearance: f64,
     /// The line of the mark of a retreat, until Z has gone up behind it.
     unfinished_retreat: Option<u64>,
+    /// Z of the path's first point, mm.
+    begin: Option<f64>,
     /// The highest Z of the path's points, mm.
     highest: Option<f64>,
     /// How far above the path the first of its depths is, mm.
     rise: f64,
-    /// Whether an approach was read.
+    /// Whether the program has an approach: its mark was read.
     approached: bool,
     /// Whether the path is over.
     retreats: bool,
@@ -53,6 +57,11 @@ impl TravelCheck {
             retreats: true,
             ..Self::default()
         }
+    }
+
+    /// Begins the approach: behind its mark the path begins where these moves end.
+    pub(crate) fn begin_approach(&mut self) {
+        self.approached = true;
     }
 
     /// Takes the places that a line gives. Only one axis may move, Z must have moved first, and each move is a
@@ -74,20 +83,16 @@ impl TravelCheck {
         match (axis, self.at[Z]) {
             (Z, _) => {
                 self.unfinished_retreat = None;
-                if let (Some(Motion::Rapid), Some(z)) = (self.modes.motion, places[Z]) {
-                    let here = (z, line);
-                    self.lowest_rapid =
-                        Some(self.lowest_rapid.map_or(here, |lowest| lowest.min(here)));
-                }
+                let lowest = match self.modes.motion {
+                    Some(Motion::Fed) => &mut self.lowest_fed,
+                    Some(Motion::Rapid) | None => &mut self.lowest_rapid,
+                };
+                lower(lowest, places[Z], line);
             }
             (axis, None) => return Err(format!("{} moves before Z has gone up", NAMES[axis])),
-            (_, Some(z)) => {
-                let here = (z, line);
-                self.lowest = Some(self.lowest.map_or(here, |lowest| lowest.min(here)));
-            }
+            (_, z) => lower(&mut self.lowest, z, line),
         }
         self.at[axis] = places[axis];
-        self.approached |= !self.retreats;
         Ok(())
     }
 
@@ -149,6 +154,7 @@ impl TravelCheck {
                 }
             }
         }
+        self.begin = self.begin.or(Some(z));
         self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
         self.rise = format.rise() as f64 / 10u64.pow(format.position_decimals) as f64;
         self.clearance = format.approach_height;
@@ -172,36 +178,53 @@ impl TravelCheck {
         self.unfinished_retreat = Some(line);
     }
 
-    /// The plane of the approach over a path whose highest place is this.
-    fn plane(&self, highest: f64) -> f64 {
-        highest + self.rise + KEPT_HEIGHT * self.clearance
-    }
-
     /// Checks the heights, at the end of the path: the line of the first wrong move, and what is wrong.
     pub(crate) fn finish(&self) -> Result<(), (u64, String)> {
         if let Some(line) = self.unfinished_retreat {
             return Err((line, "Z does not go up behind the path".to_owned()));
         }
+        if let Some(begin) = self.begin {
+            refuse_below(begin, self.lowest_fed, "Z goes down to", || {
+                format!("the path begins at {begin:.4} mm, and nothing before it goes lower")
+            })?;
+        }
         let Some(highest) = self.highest else {
             return Ok(());
         };
-        let plane = self.plane(highest);
-        let sideways = format!("{} or {} moves at", NAMES[C], NAMES[1]);
+        let plane = highest + self.rise + self.clearance;
+        let least = plane - (1.0 - KEPT_HEIGHT) * self.clearance;
+        let sideways = format!("{} or {} moves at", NAMES[C], NAMES[X]);
         for (lowest, what) in [
             (self.lowest, sideways.as_str()),
             (self.lowest_rapid, "a rapid move goes to"),
         ] {
-            let lowest = lowest.map(|(lowest, line)| (lowest as f64 / ONE as f64, line));
-            if let Some((lowest, line)) = lowest.filter(|(lowest, _)| *lowest < plane - SAME) {
-                return Err((
-                    line,
-                    format!(
-                        "{what} Z = {lowest} mm, below {plane:.4} mm, which is 0.99 of `approach_height` above the path"
-                    ),
-                ));
-            }
+            refuse_below(least, lowest, what, || {
+                format!("by `approach_height` of the recipe the plane is at Z = {plane:.4} mm")
+            })?;
         }
         Ok(())
+    }
+}
+
+/// Keeps the lower of two places, each with its line.
+fn lower(lowest: &mut Option<(i128, u64)>, place: Option<i128>, line: u64) {
+    if let Some(z) = place {
+        let here = (z, line);
+        *lowest = Some(lowest.map_or(here, |lowest| lowest.min(here)));
+    }
+}
+
+/// Refuses a place below `least`, mm: its line, and why.
+fn refuse_below(
+    least: f64,
+    lowest: Option<(i128, u64)>,
+    what: &str,
+    why: impl Fn() -> String,
+) -> Result<(), (u64, String)> {
+    let lowest = lowest.map(|(lowest, line)| (lowest as f64 / ONE as f64, line));
+    match lowest.filter(|(lowest, _)| *lowest < least - SAME * (1.0 + least.abs())) {
+        None => Ok(()),
+        Some((lowest, line)) => Err((line, format!("{what} Z = {lowest} mm; {}", why()))),
     }
 }
 

@@ -33,7 +33,7 @@ impl<T: Read> WholeProgram<T> {
     ///
     /// # Errors
     /// When the file cannot be read or holds anything else, or when header or footer change what is read.
-    pub fn proven(mut self) -> Result<Draft, ReadError> {
+    pub fn prove(mut self) -> Result<Draft, ReadError> {
         let name = self.file.path().to_owned();
         let place = self.file.readable().map_err(|error| ReadError::File {
             path: error.path,
@@ -47,7 +47,7 @@ impl<T: Read> WholeProgram<T> {
 }
 
 /// The file `name` of a program in memory, with the same proof.
-pub(crate) fn proven_in_memory(
+pub(crate) fn prove_in_memory(
     layout: &Layout,
     name: &str,
     text: &[u8],

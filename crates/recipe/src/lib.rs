@@ -57,6 +57,7 @@ mod presets;
 mod read;
 mod recipe;
 mod rough_paths;
+mod rough_place;
 mod set;
 mod span;
 mod suggest;

@@ -14,6 +14,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Reader, Table};
 use crate::presets::Preset;
 use crate::read::Sections;
+use crate::rough_place::RoughPlace;
 use crate::set;
 use crate::span::{Source, Span, Spanned};
 use crate::surface_entry::{SurfaceEntry, surface_entries};
@@ -67,8 +68,8 @@ pub struct Recipe {
     pub post_settings: Vec<PostSettings>,
     /// Folders and libraries to load plugins from, as the recipe gives them, relative to the recipe.
     pub plugins: Vec<Spanned<String>>,
-    /// The name and the allowance, mm, where this is the recipe of a rough path.
-    pub(crate) rough: Option<(String, f64)>,
+    /// What it is, where this is the recipe of a rough path.
+    pub(crate) rough: Option<RoughPlace>,
     choices: [Choice; 6],
     document: Table,
     sets: Vec<String>,
@@ -326,19 +327,19 @@ impl Recipe {
     /// if it has none, and the name of the rough path.
     pub fn stem(&self) -> String {
         match &self.rough {
-            Some((rough, _)) => format!("{}-{rough}", stem(&self.path)),
+            Some(rough) => format!("{}-{}", stem(&self.path), rough.name),
             None => stem(&self.path),
         }
     }
 
     /// What the path leaves on the wanted surface, along z, mm: zero but for a rough path.
     pub fn allowance(&self) -> f64 {
-        self.rough.as_ref().map_or(0.0, |(_, allowance)| *allowance)
+        self.rough.as_ref().map_or(0.0, |rough| rough.allowance)
     }
 
     /// The name of the rough path whose recipe this is.
     pub fn rough_name(&self) -> Option<&str> {
-        self.rough.as_ref().map(|(name, _)| name.as_str())
+        self.rough.as_ref().map(|rough| rough.name.as_str())
     }
 
     /// The recipe's name as the name of a folder, with characters that Linux, macOS and Windows allow.

@@ -14,6 +14,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Entry, Table, Value};
 use crate::read::Sections;
 use crate::recipe::{Recipe, build};
+use crate::rough_place::RoughPlace;
 use crate::set::{self, Setting};
 use crate::span::Span;
 use crate::suggest::{did_you_mean, listed, quoted};
@@ -21,9 +22,9 @@ use crate::tables::{self, PASSES_TABLE, USE};
 
 /// The tables whose values a rough path may replace.
 const OF_A_ROUGH_PATH: [&str; 4] = ["feed", "sampler", "tolerance", "spindle"];
-/// A name that the files of dry runs have.
-const TAKEN: &str = "dry-run";
-/// What names of the parts of long programs begin with, before their number.
+/// What the names of the files of dry runs end with.
+const DRY_RUN: &str = "dry-run";
+/// What those of the parts of long programs end with, before their number.
 const PART: &str = "part-";
 
 /// A path before the finishing one.
@@ -49,26 +50,47 @@ impl Recipe {
     /// # Errors
     /// When something in that table is wrong. The messages have their spans there.
     pub fn rough_paths(&self) -> Result<Vec<RoughPath>, Diagnostics> {
-        let Some(Value::Table(passes)) = self
-            .document()
-            .get(PASSES_TABLE)
-            .map(|entry| &entry.node.value)
-        else {
-            return Ok(Vec::new());
-        };
         let mut base = self.document().clone();
         base.remove(PASSES_TABLE);
         let mut diagnostics = Vec::new();
-        let entries = passes.entries().iter();
-        let paths = entries.filter_map(|entry| self.rough_path(&base, entry, &mut diagnostics));
-        let paths = paths.collect();
+        let entries = self.listed_paths();
+        let mut paths = Vec::new();
+        for (entry, number) in entries.iter().zip(1..) {
+            match taken_name(entry, entries) {
+                Some(taken) => diagnostics.push(taken),
+                None => paths.extend(self.rough_path((&base, entry), number, &mut diagnostics)),
+            }
+        }
         Diagnostics::unless_any(Some(paths), diagnostics)
+    }
+
+    /// The number of the recipe's path among those of its run: 0 for the finishing one, and that of a rough one
+    /// from 1. `None` where the run makes no other path.
+    pub fn path_of_several(&self) -> Option<u32> {
+        match &self.rough {
+            Some(rough) => Some(rough.number),
+            None => (self.rough_path_count() > 0).then_some(0),
+        }
+    }
+
+    /// How many rough paths `[passes]` lists.
+    pub fn rough_path_count(&self) -> usize {
+        self.listed_paths().len()
+    }
+
+    /// The entries of `[passes]`.
+    fn listed_paths(&self) -> &[Entry] {
+        let passes = self.document().get(PASSES_TABLE);
+        match passes.map(|entry| &entry.node.value) {
+            Some(Value::Table(passes)) => passes.entries(),
+            _ => &[],
+        }
     }
 
     fn rough_path(
         &self,
-        base: &Table,
-        entry: &Entry,
+        (base, entry): (&Table, &Entry),
+        number: u32,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<RoughPath> {
         let (allowance, own) = own_values(entry, self.whole(), diagnostics)?;
@@ -80,7 +102,11 @@ impl Recipe {
         let whole = self.whole().clone();
         let mut recipe = build(document, sets, whole, self.path(), diagnostics)?;
         recipe.name = format!("{}, {}", recipe.name, entry.key);
-        recipe.rough = Some((entry.key.clone(), allowance));
+        recipe.rough = Some(RoughPlace {
+            name: entry.key.clone(),
+            allowance,
+            number,
+        });
         Some(RoughPath {
             name: entry.key.clone(),
             allowance,
@@ -102,12 +128,6 @@ fn own_values(
         diagnostics.push(Diagnostic::new(entry.span.clone(), title).with_help(help));
         return None;
     };
-    if !is_of_a_file(&entry.key) || is_taken(&entry.key) {
-        let title = format!("{} cannot be the end of a file's name", quoted(&entry.key));
-        let help = "use letters, digits, `-` and `_`, and not `dry-run` or `part-1`";
-        diagnostics.push(Diagnostic::new(entry.span.clone(), title).with_help(help));
-        return None;
-    }
     let known: Vec<&str> = tables::allowance_key().chain(OF_A_ROUGH_PATH).collect();
     let mut own = Vec::new();
     for inner in table.entries() {
@@ -158,10 +178,52 @@ fn is_of_a_file(name: &str) -> bool {
     !name.is_empty() && name.chars().all(good)
 }
 
-/// Whether other files of a result have this name. Names of parts are in small letters.
-fn is_taken(name: &str) -> bool {
-    let name = name.to_ascii_lowercase();
-    let number = name.strip_prefix(PART);
-    let is_part = number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()));
-    name == TAKEN || is_part
+/// Why a path's name cannot be the end of the names of its files, if it cannot. Names of parts are in small
+/// letters.
+fn taken_name(entry: &Entry, all: &[Entry]) -> Option<Diagnostic> {
+    let own = entry.key.to_ascii_lowercase();
+    let wrong = |title: String, help: &str| {
+        Some(Diagnostic::new(entry.span.clone(), title).with_help(help))
+    };
+    if !is_of_a_file(&own) || is_other_file(&own) {
+        let title = format!("{} cannot be the end of a file's name", quoted(&entry.key));
+        let help = "use letters, digits, `-` and `_`, and not `dry-run` or `part-1`";
+        return wrong(title, help);
+    }
+    let mut is_earlier = true;
+    for other in all {
+        let (name, said) = (other.key.to_ascii_lowercase(), quoted(&other.key));
+        is_earlier &= other.key != entry.key;
+        let rest = own.strip_prefix(&name);
+        if rest == Some("") && is_earlier {
+            let title = format!(
+                "{} and {said} have the same letters, but for small and capital ones",
+                quoted(&entry.key)
+            );
+            return wrong(
+                title,
+                "the parts of their programs would have the same names",
+            );
+        }
+        if rest
+            .and_then(|rest| rest.strip_prefix('-'))
+            .is_some_and(is_other_file)
+        {
+            let title = format!(
+                "{} is the name of other files of {said}",
+                quoted(&entry.key)
+            );
+            let help = "the dry run of a program, or a part of it, would have the same name: choose another one";
+            return wrong(title, help);
+        }
+    }
+    None
+}
+
+/// Whether other files of a path have this behind its name.
+fn is_other_file(end: &str) -> bool {
+    let number = end
+        .strip_prefix(PART)
+        .and_then(|number| number.strip_prefix(|digit| matches!(digit, '1'..='9')));
+    end == DRY_RUN || number.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()))
 }

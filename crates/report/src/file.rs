@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::anomalies::Anomalies;
 use crate::format::FORMAT;
 use crate::path::PathReport;
+use crate::program::ControllerCommand;
 use crate::reach::Reach;
 use crate::result_check::ResultCheck;
 use crate::unreached::Unreached;
@@ -46,6 +47,10 @@ pub struct FileReport {
     /// the file.
     #[serde(default)]
     pub result: Option<ResultCheck>,
+    /// What the header and the footer of a program tell the controller, where the recipe's templates do not
+    /// and it is not known to be harmless. Lines are those of the file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub controller_commands: Vec<ControllerCommand>,
     /// Which tolerances and limits hold.
     pub within: Verdict,
 }

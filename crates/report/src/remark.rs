@@ -94,9 +94,9 @@ pub enum Remark {
         /// By how much deeper each time, mm.
         #[serde(rename = "step_nm", with = "unit::nm")]
         step: f64,
-        /// Time of all cutting sections, without the moves between them, s.
-        #[serde(rename = "cutting_time_s", with = "unit::s")]
-        cutting_time: f64,
+        /// Time of all of them, with leads and Z's way down to each, and without rapid moves, s.
+        #[serde(rename = "time_s", with = "unit::s")]
+        time: f64,
     },
     /// The machine must keep more digits than controllers of this kind have on delivery.
     NeedsDigits {

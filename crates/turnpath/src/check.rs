@@ -2,6 +2,7 @@
 
 use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
+use turnpath_core::toolpath::Section;
 use turnpath_core::{DEG, Part, Tolerance, Tool};
 use turnpath_files::FileError;
 use turnpath_pipeline::{PathSample, largest_nose, sample_path};
@@ -48,6 +49,7 @@ impl Job {
         let path = PathSubject {
             tolerance: self.preparation.task.tolerance,
             cutting_time: expected.cutting_time,
+            lead_time: lead_time(&sample),
             revolutions: expected.revolutions,
             control_points: expected.control_points,
             z_acceleration: None,
@@ -128,6 +130,19 @@ impl Job {
             sections: sections(found, &task.part),
         }
     }
+}
+
+/// The time of the leads of a sampled path, s. The segments that join them to the cut are theirs.
+fn lead_time(sample: &PathSample) -> f64 {
+    let cut = [sample.blocks.first(), sample.blocks.last()];
+    let [Some(begin), Some(end)] = cut.map(|block| block.map(|block| &block.points.t)) else {
+        return 0.0;
+    };
+    let times = sample.leads.iter().map(|(section, points)| match section {
+        Section::LeadOut => points.t.last().zip(end.last()),
+        Section::LeadIn | Section::Cutting => begin.first().zip(points.t.first()),
+    });
+    times.flatten().map(|(late, early)| late - early).sum()
 }
 
 fn finite(value: f64) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! The controller's commands in a recipe's own header and footer.
 
-use turnpath_post::Post;
+use turnpath_post::{AroundPath, Command, Post};
 use turnpath_recipe::{Recipe, Span, Spanned};
 use turnpath_report::ControllerCommand;
 
@@ -8,6 +8,10 @@ use crate::posts::posts;
 
 /// The template before the path's lines.
 const HEADER: &str = "header";
+/// The one behind them.
+const FOOTER: &str = "footer";
+/// Most commands of a file that a report names: a file of another maker may have any number.
+const MOST_OF_A_FILE: usize = 50;
 
 /// A command with the span of its template.
 struct TemplateCommand {
@@ -38,7 +42,7 @@ fn found(recipe: &Recipe) -> impl Iterator<Item = TemplateCommand> {
         let other = other_header(recipe, post).filter(|_| header.is_none());
         let templates = [
             (HEADER, other.or(header.cloned())),
-            ("footer", footer.cloned()),
+            (FOOTER, footer.cloned()),
         ];
         let own = templates.into_iter();
         own.filter_map(|(name, own)| Some((name, own?)))
@@ -55,29 +59,75 @@ fn other_header(recipe: &Recipe, post: &Post) -> Option<Spanned<String>> {
     Some(Spanned { value, span })
 }
 
-fn of_template(post: &Post, name: &str, own: &Spanned<String>) -> Vec<TemplateCommand> {
-    let mut commands = post.dialect.commands(&own.value);
+/// What the header and the footer of a program in a file tell the controller, where the templates of its recipe
+/// do not and it is not known to be harmless. Lines are those of the file. A command with a placeholder is none
+/// of the templates' once it has its value.
+pub fn commands_of_file(
+    recipe: &Recipe,
+    post: &Post,
+    around: &AroundPath,
+) -> Vec<ControllerCommand> {
+    let settings = recipe.settings_of(post.name);
+    let own_header = settings.and_then(|settings| settings.header.clone());
+    let own_footer = settings.and_then(|settings| settings.footer.clone());
+    let own_header = own_header.or_else(|| other_header(recipe, post));
+    let text = |own: Option<Spanned<String>>, of_post: &str| {
+        own.map_or_else(|| of_post.to_owned(), |own| own.value)
+    };
+    let parts = [
+        (HEADER, &around.header, text(own_header, post.header), 0),
+        (
+            FOOTER,
+            &around.footer,
+            text(own_footer, post.footer),
+            around.before_footer,
+        ),
+    ];
+    let commands = parts.into_iter().flat_map(|(name, found, own, lines)| {
+        let own = judged(post, name, &own);
+        // What is harmless in the recipe's place may not be so at the place of the file.
+        let has = move |one: &Command| own.iter().any(|own| own.text == one.text && !own.harmless);
+        let is_new = move |one: &Command| !one.harmless && !has(one);
+        let found = judged(post, name, found).into_iter().filter(is_new);
+        found.map(move |one| of_command(post, name, one, lines))
+    });
+    commands.take(MOST_OF_A_FILE).collect()
+}
+
+/// The commands of a template, or of the text that was made from one, each judged at its place.
+fn judged(post: &Post, name: &str, text: &str) -> Vec<Command> {
+    let mut commands = post.dialect.commands(text);
     if name == HEADER {
         // The path's lines follow, and the controller does not come to them.
         for command in &mut commands {
             command.harmless &= !post.dialect.ends_program(&command.text);
         }
     }
-    if name == HEADER && !post.dialect.leaves_program_open(&own.value) {
+    if name == HEADER && !post.dialect.leaves_program_open(text) {
         // The path's lines follow, and go wherever this one leaves the controller.
         if let Some(last) = commands.last_mut() {
             last.harmless = false;
         }
     }
-    let found = commands.into_iter().map(|command| TemplateCommand {
-        command: ControllerCommand {
-            post: post.name.to_owned(),
-            template: name.to_owned(),
-            line: command.line as u64,
-            command: command.text,
-            harmless: command.harmless,
-        },
+    commands
+}
+
+fn of_template(post: &Post, name: &str, own: &Spanned<String>) -> Vec<TemplateCommand> {
+    let commands = judged(post, name, &own.value).into_iter();
+    let found = commands.map(|command| TemplateCommand {
+        command: of_command(post, name, command, 0),
         span: own.span.clone(),
     });
     found.collect()
+}
+
+/// A command behind so many lines of its file.
+fn of_command(post: &Post, template: &str, command: Command, lines: u64) -> ControllerCommand {
+    ControllerCommand {
+        post: post.name.to_owned(),
+        template: template.to_owned(),
+        line: lines + command.line as u64,
+        command: command.text,
+        harmless: command.harmless,
+    }
 }

@@ -268,7 +268,7 @@ fn whole_program(
     let fits = program.refuse_large(size);
     fits.map_err(|error| not_carried(&job.recipe, error))?;
     let Some(limits) = program.limits_of(size) else {
-        return Ok(vec![path.assemble(around)?.proven()?]);
+        return Ok(vec![path.assemble(around)?.prove()?]);
     };
     let (points, file) = (path.points(), path.file().to_owned());
     let mut names = Vec::new();

@@ -1,7 +1,7 @@
 //! The posts of a recipe, and how it lays out what they write.
 
 use turnpath_core::Params;
-use turnpath_post::{Layout, Post, ProgramError, ProgramFormat, post_named};
+use turnpath_post::{Layout, PartNumbers, Post, ProgramError, ProgramFormat, post_named};
 use turnpath_recipe::{Recipe, ZReference};
 
 use crate::error::Error;
@@ -55,9 +55,19 @@ pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> L
     let format = ProgramFormat {
         // A rough path is played once: the loop is that of the finishing path.
         depths: format.depths.filter(|_| recipe.rough_name().is_none()),
+        part_numbers: part_numbers(recipe, post),
         approach_height: output.approach_height,
         approach_feed: output.approach_feed * MINUTE,
         ..format
     };
     Layout { post, format }
+}
+
+/// The numbers of the parts of a recipe's path. All paths of a run may lie in one controller, so none has the
+/// number of a part of another.
+fn part_numbers(recipe: &Recipe, post: &Post) -> PartNumbers {
+    match recipe.path_of_several() {
+        Some(path) if post.dialect.calls_by_number() => PartNumbers::of_path(path),
+        _ => PartNumbers::ALONE,
+    }
 }

@@ -8,8 +8,9 @@ use turnpath_core::toolpath::{PathBlock, Section, SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
 use turnpath_post::{
-    Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartLimits, PartName, PartsError,
-    Post, ProgramError, ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize, text_name,
+    Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartLimits, PartName, PartNumbers,
+    PartsError, Post, ProgramError, ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize,
+    text_name,
 };
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
@@ -81,6 +82,9 @@ impl Program {
             return Err(without_calls(recipe, post, key));
         }
         refuse_depths(recipe, post, params)?;
+        if split.is_some() {
+            refuse_many_rough_paths(recipe, post)?;
+        }
         let own_header = other.map_or(post.header, |(_, text)| text);
         let text = format!("{}.{}", recipe.stem(), post.extension);
         Ok(Self {
@@ -134,6 +138,10 @@ impl Program {
         self.refuse_large(size)?;
         let limits = self.limits_of(size);
         let parts = limits.map(|limits| limits.part.parts_of(size));
+        let most = self.layout.format.part_numbers.most();
+        if parts.is_some_and(|parts| parts > u64::from(most)) {
+            return self.carried(Err(ProgramError::ManyParts { most }));
+        }
         if let Some((limits, parts)) = limits.zip(parts) {
             self.refuse_large_parts(&limits, parts, &sampled.into_inner())?;
         }
@@ -213,10 +221,10 @@ impl Program {
         // The first part begins with the lead-in; a lead-out may be cut anywhere.
         let cuts = || of(Section::Cutting);
         let with_leads = cuts().flat_map(|cut| of(Section::LeadIn).map(move |lead| (lead, cut)));
-        let with_leads = with_leads.map(|(lead, cut)| filled(lead, cut, limits.part));
+        let with_leads = with_leads.map(|(lead, cut)| lead_and_cut(lead, cut, limits.part));
         for lines in cuts().chain(with_leads) {
             let largest = limits.largest_part(lines, around);
-            let part = PartName::of(file, parts);
+            let part = PartName::of(file, parts, &self.layout.format.part_numbers);
             self.carried(limits.refuse_large(&part.file, largest))?;
         }
         self.carried(limits.refuse_large(file, self.frame_size().and(calls)))
@@ -389,7 +397,7 @@ impl Program {
 }
 
 /// The lines of a lead, and behind them so many lines of the cut that they fill a part.
-fn filled(lead: TextSize, cut: TextSize, part: Amount) -> TextSize {
+fn lead_and_cut(lead: TextSize, cut: TextSize, part: Amount) -> TextSize {
     let rest = |own: u64, room: u64, of: u64, by: u64| {
         let rest = room.saturating_sub(own) as f64;
         (rest * of as f64 / by.max(1) as f64).ceil() as u64
@@ -467,6 +475,19 @@ fn without_calls(recipe: &Recipe, post: &Post, key: &str) -> Error {
     let help = "leave out one of them: a buffer that is filled while it empties needs no parts";
     let diagnostic = recipe.diagnostic(span, title, "in this table", [help.to_owned()]);
     Error::refused_by(diagnostic, ProgramError::NoCalls)
+}
+
+/// Refuses more rough paths than have numbers for their parts, where the controller calls parts by numbers.
+fn refuse_many_rough_paths(recipe: &Recipe, post: &Post) -> Result<(), Error> {
+    let most = PartNumbers::MOST_ROUGH_PATHS;
+    if !post.dialect.calls_by_number() || recipe.rough_path_count() <= most as usize {
+        return Ok(());
+    }
+    let error = ProgramError::ManyRoughPaths { most };
+    let span = recipe.nearest_span(post.table);
+    let help = error.help(post.keys).to_owned();
+    let diagnostic = recipe.diagnostic(span, error.to_string(), "in this table", [help]);
+    Err(Error::refused_by(diagnostic, error))
 }
 
 /// A template of the recipe, or the post's own.

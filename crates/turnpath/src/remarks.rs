@@ -9,12 +9,17 @@ use turnpath_report::{ProgramDigits, Remark, RemarkSubject};
 
 use crate::posts::{layout, posts};
 
+/// Seconds of a minute: a format has the feed of its approach per minute.
+const MINUTE: f64 = 60.0;
+
 /// What remarks are made on besides the recipe: its path, or what is expected of it.
 pub struct PathSubject {
     /// The tolerances that the path was made for.
     pub tolerance: Tolerance,
     /// Time of the cutting section, s.
     pub cutting_time: f64,
+    /// Time of both leads, s; zero for a path without.
+    pub lead_time: f64,
     /// Revolutions of the cutting section.
     pub revolutions: f64,
     /// Control points of the cutting section.
@@ -44,19 +49,24 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject, cut_angle: f64) -> Vec<Remar
         digits: layouts.map(|layout| digits(&layout, path)).collect(),
     };
     let layouts = posts(recipe).map(|post| layout(recipe, post, true));
-    let depths = layouts.filter_map(|layout| several_depths(&layout, path.cutting_time));
+    let depths = layouts.filter_map(|layout| several_depths(&layout, path));
     subject.remarks().into_iter().chain(depths).collect()
 }
 
 /// The remark on a loop over depths, whose program takes longer than the path.
-fn several_depths(layout: &Layout, cutting_time: f64) -> Option<Remark> {
-    let depths = layout.format.depths?;
-    let one = 10_u64.pow(layout.format.position_decimals) as f64;
+fn several_depths(layout: &Layout, path: &PathSubject) -> Option<Remark> {
+    let format = &layout.format;
+    let depths = format.depths?;
+    let one = 10_u64.pow(format.position_decimals) as f64;
+    // Z goes down from the plane of the approach, which is above the first depth, to the highest place of the
+    // path: the first point of a path from rest to rest lies there but for the last digits.
+    let way = format.approach_height + depths.rise() as f64 / one;
+    let once = path.cutting_time + path.lead_time + way / format.approach_feed * MINUTE;
     Some(Remark::SeveralDepths {
         post: layout.post.name.to_owned(),
         depths: u32::try_from(depths.count).unwrap_or(u32::MAX),
         step: depths.step as f64 / one,
-        cutting_time: depths.count as f64 * cutting_time,
+        time: depths.count as f64 * once,
     })
 }
 

@@ -269,6 +269,7 @@ impl Job {
         let subject = PathSubject {
             tolerance: made_for.unwrap_or(self.preparation.task.tolerance),
             cutting_time: outcome.cutting_time,
+            lead_time: leads.map_or(0.0, |leads| leads.in_time + leads.out_time),
             revolutions: outcome.revolutions,
             control_points: outcome.control_points as f64,
             z_acceleration: Some(path.axes.z.acceleration.max),

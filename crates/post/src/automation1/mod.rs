@@ -36,7 +36,7 @@ use write::{push_first, push_last, push_segment};
 use turnpath_core::toolpath::SegmentShape;
 
 use crate::digits::{DigitSegment, Digits};
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
@@ -135,7 +135,7 @@ impl Dialect for MovePvt {
         })
     }
 
-    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+    fn called_part(&self, code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         let rest = code.trim().strip_prefix("#include")?.trim();
         let name = rest.strip_prefix('"')?.strip_suffix('"')?;
         Some(name.to_owned())

@@ -28,8 +28,8 @@ pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places,
     }
     let call = code.split_once('(').and_then(|(name, rest)| {
         let arguments = rest.strip_suffix(')')?;
-        let (axis, rest) = arguments.trim_start().strip_prefix('[')?.split_once(']')?;
-        let (place, rest) = rest.split_once('[')?.1.split_once(']')?;
+        let (axis, rest) = in_brackets(arguments)?;
+        let (place, rest) = in_brackets(rest.trim_start().strip_prefix(',')?)?;
         Some((name.trim(), axis.trim(), place.trim(), rest.trim()))
     });
     let Some((name @ ("MoveRapid" | "MoveLinear"), axis, place, rest)) = call else {
@@ -57,4 +57,9 @@ pub(super) fn read_travel(code: &str, modes: &mut TravelModes) -> Result<Places,
     modes.need(NEEDED)?;
     places[k] = Some(number(axis, place)?);
     Ok(places)
+}
+
+/// What stands in the brackets at the beginning of a text, and what follows them.
+fn in_brackets(text: &str) -> Option<(&str, &str)> {
+    text.trim_start().strip_prefix('[')?.split_once(']')
 }

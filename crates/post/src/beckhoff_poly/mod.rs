@@ -42,7 +42,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::beckhoff;
 use crate::digits::{DigitSegment, Digits};
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
@@ -174,7 +174,7 @@ impl Dialect for BeckhoffPoly {
         beckhoff::part_frame()
     }
 
-    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+    fn called_part(&self, code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         beckhoff::called_part(code)
     }
 

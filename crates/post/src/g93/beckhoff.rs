@@ -18,7 +18,7 @@ use super::read::{LineGrammar, Words};
 use super::write::{push_first, push_line};
 use crate::beckhoff;
 use crate::digits::{DigitSegment, Digits};
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
@@ -114,7 +114,7 @@ impl Dialect for Beckhoff {
         beckhoff::part_frame()
     }
 
-    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+    fn called_part(&self, code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         beckhoff::called_part(code)
     }
 

@@ -7,7 +7,7 @@ use super::timing::{check_time, is_dwell};
 use super::write::{push_dwell, push_first, push_line};
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code::{TravelWords, commands, ends_program};
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
@@ -83,6 +83,7 @@ const WORDS: Words = Words {
 const TRAVEL: TravelWords = TravelWords {
     text: " G8 G21 G40 G61",
     needed: &["G90", "G94", "G8", "G21", "G40", "G61"],
+    allowed: &[],
 };
 
 impl Dialect for LinuxCnc {
@@ -132,7 +133,7 @@ impl Dialect for LinuxCnc {
         [vec![format!("O<{name}>SUB")], end.to_vec()]
     }
 
-    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+    fn called_part(&self, code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         let code: String = code.split_whitespace().collect();
         let code = code.to_ascii_lowercase();
         let name = code.strip_prefix("o<")?.strip_suffix(">call")?;
@@ -160,6 +161,8 @@ mod tests {
         assert_eq!(said, "a move before `G21`");
         assert!(TRAVEL.read("G21", &mut modes).is_ok());
         assert!(TRAVEL.read("G0 Z6.5", &mut modes).is_ok());
-        assert!(TRAVEL.read("G20", &mut modes).is_err());
+        for unknown in ["G20", "G60", "G9"] {
+            assert!(TRAVEL.read(unknown, &mut modes).is_err(), "{unknown}");
+        }
     }
 }

@@ -6,13 +6,14 @@ use crate::axes::NAMES;
 use crate::fixed_point::number;
 use crate::travel::{Motion, Places, Speed, TravelModes, speed_of};
 
-/// Words that move nothing and that no move needs: exact stops, and stops of the program.
-const WITHOUT_MOVE: [&str; 4] = ["G9", "G60", "G61", "M0"];
+/// The stop of a program, which all of these controllers have.
+const STOP: &str = "M0";
 
-/// The positions that a line gives. The program must have said the words of `needed` before an axis moves.
+/// The positions that a line gives. The program must have said the words of `needed` before an axis moves; those
+/// of `allowed` move nothing, and no move needs them.
 pub(crate) fn read_travel(
     code: &str,
-    needed: &[&'static str],
+    (needed, allowed): (&[&'static str], &[&str]),
     modes: &mut TravelModes,
 ) -> Result<Places, String> {
     let mut places: Places = [None; 3];
@@ -43,7 +44,7 @@ pub(crate) fn read_travel(
             motion = of_motion;
         } else if let Some(known) = needed.iter().find(|known| **known == word) {
             modes.say(known);
-        } else if !WITHOUT_MOVE.contains(&word.as_str()) {
+        } else if word != STOP && !allowed.contains(&word.as_str()) {
             let shown: String = word.chars().take(40).collect();
             return Err(format!(
                 "`{shown}` is not a word of an approach or a retreat"

@@ -15,6 +15,8 @@ pub(crate) struct TravelWords {
     pub(crate) text: &'static str,
     /// The words that a program must have said before an axis moves, `G90` and `G94` among them.
     pub(crate) needed: &'static [&'static str],
+    /// Other words of exact stops, by the controller's manual.
+    pub(crate) allowed: &'static [&'static str],
 }
 
 impl TravelWords {
@@ -25,13 +27,13 @@ impl TravelWords {
 
     /// Reads a line.
     pub(crate) fn read(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-        read::read_travel(&spaced(code)?, self.needed, modes)
+        read::read_travel(&spaced(code)?, (self.needed, self.allowed), modes)
     }
 }
 
-/// Reads a line of a controller that has no such words.
+/// Reads a line of a controller that has no such words, or of which they are not known.
 pub(crate) fn read_spaced_travel(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
-    read::read_travel(&spaced(code)?, NEEDED, modes)
+    read::read_travel(&spaced(code)?, (NEEDED, &[]), modes)
 }
 
 #[cfg(test)]

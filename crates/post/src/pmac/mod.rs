@@ -52,7 +52,7 @@ use write::{push_first, push_last, push_segment};
 use turnpath_core::toolpath::SegmentShape;
 
 use crate::digits::{DigitSegment, Digits};
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
@@ -154,9 +154,6 @@ pub(crate) const PVT_KEYS: &[ParamInfo] = &[
     FOOTER.info(),
 ];
 
-/// The program of the first part has the next number: few programs of a machine's maker have numbers above it.
-const FIRST_PART: u32 = 100;
-
 /// Which controller of the family reads the lines.
 #[derive(Debug)]
 pub(crate) enum PmacDialect {
@@ -199,7 +196,7 @@ impl Dialect for Pvt {
     }
 
     fn part_lines(&self, part: &PartName) -> Option<PartLines> {
-        let number = FIRST_PART + part.number;
+        let number = part.program_number;
         Some(match self.dialect {
             PmacDialect::Turbo => PartLines {
                 call: format!("CALL{number}"),
@@ -215,7 +212,7 @@ impl Dialect for Pvt {
     }
 
     fn part_frame(&self, part: &PartName) -> [Vec<String>; 2] {
-        let open = format!("OPENPROG{}", FIRST_PART + part.number);
+        let open = format!("OPENPROG{}", part.program_number);
         let open = match self.dialect {
             PmacDialect::Turbo => format!("{open}CLEAR"),
             PmacDialect::Power => open,
@@ -225,14 +222,19 @@ impl Dialect for Pvt {
     }
 
     /// A controller of this family knows programs by their numbers, and files by their names alone.
-    fn called_part(&self, code: &str, program: &str) -> Option<String> {
+    fn called_part(&self, code: &str, main: (&str, &PartNumbers)) -> Option<String> {
         let code = code.trim();
         let word = code
             .get(..4)
             .filter(|word| word.eq_ignore_ascii_case("CALL"))?;
         let number: u32 = code.get(word.len()..)?.trim().parse().ok()?;
-        let part = number.checked_sub(FIRST_PART)?;
-        Some(PartName::of(program, part).file)
+        let (program, numbers) = main;
+        let part = numbers.part_of(number)?;
+        Some(PartName::of(program, part, numbers).file)
+    }
+
+    fn calls_by_number(&self) -> bool {
+        true
     }
 
     fn other_header(&self, settings: &Params) -> Option<(&'static str, &'static str)> {

@@ -104,7 +104,7 @@ fn a_writer_compresses_by_the_name_of_the_file_with_the_same_text_in_parts_and_i
     let mut writer = ProgramWriter::begin(draft, layout).unwrap();
     writer.append(&lines).unwrap();
     let whole = writer.close().unwrap().assemble(["", ""]).unwrap();
-    whole.proven().unwrap().complete().unwrap();
+    whole.prove().unwrap().complete().unwrap();
     let bytes = std::fs::read(&path).unwrap();
     let mut reader = layout.open(&path).unwrap();
     let mut found = 0;

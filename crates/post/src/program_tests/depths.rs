@@ -182,7 +182,7 @@ fn damaged_loops_are_refused_with_their_line() {
             "G0 Z6.504\nG0 X2.46",
             "G0 Z6.403\nG0 X2.46",
             at("G0 X2.46"),
-            "below 6.4540 mm",
+            "the plane is at Z = 6.5040 mm",
         ),
         (
             "G0 Z6.504\n; -- end of depths",

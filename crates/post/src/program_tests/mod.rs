@@ -6,6 +6,7 @@ use turnpath_files::Draft;
 
 use crate::{Chords, Layout, Lines, Post, ProgramFormat, ProgramWriter, ReadPath, TimeAxis};
 
+mod around_path;
 #[cfg(feature = "zst")]
 mod compressed;
 mod damage;
@@ -102,7 +103,7 @@ pub(crate) fn assembled(layout: &Layout, lines: &Lines) -> String {
     writer.append(lines).unwrap();
     let path_text = writer.close().unwrap();
     let whole = path_text.assemble(["OPEN PROG 1 CLEAR\n", "CLOSE\n"]);
-    whole.unwrap().proven().unwrap().complete().unwrap();
+    whole.unwrap().prove().unwrap().complete().unwrap();
     std::fs::read_to_string(path).unwrap()
 }
 

@@ -178,7 +178,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             pmac(),
             "Z6.5\nX2.46\n",
             "Z6.5\nZ2\nX2.46\nZ6.5\n",
-            "line 7: C or X moves at Z = 2 mm, below 6.4500 mm",
+            "line 7: C or X moves at Z = 2 mm; by `approach_height` of the recipe the plane is at Z = 6.5000 mm",
         ),
         (
             pmac(),
@@ -220,7 +220,7 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             pmac(),
             "RAPID\nZ6.5\n; -- end",
             "RAPID\nZ1.2\n; -- end",
-            "line 25: a rapid move goes to Z = 1.2 mm, below 6.4500 mm",
+            "line 25: a rapid move goes to Z = 1.2 mm; by `approach_height`",
         ),
         (
             pmac(),
@@ -288,6 +288,18 @@ fn moves_that_could_collide_are_refused_with_their_line() {
             "MoveRapid([X]",
             "MoveRapid([X, Z]",
             "`X, Z` is not one axis",
+        ),
+        (
+            aerotech(),
+            "MoveRapid([Z], [6.5])",
+            "MoveRapid([Z], -[-6.5])",
+            "is not a call of an approach",
+        ),
+        (
+            aerotech(),
+            "MoveRapid([Z], [6.5])",
+            "MoveRapid([Z] [6.5])",
+            "is not a call of an approach",
         ),
     ] {
         assert!(text.contains(from), "{from}: {text}");
@@ -429,7 +441,9 @@ fn a_plane_below_the_recipes_height_is_refused() {
             let lower = text.replace(from, to).replace("TM5000", "TM4900");
             let said = read(&layout, lower.as_bytes()).unwrap_err();
             assert!(
-                said.contains("6.4 mm, below 6.4500 mm"),
+                said.contains(
+                    "6.4 mm; by `approach_height` of the recipe the plane is at Z = 6.5000 mm"
+                ),
                 "{}: {said}",
                 post.name
             );
@@ -437,6 +451,87 @@ fn a_plane_below_the_recipes_height_is_refused() {
         let higher = text.replace("Z6.5", "Z7").replace("[6.5]", "[7]");
         let higher = higher.replace("TM5000", "TM5500");
         assert!(read(&layout, higher.as_bytes()).is_ok(), "{}", post.name);
+    }
+}
+
+/// Lines that bring Z down to `z` by the feed of the recipe, and others that bring it up again.
+fn down_and_up(post: &str, z: f64) -> String {
+    let way = 6.5 - z;
+    match post {
+        "automation1-pvt" => format!("MoveLinear([Z], [{z}], 1)\nMoveRapid([Z], [6.5])\n"),
+        "pmac-pvt" | "power-pmac-pvt" => {
+            let ms = (1000.0 * way).ceil();
+            format!("LINEAR TM{ms}\nZ{z}\nRAPID\nZ6.5\n")
+        }
+        _ => format!("G1 Z{z} F60\nG0 Z6.5\n"),
+    }
+}
+
+/// The mark of a path is the place above the part at which it begins: no move of an approach goes lower, at
+/// whatever speed, and on whatever way it comes back.
+#[test]
+fn an_approach_that_goes_through_the_part_is_refused_with_its_line() {
+    for post in POSTS {
+        let (layout, text) = (plain(post), good(post.name));
+        let behind_up = ["G0 Z6.5\n", "RAPID\nZ6.5\n", "MoveRapid([Z], [6.5])\n"];
+        let up = behind_up.into_iter().find(|up| text.contains(up)).unwrap();
+        let behind = text.find(up).unwrap() + up.len();
+        let (head, rest) = text.split_at(behind);
+        for (z, is_refused) in [(-1000.0, true), (1.499, true), (1.5, false), (3.0, false)] {
+            let plunge = format!("{head}{}{rest}", down_and_up(post.name, z));
+            let read = read(&layout, plunge.as_bytes());
+            assert_eq!(read.is_err(), is_refused, "{}: {z}: {read:?}", post.name);
+            let Err(said) = read else {
+                continue;
+            };
+            let down = format!("Z goes down to Z = {z} mm; the path begins at 1.5000 mm");
+            assert!(said.contains(&down), "{}: {said}", post.name);
+            let number = 1 + head.lines().count() + usize::from(post.name.contains("pmac"));
+            let line = format!("line {number}: ");
+            assert!(said.contains(&line), "{}: {line}{said}", post.name);
+        }
+    }
+}
+
+/// Z may go down in steps.
+#[test]
+fn an_approach_of_several_steps_is_read() {
+    for post in POSTS {
+        let (layout, text) = (plain(post), good(post.name));
+        let last = [
+            "G1 Z1.5 F60",
+            "LINEAR TM5000\nZ1.5",
+            "MoveLinear([Z], [1.5], 1)",
+        ];
+        let last = last.into_iter().find(|last| text.contains(last)).unwrap();
+        let first = match post.name {
+            "automation1-pvt" => "MoveLinear([Z], [4.5], 1)\nMoveLinear([Z], [1.5], 1)",
+            "pmac-pvt" | "power-pmac-pvt" => "LINEAR TM2000\nZ4.5\nTM3000\nZ1.5",
+            _ => "G1 Z4.5 F60\nZ1.5",
+        };
+        let steps = text.replacen(last, first, 1);
+        let read = read(&layout, steps.as_bytes());
+        assert!(read.is_ok(), "{}: {read:?}", post.name);
+    }
+}
+
+/// A path with an approach begins where it ends. Without its moves the first line would bring all axes there at
+/// once, from wherever they are.
+#[test]
+fn the_mark_of_an_approach_without_moves_is_refused() {
+    for post in POSTS {
+        let (layout, text) = (plain(post), good(post.name));
+        let around = lines_around(&text);
+        let of_approach = text.lines().position(|line| line.contains("-- lead-in"));
+        let is_move = |number: usize| around.contains(&number) && Some(number) < of_approach;
+        let kept = text
+            .lines()
+            .enumerate()
+            .filter(|(number, _)| !is_move(*number));
+        let bare: Vec<&str> = kept.map(|(_, line)| line).collect();
+        let said = read(&layout, bare.join("\n").as_bytes()).unwrap_err();
+        let says = "the approach does not end at the path's first C";
+        assert!(said.contains(says), "{}: {said}", post.name);
     }
 }
 

@@ -112,7 +112,7 @@ fn a_file_with_other_bytes_than_the_measured_text_is_refused() {
             footer: around[1].to_owned(),
             layout,
         };
-        match whole.proven() {
+        match whole.prove() {
             Ok(_) => assert_eq!(name, "as it is"),
             Err(crate::ReadError::File { error, .. }) => {
                 assert!(

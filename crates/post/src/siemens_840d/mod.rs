@@ -44,7 +44,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code::push_travel;
-use crate::part_name::{PartLines, PartName};
+use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
@@ -160,7 +160,7 @@ impl Dialect for Poly {
         [Vec::new(), vec!["RET".to_owned()]]
     }
 
-    fn called_part(&self, code: &str, _program: &str) -> Option<String> {
+    fn called_part(&self, code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         travel::called_part(code)
     }
 

@@ -1,5 +1,7 @@
 //! The controller's commands in a recipe's own header and footer.
 
+use turnpath_core::printable_line;
+
 use crate::program::ControllerCommand;
 
 use super::numbers::line;
@@ -15,6 +17,19 @@ pub fn commands(commands: &[ControllerCommand]) -> String {
             &one.template,
             format!("line {}: {}{trusted}", one.line, one.command),
         )
+    };
+    commands.iter().map(of_command).collect()
+}
+
+/// A line for each command that a file has besides those of its recipe.
+pub fn commands_of_file(commands: &[ControllerCommand]) -> String {
+    let of_command = |one: &ControllerCommand| {
+        let (template, command) = (&one.template, printable_line(&one.command));
+        let said = format!(
+            "line {}: {command}, which the recipe's {template} does not have there; it may move, set, start or end something",
+            one.line
+        );
+        line(template, said)
     };
     commands.iter().map(of_command).collect()
 }

@@ -8,6 +8,7 @@ use crate::result_check::ResultCheck;
 use crate::wholeness::Wholeness;
 
 use super::anomalies::anomalies;
+use super::commands::commands_of_file;
 use super::lead::lead;
 use super::numbers::{grouped, line, millimetres};
 use super::path::path;
@@ -30,6 +31,7 @@ pub fn file(report: &FileReport) -> String {
         text += &lead(report, verdict.lead);
     }
     text += &anomalies(&report.anomalies, report.rows);
+    text += &commands_of_file(&report.controller_commands);
     if let Some(servos) = &report.path.servo {
         text += &servo(servos, report.path.tolerance.servo, verdict.servo);
     }

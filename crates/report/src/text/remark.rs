@@ -71,14 +71,15 @@ fn sentence(remark: &Remark) -> String {
             post,
             depths,
             step,
-            cutting_time,
+            time,
         } => {
             let first = small_length(f64::from(depths.saturating_sub(1)) * step);
             format!(
-                "{}the program plays the cut {depths} times, in {} together: the first is {first} above the \
-                 path, and the last is the path. All other figures are those of the last",
+                "{}the program plays the path {depths} times, in {} together, leads and approaches with it and \
+                 rapid moves not: the first is {first} above the path, and the last is the path. All other \
+                 figures are those of the last",
                 of_post(post),
-                duration(*cutting_time)
+                duration(*time)
             )
         }
         Remark::NeedsDigits {

@@ -21,6 +21,7 @@ use turnpath_report as report;
 use turnpath_report::FileReport;
 use turnpath_verify::{AnomalyDetector, FirstTouch, ServoMeter, Subject, unreached};
 
+use crate::commands::commands_of_file;
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
@@ -168,8 +169,21 @@ impl<'a> Target<'a> {
             anomalies,
             unreached,
             result: result_check(&file.path, recipe),
+            controller_commands: self.controller_commands(file)?,
         };
         Ok(report.with_verdict())
+    }
+
+    /// What the file tells the controller before its path and behind it, if it is a program.
+    fn controller_commands(
+        &self,
+        file: &SourceFile,
+    ) -> Result<Vec<report::ControllerCommand>, Error> {
+        let Some(layout) = file.program else {
+            return Ok(Vec::new());
+        };
+        let around = layout.around_path(&file.path)?;
+        Ok(commands_of_file(self.recipe, layout.post, &around))
     }
 
     /// Whether the file's path goes from its beginning to its end, by the file itself.
