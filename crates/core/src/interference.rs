@@ -10,7 +10,7 @@ use crate::crease;
 use crate::extreme;
 pub use crate::extreme::Extreme;
 use crate::profile::{Profile, profile_at};
-use crate::{Cut, Gradients, RadialRange, Result, Scalar, StrategyError, Tool};
+use crate::{Cut, Gradients, RadialRange, Result, Scalar, StrategyError, Tool, sines_and_cosines};
 
 /// What the part demands of a tool: the extremes of its sectional curves, each with its position.
 ///
@@ -196,11 +196,12 @@ fn sections(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]) -> R
 /// g_θ/ρ at each (θ, ρ): the component of the gradient across the radius. It exists at the centre
 /// too.
 fn slopes_along_cut(cut: Cut<'_>, theta: &[f64], rho: &[f64]) -> Result<Vec<f64>> {
-    let turned: Vec<(f64, f64)> = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
-    let places = rho.iter().zip(&turned);
-    let (x, y): (Vec<f64>, Vec<f64>) = places.map(|(rho, (s, c))| (rho * c, rho * s)).unzip();
     let mut z = vec![0.0; theta.len()];
-    let (mut zx, mut zy) = (z.clone(), z.clone());
+    let (mut zx, mut zy, mut sines, mut cosines) = (z.clone(), z.clone(), z.clone(), z.clone());
+    sines_and_cosines(theta, &mut sines, &mut cosines);
+    let turned = sines.iter().zip(&cosines);
+    let places = rho.iter().zip(turned.clone());
+    let (x, y): (Vec<f64>, Vec<f64>) = places.map(|(rho, (s, c))| (rho * c, rho * s)).unzip();
     cut.surface.gradient(
         &x,
         &y,
@@ -211,7 +212,6 @@ fn slopes_along_cut(cut: Cut<'_>, theta: &[f64], rho: &[f64]) -> Result<Vec<f64>
         },
     )?;
     Ok(turned
-        .iter()
         .zip(zx.iter().zip(&zy))
         .map(|((s, c), (zx, zy))| zy * c - zx * s)
         .collect())

@@ -5,8 +5,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use crate::{Mask, Scalar, sine};
 
-/// So many lanes go through loops in wide registers. Fewer are those of series, which stay in base
-/// registers, where functions are faster one by one.
+/// So many lanes go through loops in wide registers. Functions of fewer are faster one by one.
 const FULL: usize = 8;
 
 /// `N` numbers that go through a formula together.
@@ -27,13 +26,19 @@ pub struct LaneMask<const N: usize>(pub [bool; N]);
 
 impl<const N: usize> Lanes<N> {
     #[inline(always)]
-    fn map(self, function: impl Fn(f64) -> f64) -> Self {
-        Self(from_fn(|i| function(self.0[i])))
+    fn map(mut self, function: impl Fn(f64) -> f64) -> Self {
+        for lane in &mut self.0 {
+            *lane = function(*lane);
+        }
+        self
     }
 
     #[inline(always)]
-    fn zip(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
-        Self(from_fn(|i| function(self.0[i], other.0[i])))
+    fn zip(mut self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
+        for (lane, other) in self.0.iter_mut().zip(&other.0) {
+            *lane = function(*lane, *other);
+        }
+        self
     }
 
     /// Applies a function with two results to each lane.

@@ -44,6 +44,7 @@ mod sine;
 mod slot;
 mod spindle;
 mod strategy;
+pub mod strip;
 mod surface;
 pub mod tally;
 mod taylor;

@@ -1,6 +1,6 @@
 //! The radial profile of a surface at one point.
 
-use crate::{Result, Scalar, SurfaceModel};
+use crate::{Result, SurfaceModel, sines_and_cosines};
 
 /// The radial profile z = g(θ, ρ) at one point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -39,8 +39,10 @@ pub fn profile_at(
         vec![[0.0; 5]; count],
         vec![[0.0; 5]; count],
     );
+    let (mut sines, mut cosines) = (vec![0.0; count], vec![0.0; count]);
+    sines_and_cosines(theta, &mut sines, &mut cosines);
     for i in 0..count {
-        let (s, c) = Scalar::sin_cos(theta[i]);
+        let (s, c) = (sines[i], cosines[i]);
         x[i] = [rho[i] * c, c, 0.0, 0.0, 0.0];
         y[i] = [rho[i] * s, s, 0.0, 0.0, 0.0];
     }

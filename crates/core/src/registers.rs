@@ -1,5 +1,5 @@
-//! Vector registers: loops over lanes run in the widest that the CPU has. Series do not: their
-//! coefficients depend on each other, and OAP-213 was no faster with them in wide registers.
+//! Vector registers: loops over lanes, and over the curves of strips, run in the widest that the CPU
+//! has.
 //!
 //! The compiler turns the same loop into other instructions, but neither the operations nor their
 //! order change, and no two of them are fused. So the bytes are the same in all registers.

@@ -3,8 +3,9 @@
 //! The recurrences are the usual ones of automatic differentiation (Griewank and Walther,
 //! *Evaluating Derivatives*, 2nd ed., 2008, §13.2). A function f with f′ = g·a′ gives its
 //! coefficients one after the other, exact up to rounding.
+//!
+//! The coefficients go through plain loops: adaptors of arrays are calls that copy whole series.
 
-use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
@@ -39,13 +40,27 @@ impl<T: Scalar, const N: usize> Taylor<T, N> {
     /// The beginning of a series of plain numbers.
     #[inline(always)]
     pub fn from_series(series: Series) -> Self {
-        Self(from_fn(|k| T::constant(series[k])))
+        let mut out = Self([T::constant(0.0); N]);
+        for (out, c) in out.0.iter_mut().zip(series) {
+            *out = T::constant(c);
+        }
+        out
+    }
+
+    /// Its sine and cosine, where those of the constant term are known.
+    #[inline(always)]
+    pub fn sin_cos_from(self, start: (T, T)) -> (Self, Self) {
+        self.coupled(start, -1.0)
     }
 
     /// The coefficients k·c_k: those of t·d/dt.
     #[inline(always)]
     fn weighted(&self) -> [T; N] {
-        from_fn(|k| self.0[k] * k as f64)
+        let mut out = self.0;
+        for (k, out) in out.iter_mut().enumerate() {
+            *out = *out * k as f64;
+        }
+        out
     }
 
     /// The series with the constant term `value` whose derivative is `slope` times that of `self`.
@@ -99,7 +114,11 @@ impl<T: Scalar, const N: usize> Add for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(from_fn(|k| self.0[k] + other.0[k]))
+        let mut out = self;
+        for (out, other) in out.0.iter_mut().zip(&other.0) {
+            *out = *out + *other;
+        }
+        out
     }
 }
 
@@ -107,7 +126,11 @@ impl<T: Scalar, const N: usize> Sub for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(from_fn(|k| self.0[k] - other.0[k]))
+        let mut out = self;
+        for (out, other) in out.0.iter_mut().zip(&other.0) {
+            *out = *out - *other;
+        }
+        out
     }
 }
 
@@ -115,7 +138,11 @@ impl<T: Scalar, const N: usize> Mul for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self(from_fn(|k| convolve(&self.0, &other.0, 0, k)))
+        let mut out = self;
+        for (k, out) in out.0.iter_mut().enumerate() {
+            *out = convolve(&self.0, &other.0, 0, k);
+        }
+        out
     }
 }
 
@@ -136,7 +163,11 @@ impl<T: Scalar, const N: usize> Neg for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(T::neg))
+        let mut out = self;
+        for out in &mut out.0 {
+            *out = -*out;
+        }
+        out
     }
 }
 
@@ -162,7 +193,11 @@ impl<T: Scalar, const N: usize> Mul<f64> for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        Self(self.0.map(|c| c * other))
+        let mut out = self;
+        for out in &mut out.0 {
+            *out = *out * other;
+        }
+        out
     }
 }
 
@@ -170,7 +205,11 @@ impl<T: Scalar, const N: usize> Div<f64> for Taylor<T, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: f64) -> Self {
-        Self(self.0.map(|c| c / other))
+        let mut out = self;
+        for out in &mut out.0 {
+            *out = *out / other;
+        }
+        out
     }
 }
 
@@ -191,7 +230,11 @@ impl<T: Scalar, const N: usize> Scalar for Taylor<T, N> {
 
     #[inline(always)]
     fn select(mask: T::Mask, yes: Self, no: Self) -> Self {
-        Self(from_fn(|k| T::select(mask, yes.0[k], no.0[k])))
+        let mut out = no;
+        for (out, yes) in out.0.iter_mut().zip(&yes.0) {
+            *out = T::select(mask, *yes, *out);
+        }
+        out
     }
 
     #[inline(always)]
@@ -240,7 +283,7 @@ impl<T: Scalar, const N: usize> Scalar for Taylor<T, N> {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        self.coupled(self.0[0].sin_cos(), -1.0)
+        self.sin_cos_from(self.0[0].sin_cos())
     }
 
     fn tan(self) -> Self {
@@ -263,9 +306,10 @@ impl<T: Scalar, const N: usize> Scalar for Taylor<T, N> {
     fn atan2(self, x: Self) -> Self {
         let scale = (self.squared() + x.squared()).recip();
         let (dy, dx) = (self.weighted(), x.weighted());
-        let turn = Self(from_fn(|k| {
-            convolve(&dy, &x.0, 0, k) - convolve(&dx, &self.0, 0, k)
-        }));
+        let mut turn = self;
+        for (k, turn) in turn.0.iter_mut().enumerate() {
+            *turn = convolve(&dy, &x.0, 0, k) - convolve(&dx, &self.0, 0, k);
+        }
         let mut out = (turn * scale).0;
         out[0] = self.0[0].atan2(x.0[0]);
         for k in 1..N {

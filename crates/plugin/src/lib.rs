@@ -54,8 +54,9 @@ pub use offer::{Offer, linked};
 #[doc(hidden)]
 pub use registration::{Build, Registration};
 
-// For samplers and feeds that a lab writes. The documentation has a sentence on each.
-pub use turnpath_core::{hermite, locus, ring};
+// For samplers and feeds that a lab writes, and for loops over many points or curves. The
+// documentation has a sentence on each.
+pub use turnpath_core::{hermite, locus, registers, ring, strip};
 
 /// Everything that a strategy's author needs.
 pub mod prelude {
@@ -73,6 +74,7 @@ pub mod prelude {
         SamplerPlan, Scalar, Series, SeriesOrders, Setup, SpindleAsk, SpindleLaw, SpindleStrategy,
         SpiralLaw, Strategy, StrategyError, Surface, SurfaceData, SurfaceGap, SurfaceModel, Task,
         Taylor, Tolerance, Tool, Turn, UM, Velocities, VelocitySolver, angle, per_radian, quintic,
+        sines_and_cosines,
     };
 }
 

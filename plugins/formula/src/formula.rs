@@ -104,6 +104,8 @@ fn formula(text: &str, constants: &[NamedConstant]) -> std::result::Result<Formu
 }
 
 impl Surface for Formula {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         self.tape.run(x, y)

@@ -18,11 +18,13 @@
 //! - Profiles continue through the axis and beyond the rim as the surface's formula gives them:
 //!   neither paper says what the nose meets there.
 
+mod descent;
 mod foot;
 mod none;
 mod normal;
 mod polar;
 mod scan;
+mod search;
 mod touch;
 mod z_direction;
 

@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::polar::{Evaluation, Ray, TurningRay, batches};
+use crate::polar::{Evaluation, Rays, TurningRay, batches};
 
 /// X = ρ, Z = g(θ, ρ): the path of the contact, whatever the nose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,10 +33,11 @@ impl Compensator for Uncompensated {
     }
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
-        let mut points = Evaluation::default();
+        let (mut points, mut rays) = (Evaluation::default(), Rays::default());
         for batch in batches(theta.len()) {
             let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-            points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).point(*r)));
+            let rays = rays.at(theta.iter().copied());
+            points.set(rays.zip(rho).map(|(ray, rho)| ray.point(*rho)));
             points.gradient(cut.surface)?;
             out.z[batch].copy_from_slice(&points.z);
         }
@@ -52,11 +53,12 @@ impl Compensator for Uncompensated {
         rho: &[Series],
         out: CentreSeries<'_>,
     ) -> Option<Result<()>> {
-        let mut curves = (Vec::new(), Vec::new());
-        for (theta, rho) in theta.iter().zip(rho) {
-            let (x, y) = TurningRay::at(*theta).point(Taylor(*rho));
-            curves.0.push(x);
-            curves.1.push(y);
+        let (mut curves, mut rays) = ((Vec::new(), Vec::new()), Rays::default());
+        let rays = rays.at(theta.iter().map(|theta| theta[0]));
+        for ((ray, theta), rho) in rays.zip(theta).zip(rho) {
+            let (x, y) = TurningRay::from(ray, Taylor(*theta)).point(Taylor(*rho));
+            curves.0.push(x.0);
+            curves.1.push(y.0);
         }
         out.x.copy_from_slice(rho);
         Some(cut.surface.height_series(&curves.0, &curves.1, out.z))
@@ -74,13 +76,14 @@ impl Compensator for Uncompensated {
 }
 
 fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
-    let mut points = Evaluation::default();
+    let (mut points, mut rays) = (Evaluation::default(), Rays::default());
     for batch in batches(theta.len()) {
         let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-        points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).point(*r)));
+        let rays = rays.at(theta.iter().copied());
+        points.set(rays.clone().zip(rho).map(|(ray, rho)| ray.point(*rho)));
         points.gradient(cut.surface)?;
-        for (i, at) in batch.enumerate() {
-            let (ray, zx, zy) = (Ray::at(theta[i]), points.zx[i], points.zy[i]);
+        for ((i, at), ray) in batch.enumerate().zip(rays) {
+            let (zx, zy) = (points.zx[i], points.zy[i]);
             out.z_theta[at] = rho[i] * ray.across(zx, zy);
             out.z_x[at] = ray.along(zx, zy);
         }

@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 
-use crate::polar::{Evaluation, Ray, TurningRay, batches};
+use crate::polar::{Evaluation, Rays, TurningRay, batches};
 
 /// X = ρ − R g_ρ/w, Z = g + R/w: the nose touches the radial section at ρ.
 ///
@@ -29,13 +29,14 @@ impl Compensator for Normal {
 
     fn centre(&self, cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
         let radius = cut.tool.nose_radius;
-        let mut points = Evaluation::default();
+        let (mut points, mut rays) = (Evaluation::default(), Rays::default());
         for batch in batches(theta.len()) {
             let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-            points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).point(*r)));
+            let rays = rays.at(theta.iter().copied());
+            points.set(rays.clone().zip(rho).map(|(ray, rho)| ray.point(*rho)));
             points.gradient(cut.surface)?;
-            for (i, at) in batch.enumerate() {
-                let slope = Ray::at(theta[i]).along(points.zx[i], points.zy[i]);
+            for ((i, at), ray) in batch.enumerate().zip(rays) {
+                let slope = ray.along(points.zx[i], points.zy[i]);
                 (out.x[at], out.z[at]) = centre(radius, rho[i], points.z[i], slope);
             }
         }
@@ -71,24 +72,18 @@ fn centre<S: Scalar>(nose_radius: f64, rho: S, height: S, slope: S) -> (S, S) {
 }
 
 fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
-    let mut points = Evaluation::default();
-    let mut rays = Vec::new();
+    let (mut points, mut rays) = (Evaluation::default(), Rays::default());
     for batch in batches(theta.len()) {
-        let rho = &rho[batch.clone()];
-        rays.clear();
-        rays.extend(
-            theta[batch.clone()]
-                .iter()
-                .map(|theta| TurningRay::at(*theta)),
-        );
-        points.set(
-            rays.iter()
-                .zip(rho)
-                .map(|(ray, rho)| ray.point(Taylor(*rho))),
-        );
+        let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
+        let rays = rays.at(theta.iter().map(|theta| theta[0])).zip(theta);
+        let rays = rays.map(|(ray, theta)| TurningRay::from(ray, Taylor(*theta)));
+        points.set(rays.clone().zip(rho).map(|(ray, rho)| {
+            let (x, y) = ray.point(Taylor(*rho));
+            (x.0, y.0)
+        }));
         points.series(cut.surface)?;
-        for (i, at) in batch.enumerate() {
-            let slope = rays[i].along(points.zx[i], points.zy[i]);
+        for ((i, at), ray) in batch.enumerate().zip(rays) {
+            let slope = ray.along(Taylor(points.zx[i]), Taylor(points.zy[i]));
             let (x, z) = centre(
                 cut.tool.nose_radius,
                 Taylor(rho[i]),
@@ -103,13 +98,14 @@ fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>)
 
 /// Computes the rates. The gradient's change along the ray gives g_ρρ and g_ρθ at once.
 fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
-    let mut points = Evaluation::default();
+    let (mut points, mut rays) = (Evaluation::default(), Rays::default());
     for batch in batches(theta.len()) {
         let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
-        points.set(theta.iter().zip(rho).map(|(t, r)| Ray::at(*t).line(*r)));
+        let rays = rays.at(theta.iter().copied());
+        points.set(rays.clone().zip(rho).map(|(ray, rho)| ray.line(*rho)));
         points.series(cut.surface)?;
-        for (i, at) in batch.enumerate() {
-            let (ray, zx, zy) = (Ray::at(theta[i]), &points.zx[i], &points.zy[i]);
+        for ((i, at), ray) in batch.enumerate().zip(rays) {
+            let (zx, zy) = (&points.zx[i], &points.zy[i]);
             let (slope, across) = (ray.along(zx[0], zy[0]), ray.across(zx[0], zy[0]));
             let slope_rho = ray.along(zx[1], zy[1]);
             let slope_theta = across + rho[i] * ray.across(zx[1], zy[1]);

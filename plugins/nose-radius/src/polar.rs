@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use turnpath_plugin::prelude::*;
+use turnpath_plugin::strip::STRIP;
 
 /// Number of points that go through a surface together. Their intermediate results stay in the
 /// cache.
@@ -21,10 +22,16 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// The ray at `theta`.
-    pub fn at(theta: f64) -> Self {
-        let (sin, cos) = Scalar::sin_cos(theta);
+    /// The ray of the angle that has this sine and this cosine.
+    #[inline(always)]
+    pub fn from_sin_cos(sin: f64, cos: f64) -> Self {
         Self { sin, cos }
+    }
+
+    /// Sine and cosine of its angle.
+    #[inline(always)]
+    pub fn sin_cos(&self) -> (f64, f64) {
+        (self.sin, self.cos)
     }
 
     /// (x, y) at the radius `rho`.
@@ -39,6 +46,7 @@ impl Ray {
     }
 
     /// The component of a gradient along the ray: g_ρ.
+    #[inline(always)]
     pub fn along(&self, zx: f64, zy: f64) -> f64 {
         zx * self.cos + zy * self.sin
     }
@@ -46,6 +54,28 @@ impl Ray {
     /// The component of a gradient across the ray: g_θ/ρ.
     pub fn across(&self, zx: f64, zy: f64) -> f64 {
         zy * self.cos - zx * self.sin
+    }
+}
+
+/// The rays of a batch of angles.
+#[derive(Debug, Default)]
+pub struct Rays {
+    theta: Vec<f64>,
+    sines: Vec<f64>,
+    cosines: Vec<f64>,
+}
+
+impl Rays {
+    /// The rays at these angles, one after the other.
+    pub fn at(&mut self, theta: impl Iterator<Item = f64>) -> impl Iterator<Item = Ray> + Clone {
+        self.theta.clear();
+        self.theta.extend(theta);
+        for columns in [&mut self.sines, &mut self.cosines] {
+            columns.resize(self.theta.len(), f64::NAN);
+        }
+        sines_and_cosines(&self.theta, &mut self.sines, &mut self.cosines);
+        let pairs = self.sines.iter().zip(&self.cosines);
+        pairs.map(|(sin, cos)| Ray::from_sin_cos(*sin, *cos))
     }
 }
 
@@ -57,20 +87,26 @@ pub struct TurningRay {
 }
 
 impl TurningRay {
-    /// The ray at θ(t).
-    pub fn at(theta: Series) -> Self {
-        let (sin, cos) = Taylor(theta).sin_cos();
+    /// The ray that turns to θ(t), from where it is at t = 0.
+    #[inline(always)]
+    pub fn from(ray: Ray, theta: Taylor<f64>) -> Self {
+        let (sin, cos) = theta.sin_cos_from(ray.sin_cos());
         Self { sin, cos }
     }
 
     /// (x(t), y(t)) at the radius ρ(t).
-    pub fn point(&self, rho: Taylor<f64>) -> (Series, Series) {
-        ((rho * self.cos).0, (rho * self.sin).0)
+    #[inline(always)]
+    pub fn point(&self, rho: Taylor<f64>) -> (Taylor<f64>, Taylor<f64>) {
+        (rho * self.cos, rho * self.sin)
     }
 
     /// The component of a gradient along the ray: the first `N` coefficients of g_ρ(t).
-    pub fn along<const N: usize>(&self, zx: Series, zy: Series) -> Taylor<f64, N> {
-        let [zx, zy, cos, sin] = [zx, zy, self.cos.0, self.sin.0].map(Taylor::from_series);
+    #[inline(always)]
+    pub fn along<const N: usize>(&self, zx: Taylor<f64, N>, zy: Taylor<f64, N>) -> Taylor<f64, N> {
+        let (cos, sin) = (
+            Taylor::from_series(self.cos.0),
+            Taylor::from_series(self.sin.0),
+        );
         zx * cos + zy * sin
     }
 }
@@ -115,7 +151,31 @@ impl Evaluation<f64> {
     }
 }
 
+/// A strip of curves, and the surface's answers for them.
+pub struct CurveStrip<'a> {
+    /// x and y.
+    pub curves: [&'a mut [Series]; 2],
+    /// Height.
+    pub z: &'a [Series],
+    /// ∂z/∂x and ∂z/∂y.
+    pub slopes: [&'a [Series]; 2],
+}
+
 impl Evaluation<Series> {
+    /// The curves, [`STRIP`] at a time.
+    pub fn strips(&mut self) -> impl Iterator<Item = CurveStrip<'_>> {
+        let curves = self.x.chunks_mut(STRIP).zip(self.y.chunks_mut(STRIP));
+        let slopes = self.zx.chunks(STRIP).zip(self.zy.chunks(STRIP));
+        let answers = self.z.chunks(STRIP).zip(slopes);
+        curves
+            .zip(answers)
+            .map(|((x, y), (z, (zx, zy)))| CurveStrip {
+                curves: [x, y],
+                z,
+                slopes: [zx, zy],
+            })
+    }
+
     /// Evaluates height and slopes along the curves.
     pub fn series(&mut self, surface: &dyn SurfaceModel) -> Result<()> {
         self.resize([f64::NAN; 5]);

@@ -14,6 +14,7 @@ pub struct Nose {
 }
 
 /// sqrt(R² − d²): the height of the centre above the contact.
+#[inline(always)]
 pub fn rise<S: Scalar>(radius: f64, offset: S) -> S {
     ((-offset + radius) * (offset + radius)).sqrt()
 }
@@ -34,9 +35,9 @@ pub struct Touch {
 
 impl Touch {
     /// A touch whose foot is not known yet.
-    pub fn unknown(theta: f64, rho: f64) -> Self {
+    pub fn unknown(ray: Ray, rho: f64) -> Self {
         Self {
-            ray: Ray::at(theta),
+            ray,
             rho,
             offset: f64::NAN,
             at_edge_end: false,

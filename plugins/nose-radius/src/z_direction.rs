@@ -1,14 +1,13 @@
 //! Compensation along z: X stays as the feed gives it, and the nose comes down until it touches.
 
 use turnpath_plugin::prelude::*;
+use turnpath_plugin::registers::in_widest;
+use turnpath_plugin::strip::STRIP;
 
+use crate::descent::{Descents, Heights, MovingFeet, StillFeet};
 use crate::foot::FootFinder;
-use crate::polar::{Evaluation, TurningRay, batches};
+use crate::polar::{Evaluation, batches};
 use crate::touch::{Touch, rise};
-
-/// The least −F_d·R that the motion of the foot uses. It is 1/cos³φ − Rκ. It is above zero at a
-/// highest point, except where the section osculates the nose: there the foot moves without bound.
-const LEAST_STEEPNESS: f64 = 1e-6;
 
 /// What the motion of the foot takes: how the slopes change.
 const OF_FOOT: SeriesOrders = SeriesOrders {
@@ -146,111 +145,60 @@ fn at_feet(
 fn series(cut: Cut<'_>, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
     let (mut finder, mut points) = (FootFinder::default(), Evaluation::default());
     let (mut theta_0, mut rho_0) = (Vec::new(), Vec::new());
-    let mut descents = Vec::new();
+    let mut descents: Vec<Descents> = Vec::new();
+    out.x.copy_from_slice(rho);
     for batch in batches(theta.len()) {
-        let curves = theta[batch.clone()].iter().zip(&rho[batch.clone()]);
+        let (theta, rho) = (&theta[batch.clone()], &rho[batch.clone()]);
         theta_0.clear();
         rho_0.clear();
-        theta_0.extend(curves.clone().map(|(theta, _)| theta[0]));
-        rho_0.extend(curves.clone().map(|(_, rho)| rho[0]));
+        theta_0.extend(theta.iter().map(|theta| theta[0]));
+        rho_0.extend(rho.iter().map(|rho| rho[0]));
         let touches = finder.find(cut, &theta_0, &rho_0)?;
-        descents.clear();
-        descents.extend(
-            curves
-                .zip(touches)
-                .map(|((theta, rho), touch)| Descent::new(theta, rho, touch)),
-        );
-        heights(cut, &mut descents, &mut points)?;
-        for (descent, at) in descents.iter().zip(batch) {
-            (out.x[at], out.z[at]) = (descent.rho.0, descent.height.0);
+        points.set(touches.iter().map(|touch| touch.ray.line(touch.foot())));
+        descents.resize_with(touches.len().div_ceil(STRIP), Descents::none);
+        let curves = theta.chunks(STRIP).zip(rho.chunks(STRIP));
+        let strips = curves.zip(touches.chunks(STRIP));
+        for (descents, ((theta, rho), touches)) in descents.iter_mut().zip(strips) {
+            descents.begin(cut.tool.nose_radius, theta, rho, touches);
         }
+        heights(cut.surface, &mut descents, &mut points, &mut out.z[batch])?;
     }
     Ok(())
 }
 
-/// Moves the feet along the curves, order by order, and the heights with them.
-fn heights(cut: Cut<'_>, descents: &mut [Descent], points: &mut Evaluation<Series>) -> Result<()> {
-    let radius = cut.tool.nose_radius;
-    points.set(descents.iter().map(Descent::section));
-    points.series_to(OF_FOOT, cut.surface)?;
-    for (i, descent) in descents.iter_mut().enumerate() {
-        descent.learn_steepness(radius, points.zx[i][1], points.zy[i][1]);
+/// Moves the feet along the curves, order by order, and the heights with them. The points begin as
+/// the radial sections through the feet.
+fn heights(
+    surface: &dyn SurfaceModel,
+    descents: &mut [Descents],
+    points: &mut Evaluation<Series>,
+    out: &mut [Series],
+) -> Result<()> {
+    points.series_to(OF_FOOT, surface)?;
+    for (descents, strip) in descents.iter_mut().zip(points.strips()) {
+        in_widest(StillFeet {
+            descents,
+            slopes: strip.slopes,
+            curves: strip.curves,
+        });
     }
-    points.set(descents.iter().map(Descent::curve));
-    points.series_to(OF_FOOT, cut.surface)?;
-    for (i, descent) in descents.iter_mut().enumerate() {
-        descent.move_foot(radius, points.zx[i], points.zy[i]);
+    points.series_to(OF_FOOT, surface)?;
+    for (descents, strip) in descents.iter_mut().zip(points.strips()) {
+        in_widest(MovingFeet {
+            descents,
+            slopes: strip.slopes,
+            curves: strip.curves,
+        });
     }
-    points.set(descents.iter().map(Descent::curve));
-    points.series_to(OF_HEIGHT, cut.surface)?;
-    for (i, descent) in descents.iter_mut().enumerate() {
-        descent.learn_height(radius, points.z[i], points.zx[i], points.zy[i]);
+    points.series_to(OF_HEIGHT, surface)?;
+    let strips = points.strips().zip(out.chunks_mut(STRIP));
+    for (descents, (strip, out)) in descents.iter().zip(strips) {
+        in_widest(Heights {
+            descents,
+            z: strip.z,
+            slopes: strip.slopes,
+            out,
+        });
     }
     Ok(())
-}
-
-/// The descent of the nose along one curve. ρ_t(t) = ρ(t) + d(t) is the foot.
-///
-/// With h(t, d) = g(θ(t), ρ(t) + d) + sqrt(R² − d²) and F = ∂h/∂d, the foot has F = 0. A foot d₀ +
-/// at that is right to order 1 leaves F = F₂t² + …, and Z = max h then still lacks −F₂²/(2F_d)·t⁴ +
-/// O(t⁵). So three series of the surface give Z exactly through order 4.
-struct Descent {
-    touch: Touch,
-    ray: TurningRay,
-    rho: Taylor<f64>,
-    offset: Taylor<f64>,
-    /// F_d at t = 0, negative; −∞ if the end of the edge touches, whose offset does not move.
-    steepness: f64,
-    height: Taylor<f64>,
-}
-
-impl Descent {
-    fn new(theta: &Series, rho: &Series, touch: &Touch) -> Self {
-        Self {
-            touch: *touch,
-            ray: TurningRay::at(*theta),
-            rho: Taylor(*rho),
-            offset: Taylor::constant(touch.offset),
-            steepness: f64::NEG_INFINITY,
-            height: Taylor::constant(f64::NAN),
-        }
-    }
-
-    /// The radial section through the foot.
-    fn section(&self) -> (Series, Series) {
-        self.touch.ray.line(self.touch.foot())
-    }
-
-    /// The foot's curve, to the order that is known so far.
-    fn curve(&self) -> (Series, Series) {
-        self.ray.point(self.rho + self.offset)
-    }
-
-    /// F_d = g_ρρ − R²/(R² − d²)^{3/2}, from the gradient's change along the section.
-    fn learn_steepness(&mut self, radius: f64, zx_rho: f64, zy_rho: f64) {
-        if !self.touch.at_edge_end {
-            let rise = rise(radius, self.touch.offset);
-            let second = self.touch.ray.along(zx_rho, zy_rho);
-            let steepness = second - radius * radius / (rise * rise * rise);
-            self.steepness = steepness.min(-LEAST_STEEPNESS / radius);
-        }
-    }
-
-    /// F(t) = g_ρ − d/sqrt(R² − d²) at the foot, in its first `N` coefficients.
-    fn tilt<const N: usize>(&self, radius: f64, zx: Series, zy: Series) -> Taylor<f64, N> {
-        let offset = Taylor::from_series(self.offset.0);
-        self.ray.along(zx, zy) - offset / rise(radius, offset)
-    }
-
-    /// Gives the foot its speed: F₁ = 0.
-    fn move_foot(&mut self, radius: f64, zx: Series, zy: Series) {
-        self.offset.0[1] = -self.tilt::<2>(radius, zx, zy).0[1] / self.steepness;
-    }
-
-    /// The height at the foot, and what Z still lacks in the fourth order.
-    fn learn_height(&mut self, radius: f64, z: Series, zx: Series, zy: Series) {
-        let rest = self.tilt::<3>(radius, zx, zy).0[2];
-        self.height = Taylor(z) + rise(radius, self.offset);
-        self.height.0[4] -= 0.5 * rest * rest / self.steepness;
-    }
 }

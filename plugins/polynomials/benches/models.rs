@@ -6,8 +6,8 @@ use std::hint::black_box;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use turnpath_core::{
-    GradientSeries, Gradients, NamedConstant, ParamValue, Params, Result, Scalar, Series, Strategy,
-    StrategyError, SurfaceModel,
+    GradientSeries, Gradients, NamedConstant, ORDER, ParamValue, Params, Result, Scalar, Series,
+    SeriesOrders, Strategy, StrategyError, SurfaceModel,
 };
 use turnpath_formula::Formula;
 use turnpath_grid::GridSag;
@@ -204,8 +204,25 @@ fn heights_and_slopes(bencher: Bencher<'_, '_>, model: &str) {
     });
 }
 
+/// What the compensator `z-direction` asks of a surface for each of its series.
+#[divan::bench(args = MODELS)]
+fn series_of_a_foot(bencher: Bencher<'_, '_>, model: &str) {
+    bench_series(
+        bencher,
+        model,
+        SeriesOrders {
+            heights: ORDER,
+            slopes: 2,
+        },
+    );
+}
+
 #[divan::bench(args = MODELS)]
 fn series(bencher: Bencher<'_, '_>, model: &str) {
+    bench_series(bencher, model, SeriesOrders::ALL);
+}
+
+fn bench_series(bencher: Bencher<'_, '_>, model: &str, orders: SeriesOrders) {
     let (surface, (x, y)) = (surface(model), curves());
     let (mut z, mut zx, mut zy) = (
         vec![[0.0; 5]; COUNT],
@@ -218,6 +235,10 @@ fn series(bencher: Bencher<'_, '_>, model: &str) {
             zx: &mut zx,
             zy: &mut zy,
         };
-        black_box(surface.series(black_box(&x), black_box(&y), out).is_ok())
+        black_box(
+            surface
+                .series_to(orders, black_box(&x), black_box(&y), out)
+                .is_ok(),
+        )
     });
 }

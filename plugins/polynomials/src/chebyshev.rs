@@ -109,6 +109,8 @@ impl Chebyshev {
 }
 
 impl Surface for Chebyshev {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (u, v) = (x / self.half_x, y / self.half_y);

@@ -42,6 +42,8 @@ impl Strategy for EvenAsphere {
 }
 
 impl Surface for EvenAsphere {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();

@@ -51,6 +51,8 @@ impl Strategy for OddAsphere {
 }
 
 impl Surface for OddAsphere {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();

@@ -85,6 +85,8 @@ impl Strategy for SinusoidalArray {
 }
 
 impl Surface for SinusoidalArray {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (along_x, along_y) = (x * self.wave_number_x, y * self.wave_number_y);

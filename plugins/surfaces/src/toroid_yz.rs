@@ -63,6 +63,8 @@ impl Strategy for ToroidYz {
 }
 
 impl Surface for ToroidYz {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = y.squared();

@@ -77,6 +77,8 @@ impl Strategy for XyPolynomial {
 }
 
 impl Surface for XyPolynomial {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (x, y) = (x * self.scale, y * self.scale);

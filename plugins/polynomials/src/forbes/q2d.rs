@@ -76,6 +76,8 @@ impl Strategy for ForbesQ2d {
 }
 
 impl Surface for ForbesQ2d {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();

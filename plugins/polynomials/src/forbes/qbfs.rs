@@ -45,6 +45,8 @@ impl Strategy for ForbesQbfs {
 }
 
 impl Surface for ForbesQbfs {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();

@@ -44,6 +44,8 @@ impl Strategy for ForbesQcon {
 }
 
 impl Surface for ForbesQcon {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();

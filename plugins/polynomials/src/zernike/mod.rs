@@ -97,6 +97,8 @@ fn rms_norm(degree: i32, order: i32) -> f64 {
 }
 
 impl Surface for Zernike {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (x, y) = (x / self.normalization_radius, y / self.normalization_radius);

@@ -1,13 +1,17 @@
 //! Surface models: the formula that an author writes, and the batches that everything else uses.
 
-use std::array::from_fn;
+mod curves;
+mod points;
+
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::orders::{SeriesOrders, first_coefficients, first_heights};
+use crate::orders::SeriesOrders;
 use crate::registers::{Loop, in_widest};
-use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
+use crate::{ORDER, Result, Scalar, Series, StrategyError};
+use curves::{HeightsAlong, SlopesAlong};
+use points::{Heights, Slopes};
 
 /// A surface z = f(x, y), written once for every number type. Lengths are in mm, and z points to
 /// the tool.
@@ -15,6 +19,11 @@ use crate::{Dual, Lanes, ORDER, Result, Scalar, Series, StrategyError, Taylor};
 /// The formula must also hold beyond the aperture, since the tool runs over the rim. Where the
 /// formula has no value it gives NaN.
 pub trait Surface: Send + Sync {
+    /// Whether series of many curves go through the formula side by side in vector registers. This is
+    /// faster if the formula has neither loops nor calls, and is marked `#[inline(always)]`: sums,
+    /// products, quotients, roots and choices. Without, curves go one by one, with the same bits.
+    const SIDE_BY_SIDE: bool = true;
+
     /// The height at (x, y).
     fn sag<S: Scalar>(&self, x: S, y: S) -> S;
 
@@ -141,16 +150,6 @@ pub struct SurfaceData {
     pub fit_error: Option<f64>,
 }
 
-/// How many points go through a formula together. The number is large enough to fill the vector
-/// registers and to hide latencies. On x86-64 with SSE2, 8 was the fastest of 1, 2, 4 and 8 for
-/// values and slopes.
-const WIDTH: usize = 8;
-
-/// How many curves go through a formula together for the height alone. With more curves the program
-/// only moves data around. Series of duals go one by one: their 15 numbers already fill the
-/// registers.
-const CURVES: usize = 2;
-
 impl<T: Surface> SurfaceModel for T {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
@@ -166,12 +165,8 @@ impl<T: Surface> SurfaceModel for T {
     }
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
-        let GradientSeries { z, zx, zy } = out;
-        same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
-            let sag = series_of_sag_and_slopes(self, *x, *y);
-            (*z, *zx, *zy) = (sag.map(|c| c.value), sag.map(|c| c.dx), sag.map(|c| c.dy));
-        }
+        same_lengths(x.len(), &[y.len(), out.z.len(), out.zx.len(), out.zy.len()])?;
+        along_curves::<T, _>(SlopesAlong::<T, { ORDER + 1 }>::new(self, (x, y), out));
         Ok(())
     }
 
@@ -184,11 +179,11 @@ impl<T: Surface> SurfaceModel for T {
     ) -> Result<()> {
         let GradientSeries { z, zx, zy } = out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        let curves = (x, y);
+        let out = GradientSeries { z: &mut *z, zx, zy };
         match orders.slopes {
-            0 | 1 => first_coefficients::<2>(|x, y| self.sag(x, y), curves, [&mut *z, zx, zy]),
-            2 => first_coefficients::<3>(|x, y| self.sag(x, y), curves, [&mut *z, zx, zy]),
-            _ => return self.series(x, y, GradientSeries { z, zx, zy }),
+            0 | 1 => along_curves::<T, _>(SlopesAlong::<T, 2>::new(self, (x, y), out)),
+            2 => along_curves::<T, _>(SlopesAlong::<T, 3>::new(self, (x, y), out)),
+            _ => return self.series(x, y, out),
         }
         match orders.heights > orders.slopes {
             true => self.height_series(x, y, z),
@@ -207,7 +202,7 @@ impl<T: Surface> SurfaceModel for T {
             return self.height_series(x, y, z);
         }
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        first_heights::<3>(|x, y| self.sag(x, y), (x, y), z);
+        along_curves::<T, _>(HeightsAlong::<T, 3>::new(self, (x, y), z));
         Ok(())
     }
 
@@ -217,96 +212,17 @@ impl<T: Surface> SurfaceModel for T {
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        let (xs, x_rest) = x.as_chunks::<CURVES>();
-        let (ys, y_rest) = y.as_chunks::<CURVES>();
-        let (zs, z_rest) = z.as_chunks_mut::<CURVES>();
-        for ((x, y), z) in xs.iter().zip(ys).zip(zs) {
-            let (x, y) = (Taylor(side_by_side(x)), Taylor(side_by_side(y)));
-            one_by_one(Surface::sag(self, x, y).0, z);
-        }
-        for ((x, y), z) in x_rest.iter().zip(y_rest).zip(z_rest) {
-            *z = Surface::sag(self, Taylor(*x), Taylor(*y)).0;
-        }
+        along_curves::<T, _>(HeightsAlong::<T, { ORDER + 1 }>::new(self, (x, y), z));
         Ok(())
     }
 }
 
-/// The loop of [`SurfaceModel::heights`].
-struct Heights<'a, T>(&'a T, &'a [f64], &'a [f64], &'a mut [f64]);
-
-impl<T: Surface> Loop for Heights<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self(surface, x, y, z) = self;
-        let (xs, x_rest) = x.as_chunks::<WIDTH>();
-        let (ys, y_rest) = y.as_chunks::<WIDTH>();
-        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
-        for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
-            *z = surface.sag(Lanes(*x), Lanes(*y)).0;
-        }
-        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
-            *z = surface.sag(*x, *y);
-        }
+/// Runs a loop over curves.
+fn along_curves<T: Surface, L: Loop>(one: L) -> L::Output {
+    match T::SIDE_BY_SIDE {
+        true => in_widest(one),
+        false => one.call(),
     }
-}
-
-/// The loop of [`SurfaceModel::gradient`].
-struct Slopes<'a, T>(&'a T, &'a [f64], &'a [f64], Gradients<'a>);
-
-impl<T: Surface> Loop for Slopes<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self(surface, x, y, Gradients { z, zx, zy }) = self;
-        let (xs, x_rest) = x.as_chunks::<WIDTH>();
-        let (ys, y_rest) = y.as_chunks::<WIDTH>();
-        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
-        let (zxs, zx_rest) = zx.as_chunks_mut::<WIDTH>();
-        let (zys, zy_rest) = zy.as_chunks_mut::<WIDTH>();
-        for ((((x, y), z), zx), zy) in xs.iter().zip(ys).zip(zs).zip(zxs).zip(zys) {
-            let sag = sag_and_slopes(surface, Lanes(*x), Lanes(*y));
-            (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
-        }
-        for ((((x, y), z), zx), zy) in x_rest
-            .iter()
-            .zip(y_rest)
-            .zip(z_rest)
-            .zip(zx_rest)
-            .zip(zy_rest)
-        {
-            let sag = sag_and_slopes(surface, *x, *y);
-            (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
-        }
-    }
-}
-
-#[inline(always)]
-fn sag_and_slopes<T: Surface + ?Sized, S: Scalar>(surface: &T, x: S, y: S) -> Dual<S> {
-    surface.sag(Dual::variable_x(x), Dual::variable_y(y))
-}
-
-fn series_of_sag_and_slopes<T: Surface + ?Sized>(
-    surface: &T,
-    x: Series,
-    y: Series,
-) -> [Dual<f64>; ORDER + 1] {
-    let mut along_x = Taylor::<Dual<f64>>::from_series(x);
-    let mut along_y = Taylor::<Dual<f64>>::from_series(y);
-    along_x.0[0].dx = 1.0;
-    along_y.0[0].dy = 1.0;
-    surface.sag(along_x, along_y).0
-}
-
-/// Puts the same coefficient of all curves into the lanes of one number.
-fn side_by_side(curves: &[Series; CURVES]) -> [Lanes<CURVES>; ORDER + 1] {
-    from_fn(|k| Lanes(curves.map(|curve| curve[k])))
-}
-
-fn one_by_one(series: [Lanes<CURVES>; ORDER + 1], curves: &mut [Series; CURVES]) {
-    *curves = from_fn(|curve| series.map(|c| c.0[curve]));
 }
 
 fn same_lengths(points: usize, others: &[usize]) -> Result<()> {

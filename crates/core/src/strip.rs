@@ -1,0 +1,84 @@
+//! Strips: series of a few curves, with their coefficients of one order side by side.
+//!
+//! A loop goes from curve to curve of a strip and has whole series in its body. Where the body has
+//! neither loops nor calls, the compiler puts the curves side by side in [vector
+//! registers](crate::registers). The operations of a curve and their order are those that it has alone.
+
+use crate::{Series, Taylor};
+
+/// Number of curves in a strip. The coefficients of a few series stay in the cache of the first level,
+/// 1.3 KB each.
+pub const STRIP: usize = 32;
+
+/// The numbers of a strip: one for each curve.
+pub type Column = [f64; STRIP];
+
+/// The first `N` coefficients of the curves of a strip: those of one order side by side.
+pub type Strip<const N: usize> = [Column; N];
+
+/// A strip of which nothing is known.
+pub const fn blank<const N: usize>() -> Strip<N> {
+    [[0.0; STRIP]; N]
+}
+
+/// Puts the first coefficients of up to [`STRIP`] curves side by side.
+#[inline(always)]
+pub fn gather<const N: usize>(curves: &[Series], strip: &mut Strip<N>) {
+    for (k, column) in strip.iter_mut().enumerate() {
+        for (place, curve) in column.iter_mut().zip(curves) {
+            *place = curve[k];
+        }
+    }
+}
+
+/// Gives the curves the first coefficients of a strip. Those of higher orders stay as they are.
+#[inline(always)]
+pub fn scatter<const N: usize>(strip: &Strip<N>, curves: &mut [Series]) {
+    for (k, column) in strip.iter().enumerate() {
+        for (coefficient, curve) in column.iter().zip(&mut *curves) {
+            curve[k] = *coefficient;
+        }
+    }
+}
+
+/// The series of curve `i` of a strip.
+#[inline(always)]
+pub fn curve<const N: usize>(strip: &Strip<N>, i: usize) -> Taylor<f64, N> {
+    let mut series = Taylor([0.0; N]);
+    for (coefficient, column) in series.0.iter_mut().zip(strip) {
+        *coefficient = column[i];
+    }
+    series
+}
+
+/// Puts the series of curve `i` into its place in a strip.
+#[inline(always)]
+pub fn put<const N: usize>(i: usize, series: Taylor<f64, N>, strip: &mut Strip<N>) {
+    for (column, c) in strip.iter_mut().zip(series.0) {
+        column[i] = c;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_come_back_from_a_strip_and_keep_their_higher_orders() {
+        let curves: Vec<Series> = (0..5)
+            .map(|i| [0.1, 0.2, 0.3, 0.4, 0.5].map(|c| c + f64::from(i)))
+            .collect();
+        let mut strip: Strip<3> = blank();
+        gather(&curves, &mut strip);
+        assert_eq!(curve(&strip, 4).0, [4.1, 4.2, 4.3]);
+        let other = Taylor([7.0, 8.0, 9.0]);
+        put(2, other, &mut strip);
+        assert_eq!((curve(&strip, 2), curve(&strip, 3).0[0]), (other, 3.1));
+        gather(&curves, &mut strip);
+        let mut back = vec![[-1.0; 5]; 5];
+        scatter(&strip, &mut back);
+        for (back, curve) in back.iter().zip(&curves) {
+            assert_eq!((&back[..3], &back[3..]), (&curve[..3], &[-1.0; 2][..]));
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Points through a formula: heights and slopes, several points side by side in vector registers.
+
+use super::{Gradients, Surface};
+use crate::registers::Loop;
+use crate::{Dual, Lanes, Scalar};
+
+/// How many points go through a formula together. The number is large enough to fill the vector
+/// registers and to hide latencies. On x86-64 with SSE2, 8 was the fastest of 1, 2, 4 and 8 for
+/// values and slopes.
+const WIDTH: usize = 8;
+
+/// The loop of [`SurfaceModel::heights`](super::SurfaceModel::heights).
+pub struct Heights<'a, T>(pub &'a T, pub &'a [f64], pub &'a [f64], pub &'a mut [f64]);
+
+impl<T: Surface> Loop for Heights<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, z) = self;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
+            *z = surface.sag(Lanes(*x), Lanes(*y)).0;
+        }
+        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
+            *z = surface.sag(*x, *y);
+        }
+    }
+}
+
+/// The loop of [`SurfaceModel::gradient`](super::SurfaceModel::gradient).
+pub struct Slopes<'a, T>(pub &'a T, pub &'a [f64], pub &'a [f64], pub Gradients<'a>);
+
+impl<T: Surface> Loop for Slopes<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(surface, x, y, Gradients { z, zx, zy }) = self;
+        let (xs, x_rest) = x.as_chunks::<WIDTH>();
+        let (ys, y_rest) = y.as_chunks::<WIDTH>();
+        let (zs, z_rest) = z.as_chunks_mut::<WIDTH>();
+        let (zxs, zx_rest) = zx.as_chunks_mut::<WIDTH>();
+        let (zys, zy_rest) = zy.as_chunks_mut::<WIDTH>();
+        for ((((x, y), z), zx), zy) in xs.iter().zip(ys).zip(zs).zip(zxs).zip(zys) {
+            let sag = sag_and_slopes(surface, Lanes(*x), Lanes(*y));
+            (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
+        }
+        for ((((x, y), z), zx), zy) in x_rest
+            .iter()
+            .zip(y_rest)
+            .zip(z_rest)
+            .zip(zx_rest)
+            .zip(zy_rest)
+        {
+            let sag = sag_and_slopes(surface, *x, *y);
+            (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
+        }
+    }
+}
+
+#[inline(always)]
+fn sag_and_slopes<T: Surface + ?Sized, S: Scalar>(surface: &T, x: S, y: S) -> Dual<S> {
+    surface.sag(Dual::variable_x(x), Dual::variable_y(y))
+}
