@@ -41,11 +41,11 @@ pub fn run<S: DraftSink + ?Sized>(
     let begin = || Measurement::new(preparation, &options);
     let mut measurement = begin();
     let leads = match path.deliver_first(sink, &mut measurement)? {
-        FirstPass::Whole(leads) => leads,
-        FirstPass::Refines(refinement, rest) => {
+        FirstPass::Whole(leads) => leads.map(|leads| *leads),
+        FirstPass::Refines(round) => {
             sink.drop_draft();
             measurement = begin();
-            let depths = path.refine(refinement, rest)?;
+            let depths = path.refine(*round)?;
             path.deliver(sink, &depths, Some(&mut measurement))?
         }
     };
@@ -73,7 +73,7 @@ pub fn make_unmeasured<S: Sink + ?Sized>(
     if options.refine {
         // The first round then plays the same numbers as that of a run.
         path.begins_unrefined()?;
-        depths = path.refine(Refinement::new(&path.plan), path.blocks())?;
+        depths = path.refine(path.first_round())?;
     }
     path.deliver(sink, &depths, None)?;
     Ok(())
@@ -96,9 +96,16 @@ struct PathRun<'a> {
 /// How the first pass over a path ended.
 enum FirstPass {
     /// The sink has the whole path.
-    Whole(Option<Leads>),
-    /// The path is to be refined first: what was seen of it so far, and the blocks that were not played.
-    Refines(Refinement, Blocks),
+    Whole(Option<Box<Leads>>),
+    /// The path is to be refined first.
+    Refines(Box<FirstRound>),
+}
+
+/// The first round of refinement, as far as it is played.
+struct FirstRound {
+    seen: Refinement,
+    /// The blocks that were not played.
+    rest: Blocks,
 }
 
 impl<'a> PathRun<'a> {
@@ -135,30 +142,27 @@ impl<'a> PathRun<'a> {
         measurement: &mut Measurement,
     ) -> RunResult<FirstPass, S::Error> {
         if !self.options.refine {
-            return Ok(FirstPass::Whole(self.deliver(
-                sink,
-                &[],
-                Some(measurement),
-            )?));
+            let leads = self.deliver(sink, &[], Some(measurement))?;
+            return Ok(FirstPass::Whole(leads.map(Box::new)));
         }
-        let mut refinement = Refinement::new(&self.plan);
-        let mut blocks = self.blocks();
+        let mut round = self.first_round();
         if !self.begins_unrefined()? {
-            return Ok(FirstPass::Refines(refinement, blocks));
+            return Ok(FirstPass::Refines(Box::new(round)));
         }
         let mut recorder = Recorder::new(sink, self.observer, Some(measurement));
         self.begin_path(&mut recorder)?;
-        while let Some(made) = self.make(&mut blocks, &[])? {
+        while let Some(made) = self.make(&mut round.rest, &[])? {
             let count = made.len() as u64;
             self.observer.measures(true);
-            let holds = recorder.record_unrefined(&self.plan, made, &mut refinement)?;
+            let holds = recorder.record_unrefined(&self.plan, made, &mut round.seen)?;
             self.observer.measures(false);
             self.observer.advance(count);
             if !holds {
-                return Ok(FirstPass::Refines(refinement, blocks));
+                return Ok(FirstPass::Refines(Box::new(round)));
             }
         }
-        Ok(FirstPass::Whole(self.end_path(recorder)?))
+        let leads = self.end_path(recorder)?;
+        Ok(FirstPass::Whole(leads.map(Box::new)))
     }
 
     /// Delivers the path with its segments halved so often, and measures it where that is asked.
@@ -185,23 +189,31 @@ impl<'a> PathRun<'a> {
 
     /// Plays the rest of the blocks, and halves segments until the path holds. Gives how often each is
     /// halved. The path is without leads then.
-    fn refine(&mut self, mut refinement: Refinement, mut rest: Blocks) -> Result<Vec<Depths>> {
+    fn refine(&mut self, mut round: FirstRound) -> Result<Vec<Depths>> {
         let observer = self.observer;
-        observer.begin(Stage::Refine(1), rest.left(&self.plan) as u64);
-        while let Some(made) = self.make(&mut rest, &[])? {
-            refinement.play(&self.plan, &made)?;
+        observer.begin(Stage::Refine(1), round.rest.left(&self.plan) as u64);
+        while let Some(made) = self.make(&mut round.rest, &[])? {
+            round.seen.play(&self.plan, &made)?;
             observer.advance(made.len() as u64);
         }
         self.leads = None;
         self.plan.start = Start::default();
         let all: Vec<usize> = (0..self.plan.blocks()).collect();
-        let depths = refinement.finish(&self.plan, self.batch, &all, observer)?;
+        let depths = round.seen.finish(&self.plan, self.batch, &all, observer)?;
         let is_slower = schedule::slow_down_refined(&mut self.plan, &depths, observer)?;
         if is_slower && self.plan.time_steps.is_some() {
             // At another speed the points lie on other steps of the controller's time.
             return refine(&self.plan, self.batch, &all, observer);
         }
         Ok(depths)
+    }
+
+    /// Nothing is played yet.
+    fn first_round(&self) -> FirstRound {
+        FirstRound {
+            seen: Refinement::new(&self.plan),
+            rest: self.blocks(),
+        }
     }
 
     /// All blocks of the path.

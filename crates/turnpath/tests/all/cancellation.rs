@@ -51,20 +51,19 @@ fn a_run_can_be_cancelled_while_a_path_is_made_again() {
 /// A path that is refined is written twice, and dropped between.
 #[test]
 fn a_run_can_be_cancelled_in_every_stage_and_leaves_no_file_and_no_folder() {
-    let stages: [(fn(Stage) -> bool, u64); 6] = [
-        (|stage| matches!(stage, Stage::Law), 1),
-        (|stage| matches!(stage, Stage::Write), 1),
-        (|stage| matches!(stage, Stage::Refine(1)), 1),
-        (|stage| matches!(stage, Stage::Refine(2)), 1),
-        (|stage| matches!(stage, Stage::Write), 2),
-        (|stage| matches!(stage, Stage::ReadBack), 1),
+    let observers = [
+        CancelAt::new(|stage| matches!(stage, Stage::Law), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Write), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Refine(1)), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Refine(2)), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Write), 2),
+        CancelAt::new(|stage| matches!(stage, Stage::ReadBack), 1),
     ];
     let job = job(&REFINED_LATE);
-    for (index, (stage, times)) in stages.into_iter().enumerate() {
+    for (index, observer) in observers.iter().enumerate() {
         let folder = tempfile::tempdir().unwrap();
-        let observer = CancelAt::new(stage, times);
         let outputs = Outputs::in_folder(folder.path().join("a/b"));
-        let error = job.run(outputs, &observer).unwrap_err();
+        let error = job.run(outputs, observer).unwrap_err();
         assert!(matches!(error, Error::Cancelled), "stage {index}: {error}");
         assert_eq!(error.fault(), Fault::Cancelled);
         let left = std::fs::read_dir(folder.path()).unwrap().count();
