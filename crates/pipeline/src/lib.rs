@@ -3,11 +3,12 @@
 //!
 //! A path is made in blocks of [`BLOCK`] revolutions or fewer. The bytes of a block depend on the
 //! task alone, not on the number of threads. [`prepare()`] checks the tool against the part and
-//! settles the range of ρ. [`run()`] makes the path and gives it to a [`Sink`] in order.
+//! settles the range of ρ. [`run()`] makes the path and gives it to a [`DraftSink`] in order.
 
 mod aim;
 mod attributed;
 mod beyond;
+mod blocks;
 mod chain;
 mod columns;
 mod composite;
@@ -39,6 +40,7 @@ mod run;
 mod sample;
 mod schedule;
 mod seams;
+mod segment_state;
 mod sink;
 mod size;
 mod spindle;
@@ -64,8 +66,9 @@ pub use options::PathOptions;
 pub use path_size::{Excess, MOST_POINTS, MOST_REVOLUTIONS, PathSize};
 pub use plan::BLOCK;
 pub use prepare::{Preparation, prepare};
-pub use refine::{MOST_ROUNDS, SMALLEST_SEGMENT};
+pub use refine::MOST_ROUNDS;
 pub use run::{make_unmeasured, run};
 pub use sample::{PathSample, SampledBlock, sample_path};
-pub use sink::Sink;
+pub use segment_state::SMALLEST_SEGMENT;
+pub use sink::{DraftSink, Sink};
 pub use taper::LARGEST_END_GAP;

@@ -20,6 +20,8 @@ pub type Depths = Vec<u8>;
 /// The control points of a block, and the first one of the next block, where the last segment
 /// ends.
 pub struct BlockPoints {
+    /// Which block of the path it is.
+    pub index: usize,
     /// The points, the joint with the next block included.
     pub points: PathBlock,
     /// Z of each point above the locus, mm, as the sampler placed it.
@@ -307,6 +309,7 @@ fn solve(plan: &Plan<'_>, window: Window, state: Option<&mut Vec<f64>>) -> Resul
         return Err(link.bad_answer(what));
     }
     Ok(BlockPoints {
+        index,
         points,
         offsets: part(columns.dz),
         owner,

@@ -3,8 +3,8 @@
 use turnpath_core::toolpath::PathBlock;
 use turnpath_verify::machined::{MachinedFigures, SurfaceExtremes};
 use turnpath_verify::{
-    AxesMotion, BlockFigures, Meter, PathFigures, PathSketch, ServoBlockFigures, ServoFigures,
-    ServoMeter, ServoStart,
+    AxesMotion, BlockFigures, BlockPlayback, Meter, PathFigures, PathSketch, ServoBlockFigures,
+    ServoFigures, ServoMeter, ServoStart,
 };
 
 use crate::feed_cap::{FeedCap, feed_cap};
@@ -128,15 +128,17 @@ impl Measurement {
 }
 
 impl BlockMeasurement {
-    /// Measures a block with the joint at its end, with or without what pictures need.
+    /// Measures a block with the joint at its end, which was played back, with or without what pictures
+    /// need.
     pub fn of(
         plan: &Plan<'_>,
         block: &BlockPoints,
+        playback: BlockPlayback,
         start: Option<&ServoStart>,
         sketch: bool,
     ) -> Result<Self> {
         let touch = &plan.preparation.touch;
-        let figures = Meter::measure_off(touch, &block.points, &block.offsets);
+        let figures = Meter::measure_played(touch, playback, &block.points, &block.offsets);
         let mut figures = figures.map_err(PipelineError::Measure)?;
         if sketch {
             figures.sketch(&block.points);

@@ -2,7 +2,8 @@
 
 use crate::{PipelineError, Result};
 
-/// A stage of a run, in the order in which the stages come.
+/// A stage of a run. The stages come in this order, but for a path that needs refinement: it is begun to
+/// be written, then refined, and then written from its beginning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// A path made for a tolerance of form; the count of paths is from 1. The stages of the path
@@ -10,11 +11,11 @@ pub enum Stage {
     Form(u32),
     /// Planning the spiral law; how long that takes is not known.
     Law,
-    /// Playing the path back and refining it; the round counts from 1. Its blocks are those that
-    /// this round makes again.
-    Refine(u32),
-    /// Making, measuring and writing the path.
+    /// Making, playing back, measuring and writing the path.
     Write,
+    /// Playing the path back and refining it; the round counts from 1. Its blocks are those that this
+    /// round makes again: in the first round those at which writing has not arrived.
+    Refine(u32),
     /// Reading back and measuring what was written.
     ReadBack,
     /// Measuring a path in a file; how many blocks it has is not known.

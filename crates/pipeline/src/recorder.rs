@@ -1,15 +1,18 @@
-//! Delivers blocks to the sink in order, and has them measured on the way where that is asked.
+//! Delivers blocks to the sink in order, and has them measured on the way where that is asked. While
+//! segments may still be halved, it looks at each block first, as it is played for its figures.
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{PathBlock, Section};
-use turnpath_verify::{AxesMotion, ServoStart};
+use turnpath_verify::{AxesMotion, BlockPlayback, ServoStart};
 
-use crate::error::{RunError, RunResult};
+use crate::error::{PipelineError, Result, RunError, RunResult};
 use crate::make::BlockPoints;
 use crate::measurement::{BlockMeasurement, Measurement};
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::order::in_order;
 use crate::plan::Plan;
+use crate::refine::Refinement;
+use crate::segment_state::{SegmentState, states};
 use crate::sink::Sink;
 use crate::tail::{BlockContext, PathTail};
 
@@ -74,11 +77,57 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
     /// Measures and encodes blocks of the cutting section in parallel, and delivers them in order.
     pub fn record(&mut self, plan: &Plan<'_>, blocks: Vec<BlockPoints>) -> RunResult<(), S::Error> {
         let tasks: Vec<BlockTask> = blocks.into_iter().map(|block| self.task(block)).collect();
-        let sketch = self.measurement.as_deref().map(Measurement::keeps_sketch);
+        let sketch = self.keeps_sketch();
         let sink = &*self.sink;
         let each = tasks.into_par_iter();
         let records = in_order(each.map(|task| task.record(plan, sink, sketch)))?;
         records.into_iter().try_for_each(|record| self.add(record))
+    }
+
+    /// Plays back blocks of the cutting section that are not refined yet, and tells the refinement what
+    /// shows. Where no segment of them is to be halved, they are recorded as by
+    /// [`record`](Self::record), and the answer is yes. Else none is, and this recorder takes no more.
+    /// A block that the sink cannot encode is one of these: refinement may change it.
+    pub fn record_unrefined(
+        &mut self,
+        plan: &Plan<'_>,
+        blocks: Vec<BlockPoints>,
+        refinement: &mut Refinement,
+    ) -> RunResult<bool, S::Error> {
+        let review = |block: &BlockPoints| {
+            let playback = play_back(plan, block)?;
+            let states = states(plan, block, &playback.per_segment)?;
+            Ok::<_, PipelineError>((playback, states))
+        };
+        let reviews = in_order(blocks.par_iter().map(review))?;
+        let mut holds = true;
+        let mut played = Vec::new();
+        for (block, (playback, states)) in blocks.into_iter().zip(reviews) {
+            holds &= !states.contains(&SegmentState::Beyond);
+            refinement.take(block.index, block.owner.len(), states);
+            played.push((self.task(block), playback));
+        }
+        if !holds {
+            return Ok(false);
+        }
+        let sketch = self.keeps_sketch().unwrap_or_default();
+        let sink = &*self.sink;
+        let each = played.into_par_iter();
+        let record = |(task, playback): (BlockTask, _)| {
+            task.record_played(plan, sink, Some((playback, sketch)))
+        };
+        match in_order(each.map(record)) {
+            Err(RunError::Sink(_)) => Ok(false),
+            records => {
+                let added = records?.into_iter().map(|record| self.add(record));
+                added.collect::<RunResult<(), _>>().map(|()| true)
+            }
+        }
+    }
+
+    /// Whether with what pictures need; `None` where nothing is measured.
+    fn keeps_sketch(&self) -> Option<bool> {
+        self.measurement.as_deref().map(Measurement::keeps_sketch)
     }
 
     fn task(&mut self, block: BlockPoints) -> BlockTask {
@@ -117,21 +166,34 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
 }
 
 impl BlockTask {
-    /// Encodes the block without the joint with the next block, and measures it with the joint: `sketch`
-    /// says whether with what pictures need, `None` that nothing is measured.
+    /// Measures the block with the joint with the next block, and encodes it without: `sketch` says
+    /// whether with what pictures need, `None` that nothing is measured.
     fn record<S: Sink + ?Sized>(
         self,
         plan: &Plan<'_>,
         sink: &S,
         sketch: Option<bool>,
     ) -> RunResult<BlockRecord<S::Block>, S::Error> {
+        let playback = sketch.map(|_| play_back(plan, &self.block)).transpose()?;
+        self.record_played(plan, sink, playback.zip(sketch))
+    }
+
+    /// Measures what the playback leaves open, where there is one, and encodes the block.
+    fn record_played<S: Sink + ?Sized>(
+        self,
+        plan: &Plan<'_>,
+        sink: &S,
+        playback: Option<(BlockPlayback, bool)>,
+    ) -> RunResult<BlockRecord<S::Block>, S::Error> {
         let Self {
             block,
             context,
             start,
         } = self;
-        let measure = |sketch| BlockMeasurement::of(plan, &block, start.as_ref(), sketch);
-        let measured = sketch.map(measure).transpose()?;
+        let measure = |(playback, sketch)| {
+            BlockMeasurement::of(plan, &block, playback, start.as_ref(), sketch)
+        };
+        let measured = playback.map(measure).transpose()?;
         let motion = match &measured {
             Some(measured) => Some(measured.figures.axes),
             None => block.ends_path.then(|| AxesMotion::of(&block.points)),
@@ -146,4 +208,9 @@ impl BlockTask {
             encoded: encoded.map_err(RunError::Sink)?,
         })
     }
+}
+
+fn play_back(plan: &Plan<'_>, block: &BlockPoints) -> Result<BlockPlayback> {
+    let playback = BlockPlayback::of(&plan.preparation.touch, &block.points);
+    playback.map_err(PipelineError::Measure)
 }

@@ -3,7 +3,8 @@
 //!
 //! Refinement keeps two bytes for each sampler segment between rounds: how often the segment is
 //! halved, and its state after the last playback. Only blocks that changed, or whose neighbours
-//! did, are made again.
+//! did, are made again. The first round may be the making of the path itself: who plays a block
+//! there tells the refinement its states ([`Refinement::take`]).
 //!
 //! With a spline, the error of a long segment rises when its neighbour is halved. Where all
 //! segments are near the tolerance, halving only those beyond it would move the border between
@@ -15,15 +16,13 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use turnpath_core::Dependence;
-use turnpath_verify::Meter;
 
-use crate::aim::{AIM, NEAR};
-use crate::drift;
+use crate::Result;
 use crate::make::{BlockPoints, Depths, first_state, make};
 use crate::observer::{Observer, Stage, stop_if_cancelled};
 use crate::order::in_order;
 use crate::plan::Plan;
-use crate::{PipelineError, Result};
+use crate::segment_state::{SegmentState, play};
 
 /// Most rounds. A segment ends as 1/4096 of the sampler's at the least.
 pub const MOST_ROUNDS: u32 = 12;
@@ -35,25 +34,13 @@ const PLAIN_ROUNDS: u32 = 5;
 /// when the next long one is halved. Over more calm segments the rise is some thousandths, and
 /// halvings would go far over paths that need none.
 const GAP: usize = 1;
-/// Smallest segment that refinement makes, s. Controllers take some 0.4 ms for a servo cycle; none
-/// can follow a tenth of a millisecond.
-pub const SMALLEST_SEGMENT: f64 = 1e-4;
-/// Control points of a block above which none of its segments is halved any more. A tolerance that
-/// needs so many (tens of thousands a revolution) is missed and reported as missed, before memory
-/// runs out.
-const MOST_POINTS: usize = 1_000_000;
 
-/// The state of a sampler segment after its last playback.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum SegmentState {
-    /// Far from the aim, or as short as a segment may be.
-    Calm,
-    /// Near the aim.
-    Near,
-    /// Beyond the aim.
-    Beyond,
-    /// Near the aim, and a halving has spread to it.
-    Reached,
+/// How often each sampler segment is halved, and what its last playback showed.
+pub struct Refinement {
+    depths: Vec<Depths>,
+    states: Vec<Vec<SegmentState>>,
+    /// The nodes of each block.
+    counts: Vec<usize>,
 }
 
 /// Halves segments until the played error is below the aim everywhere, or no segment can be halved
@@ -65,33 +52,78 @@ pub fn refine(
     chosen: &[usize],
     observer: &dyn Observer,
 ) -> Result<Vec<Depths>> {
-    let dependence = plan.chain.velocity.strategy.dependence();
-    let mut depths: Vec<Depths> = vec![Depths::new(); plan.blocks()];
-    let mut states: Vec<Vec<SegmentState>> = vec![Vec::new(); plan.blocks()];
-    let mut dirty: Vec<usize> = chosen.to_vec();
-    let mut counts = vec![0; plan.blocks()];
-    for round in 1..=MOST_ROUNDS {
+    let mut refinement = Refinement::new(plan);
+    refinement.play_round(1, plan, batch, chosen, observer)?;
+    refinement.finish(plan, batch, chosen, observer)
+}
+
+impl Refinement {
+    /// Nothing is halved, and nothing has been played.
+    pub fn new(plan: &Plan<'_>) -> Self {
+        Self {
+            depths: vec![Depths::new(); plan.blocks()],
+            states: vec![Vec::new(); plan.blocks()],
+            counts: vec![0; plan.blocks()],
+        }
+    }
+
+    /// Takes what the playback of a block of so many nodes shows of its segments.
+    pub fn take(&mut self, block: usize, nodes: usize, states: Vec<SegmentState>) {
+        self.counts[block] = nodes;
+        self.states[block] = states;
+    }
+
+    /// Plays blocks back.
+    pub fn play(&mut self, plan: &Plan<'_>, blocks: &[BlockPoints]) -> Result<()> {
+        let played = in_order(blocks.par_iter().map(|block| play(plan, block)))?;
+        for (block, states) in blocks.iter().zip(played) {
+            self.take(block.index, block.owner.len(), states);
+        }
+        Ok(())
+    }
+
+    /// Refines after the first round, in which all `chosen` blocks were played.
+    pub fn finish(
+        mut self,
+        plan: &Plan<'_>,
+        batch: usize,
+        chosen: &[usize],
+        observer: &dyn Observer,
+    ) -> Result<Vec<Depths>> {
+        let dependence = plan.chain.velocity.strategy.dependence();
+        for round in 1..=MOST_ROUNDS {
+            spread(&mut self.states, reach(dependence, round));
+            let halved = halve(&mut self.depths, &mut self.states);
+            if halved.is_empty() || round == MOST_ROUNDS {
+                break;
+            }
+            let mut dirty = affected(dependence, &self.counts, halved.into_iter());
+            dirty.retain(|index| chosen.binary_search(index).is_ok());
+            self.play_round(round + 1, plan, batch, &dirty, observer)?;
+        }
+        Ok(self.depths)
+    }
+
+    /// Makes these blocks and plays them back.
+    fn play_round(
+        &mut self,
+        round: u32,
+        plan: &Plan<'_>,
+        batch: usize,
+        dirty: &[usize],
+        observer: &dyn Observer,
+    ) -> Result<()> {
         observer.begin(Stage::Refine(round), dirty.len() as u64);
         let mut solver_state = first_state(plan);
-        for range in runs(&dirty, batch) {
+        for range in runs(dirty, batch) {
             stop_if_cancelled(observer)?;
-            let blocks = make(plan, range.clone(), &depths, solver_state.as_mut())?;
-            let played = in_order(blocks.par_iter().map(|block| play(plan, block)))?;
-            for ((index, played), block) in range.clone().zip(played).zip(&blocks) {
-                counts[index] = block.owner.len();
-                states[index] = played;
-            }
-            observer.advance(range.len() as u64);
+            let count = range.len();
+            let blocks = make(plan, range, &self.depths, solver_state.as_mut())?;
+            self.play(plan, &blocks)?;
+            observer.advance(count as u64);
         }
-        spread(&mut states, reach(dependence, round));
-        let halved = halve(&mut depths, &mut states);
-        if halved.is_empty() {
-            break;
-        }
-        dirty = affected(dependence, &counts, halved.into_iter());
-        dirty.retain(|index| chosen.binary_search(index).is_ok());
+        Ok(())
     }
-    Ok(depths)
 }
 
 /// Over how many segments a halving spreads. It spreads over none where segments do not move their
@@ -171,34 +203,6 @@ fn halve(depths: &mut [Depths], states: &mut [Vec<SegmentState>]) -> Vec<usize> 
         }
     }
     changed
-}
-
-/// Plays a block back and gives the state of each of its sampler segments.
-fn play(plan: &Plan<'_>, block: &BlockPoints) -> Result<Vec<SegmentState>> {
-    let segments = block.owner.last().map_or(0, |last| *last as usize + 1);
-    let mut states = vec![SegmentState::Calm; segments];
-    if block.points.len() > MOST_POINTS {
-        return Ok(states);
-    }
-    let touch = &plan.preparation.touch;
-    let errors = Meter::segment_errors(touch, &block.points).map_err(PipelineError::Measure)?;
-    let aim = AIM * plan.preparation.task.tolerance.interpolation;
-    let drifts = drift::loads(plan, block)?;
-    let loads = errors
-        .iter()
-        .zip(drifts)
-        .map(|(error, drift)| drift.max(error / aim));
-    let times = block.points.t.windows(2);
-    for ((load, owner), time) in loads.zip(&block.owner).zip(times) {
-        let state = &mut states[*owner as usize];
-        let long_enough = time[1] - time[0] >= 2.0 * SMALLEST_SEGMENT;
-        if long_enough && load > 1.0 {
-            *state = SegmentState::Beyond;
-        } else if long_enough && load > NEAR && *state == SegmentState::Calm {
-            *state = SegmentState::Near;
-        }
-    }
-    Ok(states)
 }
 
 /// The blocks that change when the `halved` ones do; `counts` has the nodes of each block.

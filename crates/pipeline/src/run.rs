@@ -1,20 +1,22 @@
-//! The whole run: the law, refinement, then every block made, measured where that is asked, and
-//! delivered in order.
+//! The whole run: the law, then every block made, played back, measured and delivered in order. At the
+//! first segment that is to be halved, what was delivered is dropped. The path is then refined, and
+//! all its blocks are made, measured and delivered anew.
 
 use turnpath_core::toolpath::Section;
 
+use crate::blocks::Blocks;
 use crate::error::RunResult;
 use crate::estimate::{Estimate, nodes_per_revolution};
-use crate::lead::{LeadRun, Leads};
-use crate::make::{Depths, close_joints, first_state, make};
+use crate::lead::{LeadRun, LeadTask, Leads};
+use crate::make::{BlockPoints, Depths};
 use crate::measurement::{Measurement, Outcome};
 use crate::observer::{Observer, Stage, stop_if_cancelled};
 use crate::options::PathOptions;
-use crate::plan::Plan;
+use crate::plan::{Plan, Start};
 use crate::recorder::Recorder;
-use crate::refine::{refine, runs};
-use crate::sink::Sink;
-use crate::{Chain, Preparation, RunError, schedule};
+use crate::refine::{Refinement, refine};
+use crate::sink::{DraftSink, Sink};
+use crate::{Chain, PipelineError, Preparation, Result, RunError, schedule};
 
 /// Most blocks that are made at a time: enough for every thread, and few enough that a batch of
 /// large blocks (half a million nodes each) stays within some hundred megabytes.
@@ -27,24 +29,34 @@ const BATCH_POINTS: f64 = 5e5;
 /// # Errors
 /// [`RunError::Pipeline`] when there is no path or when the observer cancels the run,
 /// [`RunError::Sink`] when the sink fails.
-pub fn run<S: Sink + ?Sized>(
+pub fn run<S: DraftSink + ?Sized>(
     chain: &Chain,
     preparation: &Preparation,
     options: PathOptions,
     sink: &mut S,
     observer: &dyn Observer,
 ) -> std::result::Result<Outcome, RunError<S::Error>> {
-    let ready = ReadyPath::new(chain, preparation, options, sink, observer)?;
-    let mut measurement = Measurement::new(preparation, &options);
-    let recorder = Recorder::new(sink, observer, Some(&mut measurement));
-    let (plan, lead) = ready.write(recorder, observer)?;
+    let mut path = PathRun::new(chain, preparation, options, observer)?;
+    sink.expect(&path.estimate).map_err(RunError::Sink)?;
+    let begin = || Measurement::new(preparation, &options);
+    let mut measurement = begin();
+    let leads = match path.deliver_first(sink, &mut measurement)? {
+        FirstPass::Whole(leads) => leads.map(|leads| *leads),
+        FirstPass::Refines(round) => {
+            sink.drop_draft();
+            measurement = begin();
+            let depths = path.refine(*round)?;
+            path.deliver(sink, &depths, Some(&mut measurement))?
+        }
+    };
     observer.measures(true);
-    let outcome = measurement.outcome(&plan, lead);
+    let outcome = measurement.outcome(&path.plan, leads);
     observer.measures(false);
     Ok(outcome?)
 }
 
-/// Makes the same path as [`run`] and gives it to the sink, without measuring what it would cut.
+/// Makes the same path as [`run`] and gives it to the sink, without measuring what it would cut. The
+/// sink gets no block before the path is refined.
 ///
 /// # Errors
 /// As [`run`].
@@ -55,29 +67,55 @@ pub fn make_unmeasured<S: Sink + ?Sized>(
     sink: &mut S,
     observer: &dyn Observer,
 ) -> std::result::Result<(), RunError<S::Error>> {
-    let ready = ReadyPath::new(chain, preparation, options, sink, observer)?;
-    ready.write(Recorder::new(sink, observer, None), observer)?;
+    let mut path = PathRun::new(chain, preparation, options, observer)?;
+    sink.expect(&path.estimate).map_err(RunError::Sink)?;
+    let mut depths = Vec::new();
+    if options.refine {
+        // The first round then plays the same numbers as that of a run.
+        path.begins_unrefined()?;
+        depths = path.refine(path.first_round())?;
+    }
+    path.deliver(sink, &depths, None)?;
     Ok(())
 }
 
-/// A path of which all is known but its points.
-struct ReadyPath<'a> {
+/// A path of which all is known but its refinement and its points.
+struct PathRun<'a> {
     plan: Plan<'a>,
+    options: PathOptions,
+    estimate: Estimate,
     /// Blocks that are made at a time.
     batch: usize,
-    depths: Vec<Depths>,
+    /// What the leads are made for, once it is known.
+    lead_task: Option<LeadTask>,
+    /// The leads, from the lead-in on.
     leads: Option<LeadRun>,
+    observer: &'a dyn Observer,
 }
 
-impl<'a> ReadyPath<'a> {
-    /// Plans the path, tells the sink how long it will be, refines it, and makes its lead-in.
-    fn new<S: Sink + ?Sized>(
+/// How the first pass over a path ended.
+enum FirstPass {
+    /// The sink has the whole path.
+    Whole(Option<Box<Leads>>),
+    /// The path is to be refined first.
+    Refines(Box<FirstRound>),
+}
+
+/// The first round of refinement, as far as it is played.
+struct FirstRound {
+    seen: Refinement,
+    /// The blocks that were not played.
+    rest: Blocks,
+}
+
+impl<'a> PathRun<'a> {
+    /// Plans the path.
+    fn new(
         chain: &'a Chain,
         preparation: &'a Preparation,
         options: PathOptions,
-        sink: &mut S,
-        observer: &dyn Observer,
-    ) -> RunResult<Self, S::Error> {
+        observer: &'a dyn Observer,
+    ) -> Result<Self> {
         observer.begin(Stage::Law, 0);
         let mut plan = schedule::plan(chain, preparation, observer)?;
         plan.time_steps = options.time_steps;
@@ -85,76 +123,162 @@ impl<'a> ReadyPath<'a> {
             plan.hold_nodes();
         }
         let nodes = nodes_per_revolution(&plan)?;
-        let estimate = Estimate::of(&plan, nodes)?;
-        sink.expect(&estimate).map_err(RunError::Sink)?;
-        let batch = batch_size(&plan, nodes);
-        let refined = |plan: &Plan<'_>| match options.refine {
-            true => {
-                let all: Vec<usize> = (0..plan.blocks()).collect();
-                refine(plan, batch, &all, observer)
-            }
-            false => Ok(Vec::new()),
-        };
-        let mut depths = refined(&plan)?;
-        let is_slower = schedule::slow_down_refined(&mut plan, &depths, observer)?;
-        if is_slower && plan.time_steps.is_some() {
-            // At another speed the points lie on other steps of the controller's time.
-            depths = refined(&plan)?;
-        }
-        stop_if_cancelled(observer)?;
-        let leads = options
-            .lead
-            .map(|settings| LeadRun::begin(&mut plan, &depths, settings))
-            .transpose()?;
         Ok(Self {
+            estimate: Estimate::of(&plan, nodes)?,
+            batch: batch_size(&plan, nodes),
             plan,
-            batch,
-            depths,
-            leads,
+            options,
+            lead_task: None,
+            leads: None,
+            observer,
         })
     }
 
-    /// Makes the blocks and the lead-out, and gives all to the recorder.
-    fn write<S: Sink + ?Sized>(
-        self,
-        mut recorder: Recorder<'_, S>,
-        observer: &dyn Observer,
-    ) -> RunResult<(Plan<'a>, Option<Leads>), S::Error> {
-        let Self {
-            plan,
-            batch,
-            depths,
-            leads,
-        } = self;
-        if let Some(leads) = &leads {
+    /// Delivers and measures the path as long as no segment of it is to be halved. The playback that the
+    /// meters need is the first round of refinement too.
+    fn deliver_first<S: Sink + ?Sized>(
+        &mut self,
+        sink: &mut S,
+        measurement: &mut Measurement,
+    ) -> RunResult<FirstPass, S::Error> {
+        if !self.options.refine {
+            let leads = self.deliver(sink, &[], Some(measurement))?;
+            return Ok(FirstPass::Whole(leads.map(Box::new)));
+        }
+        let mut round = self.first_round();
+        if !self.begins_unrefined()? {
+            return Ok(FirstPass::Refines(Box::new(round)));
+        }
+        let mut recorder = Recorder::new(sink, self.observer, Some(measurement));
+        self.begin_path(&mut recorder)?;
+        while let Some(made) = self.make(&mut round.rest, &[])? {
+            let count = made.len() as u64;
+            self.observer.measures(true);
+            let holds = recorder.record_unrefined(&self.plan, made, &mut round.seen)?;
+            self.observer.measures(false);
+            self.observer.advance(count);
+            if !holds {
+                return Ok(FirstPass::Refines(Box::new(round)));
+            }
+        }
+        let leads = self.end_path(recorder)?;
+        Ok(FirstPass::Whole(leads.map(Box::new)))
+    }
+
+    /// Delivers the path with its segments halved so often, and measures it where that is asked.
+    fn deliver<S: Sink + ?Sized>(
+        &mut self,
+        sink: &mut S,
+        depths: &[Depths],
+        measurement: Option<&mut Measurement>,
+    ) -> RunResult<Option<Leads>, S::Error> {
+        stop_if_cancelled(self.observer)?;
+        self.begin_leads(depths)?;
+        let mut recorder = Recorder::new(sink, self.observer, measurement);
+        self.begin_path(&mut recorder)?;
+        let mut blocks = self.blocks();
+        while let Some(made) = self.make(&mut blocks, depths)? {
+            let count = made.len() as u64;
+            self.observer.measures(true);
+            recorder.record(&self.plan, made)?;
+            self.observer.measures(false);
+            self.observer.advance(count);
+        }
+        self.end_path(recorder)
+    }
+
+    /// Plays the rest of the blocks, and halves segments until the path holds. Gives how often each is
+    /// halved. The path is without leads then.
+    fn refine(&mut self, mut round: FirstRound) -> Result<Vec<Depths>> {
+        let observer = self.observer;
+        observer.begin(Stage::Refine(1), round.rest.left(&self.plan) as u64);
+        while let Some(made) = self.make(&mut round.rest, &[])? {
+            round.seen.play(&self.plan, &made)?;
+            observer.advance(made.len() as u64);
+        }
+        self.leads = None;
+        self.plan.start = Start::default();
+        let all: Vec<usize> = (0..self.plan.blocks()).collect();
+        let depths = round.seen.finish(&self.plan, self.batch, &all, observer)?;
+        let is_slower = schedule::slow_down_refined(&mut self.plan, &depths, observer)?;
+        if is_slower && self.plan.time_steps.is_some() {
+            // At another speed the points lie on other steps of the controller's time.
+            return refine(&self.plan, self.batch, &all, observer);
+        }
+        Ok(depths)
+    }
+
+    /// Nothing is played yet.
+    fn first_round(&self) -> FirstRound {
+        FirstRound {
+            seen: Refinement::new(&self.plan),
+            rest: self.blocks(),
+        }
+    }
+
+    /// All blocks of the path.
+    fn blocks(&self) -> Blocks {
+        Blocks::of(&self.plan, self.batch)
+    }
+
+    /// The next blocks, unless the run is cancelled.
+    fn make(&self, blocks: &mut Blocks, depths: &[Depths]) -> Result<Option<Vec<BlockPoints>>> {
+        stop_if_cancelled(self.observer)?;
+        blocks.next(&self.plan, depths)
+    }
+
+    /// Makes the lead-in, where the path has one, and moves the cut after it.
+    fn begin_leads(&mut self, depths: &[Depths]) -> Result<()> {
+        let Some(settings) = self.options.lead else {
+            return Ok(());
+        };
+        let task = match self.lead_task {
+            Some(task) => task,
+            None => LeadTask::new(&self.plan, settings)?,
+        };
+        self.lead_task = Some(task);
+        self.leads = Some(LeadRun::begin(&mut self.plan, depths, task)?);
+        Ok(())
+    }
+
+    /// Makes the lead-in of the path as the sampler has it. Where there is none, it says so: refinement
+    /// may make one possible.
+    fn begins_unrefined(&mut self) -> Result<bool> {
+        match self.begin_leads(&[]) {
+            Err(PipelineError::Lead { .. }) => {
+                self.plan.start = Start::default();
+                Ok(false)
+            }
+            begun => begun.map(|()| true),
+        }
+    }
+
+    /// Delivers the lead-in.
+    fn begin_path<S: Sink + ?Sized>(
+        &self,
+        recorder: &mut Recorder<'_, S>,
+    ) -> RunResult<(), S::Error> {
+        if let Some(leads) = &self.leads {
             recorder.follow(&leads.lead_in_and_join());
             recorder.deliver(Section::LeadIn, &leads.lead_in())?;
         }
-        let indices: Vec<usize> = (0..plan.blocks()).collect();
-        observer.begin(Stage::Write, indices.len() as u64);
-        let (mut waiting, mut state) = (Vec::new(), first_state(&plan));
-        for range in runs(&indices, batch) {
-            stop_if_cancelled(observer)?;
-            let mut blocks = waiting;
-            blocks.extend(make(&plan, range.clone(), &depths, state.as_mut())?);
-            close_joints(&mut blocks);
-            // The last block waits for the first point of the next one.
-            waiting = blocks.split_off(blocks.len() - usize::from(range.end < plan.blocks()));
-            observer.measures(true);
-            recorder.record(&plan, blocks)?;
-            observer.measures(false);
-            observer.advance(range.len() as u64);
-        }
-        let lead = match leads.zip(recorder.tail().last_two()) {
-            None => None,
-            Some((leads, pair)) => {
-                stop_if_cancelled(observer)?;
-                let (points, leads) = leads.end(&plan, &pair, recorder.last_motion())?;
-                recorder.deliver(Section::LeadOut, &points)?;
-                Some(leads)
-            }
+        let blocks = self.plan.blocks() as u64;
+        self.observer.begin(Stage::Write, blocks);
+        Ok(())
+    }
+
+    /// Delivers the lead-out.
+    fn end_path<S: Sink + ?Sized>(
+        &mut self,
+        mut recorder: Recorder<'_, S>,
+    ) -> RunResult<Option<Leads>, S::Error> {
+        let Some((leads, pair)) = self.leads.take().zip(recorder.tail().last_two()) else {
+            return Ok(None);
         };
-        Ok((plan, lead))
+        stop_if_cancelled(self.observer)?;
+        let (points, leads) = leads.end(&self.plan, &pair, recorder.last_motion())?;
+        recorder.deliver(Section::LeadOut, &points)?;
+        Ok(Some(leads))
     }
 }
 

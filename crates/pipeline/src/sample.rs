@@ -4,7 +4,7 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
 use turnpath_verify::AxesMotion;
 
 use crate::estimate::Estimate;
-use crate::lead::{LeadRun, LeadSettings};
+use crate::lead::{LeadRun, LeadTask};
 use crate::make::{BlockPoints, Depths, first_state, make};
 use crate::observer::SilentObserver;
 use crate::options::PathOptions;
@@ -57,7 +57,10 @@ pub fn sample_path(
     };
     let leads = options
         .lead
-        .map(|settings: LeadSettings| LeadRun::begin(&mut plan, &depths, settings))
+        .map(|settings| {
+            let task = LeadTask::new(&plan, settings)?;
+            LeadRun::begin(&mut plan, &depths, task)
+        })
         .transpose()?;
     let mut sample = PathSample::default();
     let mut last = None;

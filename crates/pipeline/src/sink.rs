@@ -37,3 +37,10 @@ pub trait Sink: Sync {
     /// [`RunError::Sink`]: crate::RunError::Sink
     fn take(&mut self, points: usize, block: Self::Block) -> Result<(), Self::Error>;
 }
+
+/// A sink that keeps what it takes as a draft until the path is whole. A run may find in the middle of a
+/// path that it is to be refined.
+pub trait DraftSink: Sink {
+    /// Forgets all that it took. The path then comes again from its first block.
+    fn drop_draft(&mut self);
+}

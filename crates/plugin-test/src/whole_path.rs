@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use turnpath_core::NM;
 use turnpath_core::toolpath::{PathBlock, SectionBlock};
 use turnpath_pipeline::{
-    AIM, Outcome, PathOptions, RunError, SilentObserver, Sink, make_unmeasured, run,
+    AIM, DraftSink, Outcome, PathOptions, RunError, SilentObserver, Sink, make_unmeasured, run,
 };
 
 use crate::chain::TrialChain;
@@ -33,6 +33,12 @@ impl Sink for Points {
     fn take(&mut self, _: usize, block: PathBlock) -> Result<(), Infallible> {
         block.points().for_each(|point| self.0.push(point));
         Ok(())
+    }
+}
+
+impl DraftSink for Points {
+    fn drop_draft(&mut self) {
+        *self = Self::default();
     }
 }
 

@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use turnpath_core::toolpath::{Section, SectionBlock};
 use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
 use turnpath_page::is_page;
-use turnpath_pipeline::{Estimate, Observer, Outcome, Sink};
+use turnpath_pipeline::{DraftSink, Estimate, Observer, Outcome, Sink};
 use turnpath_post::{
     ColumnFormat, Columns, Lines, PathReader, PathWriter, ProgramPath, ProgramWriter, WriteColumns,
 };
@@ -453,5 +453,14 @@ impl Sink for FolderSink<'_> {
             appended.map_err(|error| not_written(&program.file, error))?;
         }
         Ok(())
+    }
+}
+
+impl DraftSink for FolderSink<'_> {
+    fn drop_draft(&mut self) {
+        // Files in the making that are dropped are removed.
+        self.files = None;
+        self.rows = 0;
+        self.room.begin_again();
     }
 }

@@ -1,7 +1,7 @@
 //! A path and its programs in memory.
 
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
-use turnpath_pipeline::Sink;
+use turnpath_pipeline::{DraftSink, Sink};
 use turnpath_post::{Lines, ProgramWriter};
 
 use crate::posts::NotCarried;
@@ -59,5 +59,11 @@ impl Sink for MemorySink<'_> {
             let _ = writer.append(lines);
         }
         Ok(())
+    }
+}
+
+impl DraftSink for MemorySink<'_> {
+    fn drop_draft(&mut self) {
+        *self = Self::new(self.programs);
     }
 }

@@ -29,6 +29,12 @@ impl ProgramRoom {
         }
     }
 
+    /// Forgets the blocks so far.
+    pub fn begin_again(&mut self) {
+        (self.points, self.blocks) = (0, 0);
+        self.bytes.fill(0);
+    }
+
     /// Takes a block of the cut with the bytes of its lines in each program. Gives the bytes that are
     /// still to come, where the room is to be looked at again.
     pub fn pass(&mut self, points: usize, bytes: impl Iterator<Item = usize>) -> Option<f64> {

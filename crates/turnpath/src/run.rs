@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use turnpath_core::{Misfit, Slot};
 use turnpath_files::Draft;
 use turnpath_host::sha256_hex;
-use turnpath_pipeline::{Observer, Outcome, Sink, run as run_pipeline};
+use turnpath_pipeline::{DraftSink, Observer, Outcome, run as run_pipeline};
 use turnpath_report as report;
 use turnpath_report::{FormSplit, PathSketch, ProgramReport, RunReport};
 use turnpath_verify::unreached;
@@ -105,7 +105,7 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<Outcome, Error>
     where
-        S: Sink,
+        S: DraftSink,
         S::Error: Into<SinkError>,
     {
         let outcome = run_pipeline(

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_files::FileError;
-use turnpath_pipeline::{RunError, Sink};
+use turnpath_pipeline::{DraftSink, RunError, Sink};
 use turnpath_recipe::Recipe;
 
 use crate::diagnosis::{not_carried, of_pipeline};
@@ -67,5 +67,11 @@ impl Sink for RowCount {
     fn take(&mut self, points: usize, (): ()) -> Result<(), Infallible> {
         self.rows += points as u64;
         Ok(())
+    }
+}
+
+impl DraftSink for RowCount {
+    fn drop_draft(&mut self) {
+        self.rows = 0;
     }
 }

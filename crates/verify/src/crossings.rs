@@ -7,6 +7,9 @@ use turnpath_core::toolpath::Segment;
 const STEPS: usize = 8;
 /// So many sections go through the loop together at the most.
 const TOGETHER: usize = 32;
+/// Most sections for which a list has room at its beginning: those of a block of 64 turns and more. A
+/// longer list grows.
+const MOST_ROOM: usize = 1 << 16;
 
 /// Sections at equal distances around the axis, numbered from C = offset on.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +21,17 @@ pub(crate) struct Sections {
 }
 
 impl Sections {
+    /// About how many sections C passes from the first of these values to the last one, rad, for a list
+    /// that has room for them: never very many.
+    pub fn about(&self, c: &[f64]) -> usize {
+        let extent = c
+            .last()
+            .zip(c.first())
+            .map_or(0.0, |(last, first)| last - first);
+        // What is no number is no room.
+        ((extent / self.width) as usize).min(MOST_ROOM) + 1
+    }
+
     /// Calls `take` with the number of each section that a segment passes, its end excluded, and the
     /// instant at which C passes it, as a part of the segment. `ends` are C at both ends, rad.
     pub fn crossings(&self, segment: &Segment, ends: [f64; 2], mut take: impl FnMut(i64, f64)) {

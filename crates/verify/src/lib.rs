@@ -9,6 +9,7 @@ mod anomalies;
 mod axes;
 mod batches;
 mod best_sphere;
+mod block_playback;
 mod bracket;
 mod closing;
 mod comparison;
@@ -47,6 +48,7 @@ mod worst_first;
 pub use anomalies::{Anomaly, AnomalyDetector, AnomalyKind};
 pub use axes::{AxesMotion, AxisMotion, Peak};
 pub use best_sphere::BestSphere;
+pub use block_playback::BlockPlayback;
 pub use comparison::{
     Column, ComparisonFigures, HalfDigits, PathRow, RowAnomaly, RowComparison, RowFault,
 };

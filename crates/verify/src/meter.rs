@@ -4,14 +4,15 @@ use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
+use crate::block_playback::BlockPlayback;
 use crate::coverage::{Coverage, CoverageFigures};
 use crate::cutting_speed::CuttingSpeed;
 use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, SurfaceExtremes};
 use crate::playback::{PlaybackFigures, play_back};
-use crate::points::{PointFigures, point_errors};
+use crate::points::PointFigures;
 use crate::residual::{Passes, ResidualFigures};
 use crate::sketch::{BlockSketch, PathSketch, Sketch};
-use crate::spokes::{BlockSpokes, SegmentErrors, SpiralArms, Spoke, Spokes};
+use crate::spokes::{BlockSpokes, SpiralArms, Spoke, Spokes};
 use crate::touch::FirstTouch;
 
 /// The figures of one block of the cutting section.
@@ -46,29 +47,6 @@ impl BlockFigures {
     /// Adds what pictures of the block need.
     pub fn sketch(&mut self, points: &PathBlock) {
         self.sketch = BlockSketch::of(points, &self.per_segment, &self.cusps);
-    }
-
-    /// Plays the block back; the errors of its points are known.
-    fn play_back(&mut self, touch: &FirstTouch, points: &PathBlock) -> Result<()> {
-        let (part, spokes) = (touch.subject().part, &mut self.spokes);
-        let at_points = &self.per_point;
-        self.playback = play_back(touch, points, &mut self.per_segment, |found| {
-            let Some(segment) = points.segment(found.number) else {
-                return;
-            };
-            let (end, errors) = (found.number + 1, found.errors());
-            let errors = SegmentErrors {
-                segment: &segment,
-                ends: [points.c[end - 1], points.c[end]],
-                errors: std::array::from_fn(|k| match errors.get(k) {
-                    Some(error) => *error,
-                    None => at_points[end],
-                }),
-                touches: &found.touches(),
-            };
-            spokes.add(&errors, &part);
-        })?;
-        Ok(())
     }
 }
 
@@ -163,15 +141,35 @@ impl Meter {
         points: &PathBlock,
         offsets: &[f64],
     ) -> Result<BlockFigures> {
+        let playback = BlockPlayback::of(touch, points)?;
+        Self::measure_played(touch, playback, points, offsets)
+    }
+
+    /// Measures what its playback leaves open, as [`measure_off`](Self::measure_off) does. The
+    /// `playback` must be that of these points.
+    pub fn measure_played(
+        touch: &FirstTouch,
+        playback: BlockPlayback,
+        points: &PathBlock,
+        offsets: &[f64],
+    ) -> Result<BlockFigures> {
+        let BlockPlayback {
+            figures,
+            per_segment,
+            per_point,
+            spokes,
+        } = playback;
         let mut block = BlockFigures {
             axes: AxesMotion::of(points),
             cutting_speed: CuttingSpeed::of(points),
             ends: ends(points),
+            playback: figures,
+            points: PointFigures::of(points, &per_point, offsets),
+            per_segment,
+            per_point,
+            spokes,
             ..BlockFigures::default()
         };
-        block.per_point = point_errors(touch, points)?;
-        block.play_back(touch, points)?;
-        block.points = PointFigures::of(points, &block.per_point, offsets);
         block.passes = Passes::of(touch, points)?;
         block.cusps = block.passes.cusps(touch)?;
         block.residual = ResidualFigures::of(&block.cusps);

@@ -11,12 +11,11 @@ use std::f64::consts::TAU;
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
 
-use crate::batches::touches_at;
 use crate::closing::{self, SectionCusp};
 use crate::crossings::Sections;
 use crate::cusp::{self, Point};
 use crate::subject::Subject;
-use crate::touch::{FirstTouch, Touch};
+use crate::touch::{FirstTouch, Touch, TouchBuffers};
 
 /// Radial sections of a revolution. One every degree shows harmonics of the surface up to about the
 /// 30th at their worst to within a few hundredths.
@@ -24,6 +23,9 @@ pub const SECTIONS: i64 = 360;
 /// Steps from a cusp to the nearest point of the profile. Each step leaves (height × curvature) of
 /// the distance, which is 1e-4 or less.
 const FOOT_STEPS: usize = 5;
+/// Passes or cusps that are measured together: their columns take some tens of kilobytes, and stay in
+/// the cache.
+const BATCH: usize = 512;
 
 /// The residual of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -125,21 +127,28 @@ pub struct Passes {
 impl Passes {
     /// The passes of a block, its last point excluded.
     pub fn of(touch: &FirstTouch, points: &PathBlock) -> Result<Self> {
-        let width = TAU / SECTIONS as f64;
-        let (mut numbers, mut x) = (Vec::new(), Vec::new());
-        let sections = Sections { offset: 0.0, width };
+        let sections = Sections {
+            offset: 0.0,
+            width: TAU / SECTIONS as f64,
+        };
+        let mut passes = Vec::with_capacity(sections.about(&points.c));
+        let (mut first, mut theta, mut x) = (None, Vec::new(), Vec::new());
+        let mut buffers = TouchBuffers::default();
         for (segment, c) in points.segments().zip(points.c.windows(2)) {
             sections.crossings(&segment, [c[0], c[1]], |number, instant| {
-                numbers.push(number);
+                first.get_or_insert(number);
+                theta.push(angle_of(number));
                 x.push(segment.x.value(instant));
             });
+            if x.len() >= BATCH {
+                passes_in(touch, &theta, &x, &mut buffers, &mut passes)?;
+                theta.clear();
+                x.clear();
+            }
         }
-        let first = numbers.first().copied().unwrap_or_default();
-        let theta: Vec<f64> = numbers.iter().map(|number| angle_of(*number)).collect();
-        Ok(Self {
-            first,
-            passes: passes_at(touch, &theta, &x)?,
-        })
+        passes_in(touch, &theta, &x, &mut buffers, &mut passes)?;
+        let first = first.unwrap_or_default();
+        Ok(Self { first, passes })
     }
 
     /// The cusps among these passes, each alone.
@@ -156,40 +165,51 @@ impl Passes {
     /// Appends the passes of the following sections. Returns the cusps between the last revolution
     /// so far and the first revolution of `next`, each alone, and keeps the last revolution alone.
     pub fn follow(&mut self, touch: &FirstTouch, next: &Passes) -> Result<Vec<ResidualFigures>> {
-        let known = self.passes.len();
         let turn = SECTIONS as usize;
-        self.extend(next);
-        let start = known.saturating_sub(turn);
-        let around = &self.passes[start..(known + turn).min(self.passes.len())];
-        let earlier = &self.passes[start..known];
-        let cusps = cusps_between(touch, earlier, around, self.first + start as i64, turn)?;
-        *self = self.last_few(turn);
-        Ok(cusps)
-    }
-
-    /// Appends the passes of the following sections.
-    pub(crate) fn extend(&mut self, next: &Passes) {
-        if self.passes.is_empty() {
+        let (begin, rest) = next.passes.split_at(turn.min(next.passes.len()));
+        let earlier = self.passes.len();
+        if earlier == 0 {
             self.first = next.first;
         }
-        self.passes.extend_from_slice(&next.passes);
-    }
-
-    /// The last `count` passes.
-    pub(crate) fn last_few(&self, count: usize) -> Self {
-        let dropped = self.passes.len().saturating_sub(count);
-        Self {
-            first: self.first + dropped as i64,
-            passes: self.passes.iter().skip(dropped).copied().collect(),
+        self.passes.extend_from_slice(begin);
+        let (all, first) = (&self.passes, self.first);
+        let cusps = cusps_between(touch, &all[..earlier], all, first, turn)?;
+        if rest.len() >= turn {
+            self.first += (self.passes.len() + rest.len() - turn) as i64;
+            self.passes.clear();
+            self.passes.extend_from_slice(&rest[rest.len() - turn..]);
+        } else {
+            self.passes.extend_from_slice(rest);
+            let dropped = self.passes.len().saturating_sub(turn);
+            self.first += dropped as i64;
+            self.passes.drain(..dropped);
         }
+        Ok(cusps)
     }
 }
 
 /// The passes with the tool at each angle, rad, and X, mm, from their first touches.
 pub(crate) fn passes_at(touch: &FirstTouch, theta: &[f64], x: &[f64]) -> Result<Vec<Pass>> {
-    let touches = touches_at(touch, theta, x)?;
-    let pass = |(x, found): (&f64, &Touch)| Pass::of(touch.subject(), *x, found);
-    Ok(x.iter().zip(&touches).map(pass).collect())
+    let mut passes = Vec::with_capacity(x.len());
+    let mut buffers = TouchBuffers::default();
+    for (theta, x) in theta.chunks(BATCH).zip(x.chunks(BATCH)) {
+        passes_in(touch, theta, x, &mut buffers, &mut passes)?;
+    }
+    Ok(passes)
+}
+
+/// Appends the passes of one batch.
+fn passes_in(
+    touch: &FirstTouch,
+    theta: &[f64],
+    x: &[f64],
+    buffers: &mut TouchBuffers,
+    passes: &mut Vec<Pass>,
+) -> Result<()> {
+    touch.find_in(theta, x, buffers)?;
+    let found = x.iter().zip(buffers.touches.iter());
+    passes.extend(found.map(|(x, found)| Pass::of(touch.subject(), *x, &found)));
+    Ok(())
 }
 
 /// The angle of a section, rad.
@@ -212,7 +232,13 @@ fn cusps_between(
     first: i64,
     turn: usize,
 ) -> Result<Vec<ResidualFigures>> {
-    let subject = touch.subject();
+    let tool = &touch.subject().tool;
+    // Where a nose may leave seams, the highest of all cusps decides which are measured.
+    let batch = match touch.leaves_seams() {
+        true => usize::MAX,
+        false => BATCH,
+    };
+    let mut found = Vec::with_capacity(earlier.len().min(all.len().saturating_sub(turn)));
     let (mut theta, mut cusps) = (Vec::new(), Vec::new());
     for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
         let same_side = one.x * other.x >= 0.0;
@@ -220,9 +246,15 @@ fn cusps_between(
             continue;
         }
         theta.push(angle_of(number));
-        cusps.push(one.cusp(other, &subject.tool));
+        cusps.push(one.cusp(other, tool));
+        if cusps.len() == batch {
+            found.extend(each(touch, &theta, &cusps)?.into_iter().flatten());
+            theta.clear();
+            cusps.clear();
+        }
     }
-    Ok(each(touch, &theta, &cusps)?.into_iter().flatten().collect())
+    found.extend(each(touch, &theta, &cusps)?.into_iter().flatten());
+    Ok(found)
 }
 
 /// The residual of those of these cusps that stand on the part, each at its own angle. A cusp stands
@@ -308,34 +340,32 @@ pub(crate) fn heights(
     let mut feet: Vec<f64> = cusps.iter().map(|cusp| cusp.x).collect();
     let mut distances = vec![0.0; cusps.len()];
     let blank = vec![0.0; cusps.len()];
+    let [mut x, mut y] = [blank.clone(), blank.clone()];
     let (mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank);
     for _ in 0..FOOT_STEPS {
-        let x: Vec<f64> = feet
-            .iter()
-            .zip(&turned)
-            .map(|(foot, (_, c))| foot * c)
-            .collect();
-        let y: Vec<f64> = feet
-            .iter()
-            .zip(&turned)
-            .map(|(foot, (s, _))| foot * s)
-            .collect();
-        surface.gradient(
-            &x,
-            &y,
-            Gradients {
-                z: &mut z,
-                zx: &mut zx,
-                zy: &mut zy,
-            },
-        )?;
+        for (i, (foot, (s, c))) in feet.iter().zip(&turned).enumerate() {
+            (x[i], y[i]) = (foot * c, foot * s);
+        }
+        let out = Gradients {
+            z: &mut z,
+            zx: &mut zx,
+            zy: &mut zy,
+        };
+        surface.gradient(&x, &y, out)?;
+        let mut moved = false;
         for i in 0..cusps.len() {
             let (s, c) = turned[i];
             let slope = zx[i] * c + zy[i] * s;
             let off = cusps[i] - Point::new(feet[i], z[i]);
             let w = (1.0 + slope * slope).sqrt();
             distances[i] = (off.y - slope * off.x) / w;
-            feet[i] += (off.x + slope * off.y) / (w * w);
+            let next = feet[i] + (off.x + slope * off.y) / (w * w);
+            moved |= next != feet[i];
+            feet[i] = next;
+        }
+        // Further steps would find the same again.
+        if !moved {
+            break;
         }
     }
     Ok((distances, feet))

@@ -63,10 +63,34 @@ impl Leads {
     }
 }
 
+/// What the leads of a path are made for: it does not depend on the path's points.
+#[derive(Debug, Clone, Copy)]
+pub struct LeadTask {
+    settings: LeadSettings,
+    /// Z of the nose centre where it stands highest on the part, mm.
+    highest_z: f64,
+}
+
+impl LeadTask {
+    /// Looks for the highest place of the part.
+    pub fn new(plan: &Plan<'_>, settings: LeadSettings) -> Result<Self> {
+        let highest_z = height::highest(plan)?;
+        if !highest_z.is_finite() {
+            return Err(PipelineError::Lead {
+                which: LeadKind::In.name(),
+                what: "the nose finds no height anywhere on the part".to_owned(),
+            });
+        }
+        Ok(Self {
+            settings,
+            highest_z,
+        })
+    }
+}
+
 /// The leads of one path, made one after the other.
 pub struct LeadRun {
-    settings: LeadSettings,
-    highest_z: f64,
+    task: LeadTask,
     meter: LeadMeter,
     /// The points of the lead-in with the point of the join, once they are made.
     lead_in: Option<PathBlock>,
@@ -76,17 +100,9 @@ pub struct LeadRun {
 impl LeadRun {
     /// Makes the lead-in and moves the cut after it. For this the cut's first block is made twice:
     /// first to learn how long the lead-in takes, and again at its new time and angle.
-    pub fn begin(plan: &mut Plan<'_>, depths: &[Depths], settings: LeadSettings) -> Result<Self> {
-        let highest_z = height::highest(plan)?;
-        if !highest_z.is_finite() {
-            return Err(PipelineError::Lead {
-                which: LeadKind::In.name(),
-                what: "the nose finds no height anywhere on the part".to_owned(),
-            });
-        }
+    pub fn begin(plan: &mut Plan<'_>, depths: &[Depths], task: LeadTask) -> Result<Self> {
         let mut run = Self {
-            settings,
-            highest_z,
+            task,
             meter: LeadMeter::default(),
             lead_in: None,
             turns_in: 0.0,
@@ -144,20 +160,25 @@ impl LeadRun {
             out_time: time(&points),
             turns_in: self.turns_in,
             turns_out: extent(&points.c) / std::f64::consts::TAU,
-            rest_z: self.highest_z + self.settings.clearance,
-            highest_z: self.highest_z,
+            rest_z: self.rest_z(),
+            highest_z: self.task.highest_z,
             points: (lead_in.len() + points.len()).saturating_sub(2) as u64,
             figures: meter.figures().copied().unwrap_or_default(),
         };
         Ok((without_first(&points), leads))
     }
 
+    /// Z of the nose centre at rest, mm.
+    fn rest_z(&self) -> f64 {
+        self.task.highest_z + self.task.settings.clearance
+    }
+
     fn maker<'a>(&self, plan: &'a Plan<'a>) -> Maker<'a> {
         Maker {
             plan,
-            settings: self.settings,
+            settings: self.task.settings,
             clock: Clock::new(plan.time_steps),
-            rest_z: self.highest_z + self.settings.clearance,
+            rest_z: self.rest_z(),
             shape: plan.chain.velocity.strategy.segments(),
         }
     }

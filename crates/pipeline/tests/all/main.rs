@@ -7,6 +7,7 @@ mod blocks;
 mod composites;
 mod leads;
 mod offsets;
+mod passes;
 mod refinement;
 mod runs;
 mod spindles;

@@ -4,9 +4,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::common::{MemorySink, Task, inward};
+use crate::common::{MemorySink, Task, even, inward};
 use turnpath_core::toolpath::SectionBlock;
-use turnpath_pipeline::{Observer, Outcome, PipelineError, RunError, Sink, Stage};
+use turnpath_pipeline::{DraftSink, Observer, Outcome, PipelineError, RunError, Sink, Stage};
 
 /// Counts events until there are `last` of them.
 struct Countdown {
@@ -33,12 +33,20 @@ impl Countdown {
     }
 }
 
-/// A path of four blocks, refined.
+/// A path of four blocks that is looked at for refinement, which it does not need.
 fn task() -> Task {
     Task {
         feed: inward(200.0),
         refined: true,
         ..Task::default()
+    }
+}
+
+/// A path of four blocks that needs two rounds of refinement at the least.
+fn coarse_task() -> Task {
+    Task {
+        sampler: even(8.0),
+        ..task()
     }
 }
 
@@ -52,7 +60,7 @@ fn assert_cancelled<E>(result: Result<Outcome, RunError<E>>) {
     }
 }
 
-/// Cancels when a stage begins.
+/// Cancels when a stage begins so often.
 struct CancelsAt {
     stage: Stage,
     reached: Countdown,
@@ -72,15 +80,24 @@ impl Observer for CancelsAt {
     }
 }
 
+/// A path that is refined is begun to be written twice, and what its sink took first is dropped.
 #[test]
 fn a_run_that_is_cancelled_as_a_stage_begins_takes_nothing() {
-    for stage in [Stage::Law, Stage::Refine(1), Stage::Write] {
+    let [first, second] = [Stage::Refine(1), Stage::Refine(2)];
+    let stages = [
+        (Stage::Law, 1),
+        (Stage::Write, 1),
+        (first, 1),
+        (second, 1),
+        (Stage::Write, 2),
+    ];
+    for (stage, times) in stages {
         let observer = CancelsAt {
             stage,
-            reached: Countdown::to(1),
+            reached: Countdown::to(times),
         };
         let mut sink = MemorySink::default();
-        assert_cancelled(task().run_into(&mut sink, &observer));
+        assert_cancelled(coarse_task().run_into(&mut sink, &observer));
         assert!(sink.deliveries.is_empty(), "{stage:?}");
     }
     let message = PipelineError::Cancelled.to_string();
@@ -126,6 +143,12 @@ impl Sink for CountingSink {
         }
         self.taken.count();
         Ok(())
+    }
+}
+
+impl DraftSink for CountingSink {
+    fn drop_draft(&mut self) {
+        panic!("this path is not refined");
     }
 }
 

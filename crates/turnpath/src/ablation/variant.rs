@@ -2,7 +2,7 @@
 
 use turnpath_core::toolpath::SectionBlock;
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{Observer, Sink, Stage};
+use turnpath_pipeline::{DraftSink, Observer, Sink, Stage};
 use turnpath_post::{Layout, POSTS};
 use turnpath_recipe::Recipe;
 use turnpath_report::MeasuredRun;
@@ -86,6 +86,8 @@ struct SizeSink {
     /// Whether the recipe asks for a program, so that a path that the program cannot carry is a
     /// failure.
     is_asked: bool,
+    /// Whether the path plays cubics. One of straight lines has no size here.
+    plays_cubics: bool,
     rows: u64,
     /// Bytes of program lines; `None` where a program cannot carry the path.
     program_bytes: Option<u64>,
@@ -94,11 +96,13 @@ struct SizeSink {
 impl SizeSink {
     fn new(job: &Job) -> Self {
         let post = posts(&job.recipe).next().unwrap_or(&POSTS[0]);
+        let plays_cubics = !job.plays_straight_lines();
         Self {
             layout: layout(&job.recipe, post, job.compensates_nose()),
             is_asked: !job.programs.is_empty(),
+            plays_cubics,
             rows: 0,
-            program_bytes: (!job.plays_straight_lines()).then_some(0),
+            program_bytes: plays_cubics.then_some(0),
         }
     }
 }
@@ -126,5 +130,12 @@ impl Sink for SizeSink {
         self.rows += points as u64;
         self.program_bytes = self.program_bytes.zip(bytes).map(|(sum, more)| sum + more);
         Ok(())
+    }
+}
+
+impl DraftSink for SizeSink {
+    fn drop_draft(&mut self) {
+        self.rows = 0;
+        self.program_bytes = self.plays_cubics.then_some(0);
     }
 }

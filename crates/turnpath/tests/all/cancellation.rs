@@ -4,18 +4,20 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use turnpath::{Error, Fault, Observer, Outputs, Stage};
 
-use crate::support::job;
+use crate::support::{REFINED_LATE, job};
 
 /// Cancels when a stage has begun for the n-th time.
 struct CancelAt {
     stage: fn(Stage) -> bool,
+    times: u64,
     seen: AtomicU64,
 }
 
 impl CancelAt {
-    fn new(stage: fn(Stage) -> bool) -> Self {
+    fn new(stage: fn(Stage) -> bool, times: u64) -> Self {
         Self {
             stage,
+            times,
             seen: AtomicU64::new(0),
         }
     }
@@ -30,7 +32,7 @@ impl Observer for CancelAt {
     fn advance(&self, _: u64) {}
 
     fn is_cancelled(&self) -> bool {
-        self.seen.load(Ordering::Relaxed) > 0
+        self.seen.load(Ordering::Relaxed) >= self.times
     }
 }
 
@@ -38,7 +40,7 @@ impl Observer for CancelAt {
 #[test]
 fn a_run_can_be_cancelled_while_a_path_is_made_again() {
     let folder = tempfile::tempdir().unwrap();
-    let observer = CancelAt::new(|stage| stage == Stage::Form(2));
+    let observer = CancelAt::new(|stage| stage == Stage::Form(2), 1);
     let outputs = Outputs::in_folder(folder.path().join("a/b"));
     let job = job(&["tolerance={ form = \"5 um\" }"]);
     let error = job.run(outputs, &observer).unwrap_err();
@@ -46,19 +48,22 @@ fn a_run_can_be_cancelled_while_a_path_is_made_again() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
+/// A path that is refined is written twice, and dropped between.
 #[test]
 fn a_run_can_be_cancelled_in_every_stage_and_leaves_no_file_and_no_folder() {
-    let stages: [fn(Stage) -> bool; 4] = [
-        |stage| matches!(stage, Stage::Law),
-        |stage| matches!(stage, Stage::Refine(_)),
-        |stage| matches!(stage, Stage::Write),
-        |stage| matches!(stage, Stage::ReadBack),
+    let observers = [
+        CancelAt::new(|stage| matches!(stage, Stage::Law), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Write), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Refine(1)), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Refine(2)), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Write), 2),
+        CancelAt::new(|stage| matches!(stage, Stage::ReadBack), 1),
     ];
-    for (index, stage) in stages.into_iter().enumerate() {
+    let job = job(&REFINED_LATE);
+    for (index, observer) in observers.iter().enumerate() {
         let folder = tempfile::tempdir().unwrap();
-        let observer = CancelAt::new(stage);
         let outputs = Outputs::in_folder(folder.path().join("a/b"));
-        let error = job(&[]).run(outputs, &observer).unwrap_err();
+        let error = job.run(outputs, observer).unwrap_err();
         assert!(matches!(error, Error::Cancelled), "stage {index}: {error}");
         assert_eq!(error.fault(), Fault::Cancelled);
         let left = std::fs::read_dir(folder.path()).unwrap().count();

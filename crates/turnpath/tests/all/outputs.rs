@@ -1,10 +1,12 @@
 //! A folder, memory and nowhere get the same path and the same figures.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
-use turnpath::report::RunReport;
-use turnpath::{Outputs, PlotRequest, RunResult, SilentObserver, Tolerance};
+use std::sync::Mutex;
 
-use crate::support::job;
+use turnpath::report::RunReport;
+use turnpath::{Observer, Outputs, PlotRequest, RunResult, SilentObserver, Stage, Tolerance};
+
+use crate::support::{REFINED_LATE, job};
 
 fn run(outputs: Outputs) -> RunResult {
     job(&[]).run(outputs, &SilentObserver).unwrap()
@@ -55,6 +57,55 @@ fn memory_has_the_rows_of_the_table_and_the_bytes_of_the_program() {
     };
     assert_eq!(*program, std::fs::read(folder.path().join(name)).unwrap());
     assert!(in_memory.files.is_empty());
+}
+
+/// Counts the blocks of each stage.
+#[derive(Default)]
+struct StageBlocks(Mutex<Vec<(Stage, u64)>>);
+
+impl Observer for StageBlocks {
+    fn begin(&self, stage: Stage, _: u64) {
+        self.0.lock().unwrap().push((stage, 0));
+    }
+
+    fn advance(&self, blocks: u64) {
+        if let Some((_, count)) = self.0.lock().unwrap().last_mut() {
+            *count += blocks;
+        }
+    }
+}
+
+/// Most of the path is written when a segment of its last blocks turns out to be too long.
+#[test]
+fn outputs_that_drop_a_draft_have_the_refined_path_alone() {
+    let job = job(&REFINED_LATE);
+    let folder = tempfile::tempdir().unwrap();
+    let stages = StageBlocks::default();
+    let in_folder = job.run(Outputs::in_folder(folder.path()), &stages).unwrap();
+    let stages = stages.0.into_inner().unwrap();
+    let written = stages.iter().filter(|(stage, _)| *stage == Stage::Write);
+    let written: Vec<u64> = written.map(|(_, blocks)| *blocks).collect();
+    assert!(written.len() == 2 && written[0] > 60, "{stages:?}");
+    let report = &in_folder.report;
+    assert!(report.points_added_by_refine > 0 && report.within.holds());
+    let added = report.points_added_by_refine as f64 / report.control_points as f64;
+    assert!(added < 0.3, "{added}");
+    let in_memory = job.run(Outputs::in_memory(), &SilentObserver).unwrap();
+    assert_eq!(without_files(report), in_memory.report);
+    let path = in_memory.toolpath.unwrap();
+    assert_eq!(path.len() as u64, report.rows);
+    assert!(path.t.is_sorted_by(|one, next| one < next));
+    let table = std::fs::read_to_string(folder.path().join("toolpath.csv")).unwrap();
+    assert_eq!(table.lines().count(), path.len() + 1);
+    let [(name, program)] = &in_memory.programs[..] else {
+        panic!("one program");
+    };
+    assert_eq!(*program, std::fs::read(folder.path().join(name)).unwrap());
+    let nowhere = job.run(Outputs::nowhere(), &SilentObserver).unwrap();
+    assert_eq!(nowhere.report, without_programs(&in_memory.report));
+    let mut left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    left.retain(|entry| !in_folder.files.contains(&entry.as_ref().unwrap().path()));
+    assert!(left.is_empty(), "{left:?}");
 }
 
 #[test]

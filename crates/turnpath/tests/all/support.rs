@@ -40,3 +40,14 @@ pub fn recipe(sets: &[&str]) -> Recipe {
 pub fn job(sets: &[&str]) -> Job {
     Job::new(recipe(sets), &Catalogue::linked().unwrap()).unwrap()
 }
+
+/// Changes for a path of some 70 blocks, of which the last ones alone, at the rim, are to be refined:
+/// all blocks before are written by then.
+pub const REFINED_LATE: [&str; 6] = [
+    "tolerance.interpolation=1600 nm",
+    "path.direction=outward",
+    "feed={ use = \"constant\", feed = \"0.56 um/rev\" }",
+    "sampler={ use = \"equal-angle\", step = \"30 deg\" }",
+    "velocity={ use = \"analytic\" }",
+    "output.data=[\"csv\", \"npz\"]",
+];

@@ -88,11 +88,12 @@ impl SectionPasses {
 
     /// The played points on the sections.
     fn played(fan: &Fan, points: &PathBlock) -> Self {
-        let (mut first, mut centres) = (None, Vec::new());
         let sections = Sections {
             offset: fan.offset,
             width: fan.width(),
         };
+        let mut centres = Vec::with_capacity(sections.about(&points.c));
+        let mut first = None;
         for (segment, c) in points.segments().zip(points.c.windows(2)) {
             sections.crossings(&segment, [c[0], c[1]], |number, instant| {
                 let (x, z) = (segment.x.value(instant), segment.z.value(instant));

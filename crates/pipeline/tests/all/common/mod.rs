@@ -17,9 +17,10 @@ use turnpath_core::{
     StrategyError, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
-    Chain, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions, PipelineError, RunError,
-    SilentObserver, Sink, prepare, run,
+    Chain, DraftSink, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions, PipelineError,
+    RunError, SilentObserver, Sink, make_unmeasured, prepare, run,
 };
+use turnpath_verify::FirstTouch;
 
 /// The rim, mm.
 pub const RIM: f64 = 2.0;
@@ -317,45 +318,75 @@ impl Task {
     }
 
     /// Gives the path to a sink while an observer watches.
-    pub fn run_into<S: Sink>(
+    pub fn run_into<S: DraftSink>(
         &self,
         sink: &mut S,
         observer: &dyn Observer,
     ) -> std::result::Result<Outcome, RunError<S::Error>> {
+        let chain = self.chain();
+        let preparation = prepare(&chain, self.spec())?;
+        run(&chain, &preparation, self.options(), sink, observer)
+    }
+
+    /// The path, made without measuring it.
+    pub fn unmeasured(&self) -> PathBlock {
+        let chain = self.chain();
+        let preparation = prepare(&chain, self.spec()).expect("a tool that fits");
+        let mut sink = MemorySink::default();
+        make_unmeasured(
+            &chain,
+            &preparation,
+            self.options(),
+            &mut sink,
+            &SilentObserver,
+        )
+        .expect("a path");
+        sink.points
+    }
+
+    /// The first touch of the task's tool.
+    pub fn touch(&self) -> FirstTouch {
+        let preparation = prepare(&self.chain(), self.spec());
+        preparation.expect("a tool that fits").touch
+    }
+
+    fn chain(&self) -> Chain {
         let surface: Arc<dyn SurfaceModel> = Arc::new(Saddle);
-        let chain = Chain {
+        Chain {
             surface: link(Slot::Surface, surface),
             feed: link(Slot::Feed, self.feed.clone()),
             sampler: link(Slot::Sampler, self.sampler.clone()),
             compensator: link(Slot::Compensator, self.compensator.clone()),
             velocity: link(Slot::Velocity, self.velocity.clone()),
             spindle: link(Slot::Spindle, self.spindle.clone()),
-        };
-        let part = Part {
-            aperture_radius: RIM,
-            inner_radius: 0.0,
-        };
-        let tool = Tool {
-            nose_radius: 1.0,
-            included_angle: None,
-            clearance_angle: None,
-            misfit: turnpath_core::Misfit::Refuse,
-        };
-        let tolerance = Tolerance {
-            interpolation: self.interpolation,
-            residual: RESIDUAL,
-        };
-        let spec = JobSpec {
-            part,
-            tool,
-            tolerance,
+        }
+    }
+
+    fn spec(&self) -> JobSpec {
+        JobSpec {
+            part: Part {
+                aperture_radius: RIM,
+                inner_radius: 0.0,
+            },
+            tool: Tool {
+                nose_radius: 1.0,
+                included_angle: None,
+                clearance_angle: None,
+                misfit: turnpath_core::Misfit::Refuse,
+            },
+            tolerance: Tolerance {
+                interpolation: self.interpolation,
+                residual: RESIDUAL,
+            },
             overrun: self.overrun,
             direction: self.direction,
             spindle_speed: self.rpm / 60.0 * TAU,
             machine: self.machine,
-        };
-        let preparation = prepare(&chain, spec)?;
-        let options = PathOptions {
+        }
+    }
+
+    fn options(&self) -> PathOptions {
+        PathOptions {
             refine: self.refined,
             time_steps: self.time_steps,
             lead: self.lead,
@@ -363,8 +394,7 @@ impl Task {
             form: None,
             servo: None,
             sketch: false,
-        };
-        run(&chain, &preparation, options, sink, observer)
+        }
     }
 
     /// The path and its outcome of a task that works.
@@ -426,5 +456,11 @@ impl Sink for MemorySink {
         self.deliveries.push(delivery);
         block.points().for_each(|point| self.points.push(point));
         Ok(())
+    }
+}
+
+impl DraftSink for MemorySink {
+    fn drop_draft(&mut self) {
+        *self = Self::default();
     }
 }
