@@ -214,7 +214,7 @@ fn wrong_passes_are_underlined() {
         ),
         (
             "[passes.x]\nallowance = \"5 um\"\n[passes.X]\nallowance = \"1 um\"\n",
-            "`X` and `x` have the same letters, but for small and capital ones",
+            "`X` and `x` differ only in small and capital letters, but for small and capital ones",
         ),
         (
             "[passes.rough]\nallowance = \"1 um\"\ntolerance.residual = \"1 deg\"\n",
@@ -323,7 +323,7 @@ fn a_ninth_rough_path_has_no_parts_on_a_controller_that_calls_by_numbers() {
     for (count, split, status) in [(8, split, 0), (9, split, 2), (9, "", 0)] {
         let bench = Bench::with(&format!("{}{split}{}", saddle(), paths(count)));
         let said = bench.line("check recipe.toml").ends(status);
-        let says = "has them for the parts of 8 rough paths";
+        let says = "a run has at most 8 rough paths";
         assert_eq!(said.stderr.contains(says), status > 0, "{said}");
     }
 }

@@ -34,7 +34,7 @@ const DOMED: usize = 4;
 const CLOSE_RING: f64 = 4e-12;
 /// The ring that it is compared with, over the same.
 const WIDE_RING: f64 = 256.0 * CLOSE_RING;
-/// A curvature that is larger by this much on the close ring has no bound. Around the tip of a cone it is
+/// A curvature that is larger by this much on the close ring, in one direction, has no bound. Around the tip of a cone it is
 /// 256 times as large, where it follows the logarithm of the distance 1.3 times, and at a smooth place it
 /// is the same to less than 10⁻⁶.
 const NO_BOUND: f64 = 1.05;
@@ -174,14 +174,19 @@ impl Room {
             }
             step *= 0.5;
         }
-        let mut ring = |radius: f64| self.largest_around(surface, region, which, (at, radius));
-        let (close, wide) = (ring(close), ring(WIDE_RING * region.outer));
-        close.zip(wide).is_some_and(|((place, close), (_, wide))| {
-            let across = self
-                .figures_at(surface, place)
-                .map_or(0.0, |figures| figures[other]);
-            let rounding = ROUNDING * (region.outer.recip() + across.abs());
-            close > rounding && close > NO_BOUND * wide
+        AROUND.into_iter().any(|(along_x, along_y)| {
+            let mut figures = |distance: f64| {
+                let place = (at.0 + distance * along_x, at.1 + distance * along_y);
+                let is_on_part = (region.inner..=region.outer).contains(&norm(place));
+                is_on_part
+                    .then(|| self.figures_at(surface, place))
+                    .flatten()
+            };
+            let pair = figures(close).zip(figures(WIDE_RING * region.outer));
+            pair.is_some_and(|(close, wide)| {
+                let rounding = ROUNDING * (region.outer.recip() + close[other].abs());
+                close[which] > rounding && close[which] > NO_BOUND * wide[which]
+            })
         })
     }
 
@@ -197,7 +202,7 @@ impl Room {
             AROUND.map(|(along_x, along_y)| (x + distance * along_x, y + distance * along_y));
         let on_part = around
             .into_iter()
-            .filter(|(x, y)| (region.inner..=region.outer).contains(&Scalar::hypot(*x, *y)));
+            .filter(|place| (region.inner..=region.outer).contains(&norm(*place)));
         let figures = on_part.filter_map(|place| {
             let figures = self.figures_at(surface, place)?;
             Some((place, figures[which]))
@@ -249,6 +254,10 @@ fn principal([zx, zy]: [f64; 2], [xx, xy, yy]: [f64; 3]) -> [f64; 2] {
     let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
     let off = Scalar::hypot(half, between);
     [mean + off, mean - off]
+}
+
+fn norm((x, y): (f64, f64)) -> f64 {
+    Scalar::hypot(x, y)
 }
 
 fn no_height((x, y): (f64, f64)) -> StrategyError {
@@ -412,6 +421,35 @@ mod tests {
         assert!(found.has_hollow_tip && !found.has_domed_tip);
         let found = of(&Thorn(-0.1), REGION).unwrap();
         assert!(!found.has_hollow_tip && found.has_domed_tip);
+    }
+
+    /// z = s·|x + ty − a|^(3/2), an edge whose curvature has no bound.
+    struct Edge {
+        scale: f64,
+        turn: f64,
+        at: f64,
+    }
+
+    impl Surface for Edge {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let across = x + y * self.turn - self.at;
+            let square = across.squared();
+            let on_edge = square.less(S::constant(1e-30));
+            let root = S::select(on_edge, S::constant(1.0), square).sqrt();
+            S::select(on_edge, S::constant(0.0), root * root.sqrt()) * self.scale
+        }
+    }
+
+    /// Along the edge itself the curvature does not grow.
+    #[test]
+    fn an_edge_is_a_tip_whatever_its_direction() {
+        for (turn, at) in [(0.0, 0.31234), (1.0, 0.31234), (0.37, 0.3)] {
+            for scale in [0.01, -0.01] {
+                let found = of(&Edge { scale, turn, at }, REGION).unwrap();
+                let tips = (found.has_hollow_tip, found.has_domed_tip);
+                assert_eq!(tips, (scale > 0.0, scale < 0.0), "{turn} {at}");
+            }
+        }
     }
 
     /// The search comes to the tip itself, where there is no slope.

@@ -74,6 +74,20 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         self.take(points.len(), encoded)
     }
 
+    /// The same for a section of a path that is not refined yet. The answer is no if the sink cannot encode it:
+    /// refinement may change it.
+    pub fn deliver_unrefined(
+        &mut self,
+        section: Section,
+        points: &PathBlock,
+    ) -> RunResult<bool, S::Error> {
+        let context = self.tail.extend(section, points, points.len());
+        match self.sink.encode(&context.block(section, points)) {
+            Ok(encoded) => self.take(points.len(), encoded).map(|()| true),
+            Err(_) => Ok(false),
+        }
+    }
+
     /// Measures and encodes blocks of the cutting section in parallel, and delivers them in order.
     pub fn record(&mut self, plan: &Plan<'_>, blocks: Vec<BlockPoints>) -> RunResult<(), S::Error> {
         let tasks: Vec<BlockTask> = blocks.into_iter().map(|block| self.task(block)).collect();
@@ -87,7 +101,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
     /// Plays back blocks of the cutting section that are not refined yet, and tells the refinement what
     /// shows. Where no segment of them is to be halved, they are recorded as by
     /// [`record`](Self::record), and the answer is yes. Else none is, and this recorder takes no more.
-    /// A block that the sink cannot encode is one of these: refinement may change it.
+    /// If the sink cannot encode a block, none is recorded either: refinement may change it.
     pub fn record_unrefined(
         &mut self,
         plan: &Plan<'_>,

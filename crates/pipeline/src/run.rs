@@ -150,7 +150,13 @@ impl<'a> PathRun<'a> {
             return Ok(FirstPass::Refines(Box::new(round)));
         }
         let mut recorder = Recorder::new(sink, self.observer, Some(measurement));
-        self.begin_path(&mut recorder)?;
+        if let Some(leads) = &self.leads {
+            recorder.follow(&leads.lead_in_and_join());
+            if !recorder.deliver_unrefined(Section::LeadIn, &leads.lead_in())? {
+                return Ok(FirstPass::Refines(Box::new(round)));
+            }
+        }
+        self.begin_cut();
         while let Some(made) = self.make(&mut round.rest, &[])? {
             let count = made.len() as u64;
             self.observer.measures(true);
@@ -175,7 +181,11 @@ impl<'a> PathRun<'a> {
         stop_if_cancelled(self.observer)?;
         self.begin_leads(depths)?;
         let mut recorder = Recorder::new(sink, self.observer, measurement);
-        self.begin_path(&mut recorder)?;
+        if let Some(leads) = &self.leads {
+            recorder.follow(&leads.lead_in_and_join());
+            recorder.deliver(Section::LeadIn, &leads.lead_in())?;
+        }
+        self.begin_cut();
         let mut blocks = self.blocks();
         while let Some(made) = self.make(&mut blocks, depths)? {
             let count = made.len() as u64;
@@ -253,18 +263,10 @@ impl<'a> PathRun<'a> {
         }
     }
 
-    /// Delivers the lead-in.
-    fn begin_path<S: Sink + ?Sized>(
-        &self,
-        recorder: &mut Recorder<'_, S>,
-    ) -> RunResult<(), S::Error> {
-        if let Some(leads) = &self.leads {
-            recorder.follow(&leads.lead_in_and_join());
-            recorder.deliver(Section::LeadIn, &leads.lead_in())?;
-        }
+    /// Tells the observer that the cut is written next.
+    fn begin_cut(&self) {
         let blocks = self.plan.blocks() as u64;
         self.observer.begin(Stage::Write, blocks);
-        Ok(())
     }
 
     /// Delivers the lead-out.

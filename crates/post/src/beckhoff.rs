@@ -3,8 +3,8 @@
 //!
 //! Facts on the language: Beckhoff, TF5200 Programming manual, "Exact stop (G60/G360/G359)" (206301707),
 //! "Polynomial contouring (G61/G261/G260)" (206307595), "Determining acceleration/deceleration
-//! (G08/G09/G900/G901)" (206238219), "Block-specific comments", "Global sub-routines", and the tables "Meaning of G functions" and "Meaning of other M
-//! functions" of its system parameters.
+//! (G08/G09/G900/G901)" (206238219), "Block-specific comments", "Global sub-routines", and the tables "Meaning of G
+//! functions" and "Meaning of other M functions" of its system parameters.
 
 use crate::g_code::{self, TravelWords};
 use crate::part_name::{PartLines, PartName};

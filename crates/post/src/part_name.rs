@@ -79,8 +79,8 @@ pub struct PartLines {
 }
 
 impl PartName {
-    /// That of the part of this number of a program, whose parts have these numbers. Controllers differ in the characters that they
-    /// take in names, so only letters, digits and `-` and `_` are kept, in lower case.
+    /// The name of part `number` of a program. Controllers differ in the characters that they take in names,
+    /// so only letters, digits and `-` and `_` are kept, in lower case.
     pub fn of(program: &str, number: u32, numbers: &PartNumbers) -> Self {
         let (stem, extension) = program.rsplit_once('.').unwrap_or((program, ""));
         let plain = |c: char| match c {

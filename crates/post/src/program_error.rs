@@ -157,7 +157,7 @@ pub enum ProgramError {
     },
     /// The controller calls parts by numbers, and there are none for the parts of this path.
     #[error(
-        "this controller calls parts by numbers, and has them for the parts of {most} rough paths"
+        "with split, a run has at most {most} rough paths: there are program numbers for no more"
     )]
     ManyRoughPaths {
         /// How many rough paths may have parts.

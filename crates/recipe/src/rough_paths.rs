@@ -197,7 +197,7 @@ fn taken_name(entry: &Entry, all: &[Entry]) -> Option<Diagnostic> {
         let rest = own.strip_prefix(&name);
         if rest == Some("") && is_earlier {
             let title = format!(
-                "{} and {said} have the same letters, but for small and capital ones",
+                "{} and {said} differ only in small and capital letters",
                 quoted(&entry.key)
             );
             return wrong(

@@ -10,8 +10,9 @@ use crate::posts::posts;
 const HEADER: &str = "header";
 /// The one behind them.
 const FOOTER: &str = "footer";
-/// Most commands of a file that a report names: a file of another maker may have any number.
-const MOST_OF_A_FILE: usize = 50;
+/// Most commands of a file's header that a report names, and most of its footer: a file of another maker may
+/// have any number.
+const MOST_OF_A_TEMPLATE: usize = 50;
 
 /// A command with the span of its template.
 struct TemplateCommand {
@@ -84,14 +85,20 @@ pub fn commands_of_file(
         ),
     ];
     let commands = parts.into_iter().flat_map(|(name, found, own, lines)| {
-        let own = judged(post, name, &own);
-        // What is harmless in the recipe's place may not be so at the place of the file.
-        let has = move |one: &Command| own.iter().any(|own| own.text == one.text && !own.harmless);
-        let is_new = move |one: &Command| !one.harmless && !has(one);
-        let found = judged(post, name, found).into_iter().filter(is_new);
-        found.map(move |one| of_command(post, name, one, lines))
+        let found = judged(post, name, found);
+        let foreign = beside_own(found, judged(post, name, &own)).take(MOST_OF_A_TEMPLATE);
+        foreign.map(move |one| of_command(post, name, one, lines))
     });
-    commands.take(MOST_OF_A_FILE).collect()
+    commands.collect()
+}
+
+/// The commands that are not known to be harmless, without those of the recipe: each of these stands for one
+/// in the file, in their order.
+fn beside_own(found: Vec<Command>, own: Vec<Command>) -> impl Iterator<Item = Command> {
+    // What is harmless in the recipe's place may not be so at the place of the file.
+    let mut own = own.into_iter().filter(|own| !own.harmless).peekable();
+    let found = found.into_iter().filter(|one| !one.harmless);
+    found.filter(move |one| own.next_if(|own| own.text == one.text).is_none())
 }
 
 /// The commands of a template, or of the text that was made from one, each judged at its place.

@@ -4,7 +4,8 @@
 //! Other formulas go one curve at a time, which is faster than [lanes](crate::Lanes) in a series:
 //! those of all coefficients together do not fit into the registers.
 
-use super::{GradientSeries, Surface};
+use super::columns::GradientSeries;
+use super::formula::Surface;
 use crate::registers::Loop;
 use crate::strip::{STRIP, blank, curve, gather, put, scatter};
 use crate::{Dual, Series, Taylor};

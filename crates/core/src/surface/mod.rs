@@ -1,63 +1,20 @@
 //! Surface models: the formula that an author writes, and the batches that everything else uses.
 
+mod columns;
 mod curves;
+mod formula;
 mod points;
-
-use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
 use crate::orders::SeriesOrders;
 use crate::registers::{Loop, in_widest};
-use crate::{ORDER, Result, Scalar, Series, StrategyError};
+use crate::{ORDER, Result, Series, StrategyError};
 use curves::{HeightsAlong, SlopesAlong};
 use points::{Heights, Slopes};
 
-/// A surface z = f(x, y), written once for every number type. Lengths are in mm, and z points to
-/// the tool.
-///
-/// The formula must also hold beyond the aperture, since the tool runs over the rim. Where the
-/// formula has no value it gives NaN.
-pub trait Surface: Send + Sync {
-    /// Whether series of many curves go through the formula side by side in vector registers. This is
-    /// faster if the formula has neither loops nor calls, and is marked `#[inline(always)]`: sums,
-    /// products, quotients, roots and choices. Without, curves go one by one, with the same bits.
-    const SIDE_BY_SIDE: bool = true;
-
-    /// The height at (x, y).
-    fn sag<S: Scalar>(&self, x: S, y: S) -> S;
-
-    /// Why there is no height or no slope at (x, y), if a part of a parameter's text says so. Most
-    /// surfaces have no such text: the default is `None`.
-    fn gap(&self, x: f64, y: f64) -> Option<SurfaceGap> {
-        let _ = (x, y);
-        None
-    }
-}
-
-/// Where [`SurfaceModel::gradient`] writes the height and the slopes. Each slice has one element
-/// for each point.
-#[derive(Debug)]
-pub struct Gradients<'a> {
-    /// z in mm.
-    pub z: &'a mut [f64],
-    /// ∂z/∂x.
-    pub zx: &'a mut [f64],
-    /// ∂z/∂y.
-    pub zy: &'a mut [f64],
-}
-
-/// Where [`SurfaceModel::series`] writes the order-4 series of the height and of the slopes along
-/// each curve.
-#[derive(Debug)]
-pub struct GradientSeries<'a> {
-    /// z(t).
-    pub z: &'a mut [Series],
-    /// ∂z/∂x (t).
-    pub zx: &'a mut [Series],
-    /// ∂z/∂y (t).
-    pub zy: &'a mut [Series],
-}
+pub use columns::{GradientSeries, Gradients};
+pub use formula::{Surface, SurfaceGap};
 
 /// A surface as its users call it: object-safe and in batches. Every [`Surface`] is a
 /// `SurfaceModel`.
@@ -120,19 +77,6 @@ pub trait SurfaceModel: Send + Sync {
         let _ = (x, y);
         Ok(None)
     }
-}
-
-/// Why a surface has no height or no slope at a place.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SurfaceGap {
-    /// The number of the surface in a sum, else 0.
-    pub entry: usize,
-    /// The parameter whose text says so, by its key in the recipe.
-    pub param: String,
-    /// The bytes of the text.
-    pub place: Range<usize>,
-    /// What happens there, as in "the root of a negative number".
-    pub reason: String,
 }
 
 /// What a surface was made from, for reports.
@@ -237,6 +181,7 @@ fn same_lengths(points: usize, others: &[usize]) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Scalar;
 
     struct Ripple;
 

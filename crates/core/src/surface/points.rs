@@ -1,6 +1,7 @@
 //! Points through a formula: heights and slopes, several points side by side in vector registers.
 
-use super::{Gradients, Surface};
+use super::columns::Gradients;
+use super::formula::Surface;
 use crate::registers::Loop;
 use crate::{Dual, Lanes, Scalar};
 

@@ -1,0 +1,42 @@
+//! The formula of a surface, as its author writes it.
+
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+use crate::Scalar;
+
+/// A surface z = f(x, y), written once for every number type. Lengths are in mm, and z points to
+/// the tool.
+///
+/// The formula must also hold beyond the aperture, since the tool runs over the rim. Where the
+/// formula has no value it gives NaN.
+pub trait Surface: Send + Sync {
+    /// Whether series of many curves go through the formula side by side in vector registers. This is
+    /// faster if the formula has neither loops nor calls, and is marked `#[inline(always)]`: sums,
+    /// products, quotients, roots and choices. Without, curves go one by one, with the same bits.
+    const SIDE_BY_SIDE: bool = true;
+
+    /// The height at (x, y).
+    fn sag<S: Scalar>(&self, x: S, y: S) -> S;
+
+    /// Why there is no height or no slope at (x, y), if a part of a parameter's text says so. Most
+    /// surfaces have no such text: the default is `None`.
+    fn gap(&self, x: f64, y: f64) -> Option<SurfaceGap> {
+        let _ = (x, y);
+        None
+    }
+}
+
+/// Why a surface has no height or no slope at a place.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SurfaceGap {
+    /// The number of the surface in a sum, else 0.
+    pub entry: usize,
+    /// The parameter whose text says so, by its key in the recipe.
+    pub param: String,
+    /// The bytes of the text.
+    pub place: Range<usize>,
+    /// What happens there, as in "the root of a negative number".
+    pub reason: String,
+}
