@@ -214,7 +214,7 @@ fn wrong_passes_are_underlined() {
         ),
         (
             "[passes.x]\nallowance = \"5 um\"\n[passes.X]\nallowance = \"1 um\"\n",
-            "`X` and `x` differ only in small and capital letters, but for small and capital ones",
+            "`X` and `x` differ only in small and capital letters",
         ),
         (
             "[passes.rough]\nallowance = \"1 um\"\ntolerance.residual = \"1 deg\"\n",
