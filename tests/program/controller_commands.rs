@@ -231,3 +231,20 @@ fn verify_does_not_name_what_the_recipe_has() {
     let said = bench.line("verify recipe.toml out/recipe.pmc").ends(0);
     assert!(!said.stdout.contains("may move"), "{said}");
 }
+
+/// Each command of the recipe stands for one of the file. A move that stands there twice moves twice.
+#[test]
+fn verify_names_what_stands_there_once_more_and_a_footer_behind_a_long_header() {
+    let bench = bench(COOLANT);
+    bench.line("run recipe.toml -o out --trust-recipe").ends(0);
+    let text = bench.read("out/recipe.pmc");
+    let opens = "OPEN PROG 1 CLEAR\n";
+    let many = "M9=1\n".repeat(60);
+    let text = text.replacen(opens, &format!("{many}{opens}"), 1);
+    bench.write("recipe.pmc", format!("{text}M1=0\n"));
+    let said = bench.line("verify recipe.toml recipe.pmc").ends(0);
+    let last = text.lines().count() + 1;
+    let says = format!("line {last}: M1=0, which the recipe's footer does not have there");
+    assert!(said.stdout.contains(&says), "{says}: {said}");
+    assert_eq!(said.stdout.matches(": M9=1, which").count(), 50, "{said}");
+}
