@@ -327,3 +327,47 @@ fn a_ninth_rough_path_has_no_parts_on_a_controller_that_calls_by_numbers() {
         assert_eq!(said.stderr.contains(says), status > 0, "{said}");
     }
 }
+
+/// A size of `check` may be 5 % off that of the file.
+#[test]
+fn check_estimates_each_path_to_5_percent_of_its_files() {
+    let bench = Bench::with(&format!("{}{PASSES}", saddle()));
+    let said = bench.line("check recipe.toml --format json").ends(0);
+    let expected: Value = serde_json::from_str(&said.stdout).unwrap();
+    bench.line("run recipe.toml -o out").ends(0);
+    for (path, (name, allowance)) in [("rough", 30.0), ("middle", 5.0)].into_iter().enumerate() {
+        let path = &expected["passes"][path];
+        assert_eq!(path["name"], name);
+        assert_eq!(number(path, "/allowance_um"), allowance);
+        let programs = path["expected"]["programs"].as_array().unwrap();
+        let files = programs.iter().map(|program| &program["file"]);
+        let of_path = ["pmc", "ascript"].map(|extension| format!("recipe-{name}.{extension}"));
+        assert!(files.eq(&of_path), "{path}");
+        let table = (format!("toolpath-{name}.csv"), "/toolpath_bytes".to_owned());
+        let sizes = of_path.into_iter().enumerate();
+        let sizes = sizes.map(|(k, file)| (file, format!("/programs/{k}/bytes")));
+        for (file, key) in sizes.chain([table]) {
+            let bytes = bench.read(format!("out/{file}")).len() as f64;
+            let ratio = number(&path["expected"], &key) / bytes;
+            assert!((0.95..1.05).contains(&ratio), "{file}: {ratio}");
+        }
+    }
+    let text = bench.line("check recipe.toml").ends(0).stdout;
+    assert!(text.contains("pass rough"), "{text}");
+    assert!(text.contains("recipe-middle.ascript"), "{text}");
+}
+
+#[test]
+fn check_refuses_a_program_of_a_rough_path_that_a_run_refuses() {
+    let memory = "\n[output.pmac-pvt]\nmemory = \"400 kB\"\n";
+    let dense = "\n[passes.dense]\nallowance = \"5 um\"\nspindle.speed = \"600 rpm\"\n\
+                 feed = { use = \"constant\", feed = \"1 um/rev\" }\n";
+    Bench::with(&format!("{}{memory}", saddle()))
+        .line("check recipe.toml")
+        .ends(0);
+    let bench = Bench::with(&format!("{}{memory}{dense}", saddle()));
+    for command in ["check recipe.toml", "run recipe.toml -o out"] {
+        let said = bench.line(command).ends(2);
+        assert!(said.stderr.contains("recipe-dense.pmc"), "{said}");
+    }
+}

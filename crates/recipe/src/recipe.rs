@@ -1,6 +1,5 @@
 //! A whole recipe: its values, read and checked.
 
-use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,17 +11,16 @@ use turnpath_post::POSTS;
 use crate::choice::Choice;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Reader, Table};
+use crate::folder_name::folder_name;
 use crate::presets::Preset;
 use crate::read::Sections;
+use crate::recipe_text::{FileProblem, open_regular, read_text};
 use crate::rough_place::RoughPlace;
 use crate::set;
 use crate::span::{Source, Span, Spanned};
 use crate::surface_entry::{SurfaceEntry, surface_entries};
 use crate::tables::{self, AskedTolerances, DEFAULT_SPINDLE, Output, PostSettings};
 use crate::wrong_recipe::{WrongRecipe, readable_choices};
-
-/// Largest recipe, in bytes: a hundred times as much as a person writes.
-const LARGEST: u64 = 1 << 20;
 
 /// A recipe. Lengths in mm, angles in rad.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,29 +90,6 @@ pub enum RecipeError {
     /// The recipe, or a `--set`, is wrong.
     #[error(transparent)]
     Wrong(#[from] WrongRecipe),
-}
-
-/// Why a file could not be read as a recipe.
-#[derive(Debug, thiserror::Error)]
-pub enum FileProblem {
-    /// The system could not read it.
-    #[error(transparent)]
-    Io(#[from] std::io::Error),
-    /// It is a folder.
-    #[error("it is a folder; give the file in it")]
-    Folder,
-    /// It is a pipe or a device, which may never give its first byte.
-    #[error("it is a pipe or a device; write what it gives into a file first")]
-    Special,
-    /// It is not UTF-8 text.
-    #[error("it is not UTF-8 text (line {line})")]
-    NotText {
-        /// The first line that is not UTF-8, counted from 1.
-        line: usize,
-    },
-    /// It is far larger than any recipe.
-    #[error("it is larger than 1 MiB, the largest that a recipe may be")]
-    TooLarge,
 }
 
 impl RecipeError {
@@ -369,60 +344,9 @@ impl Recipe {
     }
 }
 
-/// Characters that some system does not allow in a name, and the one that stands for them.
-const NOT_IN_NAMES: &str = "/\\:*?\"<>|%";
-
-/// A text as the name of a folder. A dot at the beginning would hide the folder; a dot or a space at
-/// the end, which some systems drop, would make two names one.
-fn folder_name(text: &str) -> String {
-    if text.is_empty() {
-        return "%".to_owned();
-    }
-    let last = text.len();
-    let mut name = String::new();
-    for (at, c) in text.char_indices() {
-        let is_at_end = at == 0 || at + c.len_utf8() == last;
-        let hides = is_at_end && (c == '.' || c.is_whitespace());
-        match hides || c.is_control() || NOT_IN_NAMES.contains(c) {
-            true => name.extend(c.to_string().bytes().map(|byte| format!("%{byte:02X}"))),
-            false => name.push(c),
-        }
-    }
-    name
-}
-
 fn stem(path: &Path) -> String {
     path.file_stem()
         .map_or("recipe".into(), |stem| stem.to_string_lossy().into_owned())
-}
-
-fn open_regular(path: &Path) -> Result<File, FileProblem> {
-    let kind = fs::metadata(path)?.file_type();
-    if kind.is_dir() {
-        return Err(FileProblem::Folder);
-    }
-    if !kind.is_file() {
-        return Err(FileProblem::Special);
-    }
-    Ok(File::open(path)?)
-}
-
-fn read_text(reader: impl Read) -> Result<String, FileProblem> {
-    let mut bytes = Vec::new();
-    reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(FileProblem::TooLarge);
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let good = error.utf8_error().valid_up_to();
-        let lines = error
-            .as_bytes()
-            .iter()
-            .take(good)
-            .filter(|byte| **byte == b'\n')
-            .count();
-        FileProblem::NotText { line: lines + 1 }
-    })
 }
 
 fn read_document(source: &Arc<Source>) -> Result<Table, Diagnostics> {
@@ -540,75 +464,4 @@ pub(crate) fn build(
         whole,
         path: path.to_owned(),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeMap;
-
-    use proptest::prelude::*;
-
-    use super::folder_name;
-
-    #[test]
-    fn a_name_that_every_system_allows_stays() {
-        for name in ["mirror", "Astigmatic mirror, 5 mm", "a-b_c.d", "Spiegel Ø"] {
-            assert_eq!(folder_name(name), name);
-        }
-    }
-
-    #[test]
-    fn other_names_are_folders_of_their_own() {
-        let names = [
-            "a/b",
-            "a\nb",
-            "a\tb",
-            "a-b",
-            "a%2Fb",
-            "a\\b",
-            "",
-            "%",
-            ".",
-            "..",
-            " a",
-            "a",
-            "a ",
-            "a.",
-            "\u{1b}[2J",
-            "\u{85}",
-        ];
-        let mut folders = BTreeMap::new();
-        for name in names {
-            let folder = folder_name(name);
-            let is_safe = !folder.is_empty()
-                && !folder.starts_with('.')
-                && !folder.contains(['/', '\\'])
-                && !folder.contains(char::is_control);
-            assert!(is_safe, "{name:?}: {folder:?}");
-            let other = folders.insert(folder, name);
-            assert_eq!(other, None, "{name:?}");
-        }
-        assert_eq!(folder_name("../../escape"), "%2E.%2F..%2Fescape");
-    }
-
-    proptest! {
-        #[test]
-        fn a_folder_gives_its_name_back(name in any::<String>()) {
-            let folder = folder_name(&name);
-            let mut bytes = Vec::new();
-            let mut rest = folder.bytes();
-            while let Some(byte) = rest.next() {
-                bytes.push(match byte {
-                    b'%' if folder != "%" => {
-                        let digits = [rest.next().unwrap(), rest.next().unwrap()];
-                        let digits = std::str::from_utf8(&digits).unwrap().to_owned();
-                        u8::from_str_radix(&digits, 16).unwrap()
-                    }
-                    byte => byte,
-                });
-            }
-            let text = String::from_utf8(bytes).unwrap();
-            prop_assert!(text == name || (name.is_empty() && folder == "%"));
-        }
-    }
 }

@@ -37,6 +37,9 @@ pub struct CheckReport {
     pub form: Option<FormReport>,
     /// What the path will be, before refinement.
     pub expected: Estimate,
+    /// What the paths before the finishing one will be, in their order.
+    #[serde(default, rename = "passes", skip_serializing_if = "Vec::is_empty")]
+    pub rough_paths: Vec<RoughPathEstimate>,
     /// Whether the reach of the nose sets the feed, and where.
     #[serde(default)]
     pub feed_cap: FeedCap,
@@ -68,6 +71,18 @@ pub struct Estimate {
     pub toolpath_bytes: u64,
     /// The motion programs.
     pub programs: Vec<ProgramEstimate>,
+}
+
+/// What a path before the finishing one will be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RoughPathEstimate {
+    /// Its name in the recipe.
+    pub name: String,
+    /// What it should leave on the wanted surface along z, mm.
+    #[serde(rename = "allowance_um", with = "unit::um")]
+    pub allowance: f64,
+    /// What it will be.
+    pub expected: Estimate,
 }
 
 /// What a motion program will be.

@@ -58,7 +58,7 @@ pub use ablation::{AblationReport, AblationRun, FailedRun, MeasuredRun, RunOutco
 pub use anomalies::{Anomalies, Anomaly, AnomalyKind, Column, Standard};
 pub use axes::{Axes, AxisMotion, Motion};
 pub use axis_notes::AxisNotes;
-pub use check::{CheckReport, Estimate, ProgramEstimate};
+pub use check::{CheckReport, Estimate, ProgramEstimate, RoughPathEstimate};
 pub use coverage::{AxisCrossing, Coverage, Overrun, Uncut};
 pub use cutting_speed::CuttingSpeed;
 pub use errors::{

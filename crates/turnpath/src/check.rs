@@ -5,7 +5,7 @@ use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::toolpath::Section;
 use turnpath_core::{DEG, Part, Tolerance, Tool};
 use turnpath_files::FileError;
-use turnpath_pipeline::{PathSample, largest_nose, sample_path};
+use turnpath_pipeline::{Estimate, PathSample, largest_nose, sample_path};
 use turnpath_post::PathWriter;
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
@@ -21,31 +21,21 @@ use crate::posts::NotCarried;
 use crate::program::Program;
 use crate::region::region;
 use crate::remarks::PathSubject;
+use crate::rough_paths::RoughJob;
 use crate::sizes::sampled_bytes;
 
 impl Job {
-    /// What the part asks of the tool, and what the path will be, without making it.
+    /// What the part asks of the tool, and what the path and its rough paths will be, without making them.
     ///
     /// # Errors
     /// When a strategy fails.
     pub fn check(&self) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
-        let (expected, sample) =
-            sample_path(&self.chain, &self.path_preparation(), self.options()).map_err(failed)?;
+        let (expected, sample) = self.sample()?;
         let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
         let part = self.preparation.task.part;
-        let size = |program: &Program| -> Result<report::ProgramEstimate, NotCarried> {
-            let sampled = program.sampled_size(&sample)?;
-            Ok(report::ProgramEstimate {
-                file: program.file.clone(),
-                bytes: sampled.size.bytes,
-                blocks: sampled.size.blocks,
-                parts: sampled.parts,
-                c_means: Some(program.axis_notes(&self.recipe).c),
-            })
-        };
-        let programs: Result<Vec<_>, _> = self.programs.iter().map(size).collect();
-        let programs = programs.map_err(|error| not_carried(&self.recipe, error))?;
+        let rough_jobs = self.rough_jobs()?;
+        let rough_paths = rough_jobs.iter().map(RoughJob::expected);
         let path = PathSubject {
             tolerance: self.preparation.task.tolerance,
             cutting_time: expected.cutting_time,
@@ -62,13 +52,8 @@ impl Job {
             machine: self.machine_limits(),
             unreached: self.unreached()?,
             form: self.first_form(),
-            expected: report::Estimate {
-                revolutions: expected.revolutions,
-                cutting_time: expected.cutting_time,
-                control_points: expected.control_points.round() as u64,
-                toolpath_bytes: self.toolpath_bytes(&sample)? as u64,
-                programs,
-            },
+            expected: self.estimate(&expected, &sample)?,
+            rough_paths: rough_paths.collect::<Result<_, _>>()?,
             feed_cap: figures::feed_cap(expected.feed_cap.as_ref()),
             axis_notes: Some(match self.programs.first() {
                 Some(program) => program.axis_notes(&self.recipe),
@@ -78,6 +63,46 @@ impl Job {
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())
+    }
+
+    /// What the path and its files will be.
+    ///
+    /// # Errors
+    /// When a strategy fails, or a program cannot carry the path.
+    pub(crate) fn expected(&self) -> Result<report::Estimate, Error> {
+        let (expected, sample) = self.sample()?;
+        self.estimate(&expected, &sample)
+    }
+
+    fn sample(&self) -> Result<(Estimate, PathSample), Error> {
+        let sample = sample_path(&self.chain, &self.path_preparation(), self.options());
+        sample.map_err(|error| of_pipeline(&self.recipe, error))
+    }
+
+    fn estimate(
+        &self,
+        expected: &Estimate,
+        sample: &PathSample,
+    ) -> Result<report::Estimate, Error> {
+        let size = |program: &Program| -> Result<report::ProgramEstimate, NotCarried> {
+            let sampled = program.sampled_size(sample)?;
+            Ok(report::ProgramEstimate {
+                file: program.file.clone(),
+                bytes: sampled.size.bytes,
+                blocks: sampled.size.blocks,
+                parts: sampled.parts,
+                c_means: Some(program.axis_notes(&self.recipe).c),
+            })
+        };
+        let programs: Result<Vec<_>, _> = self.programs.iter().map(size).collect();
+        let programs = programs.map_err(|error| not_carried(&self.recipe, error))?;
+        Ok(report::Estimate {
+            revolutions: expected.revolutions,
+            cutting_time: expected.cutting_time,
+            control_points: expected.control_points.round() as u64,
+            toolpath_bytes: self.toolpath_bytes(sample)? as u64,
+            programs,
+        })
     }
 
     /// Bytes of the table of the path, from a sample of it.

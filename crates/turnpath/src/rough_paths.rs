@@ -3,7 +3,7 @@
 use turnpath_files::{FolderError, ResultFolder, WholeFile};
 use turnpath_pipeline::Observer;
 use turnpath_recipe::RoughPath;
-use turnpath_report::{Left, RoughPathReport, RunReport};
+use turnpath_report::{Left, RoughPathEstimate, RoughPathReport, RunReport};
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
@@ -36,6 +36,15 @@ impl RoughJob {
     /// The names of its files.
     pub fn files(&self, dry_run: bool) -> Vec<String> {
         self.job.file_names(dry_run)
+    }
+
+    /// What the path and its files will be.
+    pub fn expected(&self) -> Result<RoughPathEstimate, Error> {
+        Ok(RoughPathEstimate {
+            name: self.rough.name.clone(),
+            allowance: self.rough.allowance,
+            expected: self.job.expected()?,
+        })
     }
 
     /// Makes the path and its files in the folder of a result.

@@ -2,7 +2,7 @@
 
 use turnpath_core::printable_line;
 
-use crate::check::CheckReport;
+use crate::check::{CheckReport, ProgramEstimate, RoughPathEstimate};
 
 use super::axis_notes::axis_notes;
 use super::commands::commands;
@@ -32,16 +32,9 @@ pub fn check(report: &CheckReport) -> String {
     text += &feed_cap(&report.feed_cap);
     let size = bytes(expected.toolpath_bytes as f64);
     text += &line("toolpath.csv", format!("about {size}"));
-    for program in &expected.programs {
-        let (size, file) = (bytes(program.bytes as f64), &program.file);
-        let parts = program.parts.map(|parts| format!(", in {parts} parts"));
-        let parts = parts.unwrap_or_default();
-        let of_text = if file.ends_with(".zst") {
-            " of text"
-        } else {
-            ""
-        };
-        text += &line("program", format!("about {size}{of_text}{parts}: {file}"));
+    text += &programs(&expected.programs);
+    for rough in &report.rough_paths {
+        text += &rough_path(rough);
     }
     text += &report
         .axis_notes
@@ -50,4 +43,31 @@ pub fn check(report: &CheckReport) -> String {
         .unwrap_or_default();
     text += &commands(&report.controller_commands);
     text + &remarks(&report.remarks)
+}
+
+fn programs(programs: &[ProgramEstimate]) -> String {
+    programs.iter().map(program).collect()
+}
+
+fn program(program: &ProgramEstimate) -> String {
+    let (size, file) = (bytes(program.bytes as f64), &program.file);
+    let parts = program.parts.map(|parts| format!(", in {parts} parts"));
+    let parts = parts.unwrap_or_default();
+    let of_text = if file.ends_with(".zst") {
+        " of text"
+    } else {
+        ""
+    };
+    line("program", format!("about {size}{of_text}{parts}: {file}"))
+}
+
+/// The lines on a path before the finishing one.
+fn rough_path(rough: &RoughPathEstimate) -> String {
+    let expected = &rough.expected;
+    let (points, time) = (
+        grouped(expected.control_points),
+        duration(expected.cutting_time),
+    );
+    let what = format!("about {points} points before refinement, {time}");
+    line(&format!("pass {}", rough.name), what) + &programs(&expected.programs)
 }
