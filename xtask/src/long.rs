@@ -263,7 +263,9 @@ fn schema() -> Outcome {
 /// The dry runs of all posts, by an independent reader.
 fn dry_runs() -> Outcome {
     let posts = "output.posts=[\"pmac-pvt\", \"power-pmac-pvt\", \"automation1-pvt\", \"siemens-840d-poly\", \"beckhoff-poly\", \"beckhoff-g93\", \"nanotech-g93\", \"linuxcnc-g93\"]";
-    let changes = ["--dry-run", "--set", "path.lead=true", "--set", posts];
+    let f_means = "output.nanotech-g93.f_means=1/min";
+    let lead = "path.lead=true";
+    let changes = ["--dry-run", "--set", lead, "--set", posts, "--set", f_means];
     let folder = match saddle("dry-runs", &changes) {
         Ok(folder) => folder,
         Err(outcome) => return outcome,
