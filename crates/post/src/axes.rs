@@ -35,7 +35,7 @@ impl Axes {
     }
 
     /// Moves to the end of a segment that takes `steps`, and gives its point. The move to the first
-    /// point takes no time of the path.
+    /// point takes no time of the path. Nothing changes where it is refused.
     pub(crate) fn go_to(
         &mut self,
         words: &AxisWords,
@@ -56,12 +56,10 @@ impl Axes {
                 true => *position,
             };
         }
+        let elapsed = self.elapsed.checked_add(steps);
+        self.elapsed = elapsed.ok_or("the program takes longer than any path")?;
         self.position = Some(target);
         self.velocity = velocities(words);
-        self.elapsed = self
-            .elapsed
-            .checked_add(steps)
-            .ok_or("the program takes longer than any path")?;
         Ok(self.point())
     }
 

@@ -77,7 +77,7 @@ pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
 pub use part_name::{PartLines, PartName, PartNumbers};
 pub use parts::{PartLimits, PartsError};
 pub use path_reader::{ReadCount, ReadPath};
-pub use post::{Command, DepthLoop, Dialect, Grammar, Post};
+pub use post::{Command, DepthLoop, Dialect, Grammar, PlainLines, Post};
 pub use posts::{POST_NAMES, POSTS, post_named, post_of_extension};
 pub use program_error::ProgramError;
 pub use program_format::{Chords, Depths, FeedMeaning, ProgramFormat, Slowest, TimeAxis};

@@ -40,6 +40,16 @@ impl<R: Read> LineReader<R> {
         }
     }
 
+    /// What was read from the source and not given yet: whole lines and the beginning of one.
+    pub(crate) fn unread(&self) -> &[u8] {
+        self.buffer.get(self.unread.clone()).unwrap_or_default()
+    }
+
+    /// Takes so many bytes of what is unread as given.
+    pub(crate) fn pass(&mut self, bytes: usize) {
+        self.give(bytes.min(self.unread.len()));
+    }
+
     /// The buffer, which must be given back before the next line. So a line can be read while its reader
     /// changes.
     pub(crate) fn lend(&mut self) -> Vec<u8> {

@@ -83,22 +83,27 @@ pub trait ReadPath {
     /// # Errors
     /// As [`ReadPath::next_point`].
     fn next_block(&mut self, most: usize) -> Result<Option<(Section, PathBlock)>, ReadError> {
+        let Some(first) = next_segment(self)? else {
+            return Ok(None);
+        };
+        let section = first.section;
         let mut block = PathBlock::default();
-        let mut section = None;
+        block.push(first.from);
+        block.push(first.to);
+        let mut last = self.read_count().last().copied();
         while block.len() <= most {
-            let Some(segment) = next_segment(self)? else {
+            let Some(next) = self.next_point()? else {
                 break;
             };
-            if section.is_some_and(|section| section != segment.section) {
+            let segment = last.map(|last| ReadSegment::new(last, next));
+            if let Some(segment) = segment.filter(|segment| segment.section != section) {
                 self.read_count_mut().pending = Some(segment);
                 break;
             }
-            if section.replace(segment.section).is_none() {
-                block.push(segment.from);
-            }
-            block.push(segment.to);
+            block.push(next.0);
+            last = Some(next);
         }
-        Ok(section.map(|section| (section, block)))
+        Ok(Some((section, block)))
     }
 }
 

@@ -168,6 +168,13 @@ pub trait Grammar: Send + Sync {
     /// When the line is not of the dialect: what is wrong with it.
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String>;
 
+    /// Reads the lines with which a text begins, up to its next control point, where they are written as nearly
+    /// all lines of a path are. `None` where they are not, or where the text ends before: nothing has changed
+    /// then, and [`Grammar::read`] takes them one by one.
+    fn read_plain(&mut self, _text: &[u8]) -> Option<PlainLines> {
+        None
+    }
+
     /// Whether a point waits for the line behind it: the first of those that are known next.
     fn holds_point(&self) -> bool {
         false
@@ -177,6 +184,17 @@ pub trait Grammar: Send + Sync {
     fn finish(&mut self) -> Option<ControlPoint> {
         None
     }
+}
+
+/// The lines of a control point, written as nearly all lines of a path are.
+#[derive(Debug, Clone, Copy)]
+pub struct PlainLines {
+    /// The point.
+    pub point: ControlPoint,
+    /// The bytes of its lines, with their ends.
+    pub bytes: usize,
+    /// How many lines they are.
+    pub lines: usize,
 }
 
 /// Reads the lines with which a controller begins and ends a loop over depths.

@@ -446,14 +446,28 @@ fn said_points(said: &str) -> Option<u64> {
 }
 
 impl<R: Read> ProgramReader<R> {
+    /// The point of the next lines, if they are written as nearly all lines of a path are.
+    fn next_plain(&mut self) -> Option<(ControlPoint, Section)> {
+        let is_path = self.place == Place::Path && !self.parts.is_outside();
+        let section = self.section.filter(|_| is_path && self.waiting.is_empty())?;
+        let plain = self.grammar.read_plain(self.lines.unread())?;
+        self.lines.pass(plain.bytes);
+        self.line += plain.lines as u64;
+        self.lines_read += plain.lines;
+        self.bytes_without_point = 0;
+        Some((plain.point, section))
+    }
+
     /// The next point with the velocities that its line says.
     fn next_found(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
-        while self.waiting.is_empty() {
-            if !self.read_on()? {
+        let mut next = self.next_plain();
+        while next.is_none() {
+            next = self.waiting.pop_front();
+            if next.is_none() && !self.read_on()? {
                 return Ok(None);
             }
         }
-        let Some((point, section)) = self.waiting.pop_front() else {
+        let Some((point, section)) = next else {
             return Ok(None);
         };
         let checked = check_turn(self.last.as_ref(), &point, section)

@@ -154,10 +154,12 @@ impl TravelCheck {
                 }
             }
         }
-        self.begin = self.begin.or(Some(z));
+        if self.begin.is_none() {
+            self.begin = Some(z);
+            self.rise = format.rise() as f64 / 10u64.pow(format.position_decimals) as f64;
+            self.clearance = format.approach_height;
+        }
         self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
-        self.rise = format.rise() as f64 / 10u64.pow(format.position_decimals) as f64;
-        self.clearance = format.approach_height;
         Ok(())
     }
 

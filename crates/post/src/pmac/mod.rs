@@ -31,6 +31,7 @@
 
 mod clock;
 mod commands;
+mod plain;
 mod read;
 mod scan;
 #[cfg(test)]

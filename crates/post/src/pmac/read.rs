@@ -3,10 +3,11 @@
 use turnpath_core::toolpath::ControlPoint;
 
 use super::clock::Clock;
+use super::plain::PlainWords;
 use super::scan::{Axis, Scanner, Word, split_comment};
 use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
 use crate::fixed_point::{ONE, PLACES};
-use crate::post::Grammar;
+use crate::post::{Grammar, PlainLines};
 use crate::program_format::ProgramFormat;
 
 /// The fives of [`ONE`].
@@ -51,6 +52,22 @@ impl PvtGrammar {
             format!("a segment cannot take {ms} ms, only {range}")
         })
     }
+
+    /// Moves the axes by the words of a line, in the time of the segment.
+    #[inline]
+    fn go_to(
+        &mut self,
+        mut words: AxisWords,
+        absolute: [bool; 3],
+        time: i64,
+    ) -> Result<ControlPoint, String> {
+        for (word, absolute) in words.iter_mut().zip(absolute) {
+            if let (Some((position, _)), true, Some(bits)) = (word, absolute, self.mantissa_bits) {
+                *position = held(*position, bits);
+            }
+        }
+        self.axes.go_to(&words, absolute, time)
+    }
 }
 
 impl Grammar for PvtGrammar {
@@ -84,14 +101,26 @@ impl Grammar for PvtGrammar {
         let [Some(c), Some(x), Some(z)] = self.absolute else {
             return Err("a move before `ABS` or `INC`".to_owned());
         };
-        let absolute = [c, x, z];
-        for (word, absolute) in line.iter_mut().zip(absolute) {
-            if let (Some((position, _)), true, Some(bits)) = (word, absolute, self.mantissa_bits) {
-                *position = held(*position, bits);
-            }
-        }
-        points.push(self.axes.go_to(&line, absolute, time)?);
+        points.push(self.go_to(line, [c, x, z], time)?);
         Ok(())
+    }
+
+    fn read_plain(&mut self, text: &[u8]) -> Option<PlainLines> {
+        let words = PlainWords::of(text)?;
+        let time = match words.time {
+            Some(ms) => self.steps(ms).ok()?,
+            None => self.time?,
+        };
+        let [Some(c), Some(x), Some(z)] = self.absolute else {
+            return None;
+        };
+        let point = self.go_to(words.axes, [c, x, z], time).ok()?;
+        self.time = Some(time);
+        Some(PlainLines {
+            point,
+            bytes: words.bytes,
+            lines: words.lines,
+        })
     }
 }
 
