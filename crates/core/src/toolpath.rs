@@ -135,27 +135,32 @@ impl PathBlock {
 
     /// All control points in order.
     pub fn points(&self) -> impl Iterator<Item = ControlPoint> + '_ {
-        (0..self.len()).filter_map(|index| self.get(index))
+        let times = self.t.iter().zip(&self.c).zip(&self.x).zip(&self.z);
+        let rates = self.vc.iter().zip(&self.vx).zip(&self.vz);
+        times
+            .zip(rates)
+            .map(|((((t, c), x), z), ((vc, vx), vz))| ControlPoint {
+                t: *t,
+                c: *c,
+                x: *x,
+                z: *z,
+                vc: *vc,
+                vx: *vx,
+                vz: *vz,
+            })
     }
 
     /// The segment from the point at `index` to the next one, in the block's shape.
     pub fn segment(&self, index: usize) -> Option<Segment> {
         let (from, to) = (self.get(index)?, self.get(index + 1)?);
-        Some(match self.shape {
-            SegmentShape::Cubic => Segment::between(&from, &to),
-            SegmentShape::Linear => Segment::straight(&from, &to),
-        })
+        Some(Segment::of_shape(self.shape, &from, &to))
     }
 
     /// The segments between neighbouring points, in the block's shape.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
-        let between = match self.shape {
-            SegmentShape::Cubic => Segment::between,
-            SegmentShape::Linear => Segment::straight,
-        };
-        let mut points = self.points();
-        let mut from = points.next();
-        points.filter_map(move |to| from.replace(to).map(|from| between(&from, &to)))
+        let (from, to) = (self.points(), self.points().skip(1));
+        from.zip(to)
+            .map(|(from, to)| Segment::of_shape(self.shape, &from, &to))
     }
 }
 
@@ -200,18 +205,21 @@ impl Cubic {
     }
 
     /// The derivative in s.
+    #[inline(always)]
     pub fn slope(&self, s: f64) -> f64 {
         let [_, b, c, d] = self.0;
         b + s * (2.0 * c + s * 3.0 * d)
     }
 
     /// The second derivative in s.
+    #[inline(always)]
     pub fn bend(&self, s: f64) -> f64 {
         let [_, _, c, d] = self.0;
         2.0 * c + 6.0 * s * d
     }
 
     /// The third derivative in s.
+    #[inline(always)]
     pub fn jerk(&self) -> f64 {
         6.0 * self.0[3]
     }
@@ -233,7 +241,17 @@ pub struct Segment {
 }
 
 impl Segment {
+    /// The move of this shape from one control point to the next.
+    #[inline(always)]
+    pub fn of_shape(shape: SegmentShape, from: &ControlPoint, to: &ControlPoint) -> Self {
+        match shape {
+            SegmentShape::Cubic => Self::between(from, to),
+            SegmentShape::Linear => Self::straight(from, to),
+        }
+    }
+
     /// The PVT move from one control point to the next.
+    #[inline(always)]
     pub fn between(from: &ControlPoint, to: &ControlPoint) -> Self {
         let duration = to.t - from.t;
         Self {
@@ -246,6 +264,7 @@ impl Segment {
     }
 
     /// The straight move from one control point to the next. It does not use their velocities.
+    #[inline(always)]
     pub fn straight(from: &ControlPoint, to: &ControlPoint) -> Self {
         Self {
             start: from.t,

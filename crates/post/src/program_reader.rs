@@ -449,7 +449,9 @@ impl<R: Read> ProgramReader<R> {
     /// The point of the next lines, if they are written as nearly all lines of a path are.
     fn next_plain(&mut self) -> Option<(ControlPoint, Section)> {
         let is_path = self.place == Place::Path && !self.parts.is_outside();
-        let section = self.section.filter(|_| is_path && self.waiting.is_empty())?;
+        let section = self
+            .section
+            .filter(|_| is_path && self.waiting.is_empty())?;
         let plain = self.grammar.read_plain(self.lines.unread())?;
         self.lines.pass(plain.bytes);
         self.line += plain.lines as u64;
