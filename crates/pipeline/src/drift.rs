@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::hermite::FEED_PART;
-use turnpath_core::toolpath::Segment;
+use turnpath_core::toolpath::{PathBlock, Segment};
 use turnpath_core::{CentreBuffers, Locus, Radial, angle};
 use turnpath_verify::cusp_heights;
 
@@ -21,6 +21,8 @@ use crate::{PipelineError, Result};
 /// velocities is largest in the middle. That of velocities with the same error at both ends is zero
 /// in the middle, and at a quarter it is within 3 % of its largest value.
 const FIRST_INSTANTS: [f64; 3] = [0.25, 0.5, 0.75];
+/// The index of the middle among them.
+const MIDDLE: usize = 1;
 /// How many instants of a segment whose error matters are compared with the cusps there.
 const INSTANTS: usize = 16;
 /// Part of the distance between passes by which X may always err. Two passes may err in opposite
@@ -36,92 +38,95 @@ const FROM_LAW: f64 = 1.001;
 /// there is rounding, which turns the line between both centres.
 const SAME_POSITION: f64 = 1e-6;
 
-/// X's error at an instant.
-struct Drift {
-    /// The index of its segment.
-    segment: usize,
-    /// The instant, in revolutions.
-    n: f64,
+/// X's errors at some instants.
+#[derive(Default)]
+struct Drifts {
+    /// The index of the segment of each instant.
+    segment: Vec<usize>,
+    /// The instants, in revolutions.
+    n: Vec<f64>,
     /// X of the true path, mm.
-    x: f64,
+    x: Vec<f64>,
     /// |played X − X of the true path|, mm.
-    error: f64,
+    error: Vec<f64>,
 }
 
 /// For each segment X's error as a part of the error that the residual allows; 0 where the error is
 /// far below that.
 pub fn loads(plan: &Plan<'_>, block: &BlockPoints) -> Result<Vec<f64>> {
-    let segments: Vec<Segment> = block.points.segments().collect();
-    let mut loads = vec![0.0; segments.len()];
-    let instants = (0..INSTANTS).map(|k| (k as f64 + 0.5) / INSTANTS as f64);
-    let instants: Vec<f64> = instants.collect();
-    let near = near_the_limit(plan, &segments)?;
-    let drifts = drifts(plan, &segments, &near, &instants)?;
+    let points = &block.points;
+    let count = points.len().saturating_sub(1);
+    let mut loads = vec![0.0; count];
+    let instants: [f64; INSTANTS] = std::array::from_fn(|k| (k as f64 + 0.5) / INSTANTS as f64);
+    let near = near_the_limit(plan, points)?;
+    let drifts = drifts(plan, points, near.into_iter(), &instants)?;
     for side in [-1.0, 1.0] {
-        for (drift, allowed) in drifts.iter().zip(allowed(plan, &drifts, side)?) {
-            let load = &mut loads[drift.segment];
-            *load = f64::max(*load, drift.error / allowed);
+        let errors = drifts.segment.iter().zip(&drifts.error);
+        for ((segment, error), allowed) in errors.zip(allowed(plan, &drifts, side)?) {
+            let load = &mut loads[*segment];
+            *load = f64::max(*load, error / allowed);
         }
     }
     Ok(loads)
 }
 
 /// The segments whose error is near what is always allowed, or beyond it.
-fn near_the_limit(plan: &Plan<'_>, segments: &[Segment]) -> Result<Vec<usize>> {
-    let all: Vec<usize> = (0..segments.len()).collect();
-    let drifts = drifts(plan, segments, &all, &FIRST_INSTANTS)?;
-    let (mut middles, mut errors) = (Vec::new(), Vec::new());
-    for of_segment in drifts.chunks_exact(FIRST_INSTANTS.len()) {
-        middles.extend(of_segment.get(1));
-        errors.push(
-            of_segment
-                .iter()
-                .map(|drift| drift.error)
-                .fold(0.0, f64::max),
-        );
-    }
-    let [before, after] = [-1.0, 1.0].map(|side| neighbours(plan, &middles, side));
-    let (before, after) = (before?, after?);
-    let matters = |i: &usize| {
-        let to = |other: Option<f64>| other.map_or(f64::INFINITY, |x| (x - middles[*i].x).abs());
-        errors[*i] > NEAR * ALWAYS * to(before[*i]).min(to(after[*i]))
+fn near_the_limit(plan: &Plan<'_>, points: &PathBlock) -> Result<Vec<usize>> {
+    let all = 0..points.len().saturating_sub(1);
+    let drifts = drifts(plan, points, all.clone(), &FIRST_INSTANTS)?;
+    let middles = |column: &[f64]| -> Vec<f64> {
+        let each = column.iter().skip(MIDDLE).step_by(FIRST_INSTANTS.len());
+        each.copied().collect()
     };
-    Ok(all.into_iter().filter(matters).collect())
+    let (n, x) = (middles(&drifts.n), middles(&drifts.x));
+    let [before, after] = [-1.0, 1.0].map(|side| neighbours(plan, &n, side));
+    let (before, after) = (before?, after?);
+    let errors = drifts.error.chunks_exact(FIRST_INSTANTS.len());
+    let largest = errors.map(|errors| errors.iter().copied().fold(0.0, f64::max));
+    let largest: Vec<f64> = largest.collect();
+    let matters = |i: &usize| {
+        let to = |other: Option<f64>| other.map_or(f64::INFINITY, |other| (other - x[*i]).abs());
+        largest[*i] > NEAR * ALWAYS * to(before[*i]).min(to(after[*i]))
+    };
+    Ok(all.filter(matters).collect())
 }
 
 /// X's error at these instants of the chosen segments.
 fn drifts(
     plan: &Plan<'_>,
-    segments: &[Segment],
-    chosen: &[usize],
+    points: &PathBlock,
+    chosen: impl ExactSizeIterator<Item = usize>,
     instants: &[f64],
-) -> Result<Vec<Drift>> {
-    let instants = chosen.iter().flat_map(|segment| {
-        let cubics = &segments[*segment];
-        instants.iter().map(move |s| Drift {
-            segment: *segment,
-            n: cubics.c.value(*s) / TAU - plan.start.turns,
-            x: f64::NAN,
-            error: cubics.x.value(*s),
-        })
-    });
-    let mut drifts: Vec<Drift> = instants.collect();
-    let n: Vec<f64> = drifts.iter().map(|drift| drift.n).collect();
-    for (drift, x) in drifts.iter_mut().zip(true_x(plan, &n)?) {
-        drift.x = x;
-        drift.error = (drift.error - x).abs();
+) -> Result<Drifts> {
+    let mut drifts = Drifts::default();
+    let count = chosen.len() * instants.len();
+    drifts.segment.reserve(count);
+    drifts.n.reserve(count);
+    drifts.error.reserve(count);
+    for number in chosen {
+        let Some(Segment { c, x, .. }) = points.segment(number) else {
+            continue;
+        };
+        for s in instants {
+            drifts.segment.push(number);
+            drifts.n.push(c.value(*s) / TAU - plan.start.turns);
+            drifts.error.push(x.value(*s));
+        }
+    }
+    drifts.x = true_x(plan, &drifts.n)?;
+    for (error, x) in drifts.error.iter_mut().zip(&drifts.x) {
+        *error = (*error - x).abs();
     }
     Ok(drifts)
 }
 
 /// How large X's error may be at each instant, mm, for the cusp towards the turn before (`side` −1)
 /// or after (1).
-fn allowed(plan: &Plan<'_>, drifts: &[Drift], side: f64) -> Result<Vec<f64>> {
-    let every: Vec<&Drift> = drifts.iter().collect();
-    let others = neighbours(plan, &every, side)?;
-    let theta: Vec<f64> = drifts.iter().map(|drift| angle(drift.n)).collect();
-    let pair = |(drift, other): (&Drift, &Option<f64>)| [drift.x, other.unwrap_or(drift.x)];
-    let pairs: Vec<[f64; 2]> = drifts.iter().zip(&others).map(pair).collect();
+fn allowed(plan: &Plan<'_>, drifts: &Drifts, side: f64) -> Result<Vec<f64>> {
+    let others = neighbours(plan, &drifts.n, side)?;
+    let theta: Vec<f64> = drifts.n.iter().map(|n| angle(*n)).collect();
+    let pair = |(x, other): (&f64, &Option<f64>)| [*x, other.unwrap_or(*x)];
+    let pairs: Vec<[f64; 2]> = drifts.x.iter().zip(&others).map(pair).collect();
     let heights =
         cusp_heights(&plan.preparation.touch, &theta, &pairs).map_err(PipelineError::Measure)?;
     let residual = plan.preparation.task.tolerance.residual;
@@ -142,10 +147,10 @@ fn allowance(height: f64, apart: f64) -> f64 {
     apart * ALWAYS.max(0.5 * ((CUSP_AIM / height).sqrt() - 1.0))
 }
 
-/// X of the true path one turn away from each instant; `None` beyond the ends of the path.
-fn neighbours(plan: &Plan<'_>, from: &[&Drift], side: f64) -> Result<Vec<Option<f64>>> {
+/// X of the true path one turn away from each instant, in revolutions; `None` beyond the ends of the path.
+fn neighbours(plan: &Plan<'_>, from: &[f64], side: f64) -> Result<Vec<Option<f64>>> {
     let path = 0.0..=plan.law.end();
-    let turned = |drift: &&Drift| Some(drift.n + side).filter(|n| path.contains(n));
+    let turned = |n: &f64| Some(n + side).filter(|n| path.contains(n));
     let turned: Vec<Option<f64>> = from.iter().map(turned).collect();
     let within: Vec<f64> = turned.iter().copied().flatten().collect();
     let mut x = true_x(plan, &within)?.into_iter();

@@ -121,7 +121,7 @@ impl PartEdge {
             }
             crossings = EdgeCrossings::new(touch, radius)?.of(passes);
         }
-        let track = Track::new(points);
+        let track = Track(points);
         let near = |pass: PassNumber| track.around(pass.number as f64 * WIDTH, pass.mirrored);
         let sections = sections.into_iter().map(|passes| passes.map(near));
         let sections = sections.collect();
@@ -417,32 +417,23 @@ fn ring(touch: &FirstTouch, theta: &[f64], radius: f64) -> Result<Vec<WantedPoin
 }
 
 /// The segments of a block, found by C.
-struct Track<'a> {
-    points: &'a PathBlock,
-    segments: Vec<Segment>,
-}
+struct Track<'a>(&'a PathBlock);
 
-impl<'a> Track<'a> {
-    fn new(points: &'a PathBlock) -> Self {
-        Self {
-            points,
-            segments: points.segments().collect(),
-        }
-    }
-
+impl Track<'_> {
     /// The pass at `c`, rad, with what the block has of the path around it.
     fn around(&self, c: f64, mirrored: bool) -> NearPass {
-        let ends = &self.points.c;
+        let ends = &self.0.c;
         let first = ends.partition_point(|end| *end <= c - WIDTH);
         let last = ends.partition_point(|end| *end < c + WIDTH);
-        let range = first.saturating_sub(1)..last.min(self.segments.len());
-        let pairs = ends.windows(2).zip(&self.segments);
-        let chosen = pairs.take(range.end).skip(range.start);
+        let range = first.saturating_sub(1)..last.min(ends.len().saturating_sub(1));
+        let segments = range.clone().map(|number| self.0.segment(number));
+        let ends = ends.windows(2).skip(range.start);
         NearPass {
             c,
             mirrored,
-            segments: chosen
-                .map(|(c, segment)| ([c[0], c[1]], *segment))
+            segments: ends
+                .zip(segments)
+                .filter_map(|(c, segment)| Some(([c[0], c[1]], segment?)))
                 .collect(),
         }
     }
