@@ -34,16 +34,36 @@ pub(crate) fn push(text: &mut Vec<u8>, units: impl Into<i128>, decimals: u32) {
 /// 10⁻¹⁶; `None` if a half cannot hold it.
 fn short_halves(size: u128, decimals: u32) -> Option<[u64; 2]> {
     let size = u64::try_from(size).ok()?;
-    let decimals = decimals as usize;
-    let places = if decimals <= QUARTER { QUARTER } else { HALF };
-    let one = POWERS.get(decimals)?;
-    let scale = POWERS.get(places.checked_sub(decimals)?)?;
-    let (whole, fraction) = (size / one, size % one);
-    (whole < POWERS[HALF]).then_some([whole, fraction * scale])
+    // A division by a constant is a product.
+    let [whole, fraction] = match decimals {
+        5 => halves::<5, QUARTER>(size),
+        6 => halves::<6, QUARTER>(size),
+        7 => halves::<7, QUARTER>(size),
+        8 => halves::<8, QUARTER>(size),
+        9 => halves::<9, HALF>(size),
+        12 => halves::<12, HALF>(size),
+        _ => {
+            let decimals = decimals as usize;
+            let places = if decimals <= QUARTER { QUARTER } else { HALF };
+            let one = POWERS.get(decimals)?;
+            let scale = POWERS.get(places.checked_sub(decimals)?)?;
+            [size / one, size % one * scale]
+        }
+    };
+    (whole < POWERS[HALF]).then_some([whole, fraction])
+}
+
+/// A number of so many decimals before the point, and behind it in so many places.
+fn halves<const DECIMALS: usize, const PLACES: usize>(size: u64) -> [u64; 2] {
+    let one = const { POWERS[DECIMALS] };
+    let scale = const { POWERS[PLACES - DECIMALS] };
+    [size / one, size % one * scale]
 }
 
 fn push_short(text: &mut Vec<u8>, [whole, fraction]: [u64; 2], decimals: u32) {
-    if whole < POWERS[QUARTER] {
+    if whole < 10 {
+        text.push(b'0' + whole as u8);
+    } else if whole < POWERS[QUARTER] {
         push_whole_digits(text, u128::from(eight_digits(whole)), QUARTER);
     } else {
         push_whole_digits(text, sixteen_digits(whole), HALF);
