@@ -66,7 +66,7 @@ impl Reach<'_> {
 
     /// Whether the step of `length` revolutions to a node in state `to` holds, and where it ends.
     fn step(&self, from: &Node, to: State, length: f64) -> Option<Place> {
-        let place = self.table.place(from.place.n + length);
+        let place = (self.table).place_behind(from.place.n + length, from.place.next);
         holds(self.table, from, &self.node(place, to)).then_some(place)
     }
 

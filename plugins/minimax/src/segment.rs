@@ -102,7 +102,10 @@ fn holds_errors(table: &Table<'_>, played: &Played, from: &Node, to: &Node) -> b
     }
     match (table.x_matters, table.speed_varies) {
         (false, false) => holds_alone(played, &table.t[places.clone()], &table.z[places]),
-        _ => places.all(|k| coupled(table, played, k)),
+        _ => {
+            let middle = places.start + places.len() / 2;
+            coupled(table, played, middle) && places.all(|k| coupled(table, played, k))
+        }
     }
 }
 
@@ -115,6 +118,11 @@ fn holds_alone(played: &Played, t: &[f64], z: &[f64]) -> bool {
         ..
     } = *played;
     let is_beyond = |t: f64, z: f64| (cubic.at(t - start) - z).abs() > limit;
+    // A step that is too long errs most in its middle.
+    let middle = t.len() / 2;
+    if is_beyond(t[middle], z[middle]) {
+        return false;
+    }
     let (t_lanes, t_rest) = t.as_chunks::<LANES>();
     let (z_lanes, z_rest) = z.as_chunks::<LANES>();
     for (t, z) in t_lanes.iter().zip(z_lanes) {

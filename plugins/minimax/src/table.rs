@@ -17,6 +17,8 @@ const NEGLIGIBLE: f64 = 1e-3;
 /// may where cusps leave room: less than what it may always.
 const NEGLIGIBLE_SHARE: f64 = 0.2;
 
+/// The first step of the search for a place: less than the places of a natural step.
+const FIRST_STEP: usize = 16;
 /// A rate that jumps by no more than this part of itself is smooth: pieces of a law join to rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -66,10 +68,13 @@ pub struct Table<'a> {
     pub x_matters: bool,
     /// Whether the spindle changes its speed.
     pub speed_varies: bool,
-    /// First and second derivatives of X and Z in θ.
-    x_rates: Vec<[f64; 2]>,
-    z_rates: Vec<[f64; 2]>,
+    /// X and Z between each place and the next one, by the way in rad; none of X where it does not matter.
+    x_between: Vec<Quintic>,
+    z_between: Vec<Quintic>,
 }
+
+/// The coefficients of a quintic, the lowest first.
+type Quintic = [f64; 6];
 
 impl<'a> Table<'a> {
     /// The columns of these samples.
@@ -78,10 +83,6 @@ impl<'a> Table<'a> {
         let end = samples.last().map_or(0.0, |sample| sample.n);
         let speed_varies = speed_varies(path.spindle, start, end);
         let column = |of: fn(&Sample) -> f64| -> Vec<f64> { samples.iter().map(of).collect() };
-        let rates = |of: fn(&Sample) -> &Series| -> Vec<[f64; 2]> {
-            let pair = |series: &Series| [series[1], 2.0 * series[2]];
-            samples.iter().map(|sample| pair(of(sample))).collect()
-        };
         let n = column(|sample| sample.n);
         let c: Vec<f64> = n.iter().map(|n| TAU * (n - start)).collect();
         let t = match speed_varies {
@@ -97,8 +98,8 @@ impl<'a> Table<'a> {
             t,
             x: column(|sample| sample.x[0]),
             z: column(|sample| sample.z[0]),
-            x_rates: rates(|sample| &sample.x),
-            z_rates: rates(|sample| &sample.z),
+            x_between: Vec::new(),
+            z_between: between(samples, |sample| &sample.z),
             x_matters: x_matters(path, samples, limits)?,
             speed_varies,
             coupling: Coupling::default(),
@@ -106,6 +107,9 @@ impl<'a> Table<'a> {
             n,
             c,
         };
+        if table.x_matters {
+            table.x_between = between(samples, |sample| &sample.x);
+        }
         if table.x_matters || table.speed_varies {
             table.coupling = table.couple()?;
         }
@@ -178,10 +182,14 @@ impl<'a> Table<'a> {
     /// The path at `n`, which lies in the span. Between two places it is the quintic through both,
     /// which at this density is the path to a billionth of the tolerance.
     pub fn place(&self, n: f64) -> Place {
-        let next = self.n.partition_point(|place| *place <= n);
+        self.place_behind(n, 0)
+    }
+
+    /// The same where `n` lies at or behind the place before `next`, and not far from it.
+    pub fn place_behind(&self, n: f64, next: usize) -> Place {
+        let next = self.next_behind(n, next);
         let low = next.clamp(1, self.n.len() - 1) - 1;
-        let (from, to) = (self.n[low], self.n[low + 1]);
-        let (width, at) = (TAU * (to - from), TAU * (n - from));
+        let at = TAU * (n - self.n[low]);
         let start = self.n[0];
         let (t, c_rate) = match self.speed_varies {
             true => {
@@ -191,13 +199,9 @@ impl<'a> Table<'a> {
             }
             false => (TAU * (n - start), 1.0),
         };
-        let of = |values: &[f64], rates: &[[f64; 2]]| {
-            let end = |i: usize| [values[i], rates[i][0], rates[i][1]];
-            value_and_rate(&quintic(end(low), end(low + 1), width), at)
-        };
-        let (z, z_rate) = of(&self.z, &self.z_rates);
+        let (z, z_rate) = value_and_rate(&self.z_between[low], at);
         let (x, x_rate) = match self.x_matters {
-            true => of(&self.x, &self.x_rates),
+            true => value_and_rate(&self.x_between[low], at),
             false => (0.0, 0.0),
         };
         Place {
@@ -214,6 +218,18 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// The index of the first place behind `n`, which is `least` or a larger one: in steps that double, since it
+    /// is most often near.
+    fn next_behind(&self, n: f64, least: usize) -> usize {
+        let (mut low, mut step) = (least.min(self.n.len()), FIRST_STEP);
+        while self.n.get(low + step).is_some_and(|place| *place <= n) {
+            low += step;
+            step *= 2;
+        }
+        let high = (low + step).min(self.n.len());
+        low + self.n[low..high].partition_point(|place| *place <= n)
+    }
+
     /// ∂Z/∂X and ∂Z/∂θ near place `next`, and the weight of X's error.
     pub fn coupling_near(&self, next: usize) -> [f64; 3] {
         let k = next.min(self.n.len() - 1);
@@ -227,7 +243,20 @@ impl<'a> Table<'a> {
     }
 }
 
-fn value_and_rate(c: &[f64; 6], at: f64) -> (f64, f64) {
+/// One coordinate between each place and the next one.
+fn between(samples: &[Sample], of: fn(&Sample) -> &Series) -> Vec<Quintic> {
+    let end = |sample: &Sample| {
+        let series = of(sample);
+        [series[0], series[1], 2.0 * series[2]]
+    };
+    let quintic = |pair: &[Sample]| {
+        let width = TAU * (pair[1].n - pair[0].n);
+        quintic(end(&pair[0]), end(&pair[1]), width)
+    };
+    samples.windows(2).map(quintic).collect()
+}
+
+fn value_and_rate(c: &Quintic, at: f64) -> (f64, f64) {
     let value = c.iter().rev().fold(0.0, |sum, c| sum * at + c);
     let rate = (1..6).rev().fold(0.0, |sum, k| sum * at + k as f64 * c[k]);
     (value, rate)
