@@ -24,8 +24,8 @@ impl Piece {
         shifted
     }
 
-    /// The slope: what [`Self::shifted`] gives for it, without the coefficients above.
-    fn rate(&self, n: f64) -> f64 {
+    /// The slope at `n`: what [`Self::shifted`] gives for it, without the coefficients above.
+    pub fn rate(&self, n: f64) -> f64 {
         let s = n - self.start;
         let mut shifted = self.coefficients;
         for low in 0..2 {
@@ -42,7 +42,8 @@ impl Piece {
         [value, rate, second, third, fourth]
     }
 
-    fn value(&self, n: f64) -> f64 {
+    /// The value at `n`.
+    pub fn value(&self, n: f64) -> f64 {
         let s = n - self.start;
         self.coefficients
             .iter()

@@ -23,6 +23,7 @@
 //! - **Aim.** Steps aim at 0.98 of the tolerance. Refinement stays behind them.
 
 mod acceleration;
+mod clock;
 mod grid;
 mod natural_steps;
 mod place;

@@ -1,5 +1,7 @@
 //! The error of one segment as the controller plays it: a cubic in time for each axis.
 
+use std::ops::Range;
+
 use crate::place::Place;
 use crate::table::Table;
 
@@ -96,16 +98,15 @@ pub fn holds_tolerance(table: &Table<'_>, from: &Node, to: &Node) -> bool {
 }
 
 fn holds_errors(table: &Table<'_>, played: &Played, from: &Node, to: &Node) -> bool {
-    let mut places = from.place.next..to.place.next;
+    let places = from.place.next..to.place.next;
     if places.len() < FEWEST {
         return holds_between(table, played, from, to);
     }
     match (table.x_matters, table.speed_varies) {
         (false, false) => holds_alone(played, &table.t[places.clone()], &table.z[places]),
-        _ => {
-            let middle = places.start + places.len() / 2;
-            coupled(table, played, middle) && places.all(|k| coupled(table, played, k))
-        }
+        (false, true) => Coupled::<false, true>::at(table, played, places).holds(),
+        (true, false) => Coupled::<true, false>::at(table, played, places).holds(),
+        (true, true) => Coupled::<true, true>::at(table, played, places).holds(),
     }
 }
 
@@ -137,20 +138,73 @@ fn holds_alone(played: &Played, t: &[f64], z: &[f64]) -> bool {
     !t_rest.iter().zip(z_rest).any(|(t, z)| is_beyond(*t, *z))
 }
 
-/// The check at one place with what X and C err: e_Z − Z_X·e_X − Z_θ·e_C.
-fn coupled(table: &Table<'_>, played: &Played, k: usize) -> bool {
-    let t = table.t[k] - played.start;
-    let mut error = played.z.at(t) - table.z[k];
-    if table.speed_varies {
-        error -= table.coupling.along[k] * (played.c.at(t) - table.c[k]);
+/// What is compared at some places: with what X errs if `X`, with what C errs if `C`.
+struct Coupled<'a, const X: bool, const C: bool> {
+    played: &'a Played,
+    t: &'a [f64],
+    z: &'a [f64],
+    x: &'a [f64],
+    c: &'a [f64],
+    slope: &'a [f64],
+    along: &'a [f64],
+    x_weight: &'a [f64],
+}
+
+impl<'a, const X: bool, const C: bool> Coupled<'a, X, C> {
+    fn at(table: &'a Table<'_>, played: &'a Played, places: Range<usize>) -> Self {
+        let coupling = &table.coupling;
+        let of = |column: &'a [f64], counts: bool| match counts {
+            true => &column[places.clone()],
+            false => &[],
+        };
+        Self {
+            played,
+            t: of(&table.t, true),
+            z: of(&table.z, true),
+            x: of(&table.x, X),
+            c: of(&table.c, C),
+            slope: of(&coupling.slope, X),
+            along: of(&coupling.along, C),
+            x_weight: of(&coupling.x_weight, X),
+        }
     }
-    let mut x_within = true;
-    if table.x_matters {
-        let off_x = played.x.at(t) - table.x[k];
-        error -= table.coupling.slope[k] * off_x;
-        x_within = !played.holds_x || off_x.abs() * table.coupling.x_weight[k] <= 1.0;
+
+    /// Whether the segment keeps to the limits at all places.
+    fn holds(&self) -> bool {
+        // A step that is too long errs most in its middle.
+        if !self.holds_at(self.t.len() / 2) {
+            return false;
+        }
+        let lanes = self.t.len() / LANES * LANES;
+        for first in (0..lanes).step_by(LANES) {
+            let mut within = true;
+            for k in first..first + LANES {
+                within &= self.holds_at(k);
+            }
+            if !within {
+                return false;
+            }
+        }
+        (lanes..self.t.len()).all(|k| self.holds_at(k))
     }
-    error.abs() <= played.limit && x_within
+
+    /// The check at one place with what X and C err: e_Z − Z_X·e_X − Z_θ·e_C.
+    #[inline(always)]
+    fn holds_at(&self, k: usize) -> bool {
+        let Self { played, .. } = self;
+        let t = self.t[k] - played.start;
+        let mut error = played.z.at(t) - self.z[k];
+        if C {
+            error -= self.along[k] * (played.c.at(t) - self.c[k]);
+        }
+        let mut x_within = true;
+        if X {
+            let off_x = played.x.at(t) - self.x[k];
+            error -= self.slope[k] * off_x;
+            x_within = !played.holds_x | (off_x.abs() * self.x_weight[k] <= 1.0);
+        }
+        (error.abs() <= played.limit) & x_within
+    }
 }
 
 /// The check of a segment that is shorter than the table is fine.

@@ -4,6 +4,7 @@ use turnpath_plugin::hermite::{Bound, Jumps, pitch};
 use turnpath_plugin::prelude::*;
 
 use crate::acceleration::{self, Allowed};
+use crate::clock::Clock;
 use crate::grid::{Sample, sample_before};
 use crate::place::Place;
 use crate::room::errors_of_x;
@@ -68,6 +69,8 @@ pub struct Table<'a> {
     pub x_matters: bool,
     /// Whether the spindle changes its speed.
     pub speed_varies: bool,
+    /// The time where it does.
+    clock: Option<Clock>,
     /// X and Z between each place and the next one, by the way in rad; none of X where it does not matter.
     x_between: Vec<Quintic>,
     z_between: Vec<Quintic>,
@@ -102,6 +105,7 @@ impl<'a> Table<'a> {
             z_between: between(samples, |sample| &sample.z),
             x_matters: x_matters(path, samples, limits)?,
             speed_varies,
+            clock: speed_varies.then(|| Clock::new(path.spindle, &n)),
             coupling: Coupling::default(),
             most_acceleration: f64::INFINITY,
             n,
@@ -191,13 +195,9 @@ impl<'a> Table<'a> {
         let low = next.clamp(1, self.n.len() - 1) - 1;
         let at = TAU * (n - self.n[low]);
         let start = self.n[0];
-        let (t, c_rate) = match self.speed_varies {
-            true => {
-                let spindle = self.path.spindle;
-                let t = spindle.time_at(n) - spindle.time_at(start);
-                (t, spindle.speed_at(n))
-            }
-            false => (TAU * (n - start), 1.0),
+        let (t, c_rate) = match &self.clock {
+            Some(clock) => clock.at(n, low),
+            None => (TAU * (n - start), 1.0),
         };
         let (z, z_rate) = value_and_rate(&self.z_between[low], at);
         let (x, x_rate) = match self.x_matters {
