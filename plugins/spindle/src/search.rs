@@ -63,10 +63,10 @@ impl Conditions<'_> {
         if least >= self.speed {
             return SpindleLaw::constant(self.speed);
         }
-        let mut first: Vec<Schedule> = self
-            .smoothers()
-            .map(|smoother| self.schedule(smoother, speeds.clone()).0)
-            .collect();
+        let mut first = Vec::new();
+        for smoother in self.smoothers() {
+            first.extend(self.finalist(smoother, &speeds, &first));
+        }
         self.extend(&mut first, &speeds);
         first.sort_by(|one, other| one.time.total_cmp(&other.time));
         first.truncate(FINALISTS);
@@ -81,11 +81,8 @@ impl Conditions<'_> {
 
     /// Adds schedules with larger reaches and smaller accelerations, as long as they are the fastest.
     fn extend(&self, schedules: &mut Vec<Schedule>, speeds: &[f64]) {
-        let acceleration = |schedule: &Schedule| schedule.smoother.acceleration;
-        let least = schedules
-            .iter()
-            .map(acceleration)
-            .fold(f64::INFINITY, f64::min);
+        let accelerations = self.smoothers().map(|smoother| smoother.acceleration);
+        let least = accelerations.fold(f64::INFINITY, f64::min);
         let largest = REACHES.into_iter().fold(0.0, f64::max);
         for _ in 0..MOST_EXTENSIONS {
             let fastest = schedules.iter().min_by(|a, b| a.time.total_cmp(&b.time));
@@ -112,12 +109,12 @@ impl Conditions<'_> {
                     reach,
                 });
             }
-            let more = more
-                .into_iter()
-                .map(|smoother| self.schedule(smoother, speeds.to_vec()).0);
-            let more: Vec<Schedule> = more.collect();
-            let is_faster = more.iter().any(|schedule| schedule.time < time);
-            schedules.extend(more);
+            let mut is_faster = false;
+            for smoother in more {
+                let schedule = self.finalist(smoother, speeds, schedules);
+                is_faster |= schedule.as_ref().is_some_and(|found| found.time < time);
+                schedules.extend(schedule);
+            }
             if !is_faster {
                 return;
             }
@@ -142,10 +139,30 @@ impl Conditions<'_> {
         })
     }
 
+    /// The schedule of these speeds; `None` if it is slower than [`FINALISTS`] others.
+    fn finalist(
+        &self,
+        smoother: Smoother,
+        speeds: &[f64],
+        others: &[Schedule],
+    ) -> Option<Schedule> {
+        let mut times: Vec<f64> = others.iter().map(|other| other.time).collect();
+        times.sort_by(f64::total_cmp);
+        let most = times.get(FINALISTS - 1).copied().unwrap_or(f64::INFINITY);
+        let found = self.schedule(smoother, speeds.to_vec(), most)?;
+        Some(found.0)
+    }
+
     /// The schedule of these speeds, and for each cell the speed that it should have had; infinite
-    /// where the cell is within its limits.
-    fn schedule(&self, smoother: Smoother, speeds: Vec<f64>) -> (Schedule, Vec<f64>) {
+    /// where the cell is within its limits. `None` if the path takes more time than `most`, s.
+    fn schedule(
+        &self,
+        smoother: Smoother,
+        speeds: Vec<f64>,
+        most: f64,
+    ) -> Option<(Schedule, Vec<f64>)> {
         let law = Law::new(&self.grid, &smoother.apply(&self.grid, &speeds));
+        let time = law.time();
         let mut factor: f64 = 1.0;
         let mut asked = Vec::with_capacity(speeds.len());
         let cells = self.cells.iter().zip(&self.bounds);
@@ -154,19 +171,22 @@ impl Conditions<'_> {
             let of_axes = of_path.min(bound / motion.speed);
             let of_c = self.limits.factor_of_c(&motion).min(self.of_speed(&motion));
             factor = factor.min(of_axes).min(of_c);
+            if time / factor > most {
+                return None;
+            }
             asked.push(match of_axes < 1.0 - WITHIN {
                 true => of_axes * motion.speed,
                 false => f64::INFINITY,
             });
         }
         let schedule = Schedule {
-            time: law.time() / factor,
+            time: time / factor,
             law,
             factor,
             smoother,
             speeds,
         };
-        (schedule, asked)
+        Some((schedule, asked))
     }
 
     fn of_speed(&self, motion: &Motion) -> f64 {
@@ -184,7 +204,10 @@ impl Conditions<'_> {
         let mut best = schedule;
         let (smoother, mut speeds) = (best.smoother, best.speeds.clone());
         for _ in 0..ROUNDS {
-            let (now, asked) = self.schedule(smoother, speeds.clone());
+            let every = self.schedule(smoother, speeds.clone(), f64::INFINITY);
+            let Some((now, asked)) = every else {
+                break;
+            };
             if now.time < best.time {
                 best = now;
             }
