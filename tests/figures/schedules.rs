@@ -229,3 +229,53 @@ fn plots_do_not_depend_on_the_speed() {
         assert!(highest > 50.0, "no cusps: {highest} nm");
     }
 }
+
+/// Every path of the four parts with the fewest points, at a constant speed and with a schedule:
+/// `tests/reference/playback/measure_fewest.py` makes the references.
+fn agrees_with_the_independent_playback(chosen: impl Fn(&str) -> bool) {
+    let file = repository().join("tests/reference/playback/fewest-points.json");
+    let runs: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    let runs = runs.as_array().unwrap().iter();
+    let chosen: Vec<&Value> = runs
+        .filter(|run| chosen(run["recipe"].as_str().unwrap()))
+        .collect();
+    assert!(chosen.len() >= 2);
+    for run in chosen {
+        let name = format!("docs/recipes/{}.toml", run["recipe"].as_str().unwrap());
+        let recipe = repository().join(name);
+        let sets = run["set"].as_array().unwrap().iter();
+        let sets = sets.flat_map(|set| ["--set", set.as_str().unwrap()]);
+        let fixed = [
+            "run",
+            recipe.to_str().unwrap(),
+            "-o",
+            "out",
+            "--format",
+            "json",
+        ];
+        let made = Bench::empty().call(fixed.into_iter().chain(sets)).json();
+        assert_eq!(made["control_points"], run["control_points"], "{run}");
+        for (pointer, of_reference) in [
+            ("/interpolation_error/max_nm", "/interpolation_error_nm"),
+            ("/residual/max_nm", "/residual_nm"),
+        ] {
+            let [found, expected] = [number(&made, pointer), number(run, of_reference)];
+            let close = (found / expected - 1.0).abs() < AGREES;
+            assert!(close, "{pointer}: {found}, {expected} of {run}");
+        }
+        for what in ["interpolation", "residual"] {
+            assert_eq!(made["within"][what], true, "{what} of {run}");
+        }
+    }
+}
+
+#[test]
+fn the_fewest_points_of_small_parts_measure_like_the_reference() {
+    agrees_with_the_independent_playback(|recipe| !recipe.contains("213mm"));
+}
+
+#[test]
+#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
+fn long_the_fewest_points_of_a_large_part_measure_like_the_reference() {
+    agrees_with_the_independent_playback(|recipe| recipe.contains("213mm"));
+}

@@ -33,6 +33,17 @@ struct Front {
     from: usize,
 }
 
+/// What all steps from one front have in common.
+struct Start {
+    node: Node,
+    /// The shorter of the natural steps at both ends of a natural step, in revolutions.
+    natural: f64,
+    /// How long a step may be, in revolutions.
+    room: f64,
+    /// Whether nodes beside the locus are tried.
+    is_worth: bool,
+}
+
 /// One number of nodes: how far the chains get in each state.
 type Layer = Vec<Option<Front>>;
 
@@ -115,6 +126,9 @@ impl<'a> Search<'a> {
         let ends = |(state, front): (usize, &Option<Front>)| {
             let front = front.as_ref()?;
             let length = end.n - front.place.n;
+            if length > most.max(least) {
+                return None;
+            }
             let node = self.node(front, state);
             let held = match length < least {
                 true => holds_tolerance(self.reach.table, &node, &last),
@@ -129,10 +143,13 @@ impl<'a> Search<'a> {
     fn next(&mut self, layer: &Layer, end: Place) -> Result<Layer> {
         let clear = end.n - LEAST * self.reach.natural.at(end.n);
         let mut next: Layer = vec![None; self.states.len()];
+        let start =
+            |(from, front): (usize, &Option<Front>)| self.start(from, front.as_ref()?, clear);
+        let starts: Vec<Option<Start>> = layer.iter().enumerate().map(start).collect();
         for (to, slot) in next.iter_mut().enumerate() {
-            for (from, front) in layer.iter().enumerate() {
-                if let Some(front) = front
-                    && let Some(place) = self.longest((from, front), to, clear, slot.as_ref())
+            for (from, start) in starts.iter().enumerate() {
+                if let Some(start) = start
+                    && let Some(place) = self.longest((from, start), to, slot.as_ref())
                 {
                     *slot = Some(Front { place, from });
                 }
@@ -152,41 +169,47 @@ impl<'a> Search<'a> {
         Ok(next)
     }
 
+    /// The start of steps up to `clear`, or `None` if none of them is long enough.
+    fn start(&self, from: usize, front: &Front, clear: f64) -> Option<Start> {
+        let steps = self.reach.natural;
+        let step = steps.at(front.place.n);
+        let ahead = front.place.n + step;
+        let natural = step.min(steps.at(ahead));
+        let room = clear - front.place.n;
+        (room >= LEAST * natural).then(|| Start {
+            node: self.node(front, from),
+            natural,
+            room,
+            is_worth: steps.part_at(ahead) >= WORTH,
+        })
+    }
+
     /// The longest step between two states that gets further than the best so far.
     fn longest(
         &mut self,
-        (from, front): (usize, &Front),
+        (from, start): (usize, &Start),
         to: usize,
-        clear: f64,
         best: Option<&Front>,
     ) -> Option<Place> {
-        let natural = self.reach.natural;
-        let step = natural.at(front.place.n);
-        let ahead = front.place.n + step;
-        if to != 0 && natural.part_at(ahead) < WORTH {
-            return None;
-        }
-        let least = step.min(natural.at(ahead));
-        let room = clear - front.place.n;
-        if room < LEAST * least {
+        if to != 0 && !start.is_worth {
             return None;
         }
         let pair = from * self.states.len() + to;
         let range = StepRange {
             least: match (from, to) {
-                (0, 0) => (LEAST_ON_LOCUS * least).max(self.shortest),
-                _ => LEAST * least,
+                (0, 0) => (LEAST_ON_LOCUS * start.natural).max(self.shortest),
+                _ => LEAST * start.natural,
             },
-            most: self.reach.table.limits.max_step.min(room),
+            most: self.reach.table.limits.max_step.min(start.room),
             last: self.last[pair],
         };
         if range.most < range.least {
             return None;
         }
         let best = best.map(|best| best.place.n);
-        let node = self.node(front, from);
-        let place = self.reach.longest(&node, self.states[to], range, best)?;
-        self.last[pair] = place.n - front.place.n;
+        let node = &start.node;
+        let place = self.reach.longest(node, self.states[to], range, best)?;
+        self.last[pair] = place.n - node.place.n;
         Some(place)
     }
 

@@ -15,8 +15,8 @@ const BOOLE: [f64; CELLS_OF_PIECE + 1] = [
     32.0 / 90.0,
     7.0 / 90.0,
 ];
-/// Where in a cell the motion is looked at.
-const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
+/// Where in a cell the motion is looked at beside its start.
+const LATER_PLACES: [f64; 2] = [0.5, 1.0];
 
 /// The largest amounts of the spindle's motion in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -116,12 +116,13 @@ fn motion(coefficients: &[f64; 6], start: f64, step: f64) -> Motion {
         start: 0.0,
         coefficients: *coefficients,
     };
+    let at_start = piece.shifted(start);
     let mut motion = Motion {
-        speed: TAU / least_rate(&piece.shifted(start), step),
+        speed: TAU / least_rate(&at_start, step),
         ..Motion::default()
     };
-    for place in PLACES {
-        let [_, rate, second, third, ..] = piece.shifted(start + place * step);
+    let others = LATER_PLACES.map(|place| piece.shifted(start + place * step));
+    for [_, rate, second, third, ..] in [at_start].into_iter().chain(others) {
         let (second, third) = (2.0 * second, 6.0 * third);
         let turning = rate.recip();
         let cube = turning * turning * turning;
