@@ -1,5 +1,6 @@
 //! The programs of `pmac-pvt` as text: how they look, and what of them is refused.
 
+use proptest::prelude::*;
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{Cubic, PathBlock, Section, SectionBlock};
 
@@ -243,4 +244,41 @@ fn a_program_reads_the_same_from_a_file_and_from_memory() {
         }
     }
     assert_eq!(file.read_count().points(), 5);
+}
+
+/// A number of a program, of any length, and now and then none.
+fn word() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => "-?[0-9]{1,7}(\\.[0-9]{1,7})?",
+        2 => "-?[0-9]{0,22}(\\.[0-9]{0,22})?",
+        1 => "[+-]?[0-9A-Z:. -]{0,4}",
+    ]
+}
+
+proptest! {
+    /// Lines that are written as nearly all are have the meaning that they have with more blanks, and their
+    /// errors too: those go through the reader of any line.
+    #[test]
+    fn lines_in_one_go_mean_what_they_mean_word_by_word(
+        times in proptest::collection::vec(proptest::option::of(word()), 6),
+        axes in proptest::collection::vec([word(), word(), word(), word(), word()], 6),
+        mode in "ABS|INC|ABS\nINC\\(X\\)|",
+        mantissa_bits in proptest::option::of(20u32..53),
+    ) {
+        let text = |blank: &str| {
+            let mut text = format!("; -- cutting --\nABS\nPVT1000\nC0:1 X2:1 Z0:1\n{mode}\n");
+            for (k, (time, [vc, x, vx, z, vz])) in times.iter().zip(&axes).enumerate() {
+                if let Some(time) = time {
+                    text += &format!("PVT{time}{blank}\n");
+                }
+                text += &format!("C{}:{vc} {blank}X{x}:{vx} Z{z}:{vz}{blank}\n", 9 * k + 9);
+            }
+            text + "; -- end of path: 7 points --\n"
+        };
+        let layout = plain(&PMAC_PVT);
+        let format = ProgramFormat { mantissa_bits, ..layout.format };
+        let layout = Layout { format, ..layout };
+        let [at_once, by_word] = ["", " "].map(|blank| read(&layout, text(blank).as_bytes()));
+        prop_assert_eq!(at_once.map(|points| format!("{points:?}")), by_word.map(|points| format!("{points:?}")));
+    }
 }
