@@ -233,7 +233,7 @@ fn plots_do_not_depend_on_the_speed() {
 /// Every path of the four parts with the fewest points, at a constant speed and with a schedule:
 /// `tests/reference/playback/measure_fewest.py` makes the references.
 fn agrees_with_the_independent_playback(chosen: impl Fn(&str) -> bool) {
-    let file = repository().join("tests/reference/playback/fewest-points.json");
+    let file = repository().join("tests/reference/playback/minimax/parts.json");
     let runs: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     let runs = runs.as_array().unwrap().iter();
     let chosen: Vec<&Value> = runs

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs turnpath with the fewest points on the four parts of docs/fewest-points.md, at a constant speed and with a
-schedule, and keeps what playback.py measures on each path in fewest-points.json beside this script.
+schedule, and keeps what playback.py measures on each path in minimax/parts.json.
 
     measure_fewest.py TURNPATH
 
@@ -21,7 +21,7 @@ from playback import Recipe, ToolPath, interpolation_error, residual
 
 HERE = Path(__file__).resolve().parent
 RECIPES = HERE.parents[2] / "docs" / "recipes"
-KEPT = HERE / "fewest-points.json"
+KEPT = HERE / "minimax" / "parts.json"
 PARTS = {"astigmatic-5mm": ["45 deg"], "sinusoidal-array-10mm": ["45 deg"],
          "astigmatic-50mm": ["45 deg", "90 deg"], "off-axis-paraboloid-213mm": ["45 deg"]}
 ALL = ["path.lead=false", "path.overrun=none", "velocity.use=analytic"]
