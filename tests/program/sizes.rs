@@ -120,6 +120,8 @@ fn long_the_sizes_of_the_recipes_of_the_documentation_are_right() {
         let file = format!("{}/../docs/recipes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let recipe = std::fs::read_to_string(file).unwrap();
         let own = recipe.split("\n[output").next().unwrap();
-        sizes_are_right(&format!("{own}\n"), OUTPUT);
+        // More turns than the documented range of TwinCAT has.
+        let far = format!("{OUTPUT}beckhoff-poly.c_limit = \"1e7 deg\"\n");
+        sizes_are_right(&format!("{own}\n"), &far);
     }
 }

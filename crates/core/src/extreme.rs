@@ -83,14 +83,14 @@ pub fn largest<const K: usize>(
     measure: &mut Measure<'_, K>,
 ) -> Result<[Extreme; K]> {
     let grid = Grid::new(region);
-    let rows = grid.evaluate(measure)?;
+    let columns = grid.evaluate(measure)?;
     let mut found = [Extreme {
         value: f64::NEG_INFINITY,
         theta: 0.0,
         rho: region.inner,
     }; K];
-    for (which, found) in found.iter_mut().enumerate() {
-        let candidates = grid.highest(&rows, which);
+    for (which, (found, column)) in found.iter_mut().zip(&columns).enumerate() {
+        let candidates = grid.highest(column);
         let closed_in = grid.refine(candidates, which, measure)?;
         let highest = closed_in.into_iter().max_by(by_value);
         *found = highest.unwrap_or(*found);
@@ -125,34 +125,36 @@ impl Grid {
         self.region.inner + i as f64 * self.rho_step
     }
 
-    /// Evaluates all points of the grid; one row for each radius.
-    fn evaluate<const K: usize>(&self, measure: &mut Measure<'_, K>) -> Result<Vec<Vec<[f64; K]>>> {
+    /// Evaluates all points of the grid: a column for each quantity, with one radius after the other.
+    fn evaluate<const K: usize>(&self, measure: &mut Measure<'_, K>) -> Result<[Vec<f64>; K]> {
         let theta: Vec<f64> = (0..ANGLES).map(|j| self.theta(j)).collect();
-        let row = |i| {
-            let mut values = vec![[f64::NAN; K]; ANGLES];
-            measure(&theta, &[self.rho(i); ANGLES], &mut values)?;
-            Ok(values)
-        };
-        (0..=RADII).map(row).collect()
+        let mut columns = std::array::from_fn(|_| Vec::with_capacity((RADII + 1) * ANGLES));
+        let mut row = vec![[f64::NAN; K]; ANGLES];
+        for i in 0..=RADII {
+            measure(&theta, &[self.rho(i); ANGLES], &mut row)?;
+            for (which, column) in columns.iter_mut().enumerate() {
+                column.extend(row.iter().map(|values| values[which]));
+            }
+        }
+        Ok(columns)
     }
 
     /// The highest points of the grid among those that are no lower than their four neighbours.
-    fn highest<const K: usize>(&self, rows: &[Vec<[f64; K]>], which: usize) -> Vec<Extreme> {
+    fn highest(&self, column: &[f64]) -> Vec<Extreme> {
         let mut found = Vec::new();
-        for (i, row) in rows.iter().enumerate() {
-            let (inside, outside) = (&rows[i.saturating_sub(1)], &rows[(i + 1).min(RADII)]);
-            let mut on_row = Vec::new();
-            for (j, values) in row.iter().enumerate() {
-                let (before, after) = ((j + ANGLES - 1) % ANGLES, (j + 1) % ANGLES);
-                let next = [row[before], row[after], inside[j], outside[j]];
-                if next.iter().all(|next| values[which] >= next[which]) {
-                    on_row.push(Extreme {
-                        value: values[which],
-                        theta: self.theta(j),
-                        rho: self.rho(i),
-                    });
-                }
-            }
+        let row = |i: usize| &column[i * ANGLES..][..ANGLES];
+        for i in 0..=RADII {
+            let beside = [row(i.saturating_sub(1)), row((i + 1).min(RADII))];
+            let is_peak = peaks(row(i), beside);
+            let on_row = row(i).iter().zip(is_peak).enumerate();
+            let on_row = on_row.filter(|(_, (_, is_peak))| *is_peak);
+            let mut on_row: Vec<_> = on_row
+                .map(|(j, (value, _))| Extreme {
+                    value: *value,
+                    theta: self.theta(j),
+                    rho: self.rho(i),
+                })
+                .collect();
             keep_highest(&mut on_row, ON_ONE_RADIUS);
             found.append(&mut on_row);
         }
@@ -207,6 +209,22 @@ impl Grid {
             });
         around.unzip()
     }
+}
+
+/// Which points of a row are no lower than their neighbours on the row and on the two rows beside it. The
+/// row closes on itself.
+fn peaks(row: &[f64], [inside, outside]: [&[f64]; 2]) -> [bool; ANGLES] {
+    let mut around = [f64::NAN; ANGLES + 2];
+    around[1..=ANGLES].copy_from_slice(row);
+    (around[0], around[ANGLES + 1]) = (row[ANGLES - 1], row[0]);
+    // Without a way out of the loop it goes through vector registers.
+    std::array::from_fn(|j| {
+        let value = around[j + 1];
+        (value >= around[j])
+            & (value >= around[j + 2])
+            & (value >= inside[j])
+            & (value >= outside[j])
+    })
 }
 
 fn keep_highest(found: &mut Vec<Extreme>, count: usize) {

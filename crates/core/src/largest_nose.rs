@@ -11,8 +11,11 @@ use crate::extreme::Extreme;
 const PRECISION: f64 = 1e-6;
 /// A nose fits up to this Rκ. It is above 1 by as much as two searches for κ may differ.
 const LARGEST_FIT: f64 = 1.0 + 1e-9;
-/// The search tries at most this many radii. Every third trial halves the bracket.
+/// The search tries at most this many radii of a wide bracket, and more of a narrow one than halving
+/// needs.
 const MOST_TRIALS: usize = 100;
+/// A narrow bracket takes at most this many more trials than halving it.
+const SPARE_TRIALS: i32 = 1;
 /// A bracket is wide while its lower end is below this part of the upper end.
 const NARROW: f64 = 0.5;
 /// In a wide bracket the next trial is at least this part of the upper end.
@@ -119,11 +122,19 @@ fn between<E>(
         radius: 0.0,
         at: on_part.at,
     };
-    for trial in 0..MOST_TRIALS {
-        if above.radius - below.radius <= PRECISION * above.radius {
+    let mut room = None;
+    for _ in 0..MOST_TRIALS {
+        let (low, high) = (below.radius, above.radius);
+        if high - low <= PRECISION * high {
             break;
         }
-        let here = attempt(next_trial(&below, &above, trial))?;
+        let next = if low < NARROW * high {
+            (low * high).sqrt().max(LEAST_TRIAL * high)
+        } else {
+            let room = room.get_or_insert_with(|| Room::new(low, high));
+            room.next_trial(&below, &above)
+        };
+        let here = attempt(next)?;
         if here.fits() {
             below = here;
         } else {
@@ -139,27 +150,47 @@ fn between<E>(
     Ok(largest)
 }
 
-/// The next trial. While the bracket is wide, it is the geometric mean of the bracket's ends. After
-/// that two kinds of trials alternate. One is the radius at which a straight line through both ends
-/// has Rκ = 1, moved a little to either side so that the bracket closes. The other is the middle of
-/// the bracket.
-fn next_trial(below: &Trial, above: &Trial, trial: usize) -> f64 {
-    let (low, high) = (below.radius, above.radius);
-    if low < NARROW * high {
-        return (low * high).sqrt().max(LEAST_TRIAL * high);
+/// How far a trial may be from the middle of a narrow bracket.
+///
+/// The trials are those of the ITP method (Oliveira and Takahashi, *ACM Transactions on Mathematical
+/// Software* 47, 5 (2021), doi:10.1145/3423597): where a straight line through both ends has Rκ = 1, a
+/// little towards the middle, and never so far from it that the search would take more trials than
+/// halving and [`SPARE_TRIALS`].
+struct Room {
+    /// Width of the bracket at the beginning, mm.
+    width: f64,
+    /// Largest half width of the bracket that still leaves enough trials, mm.
+    half: f64,
+}
+
+impl Room {
+    fn new(low: f64, high: f64) -> Self {
+        let width = high - low;
+        let end = PRECISION * low;
+        let halvings = (width / end).log2().ceil() as i32;
+        Self {
+            width,
+            half: 0.5 * end * f64::from(halvings + SPARE_TRIALS).exp2(),
+        }
     }
-    let middle = 0.5 * (low + high);
-    let rise = above.excess() - below.excess();
-    if trial % 3 == 2 || !rise.is_finite() || rise <= 0.0 {
-        return middle;
-    }
-    let root = low - below.excess() * (high - low) / rise;
-    let side = if trial.is_multiple_of(3) { -1.0 } else { 1.0 };
-    let root = root + side * 0.4 * PRECISION * high;
-    if root > low && root < high {
-        root
-    } else {
-        middle
+
+    /// The next trial within the bracket.
+    fn next_trial(&mut self, below: &Trial, above: &Trial) -> f64 {
+        let (low, high) = (below.radius, above.radius);
+        let (middle, width) = (0.5 * (low + high), high - low);
+        let farthest = (self.half - 0.5 * width).max(0.0);
+        self.half *= 0.5;
+        let rise = above.excess() - below.excess();
+        if !rise.is_finite() || rise <= 0.0 {
+            return middle;
+        }
+        let root = low - below.excess() * width / rise;
+        let (side, distance) = ((middle - root).signum(), (middle - root).abs());
+        // The usual parameters of the method: κ₁ = 0.2 over the first width, κ₂ = 2. A trial that is a
+        // little farther from the root than a last bracket is wide on either side closes the bracket.
+        let inward = (0.2 * width * width / self.width).max(0.4 * PRECISION * high);
+        let inward = inward.min(distance);
+        middle - side * (distance - inward).min(farthest)
     }
 }
 
@@ -202,7 +233,7 @@ mod tests {
             let (largest, trials) = search(0.25, |radius| if radius < step { 0.25 } else { 9.0 });
             let known = step.max(1.0 / 9.0);
             assert!((largest / known - 1.0).abs() < 1e-5, "{largest} {known}");
-            assert!(trials <= 60, "{trials}");
+            assert!(trials <= 30, "{trials}");
         }
     }
 
@@ -221,7 +252,7 @@ mod tests {
             let (largest, trials) = search(a, |radius| a + b * radius);
             let known = ((a * a + 4.0 * b).sqrt() - a) / (2.0 * b);
             assert!((largest / known - 1.0).abs() < 1e-5, "{largest} {known}");
-            assert!(trials < 35, "{trials}");
+            assert!(trials <= 14, "{trials}");
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::extreme::{self, Extreme};
 use crate::surface::GradientSeries;
-use crate::{RadialRange, Result, Scalar, Series, StrategyError, SurfaceModel};
+use crate::{RadialRange, Result, Scalar, Series, SeriesOrders, StrategyError, SurfaceModel};
 
 /// The extremes of a surface over a part, each with its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +29,12 @@ pub struct PartShape {
 /// more domed one with the other sign.
 const HOLLOW: usize = 3;
 const DOMED: usize = 4;
+
+/// A height, its slopes and their first derivatives: what a curvature needs.
+const CURVATURE: SeriesOrders = SeriesOrders {
+    heights: 1,
+    slopes: 1,
+};
 
 /// The ring around a place that may be a tip, over the outer radius: far above the rounding of positions.
 const CLOSE_RING: f64 = 4e-12;
@@ -133,7 +139,7 @@ impl Room {
             (&self.along_y, &mut self.of_y),
         ] {
             let z = &mut self.z;
-            surface.series(x, y, GradientSeries { z, zx, zy })?;
+            surface.series_to(CURVATURE, x, y, GradientSeries { z, zx, zy })?;
         }
         for (i, out) in out.iter_mut().enumerate() {
             let [slope_x, slope_y] = [self.of_x[0][i], self.of_x[1][i]];

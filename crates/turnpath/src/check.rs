@@ -31,9 +31,17 @@ impl Job {
     /// When a strategy fails.
     pub fn check(&self) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
-        let (expected, sample) = self.sample()?;
-        let nose = largest_nose(&self.chain, &self.preparation).map_err(failed)?;
         let part = self.preparation.task.part;
+        let (sampled, (nose, shape)) = rayon::join(
+            || self.sample(),
+            || {
+                rayon::join(
+                    || largest_nose(&self.chain, &self.preparation).map_err(failed),
+                    || part_shape::shape(&self.recipe, &self.chain.surface, &part),
+                )
+            },
+        );
+        let ((expected, sample), nose) = (sampled?, nose?);
         let rough_jobs = self.rough_jobs()?;
         let rough_paths = rough_jobs.iter().map(RoughJob::expected);
         let path = PathSubject {
@@ -47,7 +55,7 @@ impl Job {
         let report = CheckReport {
             format: report::FORMAT,
             name: self.recipe.name.clone(),
-            part: Some(part_shape::shape(&self.recipe, &self.chain.surface, &part)?),
+            part: Some(shape?),
             tool_fit: self.tool_fit(&nose),
             machine: self.machine_limits(),
             unreached: self.unreached()?,
