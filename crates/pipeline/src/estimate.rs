@@ -1,7 +1,10 @@
 //! How long a path will be, before it is made.
 
+use rayon::prelude::*;
+
 use crate::Result;
 use crate::feed_cap::{FeedCap, feed_cap};
+use crate::order::in_order;
 use crate::plan::Plan;
 
 /// About how many blocks are sampled to estimate the count of control points.
@@ -36,11 +39,10 @@ impl Estimate {
 /// Mean count of the sampler's nodes on a revolution, from a few blocks.
 pub fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
     let every = plan.blocks().div_ceil(SAMPLED_BLOCKS).max(1);
-    let (mut nodes, mut revolutions) = (0.0, 0.0);
-    for index in (0..plan.blocks()).step_by(every) {
-        let block = plan.revolutions(index);
-        nodes += plan.sample(index)?.len() as f64;
-        revolutions += block.end - block.start;
-    }
-    Ok(nodes / revolutions)
+    let chosen: Vec<usize> = (0..plan.blocks()).step_by(every).collect();
+    let counts = chosen.par_iter().map(|index| plan.sample(*index));
+    let counts = in_order(counts.map(|nodes| nodes.map(|nodes| nodes.len() as f64)))?;
+    let turns = chosen.iter().map(|index| plan.revolutions(*index));
+    let turns: f64 = turns.map(|block| block.end - block.start).sum();
+    Ok(counts.iter().sum::<f64>() / turns)
 }

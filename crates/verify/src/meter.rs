@@ -193,20 +193,34 @@ impl Meter {
     /// Appends the path's next block. The block begins with the last control point of the block
     /// before it.
     pub fn append(&mut self, next: &BlockFigures) -> Result<()> {
-        self.figures.playback.append(&next.playback);
-        self.figures.points.include(&next.points);
-        self.figures.axes.append(&next.axes);
-        self.figures.cutting_speed.append(&next.cutting_speed);
-        self.figures.residual.append(&next.residual);
         let joint = self.passes.follow(&self.touch, &next.passes)?;
-        self.figures.residual.append(&ResidualFigures::of(&joint));
-        self.sketch.append(&next.sketch, &joint);
-        self.lines.append(&next.sections);
-        if let (Some(lines), Some(passes)) = (&mut self.real_nose, &next.real_nose) {
-            lines.append(passes);
-        }
-        self.coverage.append(&next.coverage, &next.passes);
-        self.spokes.append(&next.spokes);
+        let Self {
+            figures,
+            sketch,
+            lines,
+            real_nose,
+            coverage,
+            spokes,
+            ..
+        } = self;
+        // The transforms of spokes take as long as all else.
+        rayon::join(
+            || spokes.append(&next.spokes),
+            || {
+                figures.playback.append(&next.playback);
+                figures.points.include(&next.points);
+                figures.axes.append(&next.axes);
+                figures.cutting_speed.append(&next.cutting_speed);
+                figures.residual.append(&next.residual);
+                figures.residual.append(&ResidualFigures::of(&joint));
+                sketch.append(&next.sketch, &joint);
+                lines.append(&next.sections);
+                if let (Some(lines), Some(passes)) = (real_nose, &next.real_nose) {
+                    lines.append(passes);
+                }
+                coverage.append(&next.coverage, &next.passes);
+            },
+        );
         self.ends = match (self.ends, next.ends) {
             (Some([first, _]), Some([_, last])) => Some([first, last]),
             (own, next) => own.or(next),
