@@ -22,6 +22,8 @@ use crate::speed_steps::SpeedSteps;
 pub const BLOCK_ROWS: usize = 20_000;
 /// Blocks that are measured at a time: enough for every thread, within some hundred megabytes.
 const BLOCKS: usize = 16;
+/// Blocks that are read before any is measured.
+const FIRST_BLOCKS: usize = 4;
 
 /// What measures a path that is read in blocks.
 pub trait Meters: Sync {
@@ -261,7 +263,7 @@ pub fn measure<M: Meters>(
     observer: &dyn Observer,
 ) -> Result<M, Error> {
     let failed = |error: StrategyError| of_measure(recipe, error);
-    let mut blocks = next_blocks(reader, shape)?;
+    let mut blocks = next_blocks(reader, shape, FIRST_BLOCKS)?;
     loop {
         if observer.is_cancelled() {
             return Err(Error::Cancelled);
@@ -280,7 +282,7 @@ pub fn measure<M: Meters>(
             each.map(|((section, block), start)| of_block.measure(section, block, start))
                 .collect()
         };
-        let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape));
+        let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape, BLOCKS));
         for block in &measured.map_err(failed)? {
             meters.append(block).map_err(failed)?;
         }
@@ -292,9 +294,10 @@ pub fn measure<M: Meters>(
 fn next_blocks(
     reader: &mut dyn ReadPath,
     shape: SegmentShape,
+    most: usize,
 ) -> Result<Vec<(Section, PathBlock)>, Error> {
     let mut blocks = Vec::new();
-    while blocks.len() < BLOCKS {
+    while blocks.len() < most {
         match reader.next_block(BLOCK_ROWS)? {
             Some((section, block)) => blocks.push((section, PathBlock { shape, ..block })),
             None => break,
