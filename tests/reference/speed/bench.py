@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -114,12 +115,19 @@ class Bench:
         self.chosen = chosen
         self.scratch = Path(tempfile.mkdtemp(prefix="turnpath-bench-"))
 
+    def fresh(self, name):
+        """A folder that is not there. A run that replaces an older result hashes that one too. What was
+        written before goes to the disk first, so that no run pays for another."""
+        folder = self.scratch / name
+        shutil.rmtree(folder, ignore_errors=True)
+        os.sync()
+        return folder
+
     def turnpath(self, *words, threads=1):
         return Run([self.chosen.turnpath, *words, "--threads", str(threads)], threads)
 
     def run(self, recipe, *changes, threads=1):
-        folder = self.scratch / "out"
-        return self.turnpath("run", recipe, *changes, "--no-report", "-v", "-o", folder,
+        return self.turnpath("run", recipe, *changes, "--no-report", "-v", "-o", self.fresh("out"),
                              threads=threads)
 
     def script(self, name, *words):
@@ -132,9 +140,9 @@ class Bench:
             "OAP-213": RECIPES / "off-axis-paraboloid-213mm.toml",
             "AST-50": RECIPES / "astigmatic-50mm.toml",
         }
-        words = ["--threads", "1", "--no-report", "-v", "-o", self.scratch / "out"]
+        words = ["--threads", "1", "--no-report", "-v", "-o"]
         return {
-            name: lambda recipe=recipe: Run([program, "run", recipe, *words])
+            name: lambda recipe=recipe: Run([program, "run", recipe, *words, self.fresh("out")])
             for name, recipe in recipes.items()
         }
 
@@ -184,7 +192,7 @@ class Bench:
         """Two threads over one, on the clock."""
         ablation = RECIPES / "ablation-papers-mla-5.toml"
         ablate = lambda threads: self.turnpath(
-            "ablate", ablation, "--fresh", "-o", self.scratch / "ablation", threads=threads)
+            "ablate", ablation, "-o", self.fresh("ablation"), threads=threads)
         mirror = RECIPES / "off-axis-paraboloid-213mm.toml"
         jobs = {
             "OAP-213": lambda threads: self.run(mirror, threads=threads),
@@ -229,13 +237,13 @@ class Bench:
 
     def dynamic(self):
         """A plugin's strategies over the built-in ones."""
-        folder = self.scratch / "out"
-        words = ["run", EQUAL_ANGLE, "--threads", "1", "--no-report", "-o", folder]
+        words = ["run", EQUAL_ANGLE, "--threads", "1", "--no-report"]
         loaded = ["--plugin-dir", self.chosen.plugins]
+        into = lambda: ["-o", self.fresh("out")]
         best = fastest(
             {
-                "inside": lambda: Run([self.chosen.turnpath, *words]),
-                "loaded": lambda: Run([self.chosen.bare, *words, *loaded]),
+                "inside": lambda: Run([self.chosen.turnpath, *words, *into()]),
+                "loaded": lambda: Run([self.chosen.bare, *words, *loaded, *into()]),
             },
             self.chosen.rounds,
         )
