@@ -18,8 +18,12 @@ use crate::refine::{Refinement, refine};
 use crate::sink::{DraftSink, Sink};
 use crate::{Chain, PipelineError, Preparation, Result, RunError, schedule};
 
-/// Most blocks that are made at a time: enough for every thread, and few enough that a batch of
-/// large blocks (half a million nodes each) stays within some hundred megabytes.
+/// Blocks that are made at a time for each thread: enough that the last one to end does not keep the others
+/// waiting for long, and few enough that what was measured on them is written down while it is in the
+/// cache and its memory is used again.
+const BLOCKS_A_THREAD: usize = 8;
+/// Most blocks that are made at a time, so that a batch of large blocks (half a million nodes each) stays
+/// within some hundred megabytes.
 const LARGE_BATCH: usize = 64;
 /// Control points that a batch should not exceed much.
 const BATCH_POINTS: f64 = 5e5;
@@ -288,5 +292,6 @@ impl<'a> PathRun<'a> {
 fn batch_size(plan: &Plan<'_>, nodes_per_revolution: f64) -> usize {
     let per_block = nodes_per_revolution * plan.block();
     let fitting = (BATCH_POINTS / per_block.max(1.0)) as usize;
-    fitting.clamp(1, LARGE_BATCH)
+    let wanted = BLOCKS_A_THREAD * rayon::current_num_threads();
+    fitting.clamp(1, wanted.min(LARGE_BATCH))
 }
