@@ -186,7 +186,12 @@ fn long_the_same_bytes_for_any_threads_and_settings_that_mean_the_same_path() {
         assert!(one.read(file) == three.read(file), "{settings}");
         costs_little(&one.summary());
         if settings.contains("incremental") {
-            assert_eq!(errors(&one.summary()), errors(&summary));
+            let [(path, program), (own, sums)] = [&summary, &one.summary()].map(errors);
+            // A long unwrapped C is held in the controller's 36 bits, and a sum of distances is exact.
+            assert!(
+                path == own && (program - sums).abs() < 1e-6,
+                "{program} {sums}"
+            );
         }
         let again = verified(&astigmatic(), &one.path(file), &sets);
         let error = number(&again, "/interpolation_error/max_nm");

@@ -52,7 +52,7 @@ fn times_are_within_the_bounds(max_step: &str) {
         let words = fixed.into_iter().chain([folder.as_str()]);
         let said = bench.call(words.chain(changes.iter().copied())).ends(0);
         println!("{said}");
-        serde_json::from_str(&bench.read(&format!("{folder}/ablation.json"))).unwrap()
+        serde_json::from_str(&bench.read(format!("{folder}/ablation.json"))).unwrap()
     };
     let rounds: Vec<Value> = (0..ROUNDS).map(round).collect();
     let [atpg, minimax] = ["atpg", "minimax"].map(|sampler| {

@@ -14,8 +14,6 @@ const LARGEST_FIT: f64 = 1.0 + 1e-9;
 /// The search tries at most this many radii of a wide bracket, and more of a narrow one than halving
 /// needs.
 const MOST_TRIALS: usize = 100;
-/// A narrow bracket takes at most this many more trials than halving it.
-const SPARE_TRIALS: i32 = 1;
 /// A bracket is wide while its lower end is below this part of the upper end.
 const NARROW: f64 = 0.5;
 /// In a wide bracket the next trial is at least this part of the upper end.
@@ -154,8 +152,8 @@ fn between<E>(
 ///
 /// The trials are those of the ITP method (Oliveira and Takahashi, *ACM Transactions on Mathematical
 /// Software* 47, 5 (2021), doi:10.1145/3423597): where a straight line through both ends has Rκ = 1, a
-/// little towards the middle, and never so far from it that the search would take more trials than
-/// halving and [`SPARE_TRIALS`].
+/// little towards the middle, and never so far from it that the search would take two trials more than
+/// halving.
 struct Room {
     /// Width of the bracket at the beginning, mm.
     width: f64,
@@ -166,12 +164,12 @@ struct Room {
 impl Room {
     fn new(low: f64, high: f64) -> Self {
         let width = high - low;
-        let end = PRECISION * low;
-        let halvings = (width / end).log2().ceil() as i32;
-        Self {
-            width,
-            half: 0.5 * end * f64::from(halvings + SPARE_TRIALS).exp2(),
+        // As wide as the last bracket, doubled until halving with one trial to spare leads there.
+        let mut half = PRECISION * low;
+        while half < width {
+            half *= 2.0;
         }
+        Self { width, half }
     }
 
     /// The next trial within the bracket.
@@ -184,7 +182,8 @@ impl Room {
         if !rise.is_finite() || rise <= 0.0 {
             return middle;
         }
-        let root = low - below.excess() * width / rise;
+        // A nose that fits may have Rκ a little above 1.
+        let root = (low - below.excess() * width / rise).clamp(low, high);
         let (side, distance) = ((middle - root).signum(), (middle - root).abs());
         // The usual parameters of the method: κ₁ = 0.2 over the first width, κ₂ = 2. A trial that is a
         // little farther from the root than a last bracket is wide on either side closes the bracket.
