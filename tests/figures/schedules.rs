@@ -230,16 +230,16 @@ fn plots_do_not_depend_on_the_speed() {
     }
 }
 
-/// Every path of the four parts with the fewest points, at a constant speed and with a schedule:
-/// `tests/reference/playback/measure_fewest.py` makes the references.
-fn agrees_with_the_independent_playback(chosen: impl Fn(&str) -> bool) {
+/// The chosen paths of the four parts with the fewest points, at a constant speed and with a schedule; there
+/// are `count` of them. `tests/reference/playback/measure_fewest.py` makes the references.
+fn agrees_with_the_independent_playback(count: usize, chosen: impl Fn(&str) -> bool) {
     let file = repository().join("tests/reference/playback/minimax/parts.json");
     let runs: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     let runs = runs.as_array().unwrap().iter();
     let chosen: Vec<&Value> = runs
         .filter(|run| chosen(run["recipe"].as_str().unwrap()))
         .collect();
-    assert!(chosen.len() >= 2);
+    assert_eq!(chosen.len(), count);
     for run in chosen {
         let name = format!("docs/recipes/{}.toml", run["recipe"].as_str().unwrap());
         let recipe = repository().join(name);
@@ -271,11 +271,11 @@ fn agrees_with_the_independent_playback(chosen: impl Fn(&str) -> bool) {
 
 #[test]
 fn the_fewest_points_of_small_parts_measure_like_the_reference() {
-    agrees_with_the_independent_playback(|recipe| !recipe.contains("213mm"));
+    agrees_with_the_independent_playback(8, |recipe| !recipe.contains("213mm"));
 }
 
 #[test]
 #[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
 fn long_the_fewest_points_of_a_large_part_measure_like_the_reference() {
-    agrees_with_the_independent_playback(|recipe| recipe.contains("213mm"));
+    agrees_with_the_independent_playback(2, |recipe| recipe.contains("213mm"));
 }

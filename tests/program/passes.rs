@@ -355,6 +355,7 @@ fn check_estimates_each_path_to_5_percent_of_its_files() {
     let text = bench.line("check recipe.toml").ends(0).stdout;
     assert!(text.contains("pass rough"), "{text}");
     assert!(text.contains("recipe-middle.ascript"), "{text}");
+    assert!(text.contains("toolpath-middle.csv"), "{text}");
 }
 
 #[test]

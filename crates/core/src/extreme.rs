@@ -131,6 +131,7 @@ impl Grid {
         let mut columns = std::array::from_fn(|_| Vec::with_capacity((RADII + 1) * ANGLES));
         let mut row = vec![[f64::NAN; K]; ANGLES];
         for i in 0..=RADII {
+            row.fill([f64::NAN; K]);
             measure(&theta, &[self.rho(i); ANGLES], &mut row)?;
             for (which, column) in columns.iter_mut().enumerate() {
                 column.extend(row.iter().map(|values| values[which]));

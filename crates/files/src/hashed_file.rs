@@ -1,4 +1,4 @@
-//! Bytes and their hash: as a file is written, and as it reads back.
+//! Bytes and their sums: a fast one as a file is written, and the SHA-256 as it reads back.
 
 use std::fmt;
 use std::fs::File;

@@ -452,7 +452,9 @@ impl<R: Read> ProgramReader<R> {
         let section = self
             .section
             .filter(|_| is_path && self.waiting.is_empty())?;
-        let plain = self.grammar.read_plain(self.lines.unread())?;
+        let unread = self.lines.unread();
+        let near = unread.get(..LONGEST_LINE - 1).unwrap_or(unread);
+        let plain = self.grammar.read_plain(near)?;
         self.lines.pass(plain.bytes);
         self.line += plain.lines as u64;
         self.lines_read += plain.lines;

@@ -154,7 +154,8 @@ impl Conditions<'_> {
     }
 
     /// The schedule of these speeds, and for each cell the speed that it should have had; infinite
-    /// where the cell is within its limits. `None` if the path takes more time than `most`, s.
+    /// where the cell is within its limits. `None` if the path takes more time than `most`, s; so never
+    /// where `most` is infinite.
     fn schedule(
         &self,
         smoother: Smoother,

@@ -6,7 +6,7 @@ use turnpath_core::toolpath::{Cubic, PathBlock, Section, SectionBlock};
 
 use super::PMAC_PVT;
 use crate::program_format::TURN_DEG;
-use crate::program_tests::{path_of, plain, program, read};
+use crate::program_tests::{path_of, plain, program, read, read_to_fault};
 use crate::{Layout, ProgramFormat, ReadPath};
 
 fn good() -> String {
@@ -246,39 +246,72 @@ fn a_program_reads_the_same_from_a_file_and_from_memory() {
     assert_eq!(file.read_count().points(), 5);
 }
 
-/// A number of a program, of any length, and now and then none.
-fn word() -> impl Strategy<Value = String> {
+#[test]
+fn a_line_longer_than_any_is_refused_though_all_of_its_words_are_good() {
+    let with_zeros = |count: usize| {
+        let zeros = "0".repeat(count);
+        let text = format!("; -- cutting --\nABS\nPVT3\nC0:1 X2:1 Z0:1\nC9:1 X{zeros}1:1 Z1:1\n");
+        read_to_fault(&plain(&PMAC_PVT), text.as_bytes())
+    };
+    assert_eq!(with_zeros(10).0.len(), 2);
+    let (points, fault) = with_zeros(70_000);
+    assert_eq!(points.len(), 1);
+    assert!(fault.unwrap().contains("longer than any line"));
+}
+
+/// A word that a program may have by mistake: a number of any length, or none.
+fn spoiled_word() -> impl Strategy<Value = String> {
     prop_oneof![
-        8 => "-?[0-9]{1,7}(\\.[0-9]{1,7})?",
         2 => "-?[0-9]{0,22}(\\.[0-9]{0,22})?",
         1 => "[+-]?[0-9A-Z:. -]{0,4}",
     ]
 }
 
+const LINES: usize = 6;
+/// The words of a line with the time before it: time, velocity of C, position and velocity of X and Z.
+const WORDS: usize = 6;
+
+fn good_words() -> impl Strategy<Value = [String; WORDS]> {
+    let time = "([1-9][0-9]{0,2}(\\.[0-9]{1,3})?)?";
+    let position = "-?[0-9]{1,3}(\\.[0-9]{1,9})?";
+    let velocity = "-?[0-9]{1,4}(\\.[0-9]{1,9})?";
+    [time, velocity, position, velocity, position, velocity]
+}
+
+/// A program with these words; `blank` stands in places where it has no meaning.
+fn program_of(mode: &str, lines: &[[String; WORDS]], blank: &str) -> String {
+    let mut text = format!("; -- cutting --\nABS\nPVT1000\nC0:1 X2:1 Z0:1\n{mode}\n");
+    for (k, [time, vc, x, vx, z, vz]) in lines.iter().enumerate() {
+        if !time.is_empty() {
+            text += &format!("PVT{time}{blank}\n");
+        }
+        text += &format!("C{}:{vc} {blank}X{x}:{vx} Z{z}:{vz}{blank}\n", 9 * k + 9);
+    }
+    text + &format!("; -- end of path: {} points --\n", lines.len() + 1)
+}
+
 proptest! {
     /// Lines that are written as nearly all are have the meaning that they have with more blanks, and their
-    /// errors too: those go through the reader of any line.
+    /// faults too: those go through the reader of any line.
     #[test]
     fn lines_in_one_go_mean_what_they_mean_word_by_word(
-        times in proptest::collection::vec(proptest::option::of(word()), 6),
-        axes in proptest::collection::vec([word(), word(), word(), word(), word()], 6),
+        mut lines in proptest::collection::vec(good_words(), LINES),
         mode in "ABS|INC|ABS\nINC\\(X\\)|",
         mantissa_bits in proptest::option::of(20u32..53),
+        spoiled in proptest::option::of((0..LINES, 0..WORDS, spoiled_word())),
     ) {
-        let text = |blank: &str| {
-            let mut text = format!("; -- cutting --\nABS\nPVT1000\nC0:1 X2:1 Z0:1\n{mode}\n");
-            for (k, (time, [vc, x, vx, z, vz])) in times.iter().zip(&axes).enumerate() {
-                if let Some(time) = time {
-                    text += &format!("PVT{time}{blank}\n");
-                }
-                text += &format!("C{}:{vc} {blank}X{x}:{vx} Z{z}:{vz}{blank}\n", 9 * k + 9);
-            }
-            text + "; -- end of path: 7 points --\n"
-        };
+        let whole_lines = spoiled.as_ref().map_or(LINES, |(line, ..)| *line);
+        if let Some((line, word, text)) = spoiled {
+            lines[line][word] = text;
+        }
         let layout = plain(&PMAC_PVT);
         let format = ProgramFormat { mantissa_bits, ..layout.format };
         let layout = Layout { format, ..layout };
-        let [at_once, by_word] = ["", " "].map(|blank| read(&layout, text(blank).as_bytes()));
-        prop_assert_eq!(at_once.map(|points| format!("{points:?}")), by_word.map(|points| format!("{points:?}")));
+        let [at_once, by_word] = ["", " "].map(|blank| {
+            let (points, fault) = read_to_fault(&layout, program_of(&mode, &lines, blank).as_bytes());
+            (points.len(), format!("{points:?} {fault:?}"))
+        });
+        prop_assert_eq!(&at_once, &by_word);
+        prop_assert!(at_once.0 > whole_lines, "{} of {whole_lines} lines", at_once.0);
     }
 }

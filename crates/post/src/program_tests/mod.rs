@@ -111,6 +111,19 @@ pub(crate) fn read(layout: &Layout, text: &[u8]) -> Result<Vec<ControlPoint>, St
     Ok(read_sections(layout, text)?.0)
 }
 
+/// The points before the first fault, and the fault.
+pub(crate) fn read_to_fault(layout: &Layout, text: &[u8]) -> (Vec<ControlPoint>, Option<String>) {
+    let mut reader = layout.read(text, "p");
+    let mut points = Vec::new();
+    loop {
+        match reader.next_point() {
+            Ok(Some((point, _))) => points.push(point),
+            Ok(None) => return (points, None),
+            Err(error) => return (points, Some(error.to_string())),
+        }
+    }
+}
+
 fn read_sections(
     layout: &Layout,
     text: &[u8],

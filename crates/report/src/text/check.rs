@@ -69,5 +69,9 @@ fn rough_path(rough: &RoughPathEstimate) -> String {
         duration(expected.cutting_time),
     );
     let what = format!("about {points} points before refinement, {time}");
-    line(&format!("pass {}", rough.name), what) + &programs(&expected.programs)
+    let size = bytes(expected.toolpath_bytes as f64);
+    let table = format!("about {size}: toolpath-{}.csv", rough.name);
+    line(&format!("pass {}", rough.name), what)
+        + &line("toolpath", table)
+        + &programs(&expected.programs)
 }
