@@ -8,29 +8,45 @@ mod child;
 mod death;
 
 use std::io::{self, BufReader, Read};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use turnpath::{Admission, LibraryFile, LoadError, Refusal};
-use turnpath_files::{DraftKind, Registration, begin_draft};
+use rayon::prelude::*;
+use turnpath::{Admission, LibraryFile, LoadError, Loadable, Refusal};
 
 use crate::crash::TimeLimit;
 use crate::message::note;
 pub use child::child;
-use child::{BEGUN, CHANGED, FAILED, TRIAL};
+use child::{BEGUN, FAILED, command};
 use death::{cause, is_from_outside};
 
 /// How long a child may take until it is there, on a machine that has much else to do.
 const START: Duration = Duration::from_secs(60);
 /// How often a child that is to end is looked at.
-const LOOK: Duration = Duration::from_millis(2);
+const LOOK: Duration = Duration::from_micros(200);
 
 /// Tries libraries in children of this program.
 #[derive(Debug)]
 pub struct Trial {
     limit: TimeLimit,
+}
+
+/// A library that the loader would get.
+struct Candidate<'a> {
+    library: &'a LibraryFile,
+    loadable: Loadable,
+}
+
+/// The libraries that no check refuses, each of which has its copy.
+fn candidates(libraries: &[LibraryFile]) -> Result<Vec<Candidate<'_>>, LoadError> {
+    let all = libraries.par_iter().map(|library| {
+        let loadable = library.loadable()?;
+        Ok(loadable.map(|loadable| Candidate { library, loadable }))
+    });
+    let all: Vec<Result<_, LoadError>> = all.collect();
+    all.into_iter().filter_map(Result::transpose).collect()
 }
 
 /// How a trial ended.
@@ -50,8 +66,6 @@ enum EndKind {
     Death(ExitStatus),
     /// A library did not come back.
     Late,
-    /// The file of a library has other bytes than those that were read before.
-    Change,
 }
 
 impl Trial {
@@ -61,20 +75,8 @@ impl Trial {
     }
 
     /// Tries these libraries in one child. An error says nothing about the libraries.
-    fn of(&self, libraries: &[&LibraryFile]) -> io::Result<End> {
-        // The child's copies of libraries go with this folder, however the child ends.
-        let (scratch, _registration) = begin_draft(|| {
-            let folder = tempfile::Builder::new().prefix("turnpath-").tempdir()?;
-            let registration = Registration::new(DraftKind::Folder, folder.path());
-            Ok::<_, io::Error>((folder, registration))
-        })?;
-        let mut command = Command::new(std::env::current_exe()?);
-        for library in libraries {
-            command.arg(library.sha256()).arg(library.path());
-        }
-        let mut child = command
-            .env(TRIAL, "1")
-            .env("TMPDIR", scratch.path())
+    fn of(&self, libraries: &[Candidate<'_>]) -> io::Result<End> {
+        let mut child = command(libraries.iter().map(|candidate| &candidate.loadable))?
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -99,7 +101,6 @@ impl Trial {
                 None => signs.recv().map_err(RecvTimeoutError::from),
             };
             let kind = match sign {
-                Ok(CHANGED) => EndKind::Change,
                 Ok(FAILED) => return Err(io::Error::other("the trial itself failed")),
                 Ok(_) => continue,
                 Err(RecvTimeoutError::Timeout) => EndKind::Late,
@@ -158,14 +159,16 @@ impl Trial {
                 "a process that has loaded it does not end within {}",
                 self.limit
             )),
-            EndKind::Change => Some("its file changed while it was tried".to_owned()),
         }
     }
 }
 
 impl Admission for Trial {
     fn admit(&self, libraries: &[LibraryFile]) -> Result<(), LoadError> {
-        let all: Vec<&LibraryFile> = libraries.iter().collect();
+        let all = candidates(libraries)?;
+        if all.is_empty() {
+            return Ok(());
+        }
         let end = match self.of(&all) {
             Ok(end) => end,
             Err(error) => return untried(&error),
@@ -173,16 +176,17 @@ impl Admission for Trial {
         let Some(how) = self.problem(&end) else {
             return Ok(());
         };
-        if let [library] = all[..] {
-            return Err(refused(library, how));
+        if let [candidate] = &all[..] {
+            return Err(refused(candidate.library, how));
         }
         // The one that was being loaded when the child died is tried first.
         let (before, from) = all.split_at(end.tried.min(all.len()));
         let mut without_answer = None;
-        for library in from.iter().chain(before) {
-            match self.of(&[library]).map(|end| self.problem(&end)) {
+        for candidate in from.iter().chain(before) {
+            let alone = std::slice::from_ref(candidate);
+            match self.of(alone).map(|end| self.problem(&end)) {
                 Ok(None) => {}
-                Ok(Some(how)) => return Err(refused(library, how)),
+                Ok(Some(how)) => return Err(refused(candidate.library, how)),
                 Err(error) => without_answer = Some(error),
             }
         }
@@ -191,7 +195,7 @@ impl Admission for Trial {
             None => Err(LoadError::NotTogether {
                 paths: all
                     .iter()
-                    .map(|library| library.path().to_owned())
+                    .map(|candidate| candidate.library.path().to_owned())
                     .collect(),
             }),
         }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use turnpath_core::{HOST_KEYS, ParamKind, Slot, StrategyInfo, is_strategy_name};
 use turnpath_plugin::Offer;
 
@@ -154,18 +155,31 @@ impl Catalogue {
         if libraries.is_empty() {
             return Ok(());
         }
-        for admission in &self.admissions {
-            admission.admit(&libraries)?;
-        }
-        libraries
-            .iter()
-            .try_for_each(|library| self.add_library(library))
+        let admit = |admission: &Arc<dyn Admission>| admission.admit(&libraries);
+        // An admission may wait for another process.
+        let (admitted, ()) = rayon::join(
+            || self.admissions.iter().try_for_each(admit),
+            || {
+                libraries
+                    .par_iter()
+                    .for_each(|library| _ = library.sha256())
+            },
+        );
+        admitted?;
+        let mut in_order = libraries.iter();
+        let added = in_order.try_for_each(|library| self.add_library(library));
+        // Each removes its copy.
+        libraries.into_par_iter().for_each(drop);
+        added
     }
 
     /// Whether the same library is there already, under whatever path.
     fn has(&self, library: &LibraryFile) -> bool {
-        let same = |plugin: &Arc<Plugin>| plugin.sha256.as_deref() == Some(library.sha256());
-        self.plugins.iter().any(same)
+        let mut known = self
+            .plugins
+            .iter()
+            .filter_map(|plugin| plugin.sha256.as_deref());
+        known.any(|sha256| sha256 == library.sha256())
     }
 
     fn add_library(&mut self, library: &LibraryFile) -> Result<(), LoadError> {

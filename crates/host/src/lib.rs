@@ -28,13 +28,14 @@ mod native;
 mod own_plugin;
 mod own_strategy;
 mod plugin;
+mod private_copy;
 
 pub use admission::Admission;
 pub use catalogue::Catalogue;
 pub use error::{LoadError, Refusal};
 pub use hash::{sha256_hex, sha256_hex_of_file};
 pub use image::entry_symbol;
-pub use library::LibraryFile;
+pub use library::{LibraryFile, Loadable};
 pub use own_plugin::OwnPlugin;
 pub use own_strategy::{Identity, OwnStrategy, OwnSurface, SurfaceNeed};
 pub use plugin::{Plugin, Strategy};

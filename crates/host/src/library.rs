@@ -3,19 +3,20 @@
 use std::collections::HashMap;
 use std::ffi::OsStr;
 use std::fmt;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
+use rayon::prelude::*;
 use turnpath_core::printable_line;
-use turnpath_files::{DraftKind, Registration, begin_draft};
 use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
 use turnpath_plugin::loading::SYMBOL_PREFIX;
 
 use crate::hash::sha256_hex;
 use crate::native::{self, NativeError};
+use crate::private_copy::PrivateCopy;
 use crate::{LoadError, Refusal, image};
 
 /// Largest library. A plugin with all its debug information has a tenth of that; the limit is on the
@@ -30,8 +31,30 @@ const NOEXEC_HINT: &str = "the folder for temporary files may be mounted without
 /// The bytes of a library's file. They are hashed, checked and loaded; the file is not read again.
 pub struct LibraryFile {
     path: PathBuf,
-    sha256: String,
     bytes: Vec<u8>,
+    /// The hash of the bytes, once it is asked for.
+    sha256: OnceLock<String>,
+    /// The symbol of the entry, once the bytes are checked.
+    symbol: OnceLock<Result<String, Refusal>>,
+    /// Where the loader finds the bytes, once it is asked for.
+    copy: OnceLock<PrivateCopy>,
+}
+
+/// What the loader gets of a library.
+#[derive(Debug, Clone)]
+pub struct Loadable {
+    /// A copy of its bytes. It goes with the [`LibraryFile`].
+    pub file: PathBuf,
+    /// The symbol of its entry.
+    pub symbol: String,
+}
+
+impl Loadable {
+    /// Loads the library, as a [`Catalogue`](crate::Catalogue) of another process will. Nothing comes of a
+    /// library that the loader or the boundary refuses.
+    pub fn try_load(&self) {
+        let _ = native::load(&self.file, &self.symbol);
+    }
 }
 
 impl fmt::Debug for LibraryFile {
@@ -39,7 +62,7 @@ impl fmt::Debug for LibraryFile {
         let mut shown = f.debug_struct("LibraryFile");
         shown
             .field("path", &self.path)
-            .field("sha256", &self.sha256);
+            .field("sha256", &self.sha256());
         shown.finish_non_exhaustive()
     }
 }
@@ -80,7 +103,8 @@ impl LibraryFile {
         if metadata.len() > MOST_BYTES {
             return Err(too_large(path));
         }
-        let mut bytes = Vec::new();
+        // One byte more, so that the end is found without more room.
+        let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
         let reader = File::open(&path).map_err(unreadable)?;
         // The file may have grown.
         reader
@@ -90,11 +114,12 @@ impl LibraryFile {
         if bytes.len() as u64 > MOST_BYTES {
             return Err(too_large(path));
         }
-        let sha256 = sha256_hex(&bytes);
         Ok(Self {
             path,
-            sha256,
             bytes,
+            sha256: OnceLock::new(),
+            symbol: OnceLock::new(),
+            copy: OnceLock::new(),
         })
     }
 
@@ -104,10 +129,9 @@ impl LibraryFile {
     /// # Errors
     /// When the folder or one of the libraries cannot be read.
     pub fn read_folder(folder: impl AsRef<Path>) -> Result<Vec<Self>, LoadError> {
-        libraries_in(folder.as_ref())?
-            .iter()
-            .map(Self::read)
-            .collect()
+        let files = libraries_in(folder.as_ref())?;
+        let read: Vec<_> = files.par_iter().map(Self::read).collect();
+        read.into_iter().collect()
     }
 
     /// The absolute path of the file.
@@ -117,7 +141,40 @@ impl LibraryFile {
 
     /// SHA-256 of the bytes, in lower-case hexadecimal.
     pub fn sha256(&self) -> &str {
-        &self.sha256
+        self.sha256.get_or_init(|| sha256_hex(&self.bytes))
+    }
+
+    /// What the loader will get, so that another process can try it; `None` if the library is refused before.
+    ///
+    /// # Errors
+    /// When the bytes cannot be copied.
+    pub fn loadable(&self) -> Result<Option<Loadable>, LoadError> {
+        let Ok(symbol) = self.symbol() else {
+            return Ok(None);
+        };
+        Ok(Some(Loadable {
+            file: self.copy()?.file().to_owned(),
+            symbol: symbol.to_owned(),
+        }))
+    }
+
+    /// The symbol of the entry.
+    fn symbol(&self) -> Result<&str, LoadError> {
+        let check = || image::entry_symbol(&self.bytes, &self.stem());
+        let symbol = self.symbol.get_or_init(check).as_deref();
+        symbol.map_err(|refusal| self.refused(refusal.clone()))
+    }
+
+    fn copy(&self) -> Result<&PrivateCopy, LoadError> {
+        if let Some(copy) = self.copy.get() {
+            return Ok(copy);
+        }
+        let copy = PrivateCopy::of(&self.bytes).map_err(|source| LoadError::NoCopy {
+            path: self.path.clone(),
+            folder: std::env::temp_dir(),
+            source,
+        })?;
+        Ok(self.copy.get_or_init(|| copy))
     }
 
     /// Checks and loads the library. The same bytes are loaded only once in a program.
@@ -126,16 +183,15 @@ impl LibraryFile {
     /// When the library is not a plugin for this program, or cannot be loaded.
     pub(crate) fn load(&self) -> Result<Library, LoadError> {
         static LOADED: Mutex<Option<HashMap<(String, String), Library>>> = Mutex::new(None);
-        let symbol = image::entry_symbol(&self.bytes, &self.stem())
-            .map_err(|refusal| self.refused(refusal))?;
+        let symbol = self.symbol()?;
         // A panic while the lock is held leaves a valid map: each library in it is loaded.
         let mut loaded = LOADED.lock().unwrap_or_else(PoisonError::into_inner);
         let loaded = loaded.get_or_insert_default();
-        let key = (self.sha256.clone(), symbol);
+        let key = (self.sha256().to_owned(), symbol.to_owned());
         if let Some(library) = loaded.get(&key) {
             return Ok(library.clone());
         }
-        let library = self.load_anew(&key.1)?;
+        let library = self.load_anew(symbol)?;
         loaded.insert(key, library.clone());
         Ok(library)
     }
@@ -151,16 +207,12 @@ impl LibraryFile {
     }
 
     fn load_anew(&self, symbol: &str) -> Result<Library, LoadError> {
-        let copy = PrivateCopy::of(&self.bytes).map_err(|source| LoadError::NoCopy {
-            path: self.path.clone(),
-            folder: std::env::temp_dir(),
-            source,
-        })?;
+        let copy = self.copy()?;
         let text = format!("the library {}", self.path.display());
         let library = Callee::new(printable_line(&text).into_owned(), true);
         let mark = library.enter();
-        let offers = native::load(&copy.file, symbol)
-            .map_err(|error| self.refused(refusal(error, &copy.file, &self.path)))?;
+        let offers = native::load(copy.file(), symbol)
+            .map_err(|error| self.refused(refusal(error, copy.file(), &self.path)))?;
         drop(mark);
         Ok(Library {
             crate_name: symbol.replacen(SYMBOL_PREFIX, "", 1),
@@ -215,42 +267,4 @@ fn folder_error(folder: &Path, source: io::Error) -> LoadError {
 fn too_large(path: PathBuf) -> LoadError {
     let refusal = Refusal::TooLarge { limit: MOST_BYTES };
     LoadError::Refused { path, refusal }
-}
-
-/// A copy of the bytes in a file that no other user can read or change. It exists as long as the
-/// loader needs it.
-struct PrivateCopy {
-    file: PathBuf,
-    // Dropped in this order: whenever a signal comes, somebody removes folder and file.
-    /// The folder removes itself and the file when it is dropped.
-    _folder: tempfile::TempDir,
-    /// A library that ends the process while it is loaded leaves neither file nor folder.
-    _drafts: [Registration; 2],
-}
-
-impl PrivateCopy {
-    fn of(bytes: &[u8]) -> io::Result<Self> {
-        let (mut folder, of_folder) = begin_draft(|| {
-            let folder = tempfile::Builder::new().prefix("turnpath-").tempdir()?;
-            let registration = Registration::new(DraftKind::Folder, folder.path());
-            Ok::<_, io::Error>((folder, registration))
-        })?;
-        // Windows keeps the file of a loaded library; its folder for temporary files belongs to the
-        // user alone.
-        folder.disable_cleanup(cfg!(windows));
-        // Windows reads a name without an extension as one that ends in .dll.
-        let name = format!("plugin{}", std::env::consts::DLL_SUFFIX);
-        let file = fs::canonicalize(folder.path())?.join(name);
-        let drafts = [of_folder, Registration::new(DraftKind::File, &file)];
-        let mut options = OpenOptions::new();
-        options.write(true).create_new(true);
-        #[cfg(unix)]
-        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-        options.open(&file)?.write_all(bytes)?;
-        Ok(Self {
-            file,
-            _folder: folder,
-            _drafts: drafts,
-        })
-    }
 }
