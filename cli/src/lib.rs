@@ -14,6 +14,7 @@ mod background;
 mod commands;
 mod crash;
 mod failure;
+mod memory;
 mod message;
 mod print;
 mod progress;
@@ -63,6 +64,7 @@ pub fn main_with(
     args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     catalogue: Result<Catalogue, LoadError>,
 ) -> ExitCode {
+    memory::keep();
     if let Some(status) = trial::child() {
         return status;
     }
