@@ -33,7 +33,8 @@ pub trait Observer: Sync {
     /// So many more blocks of the stage are done.
     fn advance(&self, blocks: u64);
     /// The thread that gives blocks to the sink begins (`true`) or ends to measure them. What comes before
-    /// and between is making the path.
+    /// and between is making the path, where one thread does all; with more of them the next blocks are made
+    /// meanwhile.
     fn measures(&self, _begins: bool) {}
     /// Whether the run should stop. The run asks between the steps of the law, before each batch of
     /// blocks, and before each block that it gives to the sink. Where the answer is yes it ends

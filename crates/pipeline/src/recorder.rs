@@ -95,7 +95,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         let sink = &*self.sink;
         let each = tasks.into_par_iter();
         let records = in_order(each.map(|task| task.record(plan, sink, sketch)))?;
-        records.into_iter().try_for_each(|record| self.add(record))
+        self.add(records)
     }
 
     /// Plays back blocks of the cutting section that are not refined yet, and tells the refinement what
@@ -132,10 +132,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         };
         match in_order(each.map(record)) {
             Err(RunError::Sink(_)) => Ok(false),
-            records => {
-                let added = records?.into_iter().map(|record| self.add(record));
-                added.collect::<RunResult<(), _>>().map(|()| true)
-            }
+            records => self.add(records?).map(|()| true),
         }
     }
 
@@ -154,18 +151,35 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         }
     }
 
-    fn add(&mut self, record: BlockRecord<S::Block>) -> RunResult<(), S::Error> {
-        if let Some((measurement, block)) = self.measurement.as_mut().zip(record.measured.as_ref())
-        {
-            measurement.append(block)?;
+    /// Adds blocks in their order: one thread adds what was measured, and another one delivers.
+    fn add(&mut self, records: Vec<BlockRecord<S::Block>>) -> RunResult<(), S::Error> {
+        if let Some(last) = records.last() {
+            self.last_motion = last.motion.unwrap_or_default();
         }
-        self.last_motion = record.motion.unwrap_or_default();
-        self.take(record.points, record.encoded)
+        let (mut measured, mut encoded) = (Vec::new(), Vec::new());
+        for record in records {
+            measured.extend(record.measured);
+            encoded.push((record.points, record.encoded));
+        }
+        let (sink, observer) = (&mut *self.sink, self.observer);
+        let (added, delivered) = rayon::join(
+            || match &mut self.measurement {
+                Some(measurement) => measured
+                    .iter()
+                    .try_for_each(|block| measurement.append(block)),
+                None => Ok(()),
+            },
+            || {
+                let mut encoded = encoded.into_iter();
+                encoded.try_for_each(|(points, block)| take(sink, observer, points, block))
+            },
+        );
+        added?;
+        delivered
     }
 
     fn take(&mut self, points: usize, encoded: S::Block) -> RunResult<(), S::Error> {
-        stop_if_cancelled(self.observer)?;
-        self.sink.take(points, encoded).map_err(RunError::Sink)
+        take(self.sink, self.observer, points, encoded)
     }
 
     /// The end of the path so far.
@@ -177,6 +191,17 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
     pub fn last_motion(&self) -> AxesMotion {
         self.last_motion
     }
+}
+
+/// Gives the sink a block.
+fn take<S: Sink + ?Sized>(
+    sink: &mut S,
+    observer: &dyn Observer,
+    points: usize,
+    encoded: S::Block,
+) -> RunResult<(), S::Error> {
+    stop_if_cancelled(observer)?;
+    sink.take(points, encoded).map_err(RunError::Sink)
 }
 
 impl BlockTask {

@@ -108,8 +108,23 @@ enum FirstPass {
 /// The first round of refinement, as far as it is played.
 struct FirstRound {
     seen: Refinement,
-    /// The blocks that were not played.
+    /// The blocks that were made and not played.
+    ahead: Option<Vec<BlockPoints>>,
+    /// The blocks that were not made.
     rest: Blocks,
+}
+
+impl FirstRound {
+    /// The next blocks to be played; `make` makes them where they are not made.
+    fn next(
+        &mut self,
+        make: impl FnOnce(&mut Blocks) -> Result<Option<Vec<BlockPoints>>>,
+    ) -> Result<Option<Vec<BlockPoints>>> {
+        match self.ahead.take() {
+            Some(made) => Ok(Some(made)),
+            None => make(&mut self.rest),
+        }
+    }
 }
 
 impl<'a> PathRun<'a> {
@@ -161,12 +176,12 @@ impl<'a> PathRun<'a> {
             }
         }
         self.begin_cut();
-        while let Some(made) = self.make(&mut round.rest, &[])? {
-            let count = made.len() as u64;
-            self.observer.measures(true);
-            let holds = recorder.record_unrefined(&self.plan, made, &mut round.seen)?;
-            self.observer.measures(false);
-            self.observer.advance(count);
+        let FirstRound { seen, ahead, rest } = &mut round;
+        *ahead = self.make(rest, &[])?;
+        while let Some(made) = ahead.take() {
+            let record = |made| recorder.record_unrefined(&self.plan, made, seen);
+            let (holds, next) = self.record_and_make(made, record, rest, &[])?;
+            *ahead = next;
             if !holds {
                 return Ok(FirstPass::Refines(Box::new(round)));
             }
@@ -191,22 +206,43 @@ impl<'a> PathRun<'a> {
         }
         self.begin_cut();
         let mut blocks = self.blocks();
-        while let Some(made) = self.make(&mut blocks, depths)? {
-            let count = made.len() as u64;
-            self.observer.measures(true);
-            recorder.record(&self.plan, made)?;
-            self.observer.measures(false);
-            self.observer.advance(count);
+        let mut ahead = self.make(&mut blocks, depths)?;
+        while let Some(made) = ahead {
+            let record = |made| recorder.record(&self.plan, made);
+            ((), ahead) = self.record_and_make(made, record, &mut blocks, depths)?;
         }
         self.end_path(recorder)
+    }
+
+    /// Records blocks, and makes those behind them on threads that have nothing else to do. A thread alone
+    /// makes them afterwards.
+    fn record_and_make<T: Send, E: Send>(
+        &self,
+        made: Vec<BlockPoints>,
+        record: impl FnOnce(Vec<BlockPoints>) -> RunResult<T, E> + Send,
+        rest: &mut Blocks,
+        depths: &[Depths],
+    ) -> RunResult<(T, Option<Vec<BlockPoints>>), E> {
+        let count = made.len() as u64;
+        let record = || {
+            self.observer.measures(true);
+            let recorded = record(made);
+            self.observer.measures(false);
+            self.observer.advance(count);
+            recorded
+        };
+        let (recorded, next) = rayon::join(record, || self.make(rest, depths));
+        Ok((recorded?, next?))
     }
 
     /// Plays the rest of the blocks, and halves segments until the path holds. Gives how often each is
     /// halved. The path is without leads then.
     fn refine(&mut self, mut round: FirstRound) -> Result<Vec<Depths>> {
         let observer = self.observer;
-        observer.begin(Stage::Refine(1), round.rest.left(&self.plan) as u64);
-        while let Some(made) = self.make(&mut round.rest, &[])? {
+        let ahead = round.ahead.as_ref().map_or(0, Vec::len);
+        let left = ahead + round.rest.left(&self.plan);
+        observer.begin(Stage::Refine(1), left as u64);
+        while let Some(made) = round.next(|rest| self.make(rest, &[]))? {
             round.seen.play(&self.plan, &made)?;
             observer.advance(made.len() as u64);
         }
@@ -226,6 +262,7 @@ impl<'a> PathRun<'a> {
     fn first_round(&self) -> FirstRound {
         FirstRound {
             seen: Refinement::new(&self.plan),
+            ahead: None,
             rest: self.blocks(),
         }
     }

@@ -5,7 +5,7 @@ use turnpath_core::toolpath::SectionBlock;
 use crate::estimate::Estimate;
 
 /// Takes the path while it is made. Blocks are encoded in parallel and taken in order.
-pub trait Sink: Sync {
+pub trait Sink: Send + Sync {
     /// A block in the form that this sink keeps: bytes of files, counts, columns.
     type Block: Send;
     /// Why a block could not be encoded or taken.

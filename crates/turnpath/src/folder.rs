@@ -6,6 +6,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use rayon::prelude::*;
 use turnpath_core::toolpath::{Section, SectionBlock};
 use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
 use turnpath_page::is_page;
@@ -252,7 +253,9 @@ impl<'a> FolderSink<'a> {
             drafts.push(columns.whole()?);
         }
         let drafts = drafts.into_iter().chain(toolpath.map(PathWriter::whole));
-        drafts.map(Draft::finish).collect()
+        let drafts: Vec<Draft> = drafts.collect();
+        let files: Vec<_> = drafts.into_par_iter().map(Draft::finish).collect();
+        files.into_iter().collect()
     }
 }
 
