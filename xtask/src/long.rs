@@ -54,7 +54,7 @@ const CHECKS: &[Check] = &[
     Check {
         name: "random-recipes",
         what: "tests/reference/playback/measure_random.py, those of the test of five hundred",
-        run: Run::Step(|| with_packages(&["numpy"], random_recipes)),
+        run: Run::Step(|| with_packages(&["numba", "numpy"], random_recipes)),
     },
     Check {
         name: "maps",

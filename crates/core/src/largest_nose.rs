@@ -195,6 +195,7 @@ impl Room {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Scalar;
 
     fn hollow(value: f64) -> Extreme {
         Extreme {
@@ -266,7 +267,7 @@ mod tests {
             (100, 31),
         ] {
             for scale in [1e-3, 0.03, 0.9, 3.0, 70.0] {
-                let curvature = |radius: f64| 1e-3 + (radius / scale).powi(power);
+                let curvature = |radius: f64| 1e-3 + Scalar::powi(radius / scale, power);
                 let (largest, trials) = search(1e-3, curvature);
                 let is_below = |radius: f64| radius * curvature(radius) < 1.0;
                 assert!(is_below(largest * (1.0 - 1e-5)) && !is_below(largest * (1.0 + 1e-5)));

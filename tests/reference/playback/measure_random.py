@@ -5,10 +5,11 @@
 
 FOLDER has the recipes; `cargo test -p turnpath-cli --test program -- --ignored five_hundred` writes
 them to `fewest-points` in the tests' scratch folder, CARGO_TARGET_TMPDIR. For each recipe playback.py
-measures the interpolation error and the residual of the path. A complaint is a figure that differs
-from the summary's by more than 2 %, or that is beyond its tolerance while turnpath says it holds, or a
-status that is neither that of a path nor that of a refused recipe. With --seconds no recipe is begun
-after that time. The status is 1 if there is a complaint, or if nothing was measured.
+measures the interpolation error and the residual of the path, with the first touch of compiled.py. A
+complaint is a figure that differs from the summary's by more than 2 %, or that is beyond its tolerance
+while turnpath says it holds, or a status that is neither that of a path nor that of a refused recipe.
+With --seconds no recipe is begun after that time. The status is 1 if there is a complaint, or if nothing
+was measured.
 """
 
 import argparse
@@ -21,7 +22,8 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 
-from playback import SEAM_SCAN, Recipe, ToolPath, coverage, interpolation_error, residual
+from compiled import CompiledRecipe
+from playback import SEAM_SCAN, ToolPath, coverage, interpolation_error, residual
 
 AGREES = 0.02
 ROUNDING_NM = 1e-3
@@ -71,7 +73,7 @@ def judge(program, until, file):
             wrong = [] if run.returncode == REFUSED else [f"status {run.returncode}"]
             return file.name, run.returncode, wrong
         summary = json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8"))
-        recipe, path = Recipe.read(file), ToolPath.read(Path(folder) / "toolpath.csv")
+        recipe, path = CompiledRecipe.read(file), ToolPath.read(Path(folder) / "toolpath.csv")
         scan = SEAM_SCAN if recipe.cuts_what_fits else SCAN
         figures = {"interpolation_error_nm": interpolation_error(recipe, path, 1, INSTANTS, scan),
                    "residual_nm": residual_with_axis(recipe, path, scan, summary)}

@@ -69,6 +69,10 @@ class Recipe:
         with open(path, "rb") as file:
             return cls(tomllib.load(file))
 
+    def touch(self, theta, x, scan):
+        """`first_touch` on this recipe."""
+        return first_touch(self, theta, x, scan)
+
     def has_radius(self, rho):
         """Whether the part reaches over the radius rho, of either sign."""
         return (np.abs(rho) <= self.part_radius) & (np.abs(rho) >= self.hole_radius)
@@ -144,7 +148,7 @@ def true_z(recipe, theta, x, scan):
     """What the path's Z should be: the first touch, or the surface for the compensator `none`."""
     if recipe.compensator == "none":
         return recipe.profile(theta)(x)
-    return first_touch(recipe, theta, x, scan)
+    return recipe.touch(theta, x, scan)
 
 
 # --- the played path ----------------------------------------------------------------------
@@ -256,7 +260,7 @@ def sharpen(recipe, path, segment, error, scan, known, worst_segments=40, instan
 def nose_centres(recipe, theta, x, scan):
     """True nose centres (X, Z) of passes whose played X is `x`."""
     if recipe.compensator != "none":
-        return x, first_touch(recipe, theta, x, scan)
+        return x, recipe.touch(theta, x, scan)
     profile, radius = recipe.profile(theta), recipe.nose_radius
     g, s = profile(x), slope(profile, x)
     w = np.sqrt(1 + s * s)
@@ -303,7 +307,7 @@ def closing_at(recipe, theta, s, low, high, scan):
 
     def under(at):
         side = np.sqrt(np.maximum(radius**2 - (at - s)**2, 0))
-        return first_touch(recipe, theta, at, scan) - side
+        return recipe.touch(theta, at, scan) - side
 
     golden = (math.sqrt(5) - 1) / 2
     a, b = high - golden * (high - low), low + golden * (high - low)

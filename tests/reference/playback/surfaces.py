@@ -49,8 +49,15 @@ def conic(table):
 
 def xy_polynomial(table):
     """Sum of c x^i y^j, c in mm^(1-i-j)."""
-    terms = [(int(i), int(j), float(c)) for i, j, c in table["terms"]]
-    return lambda x, y: sum((c * x**i * y**j for i, j, c in terms), 0 * x)
+    terms = tuple((int(i), int(j), float(c)) for i, j, c in table["terms"])
+
+    def sag(x, y):
+        z = 0 * x
+        for i, j, c in terms:
+            z = z + c * x**i * y**j
+        return z
+
+    return sag
 
 
 def toric(table):
@@ -108,11 +115,16 @@ def off_axis_paraboloid(table):
     return sag
 
 
-def placed(table):
+def as_it_is(f):
+    """f without being compiled."""
+    return f
+
+
+def placed(table, made=as_it_is):
     """scale * f(R(-clocking)(r - decentre)) + piston, of one [[surface]]."""
     if table["use"] not in SURFACES:
         raise SystemExit(f"no reference for the surface `{table['use']}`")
-    f = SURFACES[table["use"]](table)
+    f = made(SURFACES[table["use"]](table))
     scale = float(table.get("scale", 1.0))
     x0 = quantity(table, "decentre_x", LENGTH_MM, 0.0)
     y0 = quantity(table, "decentre_y", LENGTH_MM, 0.0)
@@ -124,7 +136,7 @@ def placed(table):
         u, v = x - x0, y - y0
         return scale * f(c * u + s * v, c * v - s * u) + piston
 
-    return sag
+    return made(sag)
 
 
 def turn(axis, angle):
@@ -136,7 +148,7 @@ def turn(axis, angle):
     return matrix
 
 
-def posed(f, pose):
+def posed(f, pose, made=as_it_is):
     """f in the frame of a part whose middle lies on f at (x, y): level, or tilted.
 
     The rotation is three plain ones. The point of f above (x, y) is looked for along the line with
@@ -153,9 +165,15 @@ def posed(f, pose):
         matrix = matrix @ turn(0, quantity(pose, "tilt_x", ANGLE_RAD, 0.0))
     z0 = f(x0, y0)
 
+    def turned(x, y, z, k):
+        return matrix[0, k] * x + matrix[1, k] * y + matrix[2, k] * z
+
+    turned = made(turned)
+
     def miss(x, y, z):
-        u, v, w = (matrix[0, k] * x + matrix[1, k] * y + matrix[2, k] * z for k in range(3))
-        return z0 + w - f(x0 + u, y0 + v)
+        return z0 + turned(x, y, z, 2) - f(x0 + turned(x, y, z, 0), y0 + turned(x, y, z, 1))
+
+    miss = made(miss)
 
     def sag(x, y):
         z = 0 * (x + y)
@@ -164,20 +182,24 @@ def posed(f, pose):
             z = z - here * 1e-6 / (miss(x, y, z + 1e-6) - here)
         return z
 
-    return sag
+    return made(sag)
 
 
-def surface(recipe):
-    """The sag of a recipe: one surface or the sum of several, in the pose of the part."""
+def added(f, g):
+    """f + g."""
+    return lambda x, y: f(x, y) + g(x, y)
+
+
+def surface(recipe, made=as_it_is):
+    """The sag of a recipe: one surface or the sum of several, in the pose of the part. `made` makes a
+    function of each formula: it may compile it."""
     tables = recipe["surface"]
-    entries = [placed(table) for table in (tables if isinstance(tables, list) else [tables])]
-    if len(entries) == 1:
-        total = entries[0]
-    else:
-        def total(x, y):
-            return sum((f(x, y) for f in entries), 0 * (x + y))
+    entries = [placed(table, made) for table in (tables if isinstance(tables, list) else [tables])]
+    total = entries[0]
+    for entry in entries[1:]:
+        total = made(added(total, entry))
     pose = recipe["part"].get("pose")
-    return total if pose is None else posed(total, pose)
+    return total if pose is None else posed(total, pose, made)
 
 
 SURFACES = {"astigmatic": astigmatic, "conic": conic, "xy-polynomial": xy_polynomial,
