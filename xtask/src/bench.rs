@@ -91,6 +91,7 @@ fn plugins(libraries: &Path) -> Result<PathBuf, Outcome> {
     let mut call = cargo(&[
         "build",
         "--locked",
+        "--release",
         "--manifest-path",
         manifest,
         "--target-dir",
@@ -111,7 +112,7 @@ fn plugins(libraries: &Path) -> Result<PathBuf, Outcome> {
     }
     for name in OTHERS {
         let file = file(&name.replace('-', "_"));
-        copy(&fixtures.join("debug").join(&file), &folder.join(&file))?;
+        copy(&fixtures.join("release").join(&file), &folder.join(&file))?;
     }
     Ok(folder)
 }

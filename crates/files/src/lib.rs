@@ -44,5 +44,5 @@ pub use hashed_file::Contents;
 pub use operation::{Operation, watch_operations};
 pub use registry::{DraftKind, Registration, remove_drafts};
 pub use result_folder::{FolderError, ListedFile, ResultFolder};
-pub use scratch::Scratch;
+pub use scratch::{Scratch, ScratchReader};
 pub use stale_drafts::remove_stale_drafts;

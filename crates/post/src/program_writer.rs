@@ -1,10 +1,9 @@
 //! Writes a program: first the path, then the header and the footer around it.
 
-use std::fs::File;
-use std::io::{self, BufReader, Cursor, Read, Seek, Write};
+use std::io::{self, BufReader, Cursor, Read, Write};
 use std::path::Path;
 
-use turnpath_files::{Draft, FileError, Scratch};
+use turnpath_files::{Draft, FileError, Scratch, ScratchReader};
 
 use crate::amount::TextSize;
 use crate::compression::{Compression, text_name};
@@ -13,7 +12,7 @@ use crate::parts::{Cutter, PartLimits, PartsError};
 use crate::read_error::ReadError;
 use crate::text_file::{TextFile, file_bytes};
 use crate::travel::Extent;
-use crate::whole_program::{WholeProgram, prove_in_memory};
+use crate::whole_program::{WholeProgram, prove_in_memory, refuse_other_lines};
 
 /// Writes a program to a file or to memory. The header reports what is known only when the path was
 /// measured on its own text, so the path waits until then: in a file without a name, or in memory.
@@ -54,7 +53,7 @@ pub struct ProgramFileBody {
 /// A whole path of a program with its approach and its end mark, which still lacks header and footer.
 #[derive(Debug)]
 pub struct ProgramPath {
-    lines: File,
+    lines: ScratchReader,
     draft: Draft,
     /// The approach, which stands before the first line.
     approach: Vec<u8>,
@@ -203,18 +202,26 @@ impl ProgramPath {
             layout,
             ..
         } = self;
+        let is_text = Compression::of_file(draft.path()) == Compression::None;
+        let mut lines_to_compare = None;
         let file = written(draft, |text| {
-            lines.rewind()?;
+            let measured = lines.sum_to_end()?;
             text.write_all(header.as_bytes())?;
             text.write_all(&approach)?;
-            io::copy(&mut lines, text)?;
-            text.write_all(footer.as_bytes())?;
-            lines.rewind()
+            if is_text {
+                refuse_other_lines(measured, lines.move_to(text)?)?;
+            } else {
+                lines.rewind()?;
+                io::copy(&mut lines, text)?;
+                lines.rewind()?;
+                lines_to_compare = Some(lines);
+            }
+            text.write_all(footer.as_bytes())
         })?;
         Ok(WholeProgram {
             file,
             header: header.to_owned(),
-            text: Cursor::new(approach).chain(lines),
+            text: lines_to_compare.map(|lines| Cursor::new(approach).chain(lines)),
             footer: footer.to_owned(),
             layout,
         })

@@ -22,8 +22,10 @@ const BUFFER: usize = 1 << 18;
 pub struct WholeProgram<T> {
     pub(crate) file: Draft,
     pub(crate) header: String,
-    /// The text whose path was measured, from its beginning.
-    pub(crate) text: T,
+    /// The text whose path was measured, from its beginning; `None` where the file has it as it is. It was
+    /// then compared as it was copied, and the file is compared with what was written to it when it gets
+    /// its name.
+    pub(crate) text: Option<T>,
     pub(crate) footer: String,
     pub(crate) layout: Layout,
 }
@@ -35,13 +37,17 @@ impl<T: Read> WholeProgram<T> {
     /// When the file cannot be read or holds anything else, or when header or footer change what is read.
     pub fn prove(mut self) -> Result<Draft, ReadError> {
         let name = self.file.path().to_owned();
+        let around = [self.header.as_str(), &self.footer];
+        check_around(&self.layout, &name, around)?;
+        let Some(text) = self.text else {
+            return Ok(self.file);
+        };
         let place = self.file.readable().map_err(|error| ReadError::File {
             path: error.path,
             error: error.error,
         })?;
         let file = open_file(Compression::of_file(&name), place);
-        let around = [self.header.as_str(), &self.footer];
-        prove(&self.layout, &name, (file, self.text), around)?;
+        compare(&name, (file, text), around)?;
         Ok(self.file)
     }
 }
@@ -57,22 +63,38 @@ pub(crate) fn prove_in_memory(
     let program = [header.as_bytes(), text, footer.as_bytes()].concat();
     let bytes = file_bytes(name, program).map_err(ReadError::of(path))?;
     let file = text_file::open(Compression::of_file(path), Cursor::new(bytes.clone()));
-    prove(layout, path, (file, text), [header, footer])?;
+    check_around(layout, path, [header, footer])?;
+    compare(path, (file, text), [header, footer])?;
     Ok(bytes)
 }
 
-/// Proves that the path of the program `name`, which `file` reads, is the one that `text` has by itself.
-fn prove(
+/// Refuses a header or a footer that changes what is read.
+fn check_around(
     layout: &Layout,
+    name: &Path,
+    [header, footer]: [&str; 2],
+) -> Result<(), ReadError> {
+    layout.read(header.as_bytes(), name).pass_header()?;
+    layout.read(footer.as_bytes(), name).pass_footer()
+}
+
+/// Compares the program `name`, which `file` reads, with the text between header and footer.
+fn compare(
     name: &Path,
     (file, text): (io::Result<impl Read>, impl Read),
     [header, footer]: [&str; 2],
 ) -> Result<(), ReadError> {
-    layout.read(header.as_bytes(), name).pass_header()?;
-    layout.read(footer.as_bytes(), name).pass_footer()?;
     let expected = header.as_bytes().chain(text).chain(footer.as_bytes());
     let compared = file.and_then(|file| refuse_other_bytes(file, expected));
     compared.map_err(ReadError::of(name))
+}
+
+/// Refuses lines whose sum is not that of the lines that were measured.
+pub(crate) fn refuse_other_lines(measured: u128, copied: u128) -> io::Result<()> {
+    match measured == copied {
+        true => Ok(()),
+        false => Err(other_bytes()),
+    }
 }
 
 /// Reads a file to its end, and refuses it unless it has these bytes and no others.

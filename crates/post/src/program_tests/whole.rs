@@ -108,7 +108,7 @@ fn a_file_with_other_bytes_than_the_measured_text_is_refused() {
         let whole = crate::WholeProgram {
             file,
             header: around[0].to_owned(),
-            text: std::io::Cursor::new(in_memory(&layout).text().to_vec()),
+            text: Some(std::io::Cursor::new(in_memory(&layout).text().to_vec())),
             footer: around[1].to_owned(),
             layout,
         };
