@@ -49,6 +49,20 @@ pub trait Locus: Send + Sync {
         rho: &[f64],
         feed: &mut [f64],
     ) -> Result<()>;
+
+    /// The least feed over all angles at each radius `rho`, mm, that leaves cusps of height `residual`
+    /// (mm), with ρ in the locus's own meaning: that of
+    /// [`least_residual_feed`](crate::ring::least_residual_feed). `None` from a locus that does not
+    /// look for it. One that does may look at several radii in parallel.
+    fn least_residual_feeds(
+        &self,
+        residual: f64,
+        rho: &[f64],
+        least: &mut [f64],
+    ) -> Option<Result<()>> {
+        let _ = (residual, rho, least);
+        None
+    }
 }
 
 /// Buffers for the answer of [`Locus::centre`].

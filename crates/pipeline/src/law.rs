@@ -10,6 +10,7 @@ use turnpath_core::{
 
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::path_size::{MOST_PIECES, MOST_REVOLUTIONS};
+use crate::planning_locus::PlanningLocus;
 use crate::size::check_law;
 use crate::{Chain, Result};
 
@@ -27,6 +28,7 @@ pub fn plan(
     locus: &dyn Locus,
     observer: &dyn Observer,
 ) -> Result<SpiralLaw> {
+    let locus = &PlanningLocus(locus);
     let setup = Setup { task, locus };
     let failed = |error| chain.feed.failed("while planning the law", error);
     let mut plan = chain.feed.strategy.plan(setup).map_err(failed)?;

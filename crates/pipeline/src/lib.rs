@@ -32,6 +32,7 @@ mod options;
 mod order;
 mod path_size;
 mod plan;
+mod planning_locus;
 mod prepare;
 mod range;
 mod recorder;

@@ -6,4 +6,4 @@ mod least;
 mod table;
 
 pub use least::{Measure, least_over_angles};
-pub use table::{FLOORS, FeedAt, FeedTable};
+pub use table::{FLOORS, FeedAt, FeedTable, least_residual_feed};

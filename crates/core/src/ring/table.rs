@@ -1,7 +1,7 @@
 //! F(ρ), the feed that keeps the residual at every angle, tabulated against the radius.
 
 use super::{Measure, least_over_angles};
-use crate::{Misfit, RadialRange, Result, Setup, StrategyError};
+use crate::{Locus, Misfit, RadialRange, Result, Setup, StrategyError};
 
 /// Cells of the first table.
 const FEWEST_CELLS: usize = 256;
@@ -20,6 +20,8 @@ pub const FLOORS: usize = 8;
 
 /// F at one radius, mm.
 pub type FeedAt<'a> = dyn Fn(f64) -> Result<f64> + 'a;
+/// F at each of some radii, mm.
+type FeedsAt<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>> + 'a;
 
 /// F at equal steps of ρ, and floors below F in every cell between them.
 #[derive(Debug, Clone)]
@@ -42,16 +44,12 @@ impl FeedTable {
     /// # Errors
     /// If the range has no length, or if the surface or the locus has no value.
     pub fn for_residual(setup: Setup<'_>) -> Result<Self> {
-        let (locus, radial) = (setup.locus, setup.locus.radial());
-        let cusp = setup.task.tolerance.residual;
-        let measure: &Measure<'_> =
-            &|theta, rho, out| locus.residual_feed(cusp, radial, theta, rho, out);
         let most = match setup.task.tool.misfit {
             Misfit::Refuse => MOST_CELLS,
             Misfit::CutWhatFits => MOST_CELLS_OVER_SEAMS,
         };
-        Self::within(setup.task.range, most, &|rho| {
-            least_over_angles(measure, rho)
+        Self::within(setup.task.range, most, &|radii| {
+            least_residual_feeds(setup, radii)
         })
     }
 
@@ -60,10 +58,12 @@ impl FeedTable {
     /// # Errors
     /// If the range has no length. The errors of `feed_at`.
     pub fn tabulate(range: RadialRange, feed_at: &FeedAt<'_>) -> Result<Self> {
-        Self::within(range, MOST_CELLS, feed_at)
+        Self::within(range, MOST_CELLS, &|radii| {
+            radii.iter().map(|rho| feed_at(*rho)).collect()
+        })
     }
 
-    fn within(range: RadialRange, most: usize, feed_at: &FeedAt<'_>) -> Result<Self> {
+    fn within(range: RadialRange, most: usize, feeds_at: &FeedsAt<'_>) -> Result<Self> {
         let RadialRange { inner, outer } = range;
         if !(inner.is_finite() && outer.is_finite() && inner < outer) {
             return Err(StrategyError::failed(format!(
@@ -79,30 +79,33 @@ impl FeedTable {
         let mut table = Self {
             from,
             step: to - from,
-            feed: vec![feed_at(from)?, feed_at(to)?],
+            feed: feeds_at(&[from, to])?,
             floor: Vec::new(),
             even,
         };
         while table.cells() < FEWEST_CELLS {
-            table.halve(feed_at)?;
+            table.halve(feeds_at)?;
         }
         table.set_floors();
-        while table.cells() < most && (table.cost() > TABLE_COST || table.lower_floors(feed_at)?) {
-            table.halve(feed_at)?;
+        while table.cells() < most && (table.cost() > TABLE_COST || table.lower_floors(feeds_at)?) {
+            table.halve(feeds_at)?;
             table.set_floors();
         }
-        table.lower_floors(feed_at)?;
+        table.lower_floors(feeds_at)?;
         Ok(table)
     }
 
     /// Probes every cell at an inner point that is out of step with the borders, so that a ripple
     /// in step with the cells shows there. Lowers the floors of the cells in which F lies below
     /// them, and returns whether there were any.
-    fn lower_floors(&mut self, feed_at: &FeedAt<'_>) -> Result<bool> {
+    fn lower_floors(&mut self, feeds_at: &FeedsAt<'_>) -> Result<bool> {
+        let probe = |cell: usize| self.from + (cell as f64 + PROBE) * self.step;
+        let probes: Vec<f64> = (0..self.cells()).map(probe).collect();
         let mut any = false;
-        for (cell, floors) in self.floor.chunks_mut(FLOORS).enumerate() {
-            let rho = self.from + (cell as f64 + PROBE) * self.step;
-            let found = feed_at(rho)?;
+        for (found, floors) in feeds_at(&probes)?
+            .into_iter()
+            .zip(self.floor.chunks_mut(FLOORS))
+        {
             let floor = floors.get((PROBE * FLOORS as f64) as usize).copied();
             if let Some(through) = floor.map(|floor| floor - found).filter(|by| *by > 0.0) {
                 any = true;
@@ -166,15 +169,15 @@ impl FeedTable {
         (d * t * t1 * t2 - a * t1 * t2 * t3) / 6.0 + (b * t * t2 * t3 - c * t * t1 * t3) / 2.0
     }
 
-    fn halve(&mut self, feed_at: &FeedAt<'_>) -> Result<()> {
+    fn halve(&mut self, feeds_at: &FeedsAt<'_>) -> Result<()> {
         self.step *= 0.5;
-        let mut feed = Vec::with_capacity(2 * self.feed.len() - 1);
-        for (i, known) in self.feed.iter().enumerate() {
-            if i > 0 {
-                let between = self.from + (2 * i - 1) as f64 * self.step;
-                feed.push(feed_at(between)?);
-            }
+        let middle = |cell: usize| self.from + (2 * cell + 1) as f64 * self.step;
+        let middles: Vec<f64> = (0..self.cells()).map(middle).collect();
+        let mut between = feeds_at(&middles)?.into_iter();
+        let mut feed = Vec::with_capacity(self.feed.len() + middles.len());
+        for known in &self.feed {
             feed.push(*known);
+            feed.extend(between.next());
         }
         self.feed = feed;
         Ok(())
@@ -214,4 +217,29 @@ impl FeedTable {
             .sum();
         lost / self.cells() as f64
     }
+}
+
+/// The least residual feed over all angles at each radius. A locus that looks for them itself may do so in
+/// parallel.
+fn least_residual_feeds(setup: Setup<'_>, radii: &[f64]) -> Result<Vec<f64>> {
+    let (locus, residual) = (setup.locus, setup.task.tolerance.residual);
+    let mut least = vec![f64::NAN; radii.len()];
+    if let Some(answer) = locus.least_residual_feeds(residual, radii, &mut least) {
+        return answer.map(|()| least);
+    }
+    let each = radii
+        .iter()
+        .map(|rho| least_residual_feed(locus, residual, *rho));
+    each.collect()
+}
+
+/// The least feed over all angles at a radius, mm, that leaves cusps of height `residual`, mm.
+///
+/// # Errors
+/// If the surface or the locus has no value there.
+pub fn least_residual_feed(locus: &dyn Locus, residual: f64, rho: f64) -> Result<f64> {
+    let radial = locus.radial();
+    let measure: &Measure<'_> =
+        &|theta, rho, out| locus.residual_feed(residual, radial, theta, rho, out);
+    least_over_angles(measure, rho)
 }

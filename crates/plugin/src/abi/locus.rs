@@ -20,6 +20,10 @@ declare! {
             &self, residual: f64, radial: Radial, theta: &[f64], rho: &[f64], feed: &mut [f64],
         ) -> Result<()>;
     }
+    later {
+        fn least_residual_feeds(&self, residual: f64, rho: &[f64], least: &mut [f64])
+            -> Option<Result<()>> = None;
+    }
     kept { surface: <LentSurface<'b> as Crossing>::Lender } own {
         fn surface(&self) -> &dyn SurfaceModel {
             &self.surface

@@ -1,0 +1,135 @@
+//! The locus that a feed strategy is lent. It looks for least feeds at several radii in parallel.
+
+use rayon::prelude::*;
+use turnpath_core::ring::least_residual_feed;
+use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
+
+use crate::order::in_order;
+
+/// A locus for the time of planning a law.
+pub struct PlanningLocus<'a>(pub &'a dyn Locus);
+
+impl Locus for PlanningLocus<'_> {
+    fn surface(&self) -> &dyn SurfaceModel {
+        self.0.surface()
+    }
+
+    fn radial(&self) -> Radial {
+        self.0.radial()
+    }
+
+    fn centre(&self, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
+        self.0.centre(theta, rho, out)
+    }
+
+    fn series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
+        self.0.series(theta, rho, out)
+    }
+
+    fn rates(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
+        self.0.rates(theta, rho, out)
+    }
+
+    fn residual_feed(
+        &self,
+        residual: f64,
+        radial: Radial,
+        theta: &[f64],
+        rho: &[f64],
+        feed: &mut [f64],
+    ) -> Result<()> {
+        self.0.residual_feed(residual, radial, theta, rho, feed)
+    }
+
+    fn least_residual_feeds(
+        &self,
+        residual: f64,
+        rho: &[f64],
+        least: &mut [f64],
+    ) -> Option<Result<()>> {
+        let each = rho.par_iter();
+        let found = in_order(each.map(|rho| least_residual_feed(self.0, residual, *rho)));
+        Some(found.map(|found| least.copy_from_slice(&found)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use turnpath_core::{Scalar, StrategyError, Surface};
+
+    use super::*;
+
+    struct Flat;
+
+    impl Surface for Flat {
+        fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+            x * 0.0
+        }
+    }
+
+    /// A locus that knows its feeds alone. They have no value beyond 5 mm.
+    struct Feeds;
+
+    impl Locus for Feeds {
+        fn surface(&self) -> &dyn SurfaceModel {
+            &Flat
+        }
+
+        fn radial(&self) -> Radial {
+            Radial::Contact
+        }
+
+        fn centre(&self, _: &[f64], _: &[f64], _: Centres<'_>) -> Result<()> {
+            Err(StrategyError::failed("no centres"))
+        }
+
+        fn series(&self, _: &[Series], _: &[Series], _: CentreSeries<'_>) -> Result<()> {
+            Err(StrategyError::failed("no series"))
+        }
+
+        fn rates(&self, _: &[f64], _: &[f64], _: Rates<'_>) -> Result<()> {
+            Err(StrategyError::failed("no rates"))
+        }
+
+        fn residual_feed(
+            &self,
+            residual: f64,
+            _: Radial,
+            theta: &[f64],
+            rho: &[f64],
+            feed: &mut [f64],
+        ) -> Result<()> {
+            for ((feed, theta), rho) in feed.iter_mut().zip(theta).zip(rho) {
+                let waves = 2.0 + Scalar::cos(3.0 * theta - rho);
+                *feed = if *rho > 5.0 {
+                    f64::NAN
+                } else {
+                    residual * waves
+                };
+            }
+            Ok(())
+        }
+    }
+
+    fn in_parallel(radii: &[f64]) -> Option<Result<Vec<f64>>> {
+        let mut least = vec![0.0; radii.len()];
+        let answer = PlanningLocus(&Feeds).least_residual_feeds(1e-3, radii, &mut least)?;
+        Some(answer.map(|()| least))
+    }
+
+    #[test]
+    fn the_feeds_in_parallel_are_those_of_one_radius_after_the_other() {
+        let radii: Vec<f64> = (0..500).map(|i| 0.01 * f64::from(i)).collect();
+        let alone = |rho: &f64| least_residual_feed(&Feeds, 1e-3, *rho).unwrap();
+        let alone: Vec<f64> = radii.iter().map(alone).collect();
+        assert_eq!(in_parallel(&radii).unwrap().unwrap(), alone);
+        assert!(alone.iter().all(|feed| (feed - 1e-3).abs() < 1e-9));
+    }
+
+    #[test]
+    fn the_error_is_that_of_the_first_radius_without_a_feed() {
+        let radii: Vec<f64> = (0..100).map(|i| 0.1 * f64::from(i)).collect();
+        let error = in_parallel(&radii).unwrap().unwrap_err();
+        assert!(error.to_string().contains("x = 5.1"), "{error}");
+    }
+}
