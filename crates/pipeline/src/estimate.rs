@@ -39,10 +39,14 @@ impl Estimate {
 /// Mean count of the sampler's nodes on a revolution, from a few blocks.
 pub fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
     let every = plan.blocks().div_ceil(SAMPLED_BLOCKS).max(1);
-    let chosen: Vec<usize> = (0..plan.blocks()).step_by(every).collect();
-    let counts = chosen.par_iter().map(|index| plan.sample(*index));
-    let counts = in_order(counts.map(|nodes| nodes.map(|nodes| nodes.len() as f64)))?;
+    let mut chosen: Vec<usize> = (0..plan.blocks()).step_by(every).collect();
     let turns = chosen.iter().map(|index| plan.revolutions(*index));
     let turns: f64 = turns.map(|block| block.end - block.start).sum();
+    // The outermost first: blocks take longer the further out they are, and a long one that begins last
+    // keeps the other threads waiting.
+    let radius = |index: &usize| plan.law.value(plan.revolutions(*index).start).abs();
+    chosen.sort_by(|one, other| radius(other).total_cmp(&radius(one)));
+    let counts = chosen.par_iter().map(|index| plan.sample(*index));
+    let counts = in_order(counts.map(|nodes| nodes.map(|nodes| nodes.len() as f64)))?;
     Ok(counts.iter().sum::<f64>() / turns)
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 pub fn in_order<T: Send, E: Send>(
     answers: impl IndexedParallelIterator<Item = Result<T, E>>,
 ) -> Result<Vec<T>, E> {
-    let answers: Vec<Result<T, E>> = answers.collect();
+    // One answer at a time: each is the work of milliseconds, and a thread that has none left takes the next.
+    let answers: Vec<Result<T, E>> = answers.with_max_len(1).collect();
     answers.into_iter().collect()
 }

@@ -57,11 +57,17 @@ fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
     check_heights(chain, &part)?;
     check_data(chain, &part)?;
     check_walls(chain, &part)?;
-    // How far the contact goes beyond the rim is known only if the nose fits the part itself.
-    let on_part = fit.interference(tool, fit.whole_part())?;
+    let on_path = || {
+        let range = fit.range(tool)?;
+        let region = contact_range(chain, &locus, &tool, range)?;
+        Ok((range, fit.interference(tool, region)?))
+    };
+    let (on_part, on_path) = rayon::join(|| fit.interference(tool, fit.whole_part()), on_path);
+    let on_part = on_part?;
+    // How far the contact goes beyond the rim counts only if the nose fits the part itself.
     let of_nose = |conflict: &Conflict| matches!(conflict, Conflict::NoseRadius { .. });
     refuse(&fit, &on_part, &on_part, of_nose)?;
-    let range = fit.range(tool)?;
+    let (range, interference) = on_path?;
     let subject = Subject {
         surface,
         part,
@@ -69,8 +75,6 @@ fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
         compensates_nose: compensator.compensates_nose(),
     };
     let touch = FirstTouch::new(subject).map_err(PipelineError::Measure)?;
-    let region = contact_range(chain, &locus, &tool, range)?;
-    let interference = fit.interference(tool, region)?;
     refuse(&fit, &on_part, &interference, |_| true)?;
     Ok(Preparation {
         task: spec.over(range),

@@ -45,7 +45,7 @@ pub struct Refinement {
 
 /// Halves segments until the played error is below the aim everywhere, or no segment can be halved
 /// any more. Gives how often each sampler segment is halved. Only the `chosen` blocks are refined, in
-/// their order; of the others nothing is halved.
+/// their order, `batch` of them at a time; of the others nothing is halved.
 pub fn refine(
     plan: &Plan<'_>,
     batch: usize,
@@ -115,14 +115,35 @@ impl Refinement {
     ) -> Result<()> {
         observer.begin(Stage::Refine(round), dirty.len() as u64);
         let mut solver_state = first_state(plan);
-        for range in runs(dirty, batch) {
+        for some in dirty.chunks(batch.max(1)) {
             stop_if_cancelled(observer)?;
-            let count = range.len();
-            let blocks = make(plan, range, &self.depths, solver_state.as_mut())?;
+            let blocks = self.make_runs(plan, &runs(some), solver_state.as_mut())?;
             self.play(plan, &blocks)?;
-            observer.advance(count as u64);
+            observer.advance(some.len() as u64);
         }
         Ok(())
+    }
+
+    /// Makes runs of blocks: in parallel, unless the solver takes its state from one to the next.
+    fn make_runs(
+        &self,
+        plan: &Plan<'_>,
+        runs: &[Range<usize>],
+        solver_state: Option<&mut Vec<f64>>,
+    ) -> Result<Vec<BlockPoints>> {
+        let depths = &self.depths;
+        let made = match solver_state {
+            Some(state) => {
+                let each = runs.iter().cloned();
+                let made = each.map(|run| make(plan, run, depths, Some(&mut *state)));
+                made.collect::<Result<Vec<_>>>()?
+            }
+            None => in_order(
+                runs.par_iter()
+                    .map(|run| make(plan, run.clone(), depths, None)),
+            )?,
+        };
+        Ok(made.into_iter().flatten().collect())
     }
 }
 
@@ -241,12 +262,12 @@ fn within_overlap(overlap: usize, counts: &[usize], index: usize) -> Range<usize
     first..last
 }
 
-/// Runs of consecutive blocks, of at most `batch` blocks each.
-pub fn runs(blocks: &[usize], batch: usize) -> Vec<Range<usize>> {
+/// Runs of consecutive blocks.
+fn runs(blocks: &[usize]) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
     for index in blocks {
         match runs.last_mut() {
-            Some(run) if run.end == *index && run.len() < batch => run.end += 1,
+            Some(run) if run.end == *index => run.end += 1,
             _ => runs.push(*index..*index + 1),
         }
     }
@@ -295,8 +316,8 @@ mod tests {
     }
 
     #[test]
-    fn runs_are_consecutive_and_at_most_a_batch_long() {
-        assert_eq!(runs(&[0, 1, 2, 5, 6, 9], 2), [0..2, 2..3, 5..7, 9..10]);
-        assert!(runs(&[], 4).is_empty());
+    fn runs_are_consecutive() {
+        assert_eq!(runs(&[0, 1, 2, 5, 6, 9]), [0..3, 5..7, 9..10]);
+        assert!(runs(&[]).is_empty());
     }
 }

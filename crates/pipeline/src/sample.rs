@@ -1,13 +1,15 @@
 //! Some blocks of a path as a run makes them, from which the sizes of its files follow before it is made.
 
+use rayon::prelude::*;
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
 use turnpath_verify::AxesMotion;
 
 use crate::estimate::Estimate;
 use crate::lead::{LeadRun, LeadTask};
-use crate::make::{BlockPoints, Depths, first_state, make};
+use crate::make::{Depths, first_state, make};
 use crate::observer::SilentObserver;
 use crate::options::PathOptions;
+use crate::order::in_order;
 use crate::plan::Plan;
 use crate::refine::refine;
 use crate::{Chain, Preparation, Result, schedule};
@@ -52,7 +54,7 @@ pub fn sample_path(
     let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
     let estimate = Estimate::of(&plan, nodes(&plan, &strata)? / plan.law.end())?;
     let depths = match options.refine {
-        true => refine(&plan, 1, &chosen, observer)?,
+        true => refine(&plan, SAMPLED_BLOCKS, &chosen, observer)?,
         false => Vec::new(),
     };
     let leads = options
@@ -63,16 +65,14 @@ pub fn sample_path(
         })
         .transpose()?;
     let mut sample = PathSample::default();
-    let mut last = None;
-    for stratum in &strata {
-        let block = block(&plan, stratum.chosen, &depths)?;
-        sample.blocks.push(SampledBlock {
-            points: block.points.clone(),
+    let block = |stratum: &Stratum| {
+        Ok(SampledBlock {
+            points: block(&plan, stratum.chosen, &depths)?,
             stands_for: stratum.stands_for(&plan),
-        });
-        last = Some(block);
-    }
-    if let Some((leads, last)) = leads.zip(last) {
+        })
+    };
+    sample.blocks = in_order(strata.par_iter().map(block))?;
+    if let Some((leads, last)) = leads.zip(sample.blocks.last()) {
         sample.leads.push((Section::LeadIn, leads.lead_in()));
         if let Some(pair) = last_two(&last.points) {
             let (points, _) = leads.end(&plan, &pair, AxesMotion::of(&last.points))?;
@@ -100,10 +100,10 @@ impl Stratum {
 
 /// The sampler's nodes of the whole path.
 fn nodes(plan: &Plan<'_>, strata: &[Stratum]) -> Result<f64> {
-    strata
-        .iter()
-        .map(|stratum| Ok(plan.sample(stratum.chosen)?.len() as f64 * stratum.stands_for(plan)))
-        .sum()
+    let each = strata.par_iter();
+    let nodes = each
+        .map(|stratum| Ok(plan.sample(stratum.chosen)?.len() as f64 * stratum.stands_for(plan)));
+    Ok(in_order(nodes)?.into_iter().sum())
 }
 
 /// The first and the last block stand for themselves, as leads join them; the middle one of each stretch
@@ -133,9 +133,11 @@ fn strata(blocks: usize) -> Vec<Stratum> {
     strata
 }
 
-fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<BlockPoints> {
-    let mut blocks = make(plan, index..index + 1, depths, first_state(plan).as_mut())?;
-    Ok(blocks.remove(0))
+/// The points of one block. It has a node, so it has points.
+fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<PathBlock> {
+    let blocks = make(plan, index..index + 1, depths, first_state(plan).as_mut())?;
+    let points = blocks.into_iter().map(|block| block.points).next();
+    Ok(points.unwrap_or_default())
 }
 
 fn last_two(points: &PathBlock) -> Option<[ControlPoint; 2]> {
