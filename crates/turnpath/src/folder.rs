@@ -107,8 +107,10 @@ struct Files {
     /// Behind a lock since threads share the sink; only one of them writes.
     columns: Mutex<Vec<Box<dyn WriteColumns>>>,
     programs: Vec<ProgramWriter>,
-    /// Files that are whole, and still without their names.
+    /// Files that are written to their ends, and still without their names.
     drafts: Vec<Draft>,
+    /// The table of the path, read back.
+    whole_table: Option<WholeFile>,
 }
 
 /// The files of a run, whole and on the disk, and still without their names.
@@ -170,48 +172,7 @@ impl<'a> FolderSink<'a> {
         self.folder.draft(&self.folder.path().join(name))
     }
 
-    /// Measures each program on the text of its path, puts it together with its figures in the header, and
-    /// proves that the whole is read as this text.
-    pub fn read_back(
-        &mut self,
-        job: &Job,
-        outcome: &Outcome,
-        dry_run: bool,
-        observer: &dyn Observer,
-    ) -> Result<Vec<ProgramReport>, Error> {
-        let Some(files) = &mut self.files else {
-            return Ok(Vec::new());
-        };
-        let mut reports = Vec::new();
-        for (program, writer) in self.programs.iter().zip(files.programs.drain(..)) {
-            let mut path = writer.close()?;
-            let (points, name) = (path.points(), path.file().to_owned());
-            let mut reader = program.layout.read(path.text()?, &name);
-            let text = ProgramText {
-                reader: &mut reader,
-                name: &name,
-                points,
-            };
-            let touch = job.preparation.touch.clone();
-            let path_error = outcome.figures.playback.max();
-            let report = program.measure(text, (&job.recipe, touch), path_error, observer)?;
-            drop(reader);
-            let frame = program.frame(&job.recipe, outcome, points, &report);
-            if let Some(extent) = path.extent().filter(|_| dry_run) {
-                let text = job.dry_run(program, &frame, &extent)?;
-                let file = self.folder.path().join(program.dry_run_file());
-                let mut draft = self.folder.draft(&file)?;
-                draft.write_all(&text).map_err(FileError::of(&file))?;
-                files.drafts.push(draft);
-            }
-            let whole = whole_program((job, program), path, &frame, self.folder)?;
-            files.drafts.extend(whole);
-            reports.push(report);
-        }
-        Ok(reports)
-    }
-
-    /// Draws maps, profiles, circles and spectra of `toolpath.csv` as it stands.
+    /// Draws maps, profiles, circles and spectra of `toolpath.csv` as it stands, before it is read back.
     pub fn plot(
         &mut self,
         job: &Job,
@@ -240,6 +201,68 @@ impl<'a> FolderSink<'a> {
         Ok(())
     }
 
+    /// Measures each program on the text of its path, puts it together with its figures in the header, and
+    /// proves that the whole is read as this text. The table of the path is read back meanwhile.
+    pub fn read_back(
+        &mut self,
+        job: &Job,
+        outcome: &Outcome,
+        dry_run: bool,
+        observer: &dyn Observer,
+    ) -> Result<Vec<ProgramReport>, Error> {
+        let Some(mut files) = self.files.take() else {
+            return Ok(Vec::new());
+        };
+        let (toolpath, writers) = (files.toolpath.take(), std::mem::take(&mut files.programs));
+        let read_programs = || {
+            let each = self.programs.iter().zip(writers);
+            let read =
+                each.map(|program| self.read_program(job, program, outcome, dry_run, observer));
+            read.collect::<Result<Vec<_>, Error>>()
+        };
+        let read_table = || toolpath.map(|table| table.whole().finish()).transpose();
+        let (programs, table) = rayon::join(read_programs, read_table);
+        let (reports, drafts): (Vec<_>, Vec<_>) = programs?.into_iter().unzip();
+        files.drafts.extend(drafts.into_iter().flatten());
+        files.whole_table = table?;
+        self.files = Some(files);
+        Ok(reports)
+    }
+
+    /// The report of one program, and its files.
+    fn read_program(
+        &self,
+        job: &Job,
+        (program, writer): (&Program, ProgramWriter),
+        outcome: &Outcome,
+        dry_run: bool,
+        observer: &dyn Observer,
+    ) -> Result<(ProgramReport, Vec<Draft>), Error> {
+        let mut path = writer.close()?;
+        let (points, name) = (path.points(), path.file().to_owned());
+        let mut reader = program.layout.read(path.text()?, &name);
+        let text = ProgramText {
+            reader: &mut reader,
+            name: &name,
+            points,
+        };
+        let touch = job.preparation.touch.clone();
+        let path_error = outcome.figures.playback.max();
+        let report = program.measure(text, (&job.recipe, touch), path_error, observer)?;
+        drop(reader);
+        let frame = program.frame(&job.recipe, outcome, points, &report);
+        let mut drafts = Vec::new();
+        if let Some(extent) = path.extent().filter(|_| dry_run) {
+            let text = job.dry_run(program, &frame, &extent)?;
+            let file = self.folder.path().join(program.dry_run_file());
+            let mut draft = self.folder.draft(&file)?;
+            draft.write_all(&text).map_err(FileError::of(&file))?;
+            drafts.push(draft);
+        }
+        drafts.extend(whole_program((job, program), path, &frame, self.folder)?);
+        Ok((report, drafts))
+    }
+
     /// Brings all files to the disk, and reads them back by their hashes.
     pub fn finish(self) -> Result<Vec<WholeFile>, FileError> {
         let Files {
@@ -247,6 +270,7 @@ impl<'a> FolderSink<'a> {
             columns,
             programs: _,
             mut drafts,
+            whole_table,
         } = self.files.unwrap_or_default();
         let columns = columns.into_inner().unwrap_or_else(PoisonError::into_inner);
         for columns in columns {
@@ -255,7 +279,7 @@ impl<'a> FolderSink<'a> {
         let drafts = drafts.into_iter().chain(toolpath.map(PathWriter::whole));
         let drafts: Vec<Draft> = drafts.collect();
         let files: Vec<_> = drafts.into_par_iter().map(Draft::finish).collect();
-        files.into_iter().collect()
+        files.into_iter().chain(whole_table.map(Ok)).collect()
     }
 }
 

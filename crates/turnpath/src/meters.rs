@@ -20,10 +20,8 @@ use crate::speed_steps::SpeedSteps;
 
 /// Rows that are measured in one go.
 pub const BLOCK_ROWS: usize = 20_000;
-/// Blocks that are measured at a time: enough for every thread, within some hundred megabytes.
+/// Blocks that are read at a time, at the most, while those before are measured.
 const BLOCKS: usize = 16;
-/// Blocks that are read before any is measured.
-const FIRST_BLOCKS: usize = 4;
 
 /// What measures a path that is read in blocks.
 pub trait Meters: Sync {
@@ -263,7 +261,9 @@ pub fn measure<M: Meters>(
     observer: &dyn Observer,
 ) -> Result<M, Error> {
     let failed = |error: StrategyError| of_measure(recipe, error);
-    let mut blocks = next_blocks(reader, shape, FIRST_BLOCKS)?;
+    // Nothing is measured while the first block is read, and each time there are twice as many.
+    let mut most = 1;
+    let mut blocks = next_blocks(reader, shape, most)?;
     loop {
         if observer.is_cancelled() {
             return Err(Error::Cancelled);
@@ -272,17 +272,18 @@ pub fn measure<M: Meters>(
             return Ok(meters);
         }
         let count = blocks.len() as u64;
+        most = (2 * most).min(BLOCKS);
         let starts: Vec<M::Start> = blocks
             .iter()
             .map(|(_, block)| meters.advance(block))
             .collect();
         let of_block = &meters;
         let measure_all = || -> Result<Vec<M::Block>, StrategyError> {
-            let each = blocks.into_par_iter().zip(starts);
+            let each = blocks.into_par_iter().zip(starts).with_max_len(1);
             each.map(|((section, block), start)| of_block.measure(section, block, start))
                 .collect()
         };
-        let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape, BLOCKS));
+        let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape, most));
         for block in &measured.map_err(failed)? {
             meters.append(block).map_err(failed)?;
         }

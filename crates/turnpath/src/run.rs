@@ -213,8 +213,8 @@ impl Job {
             outcome,
             split,
         } = path;
-        let reports = sink.read_back(self, &outcome, dry_run, observer)?;
         sink.plot(self, plots, &outcome, observer)?;
+        let reports = sink.read_back(self, &outcome, dry_run, observer)?;
         let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
         files.extend(sink.finish()?);
         let sketch = outcome.sketch.as_ref().map(path_sketch);
