@@ -107,8 +107,10 @@ struct Files {
     /// Behind a lock since threads share the sink; only one of them writes.
     columns: Mutex<Vec<Box<dyn WriteColumns>>>,
     programs: Vec<ProgramWriter>,
-    /// Files that are written to their ends, and still without their names.
+    /// The programs that are written to their ends, and the pictures of the path, still without their
+    /// names.
     drafts: Vec<Draft>,
+    pictures: Vec<Draft>,
     /// The table of the path, read back.
     whole_table: Option<WholeFile>,
 }
@@ -196,7 +198,7 @@ impl<'a> FolderSink<'a> {
             };
             let begin = |file: &Path| self.folder.draft(file);
             let drawn = draw(plots, &played, &mut reader, &begin, observer)?;
-            files.drafts.extend(drawn);
+            files.pictures.extend(drawn);
         }
         Ok(())
     }
@@ -270,8 +272,10 @@ impl<'a> FolderSink<'a> {
             columns,
             programs: _,
             mut drafts,
+            pictures,
             whole_table,
         } = self.files.unwrap_or_default();
+        drafts.extend(pictures);
         let columns = columns.into_inner().unwrap_or_else(PoisonError::into_inner);
         for columns in columns {
             drafts.push(columns.whole()?);
