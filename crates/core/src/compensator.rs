@@ -1,6 +1,6 @@
 //! The compensator: from a point of the part to the position of the tool's nose centre.
 
-use crate::interference::{self, Interference};
+use crate::interference::{self, Extreme, Interference};
 use crate::{Cut, Radial, RadialRange, Result, Series};
 
 /// Where [`Compensator::centre`] writes. Each slice has one element for each point.
@@ -104,5 +104,19 @@ pub trait Compensator: Send + Sync {
     /// Looks for points within `region` (radii of the contact) that the tool cannot cut.
     fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
         interference::check(cut, region)
+    }
+
+    /// The largest curvature that [`interference`](Compensator::interference) finds within `region`,
+    /// where it is not within `part`: that of
+    /// [`curvature_outside`](interference::curvature_outside). `None` from a compensator that looks at
+    /// whole regions alone. The search for the largest nose that fits asks for it once a trial.
+    fn curvature_outside(
+        &self,
+        cut: Cut<'_>,
+        part: RadialRange,
+        region: RadialRange,
+    ) -> Result<Option<Extreme>> {
+        let _ = (cut, part, region);
+        Ok(None)
     }
 }

@@ -13,7 +13,7 @@ use crate::{Cut, Gradients, RadialRange, Result, Scalar};
 /// Sections around the part: as many as the grid of the pointwise extremes has.
 const SECTIONS: usize = 360;
 /// Stretches of a section.
-const STRETCHES: usize = 256;
+pub const STRETCHES: usize = 256;
 /// A mean curvature counts as a crease from this many times the largest curvature of a point on. A
 /// chord is a little shorter than its arc, so that the mean over a chord may exceed it.
 const SHARPER: f64 = 1.5;
@@ -23,14 +23,19 @@ const HALVINGS: usize = 20;
 const LEAST_ANGLE: f64 = 1e-9;
 
 /// The sharpest crease among radial sections that is sharper than `curvature`, 1/mm, by its mean
-/// curvature over a short stretch. A seam has one of about a million stretches of the section.
-pub fn sharpest(cut: Cut<'_>, region: RadialRange, curvature: f64) -> Result<Option<Extreme>> {
+/// curvature over a short stretch. Each section has so many stretches. A seam has one of about a
+/// million stretches of the section.
+pub fn sharpest(
+    cut: Cut<'_>,
+    (region, stretches): (RadialRange, usize),
+    curvature: f64,
+) -> Result<Option<Extreme>> {
     let from = SHARPER * curvature.max(0.0);
     let mut sharpest: Option<Extreme> = None;
     let mut section = Section::default();
     for number in 0..SECTIONS {
         let theta = TAU * number as f64 / SECTIONS as f64;
-        section.set(theta, (0..=STRETCHES).map(|k| at(region, k)));
+        section.set(theta, (0..=stretches).map(|k| at(region, k, stretches)));
         section.evaluate(cut)?;
         for stretch in section.stretches().filter(|one| is_sharper(one, from)) {
             let (value, rho) = close_in(cut, theta, stretch)?;
@@ -43,8 +48,8 @@ pub fn sharpest(cut: Cut<'_>, region: RadialRange, curvature: f64) -> Result<Opt
 }
 
 /// The end number `k` of the stretches.
-fn at(region: RadialRange, k: usize) -> f64 {
-    let part = k as f64 / STRETCHES as f64;
+fn at(region: RadialRange, k: usize, stretches: usize) -> f64 {
+    let part = k as f64 / stretches as f64;
     region.inner + part * (region.outer - region.inner)
 }
 
@@ -180,7 +185,7 @@ mod tests {
             inner: 0.0,
             outer: 2.0,
         };
-        sharpest(cut, region, 0.0).unwrap()
+        sharpest(cut, (region, STRETCHES), 0.0).unwrap()
     }
 
     #[test]

@@ -14,7 +14,7 @@ use crate::{RadialRange, Result, Scalar};
 /// Angles of the grid. A wave with 36 periods on a revolution still gets 10 points a period.
 const ANGLES: usize = 360;
 /// Steps of the grid along the radius.
-const RADII: usize = 256;
+pub const RADII: usize = 256;
 /// How many of the grid's highest points the search refines. A lattice of equal hollows has many
 /// points that look alike.
 const CANDIDATES: usize = 24;
@@ -82,7 +82,16 @@ pub fn largest<const K: usize>(
     region: RadialRange,
     measure: &mut Measure<'_, K>,
 ) -> Result<[Extreme; K]> {
-    let grid = Grid::new(region);
+    largest_on(RADII, region, measure)
+}
+
+/// As [`largest`], on a grid of so many steps along the radius.
+pub(crate) fn largest_on<const K: usize>(
+    radii: usize,
+    region: RadialRange,
+    measure: &mut Measure<'_, K>,
+) -> Result<[Extreme; K]> {
+    let grid = Grid::new(region, radii);
     let columns = grid.evaluate(measure)?;
     let mut found = [Extreme {
         value: f64::NEG_INFINITY,
@@ -104,16 +113,18 @@ fn by_value(one: &Extreme, other: &Extreme) -> std::cmp::Ordering {
 
 struct Grid {
     region: RadialRange,
+    radii: usize,
     theta_step: f64,
     rho_step: f64,
 }
 
 impl Grid {
-    fn new(region: RadialRange) -> Self {
+    fn new(region: RadialRange, radii: usize) -> Self {
         Self {
             region,
+            radii,
             theta_step: TAU / ANGLES as f64,
-            rho_step: (region.outer - region.inner) / RADII as f64,
+            rho_step: (region.outer - region.inner) / radii as f64,
         }
     }
 
@@ -128,9 +139,9 @@ impl Grid {
     /// Evaluates all points of the grid: a column for each quantity, with one radius after the other.
     fn evaluate<const K: usize>(&self, measure: &mut Measure<'_, K>) -> Result<[Vec<f64>; K]> {
         let theta: Vec<f64> = (0..ANGLES).map(|j| self.theta(j)).collect();
-        let mut columns = std::array::from_fn(|_| Vec::with_capacity((RADII + 1) * ANGLES));
+        let mut columns = std::array::from_fn(|_| Vec::with_capacity((self.radii + 1) * ANGLES));
         let mut row = vec![[f64::NAN; K]; ANGLES];
-        for i in 0..=RADII {
+        for i in 0..=self.radii {
             row.fill([f64::NAN; K]);
             measure(&theta, &[self.rho(i); ANGLES], &mut row)?;
             for (which, column) in columns.iter_mut().enumerate() {
@@ -144,8 +155,8 @@ impl Grid {
     fn highest(&self, column: &[f64]) -> Vec<Extreme> {
         let mut found = Vec::new();
         let row = |i: usize| &column[i * ANGLES..][..ANGLES];
-        for i in 0..=RADII {
-            let beside = [row(i.saturating_sub(1)), row((i + 1).min(RADII))];
+        for i in 0..=self.radii {
+            let beside = [row(i.saturating_sub(1)), row((i + 1).min(self.radii))];
             let is_peak = peaks(row(i), beside);
             let on_row = row(i).iter().zip(is_peak).enumerate();
             let on_row = on_row.filter(|(_, (_, is_peak))| *is_peak);

@@ -12,6 +12,9 @@ pub use crate::extreme::Extreme;
 use crate::profile::{Profile, profile_at};
 use crate::{Cut, Gradients, RadialRange, Result, Scalar, StrategyError, Tool, sines_and_cosines};
 
+/// Steps along the radius of the narrowest ring that is checked by itself.
+const FEWEST_STEPS: usize = 4;
+
 /// What the part demands of a tool: the extremes of its sectional curves, each with its position.
 ///
 /// Slopes are angles to the horizontal, rad. An angle is below 0 if the section rises (or falls)
@@ -150,10 +153,55 @@ pub fn check(cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
     let mut measure =
         |theta: &[f64], rho: &[f64], out: &mut [[f64; 5]]| sections(cut, theta, rho, out);
     let mut found = extreme::largest(region, &mut measure).map(Interference::from_extremes)?;
-    if let Some(sharper) = crease::sharpest(cut, region, found.curvature.value)? {
+    let stretches = (region, crease::STRETCHES);
+    if let Some(sharper) = crease::sharpest(cut, stretches, found.curvature.value)? {
         found.curvature = sharper;
     }
     Ok(found)
+}
+
+/// The largest curvature of a radial section within `region`, where it is not within `part`, as
+/// [`check`] looks for it; −∞ where `part` covers `region`. The grid is as fine as that of `region` as a
+/// whole, so that a narrow ring takes a small part of a check's time.
+///
+/// # Errors
+/// If the surface has no height somewhere in `region` outside `part`.
+pub fn curvature_outside(cut: Cut<'_>, part: RadialRange, region: RadialRange) -> Result<Extreme> {
+    let rings = [
+        (region.inner, part.inner.min(region.outer)),
+        (part.outer.max(region.inner), region.outer),
+    ];
+    let mut largest = Extreme {
+        value: f64::NEG_INFINITY,
+        theta: 0.0,
+        rho: region.outer,
+    };
+    for (inner, outer) in rings.into_iter().filter(|(inner, outer)| inner < outer) {
+        let share = (outer - inner) / (region.outer - region.inner);
+        let ring = RadialRange { inner, outer };
+        largest = larger(largest, sharpest_hollow(cut, ring, share)?);
+    }
+    Ok(largest)
+}
+
+/// The largest curvature within a ring that is such a share of the region of a check.
+fn sharpest_hollow(cut: Cut<'_>, ring: RadialRange, share: f64) -> Result<Extreme> {
+    let steps = |of_region: usize| ((share * of_region as f64).ceil() as usize).max(FEWEST_STEPS);
+    let mut profiles = Vec::new();
+    let [found] = extreme::largest_on(steps(extreme::RADII), ring, &mut |theta, rho, out| {
+        profiles.resize(theta.len(), Profile::default());
+        profile_at(cut.surface, theta, rho, &mut profiles)?;
+        for (i, profile) in profiles.iter().enumerate() {
+            let curvature = profile.curvature();
+            if !curvature.is_finite() {
+                return Err(no_height(theta[i], rho[i]));
+            }
+            out[i] = [curvature];
+        }
+        Ok(())
+    })?;
+    let stretches = (ring, steps(crease::STRETCHES));
+    Ok(crease::sharpest(cut, stretches, found.value)?.unwrap_or(found))
 }
 
 /// The extremes over the given points of contact. There must be at least one point.
@@ -235,4 +283,88 @@ fn no_height(theta: f64, rho: f64) -> StrategyError {
     StrategyError::failed(format!(
         "the surface has no height, slope or curvature at {position}; {advice}"
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Misfit, Surface};
+
+    /// A bowl whose curvature grows outward, more so along y, and which ends at a rim.
+    struct Bowl {
+        rim: f64,
+    }
+
+    impl Surface for Bowl {
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let square = x.squared() + y.squared() * 1.3;
+            let on_surface = (-(x.squared() + y.squared()) + self.rim * self.rim).sqrt() * 0.0;
+            square.squared() * 1e-3 + square * 0.01 + on_surface
+        }
+    }
+
+    /// Walls that meet in a valley at x = 0.7.
+    struct Valley;
+
+    impl Surface for Valley {
+        fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+            let off = x - 0.7;
+            (off.squared() + 1e-16).sqrt() * 0.1
+        }
+    }
+
+    const PART: RadialRange = RadialRange {
+        inner: 0.5,
+        outer: 2.0,
+    };
+
+    fn of<T>(surface: &impl Surface, check: impl FnOnce(Cut<'_>) -> T) -> T {
+        let tool = Tool {
+            nose_radius: 1.0,
+            included_angle: None,
+            clearance_angle: None,
+            misfit: Misfit::Refuse,
+        };
+        check(Cut {
+            surface,
+            tool: &tool,
+        })
+    }
+
+    fn outside(surface: &impl Surface, inner: f64, outer: f64) -> Result<Extreme> {
+        let region = RadialRange { inner, outer };
+        of(surface, |cut| curvature_outside(cut, PART, region))
+    }
+
+    #[test]
+    fn the_curvature_outside_a_part_is_that_of_the_whole_region_where_the_rim_is_most_curved() {
+        for outer in [2.0001, 2.01, 2.3, 4.0, 40.0] {
+            let found = outside(&Bowl { rim: 50.0 }, 0.0, outer).unwrap();
+            let region = RadialRange { inner: 0.0, outer };
+            let whole = of(&Bowl { rim: 50.0 }, |cut| check(cut, region)).unwrap();
+            let ratio = found.value / whole.curvature.value;
+            assert!((ratio - 1.0).abs() < 1e-13, "{outer}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_outside_a_part_that_covers_the_region() {
+        let found = outside(&Bowl { rim: 5.0 }, 0.5, 2.0).unwrap();
+        assert_eq!(found.value, f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn a_crease_counts_where_it_is_outside_the_part() {
+        let largest = |inner, outer| outside(&Valley, inner, outer).unwrap();
+        // Sections far off x meet the valley in the ring outside; none meets it nearer than 0.7 mm.
+        assert!(largest(0.5, 2.1).value > 1e5);
+        assert!(largest(0.0, 2.0).value < 1e-9);
+    }
+
+    #[test]
+    fn a_surface_that_ends_outside_the_part_is_an_error() {
+        assert!(outside(&Bowl { rim: 2.5 }, 0.5, 2.4).is_ok());
+        let error = outside(&Bowl { rim: 2.5 }, 0.5, 2.6).unwrap_err();
+        assert!(error.to_string().contains("no height"), "{error}");
+    }
 }

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use turnpath_core::interference::Interference;
+use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, GradientSeries, Gradients, Radial, RadialRange, Rates,
     Result, Series, SeriesOrders, Slot, StrategyError, SurfaceData, SurfaceGap, SurfaceModel,
@@ -140,6 +140,15 @@ impl NamedCompensator {
             compensator: link.strategy.clone(),
         }
     }
+
+    /// Puts the name into the error of a check, unless the check itself refuses the surface: that is the
+    /// recipe's fault, not a plugin's.
+    fn attribute_check<T>(&self, answer: Result<T>) -> Result<T> {
+        match answer {
+            Err(StrategyError::Failed(reason)) => Err(StrategyError::Failed(reason)),
+            answer => self.name.attribute(answer),
+        }
+    }
 }
 
 impl Compensator for NamedCompensator {
@@ -196,10 +205,15 @@ impl Compensator for NamedCompensator {
     }
 
     fn interference(&self, cut: Cut<'_>, region: RadialRange) -> Result<Interference> {
-        match self.compensator.interference(cut, region) {
-            // The check itself refuses the surface: that is the recipe's fault, not a plugin's.
-            Err(StrategyError::Failed(reason)) => Err(StrategyError::Failed(reason)),
-            answer => self.name.attribute(answer),
-        }
+        self.attribute_check(self.compensator.interference(cut, region))
+    }
+
+    fn curvature_outside(
+        &self,
+        cut: Cut<'_>,
+        part: RadialRange,
+        region: RadialRange,
+    ) -> Result<Option<Extreme>> {
+        self.attribute_check(self.compensator.curvature_outside(cut, part, region))
     }
 }

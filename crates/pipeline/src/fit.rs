@@ -56,7 +56,7 @@ impl<'a> Fit<'a> {
                 nose_radius: radius,
                 ..self.tool
             };
-            match self.largest_curvature(tool) {
+            match self.largest_curvature(tool, on_part) {
                 // The surface ends within the reach of so large a nose, or there is no contact.
                 Err(PipelineError::NoSurface(_) | PipelineError::BadAnswer { .. }) => Ok(Extreme {
                     value: f64::INFINITY,
@@ -67,11 +67,22 @@ impl<'a> Fit<'a> {
         })
     }
 
-    /// The largest curvature where such a tool makes contact.
-    fn largest_curvature(&self, tool: Tool) -> Result<Extreme> {
+    /// The largest curvature where such a tool makes contact, where `on_part` is that of the part itself.
+    fn largest_curvature(&self, tool: Tool, on_part: Extreme) -> Result<Extreme> {
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
         let region = contact_range(self.chain, &locus, &tool, self.range(tool)?)?;
-        Ok(self.interference(tool, region)?.curvature)
+        let cut = Cut {
+            surface: self.surface.as_ref(),
+            tool: &tool,
+        };
+        let part = self.whole_part();
+        let outside = self.compensator.curvature_outside(cut, part, region);
+        match outside.map_err(|error| self.failed_check(error))? {
+            Some(outside) if outside.value.is_nan() => Err(self.no_numbers(outside)),
+            Some(outside) if outside.value > on_part.value => Ok(outside),
+            Some(_) => Ok(on_part),
+            None => Ok(self.interference(tool, region)?.curvature),
+        }
     }
 
     /// The range of ρ over which the path of such a tool runs.
@@ -88,11 +99,7 @@ impl<'a> Fit<'a> {
             tool: &tool,
         };
         let answer = self.compensator.interference(cut, region);
-        let link = &self.chain.compensator;
-        let interference = answer.map_err(|error| match error {
-            StrategyError::Failed(_) => PipelineError::NoSurface(error),
-            other => link.failed("in the interference check", other),
-        })?;
+        let interference = answer.map_err(|error| self.failed_check(error))?;
         let is_finite = |extreme: &Extreme| {
             let all = [extreme.value, extreme.theta, extreme.rho];
             all.iter().all(|number| number.is_finite())
@@ -100,7 +107,18 @@ impl<'a> Fit<'a> {
         if interference.extremes().iter().all(is_finite) {
             return Ok(interference);
         }
-        let what = format!("no numbers in its interference check: {interference:?}");
-        Err(link.bad_answer(what))
+        Err(self.no_numbers(interference))
+    }
+
+    fn failed_check(&self, error: StrategyError) -> PipelineError {
+        match error {
+            StrategyError::Failed(_) => PipelineError::NoSurface(error),
+            other => (self.chain.compensator).failed("in the interference check", other),
+        }
+    }
+
+    fn no_numbers(&self, found: impl std::fmt::Debug) -> PipelineError {
+        let what = format!("no numbers in its interference check: {found:?}");
+        self.chain.compensator.bad_answer(what)
     }
 }

@@ -73,6 +73,15 @@ impl Compensator for Uncompensated {
     ) -> Option<Result<()>> {
         Some(rates(cut, theta, rho, out))
     }
+
+    fn curvature_outside(
+        &self,
+        cut: Cut<'_>,
+        part: RadialRange,
+        region: RadialRange,
+    ) -> Result<Option<interference::Extreme>> {
+        interference::curvature_outside(cut, part, region).map(Some)
+    }
 }
 
 fn rates(cut: Cut<'_>, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {

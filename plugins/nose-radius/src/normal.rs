@@ -63,6 +63,15 @@ impl Compensator for Normal {
     ) -> Option<Result<()>> {
         Some(rates(cut, theta, rho, out))
     }
+
+    fn curvature_outside(
+        &self,
+        cut: Cut<'_>,
+        part: RadialRange,
+        region: RadialRange,
+    ) -> Result<Option<interference::Extreme>> {
+        interference::curvature_outside(cut, part, region).map(Some)
+    }
 }
 
 /// X and Z of the nose centre from the contact's radius and height and the slope there.

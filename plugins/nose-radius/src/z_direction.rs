@@ -92,6 +92,15 @@ impl Compensator for ZDirection {
             foot.write_rates(&mut rates, at);
         }))
     }
+
+    fn curvature_outside(
+        &self,
+        cut: Cut<'_>,
+        part: RadialRange,
+        region: RadialRange,
+    ) -> Result<Option<interference::Extreme>> {
+        interference::curvature_outside(cut, part, region).map(Some)
+    }
 }
 
 /// A touch, and the surface at its foot.

@@ -1,5 +1,6 @@
 //! Compensators.
 
+use abi_stable::std_types::ROption;
 use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::{
     CentreSeries, Centres, Compensator, Cut, Radial, RadialRange, Rates, Result, Series,
@@ -34,6 +35,20 @@ impl Returned for Interference {
     }
 }
 
+/// An extreme that may be missing crosses as at most one.
+impl Returned for Option<Extreme> {
+    type Wire = ROption<[f64; 3]>;
+
+    fn send(self) -> Self::Wire {
+        self.map(|one| [one.value, one.theta, one.rho]).into()
+    }
+
+    fn receive(extreme: Self::Wire) -> Result<Self> {
+        let one = extreme.into_option();
+        Ok(one.map(|[value, theta, rho]| Extreme { value, theta, rho }))
+    }
+}
+
 declare! {
     Compensator: Deref AsPtr, Send Sync => AbiCompensator, AbiCompensator_TO, IncomingCompensator<'b>;
     properties {
@@ -57,6 +72,8 @@ declare! {
         fn centre_and_rates(
             &self, cut: Cut<'_>, theta: &[f64], rho: &[f64], centres: Centres<'_>, rates: Rates<'_>
         ) -> Option<Result<()>> = None;
+        fn curvature_outside(&self, cut: Cut<'_>, part: RadialRange, region: RadialRange)
+            -> Result<Option<Extreme>> = Ok(None);
     }
     owned by OwnedCompensator
 }
