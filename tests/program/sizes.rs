@@ -1,4 +1,4 @@
-//! The sizes that `check` says, held against the files that `run` writes.
+//! The sizes and the points that `check` says, held against what `run` writes.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use serde_json::Value;
@@ -65,6 +65,10 @@ fn sizes_are_right(recipe: &str, output: &str) {
         assert!(part.abs() < PART, "{file}: {bytes} of {written}, {part:.3}");
     };
     is_right("toolpath.csv", &expected["toolpath_bytes"]);
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    let points = |json: &Value| json["control_points"].as_f64().unwrap();
+    let part = points(expected) / points(&summary) - 1.0;
+    assert!(part.abs() < PART, "points: {part:.3}");
     let programs = expected["programs"].as_array().unwrap();
     let posts = output.lines().find(|line| line.starts_with("posts = "));
     assert_eq!(

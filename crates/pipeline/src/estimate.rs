@@ -10,14 +10,15 @@ use crate::plan::Plan;
 /// About how many blocks are sampled to estimate the count of control points.
 const SAMPLED_BLOCKS: usize = 8;
 
-/// What a run will give, before refinement and without leads.
+/// What a run will give, without leads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// Revolutions.
     pub revolutions: f64,
     /// Time, s.
     pub cutting_time: f64,
-    /// Control points that the sampler will place, estimated from a few blocks.
+    /// Control points, from a few blocks: of a run as the sampler places them, of a sample as refinement
+    /// leaves them.
     pub control_points: f64,
     /// Where the reach of the nose sets the feed; `None` where it does so nowhere.
     pub feed_cap: Option<FeedCap>,

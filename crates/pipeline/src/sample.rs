@@ -37,7 +37,14 @@ pub struct SampledBlock {
     pub stands_for: f64,
 }
 
-/// The estimate of a path, and a sample of it.
+impl SampledBlock {
+    /// Segments of the blocks that it stands for.
+    fn segments(&self) -> f64 {
+        self.points.len().saturating_sub(1) as f64 * self.stands_for
+    }
+}
+
+/// The estimate of a path as refinement leaves it, and a sample of it.
 ///
 /// # Errors
 /// When a strategy fails.
@@ -52,7 +59,6 @@ pub fn sample_path(
     plan.divide_for_sample();
     let strata = strata(plan.blocks());
     let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
-    let estimate = Estimate::of(&plan, nodes(&plan, &strata)? / plan.law.end())?;
     let depths = match options.refine {
         true => refine(&plan, SAMPLED_BLOCKS, &chosen, observer)?,
         false => Vec::new(),
@@ -72,6 +78,8 @@ pub fn sample_path(
         })
     };
     sample.blocks = in_order(strata.par_iter().map(block))?;
+    let segments: f64 = sample.blocks.iter().map(SampledBlock::segments).sum();
+    let estimate = Estimate::of(&plan, segments / plan.law.end())?;
     if let Some((leads, last)) = leads.zip(sample.blocks.last()) {
         sample.leads.push((Section::LeadIn, leads.lead_in()));
         if let Some(pair) = last_two(&last.points) {
@@ -96,14 +104,6 @@ impl Stratum {
             |first: usize, last: usize| plan.revolutions(last).end - plan.revolutions(first).start;
         turns(self.first, self.end - 1) / turns(self.chosen, self.chosen)
     }
-}
-
-/// The sampler's nodes of the whole path.
-fn nodes(plan: &Plan<'_>, strata: &[Stratum]) -> Result<f64> {
-    let each = strata.par_iter();
-    let nodes = each
-        .map(|stratum| Ok(plan.sample(stratum.chosen)?.len() as f64 * stratum.stands_for(plan)));
-    Ok(in_order(nodes)?.into_iter().sum())
 }
 
 /// The first and the last block stand for themselves, as leads join them; the middle one of each stretch

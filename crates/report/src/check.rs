@@ -35,7 +35,7 @@ pub struct CheckReport {
     /// such a tolerance.
     #[serde(default)]
     pub form: Option<FormReport>,
-    /// What the path will be, before refinement.
+    /// What the path will be.
     pub expected: Estimate,
     /// What the paths before the finishing one will be, in their order.
     #[serde(default, rename = "passes", skip_serializing_if = "Vec::is_empty")]
@@ -55,8 +55,8 @@ pub struct CheckReport {
     pub controller_commands: Vec<ControllerCommand>,
 }
 
-/// What a path will be. Revolutions, time and points are those before refinement and without leads;
-/// the sizes of files are those of the whole path.
+/// What a path will be, refinement included. Revolutions, time and points are those without leads; the
+/// sizes of files are those of the whole path.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Revolutions of the cutting section.
@@ -65,7 +65,7 @@ pub struct Estimate {
     /// Time of the cutting section, s.
     #[serde(rename = "cutting_time_s", with = "unit::s")]
     pub cutting_time: f64,
-    /// Control points of the cutting section.
+    /// Control points of the cutting section, from a sample of it.
     pub control_points: u64,
     /// Bytes of `toolpath.csv`.
     pub toolpath_bytes: u64,

@@ -26,7 +26,7 @@ pub fn check(report: &CheckReport) -> String {
     text += &report.form.as_ref().map(first_split).unwrap_or_default();
     let expected = &report.expected;
     let points = grouped(expected.control_points);
-    text += &line("points", format!("about {points}, before refinement"));
+    text += &line("points", format!("about {points}"));
     text += &line("revolutions", format!("{:.2}", expected.revolutions));
     text += &line("cutting time", duration(expected.cutting_time));
     text += &feed_cap(&report.feed_cap);
@@ -68,7 +68,7 @@ fn rough_path(rough: &RoughPathEstimate) -> String {
         grouped(expected.control_points),
         duration(expected.cutting_time),
     );
-    let what = format!("about {points} points before refinement, {time}");
+    let what = format!("about {points} points, {time}");
     let size = bytes(expected.toolpath_bytes as f64);
     let table = format!("about {size}: toolpath-{}.csv", rough.name);
     line(&format!("pass {}", rough.name), what)
