@@ -78,10 +78,12 @@ impl<'a> Fit<'a> {
         let part = self.whole_part();
         let outside = self.compensator.curvature_outside(cut, part, region);
         match outside.map_err(|error| self.failed_check(error))? {
-            Some(outside) if outside.value.is_nan() => Err(self.no_numbers(outside)),
+            None => Ok(self.interference(tool, region)?.curvature),
+            // The part covers the region.
+            Some(nowhere) if nowhere.value == f64::NEG_INFINITY => Ok(on_part),
+            Some(outside) if !is_finite(&outside) => Err(self.no_numbers(outside)),
             Some(outside) if outside.value > on_part.value => Ok(outside),
             Some(_) => Ok(on_part),
-            None => Ok(self.interference(tool, region)?.curvature),
         }
     }
 
@@ -100,10 +102,6 @@ impl<'a> Fit<'a> {
         };
         let answer = self.compensator.interference(cut, region);
         let interference = answer.map_err(|error| self.failed_check(error))?;
-        let is_finite = |extreme: &Extreme| {
-            let all = [extreme.value, extreme.theta, extreme.rho];
-            all.iter().all(|number| number.is_finite())
-        };
         if interference.extremes().iter().all(is_finite) {
             return Ok(interference);
         }
@@ -121,4 +119,9 @@ impl<'a> Fit<'a> {
         let what = format!("no numbers in its interference check: {found:?}");
         self.chain.compensator.bad_answer(what)
     }
+}
+
+fn is_finite(extreme: &Extreme) -> bool {
+    let all = [extreme.value, extreme.theta, extreme.rho];
+    all.iter().all(|number| number.is_finite())
 }

@@ -2,8 +2,8 @@
 
 use turnpath_core::fit::{LADDER, STENCIL, evaluate, fit, steps};
 use turnpath_core::{
-    CentreBuffers, CentreSeries, Compensator, Cut, Locus, ORDER, Radial, Rates, Result as Answer,
-    Series,
+    CentreBuffers, CentreSeries, Compensator, Cut, Locus, ORDER, Radial, RadialRange, Rates,
+    Result as Answer, Series,
 };
 use turnpath_verify::Touch;
 
@@ -27,6 +27,9 @@ const FOOT_GAP: f64 = 1e-6;
 /// How far a rate may be from that of differences, as a part of the largest one: the fit of
 /// differences is good to a billionth.
 const RATE_GAP: f64 = 1e-6;
+/// How far a largest curvature may be from that of the interference check, as a part of it: two
+/// searches that begin on other grids.
+const CURVATURE_GAP: f64 = 1e-6;
 /// Length of the curves: rad along θ, and as a part of the aperture's radius along ρ.
 const WIDEST: f64 = 0.08;
 
@@ -42,6 +45,7 @@ pub fn check(chain: &TrialChain) -> Vec<FaultKind> {
         series(chain, &some),
         rates(chain, &some),
         at_once(chain, &some),
+        outside(chain),
     ];
     checks.into_iter().filter_map(Result::err).collect()
 }
@@ -251,6 +255,37 @@ fn at_once(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
         }
     }
     Ok(())
+}
+
+/// The largest curvature outside a part of the region is that of the interference check there.
+fn outside(chain: &TrialChain) -> Result<(), FaultKind> {
+    let RadialRange { inner, outer } = chain.task().range;
+    let region = RadialRange {
+        inner: inner.max(0.0),
+        outer,
+    };
+    let half = 0.5 * (region.inner + outer);
+    let part = RadialRange {
+        outer: half,
+        ..region
+    };
+    let ring = RadialRange { inner: half, outer };
+    let asked = compensator(chain).curvature_outside(cut(chain), part, region);
+    let Some(found) = asked.map_err(failed("curvature_outside"))? else {
+        return Ok(());
+    };
+    let checked = compensator(chain).interference(cut(chain), ring);
+    let checked = checked.map_err(failed("interference"))?.curvature.value;
+    // The comparison also fails for what is no number.
+    if (found.value - checked).abs() <= CURVATURE_GAP * checked.abs() {
+        return Ok(());
+    }
+    Err(FaultKind::Repeat {
+        what: format!("the largest curvature beyond ρ = {half} mm"),
+        when: "as an answer of `curvature_outside`",
+        first: checked,
+        second: found.value,
+    })
 }
 
 /// The exact rates against those of the host's fit of centres.

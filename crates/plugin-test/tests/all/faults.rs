@@ -11,7 +11,7 @@ use turnpath_plugin_test::Check::{
 use turnpath_plugin_test::{Check, Conformance, Promise, Trial};
 
 /// Each strategy, the check that sees its fault, and words of the message.
-const TABLE: [(&str, Check, &str); 21] = [
+const TABLE: [(&str, Check, &str); 22] = [
     ("slope-off", Derivatives, "∂z/∂x is"),
     ("slope-off-in-part", Derivatives, "∂z/∂x is"),
     ("curvature-off", Derivatives, "wrong in its term t^2"),
@@ -27,6 +27,11 @@ const TABLE: [(&str, Check, &str); 21] = [
     ("foot-in-bands", Touch, "the contact's radius is NaN"),
     ("wrong-rates", Derivatives, "∂X/∂θ at constant ρ is"),
     ("torn", Repetition, "as an answer of `centre_and_rates`"),
+    (
+        "looks-inside",
+        Repetition,
+        "as an answer of `curvature_outside`",
+    ),
     ("open", Closing, "does not close at its"),
     ("coarse", Residual, "a cusp of"),
     ("counts", Repetition, "several threads ask in another order"),
@@ -226,6 +231,23 @@ compensator!(
             (out.z_theta[i], out.z_x[i]) = (0.0, 0.1);
         }
         Some(Ok(()))
+    }
+);
+
+compensator!(
+    LooksInside,
+    "looks-inside",
+    Radial::Contact,
+    1.0,
+    |foot| foot,
+    // That within the part.
+    fn curvature_outside(
+        &self,
+        cut: Cut<'_>,
+        part: RadialRange,
+        _: RadialRange,
+    ) -> Result<Option<interference::Extreme>> {
+        Ok(Some(self.interference(cut, part)?.curvature))
     }
 );
 
@@ -439,7 +461,7 @@ turnpath_plugin::export!(
     surface_models: [SlopeOff, SlopeOffInPart, CurvatureOff, BatchOff],
     feeds: [Open, Coarse],
     samplers: [Counts, Learns, Sparse],
-    compensators: [Gouges, Hangs, Misnamed, WrongFoot, FootInBands, WrongRates, Torn],
+    compensators: [Gouges, Hangs, Misnamed, WrongFoot, FootInBands, WrongRates, Torn, LooksInside],
     velocities: [Slow, LooksAround, LooksFar, Parabolas],
     spindles: [Deaf],
 );
