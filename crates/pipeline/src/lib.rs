@@ -5,6 +5,7 @@
 //! task alone, not on the number of threads. [`prepare()`] checks the tool against the part and
 //! settles the range of ρ. [`run()`] makes the path and gives it to a [`DraftSink`] in order.
 
+mod ahead;
 mod aim;
 mod attributed;
 mod beyond;
@@ -19,6 +20,7 @@ mod error;
 mod estimate;
 mod feed_cap;
 mod fit;
+mod held_nodes;
 mod job_spec;
 mod largest_nose;
 mod law;

@@ -2,12 +2,12 @@
 //! blocks.
 
 use std::f64::consts::TAU;
-use std::sync::OnceLock;
 
 use turnpath_core::{
     Dependence, NodeList, Overrun, Path, Revolutions, SamplerPlan, SpindleLaw, SpiralLaw,
 };
 
+use crate::held_nodes::HeldNodes;
 use crate::node_check::{CLOSEST_NODES, NodeCheck, in_revolutions};
 use crate::observer::{Observer, stop_if_cancelled};
 use crate::size::check_points;
@@ -74,7 +74,7 @@ pub struct Plan<'a> {
     /// The state that a sequential sampler carries into each block; empty for others.
     sampler_states: Vec<Vec<f64>>,
     /// The nodes of each block while they are held; empty while they are not.
-    held: Vec<OnceLock<NodeList>>,
+    held: Vec<HeldNodes>,
 }
 
 impl<'a> Plan<'a> {
@@ -159,16 +159,15 @@ impl<'a> Plan<'a> {
             true => 3.0,
             false => 1.0,
         };
-        let is_held = !self.held.is_empty();
-        if !is_held && numbers * self.density * self.law.end() <= MOST_HELD {
-            self.held = (0..self.blocks()).map(|_| OnceLock::new()).collect();
+        if !self.holds_nodes() && numbers * self.density * self.law.end() <= MOST_HELD {
+            self.held = (0..self.blocks()).map(|_| HeldNodes::default()).collect();
         }
     }
 
     /// Divides the path into small blocks, of which a sample is taken. Those of a sequential sampler
     /// stay, as it has run over them already, and so do blocks whose nodes are held.
     pub fn divide_for_sample(&mut self) {
-        if self.sampler.dependence() == Dependence::Sequential || !self.held.is_empty() {
+        if self.sampler.dependence() == Dependence::Sequential || self.holds_nodes() {
             return;
         }
         while self.block > 1.0 && 0.5 * self.block * self.density >= SAMPLED_BLOCK {
@@ -263,18 +262,24 @@ impl<'a> Plan<'a> {
         index + 1 == self.blocks()
     }
 
+    /// Whether nodes are held.
+    pub fn holds_nodes(&self) -> bool {
+        !self.held.is_empty()
+    }
+
+    /// Places the nodes of a block that will be wanted, where nodes are held and no thread has begun to.
+    pub fn sample_ahead(&self, index: usize) {
+        if let Some(held) = self.held.get(index) {
+            held.place_ahead(|| self.place(index));
+        }
+    }
+
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<NodeList> {
-        let held = self.held.get(index);
-        if let Some(nodes) = held.and_then(OnceLock::get) {
-            return Ok(nodes.clone());
+        match self.held.get(index) {
+            Some(held) => held.get_or_place(|| self.place(index)),
+            None => self.place(index),
         }
-        let nodes = self.place(index)?;
-        if let Some(held) = held {
-            // Another thread may have been faster, with the same nodes.
-            let _ = held.set(nodes.clone());
-        }
-        Ok(nodes)
     }
 
     fn place(&self, index: usize) -> Result<NodeList> {

@@ -4,6 +4,7 @@
 
 use turnpath_core::toolpath::Section;
 
+use crate::ahead::sampling_ahead;
 use crate::blocks::Blocks;
 use crate::error::RunResult;
 use crate::estimate::{Estimate, nodes_per_revolution};
@@ -176,18 +177,31 @@ impl<'a> PathRun<'a> {
             }
         }
         self.begin_cut();
-        let FirstRound { seen, ahead, rest } = &mut round;
+        let record = || self.record_unrefined(&mut recorder, &mut round);
+        if !sampling_ahead(&self.plan, record)? {
+            return Ok(FirstPass::Refines(Box::new(round)));
+        }
+        let leads = self.end_path(recorder)?;
+        Ok(FirstPass::Whole(leads.map(Box::new)))
+    }
+
+    /// Records the cut as long as no segment of it is to be halved. Gives whether none is.
+    fn record_unrefined<S: Sink + ?Sized>(
+        &self,
+        recorder: &mut Recorder<'_, S>,
+        round: &mut FirstRound,
+    ) -> RunResult<bool, S::Error> {
+        let FirstRound { seen, ahead, rest } = round;
         *ahead = self.make(rest, &[])?;
         while let Some(made) = ahead.take() {
             let record = |made| recorder.record_unrefined(&self.plan, made, seen);
             let (holds, next) = self.record_and_make(made, record, rest, &[])?;
             *ahead = next;
             if !holds {
-                return Ok(FirstPass::Refines(Box::new(round)));
+                return Ok(false);
             }
         }
-        let leads = self.end_path(recorder)?;
-        Ok(FirstPass::Whole(leads.map(Box::new)))
+        Ok(true)
     }
 
     /// Delivers the path with its segments halved so often, and measures it where that is asked.
@@ -242,10 +256,7 @@ impl<'a> PathRun<'a> {
         let ahead = round.ahead.as_ref().map_or(0, Vec::len);
         let left = ahead + round.rest.left(&self.plan);
         observer.begin(Stage::Refine(1), left as u64);
-        while let Some(made) = round.next(|rest| self.make(rest, &[]))? {
-            round.seen.play(&self.plan, &made)?;
-            observer.advance(made.len() as u64);
-        }
+        sampling_ahead(&self.plan, || self.play_rest(&mut round))?;
         self.leads = None;
         self.plan.start = Start::default();
         let all: Vec<usize> = (0..self.plan.blocks()).collect();
@@ -256,6 +267,15 @@ impl<'a> PathRun<'a> {
             return refine(&self.plan, self.batch, &all, observer);
         }
         Ok(depths)
+    }
+
+    /// Plays the rest of the blocks.
+    fn play_rest(&self, round: &mut FirstRound) -> Result<()> {
+        while let Some(made) = round.next(|rest| self.make(rest, &[]))? {
+            round.seen.play(&self.plan, &made)?;
+            self.observer.advance(made.len() as u64);
+        }
+        Ok(())
     }
 
     /// Nothing is played yet.
