@@ -24,22 +24,46 @@ pub type Measure<'a> = dyn Fn(&[f64], &[f64], &mut [f64]) -> Result<()> + 'a;
 /// # Errors
 /// If `measure` gives NaN somewhere on the ring.
 pub fn least_over_angles(measure: &Measure<'_>, rho: f64) -> Result<f64> {
-    let mut search = Search::new(measure, rho);
-    let mut least = f64::INFINITY;
+    let found = side_by_side(measure, &[rho])?;
+    Ok(found.into_iter().fold(f64::INFINITY, f64::min))
+}
+
+/// The same at each of some radii. Their searches ask together, which costs less than one after the other.
+///
+/// # Errors
+/// The error of the first radius that has one.
+pub fn least_over_angles_at(measure: &Measure<'_>, radii: &[f64]) -> Result<Vec<f64>> {
+    // An error of several radii does not say whose it is.
+    side_by_side(measure, radii).or_else(|_| {
+        let each = radii.iter().map(|rho| least_over_angles(measure, *rho));
+        each.collect()
+    })
+}
+
+fn side_by_side(measure: &Measure<'_>, radii: &[f64]) -> Result<Vec<f64>> {
+    let mut search = Search::new(measure);
+    let mut least = vec![f64::INFINITY; radii.len()];
+    let mut open: Vec<usize> = (0..radii.len()).collect();
     for (ring, offset) in RINGS.iter().enumerate() {
-        let found = search.ring(*offset)?;
-        let gain = least - found;
-        least = least.min(found);
-        if ring > 0 && gain <= SETTLED * least.abs() {
+        let rings: Vec<f64> = open.iter().map(|i| radii[*i]).collect();
+        let mut found = search.rings(&rings, *offset)?.into_iter();
+        open.retain(|i| {
+            let found = found.next().unwrap_or(f64::INFINITY);
+            let gain = least[*i] - found;
+            least[*i] = least[*i].min(found);
+            ring == 0 || gain > SETTLED * least[*i].abs()
+        });
+        if open.is_empty() {
             break;
         }
     }
     Ok(least)
 }
 
-/// A point on the ring that the search refines.
+/// A point on a ring that the search refines.
 #[derive(Clone, Copy)]
 struct Candidate {
+    radius: f64,
     theta: f64,
     value: f64,
     scale: f64,
@@ -47,59 +71,72 @@ struct Candidate {
 
 struct Search<'a> {
     measure: &'a Measure<'a>,
-    radius: f64,
     theta: Vec<f64>,
     rho: Vec<f64>,
     value: Vec<f64>,
 }
 
 impl<'a> Search<'a> {
-    fn new(measure: &'a Measure<'a>, radius: f64) -> Self {
+    fn new(measure: &'a Measure<'a>) -> Self {
         Self {
             measure,
-            radius,
             theta: Vec::with_capacity(ANGLES),
-            rho: vec![radius; ANGLES],
-            value: vec![f64::NAN; ANGLES],
+            rho: Vec::with_capacity(ANGLES),
+            value: Vec::with_capacity(ANGLES),
         }
     }
 
-    /// Measures at the present angles. The values are in the order of the angles.
-    fn evaluate(&mut self) -> Result<()> {
-        let count = self.theta.len();
-        self.rho.resize(count, self.radius);
+    /// Measures at these places. The values are in their order.
+    fn evaluate(&mut self, places: impl Iterator<Item = (f64, f64)>) -> Result<()> {
+        self.theta.clear();
+        self.rho.clear();
+        for (theta, rho) in places {
+            self.theta.push(theta);
+            self.rho.push(rho);
+        }
         self.value.clear();
-        self.value.resize(count, f64::NAN);
+        self.value.resize(self.theta.len(), f64::NAN);
         (self.measure)(&self.theta, &self.rho, &mut self.value)?;
         match self.value.iter().position(|value| value.is_nan()) {
             None => Ok(()),
-            Some(at) => Err(no_value(self.theta[at], self.radius)),
+            Some(at) => Err(no_value(self.theta[at], self.rho[at])),
         }
     }
 
-    /// The smallest value that a search from one ring of angles finds.
-    fn ring(&mut self, offset: f64) -> Result<f64> {
+    /// The smallest value that a search from one ring of angles finds at each radius.
+    fn rings(&mut self, radii: &[f64], offset: f64) -> Result<Vec<f64>> {
         let step = TAU / ANGLES as f64;
-        self.theta.clear();
-        self.theta
-            .extend((0..ANGLES).map(|j| (j as f64 + offset) * step));
-        self.evaluate()?;
-        let mut candidates = self.lowest(0.5 * step);
+        let (mut candidates, mut ends) = (Vec::new(), Vec::new());
+        for radius in radii {
+            let angles = (0..ANGLES).map(|j| (j as f64 + offset) * step);
+            self.evaluate(angles.map(|theta| (theta, *radius)))?;
+            candidates.extend(self.lowest(*radius, 0.5 * step));
+            ends.push(candidates.len());
+        }
         for _ in 0..ROUNDS {
             self.refine(&mut candidates)?;
         }
         self.evaluate_around(&candidates)?;
-        let around = candidates.iter().zip(self.value.chunks(2));
-        Ok(around
-            .map(|(candidate, sides)| vertex(candidate.value, sides))
-            .fold(f64::INFINITY, f64::min))
+        let mut lowest = candidates
+            .iter()
+            .zip(self.value.chunks(2))
+            .map(|(candidate, sides)| vertex(candidate.value, sides));
+        let mut first = 0;
+        let of_radius = ends.into_iter().map(|end| {
+            let count = end - first;
+            first = end;
+            lowest.by_ref().take(count).fold(f64::INFINITY, f64::min)
+        });
+        Ok(of_radius.collect())
     }
 
-    fn lowest(&self, scale: f64) -> Vec<Candidate> {
+    /// The lowest points of the ring that was measured last.
+    fn lowest(&self, radius: f64, scale: f64) -> Vec<Candidate> {
         let value = |j: usize| self.value[j % ANGLES];
         let mut found: Vec<Candidate> = (0..ANGLES)
             .filter(|j| value(*j) <= value(j + 1) && value(*j) <= value(j + ANGLES - 1))
             .map(|j| Candidate {
+                radius,
                 theta: self.theta[j],
                 value: value(j),
                 scale,
@@ -112,13 +149,16 @@ impl<'a> Search<'a> {
 
     /// Measures one step to either side of each candidate.
     fn evaluate_around(&mut self, candidates: &[Candidate]) -> Result<()> {
-        self.theta.clear();
-        self.theta.extend(
-            candidates
-                .iter()
-                .flat_map(|c| [c.theta - c.scale, c.theta + c.scale]),
-        );
-        self.evaluate()
+        let around = candidates.iter().flat_map(|candidate| {
+            let Candidate {
+                theta,
+                scale,
+                radius,
+                ..
+            } = candidate;
+            [(theta - scale, *radius), (theta + scale, *radius)]
+        });
+        self.evaluate(around)
     }
 
     /// Moves each candidate to a lower neighbour. If there is none, halves the candidate's step.
@@ -181,6 +221,21 @@ mod tests {
             let found = least(|theta| 3.0 + Scalar::cos(waves * theta + 0.123)).unwrap();
             assert!((found - 2.0).abs() < 1e-6, "{waves} waves: {found}");
         }
+    }
+
+    #[test]
+    fn radii_side_by_side_have_the_values_of_each_alone() {
+        let waves = |theta: f64, rho: f64| rho + Scalar::cos((3.0 + rho).floor() * theta + rho);
+        let measure = |theta: &[f64], rho: &[f64], out: &mut [f64]| {
+            for ((out, theta), rho) in out.iter_mut().zip(theta).zip(rho) {
+                *out = waves(*theta, *rho);
+            }
+            Ok(())
+        };
+        let radii: Vec<f64> = (0..60).map(|i| 3.7 * f64::from(i)).collect();
+        let alone = radii.iter().map(|rho| least_over_angles(&measure, *rho));
+        let alone: Vec<f64> = alone.collect::<Result<_>>().unwrap();
+        assert_eq!(least_over_angles_at(&measure, &radii).unwrap(), alone);
     }
 
     #[test]

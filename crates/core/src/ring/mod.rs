@@ -5,5 +5,5 @@
 mod least;
 mod table;
 
-pub use least::{Measure, least_over_angles};
-pub use table::{FLOORS, FeedAt, FeedTable, least_residual_feed};
+pub use least::{Measure, least_over_angles, least_over_angles_at};
+pub use table::{FLOORS, FeedAt, FeedTable, RADII_AT_ONCE, least_feeds_side_by_side};

@@ -1,6 +1,6 @@
 //! F(ρ), the feed that keeps the residual at every angle, tabulated against the radius.
 
-use super::{Measure, least_over_angles};
+use super::{Measure, least_over_angles_at};
 use crate::{Locus, Misfit, RadialRange, Result, Setup, StrategyError};
 
 /// Cells of the first table.
@@ -17,6 +17,10 @@ const TABLE_COST: f64 = 1e-4;
 const PROBE: f64 = 0.381_966;
 /// Parts of a cell, each with a floor of its own. They give more borders without more evaluations.
 pub const FLOORS: usize = 8;
+
+/// Radii at which feeds are looked for side by side: most questions of a search are for six points, and so
+/// many of them fill vector registers.
+pub const RADII_AT_ONCE: usize = 16;
 
 /// F at one radius, mm.
 pub type FeedAt<'a> = dyn Fn(f64) -> Result<f64> + 'a;
@@ -227,19 +231,25 @@ fn least_residual_feeds(setup: Setup<'_>, radii: &[f64]) -> Result<Vec<f64>> {
     if let Some(answer) = locus.least_residual_feeds(residual, radii, &mut least) {
         return answer.map(|()| least);
     }
-    let each = radii
-        .iter()
-        .map(|rho| least_residual_feed(locus, residual, *rho));
-    each.collect()
+    let groups = radii.chunks(RADII_AT_ONCE);
+    let groups = groups.map(|radii| least_feeds_side_by_side(locus, residual, radii));
+    groups
+        .collect::<Result<Vec<_>>>()
+        .map(|found| found.concat())
 }
 
-/// The least feed over all angles at a radius, mm, that leaves cusps of height `residual`, mm.
+/// The least feed over all angles at each of some radii, mm, that leaves cusps of height `residual`, mm. Some
+/// [`RADII_AT_ONCE`] of them at a time cost the least.
 ///
 /// # Errors
-/// If the surface or the locus has no value there.
-pub fn least_residual_feed(locus: &dyn Locus, residual: f64, rho: f64) -> Result<f64> {
+/// If the surface or the locus has no value there: that of the first such radius.
+pub fn least_feeds_side_by_side(
+    locus: &dyn Locus,
+    residual: f64,
+    radii: &[f64],
+) -> Result<Vec<f64>> {
     let radial = locus.radial();
     let measure: &Measure<'_> =
         &|theta, rho, out| locus.residual_feed(residual, radial, theta, rho, out);
-    least_over_angles(measure, rho)
+    least_over_angles_at(measure, radii)
 }
