@@ -33,9 +33,11 @@ impl Family {
     #[inline(always)]
     pub fn sum<S: Scalar>(&self, coefficients: &[f64], w: S) -> S {
         let mut sum = S::constant(0.0);
-        self.visit(coefficients.len(), w, |k, p| {
-            sum = with_term(sum, coefficients.get(k), p);
-        });
+        let mut walk = Walk::new(self);
+        for k in 0..coefficients.len() {
+            sum = with_term(sum, coefficients.get(k), walk.here);
+            walk.go_on(self.steps.get(k), w);
+        }
         sum
     }
 
@@ -43,26 +45,43 @@ impl Family {
     #[inline(always)]
     pub fn sums<S: Scalar>(&self, first: &[f64], second: &[f64], w: S) -> (S, S) {
         let mut sums = (S::constant(0.0), S::constant(0.0));
-        self.visit(first.len().max(second.len()), w, |k, p| {
-            sums.0 = with_term(sums.0, first.get(k), p);
-            sums.1 = with_term(sums.1, second.get(k), p);
-        });
+        let mut walk = Walk::new(self);
+        for k in 0..first.len().max(second.len()) {
+            sums.0 = with_term(sums.0, first.get(k), walk.here);
+            sums.1 = with_term(sums.1, second.get(k), walk.here);
+            walk.go_on(self.steps.get(k), w);
+        }
         sums
     }
+}
 
-    /// Calls `take` with k and p_k(w) for the first `count` polynomials.
+/// A walk over the polynomials of a family. A closure for each of them might become a function of its own,
+/// which knows no wide registers.
+#[derive(Clone, Copy)]
+struct Walk<S> {
+    before: S,
+    here: S,
+}
+
+impl<S: Scalar> Walk<S> {
     #[inline(always)]
-    fn visit<S: Scalar>(&self, count: usize, w: S, mut take: impl FnMut(usize, S)) {
-        if count == 0 {
-            return;
+    fn new(family: &Family) -> Self {
+        Self {
+            before: S::constant(0.0),
+            here: S::constant(family.first),
         }
-        let mut before = S::constant(0.0);
-        let mut here = S::constant(self.first);
-        take(0, here);
-        for (k, step) in self.steps.iter().take(count - 1).enumerate() {
+    }
+
+    /// Goes on to the next polynomial; without a step it stays.
+    #[inline(always)]
+    fn go_on(&mut self, step: Option<&Step>, w: S) {
+        if let Some(step) = step {
+            let Self { before, here } = *self;
             let next = here * (w * step.slope + step.constant) - before * step.back + step.lift;
-            (before, here) = (here, next);
-            take(k + 1, here);
+            *self = Self {
+                before: here,
+                here: next,
+            };
         }
     }
 }

@@ -48,9 +48,13 @@ pub fn sum<S: Scalar>(coefficients: &[f64], s: S) -> S {
     match coefficients {
         [] => S::constant(0.0),
         [constant] => S::constant(*constant),
-        [lower @ .., next, highest] => lower
-            .iter()
-            .rev()
-            .fold(s * *highest + *next, |sum, c| sum * s + *c),
+        [lower @ .., next, highest] => {
+            // A `fold` may become a function of its own, which knows no wide registers.
+            let mut sum = s * *highest + *next;
+            for c in lower.iter().rev() {
+                sum = sum * s + *c;
+            }
+            sum
+        }
     }
 }

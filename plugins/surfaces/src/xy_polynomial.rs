@@ -83,12 +83,16 @@ impl Surface for XyPolynomial {
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (x, y) = (x * self.scale, y * self.scale);
         let mut rows = self.rows.iter().rev().map(Vec::as_slice);
-        let highest = powers::sum(rows.next().unwrap_or_default(), y);
-        rows.fold(highest, |sum, row| match row {
-            [] => sum * x,
-            [constant] => sum * x + *constant,
-            _ => sum * x + powers::sum(row, y),
-        })
+        let mut sum = powers::sum(rows.next().unwrap_or_default(), y);
+        // Not by `fold`, for the reason that `powers::sum` has.
+        for row in rows {
+            sum = match row {
+                [] => sum * x,
+                [constant] => sum * x + *constant,
+                _ => sum * x + powers::sum(row, y),
+            };
+        }
+        sum
     }
 }
 
