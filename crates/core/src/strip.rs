@@ -4,7 +4,7 @@
 //! neither loops nor calls, the compiler puts the curves side by side in [vector
 //! registers](crate::registers). The operations of a curve and their order are those that it has alone.
 
-use crate::{Series, Taylor};
+use crate::{Lanes, Series, Taylor};
 
 /// Number of curves in a strip. The coefficients of a few series stay in the cache of the first level,
 /// 1.3 KB each.
@@ -56,6 +56,31 @@ pub fn curve<const N: usize>(strip: &Strip<N>, i: usize) -> Taylor<f64, N> {
 pub fn put<const N: usize>(i: usize, series: Taylor<f64, N>, strip: &mut Strip<N>) {
     for (column, c) in strip.iter_mut().zip(series.0) {
         column[i] = c;
+    }
+}
+
+/// The series of `WIDTH` curves of a strip in lanes, from curve `first` on.
+#[inline(always)]
+pub fn lanes<const N: usize, const WIDTH: usize>(
+    strip: &Strip<N>,
+    first: usize,
+) -> Taylor<Lanes<WIDTH>, N> {
+    let mut series = Taylor([Lanes([0.0; WIDTH]); N]);
+    for (coefficient, column) in series.0.iter_mut().zip(strip) {
+        coefficient.0.copy_from_slice(&column[first..first + WIDTH]);
+    }
+    series
+}
+
+/// Puts the series of `WIDTH` curves in lanes into their places in a strip.
+#[inline(always)]
+pub fn put_lanes<const N: usize, const WIDTH: usize>(
+    first: usize,
+    series: Taylor<Lanes<WIDTH>, N>,
+    strip: &mut Strip<N>,
+) {
+    for (column, c) in strip.iter_mut().zip(series.0) {
+        column[first..first + WIDTH].copy_from_slice(&c.0);
     }
 }
 

@@ -1,24 +1,25 @@
 //! Curves through a formula: series of heights and slopes, a strip of curves at a time.
 //!
-//! Where the formula has neither loops nor calls, the curves of a [strip](crate::strip) go side by side.
-//! Other formulas go one curve at a time, which is faster than [lanes](crate::Lanes) in a series:
-//! those of all coefficients together do not fit into the registers.
+//! Where the formula has neither loops nor calls, the compiler puts the curves of a
+//! [strip](crate::strip) side by side. Curves through other formulas go in [lanes](crate::Lanes), or one at
+//! a time where a number has so many coefficients that the registers do not hold their lanes.
 
 use super::columns::GradientSeries;
 use super::formula::Surface;
 use crate::registers::Loop;
-use crate::strip::{STRIP, blank, curve, gather, put, scatter};
-use crate::{Dual, Series, Taylor};
+use crate::strip::{STRIP, blank, curve, gather, lanes, put, put_lanes, scatter};
+use crate::{Dual, Lanes, Scalar, Series, Taylor};
 
 /// Coefficients with their derivatives in x and y, which are none so far.
 #[inline(always)]
-fn as_duals<const N: usize>(series: Taylor<f64, N>) -> Taylor<Dual<f64>, N> {
+fn as_duals<S: Scalar, const N: usize>(series: Taylor<S, N>) -> Taylor<Dual<S>, N> {
+    let zero = S::constant(0.0);
     let dual = |value| Dual {
         value,
-        dx: 0.0,
-        dy: 0.0,
+        dx: zero,
+        dy: zero,
     };
-    let mut duals = Taylor([dual(0.0); N]);
+    let mut duals = Taylor([dual(zero); N]);
     for (place, value) in duals.0.iter_mut().zip(series.0) {
         *place = dual(value);
     }
@@ -55,6 +56,32 @@ impl<T: Surface, const N: usize> Loop for HeightsAlong<'_, T, N> {
             for i in 0..x.len().min(STRIP) {
                 let sag = surface.sag(curve(&along_x, i), curve(&along_y, i));
                 put(i, sag, &mut heights);
+            }
+            scatter(&heights, z);
+        }
+    }
+}
+
+/// Curves in [lanes](crate::Lanes).
+const WIDTH: usize = 8;
+
+/// The same loop with curves in lanes.
+pub struct HeightsInLanes<'a, T, const N: usize>(pub HeightsAlong<'a, T, N>);
+
+impl<T: Surface, const N: usize> Loop for HeightsInLanes<'_, T, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let HeightsAlong { surface, x, y, z } = self.0;
+        let (mut along_x, mut along_y, mut heights) = (blank::<N>(), blank(), blank::<N>());
+        let curves = x.chunks(STRIP).zip(y.chunks(STRIP));
+        for ((x, y), z) in curves.zip(z.chunks_mut(STRIP)) {
+            gather(x, &mut along_x);
+            gather(y, &mut along_y);
+            for first in (0..x.len()).step_by(WIDTH) {
+                let [x, y] = [&along_x, &along_y].map(|strip| lanes::<N, WIDTH>(strip, first));
+                put_lanes(first, surface.sag(x, y), &mut heights);
             }
             scatter(&heights, z);
         }
@@ -101,6 +128,38 @@ impl<T: Surface, const N: usize> Loop for SlopesAlong<'_, T, N> {
                 for (k, c) in sag.0.iter().enumerate() {
                     (heights[k][i], slopes_x[k][i], slopes_y[k][i]) = (c.value, c.dx, c.dy);
                 }
+            }
+            scatter(&heights, z);
+            scatter(&slopes_x, zx);
+            scatter(&slopes_y, zy);
+        }
+    }
+}
+
+/// The same loop with curves in lanes, as [`HeightsInLanes`].
+pub struct SlopesInLanes<'a, T, const N: usize>(pub SlopesAlong<'a, T, N>);
+
+impl<T: Surface, const N: usize> Loop for SlopesInLanes<'_, T, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let SlopesAlong { surface, x, y, out } = self.0;
+        let (mut along_x, mut along_y) = (blank::<N>(), blank::<N>());
+        let (mut heights, mut slopes_x, mut slopes_y) = (blank::<N>(), blank::<N>(), blank::<N>());
+        let curves = x.chunks(STRIP).zip(y.chunks(STRIP));
+        let slopes = out.zx.chunks_mut(STRIP).zip(out.zy.chunks_mut(STRIP));
+        for (((x, y), z), (zx, zy)) in curves.zip(out.z.chunks_mut(STRIP)).zip(slopes) {
+            gather(x, &mut along_x);
+            gather(y, &mut along_y);
+            for first in (0..x.len()).step_by(WIDTH) {
+                let curves = [&along_x, &along_y].map(|strip| lanes::<N, WIDTH>(strip, first));
+                let [mut x, mut y] = curves.map(as_duals);
+                (x.0[0].dx, y.0[0].dy) = (Lanes([1.0; WIDTH]), Lanes([1.0; WIDTH]));
+                let sag = surface.sag(x, y).0;
+                put_lanes(first, Taylor(sag.map(|c| c.value)), &mut heights);
+                put_lanes(first, Taylor(sag.map(|c| c.dx)), &mut slopes_x);
+                put_lanes(first, Taylor(sag.map(|c| c.dy)), &mut slopes_y);
             }
             scatter(&heights, z);
             scatter(&slopes_x, zx);
@@ -165,8 +224,33 @@ mod tests {
             for (found, alone) in [(&found, &z), (&found_x, &zx), (&found_y, &zy)] {
                 assert_eq!(bits(found, N), bits(alone, N), "{registers:?}, {N}");
             }
-            registers.run(HeightsAlong::<_, N>::new(&Lens, (&x, &y), &mut found));
+            for all in [&mut found, &mut found_x, &mut found_y] {
+                all.clone_from(&blank);
+            }
+            let out = GradientSeries {
+                z: &mut found,
+                zx: &mut found_x,
+                zy: &mut found_y,
+            };
+            registers.run(SlopesInLanes(SlopesAlong::<_, N>::new(
+                &Lens,
+                (&x, &y),
+                out,
+            )));
+            for (found, alone) in [(&found, &z), (&found_x, &zx), (&found_y, &zy)] {
+                assert_eq!(bits(found, N), bits(alone, N), "{registers:?}, {N}, lanes");
+            }
+            let along = HeightsAlong::<_, N>::new(&Lens, (&x, &y), &mut found);
+            registers.run(along);
             assert_eq!(bits(&found, N), bits(&heights, N), "{registers:?}, {N}");
+            found.clone_from(&blank);
+            let along = HeightsAlong::<_, N>::new(&Lens, (&x, &y), &mut found);
+            registers.run(HeightsInLanes(along));
+            assert_eq!(
+                bits(&found, N),
+                bits(&heights, N),
+                "{registers:?}, {N}, lanes"
+            );
         });
     }
 

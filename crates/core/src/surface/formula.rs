@@ -12,10 +12,19 @@ use crate::Scalar;
 /// The formula must also hold beyond the aperture, since the tool runs over the rim. Where the
 /// formula has no value it gives NaN.
 pub trait Surface: Send + Sync {
-    /// Whether series of many curves go through the formula side by side in vector registers. This is
-    /// faster if the formula has neither loops nor calls, and is marked `#[inline(always)]`: sums,
-    /// products, quotients, roots and choices. Without, curves go one by one, with the same bits.
+    /// Whether the compiler puts series of many curves side by side in vector registers. It does so, and
+    /// nothing is faster, if the formula has neither loops nor calls and is marked `#[inline(always)]`:
+    /// sums, products, quotients, roots and choices. All ways give the same bits.
     const SIDE_BY_SIDE: bool = true;
+
+    /// Through how many coefficients series of heights go through the formula in [lanes](crate::Lanes), where
+    /// [`SIDE_BY_SIDE`](Self::SIDE_BY_SIDE) is false: five registers hold all of a number. Lanes are faster if
+    /// the formula is marked `#[inline(always)]`, and the compiler makes it once more for each count. Series
+    /// of more coefficients go one by one.
+    const HEIGHTS_IN_LANES: usize = 5;
+
+    /// The same for series of heights and slopes, of which a number has three times as many registers.
+    const SLOPES_IN_LANES: usize = 3;
 
     /// The height at (x, y).
     fn sag<S: Scalar>(&self, x: S, y: S) -> S;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::orders::SeriesOrders;
 use crate::registers::{Loop, in_widest};
 use crate::{ORDER, Result, Series, StrategyError};
-use curves::{HeightsAlong, SlopesAlong};
+use curves::{HeightsAlong, HeightsInLanes, SlopesAlong, SlopesInLanes};
 use points::{Heights, Slopes};
 
 pub use columns::{GradientSeries, Gradients};
@@ -110,7 +110,7 @@ impl<T: Surface> SurfaceModel for T {
 
     fn series(&self, x: &[Series], y: &[Series], out: GradientSeries<'_>) -> Result<()> {
         same_lengths(x.len(), &[y.len(), out.z.len(), out.zx.len(), out.zy.len()])?;
-        along_curves::<T, _>(SlopesAlong::<T, { ORDER + 1 }>::new(self, (x, y), out));
+        slopes_along(SlopesAlong::<T, { ORDER + 1 }>::new(self, (x, y), out));
         Ok(())
     }
 
@@ -125,8 +125,8 @@ impl<T: Surface> SurfaceModel for T {
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
         let out = GradientSeries { z: &mut *z, zx, zy };
         match orders.slopes {
-            0 | 1 => along_curves::<T, _>(SlopesAlong::<T, 2>::new(self, (x, y), out)),
-            2 => along_curves::<T, _>(SlopesAlong::<T, 3>::new(self, (x, y), out)),
+            0 | 1 => slopes_along(SlopesAlong::<T, 2>::new(self, (x, y), out)),
+            2 => slopes_along(SlopesAlong::<T, 3>::new(self, (x, y), out)),
             _ => return self.series(x, y, out),
         }
         match orders.heights > orders.slopes {
@@ -146,7 +146,7 @@ impl<T: Surface> SurfaceModel for T {
             return self.height_series(x, y, z);
         }
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        along_curves::<T, _>(HeightsAlong::<T, 3>::new(self, (x, y), z));
+        heights_along(HeightsAlong::<T, 3>::new(self, (x, y), z));
         Ok(())
     }
 
@@ -156,16 +156,31 @@ impl<T: Surface> SurfaceModel for T {
 
     fn height_series(&self, x: &[Series], y: &[Series], z: &mut [Series]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        along_curves::<T, _>(HeightsAlong::<T, { ORDER + 1 }>::new(self, (x, y), z));
+        heights_along(HeightsAlong::<T, { ORDER + 1 }>::new(self, (x, y), z));
         Ok(())
     }
 }
 
-/// Runs a loop over curves.
-fn along_curves<T: Surface, L: Loop>(one: L) -> L::Output {
-    match T::SIDE_BY_SIDE {
-        true => in_widest(one),
-        false => one.call(),
+/// Gives curves their heights.
+fn heights_along<T: Surface, const N: usize>(along: HeightsAlong<'_, T, N>) {
+    // What a constant block rules out is not compiled.
+    if T::SIDE_BY_SIDE {
+        in_widest(along);
+    } else if const { N <= T::HEIGHTS_IN_LANES } {
+        in_widest(HeightsInLanes(along));
+    } else {
+        along.call();
+    }
+}
+
+/// Gives curves their heights and slopes.
+fn slopes_along<T: Surface, const N: usize>(along: SlopesAlong<'_, T, N>) {
+    if T::SIDE_BY_SIDE {
+        in_widest(along);
+    } else if const { N <= T::SLOPES_IN_LANES } {
+        in_widest(SlopesInLanes(along));
+    } else {
+        along.call();
     }
 }
 
