@@ -52,7 +52,7 @@ pub trait Locus: Send + Sync {
 
     /// The least feed over all angles at each radius `rho`, mm, that leaves cusps of height `residual`
     /// (mm), with ρ in the locus's own meaning: that of
-    /// [`least_feeds_side_by_side`](crate::ring::least_feeds_side_by_side). `None` from a locus that does not
+    /// [`least_feeds_at`](crate::ring::least_feeds_at). `None` from a locus that does not
     /// look for it. One that does may look at several radii in parallel.
     fn least_residual_feeds(
         &self,

@@ -46,7 +46,8 @@ impl<T: SamplerPlan + Clone + 'static> Sampler for T {
 pub trait SamplerPlan: Send + Sync {
     /// Appends the nodes of `block`, in increasing order, from block.start (included) to block.end
     /// (excluded). The host adds the first and the last point of the path. In `path`, the laws may
-    /// be only their parts around the block.
+    /// be only their parts around the block. A plan must not wait for other work of the host's threads:
+    /// such work may itself wait for this block.
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()>;
 
     /// How a block depends on the others. The default is `Local`.

@@ -1,5 +1,6 @@
 //! The nodes of a block, which are placed once, whichever thread wants them first.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -18,22 +19,30 @@ pub struct HeldNodes {
 
 impl HeldNodes {
     /// The nodes; `place` places them if no thread did. While another thread places them, this one does
-    /// other work of the pool. An error is not held: `place` gives it again to each thread that asks.
+    /// other work of the pool, and waits once there is none. An error is not held: `place` gives it again to
+    /// each thread that asks.
     ///
     /// `place` must not wait for the pool. A thread that did so could take up work that waits for the same
     /// nodes, and would wait for itself.
     pub fn get_or_place(&self, place: impl FnOnce() -> Result<NodeList>) -> Result<NodeList> {
-        match self.begin() {
-            true => self.place(place),
-            false => self.wait().clone().map_or_else(place, Ok),
+        if !self.begin() {
+            return self.wait().clone().map_or_else(place, Ok);
         }
+        let _end = PlacingEnd(self);
+        let nodes = place()?;
+        let _ = self.nodes.set(Some(nodes.clone()));
+        Ok(nodes)
     }
 
-    /// Places the nodes if no thread has begun to.
+    /// Places the nodes if no thread has begun to. An error or a panic is left to the thread that wants the
+    /// nodes.
     pub fn place_ahead(&self, place: impl FnOnce() -> Result<NodeList>) {
-        if self.begin() {
-            // An error is left to the thread that wants the nodes.
-            let _ = self.place(place);
+        if !self.begin() {
+            return;
+        }
+        let _end = PlacingEnd(self);
+        if let Ok(Ok(nodes)) = catch_unwind(AssertUnwindSafe(place)) {
+            let _ = self.nodes.set(Some(nodes));
         }
     }
 
@@ -42,27 +51,19 @@ impl HeldNodes {
         !self.is_begun.swap(true, Ordering::Relaxed)
     }
 
-    fn place(&self, place: impl FnOnce() -> Result<NodeList>) -> Result<NodeList> {
-        let _end = PlacingEnd(self);
-        let placed = place();
-        let _ = self.nodes.set(placed.as_ref().ok().cloned());
-        placed
-    }
-
     fn wait(&self) -> &Option<NodeList> {
-        loop {
-            if let Some(nodes) = self.nodes.get() {
-                return nodes;
-            }
+        while self.nodes.get().is_none() {
             if rayon::yield_now() != Some(rayon::Yield::Executed) {
-                std::thread::yield_now();
+                // There is no other work, and the thread that places them waits for nobody.
+                return self.nodes.wait();
             }
         }
+        self.nodes.wait()
     }
 }
 
-/// The end of the placing of a block's nodes. A panic leaves no nodes, so that no thread waits for them
-/// for ever.
+/// The end of the placing of a block's nodes. An error or a panic leaves no nodes, so that no thread waits
+/// for them for ever.
 struct PlacingEnd<'a>(&'a HeldNodes);
 
 impl Drop for PlacingEnd<'_> {
@@ -112,10 +113,30 @@ mod tests {
     }
 
     #[test]
+    fn threads_that_wait_for_an_error_get_it_each() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build();
+        let held: Vec<HeldNodes> = (0..20).map(|_| HeldNodes::default()).collect();
+        let fail = || {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+            Err(PipelineError::Cancelled)
+        };
+        pool.unwrap().install(|| {
+            (0..200usize).into_par_iter().for_each(|i| {
+                let held = &held[i % 20];
+                if i % 3 == 0 {
+                    held.place_ahead(fail);
+                }
+                assert!(held.get_or_place(fail).is_err());
+            });
+        });
+    }
+
+    #[test]
     fn a_panic_leaves_no_thread_waiting() {
         let held = HeldNodes::default();
-        let panics = || held.place_ahead(|| panic!("as a sampler may"));
-        assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(panics)).is_err());
+        let panics = || panic!("as a sampler may");
+        held.place_ahead(panics);
+        assert!(catch_unwind(AssertUnwindSafe(|| held.get_or_place(panics))).is_err());
         assert!(held.get_or_place(|| Ok(some_nodes(0))).is_ok());
     }
 

@@ -1,7 +1,7 @@
 //! The locus that a feed strategy is lent. It looks for least feeds at several radii in parallel.
 
 use rayon::prelude::*;
-use turnpath_core::ring::{RADII_AT_ONCE, least_feeds_side_by_side};
+use turnpath_core::ring::{RADII_AT_ONCE, least_feeds_at};
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
 use crate::order::in_order;
@@ -47,8 +47,9 @@ impl Locus for PlanningLocus<'_> {
         rho: &[f64],
         least: &mut [f64],
     ) -> Option<Result<()>> {
-        let groups = rho.par_chunks(RADII_AT_ONCE);
-        let found = groups.map(|radii| least_feeds_side_by_side(self.0, residual, radii));
+        let of_each_thread = rho.len().div_ceil(rayon::current_num_threads());
+        let groups = rho.par_chunks(of_each_thread.clamp(1, RADII_AT_ONCE));
+        let found = groups.map(|radii| least_feeds_at(self.0, residual, radii));
         let found = in_order(found).map(|found| found.concat());
         Some(found.map(|found| least.copy_from_slice(&found)))
     }
@@ -121,7 +122,7 @@ mod tests {
     #[test]
     fn the_feeds_in_parallel_are_those_of_one_radius_after_the_other() {
         let radii: Vec<f64> = (0..500).map(|i| 0.01 * f64::from(i)).collect();
-        let alone = |rho: &f64| least_feeds_side_by_side(&Feeds, 1e-3, &[*rho]).unwrap();
+        let alone = |rho: &f64| least_feeds_at(&Feeds, 1e-3, &[*rho]).unwrap();
         let alone: Vec<f64> = radii.iter().flat_map(alone).collect();
         assert_eq!(in_parallel(&radii).unwrap().unwrap(), alone);
         assert!(alone.iter().all(|feed| (feed - 1e-3).abs() < 1e-9));

@@ -106,8 +106,8 @@ fn formula(text: &str, constants: &[NamedConstant]) -> std::result::Result<Formu
 impl Surface for Formula {
     const SIDE_BY_SIDE: bool = false;
     // All functions that a formula may have, in lanes of series: more of them would compile for minutes.
-    const HEIGHTS_IN_LANES: usize = 3;
-    const SLOPES_IN_LANES: usize = 0;
+    const HEIGHT_COEFFICIENTS_IN_LANES: usize = 3;
+    const SLOPE_COEFFICIENTS_IN_LANES: usize = 0;
 
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {

@@ -396,14 +396,16 @@ const TERMS: u32 = 10;
 
 /// cos √a where `sign` is −1, and cosh √a where it is 1: both are power series in a, so that they have
 /// all derivatives at 0.
+#[inline(always)]
 fn of_root<S: Scalar>(a: S, sign: f64) -> S {
     let is_small = a.less(S::constant(1.0));
     let small = S::select(is_small, a, S::constant(0.0));
     let one = S::constant(1.0);
-    let series = (1..=TERMS).rev().fold(one, |sum, k| {
+    let mut series = one;
+    for k in (1..=TERMS).rev() {
         let divisor = f64::from(2 * k * (2 * k - 1));
-        sum * small * (sign / divisor) + 1.0
-    });
+        series = series * small * (sign / divisor) + 1.0;
+    }
     let root = S::select(is_small, one, a).sqrt();
     let far = match sign < 0.0 {
         true => Scalar::cos(root),

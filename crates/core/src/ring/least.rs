@@ -24,7 +24,7 @@ pub type Measure<'a> = dyn Fn(&[f64], &[f64], &mut [f64]) -> Result<()> + 'a;
 /// # Errors
 /// If `measure` gives NaN somewhere on the ring.
 pub fn least_over_angles(measure: &Measure<'_>, rho: f64) -> Result<f64> {
-    let found = side_by_side(measure, &[rho])?;
+    let found = search_at(measure, &[rho])?;
     Ok(found.into_iter().fold(f64::INFINITY, f64::min))
 }
 
@@ -34,13 +34,13 @@ pub fn least_over_angles(measure: &Measure<'_>, rho: f64) -> Result<f64> {
 /// The error of the first radius that has one.
 pub fn least_over_angles_at(measure: &Measure<'_>, radii: &[f64]) -> Result<Vec<f64>> {
     // An error of several radii does not say whose it is.
-    side_by_side(measure, radii).or_else(|_| {
+    search_at(measure, radii).or_else(|_| {
         let each = radii.iter().map(|rho| least_over_angles(measure, *rho));
         each.collect()
     })
 }
 
-fn side_by_side(measure: &Measure<'_>, radii: &[f64]) -> Result<Vec<f64>> {
+fn search_at(measure: &Measure<'_>, radii: &[f64]) -> Result<Vec<f64>> {
     let mut search = Search::new(measure);
     let mut least = vec![f64::INFINITY; radii.len()];
     let mut open: Vec<usize> = (0..radii.len()).collect();
@@ -51,7 +51,9 @@ fn side_by_side(measure: &Measure<'_>, radii: &[f64]) -> Result<Vec<f64>> {
             let found = found.next().unwrap_or(f64::INFINITY);
             let gain = least[*i] - found;
             least[*i] = least[*i].min(found);
-            ring == 0 || gain > SETTLED * least[*i].abs()
+            // The gain is not a number where all values are infinite so far: the search goes on.
+            let has_settled = ring > 0 && gain <= SETTLED * least[*i].abs();
+            !has_settled
         });
         if open.is_empty() {
             break;
@@ -236,6 +238,16 @@ mod tests {
         let alone = radii.iter().map(|rho| least_over_angles(&measure, *rho));
         let alone: Vec<f64> = alone.collect::<Result<_>>().unwrap();
         assert_eq!(least_over_angles_at(&measure, &radii).unwrap(), alone);
+    }
+
+    #[test]
+    fn a_value_among_infinite_ones_is_found_by_a_later_ring() {
+        let place = 40.25 * TAU / ANGLES as f64;
+        let value = |theta: f64| match (theta - place).abs() < 1e-3 {
+            true => 7.0,
+            false => f64::INFINITY,
+        };
+        assert_eq!(least(value).unwrap(), 7.0);
     }
 
     #[test]

@@ -6,4 +6,4 @@ mod least;
 mod table;
 
 pub use least::{Measure, least_over_angles, least_over_angles_at};
-pub use table::{FLOORS, FeedAt, FeedTable, RADII_AT_ONCE, least_feeds_side_by_side};
+pub use table::{FLOORS, FeedAt, FeedTable, RADII_AT_ONCE, least_feeds_at};

@@ -18,8 +18,8 @@ const PROBE: f64 = 0.381_966;
 /// Parts of a cell, each with a floor of its own. They give more borders without more evaluations.
 pub const FLOORS: usize = 8;
 
-/// Radii at which feeds are looked for side by side: most questions of a search are for six points, and so
-/// many of them fill vector registers.
+/// Radii at which feeds are looked for together: most questions of a search are for six points, which leave
+/// vector registers empty, and those of sixteen radii fill them.
 pub const RADII_AT_ONCE: usize = 16;
 
 /// F at one radius, mm.
@@ -232,7 +232,7 @@ fn least_residual_feeds(setup: Setup<'_>, radii: &[f64]) -> Result<Vec<f64>> {
         return answer.map(|()| least);
     }
     let groups = radii.chunks(RADII_AT_ONCE);
-    let groups = groups.map(|radii| least_feeds_side_by_side(locus, residual, radii));
+    let groups = groups.map(|radii| least_feeds_at(locus, residual, radii));
     groups
         .collect::<Result<Vec<_>>>()
         .map(|found| found.concat())
@@ -243,11 +243,7 @@ fn least_residual_feeds(setup: Setup<'_>, radii: &[f64]) -> Result<Vec<f64>> {
 ///
 /// # Errors
 /// If the surface or the locus has no value there: that of the first such radius.
-pub fn least_feeds_side_by_side(
-    locus: &dyn Locus,
-    residual: f64,
-    radii: &[f64],
-) -> Result<Vec<f64>> {
+pub fn least_feeds_at(locus: &dyn Locus, residual: f64, radii: &[f64]) -> Result<Vec<f64>> {
     let radial = locus.radial();
     let measure: &Measure<'_> =
         &|theta, rho, out| locus.residual_feed(residual, radial, theta, rho, out);

@@ -64,6 +64,10 @@ impl<T: Surface, const N: usize> Loop for HeightsAlong<'_, T, N> {
 
 /// Curves in [lanes](crate::Lanes).
 const WIDTH: usize = 8;
+const _: () = assert!(
+    STRIP.is_multiple_of(WIDTH),
+    "a strip is a whole number of lanes"
+);
 
 /// The same loop with curves in lanes.
 pub struct HeightsInLanes<'a, T, const N: usize>(pub HeightsAlong<'a, T, N>);

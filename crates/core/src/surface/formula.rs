@@ -17,14 +17,14 @@ pub trait Surface: Send + Sync {
     /// sums, products, quotients, roots and choices. All ways give the same bits.
     const SIDE_BY_SIDE: bool = true;
 
-    /// Through how many coefficients series of heights go through the formula in [lanes](crate::Lanes), where
-    /// [`SIDE_BY_SIDE`](Self::SIDE_BY_SIDE) is false: five registers hold all of a number. Lanes are faster if
+    /// Most coefficients with which series of heights go through the formula in [lanes](crate::Lanes), where
+    /// [`SIDE_BY_SIDE`](Self::SIDE_BY_SIDE) is false. Each coefficient takes a register. Lanes are faster if
     /// the formula is marked `#[inline(always)]`, and the compiler makes it once more for each count. Series
     /// of more coefficients go one by one.
-    const HEIGHTS_IN_LANES: usize = 5;
+    const HEIGHT_COEFFICIENTS_IN_LANES: usize = 5;
 
-    /// The same for series of heights and slopes, of which a number has three times as many registers.
-    const SLOPES_IN_LANES: usize = 3;
+    /// The same for series of heights and slopes, whose coefficients take three registers each.
+    const SLOPE_COEFFICIENTS_IN_LANES: usize = 3;
 
     /// The height at (x, y).
     fn sag<S: Scalar>(&self, x: S, y: S) -> S;

@@ -166,7 +166,7 @@ fn heights_along<T: Surface, const N: usize>(along: HeightsAlong<'_, T, N>) {
     // What a constant block rules out is not compiled.
     if T::SIDE_BY_SIDE {
         in_widest(along);
-    } else if const { N <= T::HEIGHTS_IN_LANES } {
+    } else if const { N <= T::HEIGHT_COEFFICIENTS_IN_LANES } {
         in_widest(HeightsInLanes(along));
     } else {
         along.call();
@@ -177,7 +177,7 @@ fn heights_along<T: Surface, const N: usize>(along: HeightsAlong<'_, T, N>) {
 fn slopes_along<T: Surface, const N: usize>(along: SlopesAlong<'_, T, N>) {
     if T::SIDE_BY_SIDE {
         in_widest(along);
-    } else if const { N <= T::SLOPES_IN_LANES } {
+    } else if const { N <= T::SLOPE_COEFFICIENTS_IN_LANES } {
         in_widest(SlopesInLanes(along));
     } else {
         along.call();

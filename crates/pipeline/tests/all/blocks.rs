@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use crate::common::solvers::{Area, Disjoint, Exact, Spline};
 use crate::common::{Counting, K, Nodes, RIM, Saddle, Task, even, feed_of, inward, straight};
@@ -217,6 +217,39 @@ fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
     let alone = on(1);
     assert!(alone == on(4));
     assert!(alone == on(3));
+}
+
+#[test]
+fn threads_ahead_of_the_path_place_each_block_once() {
+    // The second tolerance makes the run refine, which asks for all nodes again.
+    for interpolation in [1e-3, 1e-6] {
+        let placed = Arc::new(Mutex::new(Vec::new()));
+        let seen = placed.clone();
+        let nodes = move |_: &Path<'_>, block: Revolutions| {
+            seen.lock()
+                .expect("no panic")
+                .push([block.start, block.end]);
+            block
+                .turns()
+                .flat_map(|turn| turn.subdivide(11.0))
+                .collect()
+        };
+        let task = Task {
+            feed: inward(1500.0),
+            sampler: Arc::new(Nodes(nodes)),
+            refined: true,
+            interpolation,
+            ..Task::default()
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build();
+        pool.expect("a pool").install(|| task.path());
+        let mut whole = placed.lock().expect("no panic").clone();
+        whole.retain(|[start, end]| end - start > 1.0);
+        whole.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        let starts: Vec<f64> = whole.iter().map(|block| block[0]).collect();
+        let once: Vec<f64> = (0..24).map(|index| 64.0 * f64::from(index)).collect();
+        assert_eq!(starts, once, "{interpolation}");
+    }
 }
 
 #[test]
