@@ -4,7 +4,7 @@
 //! neither loops nor calls, the compiler puts the curves side by side in [vector
 //! registers](crate::registers). The operations of a curve and their order are those that it has alone.
 
-use crate::{Lanes, Series, Taylor};
+use crate::{Lanes, Scalar, Series, Taylor};
 
 /// Number of curves in a strip. The coefficients of a few series stay in the cache of the first level,
 /// 1.3 KB each.
@@ -41,52 +41,83 @@ pub fn scatter<const N: usize>(strip: &Strip<N>, curves: &mut [Series]) {
     }
 }
 
-/// The series of curve `i` of a strip.
-#[inline(always)]
-pub fn curve<const N: usize>(strip: &Strip<N>, i: usize) -> Taylor<f64, N> {
-    let mut series = Taylor([0.0; N]);
-    for (coefficient, column) in series.0.iter_mut().zip(strip) {
-        *coefficient = column[i];
-    }
-    series
+/// A number that holds the values of one curve or of several of a strip: a formula goes through all of them
+/// at once.
+pub trait Group: Scalar {
+    /// How many curves there are in a group. A strip is a whole number of groups.
+    const WIDTH: usize;
+
+    /// The series of a group of curves of a strip, from curve `first` on.
+    fn take<const N: usize>(strip: &Strip<N>, first: usize) -> Taylor<Self, N>;
+
+    /// Puts the series of a group into their places in a strip.
+    fn put<const N: usize>(first: usize, series: Taylor<Self, N>, strip: &mut Strip<N>);
 }
 
-/// Puts the series of curve `i` into its place in a strip.
-#[inline(always)]
-pub fn put<const N: usize>(i: usize, series: Taylor<f64, N>, strip: &mut Strip<N>) {
-    for (column, c) in strip.iter_mut().zip(series.0) {
-        column[i] = c;
+impl Group for f64 {
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn take<const N: usize>(strip: &Strip<N>, first: usize) -> Taylor<Self, N> {
+        let mut series = Taylor([0.0; N]);
+        for (coefficient, column) in series.0.iter_mut().zip(strip) {
+            *coefficient = column[first];
+        }
+        series
+    }
+
+    #[inline(always)]
+    fn put<const N: usize>(first: usize, series: Taylor<Self, N>, strip: &mut Strip<N>) {
+        for (column, c) in strip.iter_mut().zip(series.0) {
+            column[first] = c;
+        }
     }
 }
 
-/// The series of `WIDTH` curves of a strip in lanes, from curve `first` on.
-#[inline(always)]
-pub fn lanes<const N: usize, const WIDTH: usize>(
-    strip: &Strip<N>,
-    first: usize,
-) -> Taylor<Lanes<WIDTH>, N> {
-    let mut series = Taylor([Lanes([0.0; WIDTH]); N]);
-    for (coefficient, column) in series.0.iter_mut().zip(strip) {
-        coefficient.0.copy_from_slice(&column[first..first + WIDTH]);
+impl<const WIDTH: usize> Group for Lanes<WIDTH> {
+    const WIDTH: usize = {
+        assert!(
+            STRIP.is_multiple_of(WIDTH),
+            "a strip is a whole number of groups"
+        );
+        WIDTH
+    };
+
+    #[inline(always)]
+    fn take<const N: usize>(strip: &Strip<N>, first: usize) -> Taylor<Self, N> {
+        let mut series = Taylor([Lanes([0.0; WIDTH]); N]);
+        for (coefficient, column) in series.0.iter_mut().zip(strip) {
+            coefficient.0.copy_from_slice(&column[first..first + WIDTH]);
+        }
+        series
     }
-    series
+
+    #[inline(always)]
+    fn put<const N: usize>(first: usize, series: Taylor<Self, N>, strip: &mut Strip<N>) {
+        for (column, c) in strip.iter_mut().zip(series.0) {
+            column[first..first + WIDTH].copy_from_slice(&c.0);
+        }
+    }
 }
 
-/// Puts the series of `WIDTH` curves in lanes into their places in a strip.
+/// Where the groups of so many curves of a strip begin.
 #[inline(always)]
-pub fn put_lanes<const N: usize, const WIDTH: usize>(
-    first: usize,
-    series: Taylor<Lanes<WIDTH>, N>,
-    strip: &mut Strip<N>,
-) {
-    for (column, c) in strip.iter_mut().zip(series.0) {
-        column[first..first + WIDTH].copy_from_slice(&c.0);
-    }
+pub fn groups<S: Group>(curves: usize) -> impl Iterator<Item = usize> {
+    (0..curves.min(STRIP).div_ceil(S::WIDTH)).map(|group| group * S::WIDTH)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn groups_cover_each_curve_once() {
+        for curves in 0..=STRIP {
+            assert!(groups::<f64>(curves).eq(0..curves));
+            let in_eights = groups::<Lanes<8>>(curves);
+            assert!(in_eights.eq((0..curves).step_by(8)), "{curves}");
+        }
+    }
 
     #[test]
     fn curves_come_back_from_a_strip_and_keep_their_higher_orders() {
@@ -95,10 +126,13 @@ mod tests {
             .collect();
         let mut strip: Strip<3> = blank();
         gather(&curves, &mut strip);
-        assert_eq!(curve(&strip, 4).0, [4.1, 4.2, 4.3]);
+        assert_eq!(f64::take(&strip, 4).0, [4.1, 4.2, 4.3]);
         let other = Taylor([7.0, 8.0, 9.0]);
-        put(2, other, &mut strip);
-        assert_eq!((curve(&strip, 2), curve(&strip, 3).0[0]), (other, 3.1));
+        f64::put(2, other, &mut strip);
+        assert_eq!(
+            (f64::take(&strip, 2), f64::take(&strip, 3).0[0]),
+            (other, 3.1)
+        );
         gather(&curves, &mut strip);
         let mut back = vec![[-1.0; 5]; 5];
         scatter(&strip, &mut back);

@@ -2,7 +2,7 @@
 
 use turnpath_plugin::prelude::*;
 use turnpath_plugin::registers::Loop;
-use turnpath_plugin::strip::{Column, STRIP, Strip, blank, curve, gather, put, scatter};
+use turnpath_plugin::strip::{Column, Group, STRIP, Strip, blank, gather, scatter};
 
 use crate::polar::{Ray, TurningRay};
 use crate::touch::{Touch, rise};
@@ -125,8 +125,8 @@ impl Descents {
         Descent {
             radius: self.radius,
             ray,
-            turning: TurningRay::from(ray, curve(&self.theta, i)),
-            rho: curve(&self.rho, i),
+            turning: TurningRay::from(ray, f64::take(&self.theta, i)),
+            rho: f64::take(&self.rho, i),
             offset,
             steepness: self.steepness[i],
         }
@@ -156,8 +156,8 @@ impl Loop for StillFeet<'_> {
             let descent = descents.at(i);
             steepness[i] = descent.steepness(zx[1][i], zy[1][i]);
             let along = descent.curve();
-            put(i, along.0, &mut x);
-            put(i, along.1, &mut y);
+            f64::put(i, along.0, &mut x);
+            f64::put(i, along.1, &mut y);
         }
         for (i, steepness) in steepness.into_iter().enumerate() {
             if !descents.at_edge_end[i] {
@@ -191,11 +191,11 @@ impl Loop for MovingFeet<'_> {
         let (mut speed, mut x, mut y) = ([0.0; STRIP], blank(), blank());
         for (i, speed) in speed.iter_mut().enumerate().take(descents.count) {
             let mut descent = descents.at(i);
-            *speed = descent.speed(curve(&zx, i), curve(&zy, i));
+            *speed = descent.speed(f64::take(&zx, i), f64::take(&zy, i));
             descent.offset.0[1] = *speed;
             let along = descent.curve();
-            put(i, along.0, &mut x);
-            put(i, along.1, &mut y);
+            f64::put(i, along.0, &mut x);
+            f64::put(i, along.1, &mut y);
         }
         descents.speed = speed;
         let [curves_x, curves_y] = self.curves;
@@ -227,8 +227,8 @@ impl Loop for Heights<'_> {
         let mut heights = blank::<{ ORDER + 1 }>();
         for i in 0..self.descents.count.min(STRIP) {
             let descent = self.descents.at(i);
-            let height = descent.height(curve(&z, i), curve(&zx, i), curve(&zy, i));
-            put(i, height, &mut heights);
+            let height = descent.height(f64::take(&z, i), f64::take(&zx, i), f64::take(&zy, i));
+            f64::put(i, height, &mut heights);
         }
         scatter(&heights, self.out);
     }

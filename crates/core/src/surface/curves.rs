@@ -7,7 +7,7 @@
 use super::columns::GradientSeries;
 use super::formula::Surface;
 use crate::registers::Loop;
-use crate::strip::{STRIP, blank, curve, gather, lanes, put, put_lanes, scatter};
+use crate::strip::{Group, STRIP, blank, gather, groups, scatter};
 use crate::{Dual, Lanes, Scalar, Series, Taylor};
 
 /// Coefficients with their derivatives in x and y, which are none so far.
@@ -42,53 +42,30 @@ impl<'a, T, const N: usize> HeightsAlong<'a, T, N> {
     }
 }
 
-impl<T: Surface, const N: usize> Loop for HeightsAlong<'_, T, N> {
-    type Output = ();
-
+impl<T: Surface, const N: usize> HeightsAlong<'_, T, N> {
     #[inline(always)]
-    fn call(self) {
+    fn through<S: Group>(self) {
         let Self { surface, x, y, z } = self;
         let (mut along_x, mut along_y, mut heights) = (blank::<N>(), blank(), blank::<N>());
         let curves = x.chunks(STRIP).zip(y.chunks(STRIP));
         for ((x, y), z) in curves.zip(z.chunks_mut(STRIP)) {
             gather(x, &mut along_x);
             gather(y, &mut along_y);
-            for i in 0..x.len().min(STRIP) {
-                let sag = surface.sag(curve(&along_x, i), curve(&along_y, i));
-                put(i, sag, &mut heights);
+            for first in groups::<S>(x.len()) {
+                let (x, y) = (S::take(&along_x, first), S::take(&along_y, first));
+                S::put(first, surface.sag(x, y), &mut heights);
             }
             scatter(&heights, z);
         }
     }
 }
 
-/// Curves in [lanes](crate::Lanes).
-const WIDTH: usize = 8;
-const _: () = assert!(
-    STRIP.is_multiple_of(WIDTH),
-    "a strip is a whole number of lanes"
-);
-
-/// The same loop with curves in lanes.
-pub struct HeightsInLanes<'a, T, const N: usize>(pub HeightsAlong<'a, T, N>);
-
-impl<T: Surface, const N: usize> Loop for HeightsInLanes<'_, T, N> {
+impl<T: Surface, const N: usize> Loop for HeightsAlong<'_, T, N> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        let HeightsAlong { surface, x, y, z } = self.0;
-        let (mut along_x, mut along_y, mut heights) = (blank::<N>(), blank(), blank::<N>());
-        let curves = x.chunks(STRIP).zip(y.chunks(STRIP));
-        for ((x, y), z) in curves.zip(z.chunks_mut(STRIP)) {
-            gather(x, &mut along_x);
-            gather(y, &mut along_y);
-            for first in (0..x.len()).step_by(WIDTH) {
-                let [x, y] = [&along_x, &along_y].map(|strip| lanes::<N, WIDTH>(strip, first));
-                put_lanes(first, surface.sag(x, y), &mut heights);
-            }
-            scatter(&heights, z);
-        }
+        self.through::<f64>();
     }
 }
 
@@ -112,11 +89,9 @@ impl<'a, T, const N: usize> SlopesAlong<'a, T, N> {
     }
 }
 
-impl<T: Surface, const N: usize> Loop for SlopesAlong<'_, T, N> {
-    type Output = ();
-
+impl<T: Surface, const N: usize> SlopesAlong<'_, T, N> {
     #[inline(always)]
-    fn call(self) {
+    fn through<S: Group>(self) {
         let Self { surface, x, y, out } = self;
         let (mut along_x, mut along_y) = (blank::<N>(), blank::<N>());
         let (mut heights, mut slopes_x, mut slopes_y) = (blank::<N>(), blank::<N>(), blank::<N>());
@@ -125,13 +100,14 @@ impl<T: Surface, const N: usize> Loop for SlopesAlong<'_, T, N> {
         for (((x, y), z), (zx, zy)) in curves.zip(out.z.chunks_mut(STRIP)).zip(slopes) {
             gather(x, &mut along_x);
             gather(y, &mut along_y);
-            for i in 0..x.len().min(STRIP) {
-                let (mut x, mut y) = (as_duals(curve(&along_x, i)), as_duals(curve(&along_y, i)));
-                (x.0[0].dx, y.0[0].dy) = (1.0, 1.0);
-                let sag = surface.sag(x, y);
-                for (k, c) in sag.0.iter().enumerate() {
-                    (heights[k][i], slopes_x[k][i], slopes_y[k][i]) = (c.value, c.dx, c.dy);
-                }
+            for first in groups::<S>(x.len()) {
+                let curves = [S::take(&along_x, first), S::take(&along_y, first)];
+                let [mut x, mut y] = curves.map(as_duals);
+                (x.0[0].dx, y.0[0].dy) = (S::constant(1.0), S::constant(1.0));
+                let sag = surface.sag(x, y).0;
+                S::put(first, Taylor(sag.map(|c| c.value)), &mut heights);
+                S::put(first, Taylor(sag.map(|c| c.dx)), &mut slopes_x);
+                S::put(first, Taylor(sag.map(|c| c.dy)), &mut slopes_y);
             }
             scatter(&heights, z);
             scatter(&slopes_x, zx);
@@ -140,35 +116,36 @@ impl<T: Surface, const N: usize> Loop for SlopesAlong<'_, T, N> {
     }
 }
 
-/// The same loop with curves in lanes, as [`HeightsInLanes`].
-pub struct SlopesInLanes<'a, T, const N: usize>(pub SlopesAlong<'a, T, N>);
-
-impl<T: Surface, const N: usize> Loop for SlopesInLanes<'_, T, N> {
+impl<T: Surface, const N: usize> Loop for SlopesAlong<'_, T, N> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        let SlopesAlong { surface, x, y, out } = self.0;
-        let (mut along_x, mut along_y) = (blank::<N>(), blank::<N>());
-        let (mut heights, mut slopes_x, mut slopes_y) = (blank::<N>(), blank::<N>(), blank::<N>());
-        let curves = x.chunks(STRIP).zip(y.chunks(STRIP));
-        let slopes = out.zx.chunks_mut(STRIP).zip(out.zy.chunks_mut(STRIP));
-        for (((x, y), z), (zx, zy)) in curves.zip(out.z.chunks_mut(STRIP)).zip(slopes) {
-            gather(x, &mut along_x);
-            gather(y, &mut along_y);
-            for first in (0..x.len()).step_by(WIDTH) {
-                let curves = [&along_x, &along_y].map(|strip| lanes::<N, WIDTH>(strip, first));
-                let [mut x, mut y] = curves.map(as_duals);
-                (x.0[0].dx, y.0[0].dy) = (Lanes([1.0; WIDTH]), Lanes([1.0; WIDTH]));
-                let sag = surface.sag(x, y).0;
-                put_lanes(first, Taylor(sag.map(|c| c.value)), &mut heights);
-                put_lanes(first, Taylor(sag.map(|c| c.dx)), &mut slopes_x);
-                put_lanes(first, Taylor(sag.map(|c| c.dy)), &mut slopes_y);
-            }
-            scatter(&heights, z);
-            scatter(&slopes_x, zx);
-            scatter(&slopes_y, zy);
-        }
+        self.through::<f64>();
+    }
+}
+
+/// Number of curves in [lanes](crate::Lanes).
+const WIDTH: usize = 8;
+
+/// The same loop with curves in lanes.
+pub struct InLanes<L>(pub L);
+
+impl<T: Surface, const N: usize> Loop for InLanes<HeightsAlong<'_, T, N>> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.0.through::<Lanes<WIDTH>>();
+    }
+}
+
+impl<T: Surface, const N: usize> Loop for InLanes<SlopesAlong<'_, T, N>> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.0.through::<Lanes<WIDTH>>();
     }
 }
 
@@ -236,11 +213,7 @@ mod tests {
                 zx: &mut found_x,
                 zy: &mut found_y,
             };
-            registers.run(SlopesInLanes(SlopesAlong::<_, N>::new(
-                &Lens,
-                (&x, &y),
-                out,
-            )));
+            registers.run(InLanes(SlopesAlong::<_, N>::new(&Lens, (&x, &y), out)));
             for (found, alone) in [(&found, &z), (&found_x, &zx), (&found_y, &zy)] {
                 assert_eq!(bits(found, N), bits(alone, N), "{registers:?}, {N}, lanes");
             }
@@ -249,7 +222,7 @@ mod tests {
             assert_eq!(bits(&found, N), bits(&heights, N), "{registers:?}, {N}");
             found.clone_from(&blank);
             let along = HeightsAlong::<_, N>::new(&Lens, (&x, &y), &mut found);
-            registers.run(HeightsInLanes(along));
+            registers.run(InLanes(along));
             assert_eq!(
                 bits(&found, N),
                 bits(&heights, N),

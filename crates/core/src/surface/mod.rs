@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::orders::SeriesOrders;
 use crate::registers::{Loop, in_widest};
 use crate::{ORDER, Result, Series, StrategyError};
-use curves::{HeightsAlong, HeightsInLanes, SlopesAlong, SlopesInLanes};
+use curves::{HeightsAlong, InLanes, SlopesAlong};
 use points::{Heights, Slopes};
 
 pub use columns::{GradientSeries, Gradients};
@@ -167,7 +167,7 @@ fn heights_along<T: Surface, const N: usize>(along: HeightsAlong<'_, T, N>) {
     if T::SIDE_BY_SIDE {
         in_widest(along);
     } else if const { N <= T::HEIGHT_COEFFICIENTS_IN_LANES } {
-        in_widest(HeightsInLanes(along));
+        in_widest(InLanes(along));
     } else {
         along.call();
     }
@@ -178,7 +178,7 @@ fn slopes_along<T: Surface, const N: usize>(along: SlopesAlong<'_, T, N>) {
     if T::SIDE_BY_SIDE {
         in_widest(along);
     } else if const { N <= T::SLOPE_COEFFICIENTS_IN_LANES } {
-        in_widest(SlopesInLanes(along));
+        in_widest(InLanes(along));
     } else {
         along.call();
     }
@@ -277,38 +277,71 @@ mod tests {
         assert_eq!(bits(one), bits(other), "order {order}");
     }
 
-    #[test]
-    fn fewer_orders_have_the_bits_of_all_orders_in_batches_of_any_length() {
+    /// Series of heights and of both slopes, with all orders.
+    fn all_orders<T: Surface>(surface: &T, x: &[Series], y: &[Series]) -> [Vec<Series>; 3] {
+        let mut all = [(); 3].map(|()| vec![[f64::NAN; 5]; x.len()]);
+        let [z, zx, zy] = &mut all;
+        SurfaceModel::series(surface, x, y, GradientSeries { z, zx, zy }).unwrap();
+        all
+    }
+
+    fn fewer_orders_have_the_bits_of_all_orders<T: Surface>(surface: &T) {
         for count in 0..10 {
             let (x, y) = curves(count);
             let blank = vec![[f64::NAN; 5]; count];
-            let all = || [blank.clone(), blank.clone(), blank.clone()];
-            let [mut z, mut zx, mut zy] = all();
-            let out = GradientSeries {
-                z: &mut z,
-                zx: &mut zx,
-                zy: &mut zy,
-            };
-            SurfaceModel::series(&Mixture, &x, &y, out).unwrap();
+            let [z, zx, zy] = all_orders(surface, &x, &y);
             for (heights, slopes) in [(0, 0), (1, 1), (2, 1), (4, 1), (2, 2), (4, 2), (4, 4)] {
-                let [mut low, mut low_x, mut low_y] = all();
+                let [mut low, mut low_x, mut low_y] = [(); 3].map(|()| blank.clone());
                 let out = GradientSeries {
                     z: &mut low,
                     zx: &mut low_x,
                     zy: &mut low_y,
                 };
-                Mixture
-                    .series_to(SeriesOrders { heights, slopes }, &x, &y, out)
-                    .unwrap();
+                let orders = SeriesOrders { heights, slopes };
+                surface.series_to(orders, &x, &y, out).unwrap();
                 same(&low, &z, heights);
                 same(&low_x, &zx, slopes);
                 same(&low_y, &zy, slopes);
             }
             for order in 0..5 {
                 let mut low = blank.clone();
-                Mixture.height_series_to(order, &x, &y, &mut low).unwrap();
+                surface.height_series_to(order, &x, &y, &mut low).unwrap();
                 same(&low, &z, order);
             }
+        }
+    }
+
+    #[test]
+    fn fewer_orders_have_the_bits_of_all_orders_in_batches_of_any_length() {
+        fewer_orders_have_the_bits_of_all_orders(&Mixture);
+        fewer_orders_have_the_bits_of_all_orders(&Polynomial::<true>);
+        fewer_orders_have_the_bits_of_all_orders(&Polynomial::<false>);
+    }
+
+    /// A formula with a loop. Its series go side by side, or in lanes and one by one.
+    struct Polynomial<const SIDE_BY_SIDE: bool>;
+
+    impl<const SIDE_BY_SIDE: bool> Surface for Polynomial<SIDE_BY_SIDE> {
+        const SIDE_BY_SIDE: bool = SIDE_BY_SIDE;
+
+        #[inline(always)]
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            let (mut power, mut sum) = (x, x * y);
+            for term in 1..6 {
+                power = power * (x - y * 0.3);
+                sum = sum + power * (0.7 / f64::from(term));
+            }
+            sum
+        }
+    }
+
+    #[test]
+    fn series_in_lanes_and_one_by_one_have_the_bits_of_series_side_by_side() {
+        let (x, y) = curves(29);
+        let side_by_side = all_orders(&Polynomial::<true>, &x, &y);
+        let others = all_orders(&Polynomial::<false>, &x, &y);
+        for (one, other) in side_by_side.iter().zip(&others) {
+            same(one, other, ORDER);
         }
     }
 }
