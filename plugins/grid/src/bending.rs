@@ -4,28 +4,15 @@
 //! along x, along y, and mixed. So a sheet goes on with its slope and its curvature, a quadratic goes
 //! on as itself, and waves along an edge die away from it.
 //!
-//! The equations are solved by conjugate gradients, from a start that the same sheet at half the
-//! resolution gives. The solution need not be exact: what counts is that the sheet is smooth. All
-//! sums run in one order, so the same map gives the same bytes.
+//! The equations of the [`plate`](crate::plate) are solved from a start that the same sheet at half the
+//! resolution gives.
 
+use crate::plate::{Plate, SMALL};
 use crate::sheet::Sheet;
-
-/// Most steps of the gradients at each resolution. The coarse sheets leave only short waves to the
-/// finer ones, and these need few.
-const STEPS: usize = 60;
-
-/// Sheets with no more unknown numbers than this take more steps.
-const SMALL: usize = 2048;
-
-/// Most steps for a small sheet.
-const STEPS_OF_SMALL: usize = 2000;
 
 /// How far from known numbers a large sheet is solved, in numbers. Farther away the sheet is so smooth
 /// that half the resolution has all of it.
 const BAND: usize = 24;
-
-/// The share of the first residual at which the search ends.
-const SMALLEST_RESIDUAL: f64 = 1e-9;
 
 /// The shortest side that is halved.
 const SHORTEST: usize = 12;
@@ -148,200 +135,6 @@ fn around(place: usize, count: usize) -> [(usize, f64); 4] {
     ]
 }
 
-/// Numbers on the side of the largest difference.
-const SIDE: usize = 4;
-
-/// How far a number reaches in the sum of squares.
-const REACH: usize = SIDE - 1;
-
-/// A kind of third differences.
-#[derive(Debug, Clone)]
-struct Difference {
-    /// Factors along x and along y; the difference is the sum over all products.
-    along: [Vec<f64>; 2],
-    /// What its square counts.
-    weight: f64,
-}
-
-/// The sum of squares of third differences over a sheet.
-struct Plate {
-    columns: usize,
-    rows: usize,
-    differences: [Difference; 4],
-    /// Where all differences lie within the sheet: what each neighbour counts in a force, by rows.
-    inside: [[f64; 2 * REACH + 1]; 2 * REACH + 1],
-}
-
-impl Plate {
-    fn new(columns: usize, rows: usize, ratio: f64) -> Self {
-        let factors = |order: usize| match order {
-            0 => vec![1.0],
-            1 => vec![-1.0, 1.0],
-            2 => vec![1.0, -2.0, 1.0],
-            _ => vec![-1.0, 3.0, -3.0, 1.0],
-        };
-        // Differences along x are those over longer steps, if the pitch along x is the larger one.
-        let differences = [3, 2, 1, 0].map(|order: usize| Difference {
-            along: [factors(order), factors(3 - order)],
-            weight: [1.0, 3.0, 3.0, 1.0][order] * (0..order).fold(1.0, |w, _| w / (ratio * ratio)),
-        });
-        let mut inside = [[0.0; 2 * REACH + 1]; 2 * REACH + 1];
-        for difference in &differences {
-            let [of_x, of_y] = difference.along.each_ref().map(|along| squared(along));
-            for (line, y) in inside.iter_mut().zip(of_y) {
-                for (factor, x) in line.iter_mut().zip(of_x) {
-                    *factor += difference.weight * x * y;
-                }
-            }
-        }
-        Self {
-            columns,
-            rows,
-            differences,
-            inside,
-        }
-    }
-
-    /// Half the derivative of the sum by one number.
-    fn force(&self, values: &[f64], place: usize) -> f64 {
-        let (row, column) = (place / self.columns, place % self.columns);
-        let inner = |at: usize, count: usize| at >= REACH && at + REACH < count;
-        if inner(row, self.rows) && inner(column, self.columns) {
-            let corner = place - REACH * (self.columns + 1);
-            return self.force_inside(values, corner);
-        }
-        let differences = self.differences.iter();
-        differences
-            .map(|one| one.weight * self.at_edge(one, values, (column, row)))
-            .sum()
-    }
-
-    #[inline(always)]
-    fn force_inside(&self, values: &[f64], corner: usize) -> f64 {
-        let mut force = 0.0;
-        for (number, factors) in self.inside.iter().enumerate() {
-            let line = &values[corner + number * self.columns..][..2 * REACH + 1];
-            // Towards the corners the factors are zero.
-            let skip = number.abs_diff(REACH);
-            let used = skip..2 * REACH + 1 - skip;
-            for (factor, value) in factors[used.clone()].iter().zip(&line[used]) {
-                force += factor * value;
-            }
-        }
-        force
-    }
-
-    /// The part of one kind of differences: of all those within the sheet that contain the number.
-    fn at_edge(&self, one: &Difference, values: &[f64], (column, row): (usize, usize)) -> f64 {
-        let [of_x, of_y] = &one.along;
-        let mut sum = 0.0;
-        for (down, factor_y) in starts(row, self.rows, of_y) {
-            for (right, factor_x) in starts(column, self.columns, of_x) {
-                let mut difference = 0.0;
-                for (y, row) in of_y.iter().zip(down..) {
-                    let line = &values[row * self.columns + right..];
-                    for (x, value) in of_x.iter().zip(line) {
-                        difference += x * y * value;
-                    }
-                }
-                sum += factor_x * factor_y * difference;
-            }
-        }
-        sum
-    }
-
-    /// What a number counts in its own force.
-    fn stiffness(&self, place: usize) -> f64 {
-        let (row, column) = (place / self.columns, place % self.columns);
-        let squares = |at: usize, count: usize, along: &[f64]| -> f64 {
-            starts(at, count, along)
-                .map(|(_, factor)| factor * factor)
-                .sum()
-        };
-        let of = |one: &Difference| {
-            let [of_x, of_y] = &one.along;
-            one.weight * squares(column, self.columns, of_x) * squares(row, self.rows, of_y)
-        };
-        self.differences.iter().map(of).sum()
-    }
-
-    /// Conjugate gradients on the unknown numbers, each scaled by its stiffness.
-    fn relax(&self, values: &mut [f64], unknown: &[usize]) {
-        let steps = match unknown.len() <= SMALL {
-            true => STEPS_OF_SMALL,
-            false => STEPS,
-        };
-        let mut force: Vec<f64> = unknown
-            .iter()
-            .map(|place| -self.force(values, *place))
-            .collect();
-        let over: Vec<f64> = unknown
-            .iter()
-            .map(|place| 1.0 / self.stiffness(*place))
-            .collect();
-        let mut direction = vec![0.0; values.len()];
-        let mut answer = vec![0.0; unknown.len()];
-        let square = |force: &[f64]| -> f64 {
-            let terms = force.iter().zip(&over);
-            terms.map(|(force, over)| force * force * over).sum()
-        };
-        let mut now = square(&force);
-        let last = now * SMALLEST_RESIDUAL * SMALLEST_RESIDUAL;
-        for ((place, force), over) in unknown.iter().zip(&force).zip(&over) {
-            direction[*place] = force * over;
-        }
-        for _ in 0..steps {
-            if now <= last || now == 0.0 {
-                return;
-            }
-            let mut work = 0.0;
-            for (place, answer) in unknown.iter().zip(&mut answer) {
-                *answer = self.force(&direction, *place);
-                work += direction[*place] * *answer;
-            }
-            if work <= 0.0 {
-                return;
-            }
-            let step = now / work;
-            for ((place, force), answer) in unknown.iter().zip(&mut force).zip(&answer) {
-                values[*place] += step * direction[*place];
-                *force -= step * answer;
-            }
-            let before = now;
-            now = square(&force);
-            let kept = now / before;
-            for ((place, force), over) in unknown.iter().zip(&force).zip(&over) {
-                direction[*place] = force * over + kept * direction[*place];
-            }
-        }
-    }
-}
-
-/// The factors of neighbours, from the farthest one before on, in the derivative of a square.
-fn squared(along: &[f64]) -> [f64; 2 * REACH + 1] {
-    let mut factors = [0.0; 2 * REACH + 1];
-    for (i, one) in along.iter().enumerate() {
-        for (j, other) in along.iter().enumerate() {
-            factors[REACH + j - i] += one * other;
-        }
-    }
-    factors
-}
-
-/// Where the differences begin that lie within the sheet and contain a number, and the number's
-/// factor in each.
-fn starts(at: usize, count: usize, along: &[f64]) -> impl Iterator<Item = (usize, f64)> {
-    let starts = along
-        .iter()
-        .enumerate()
-        .filter_map(move |(number, factor)| {
-            let start = at.checked_sub(number)?;
-            Some((start, *factor))
-        });
-    let length = along.len();
-    starts.filter(move |(start, _)| start + length <= count)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -354,54 +147,6 @@ mod tests {
             }
         }
         sheet
-    }
-
-    /// The sum of squares by its definition: first differences, three times.
-    fn energy(sheet: &Sheet, ratio: f64) -> f64 {
-        let along_x = |sheet: &Sheet| {
-            let mut less = Sheet::of(sheet.columns - 1, sheet.rows, 0.0);
-            for (line, of_less) in sheet.lines().zip(less.lines_mut()) {
-                for (pair, place) in line.windows(2).zip(of_less) {
-                    *place = (pair[1] - pair[0]) / ratio;
-                }
-            }
-            less
-        };
-        let along_y = |sheet: &Sheet| {
-            let mut less = Sheet::of(sheet.columns, sheet.rows - 1, 0.0);
-            for (place, difference) in less.values.iter_mut().enumerate() {
-                *difference = sheet.values[place + sheet.columns] - sheet.values[place];
-            }
-            less
-        };
-        let squares = |sheet: Sheet| -> f64 { sheet.values.iter().map(|v| v * v).sum() };
-        squares(along_x(&along_x(&along_x(sheet))))
-            + 3.0 * squares(along_x(&along_x(&along_y(sheet))))
-            + 3.0 * squares(along_x(&along_y(&along_y(sheet))))
-            + squares(along_y(&along_y(&along_y(sheet))))
-    }
-
-    #[test]
-    fn forces_and_stiffness_are_derivatives_of_the_sum() {
-        let ratio = 1.25;
-        let bent = sheet(9, 8, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
-        let plate = Plate::new(9, 8, ratio);
-        for place in 0..bent.values.len() {
-            let moved = |by: f64| {
-                let mut moved = bent.clone();
-                moved.values[place] += by;
-                energy(&moved, ratio)
-            };
-            let force = (moved(1.0) - moved(-1.0)) / 4.0;
-            let found = plate.force(&bent.values, place);
-            assert!((found - force).abs() < 1e-9, "{place}: {found} {force}");
-            let stiffness = (moved(1.0) + moved(-1.0) - 2.0 * moved(0.0)) / 2.0;
-            let found = plate.stiffness(place);
-            assert!(
-                (found - stiffness).abs() < 1e-9,
-                "{place}: {found} {stiffness}"
-            );
-        }
     }
 
     #[test]
@@ -452,9 +197,9 @@ mod tests {
         let ratio = 0.8;
         fill(&mut holed, ratio);
         let plate = Plate::new(20, 20, ratio);
-        for place in hole() {
-            let force = plate.force(&holed.values, place);
-            assert!(force.abs() < 1e-4 * plate.stiffness(place), "{force}");
+        let hole: Vec<usize> = hole().collect();
+        for (place, force) in hole.iter().zip(plate.forces_of(&holed.values, &hole)) {
+            assert!(force.abs() < 1e-4 * plate.stiffness(*place), "{force}");
         }
     }
 }

@@ -6,10 +6,12 @@
 //!    left, and added again at the end.
 //! 2. `low_pass`: with `smooth`, what is shorter than the cutoff is removed,
 //!    after `blocks` of points were averaged where a map is much finer.
-//! 3. `bending`: holes, and a margin around the map, are filled so that the bend changes least.
+//! 3. `bending`: holes, and a margin around the map, are filled so that the bend of a `plate` changes
+//!    least.
 //! 4. `interpolation`: the coefficients of a tensor B-spline of degree 5 through all points.
 //! 5. `edges`: where the map is smooth, its own spline counts up to its edge.
-//! 6. `spline` and `taylor`: values, slopes, and series.
+//! 6. `spline`: the coefficients, and those that count at a place.
+//! 7. `points` and `taylor`: values and slopes, and series along curves.
 
 #[cfg(test)]
 mod against_scipy;
@@ -21,6 +23,9 @@ mod cells;
 mod edges;
 mod interpolation;
 mod low_pass;
+mod plate;
+mod plate_edge;
+mod points;
 mod sheet;
 mod spline;
 mod surface;

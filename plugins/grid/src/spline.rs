@@ -1,16 +1,37 @@
 //! The spline: its coefficients, and its values and slopes.
 
-use crate::basis::{self, BEFORE, SPLINES, Weights};
+use crate::basis::{BEFORE, LANES, NO_WEIGHTS, SPLINES, Weights};
 use crate::edges;
 use crate::interpolation::{BEYOND, coefficients};
 use crate::sheet::Sheet;
 use crate::trend::Trend;
 
 /// The 36 coefficients that count at a place, row by row.
-type Patch = [Weights; SPLINES];
+pub type Patch = [Weights; SPLINES];
+
+/// The coefficients of a place that is no number.
+pub const NO_PATCH: Patch = [[f64::NAN; LANES]; SPLINES];
 
 /// The same where they lie.
 pub type Lines<'a> = [&'a Weights; SPLINES];
+
+/// A cell, by its column and row of coefficients, and a place in it, 0 to 1 along x and y.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Place {
+    column: i64,
+    row: i64,
+    pub s: f64,
+    pub t: f64,
+}
+
+/// The share of the shorter side by which coefficients around the spline's own are kept. The nose reaches
+/// beyond the part, and a coefficient takes time.
+const KEPT_SHARE: usize = 4;
+
+/// Coefficients that are kept on each side, at least and at most: so that a large map takes little more
+/// memory.
+const LEAST_KEPT: usize = 16;
+const MOST_KEPT: usize = 128;
 
 /// A tensor B-spline of degree 5 over knots at all points of a regular grid. It has a value
 /// everywhere and is C⁴ everywhere.
@@ -18,7 +39,11 @@ pub type Lines<'a> = [&'a Weights; SPLINES];
 /// Beyond the points its coefficients go on as the quadratic of best fit, plus a straight line.
 #[derive(Debug, Clone)]
 pub struct Spline {
+    /// The spline's own coefficients and those that are kept around them. Two more numbers follow the last
+    /// row, since a register takes eight.
     coefficients: Sheet,
+    /// Coefficients that are kept on each side.
+    kept: usize,
     trend: Trend,
     /// 1 / pitch, 1/mm.
     pub per: [f64; 2],
@@ -51,45 +76,89 @@ impl Spline {
 
     fn of(coefficients: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
         let before = BEYOND as f64;
-        Self {
+        let kept = coefficients.columns.min(coefficients.rows) / KEPT_SHARE;
+        let kept = kept.clamp(LEAST_KEPT, MOST_KEPT);
+        let mut spline = Self {
             trend: Trend::of(&coefficients),
-            coefficients,
+            coefficients: coefficients.with_margin(kept),
+            kept,
             per: pitch.map(f64::recip),
             origin: [before - first[0] / pitch[0], before - first[1] / pitch[1]],
+        };
+        spline.keep_around();
+        let more = [0.0; LANES - SPLINES];
+        spline.coefficients.values.extend(more);
+        spline
+    }
+
+    /// Calculates the coefficients that are kept around the spline's own.
+    fn keep_around(&mut self) {
+        let Sheet { columns, rows, .. } = self.coefficients;
+        let [own_columns, own_rows] = self.own().map(|count| self.kept..self.kept + count);
+        for row in 0..rows {
+            for column in 0..columns {
+                if !(own_rows.contains(&row) && own_columns.contains(&column)) {
+                    let from_own = |at: usize| at as f64 - self.kept as f64;
+                    self.coefficients.values[row * columns + column] =
+                        self.beyond(from_own(column), from_own(row));
+                }
+            }
         }
     }
 
-    /// What `answer` makes of the cell of a place: where the place lies in it, 0 to 1 along x and y,
-    /// and the coefficients that count there. `None` where the place is no number.
+    /// Columns and rows of the spline's own coefficients.
+    fn own(&self) -> [usize; 2] {
+        let Sheet { columns, rows, .. } = self.coefficients;
+        [columns, rows].map(|count| count - 2 * self.kept)
+    }
+
+    /// The cell of a place, and where the place lies in it.
     #[inline(always)]
-    pub fn at<R>(&self, x: f64, y: f64, answer: impl Fn(f64, f64, &Lines<'_>) -> R) -> Option<R> {
+    pub fn place(&self, x: f64, y: f64) -> Place {
         let (u, v) = (
             x * self.per[0] + self.origin[0],
             y * self.per[1] + self.origin[1],
         );
         let (column, row) = (whole(u), whole(v));
         let (s, t) = (u - column as f64, v - row as f64);
-        if let Some(lines) = self.lines(column, row) {
-            return Some(answer(s, t, &lines));
-        }
-        if !(s.is_finite() && t.is_finite()) {
-            return None;
-        }
-        let patch = self.patch_outside(column, row);
-        Some(answer(s, t, &patch.each_ref()))
+        Place { column, row, s, t }
     }
 
-    /// The coefficients of a cell, where the spline has them all.
+    /// The same for points of a group. There are no more points than places.
     #[inline(always)]
-    fn lines(&self, column: i64, row: i64) -> Option<Lines<'_>> {
+    pub fn places<'a>(&self, x: &[f64], y: &[f64], places: &'a mut [Place]) -> &'a [Place] {
+        let places = &mut places[..x.len()];
+        for ((place, x), y) in places.iter_mut().zip(x).zip(y) {
+            *place = self.place(*x, *y);
+        }
+        places
+    }
+
+    /// The coefficients that count at a place. Those that are not kept are put into `patch`. They are NaN
+    /// where the place is no number.
+    #[inline(always)]
+    pub fn lines<'a>(&'a self, place: &Place, patch: &'a mut Patch) -> Lines<'a> {
+        if let Some(lines) = self.lines_of_cell(place.column, place.row) {
+            return lines;
+        }
+        *patch = match place.s.is_finite() && place.t.is_finite() {
+            true => self.patch_outside(place.column, place.row),
+            false => NO_PATCH,
+        };
+        patch.each_ref()
+    }
+
+    /// The coefficients of a cell, where all are kept.
+    #[inline(always)]
+    fn lines_of_cell(&self, column: i64, row: i64) -> Option<Lines<'_>> {
         let Sheet {
             columns,
             rows,
             values,
         } = &self.coefficients;
         // A number below zero becomes a very large one.
-        let left = column.wrapping_sub(BEFORE as i64) as usize;
-        let top = row.wrapping_sub(BEFORE as i64) as usize;
+        let first = |at: i64| at.wrapping_add(self.kept as i64 - BEFORE as i64) as usize;
+        let (left, top) = (first(column), first(row));
         if left >= columns.wrapping_sub(SPLINES - 1) || top >= rows.wrapping_sub(SPLINES - 1) {
             return None;
         }
@@ -100,9 +169,9 @@ impl Spline {
 
     #[cold]
     fn patch_outside(&self, column: i64, row: i64) -> Patch {
-        let mut patch = [[0.0; SPLINES]; SPLINES];
+        let mut patch = [NO_WEIGHTS; SPLINES];
         for (line, down) in patch.iter_mut().zip(0..) {
-            for (value, right) in line.iter_mut().zip(0..) {
+            for (value, right) in line.iter_mut().zip(0..).take(SPLINES) {
                 let at = |middle: i64, shift: i64| middle as f64 + (shift - BEFORE as i64) as f64;
                 *value = self.beyond(at(column, right), at(row, down));
             }
@@ -112,42 +181,17 @@ impl Spline {
 
     /// A coefficient that the spline has, or one beyond.
     fn beyond(&self, column: f64, row: f64) -> f64 {
-        let Sheet { columns, rows, .. } = self.coefficients;
+        let [columns, rows] = self.own();
         let (of_columns, of_rows) = (straight(column, columns), straight(row, rows));
         let mut rest = 0.0;
         for (row, share) in of_rows {
             for (column, part) in of_columns {
-                let value = self.coefficients.values[row * columns + column];
+                let place = (row + self.kept) * self.coefficients.columns + column + self.kept;
+                let value = self.coefficients.values[place];
                 rest += share * part * (value - self.trend.at(column as f64, row as f64));
             }
         }
         self.trend.at(column, row) + rest
-    }
-
-    /// The height at a place.
-    #[inline(always)]
-    pub fn height(&self, x: f64, y: f64) -> f64 {
-        let height = self.at(x, y, |s, t, lines| {
-            let line = combine(lines, &basis::derivative::<0>(t));
-            dot(&line, &basis::derivative::<0>(s))
-        });
-        height.unwrap_or(f64::NAN)
-    }
-
-    /// The height and both slopes at a place.
-    #[inline(always)]
-    pub fn gradient(&self, x: f64, y: f64) -> [f64; 3] {
-        let gradient = self.at(x, y, |s, t, lines| {
-            let line = combine(lines, &basis::derivative::<0>(t));
-            let rates = combine(lines, &basis::derivative::<1>(t));
-            let weights = basis::derivative::<0>(s);
-            [
-                dot(&line, &weights),
-                dot(&line, &basis::derivative::<1>(s)) * self.per[0],
-                dot(&rates, &weights) * self.per[1],
-            ]
-        });
-        gradient.unwrap_or([f64::NAN; 3])
     }
 }
 
@@ -174,24 +218,27 @@ fn straight(at: f64, count: usize) -> [(usize, f64); 2] {
 /// The sum of the rows, weighted.
 #[inline(always)]
 pub fn combine(lines: &Lines<'_>, weights: &Weights) -> Weights {
-    let mut sum = lines[0].map(|value| weights[0] * value);
-    for (line, weight) in lines.iter().zip(weights).skip(1) {
-        for (sum, value) in sum.iter_mut().zip(*line) {
-            *sum += weight * value;
-        }
+    let [a, b, c, d, e, f] = lines;
+    let mut sums = NO_WEIGHTS;
+    // Without a loop over the rows, so that one over a register's numbers is left.
+    for (k, sum) in sums.iter_mut().enumerate() {
+        *sum = weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k];
+        *sum = *sum + weights[3] * d[k] + weights[4] * e[k] + weights[5] * f[k];
     }
-    sum
+    sums
 }
 
+/// The sum of all values, weighted.
 #[inline(always)]
 pub fn dot(values: &Weights, weights: &Weights) -> f64 {
-    let [a, b, c, d, e, f]: Weights = std::array::from_fn(|k| values[k] * weights[k]);
+    let [a, b, c, d, e, f, _, _]: Weights = std::array::from_fn(|k| values[k] * weights[k]);
     (a + b) + (c + d) + (e + f)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::basis;
 
     fn wavy(x: f64, y: f64) -> f64 {
         let fraction = |n: f64| n - n.floor();
@@ -236,7 +283,7 @@ mod tests {
             ]
         };
         for column in -30..60 {
-            let patch = |column: i64| match spline.lines(column, 3) {
+            let patch = |column: i64| match spline.lines_of_cell(column, 3) {
                 Some(lines) => lines.map(|line| *line),
                 None => spline.patch_outside(column, 3),
             };
@@ -249,6 +296,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_is_kept_around_is_what_a_place_farther_out_gets() {
+        let spline = spline();
+        for (column, row) in [(-9, 3), (4, -8), (-7, -5), (20, 18), (25, 2), (-3, 14)] {
+            let kept = spline.lines_of_cell(column, row).unwrap();
+            let patch = spline.patch_outside(column, row);
+            for (kept, calculated) in kept.iter().zip(&patch) {
+                assert_eq!(kept[..SPLINES], calculated[..SPLINES], "{column} {row}");
+            }
+        }
+        assert!(spline.lines_of_cell(-15, 3).is_none());
     }
 
     #[test]

@@ -2,13 +2,16 @@
 
 use turnpath_maps::{Conventions, Format, Map, Origin, length_unit};
 use turnpath_plugin::prelude::*;
+use turnpath_plugin::registers::in_widest;
 
 use crate::bending;
 use crate::blocks::{Blocks, block};
 use crate::cells::Cells;
 use crate::low_pass;
+use crate::points::{HeightsAt, SlopesAt};
 use crate::sheet::Sheet;
 use crate::spline::Spline;
+use crate::taylor::{HeightsAlong, SlopesAlong};
 use crate::trend::Trend;
 
 /// A surface through the points of a map: a tensor B-spline of degree 5.
@@ -218,18 +221,16 @@ fn checked(cutoff: f64, pitch: [f64; 2], sheet: &Sheet) -> Result<f64> {
 impl SurfaceModel for GridSag {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        for ((z, x), y) in z.iter_mut().zip(x).zip(y) {
-            *z = self.spline.height(*x, *y);
-        }
+        let spline = &self.spline;
+        in_widest(HeightsAt { spline, x, y, z });
         Ok(())
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
-        let Gradients { z, zx, zy } = out;
+        let Gradients { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
-            [*z, *zx, *zy] = self.spline.gradient(*x, *y);
-        }
+        let spline = &self.spline;
+        in_widest(SlopesAt { spline, x, y, out });
         Ok(())
     }
 
@@ -244,15 +245,13 @@ impl SurfaceModel for GridSag {
         y: &[Series],
         out: GradientSeries<'_>,
     ) -> Result<()> {
-        let GradientSeries { z, zx, zy } = out;
+        let GradientSeries { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        let series = match orders.heights.max(orders.slopes) {
-            0 | 1 => Spline::series::<1>,
-            2 => Spline::series::<2>,
-            _ => Spline::series::<ORDER>,
-        };
-        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
-            [*z, *zx, *zy] = series(&self.spline, x, y);
+        let spline = &self.spline;
+        match orders.heights.max(orders.slopes) {
+            0 | 1 => in_widest(SlopesAlong::<1> { spline, x, y, out }),
+            2 => in_widest(SlopesAlong::<2> { spline, x, y, out }),
+            _ => in_widest(SlopesAlong::<ORDER> { spline, x, y, out }),
         }
         Ok(())
     }
@@ -269,12 +268,10 @@ impl SurfaceModel for GridSag {
         z: &mut [Series],
     ) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        let series = match order {
-            0..=2 => Spline::height_series::<2>,
-            _ => Spline::height_series::<ORDER>,
-        };
-        for ((z, x), y) in z.iter_mut().zip(x).zip(y) {
-            *z = series(&self.spline, x, y);
+        let spline = &self.spline;
+        match order {
+            0..=2 => in_widest(HeightsAlong::<2> { spline, x, y, z }),
+            _ => in_widest(HeightsAlong::<ORDER> { spline, x, y, z }),
         }
         Ok(())
     }

@@ -1,0 +1,338 @@
+//! The sum of squares of third differences over a sheet, and the numbers for which it is least.
+//!
+//! The equations are solved by conjugate gradients. The solution need not be exact: what counts is that
+//! the sheet is smooth. All sums run in one order, so the same map gives the same bytes.
+
+use std::ops::Range;
+
+use turnpath_plugin::registers::{Loop, in_widest};
+
+use crate::plate_edge::{AtEdge, runs};
+
+/// Most steps of the gradients at each resolution. The coarse sheets leave only short waves to the
+/// finer ones, and these need few.
+const STEPS: usize = 60;
+
+/// Sheets with no more unknown numbers than this take more steps.
+pub const SMALL: usize = 2048;
+
+/// Most steps for a small sheet.
+const STEPS_OF_SMALL: usize = 2000;
+
+/// The share of the first residual at which the search ends.
+const SMALLEST_RESIDUAL: f64 = 1e-9;
+
+/// Kinds of third differences: along x, along y, and two mixed ones.
+pub const KINDS: usize = 4;
+
+/// Numbers on the side of the largest difference.
+const SIDE: usize = 4;
+
+/// How far a number reaches in the sum of squares.
+const REACH: usize = SIDE - 1;
+
+/// A kind of third differences.
+#[derive(Debug, Clone)]
+pub struct Difference {
+    /// Factors along x and along y; the difference is the sum over all products.
+    pub along: [Vec<f64>; 2],
+    /// What its square counts.
+    pub weight: f64,
+}
+
+/// The sum of squares of third differences over a sheet.
+pub struct Plate {
+    pub columns: usize,
+    pub rows: usize,
+    pub differences: [Difference; KINDS],
+    /// Where all differences lie within the sheet: what each neighbour counts in a force, by rows.
+    inside: [[f64; 2 * REACH + 1]; 2 * REACH + 1],
+}
+
+impl Plate {
+    /// The sums of a sheet of this size. `ratio` is the pitch along x over that along y.
+    pub fn new(columns: usize, rows: usize, ratio: f64) -> Self {
+        let factors = |order: usize| match order {
+            0 => vec![1.0],
+            1 => vec![-1.0, 1.0],
+            2 => vec![1.0, -2.0, 1.0],
+            _ => vec![-1.0, 3.0, -3.0, 1.0],
+        };
+        // Differences along x are those over longer steps, if the pitch along x is the larger one.
+        let differences = [3, 2, 1, 0].map(|order: usize| Difference {
+            along: [factors(order), factors(3 - order)],
+            weight: [1.0, 3.0, 3.0, 1.0][order] * (0..order).fold(1.0, |w, _| w / (ratio * ratio)),
+        });
+        let mut inside = [[0.0; 2 * REACH + 1]; 2 * REACH + 1];
+        for difference in &differences {
+            let [of_x, of_y] = difference.along.each_ref().map(|along| squared(along));
+            for (line, y) in inside.iter_mut().zip(of_y) {
+                for (factor, x) in line.iter_mut().zip(of_x) {
+                    *factor += difference.weight * x * y;
+                }
+            }
+        }
+        Self {
+            columns,
+            rows,
+            differences,
+            inside,
+        }
+    }
+
+    /// Half the derivatives of the sum by some numbers.
+    #[cfg(test)]
+    pub fn forces_of(&self, values: &[f64], places: &[usize]) -> Vec<f64> {
+        let mut forces = vec![f64::NAN; values.len()];
+        self.put_forces(values, &mut Asked::of(self, places), &mut forces);
+        places.iter().map(|place| forces[*place]).collect()
+    }
+
+    /// Puts half the derivatives of the sum by the numbers that are asked for into their places.
+    fn put_forces(&self, values: &[f64], asked: &mut Asked, forces: &mut [f64]) {
+        in_widest(Forces {
+            plate: self,
+            values,
+            asked,
+            forces,
+        });
+    }
+
+    /// Half the derivatives by `W` neighbours of a row, where all differences lie within the sheet.
+    #[inline(always)]
+    fn inside<const W: usize>(&self, values: &[f64], place: usize) -> [f64; W] {
+        let corner = place - REACH * (self.columns + 1);
+        let mut forces = [0.0; W];
+        for (number, factors) in self.inside.iter().enumerate() {
+            let line = &values[corner + number * self.columns..];
+            // Towards the corners the factors are zero.
+            let skip = number.abs_diff(REACH);
+            for (column, factor) in factors.iter().enumerate() {
+                if (skip..2 * REACH + 1 - skip).contains(&column) {
+                    for (force, value) in forces.iter_mut().zip(&line[column..][..W]) {
+                        *force += factor * value;
+                    }
+                }
+            }
+        }
+        forces
+    }
+
+    /// What a number counts in its own force.
+    pub fn stiffness(&self, place: usize) -> f64 {
+        let (row, column) = (place / self.columns, place % self.columns);
+        let squares = |at: usize, count: usize, along: &[f64]| -> f64 {
+            starts(at, count, along)
+                .map(|(_, factor)| factor * factor)
+                .sum()
+        };
+        let of = |one: &Difference| {
+            let [of_x, of_y] = &one.along;
+            one.weight * squares(column, self.columns, of_x) * squares(row, self.rows, of_y)
+        };
+        self.differences.iter().map(of).sum()
+    }
+
+    /// Conjugate gradients on the unknown numbers, each scaled by its stiffness.
+    pub fn relax(&self, values: &mut [f64], unknown: &[usize]) {
+        let steps = match unknown.len() <= SMALL {
+            true => STEPS_OF_SMALL,
+            false => STEPS,
+        };
+        let mut asked = Asked::of(self, unknown);
+        let mut forces = vec![0.0; values.len()];
+        self.put_forces(values, &mut asked, &mut forces);
+        let mut residual: Vec<f64> = unknown.iter().map(|place| -forces[*place]).collect();
+        let over: Vec<f64> = unknown
+            .iter()
+            .map(|place| 1.0 / self.stiffness(*place))
+            .collect();
+        let mut direction = vec![0.0; values.len()];
+        let square = |residual: &[f64]| -> f64 {
+            let terms = residual.iter().zip(&over);
+            terms.map(|(force, over)| force * force * over).sum()
+        };
+        let mut now = square(&residual);
+        let last = now * SMALLEST_RESIDUAL * SMALLEST_RESIDUAL;
+        for ((place, force), over) in unknown.iter().zip(&residual).zip(&over) {
+            direction[*place] = force * over;
+        }
+        for _ in 0..steps {
+            if now <= last || now == 0.0 {
+                return;
+            }
+            let mut work = 0.0;
+            self.put_forces(&direction, &mut asked, &mut forces);
+            for place in unknown {
+                work += direction[*place] * forces[*place];
+            }
+            if work <= 0.0 {
+                return;
+            }
+            let step = now / work;
+            for (place, force) in unknown.iter().zip(&mut residual) {
+                values[*place] += step * direction[*place];
+                *force -= step * forces[*place];
+            }
+            let before = now;
+            now = square(&residual);
+            let kept = now / before;
+            for ((place, force), over) in unknown.iter().zip(&residual).zip(&over) {
+                direction[*place] = force * over + kept * direction[*place];
+            }
+        }
+    }
+}
+
+/// Numbers of which forces are asked.
+struct Asked {
+    /// Neighbours in a row. All differences that contain them lie within the sheet.
+    inside: Vec<Range<usize>>,
+    /// The others.
+    at_edge: AtEdge,
+}
+
+impl Asked {
+    /// Some numbers, in the order of their places.
+    fn of(plate: &Plate, places: &[usize]) -> Self {
+        let (columns, rows) = (plate.columns, plate.rows);
+        let is_inner = |at: usize, count: usize| at >= REACH && at + REACH < count;
+        let is_inside =
+            |place: &usize| is_inner(place / columns, rows) && is_inner(place % columns, columns);
+        let (inside, at_edge) = places
+            .iter()
+            .partition::<Vec<usize>, _>(|place| is_inside(place));
+        Self {
+            // Between two rows lie places at the edge, so a run ends with its row.
+            inside: runs(inside),
+            at_edge: AtEdge::of(plate, at_edge),
+        }
+    }
+}
+
+/// The forces of some numbers, put into their places.
+struct Forces<'a> {
+    plate: &'a Plate,
+    values: &'a [f64],
+    asked: &'a mut Asked,
+    forces: &'a mut [f64],
+}
+
+/// Neighbours whose forces are calculated together.
+const TOGETHER: usize = 8;
+
+impl Loop for Forces<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self {
+            plate,
+            values,
+            asked,
+            forces,
+        } = self;
+        for run in &asked.inside {
+            let mut groups = forces[run.clone()].chunks_exact_mut(TOGETHER);
+            let mut place = run.start;
+            for group in &mut groups {
+                group.copy_from_slice(&plate.inside::<TOGETHER>(values, place));
+                place += TOGETHER;
+            }
+            for (force, place) in groups.into_remainder().iter_mut().zip(place..) {
+                [*force] = plate.inside::<1>(values, place);
+            }
+        }
+        asked.at_edge.put(values, forces);
+    }
+}
+
+/// The factors of neighbours, from the farthest one before on, in the derivative of a square.
+fn squared(along: &[f64]) -> [f64; 2 * REACH + 1] {
+    let mut factors = [0.0; 2 * REACH + 1];
+    for (i, one) in along.iter().enumerate() {
+        for (j, other) in along.iter().enumerate() {
+            factors[REACH + j - i] += one * other;
+        }
+    }
+    factors
+}
+
+/// Where the differences begin that lie within the sheet and contain a number, and the number's
+/// factor in each.
+pub fn starts(at: usize, count: usize, along: &[f64]) -> impl Iterator<Item = (usize, f64)> {
+    let starts = along
+        .iter()
+        .enumerate()
+        .filter_map(move |(number, factor)| {
+            let start = at.checked_sub(number)?;
+            Some((start, *factor))
+        });
+    let length = along.len();
+    starts.filter(move |(start, _)| start + length <= count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::Sheet;
+
+    fn sheet(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Sheet {
+        let mut sheet = Sheet::of(columns, rows, 0.0);
+        for (row, line) in sheet.lines_mut().enumerate() {
+            for (column, place) in line.iter_mut().enumerate() {
+                *place = value(column as f64, row as f64);
+            }
+        }
+        sheet
+    }
+
+    /// The sum of squares by its definition: first differences, three times.
+    fn energy(sheet: &Sheet, ratio: f64) -> f64 {
+        let along_x = |sheet: &Sheet| {
+            let mut less = Sheet::of(sheet.columns - 1, sheet.rows, 0.0);
+            for (line, of_less) in sheet.lines().zip(less.lines_mut()) {
+                for (pair, place) in line.windows(2).zip(of_less) {
+                    *place = (pair[1] - pair[0]) / ratio;
+                }
+            }
+            less
+        };
+        let along_y = |sheet: &Sheet| {
+            let mut less = Sheet::of(sheet.columns, sheet.rows - 1, 0.0);
+            for (place, difference) in less.values.iter_mut().enumerate() {
+                *difference = sheet.values[place + sheet.columns] - sheet.values[place];
+            }
+            less
+        };
+        let squares = |sheet: Sheet| -> f64 { sheet.values.iter().map(|v| v * v).sum() };
+        squares(along_x(&along_x(&along_x(sheet))))
+            + 3.0 * squares(along_x(&along_x(&along_y(sheet))))
+            + 3.0 * squares(along_x(&along_y(&along_y(sheet))))
+            + squares(along_y(&along_y(&along_y(sheet))))
+    }
+
+    #[test]
+    fn forces_and_stiffness_are_derivatives_of_the_sum() {
+        let ratio = 1.25;
+        let bent = sheet(9, 8, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
+        let plate = Plate::new(9, 8, ratio);
+        let all: Vec<usize> = (0..bent.values.len()).collect();
+        let forces = plate.forces_of(&bent.values, &all);
+        for (place, found) in forces.into_iter().enumerate() {
+            let moved = |by: f64| {
+                let mut moved = bent.clone();
+                moved.values[place] += by;
+                energy(&moved, ratio)
+            };
+            let force = (moved(1.0) - moved(-1.0)) / 4.0;
+            assert!((found - force).abs() < 1e-9, "{place}: {found} {force}");
+            let stiffness = (moved(1.0) + moved(-1.0) - 2.0 * moved(0.0)) / 2.0;
+            let found = plate.stiffness(place);
+            assert!(
+                (found - stiffness).abs() < 1e-9,
+                "{place}: {found} {stiffness}"
+            );
+        }
+    }
+}
