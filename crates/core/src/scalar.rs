@@ -187,7 +187,7 @@ impl Scalar for f64 {
 
     #[inline(always)]
     fn floor(self) -> Self {
-        libm::floor(self)
+        f64::floor(self)
     }
 
     fn recip(self) -> Self {

@@ -1,10 +1,14 @@
-//! The locus that a feed strategy is lent. It looks for least feeds at several radii in parallel.
+//! The locus that a feed strategy is lent. It looks for feeds at several places in parallel.
 
 use rayon::prelude::*;
 use turnpath_core::ring::{RADII_AT_ONCE, least_feeds_at};
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
 use crate::order::in_order;
+
+/// Fewest places at which a thread looks for feeds. With fewer, threads would wait for each other longer
+/// than they look.
+const LEAST_PLACES: usize = 64;
 
 /// A locus for the time of planning a law.
 pub struct PlanningLocus<'a>(pub &'a dyn Locus);
@@ -38,7 +42,18 @@ impl Locus for PlanningLocus<'_> {
         rho: &[f64],
         feed: &mut [f64],
     ) -> Result<()> {
-        self.0.residual_feed(residual, radial, theta, rho, feed)
+        let of_each_thread = theta.len().div_ceil(rayon::current_num_threads());
+        let places = of_each_thread.max(LEAST_PLACES);
+        // The locus itself refuses slices of unequal length.
+        let same_lengths = [rho.len(), feed.len()] == [theta.len(); 2];
+        if theta.len() <= places || !same_lengths {
+            return self.0.residual_feed(residual, radial, theta, rho, feed);
+        }
+        let parts = theta.par_chunks(places).zip(rho.par_chunks(places));
+        let found = parts
+            .zip(feed.par_chunks_mut(places))
+            .map(|((theta, rho), feed)| self.0.residual_feed(residual, radial, theta, rho, feed));
+        in_order(found).map(|_: Vec<()>| ())
     }
 
     fn least_residual_feeds(
@@ -126,6 +141,20 @@ mod tests {
         let alone: Vec<f64> = radii.iter().flat_map(alone).collect();
         assert_eq!(in_parallel(&radii).unwrap().unwrap(), alone);
         assert!(alone.iter().all(|feed| (feed - 1e-3).abs() < 1e-9));
+    }
+
+    #[test]
+    fn the_feeds_of_many_places_in_parallel_are_those_of_the_locus() {
+        let rho: Vec<f64> = (0..500).map(|i| 0.01 * f64::from(i)).collect();
+        let theta: Vec<f64> = rho.iter().map(|rho| 7.0 * rho).collect();
+        let [mut found, mut alone] = [vec![f64::NAN; 500], vec![f64::NAN; 500]];
+        PlanningLocus(&Feeds)
+            .residual_feed(1e-3, Radial::Contact, &theta, &rho, &mut found)
+            .unwrap();
+        Feeds
+            .residual_feed(1e-3, Radial::Contact, &theta, &rho, &mut alone)
+            .unwrap();
+        assert_eq!(found, alone);
     }
 
     #[test]
