@@ -4,9 +4,9 @@
 //! ([`Lanes`](crate::Lanes)), its gradient ([`Dual`](crate::Dual)), its derivatives along a curve
 //! ([`Taylor`](crate::Taylor)), and the derivatives of its gradient (`Taylor<Dual<f64>>`).
 //!
-//! All elementary functions come from the crate `libm`, never from the standard library. The
-//! results of the standard library depend on the CPU, and the same recipe must give the same bytes
-//! everywhere.
+//! Elementary functions come from the crate `libm`, and not from the standard library. The results of
+//! the standard library depend on the CPU, and the same recipe must give the same bytes everywhere. The
+//! square root and [`Scalar::floor`] are the standard library's, since they are exact everywhere.
 
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -169,7 +169,7 @@ pub trait Scalar:
     }
 }
 
-/// The functions come from `libm`, except for the square root, which is exact everywhere.
+/// The functions come from `libm`, except for the square root and `floor`, which are exact everywhere.
 impl Scalar for f64 {
     type Mask = bool;
 
@@ -240,5 +240,41 @@ impl Scalar for f64 {
 
     fn powf(self, exponent: f64) -> Self {
         libm::pow(self, exponent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Scalar;
+
+    #[test]
+    fn floor_has_the_bits_of_libm() {
+        let edges = [
+            0.0,
+            0.5,
+            1.0,
+            1.5,
+            4_503_599_627_370_495.5,
+            9_007_199_254_740_992.0,
+        ];
+        let tiny = [
+            f64::MIN_POSITIVE,
+            5e-324,
+            f64::INFINITY,
+            f64::MAX,
+            1.0 - f64::EPSILON,
+        ];
+        for value in edges
+            .into_iter()
+            .chain(tiny)
+            .flat_map(|value| [value, -value])
+        {
+            assert_eq!(
+                Scalar::floor(value).to_bits(),
+                libm::floor(value).to_bits(),
+                "{value}"
+            );
+        }
+        assert!(Scalar::floor(f64::NAN).is_nan());
     }
 }

@@ -6,9 +6,9 @@ use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series,
 
 use crate::order::in_order;
 
-/// Fewest places at which a thread looks for feeds. With fewer, threads would wait for each other longer
-/// than they look.
-const LEAST_PLACES: usize = 64;
+/// A thread looks for feeds at a multiple of so many places. With fewer, threads would wait for each other
+/// longer than they look.
+const PLACES: usize = 64;
 
 /// A locus for the time of planning a law.
 pub struct PlanningLocus<'a>(pub &'a dyn Locus);
@@ -43,8 +43,8 @@ impl Locus for PlanningLocus<'_> {
         feed: &mut [f64],
     ) -> Result<()> {
         let of_each_thread = theta.len().div_ceil(rayon::current_num_threads());
-        let places = of_each_thread.max(LEAST_PLACES);
-        // The locus itself refuses slices of unequal length.
+        let places = of_each_thread.next_multiple_of(PLACES).max(PLACES);
+        // Slices of unequal length go to the locus as they are.
         let same_lengths = [rho.len(), feed.len()] == [theta.len(); 2];
         if theta.len() <= places || !same_lengths {
             return self.0.residual_feed(residual, radial, theta, rho, feed);
@@ -145,16 +145,20 @@ mod tests {
 
     #[test]
     fn the_feeds_of_many_places_in_parallel_are_those_of_the_locus() {
-        let rho: Vec<f64> = (0..500).map(|i| 0.01 * f64::from(i)).collect();
-        let theta: Vec<f64> = rho.iter().map(|rho| 7.0 * rho).collect();
-        let [mut found, mut alone] = [vec![f64::NAN; 500], vec![f64::NAN; 500]];
-        PlanningLocus(&Feeds)
-            .residual_feed(1e-3, Radial::Contact, &theta, &rho, &mut found)
-            .unwrap();
-        Feeds
-            .residual_feed(1e-3, Radial::Contact, &theta, &rho, &mut alone)
-            .unwrap();
-        assert_eq!(found, alone);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build();
+        pool.unwrap().install(|| {
+            for count in [0, 1, 64, 65, 129, 500] {
+                let rho: Vec<f64> = (0..count).map(|i| 0.01 * f64::from(i)).collect();
+                let theta: Vec<f64> = rho.iter().map(|rho| 7.0 * rho).collect();
+                let [mut found, mut alone] = [(); 2].map(|()| vec![f64::NAN; rho.len()]);
+                let feed = |locus: &dyn Locus, feed: &mut [f64]| {
+                    locus.residual_feed(1e-3, Radial::Contact, &theta, &rho, feed)
+                };
+                feed(&PlanningLocus(&Feeds), &mut found).unwrap();
+                feed(&Feeds, &mut alone).unwrap();
+                assert_eq!(found, alone, "{count}");
+            }
+        });
     }
 
     #[test]

@@ -30,7 +30,7 @@ const POWERS: [[f64; SPLINES]; SPLINES] = [
 /// Numbers in a vector register of 512 bits.
 pub const LANES: usize = 8;
 
-/// One number for each of the six splines, and two that do not count: so a register takes all.
+/// One number for each of the six splines. Two more fill a register and do not count.
 pub type Weights = [f64; LANES];
 
 /// Weights before they have numbers.

@@ -29,7 +29,7 @@ pub const KINDS: usize = 4;
 const SIDE: usize = 4;
 
 /// How far a number reaches in the sum of squares.
-const REACH: usize = SIDE - 1;
+pub const REACH: usize = SIDE - 1;
 
 /// A kind of third differences.
 #[derive(Debug, Clone)]
@@ -42,11 +42,14 @@ pub struct Difference {
 
 /// The sum of squares of third differences over a sheet.
 pub struct Plate {
+    /// Columns of the sheet.
     pub columns: usize,
+    /// Rows of the sheet.
     pub rows: usize,
+    /// What the sum is made of.
     pub differences: [Difference; KINDS],
     /// Where all differences lie within the sheet: what each neighbour counts in a force, by rows.
-    inside: [[f64; 2 * REACH + 1]; 2 * REACH + 1],
+    neighbours: [[f64; 2 * REACH + 1]; 2 * REACH + 1],
 }
 
 impl Plate {
@@ -63,10 +66,10 @@ impl Plate {
             along: [factors(order), factors(3 - order)],
             weight: [1.0, 3.0, 3.0, 1.0][order] * (0..order).fold(1.0, |w, _| w / (ratio * ratio)),
         });
-        let mut inside = [[0.0; 2 * REACH + 1]; 2 * REACH + 1];
+        let mut neighbours = [[0.0; 2 * REACH + 1]; 2 * REACH + 1];
         for difference in &differences {
             let [of_x, of_y] = difference.along.each_ref().map(|along| squared(along));
-            for (line, y) in inside.iter_mut().zip(of_y) {
+            for (line, y) in neighbours.iter_mut().zip(of_y) {
                 for (factor, x) in line.iter_mut().zip(of_x) {
                     *factor += difference.weight * x * y;
                 }
@@ -76,7 +79,7 @@ impl Plate {
             columns,
             rows,
             differences,
-            inside,
+            neighbours,
         }
     }
 
@@ -90,7 +93,7 @@ impl Plate {
 
     /// Puts half the derivatives of the sum by the numbers that are asked for into their places.
     fn put_forces(&self, values: &[f64], asked: &mut Asked, forces: &mut [f64]) {
-        in_widest(Forces {
+        in_widest(PutForces {
             plate: self,
             values,
             asked,
@@ -100,10 +103,10 @@ impl Plate {
 
     /// Half the derivatives by `W` neighbours of a row, where all differences lie within the sheet.
     #[inline(always)]
-    fn inside<const W: usize>(&self, values: &[f64], place: usize) -> [f64; W] {
+    fn force_inside<const W: usize>(&self, values: &[f64], place: usize) -> [f64; W] {
         let corner = place - REACH * (self.columns + 1);
         let mut forces = [0.0; W];
-        for (number, factors) in self.inside.iter().enumerate() {
+        for (number, factors) in self.neighbours.iter().enumerate() {
             let line = &values[corner + number * self.columns..];
             // Towards the corners the factors are zero.
             let skip = number.abs_diff(REACH);
@@ -210,8 +213,8 @@ impl Asked {
     }
 }
 
-/// The forces of some numbers, put into their places.
-struct Forces<'a> {
+/// The loop that puts the forces of some numbers into their places.
+struct PutForces<'a> {
     plate: &'a Plate,
     values: &'a [f64],
     asked: &'a mut Asked,
@@ -221,7 +224,7 @@ struct Forces<'a> {
 /// Neighbours whose forces are calculated together.
 const TOGETHER: usize = 8;
 
-impl Loop for Forces<'_> {
+impl Loop for PutForces<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -236,11 +239,11 @@ impl Loop for Forces<'_> {
             let mut groups = forces[run.clone()].chunks_exact_mut(TOGETHER);
             let mut place = run.start;
             for group in &mut groups {
-                group.copy_from_slice(&plate.inside::<TOGETHER>(values, place));
+                group.copy_from_slice(&plate.force_inside::<TOGETHER>(values, place));
                 place += TOGETHER;
             }
             for (force, place) in groups.into_remainder().iter_mut().zip(place..) {
-                [*force] = plate.inside::<1>(values, place);
+                [*force] = plate.force_inside::<1>(values, place);
             }
         }
         asked.at_edge.put(values, forces);
@@ -315,24 +318,30 @@ mod tests {
     #[test]
     fn forces_and_stiffness_are_derivatives_of_the_sum() {
         let ratio = 1.25;
-        let bent = sheet(9, 8, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
-        let plate = Plate::new(9, 8, ratio);
-        let all: Vec<usize> = (0..bent.values.len()).collect();
-        let forces = plate.forces_of(&bent.values, &all);
-        for (place, found) in forces.into_iter().enumerate() {
-            let moved = |by: f64| {
-                let mut moved = bent.clone();
-                moved.values[place] += by;
-                energy(&moved, ratio)
-            };
-            let force = (moved(1.0) - moved(-1.0)) / 4.0;
-            assert!((found - force).abs() < 1e-9, "{place}: {found} {force}");
-            let stiffness = (moved(1.0) + moved(-1.0) - 2.0 * moved(0.0)) / 2.0;
-            let found = plate.stiffness(place);
-            assert!(
-                (found - stiffness).abs() < 1e-9,
-                "{place}: {found} {stiffness}"
-            );
+        // Rows with groups of eight numbers inside, sheets with few numbers inside or none.
+        for (columns, rows) in [(25, 9), (9, 8), (5, 30), (6, 4), (4, 4)] {
+            let bent = sheet(columns, rows, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
+            let plate = Plate::new(columns, rows, ratio);
+            let all: Vec<usize> = (0..bent.values.len()).collect();
+            let forces = plate.forces_of(&bent.values, &all);
+            for (place, found) in forces.iter().enumerate() {
+                let moved = |by: f64| {
+                    let mut moved = bent.clone();
+                    moved.values[place] += by;
+                    energy(&moved, ratio)
+                };
+                let force = (moved(1.0) - moved(-1.0)) / 4.0;
+                assert!((found - force).abs() < 1e-9, "{place}: {found} {force}");
+                let stiffness = (moved(1.0) + moved(-1.0) - 2.0 * moved(0.0)) / 2.0;
+                let found = plate.stiffness(place);
+                let far = (found - stiffness).abs();
+                assert!(far < 1e-9, "{place}: {found} {stiffness}");
+            }
+            // The force of a number does not depend on which others are asked for.
+            let some: Vec<usize> = all.into_iter().filter(|place| place % 5 != 2).collect();
+            for (place, force) in some.iter().zip(plate.forces_of(&bent.values, &some)) {
+                assert_eq!(force.to_bits(), forces[*place].to_bits(), "{place}");
+            }
         }
     }
 }

@@ -4,11 +4,13 @@
 
 use std::ops::Range;
 
-use crate::plate::{Difference, KINDS, Plate, starts};
+use crate::plate::{Difference, KINDS, Plate, REACH, starts};
 
 /// Some numbers at the edges, and the differences that contain them.
 pub struct AtEdge {
     places: Vec<usize>,
+    /// How each number lies to the edges, as [`class`] says.
+    classes: Vec<u8>,
     kinds: [Kind; KINDS],
 }
 
@@ -21,10 +23,24 @@ struct Kind {
     firsts: Vec<Range<usize>>,
     /// The differences, in this order.
     differences: Vec<f64>,
-    /// What the force of each place takes from which differences, place after place.
-    parts: Vec<(u32, f64)>,
-    /// Where the parts of each place end.
-    ends: Vec<usize>,
+    /// The differences that count in the force of each number, one number after the other.
+    parts: Vec<u32>,
+    /// What they count in the forces of numbers of each class.
+    factors: [Vec<f64>; CLASSES],
+}
+
+/// Distances from the edges along one axis that differ: three numbers on either side, and all between.
+const DISTANCES: usize = 2 * REACH + 1;
+
+/// Ways to lie to the edges.
+const CLASSES: usize = DISTANCES * DISTANCES;
+
+/// How a place lies to the edges of a sheet. All numbers of one class count alike in their differences.
+fn class(plate: &Plate, place: usize) -> u8 {
+    let along = |at: usize, count: usize| at.min(REACH) + REACH - (count - 1 - at).min(REACH);
+    let row = along(place / plate.columns, plate.rows);
+    let column = along(place % plate.columns, plate.columns);
+    (row * DISTANCES + column) as u8
 }
 
 impl AtEdge {
@@ -32,6 +48,7 @@ impl AtEdge {
     pub fn of(plate: &Plate, places: Vec<usize>) -> Self {
         let kinds = plate.differences.each_ref();
         Self {
+            classes: places.iter().map(|place| class(plate, *place)).collect(),
             kinds: kinds.map(|difference| Kind::of(plate, difference, &places)),
             places,
         }
@@ -45,14 +62,14 @@ impl AtEdge {
         }
         for kind in &mut self.kinds {
             kind.take_differences(values);
-            let mut begin = 0;
-            for (place, end) in self.places.iter().zip(&kind.ends) {
+            let mut parts = kind.parts.iter();
+            for (place, class) in self.places.iter().zip(&self.classes) {
                 let mut sum = 0.0;
-                for (difference, factor) in &kind.parts[begin..*end] {
-                    sum += factor * kind.differences[*difference as usize];
+                // The factors come first: at their end no part is taken.
+                for (factor, part) in kind.factors[usize::from(*class)].iter().zip(&mut parts) {
+                    sum += factor * kind.differences[*part as usize];
                 }
                 forces[*place] += kind.weight * sum;
-                begin = *end;
             }
         }
     }
@@ -63,6 +80,7 @@ impl Kind {
         let Difference { along, weight } = difference;
         let [of_x, of_y] = along;
         let columns = plate.columns;
+        // The first numbers of all differences that contain a number, and its factors in them.
         let containing = |place: &usize| {
             let (row, column) = (place / columns, place % columns);
             starts(row, plate.rows, of_y).flat_map(move |(down, factor_y)| {
@@ -70,20 +88,34 @@ impl Kind {
                 across.map(move |(right, factor_x)| (down * columns + right, factor_x * factor_y))
             })
         };
-        let mut firsts: Vec<usize> = places
+        let mut is_first = vec![false; columns * plate.rows];
+        for (first, _) in places.iter().flat_map(containing) {
+            is_first[first] = true;
+        }
+        let firsts = runs((0..is_first.len()).filter(|place| is_first[*place]));
+        let ends: Vec<usize> = firsts
+            .iter()
+            .scan(0, |end, run| {
+                *end += run.len();
+                Some(*end)
+            })
+            .collect();
+        let number = |first: usize| {
+            let run = firsts.partition_point(|run| run.end <= first);
+            // A map has at most 2²⁵ points, and its sheet is not four times as large.
+            (ends[run] - (firsts[run].end - first)) as u32
+        };
+        let parts = places
             .iter()
             .flat_map(containing)
-            .map(|(first, _)| first)
-            .collect();
-        firsts.sort_unstable();
-        firsts.dedup();
-        let (mut parts, mut ends) = (Vec::new(), Vec::with_capacity(places.len()));
+            .map(|(first, _)| number(first));
+        let parts: Vec<u32> = parts.collect();
+        let mut factors = [const { Vec::new() }; CLASSES];
         for place in places {
-            for (first, factor) in containing(place) {
-                let number = firsts.partition_point(|other| *other < first);
-                parts.push((number as u32, factor));
+            let factors = &mut factors[usize::from(class(plate, *place))];
+            if factors.is_empty() {
+                factors.extend(containing(place).map(|(_, factor)| factor));
             }
-            ends.push(parts.len());
         }
         let line = |(down, y): (usize, &f64)| {
             let y = *y;
@@ -93,10 +125,10 @@ impl Kind {
         Self {
             weight: *weight,
             terms: of_y.iter().enumerate().flat_map(line).collect(),
-            differences: vec![0.0; firsts.len()],
-            firsts: runs(firsts),
+            differences: vec![0.0; ends.last().copied().unwrap_or(0)],
+            firsts,
             parts,
-            ends,
+            factors,
         }
     }
 
@@ -118,7 +150,7 @@ impl Kind {
 }
 
 /// The runs of neighbours among places that are in order.
-pub fn runs(places: Vec<usize>) -> Vec<Range<usize>> {
+pub fn runs(places: impl IntoIterator<Item = usize>) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
     for place in places {
         match runs.last_mut().filter(|run| run.end == place) {

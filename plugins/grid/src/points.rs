@@ -14,9 +14,13 @@ const GROUP: usize = 16;
 
 /// The loop that gives points their heights. All slices have one length.
 pub struct HeightsAt<'a> {
+    /// The spline.
     pub spline: &'a Spline,
+    /// x of the points, mm.
     pub x: &'a [f64],
+    /// y of the points, mm.
     pub y: &'a [f64],
+    /// Their heights, mm.
     pub z: &'a mut [f64],
 }
 
@@ -50,9 +54,13 @@ impl Loop for HeightsAt<'_> {
 
 /// The loop that gives points their heights and both slopes. All slices have one length.
 pub struct SlopesAt<'a> {
+    /// The spline.
     pub spline: &'a Spline,
+    /// x of the points, mm.
     pub x: &'a [f64],
+    /// y of the points, mm.
     pub y: &'a [f64],
+    /// Their heights, mm, and slopes.
     pub out: Gradients<'a>,
 }
 
@@ -99,13 +107,11 @@ impl Spline {
     /// The height at one place.
     pub fn height(&self, x: f64, y: f64) -> f64 {
         let mut z = [f64::NAN];
-        let (spline, x, y) = (self, &[x], &[y]);
-        let out = &mut z;
         HeightsAt {
-            spline,
-            x,
-            y,
-            z: out,
+            spline: self,
+            x: &[x],
+            y: &[y],
+            z: &mut z,
         }
         .call();
         z[0]

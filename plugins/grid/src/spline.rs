@@ -9,18 +9,20 @@ use crate::trend::Trend;
 /// The 36 coefficients that count at a place, row by row.
 pub type Patch = [Weights; SPLINES];
 
-/// The coefficients of a place that is no number.
+/// The coefficients of a place that is infinite.
 pub const NO_PATCH: Patch = [[f64::NAN; LANES]; SPLINES];
 
 /// The same where they lie.
 pub type Lines<'a> = [&'a Weights; SPLINES];
 
-/// A cell, by its column and row of coefficients, and a place in it, 0 to 1 along x and y.
+/// A cell, by its column and row of coefficients, and a place in it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Place {
     column: i64,
     row: i64,
+    /// From 0 to 1 along x.
     pub s: f64,
+    /// From 0 to 1 along y.
     pub t: f64,
 }
 
@@ -28,9 +30,7 @@ pub struct Place {
 /// beyond the part, and a coefficient takes time.
 const KEPT_SHARE: usize = 4;
 
-/// Coefficients that are kept on each side, at least and at most: so that a large map takes little more
-/// memory.
-const LEAST_KEPT: usize = 16;
+/// Most coefficients that are kept on each side. A large map takes little more memory for them.
 const MOST_KEPT: usize = 128;
 
 /// A tensor B-spline of degree 5 over knots at all points of a regular grid. It has a value
@@ -40,7 +40,7 @@ const MOST_KEPT: usize = 128;
 #[derive(Debug, Clone)]
 pub struct Spline {
     /// The spline's own coefficients and those that are kept around them. Two more numbers follow the last
-    /// row, since a register takes eight.
+    /// row: eight numbers are read at a time, and six of them count.
     coefficients: Sheet,
     /// Coefficients that are kept on each side.
     kept: usize,
@@ -77,7 +77,7 @@ impl Spline {
     fn of(coefficients: Sheet, first: [f64; 2], pitch: [f64; 2]) -> Self {
         let before = BEYOND as f64;
         let kept = coefficients.columns.min(coefficients.rows) / KEPT_SHARE;
-        let kept = kept.clamp(LEAST_KEPT, MOST_KEPT);
+        let kept = kept.min(MOST_KEPT);
         let mut spline = Self {
             trend: Trend::of(&coefficients),
             coefficients: coefficients.with_margin(kept),
@@ -87,6 +87,7 @@ impl Spline {
         };
         spline.keep_around();
         let more = [0.0; LANES - SPLINES];
+        spline.coefficients.values.reserve_exact(more.len());
         spline.coefficients.values.extend(more);
         spline
     }
@@ -135,7 +136,7 @@ impl Spline {
     }
 
     /// The coefficients that count at a place. Those that are not kept are put into `patch`. They are NaN
-    /// where the place is no number.
+    /// where the place is infinite. At a place that is no number the splines are none either.
     #[inline(always)]
     pub fn lines<'a>(&'a self, place: &Place, patch: &'a mut Patch) -> Lines<'a> {
         if let Some(lines) = self.lines_of_cell(place.column, place.row) {
@@ -179,7 +180,7 @@ impl Spline {
         patch
     }
 
-    /// A coefficient that the spline has, or one beyond.
+    /// A coefficient beyond the spline's own. One of these comes out but for rounding.
     fn beyond(&self, column: f64, row: f64) -> f64 {
         let [columns, rows] = self.own();
         let (of_columns, of_rows) = (straight(column, columns), straight(row, rows));
@@ -301,14 +302,27 @@ mod tests {
     #[test]
     fn what_is_kept_around_is_what_a_place_farther_out_gets() {
         let spline = spline();
-        for (column, row) in [(-9, 3), (4, -8), (-7, -5), (20, 18), (25, 2), (-3, 14)] {
+        // The spline has 16 columns and 13 rows of its own, and three are kept on each side.
+        assert_eq!((spline.own(), spline.kept), ([16, 13], 3));
+        for (column, row) in [(-1, 3), (4, -1), (-1, -1), (15, 12), (15, 2), (3, 12)] {
             let kept = spline.lines_of_cell(column, row).unwrap();
             let patch = spline.patch_outside(column, row);
-            for (kept, calculated) in kept.iter().zip(&patch) {
-                assert_eq!(kept[..SPLINES], calculated[..SPLINES], "{column} {row}");
+            for (line, (kept, calculated)) in (row - 2..).zip(kept.iter().zip(&patch)) {
+                for place in 0..SPLINES {
+                    let is_own =
+                        (0..13).contains(&line) && (0..16).contains(&(column - 2 + place as i64));
+                    let far = (kept[place] - calculated[place]).abs();
+                    let bound = if is_own {
+                        1e-14 * calculated[place].abs().max(1.0)
+                    } else {
+                        0.0
+                    };
+                    assert!(far <= bound, "{column} {row}: {far}");
+                }
             }
         }
-        assert!(spline.lines_of_cell(-15, 3).is_none());
+        assert!(spline.lines_of_cell(-2, 3).is_none());
+        assert!(spline.lines_of_cell(3, 13).is_none());
     }
 
     #[test]

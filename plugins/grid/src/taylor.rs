@@ -29,9 +29,13 @@ const NOTHING: Orders = [[0.0; GROUP]; ORDER + 1];
 /// The loop that gives curves the series of their heights, through the order `TO`. All slices have one
 /// length.
 pub struct HeightsAlong<'a, const TO: usize> {
+    /// The spline.
     pub spline: &'a Spline,
+    /// x(t) of the curves, mm.
     pub x: &'a [Series],
+    /// y(t) of the curves, mm.
     pub y: &'a [Series],
+    /// Their heights, mm.
     pub z: &'a mut [Series],
 }
 
@@ -63,9 +67,13 @@ impl<const TO: usize> Loop for HeightsAlong<'_, TO> {
 /// The loop that gives curves the series of their heights and of both slopes, through the order `TO`. All
 /// slices have one length.
 pub struct SlopesAlong<'a, const TO: usize> {
+    /// The spline.
     pub spline: &'a Spline,
+    /// x(t) of the curves, mm.
     pub x: &'a [Series],
+    /// y(t) of the curves, mm.
     pub y: &'a [Series],
+    /// Their heights, mm, and slopes.
     pub out: GradientSeries<'a>,
 }
 
@@ -220,13 +228,11 @@ impl Spline {
     /// The series of the height along one curve.
     pub fn height_series<const TO: usize>(&self, x: &Series, y: &Series) -> Series {
         let mut z = [[f64::NAN; ORDER + 1]];
-        let (spline, x, y) = (self, &[*x], &[*y]);
-        let out = &mut z;
         HeightsAlong::<TO> {
-            spline,
-            x,
-            y,
-            z: out,
+            spline: self,
+            x: &[*x],
+            y: &[*y],
+            z: &mut z,
         }
         .call();
         z[0]

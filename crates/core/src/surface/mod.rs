@@ -343,5 +343,22 @@ mod tests {
         for (one, other) in side_by_side.iter().zip(&others) {
             same(one, other, ORDER);
         }
+        let [mut heights, mut slopes_x, mut slopes_y] = [(); 3].map(|()| vec![[f64::NAN; 5]; 29]);
+        let lanes = &Polynomial::<false>;
+        lanes.height_series(&x, &y, &mut heights).unwrap();
+        same(&heights, &side_by_side[0], ORDER);
+        let out = GradientSeries {
+            z: &mut heights,
+            zx: &mut slopes_x,
+            zy: &mut slopes_y,
+        };
+        let orders = SeriesOrders {
+            heights: 2,
+            slopes: 2,
+        };
+        lanes.series_to(orders, &x, &y, out).unwrap();
+        for (one, other) in [heights, slopes_x, slopes_y].iter().zip(&side_by_side) {
+            same(one, other, 2);
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
-use turnpath_core::{GradientSeries, Scalar, Series, SurfaceModel};
+use turnpath_core::{GradientSeries, Gradients, Scalar, Series, SeriesOrders, SurfaceModel};
 use turnpath_grid::GridSag;
 use turnpath_maps::Map;
 
@@ -145,6 +145,126 @@ fn a_place_beyond_the_cells_knows_how_far_it_is() {
         assert!((found - wanted).abs() < 0.101, "{found} {wanted}");
     }
     assert_eq!(distance[..2], [0.0, 0.0]);
+}
+
+/// Places on the map, around it, far away, and none.
+fn places() -> Vec<(f64, f64)> {
+    let near = (0..30).map(|k| (0.7 * f64::from(k) - 9.5, 4.0 - 0.5 * f64::from(k)));
+    let far = [(1e300, 0.3), (-1e300, -1e300), (1e18, 2.0), (0.1, 400.0)];
+    let none = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    let none = none
+        .iter()
+        .flat_map(|none| [(*none, 0.4), (0.4, *none), (*none, *none)]);
+    near.chain(far).chain(none).collect()
+}
+
+/// Heights, slopes and series of a batch of any length are those of its places alone, and at a place that
+/// is no number there is none.
+#[test]
+fn a_batch_of_any_length_gives_what_single_places_give() {
+    let surface = GridSag::of(map(40, wavy), None).unwrap();
+    let places = places();
+    let curve = |at: f64| [at, 0.8, -0.3, 0.05, 0.02];
+    let bits = |series: &Series, to: usize| {
+        series[..=to]
+            .iter()
+            .map(|c| c.to_bits())
+            .collect::<Vec<_>>()
+    };
+    for length in [0, 1, 7, 8, 9, 16, 17, 33, places.len()] {
+        // From the end on, so that each place comes into batches of several lengths.
+        let batch: Vec<(f64, f64)> = places.iter().rev().take(length).copied().collect();
+        let (x, y): (Vec<f64>, Vec<f64>) = batch.iter().copied().unzip();
+        let [mut z, mut zx, mut zy, mut heights] = [(); 4].map(|()| vec![0.0; length]);
+        let out = Gradients {
+            z: &mut z,
+            zx: &mut zx,
+            zy: &mut zy,
+        };
+        surface.gradient(&x, &y, out).unwrap();
+        surface.heights(&x, &y, &mut heights).unwrap();
+        for i in 0..length {
+            let ([mut z_alone], [mut zx_alone], [mut zy_alone]) = ([0.0], [0.0], [0.0]);
+            let out = Gradients {
+                z: std::slice::from_mut(&mut z_alone),
+                zx: std::slice::from_mut(&mut zx_alone),
+                zy: std::slice::from_mut(&mut zy_alone),
+            };
+            surface.gradient(&x[i..=i], &y[i..=i], out).unwrap();
+            let found = [z[i], zx[i], zy[i], heights[i]];
+            let alone = [z_alone, zx_alone, zy_alone, height(&surface, x[i], y[i])];
+            match x[i].is_finite() && y[i].is_finite() {
+                true => assert_eq!(
+                    found.map(f64::to_bits),
+                    alone.map(f64::to_bits),
+                    "{:?}",
+                    batch[i]
+                ),
+                false => assert!(
+                    found.iter().chain(&alone).all(|n| n.is_nan()),
+                    "{:?}",
+                    batch[i]
+                ),
+            }
+        }
+        let (along_x, along_y): (Vec<Series>, Vec<Series>) =
+            batch.iter().map(|(x, y)| (curve(*x), curve(*y))).unzip();
+        for to in [1, 2, 4] {
+            let orders = SeriesOrders {
+                heights: to,
+                slopes: to,
+            };
+            let [mut z, mut zx, mut zy, mut heights] = [(); 4].map(|()| vec![[0.0; 5]; length]);
+            let out = GradientSeries {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            };
+            surface.series_to(orders, &along_x, &along_y, out).unwrap();
+            surface
+                .height_series_to(to, &along_x, &along_y, &mut heights)
+                .unwrap();
+            for i in 0..length {
+                let [mut z_alone, mut zx_alone, mut zy_alone] = [[[0.0; 5]]; 3];
+                let out = GradientSeries {
+                    z: &mut z_alone,
+                    zx: &mut zx_alone,
+                    zy: &mut zy_alone,
+                };
+                surface
+                    .series(&along_x[i..=i], &along_y[i..=i], out)
+                    .unwrap();
+                let alone = [z_alone[0], zx_alone[0], zy_alone[0], z_alone[0]];
+                for (found, alone) in [z[i], zx[i], zy[i], heights[i]].iter().zip(&alone) {
+                    match x[i].is_finite() && y[i].is_finite() {
+                        true => assert_eq!(bits(found, to), bits(alone, to), "{:?} {to}", batch[i]),
+                        false => assert!(
+                            found[..=to].iter().all(|c| c.is_nan()),
+                            "{:?} {to}",
+                            batch[i]
+                        ),
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The smallest maps, with holes.
+#[test]
+fn maps_of_six_points_on_a_side_have_a_surface() {
+    for (columns, rows) in [(6, 6), (6, 40), (40, 6)] {
+        let mut heights: Vec<f64> = (0..columns * rows).map(|k| 1e-3 * (k % 7) as f64).collect();
+        (heights[8], heights[15]) = (f64::NAN, f64::NAN);
+        let surface =
+            GridSag::of(Map::new(columns, rows, 0.1, 0.1, heights).unwrap(), None).unwrap();
+        for (x, y) in [(0.0, 0.0), (0.2, -0.2), (5.0, 3.0)] {
+            assert!(
+                height(&surface, x, y).is_finite(),
+                "{columns} {rows}: {x} {y}"
+            );
+        }
+    }
 }
 
 /// An ordinary batch and one point at a time.
