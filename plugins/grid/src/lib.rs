@@ -20,6 +20,7 @@ mod basis;
 mod bending;
 mod blocks;
 mod cells;
+mod differences;
 mod edges;
 mod interpolation;
 mod low_pass;

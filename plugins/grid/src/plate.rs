@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use turnpath_plugin::registers::{Loop, in_widest};
 
+use crate::differences::{Differences, REACH};
 use crate::plate_edge::{AtEdge, runs};
 
 /// Most steps of the gradients at each resolution. The coarse sheets leave only short waves to the
@@ -22,32 +23,10 @@ const STEPS_OF_SMALL: usize = 2000;
 /// The share of the first residual at which the search ends.
 const SMALLEST_RESIDUAL: f64 = 1e-9;
 
-/// Kinds of third differences: along x, along y, and two mixed ones.
-pub const KINDS: usize = 4;
-
-/// Numbers on the side of the largest difference.
-const SIDE: usize = 4;
-
-/// How far a number reaches in the sum of squares.
-pub const REACH: usize = SIDE - 1;
-
-/// A kind of third differences.
-#[derive(Debug, Clone)]
-pub struct Difference {
-    /// Factors along x and along y; the difference is the sum over all products.
-    pub along: [Vec<f64>; 2],
-    /// What its square counts.
-    pub weight: f64,
-}
-
 /// The sum of squares of third differences over a sheet.
 pub struct Plate {
-    /// Columns of the sheet.
-    pub columns: usize,
-    /// Rows of the sheet.
-    pub rows: usize,
     /// What the sum is made of.
-    pub differences: [Difference; KINDS],
+    pub differences: Differences,
     /// Where all differences lie within the sheet: what each neighbour counts in a force, by rows.
     neighbours: [[f64; 2 * REACH + 1]; 2 * REACH + 1],
 }
@@ -55,19 +34,9 @@ pub struct Plate {
 impl Plate {
     /// The sums of a sheet of this size. `ratio` is the pitch along x over that along y.
     pub fn new(columns: usize, rows: usize, ratio: f64) -> Self {
-        let factors = |order: usize| match order {
-            0 => vec![1.0],
-            1 => vec![-1.0, 1.0],
-            2 => vec![1.0, -2.0, 1.0],
-            _ => vec![-1.0, 3.0, -3.0, 1.0],
-        };
-        // Differences along x are those over longer steps, if the pitch along x is the larger one.
-        let differences = [3, 2, 1, 0].map(|order: usize| Difference {
-            along: [factors(order), factors(3 - order)],
-            weight: [1.0, 3.0, 3.0, 1.0][order] * (0..order).fold(1.0, |w, _| w / (ratio * ratio)),
-        });
+        let differences = Differences::new(columns, rows, ratio);
         let mut neighbours = [[0.0; 2 * REACH + 1]; 2 * REACH + 1];
-        for difference in &differences {
+        for difference in &differences.kinds {
             let [of_x, of_y] = difference.along.each_ref().map(|along| squared(along));
             for (line, y) in neighbours.iter_mut().zip(of_y) {
                 for (factor, x) in line.iter_mut().zip(of_x) {
@@ -76,8 +45,6 @@ impl Plate {
             }
         }
         Self {
-            columns,
-            rows,
             differences,
             neighbours,
         }
@@ -104,10 +71,10 @@ impl Plate {
     /// Half the derivatives by `W` neighbours of a row, where all differences lie within the sheet.
     #[inline(always)]
     fn force_inside<const W: usize>(&self, values: &[f64], place: usize) -> [f64; W] {
-        let corner = place - REACH * (self.columns + 1);
+        let corner = place - REACH * (self.differences.columns + 1);
         let mut forces = [0.0; W];
         for (number, factors) in self.neighbours.iter().enumerate() {
-            let line = &values[corner + number * self.columns..];
+            let line = &values[corner + number * self.differences.columns..];
             // Towards the corners the factors are zero.
             let skip = number.abs_diff(REACH);
             for (column, factor) in factors.iter().enumerate() {
@@ -119,21 +86,6 @@ impl Plate {
             }
         }
         forces
-    }
-
-    /// What a number counts in its own force.
-    pub fn stiffness(&self, place: usize) -> f64 {
-        let (row, column) = (place / self.columns, place % self.columns);
-        let squares = |at: usize, count: usize, along: &[f64]| -> f64 {
-            starts(at, count, along)
-                .map(|(_, factor)| factor * factor)
-                .sum()
-        };
-        let of = |one: &Difference| {
-            let [of_x, of_y] = &one.along;
-            one.weight * squares(column, self.columns, of_x) * squares(row, self.rows, of_y)
-        };
-        self.differences.iter().map(of).sum()
     }
 
     /// Conjugate gradients on the unknown numbers, each scaled by its stiffness.
@@ -148,7 +100,7 @@ impl Plate {
         let mut residual: Vec<f64> = unknown.iter().map(|place| -forces[*place]).collect();
         let over: Vec<f64> = unknown
             .iter()
-            .map(|place| 1.0 / self.stiffness(*place))
+            .map(|place| 1.0 / self.differences.stiffness(*place))
             .collect();
         let mut direction = vec![0.0; values.len()];
         let square = |residual: &[f64]| -> f64 {
@@ -198,7 +150,7 @@ struct Asked {
 impl Asked {
     /// Some numbers, in the order of their places.
     fn of(plate: &Plate, places: &[usize]) -> Self {
-        let (columns, rows) = (plate.columns, plate.rows);
+        let Differences { columns, rows, .. } = plate.differences;
         let is_inner = |at: usize, count: usize| at >= REACH && at + REACH < count;
         let is_inside =
             |place: &usize| is_inner(place / columns, rows) && is_inner(place % columns, columns);
@@ -208,7 +160,7 @@ impl Asked {
         Self {
             // Between two rows lie places at the edge, so a run ends with its row.
             inside: runs(inside),
-            at_edge: AtEdge::of(plate, at_edge),
+            at_edge: AtEdge::of(&plate.differences, at_edge),
         }
     }
 }
@@ -259,20 +211,6 @@ fn squared(along: &[f64]) -> [f64; 2 * REACH + 1] {
         }
     }
     factors
-}
-
-/// Where the differences begin that lie within the sheet and contain a number, and the number's
-/// factor in each.
-pub fn starts(at: usize, count: usize, along: &[f64]) -> impl Iterator<Item = (usize, f64)> {
-    let starts = along
-        .iter()
-        .enumerate()
-        .filter_map(move |(number, factor)| {
-            let start = at.checked_sub(number)?;
-            Some((start, *factor))
-        });
-    let length = along.len();
-    starts.filter(move |(start, _)| start + length <= count)
 }
 
 #[cfg(test)]
@@ -333,7 +271,7 @@ mod tests {
                 let force = (moved(1.0) - moved(-1.0)) / 4.0;
                 assert!((found - force).abs() < 1e-9, "{place}: {found} {force}");
                 let stiffness = (moved(1.0) + moved(-1.0) - 2.0 * moved(0.0)) / 2.0;
-                let found = plate.stiffness(place);
+                let found = plate.differences.stiffness(place);
                 let far = (found - stiffness).abs();
                 assert!(far < 1e-9, "{place}: {found} {stiffness}");
             }

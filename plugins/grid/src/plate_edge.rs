@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use crate::plate::{Difference, KINDS, Plate, REACH, starts};
+use crate::differences::{Difference, Differences, KINDS, REACH, starts};
 
 /// Some numbers at the edges, and the differences that contain them.
 pub struct AtEdge {
@@ -36,20 +36,20 @@ const DISTANCES: usize = 2 * REACH + 1;
 const CLASSES: usize = DISTANCES * DISTANCES;
 
 /// How a place lies to the edges of a sheet. All numbers of one class count alike in their differences.
-fn class(plate: &Plate, place: usize) -> u8 {
+fn class(sheet: &Differences, place: usize) -> u8 {
     let along = |at: usize, count: usize| at.min(REACH) + REACH - (count - 1 - at).min(REACH);
-    let row = along(place / plate.columns, plate.rows);
-    let column = along(place % plate.columns, plate.columns);
+    let row = along(place / sheet.columns, sheet.rows);
+    let column = along(place % sheet.columns, sheet.columns);
     (row * DISTANCES + column) as u8
 }
 
 impl AtEdge {
     /// Some numbers, by their places.
-    pub fn of(plate: &Plate, places: Vec<usize>) -> Self {
-        let kinds = plate.differences.each_ref();
+    pub fn of(sheet: &Differences, places: Vec<usize>) -> Self {
+        let kinds = sheet.kinds.each_ref();
         Self {
-            classes: places.iter().map(|place| class(plate, *place)).collect(),
-            kinds: kinds.map(|difference| Kind::of(plate, difference, &places)),
+            classes: places.iter().map(|place| class(sheet, *place)).collect(),
+            kinds: kinds.map(|difference| Kind::of(sheet, difference, &places)),
             places,
         }
     }
@@ -76,19 +76,19 @@ impl AtEdge {
 }
 
 impl Kind {
-    fn of(plate: &Plate, difference: &Difference, places: &[usize]) -> Self {
+    fn of(sheet: &Differences, difference: &Difference, places: &[usize]) -> Self {
         let Difference { along, weight } = difference;
         let [of_x, of_y] = along;
-        let columns = plate.columns;
+        let columns = sheet.columns;
         // The first numbers of all differences that contain a number, and its factors in them.
         let containing = |place: &usize| {
             let (row, column) = (place / columns, place % columns);
-            starts(row, plate.rows, of_y).flat_map(move |(down, factor_y)| {
+            starts(row, sheet.rows, of_y).flat_map(move |(down, factor_y)| {
                 let across = starts(column, columns, of_x);
                 across.map(move |(right, factor_x)| (down * columns + right, factor_x * factor_y))
             })
         };
-        let mut is_first = vec![false; columns * plate.rows];
+        let mut is_first = vec![false; columns * sheet.rows];
         for (first, _) in places.iter().flat_map(containing) {
             is_first[first] = true;
         }
@@ -112,7 +112,7 @@ impl Kind {
         let parts: Vec<u32> = parts.collect();
         let mut factors = [const { Vec::new() }; CLASSES];
         for place in places {
-            let factors = &mut factors[usize::from(class(plate, *place))];
+            let factors = &mut factors[usize::from(class(sheet, *place))];
             if factors.is_empty() {
                 factors.extend(containing(place).map(|(_, factor)| factor));
             }
