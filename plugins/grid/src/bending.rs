@@ -139,21 +139,11 @@ fn around(place: usize, count: usize) -> [(usize, f64); 4] {
 mod tests {
     use super::*;
 
-    fn sheet(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Sheet {
-        let mut sheet = Sheet::of(columns, rows, 0.0);
-        for (row, line) in sheet.lines_mut().enumerate() {
-            for (column, place) in line.iter_mut().enumerate() {
-                *place = value(column as f64, row as f64);
-            }
-        }
-        sheet
-    }
-
     #[test]
     fn a_quadratic_goes_on_through_holes_and_beyond_its_edge() {
         let quadratic = |u: f64, v: f64| 2.0 - 0.3 * u + 0.7 * v + 0.01 * u * u - 0.02 * u * v;
-        let whole = sheet(50, 37, quadratic);
-        let mut holed = sheet(50, 37, |u, v| {
+        let whole = Sheet::of_values(50, 37, quadratic);
+        let mut holed = Sheet::of_values(50, 37, |u, v| {
             let inside = (u - 20.0).abs() < 14.0 && (v - 18.0).abs() < 13.0;
             let hole = (u - 18.0).abs() < 5.0 && (v - 15.0).abs() < 4.0;
             if inside && !hole {
@@ -189,7 +179,7 @@ mod tests {
     /// Nothing in a hole can be moved so that the sum is less.
     #[test]
     fn a_small_hole_is_filled_with_the_least_sum() {
-        let mut holed = sheet(20, 20, |u, v| (0.2 * u * v) % 3.0);
+        let mut holed = Sheet::of_values(20, 20, |u, v| (0.2 * u * v) % 3.0);
         let hole = || (6..12).flat_map(|row| (5..13).map(move |column| row * 20 + column));
         for place in hole() {
             holed.values[place] = f64::NAN;

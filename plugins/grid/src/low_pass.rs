@@ -189,22 +189,12 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    fn sheet(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Sheet {
-        let mut sheet = Sheet::of(columns, rows, 0.0);
-        for (row, line) in sheet.lines_mut().enumerate() {
-            for (column, place) in line.iter_mut().enumerate() {
-                *place = value(column as f64, row as f64);
-            }
-        }
-        sheet
-    }
-
     /// ISO 16610-61: half of a wave as long as the cutoff passes, and exp(−ln 2 (λc/λ)²) of others.
     #[test]
     fn a_wave_as_long_as_the_cutoff_keeps_half_of_its_height() {
         let (cutoff_x, cutoff_y) = (10.0, 7.0);
         for length in [5.0, 10.0, 20.0, 40.0] {
-            let wave = sheet(121, 60, |u, _| Scalar::cos(TAU * (u - 60.0) / length));
+            let wave = Sheet::of_values(121, 60, |u, _| Scalar::cos(TAU * (u - 60.0) / length));
             let filtered = filter(&Blocks::of(&wave, 1, 1), [cutoff_x, cutoff_y]);
             let share: f64 = cutoff_x / length;
             let wanted = Scalar::exp(-LN_2 * share * share);
@@ -217,7 +207,7 @@ mod tests {
     fn a_plane_stays_at_edges_and_beside_holes() {
         let hole = |u: f64, v: f64| (u - 15.0).abs() < 3.0 && (v - 9.0).abs() < 5.0;
         let plane = |u: f64, v: f64| 1.0 + 0.3 * u - 0.2 * v;
-        let holed = sheet(
+        let holed = Sheet::of_values(
             40,
             30,
             |u, v| if hole(u, v) { f64::NAN } else { plane(u, v) },
@@ -236,7 +226,7 @@ mod tests {
         let is_there =
             |u: f64, v: f64| (u * 37.0 + v * 101.0 + u * v * 13.0).rem_euclid(64.0) < 9.0;
         let plane = |u: f64, v: f64| 1.0 + 0.3 * u - 0.2 * v;
-        let sparse = sheet(160, 120, |u, v| match is_there(u, v) {
+        let sparse = Sheet::of_values(160, 120, |u, v| match is_there(u, v) {
             true => plane(u, v),
             false => f64::NAN,
         });

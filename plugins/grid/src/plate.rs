@@ -105,12 +105,14 @@ impl Plate {
         let mut direction = vec![0.0; values.len()];
         let square = |residual: &[f64]| -> f64 {
             let terms = residual.iter().zip(&over);
-            terms.map(|(force, over)| force * force * over).sum()
+            terms
+                .map(|(residual, over)| residual * residual * over)
+                .sum()
         };
         let mut now = square(&residual);
         let last = now * SMALLEST_RESIDUAL * SMALLEST_RESIDUAL;
-        for ((place, force), over) in unknown.iter().zip(&residual).zip(&over) {
-            direction[*place] = force * over;
+        for ((place, residual), over) in unknown.iter().zip(&residual).zip(&over) {
+            direction[*place] = residual * over;
         }
         for _ in 0..steps {
             if now <= last || now == 0.0 {
@@ -125,15 +127,15 @@ impl Plate {
                 return;
             }
             let step = now / work;
-            for (place, force) in unknown.iter().zip(&mut residual) {
+            for (place, residual) in unknown.iter().zip(&mut residual) {
                 values[*place] += step * direction[*place];
-                *force -= step * forces[*place];
+                *residual -= step * forces[*place];
             }
             let before = now;
             now = square(&residual);
             let kept = now / before;
-            for ((place, force), over) in unknown.iter().zip(&residual).zip(&over) {
-                direction[*place] = force * over + kept * direction[*place];
+            for ((place, residual), over) in unknown.iter().zip(&residual).zip(&over) {
+                direction[*place] = residual * over + kept * direction[*place];
             }
         }
     }
@@ -218,16 +220,6 @@ mod tests {
     use super::*;
     use crate::sheet::Sheet;
 
-    fn sheet(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Sheet {
-        let mut sheet = Sheet::of(columns, rows, 0.0);
-        for (row, line) in sheet.lines_mut().enumerate() {
-            for (column, place) in line.iter_mut().enumerate() {
-                *place = value(column as f64, row as f64);
-            }
-        }
-        sheet
-    }
-
     /// The sum of squares by its definition: first differences, three times.
     fn energy(sheet: &Sheet, ratio: f64) -> f64 {
         let along_x = |sheet: &Sheet| {
@@ -258,7 +250,7 @@ mod tests {
         let ratio = 1.25;
         // Rows with groups of eight numbers inside, sheets with few numbers inside or none.
         for (columns, rows) in [(25, 9), (9, 8), (5, 30), (6, 4), (4, 4)] {
-            let bent = sheet(columns, rows, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
+            let bent = Sheet::of_values(columns, rows, |u, v| (u * 1.3 + v * v * 0.7) % 1.0);
             let plate = Plate::new(columns, rows, ratio);
             let all: Vec<usize> = (0..bent.values.len()).collect();
             let forces = plate.forces_of(&bent.values, &all);

@@ -65,7 +65,7 @@ impl AtEdge {
             let mut parts = kind.parts.iter();
             for (place, class) in self.places.iter().zip(&self.classes) {
                 let mut sum = 0.0;
-                // The factors come first: at their end no part is taken.
+                // The factors come first in the pair, so that no part is taken at their end.
                 for (factor, part) in kind.factors[usize::from(*class)].iter().zip(&mut parts) {
                     sum += factor * kind.differences[*part as usize];
                 }
@@ -102,7 +102,7 @@ impl Kind {
             .collect();
         let number = |first: usize| {
             let run = firsts.partition_point(|run| run.end <= first);
-            // A map has at most 2²⁵ points, and its sheet is not four times as large.
+            // The sheet of the largest map has far fewer than 2³² numbers.
             (ends[run] - (firsts[run].end - first)) as u32
         };
         let parts = places

@@ -18,6 +18,17 @@ impl Sheet {
         }
     }
 
+    /// A sheet whose numbers follow from column and row.
+    #[cfg(test)]
+    pub fn of_values(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Self {
+        let values = (0..columns * rows).map(|k| value((k % columns) as f64, (k / columns) as f64));
+        Self {
+            columns,
+            rows,
+            values: values.collect(),
+        }
+    }
+
     /// The rows.
     pub fn lines(&self) -> impl DoubleEndedIterator<Item = &[f64]> + ExactSizeIterator {
         self.values.chunks_exact(self.columns)

@@ -122,13 +122,7 @@ mod tests {
     use super::*;
 
     fn sheet(value: impl Fn(f64, f64) -> f64) -> Sheet {
-        let mut sheet = Sheet::of(40, 30, 0.0);
-        for (row, line) in sheet.lines_mut().enumerate() {
-            for (column, place) in line.iter_mut().enumerate() {
-                *place = value(column as f64, row as f64);
-            }
-        }
-        sheet
+        Sheet::of_values(40, 30, value)
     }
 
     #[test]

@@ -158,19 +158,12 @@ fn places() -> Vec<(f64, f64)> {
     near.chain(far).chain(none).collect()
 }
 
-/// Heights, slopes and series of a batch of any length are those of its places alone, and at a place that
-/// is no number there is none.
+/// Heights and slopes of a batch of any length are those of its places alone. At a place that is no number
+/// there are none.
 #[test]
-fn a_batch_of_any_length_gives_what_single_places_give() {
+fn heights_and_slopes_of_a_batch_of_any_length_are_those_of_single_places() {
     let surface = GridSag::of(map(40, wavy), None).unwrap();
     let places = places();
-    let curve = |at: f64| [at, 0.8, -0.3, 0.05, 0.02];
-    let bits = |series: &Series, to: usize| {
-        series[..=to]
-            .iter()
-            .map(|c| c.to_bits())
-            .collect::<Vec<_>>()
-    };
     for length in [0, 1, 7, 8, 9, 16, 17, 33, places.len()] {
         // From the end on, so that each place comes into batches of several lengths.
         let batch: Vec<(f64, f64)> = places.iter().rev().take(length).copied().collect();
@@ -207,6 +200,21 @@ fn a_batch_of_any_length_gives_what_single_places_give() {
                 ),
             }
         }
+    }
+}
+
+/// The same for series through each order.
+#[test]
+fn series_of_a_batch_of_any_length_are_those_of_single_curves() {
+    let surface = GridSag::of(map(40, wavy), None).unwrap();
+    let places = places();
+    let curve = |at: f64| [at, 0.8, -0.3, 0.05, 0.02];
+    let bits = |series: &Series, to: usize| -> Vec<u64> {
+        series[..=to].iter().map(|c| c.to_bits()).collect()
+    };
+    for length in [0, 1, 7, 8, 9, 16, 17, 33, places.len()] {
+        let batch: Vec<(f64, f64)> = places.iter().rev().take(length).copied().collect();
+        let (x, y): (Vec<f64>, Vec<f64>) = batch.iter().copied().unzip();
         let (along_x, along_y): (Vec<Series>, Vec<Series>) =
             batch.iter().map(|(x, y)| (curve(*x), curve(*y))).unzip();
         for to in [1, 2, 4] {
