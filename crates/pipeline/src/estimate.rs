@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::Result;
 use crate::feed_cap::{FeedCap, feed_cap};
-use crate::order::in_order;
+use crate::order::one_at_a_time;
 use crate::plan::Plan;
 
 /// About how many blocks are sampled to estimate the count of control points.
@@ -48,6 +48,6 @@ pub fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
     let radius = |index: &usize| plan.law.value(plan.revolutions(*index).start).abs();
     chosen.sort_by(|one, other| radius(other).total_cmp(&radius(one)));
     let counts = chosen.par_iter().map(|index| plan.sample(*index));
-    let counts = in_order(counts.map(|nodes| nodes.map(|nodes| nodes.len() as f64)))?;
+    let counts = one_at_a_time(counts.map(|nodes| nodes.map(|nodes| nodes.len() as f64)))?;
     Ok(counts.iter().sum::<f64>() / turns)
 }

@@ -10,7 +10,7 @@ use turnpath_core::{CentreBuffers, Dependence, NodeList, Rates, Velocities, angl
 use crate::Result;
 use crate::columns::Columns;
 use crate::node_check::CLOSEST_NODES;
-use crate::order::in_order;
+use crate::order::one_at_a_time;
 use crate::plan::Plan;
 use crate::window::{NodeBlock, NodeRow, Window};
 
@@ -61,9 +61,9 @@ pub fn make(
         }
         None if overlap == 0 => {
             let windows = row.into_windows(plan, range.end).into_par_iter();
-            in_order(windows.map(|window| solve(plan, window, None)))?
+            one_at_a_time(windows.map(|window| solve(plan, window, None)))?
         }
-        None => in_order(
+        None => one_at_a_time(
             range
                 .into_par_iter()
                 .map(|index| solve(plan, row.window(plan, index, overlap), None)),
@@ -123,14 +123,14 @@ fn locate_blocks(
 ) -> Result<Vec<NodeBlock>> {
     let sampled_to = (range.end + 1).min(plan.blocks());
     let sampled = (range.start..sampled_to).into_par_iter();
-    let raw = in_order(sampled.map(|index| plan.sample(index)))?;
+    let raw = one_at_a_time(sampled.map(|index| plan.sample(index)))?;
     let end_of = |index: usize| {
         let next = raw
             .get(index + 1 - range.start)
             .and_then(|nodes| nodes.revolutions().first());
         next.copied().unwrap_or(plan.law.end())
     };
-    in_order(range.clone().into_par_iter().map(|index| {
+    one_at_a_time(range.clone().into_par_iter().map(|index| {
         let nodes = &raw[index - range.start];
         let depths = depths.get(index).map_or(&[][..], Vec::as_slice);
         locate_block(plan, index, nodes, end_of(index), depths)

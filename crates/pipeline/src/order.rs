@@ -1,13 +1,11 @@
-//! Answers of parallel work, in order. The error that counts is the first one along the path,
-//! whichever thread met one first.
+//! Answers of parallel work, in order.
 
 use rayon::prelude::*;
 
-/// All answers, or the first error among them.
-pub fn in_order<T: Send, E: Send>(
+/// All answers, or the first error among them, whichever thread met one first. One answer at a time: each is
+/// the work of milliseconds, and a thread that has none left takes the next.
+pub fn one_at_a_time<T: Send, E: Send>(
     answers: impl IndexedParallelIterator<Item = Result<T, E>>,
 ) -> Result<Vec<T>, E> {
-    // One answer at a time: each is the work of milliseconds, and a thread that has none left takes the next.
-    let answers: Vec<Result<T, E>> = answers.with_max_len(1).collect();
-    answers.into_iter().collect()
+    turnpath_verify::in_order(answers.with_max_len(1))
 }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use turnpath_core::ring::{RADII_AT_ONCE, least_feeds_at};
 use turnpath_core::{CentreSeries, Centres, Locus, Radial, Rates, Result, Series, SurfaceModel};
 
-use crate::order::in_order;
+use crate::order::one_at_a_time;
 
 /// A thread looks for feeds at a multiple of so many places. With fewer, threads would wait for each other
 /// longer than they look.
@@ -53,7 +53,7 @@ impl Locus for PlanningLocus<'_> {
         let found = parts
             .zip(feed.par_chunks_mut(places))
             .map(|((theta, rho), feed)| self.0.residual_feed(residual, radial, theta, rho, feed));
-        in_order(found).map(|_: Vec<()>| ())
+        one_at_a_time(found).map(|_: Vec<()>| ())
     }
 
     fn least_residual_feeds(
@@ -65,7 +65,7 @@ impl Locus for PlanningLocus<'_> {
         let of_each_thread = rho.len().div_ceil(rayon::current_num_threads());
         let groups = rho.par_chunks(of_each_thread.clamp(1, RADII_AT_ONCE));
         let found = groups.map(|radii| least_feeds_at(self.0, residual, radii));
-        let found = in_order(found).map(|found| found.concat());
+        let found = one_at_a_time(found).map(|found| found.concat());
         Some(found.map(|found| least.copy_from_slice(&found)))
     }
 }

@@ -9,7 +9,7 @@ use crate::error::{PipelineError, Result, RunError, RunResult};
 use crate::make::BlockPoints;
 use crate::measurement::{BlockMeasurement, Measurement};
 use crate::observer::{Observer, stop_if_cancelled};
-use crate::order::in_order;
+use crate::order::one_at_a_time;
 use crate::plan::Plan;
 use crate::refine::Refinement;
 use crate::segment_state::{SegmentState, states};
@@ -94,7 +94,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         let sketch = self.keeps_sketch();
         let sink = &*self.sink;
         let each = tasks.into_par_iter();
-        let records = in_order(each.map(|task| task.record(plan, sink, sketch)))?;
+        let records = one_at_a_time(each.map(|task| task.record(plan, sink, sketch)))?;
         self.add(records)
     }
 
@@ -113,7 +113,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
             let states = states(plan, block, &playback.per_segment)?;
             Ok::<_, PipelineError>((playback, states))
         };
-        let reviews = in_order(blocks.par_iter().map(review))?;
+        let reviews = one_at_a_time(blocks.par_iter().map(review))?;
         let mut holds = true;
         let mut played = Vec::new();
         for (block, (playback, states)) in blocks.into_iter().zip(reviews) {
@@ -130,7 +130,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         let record = |(task, playback): (BlockTask, _)| {
             task.record_played(plan, sink, Some((playback, sketch)))
         };
-        match in_order(each.map(record)) {
+        match one_at_a_time(each.map(record)) {
             Err(RunError::Sink(_)) => Ok(false),
             records => self.add(records?).map(|()| true),
         }

@@ -20,7 +20,7 @@ use turnpath_core::Dependence;
 use crate::Result;
 use crate::make::{BlockPoints, Depths, first_state, make};
 use crate::observer::{Observer, Stage, stop_if_cancelled};
-use crate::order::in_order;
+use crate::order::one_at_a_time;
 use crate::plan::Plan;
 use crate::segment_state::{SegmentState, play};
 
@@ -75,7 +75,7 @@ impl Refinement {
 
     /// Plays blocks back.
     pub fn play(&mut self, plan: &Plan<'_>, blocks: &[BlockPoints]) -> Result<()> {
-        let played = in_order(blocks.par_iter().map(|block| play(plan, block)))?;
+        let played = one_at_a_time(blocks.par_iter().map(|block| play(plan, block)))?;
         for (block, states) in blocks.iter().zip(played) {
             self.take(block.index, block.owner.len(), states);
         }
@@ -138,7 +138,7 @@ impl Refinement {
                 let made = each.map(|run| make(plan, run, depths, Some(&mut *state)));
                 made.collect::<Result<Vec<_>>>()?
             }
-            None => in_order(
+            None => one_at_a_time(
                 runs.par_iter()
                     .map(|run| make(plan, run.clone(), depths, None)),
             )?,

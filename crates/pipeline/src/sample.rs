@@ -9,7 +9,7 @@ use crate::lead::{LeadRun, LeadTask};
 use crate::make::{Depths, first_state, make};
 use crate::observer::SilentObserver;
 use crate::options::PathOptions;
-use crate::order::in_order;
+use crate::order::one_at_a_time;
 use crate::plan::Plan;
 use crate::refine::refine;
 use crate::{Chain, Preparation, Result, schedule};
@@ -77,7 +77,7 @@ pub fn sample_path(
             stands_for: stratum.stands_for(&plan),
         })
     };
-    sample.blocks = in_order(strata.par_iter().map(block))?;
+    sample.blocks = one_at_a_time(strata.par_iter().map(block))?;
     let segments: f64 = sample.blocks.iter().map(SampledBlock::segments).sum();
     let estimate = Estimate::of(&plan, segments / plan.law.end())?;
     if let Some((leads, last)) = leads.zip(sample.blocks.last()) {

@@ -9,7 +9,7 @@ use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 use turnpath_verify::{
     AnomalyDetector, BlockFigures, FirstTouch, LeadBlockFigures, LeadMeter, Meter,
-    ProgramBlockFigures, ProgramMeter, ServoBlockFigures, ServoMeter, ServoStart,
+    ProgramBlockFigures, ProgramMeter, ServoBlockFigures, ServoMeter, ServoStart, in_order,
 };
 
 use crate::diagnosis::of_measure;
@@ -280,8 +280,7 @@ pub fn measure<M: Meters>(
         let of_block = &meters;
         let measure_all = || -> Result<Vec<M::Block>, StrategyError> {
             let each = blocks.into_par_iter().zip(starts).with_max_len(1);
-            each.map(|((section, block), start)| of_block.measure(section, block, start))
-                .collect()
+            in_order(each.map(|((section, block), start)| of_block.measure(section, block, start)))
         };
         let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape, most));
         for block in &measured.map_err(failed)? {

@@ -10,6 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 use rayon::prelude::*;
 use turnpath_core::{Gradients, Result, Scalar};
 
+use crate::order::in_order;
 use crate::subject::Subject;
 
 /// Points per nose radius at which slopes are computed: as fine as the scan of the edge.
@@ -53,7 +54,7 @@ fn largest_slope(subject: &Subject, length: f64, count: usize) -> Result<Option<
         let square = zx.iter().zip(&zy).map(|(zx, zy)| zx * zx + zy * zy);
         Ok(square.fold(0.0, larger))
     };
-    let rows: Vec<f64> = points.par_iter().map(row).collect::<Result<_>>()?;
+    let rows = in_order(points.par_iter().map(row))?;
     let square = rows.into_iter().fold(0.0, larger);
     Ok(square.is_finite().then(|| square.sqrt()))
 }

@@ -6,6 +6,8 @@
 //! of θ and of θ + π together, where the two sides meet. A path that ends at the axis has these
 //! passes in its last three turns, a path that runs on beyond the axis in five turns.
 
+use std::collections::VecDeque;
+
 use turnpath_core::toolpath::{Cubic, PathBlock};
 use turnpath_core::{Result, Scalar};
 
@@ -153,20 +155,21 @@ impl AxisPasses {
 /// the sides of each line meet in a turn of their own.
 #[derive(Debug, Clone)]
 struct AxisLine {
-    /// The passes of the last turns, three turns at most, each with whether it belongs to θ + π.
-    recent: Vec<(bool, Pass)>,
+    /// The last passes, those of five turns at most, each with whether it belongs to θ + π.
+    recent: VecDeque<(bool, Pass)>,
     /// Smallest |sum| so far, mm.
     least: f64,
-    /// The passes around the smallest sum so far.
+    /// The passes around the smallest sum, as soon as all of them have come.
     meeting: Vec<(bool, Pass)>,
-    /// Number of passes that `meeting` still lacks.
+    /// Number of passes that are still to come after the smallest sum so far; before there is any sum,
+    /// of the first passes.
     missing: usize,
 }
 
 impl Default for AxisLine {
     fn default() -> Self {
         Self {
-            recent: Vec::new(),
+            recent: VecDeque::new(),
             least: f64::INFINITY,
             meeting: Vec::new(),
             missing: BEYOND,
@@ -177,28 +180,29 @@ impl Default for AxisLine {
 impl AxisLine {
     /// Adds the next pass; `far` says whether it belongs to θ + π.
     fn push(&mut self, far: bool, pass: Pass) {
-        let before = self.recent.last().map(|(_, before)| before.centre.x);
-        if self.recent.len() == INNERMOST {
-            self.recent.remove(0);
+        let before = self.recent.back().map(|(_, before)| before.centre.x);
+        if self.recent.len() == INNERMOST + BEYOND {
+            self.recent.pop_front();
         }
-        self.recent.push((far, pass));
-        if self.missing > 0 {
-            self.meeting.push((far, pass));
-            self.missing -= 1;
-        }
+        self.recent.push_back((far, pass));
         let sum = before.map_or(f64::INFINITY, |before| (before + pass.centre.x).abs());
         if sum < self.least {
-            self.least = sum;
-            self.meeting.clone_from(&self.recent);
-            self.missing = BEYOND;
+            (self.least, self.missing) = (sum, BEYOND);
+        } else if self.missing > 0 {
+            self.missing -= 1;
+            if self.missing == 0 {
+                self.meeting.clear();
+                self.meeting.extend(&self.recent);
+            }
         }
     }
 
     /// The passes where the two sides meet, if the path ends here.
-    fn meeting(&self) -> &[(bool, Pass)] {
+    fn meeting(&self) -> Vec<(bool, Pass)> {
+        let older = self.recent.len().saturating_sub(INNERMOST);
         match self.missing > 0 {
-            true => &self.recent,
-            false => &self.meeting,
+            true => self.recent.iter().skip(older).copied().collect(),
+            false => self.meeting.clone(),
         }
     }
 }
@@ -210,8 +214,8 @@ fn around_axis(touch: &FirstTouch, passes: &AxisPasses) -> Result<ResidualFigure
     let mut sides = [[false; 2]; HALF_TURN];
     for ((line, sides), of_line) in lines.iter_mut().zip(&mut sides).zip(&passes.lines) {
         for (far, pass) in of_line.meeting() {
-            sides[usize::from(*far)] = true;
-            line.push(if *far { pass.mirrored() } else { *pass });
+            sides[usize::from(far)] = true;
+            line.push(if far { pass.mirrored() } else { pass });
         }
     }
     if let Some(open) = sides.iter().position(|sides| *sides != [true; 2]) {
@@ -266,6 +270,52 @@ mod tests {
             let found = lowest(&cubic);
             let least = table.fold(f64::INFINITY, f64::min);
             assert!((found - least).abs() < 1e-7 && found <= least + 1e-15);
+        }
+    }
+
+    fn pass(x: f64) -> Pass {
+        let mut pass = Pass::default();
+        pass.centre.x = x;
+        pass
+    }
+
+    /// The passes where the two sides meet, found among all passes after the fact.
+    fn meeting_among(x: &[f64]) -> &[f64] {
+        let mut least = f64::INFINITY;
+        let mut around = 0..BEYOND;
+        for (i, pair) in (1..).zip(x.windows(2)) {
+            let sum = (pair[0] + pair[1]).abs();
+            if sum < least {
+                least = sum;
+                around = (i + 1_usize).saturating_sub(INNERMOST)..i + 1 + BEYOND;
+            }
+        }
+        let last = &x[x.len().saturating_sub(INNERMOST)..];
+        x.get(around).unwrap_or(last)
+    }
+
+    #[test]
+    fn the_passes_of_a_meeting_are_those_around_the_smallest_sum_wherever_a_path_ends() {
+        let nan = f64::NAN;
+        let paths: [&[f64]; 6] = [
+            &[9.0, -8.0, 7.0, -6.0, 5.0, -4.0, 3.0, -2.0, 1.0, 0.0],
+            &[3.0, -2.0, 1.5, -1.5, 0.2, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
+            // A smaller sum comes while one pass is missing.
+            &[3.0, -2.5, 4.0, 5.0, 6.0, -6.0, 1.0, 9.0, 8.0, 7.0, 6.0, 5.0],
+            &[nan, nan, nan, nan, nan, nan, nan],
+            &[nan, nan, nan, nan, nan, 1.0, -1.0, nan, nan, nan, nan, 3.0],
+            &[1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0],
+        ];
+        for path in paths {
+            let mut line = AxisLine::default();
+            for (end, x) in (1..).zip(path) {
+                line.push(false, pass(*x));
+                let found = line.meeting();
+                let found = found.iter().map(|(_, pass)| pass.centre.x.to_bits());
+                let expected = meeting_among(&path[..end]);
+                let expected = expected.iter().map(|x| x.to_bits());
+                assert!(found.eq(expected), "{path:?} up to {end}");
+            }
         }
     }
 }

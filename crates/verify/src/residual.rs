@@ -65,7 +65,7 @@ impl ResidualFigures {
 }
 
 /// The position of the tool when C passed one section.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Pass {
     x: f64,
     pub(crate) centre: Point,

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use turnpath_core::Result;
 
+use crate::order::in_order;
 use crate::profiles::Profiles;
 use crate::touch::{ANYWHERE, FirstTouch, Touch};
 
@@ -125,10 +126,12 @@ pub fn rides(touch: &FirstTouch, outer: f64) -> Result<Vec<Ride>> {
     }
     let threshold = 0.0;
     let seams = Seams { touch, threshold };
-    let each: Vec<Vec<Ride>> = (0..RIDES)
-        .into_par_iter()
-        .map(|i| seams.rides((f64::from(i) + OFFSET) * PI / f64::from(RIDES), outer))
-        .collect::<Result<_>>()?;
+    let angle = |i: u32| (f64::from(i) + OFFSET) * PI / f64::from(RIDES);
+    let each = in_order(
+        (0..RIDES)
+            .into_par_iter()
+            .map(|i| seams.rides(angle(i), outer)),
+    )?;
     Ok(each.into_iter().flatten().collect())
 }
 
@@ -227,10 +230,8 @@ impl Seams<'_> {
     /// The sums over `count` sections of half a turn.
     fn sections(&self, count: usize, offset: f64) -> Result<SectionSum> {
         let width = PI / count as f64;
-        let each: Vec<SectionSum> = (0..count)
-            .into_par_iter()
-            .map(|i| self.section((i as f64 + offset) * width))
-            .collect::<Result<_>>()?;
+        let angle = |i: usize| (i as f64 + offset) * width;
+        let each = in_order((0..count).into_par_iter().map(|i| self.section(angle(i))))?;
         Ok(each
             .into_iter()
             .fold(SectionSum::default(), SectionSum::plus))

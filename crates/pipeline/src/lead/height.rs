@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 use turnpath_core::{CentreBuffers, Locus};
 
-use crate::order::in_order;
+use crate::order::one_at_a_time;
 use crate::plan::Plan;
 use crate::{PipelineError, Result};
 
@@ -21,7 +21,7 @@ pub fn highest(plan: &Plan<'_>) -> Result<f64> {
     let theta: Vec<f64> = (0..ANGLES)
         .map(|i| TAU * i as f64 / ANGLES as f64)
         .collect();
-    let each = in_order((0..RADII + 1).into_par_iter().map(|i| {
+    let each = one_at_a_time((0..RADII + 1).into_par_iter().map(|i| {
         let x = inner + (outer - inner) * i as f64 / RADII as f64;
         let mut touches = Vec::new();
         let touch = &plan.preparation.touch;

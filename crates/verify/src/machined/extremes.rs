@@ -2,7 +2,7 @@
 
 use turnpath_core::Scalar;
 
-use super::strip::Sample;
+use super::samples::{Candidates, Samples};
 
 /// A point of the part and the surface error there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,16 +83,43 @@ impl LineExtremes {
         }
     }
 
-    /// Includes a piece of the machined profile. Its extremes may be numbers where the error at a node
-    /// is none.
-    pub fn include_sample(&mut self, sample: &Sample) {
-        let nodes = sample.s.iter().zip(&sample.error);
-        for (s, error) in nodes.filter(|(_, error)| error.is_nan()) {
-            self.include(*error, *s);
+    /// Includes pieces of the machined profile. In most groups nothing lies beyond what is known, which
+    /// shows without looking at each piece.
+    #[inline(always)]
+    pub fn include_samples(&mut self, samples: &Samples) {
+        let candidates = samples.candidates();
+        if !self.contains(samples, &candidates) {
+            self.include_each(samples, &candidates);
         }
-        for (s, error) in sample.extremes() {
-            self.include(error, s);
+    }
+
+    /// Includes one piece after the other. The candidates of a piece may be numbers where the error at a
+    /// node is none.
+    fn include_each(&mut self, samples: &Samples, candidates: &Candidates) {
+        for i in 0..samples.count {
+            let nodes = samples.s.iter().zip(&samples.error);
+            for (s, error) in nodes.filter(|(_, error)| error[i].is_nan()) {
+                self.include(error[i], s[i]);
+            }
+            for (s, error) in candidates.s.iter().zip(&candidates.error) {
+                self.include(error[i], s[i]);
+            }
         }
+    }
+
+    /// Whether all errors of these pieces lie between the lowest and the highest that are known.
+    #[inline(always)]
+    fn contains(&self, samples: &Samples, candidates: &Candidates) -> bool {
+        let Some([(highest, _), (lowest, _)]) = self.0 else {
+            return false;
+        };
+        let mut all_within = true;
+        for column in samples.error.iter().chain(&candidates.error) {
+            for error in column {
+                all_within &= (lowest..=highest).contains(error);
+            }
+        }
+        all_within
     }
 }
 
@@ -101,6 +128,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use super::*;
+    use crate::machined::samples::INNER;
 
     fn line(errors: &[(f64, f64)]) -> LineExtremes {
         let mut line = LineExtremes::default();
@@ -133,20 +161,64 @@ mod tests {
         assert_eq!((found.highest.y, found.lowest.y), (-2.5, -2.5));
     }
 
+    /// So many pieces of length 3, each 10 to the right of the one before, with the same errors.
+    fn samples(count: usize, errors: [f64; 4]) -> Samples {
+        let column = |s: f64| std::array::from_fn(|i| s + 10.0 * i as f64);
+        Samples {
+            count,
+            s: [0.0, 1.0, 2.0, 3.0].map(column),
+            error: errors.map(|error| [error; 8]),
+        }
+    }
+
     /// An inner node does not reach the ends of a piece, nor the level places of its cubic.
     #[test]
     fn no_node_of_a_piece_is_left_out() {
-        for node in 0..4 {
-            let mut sample = Sample {
-                s: [1.0, 2.0, 3.0, 4.0],
-                error: [0.5; 4],
-                slope: [0.0; 4],
-                weight: [0.0; 4],
-            };
-            sample.error[node] = f64::NAN;
-            let mut line = LineExtremes::default();
-            line.include_sample(&sample);
+        for (node, piece) in (0..4).flat_map(|node| [0, 7].map(|piece| (node, piece))) {
+            let mut pieces = samples(8, [0.5; 4]);
+            let mut line = line(&[(9.0, 0.0), (-9.0, 0.0)]);
+            line.include_samples(&pieces);
+            assert_eq!(over(&[line]).unwrap().pv(), 18.0);
+            pieces.error[node][piece] = f64::NAN;
+            line.include_samples(&pieces);
             assert_eq!(over(&[line]).unwrap().pv(), f64::INFINITY);
         }
+    }
+
+    /// The nodes of the last piece lie within what is known, and its parabola ends beyond it.
+    #[test]
+    fn a_level_place_between_the_nodes_counts() {
+        for sign in [1.0, -1.0] {
+            let mut pieces = samples(8, [0.0; 4]);
+            for (k, t) in [-1.0, -INNER, INNER, 1.0].into_iter().enumerate() {
+                pieces.error[k][7] = sign * (1.0 - t * t);
+            }
+            let mut line = line(&[(0.9, 0.0), (-0.9, 0.0)]);
+            line.include_samples(&pieces);
+            let found = over(&[line]).unwrap();
+            let farthest = if sign > 0.0 {
+                found.highest
+            } else {
+                found.lowest
+            };
+            assert!((sign * farthest.error - 1.0).abs() < 1e-15);
+            assert!((farthest.x - 71.5).abs() < 1e-12);
+            assert_eq!(found.pv().min(1.95), found.pv());
+        }
+    }
+
+    /// The first of equal extremes counts, and lanes without a piece do not.
+    #[test]
+    fn pieces_are_included_one_after_the_other() {
+        let mut pieces = samples(3, [0.0; 4]);
+        for column in &mut pieces.error {
+            *column = [0.0, 1.0, 1.0, 1.0, 7.0, 7.0, 7.0, 7.0];
+        }
+        let mut line = LineExtremes::default();
+        line.include_samples(&pieces);
+        line.include_samples(&samples(8, [1.0, 0.0, 0.0, 1.0]));
+        let found = over(&[line]).unwrap();
+        assert_eq!((found.highest.error, found.highest.x), (1.0, 10.0));
+        assert_eq!((found.lowest.error < 0.0, found.lowest.x), (true, 1.5));
     }
 }

@@ -1,13 +1,16 @@
 //! Figures of the machined surface, weighted by area.
 
 use rayon::prelude::*;
+use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Part, Result};
 
 use super::cusps::{HighestCusp, Tips};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
+use super::samples::NODES;
 use super::sections::Lines;
-use super::strip::{Sample, Strip};
+use super::strip::{Strip, WeightedSamples};
 use crate::cusp::Point;
+use crate::order::in_order;
 use crate::subject::Subject;
 use crate::touch::FirstTouch;
 
@@ -59,20 +62,39 @@ impl Sums {
     /// The integrals along the line of a strip.
     fn of(subject: &Subject, strip: &mut Strip) -> Result<Self> {
         strip.look_up(subject.surface.as_ref())?;
-        let mut sums = Self::default();
-        strip.samples().for_each(|sample| sums.include(&sample));
-        Ok(sums)
+        Ok(in_widest(LineSums(strip)))
     }
 
-    fn include(&mut self, sample: &Sample) {
-        for k in 0..4 {
-            let (weight, error, slope) = (sample.weight[k], sample.error[k], sample.slope[k]);
-            self.area += weight;
-            self.error += weight * error;
-            self.square += weight * error * error;
-            self.slope_square += weight * slope * slope;
+    #[inline(always)]
+    fn include(&mut self, pieces: &WeightedSamples) {
+        for i in 0..pieces.samples.count {
+            for k in 0..NODES {
+                let (weight, error) = (pieces.weight[k][i], pieces.samples.error[k][i]);
+                let slope = pieces.slope[k][i];
+                self.area += weight;
+                self.error += weight * error;
+                self.square += weight * error * error;
+                self.slope_square += weight * slope * slope;
+            }
         }
-        self.extremes.include_sample(sample);
+        self.extremes.include_samples(&pieces.samples);
+    }
+}
+
+/// The loop that sums up the pieces of a line.
+struct LineSums<'a>(&'a Strip);
+
+impl Loop for LineSums<'_> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn call(self) -> Sums {
+        let Self(strip) = self;
+        let mut sums = Sums::default();
+        for group in strip.groups() {
+            sums.include(&group.weighted_samples());
+        }
+        sums
     }
 }
 
@@ -138,11 +160,8 @@ impl Lines {
             strip.look_up_heights(subject.surface.as_ref())?;
             Ok(strip.amount_about(mean))
         };
-        let amounts: Vec<f64> = self
-            .all()
-            .into_par_iter()
-            .map_init(Strip::default, of_line)
-            .collect::<Result<_>>()?;
+        let lines = self.all().into_par_iter();
+        let amounts = in_order(lines.map_init(Strip::default, of_line))?;
         Ok(amounts.iter().sum())
     }
 }
@@ -153,10 +172,7 @@ fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
         strip.set_line(subject, *angle, passes);
         Sums::of(subject, strip)
     };
-    lines
-        .par_iter()
-        .map_init(Strip::default, of_line)
-        .collect::<Result<_>>()
+    in_order(lines.par_iter().map_init(Strip::default, of_line))
 }
 
 /// The integrals along each line, and its highest cusp.
@@ -170,11 +186,8 @@ fn sums_and_cusps(
         let cusp = tips.highest(number, *angle, strip.arcs())?;
         Ok((Sums::of(subject, strip)?, cusp))
     };
-    let each: Vec<(Sums, Option<HighestCusp>)> = lines
-        .par_iter()
-        .enumerate()
-        .map_init(Strip::default, of_line)
-        .collect::<Result<_>>()?;
+    let numbered = lines.par_iter().enumerate();
+    let each = in_order(numbered.map_init(Strip::default, of_line))?;
     Ok(each.into_iter().unzip())
 }
 

@@ -13,6 +13,7 @@
 //! passes.
 
 use rayon::prelude::*;
+use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Result, Scalar};
 
 use super::envelope::{Arc, lower_arc, lower_envelope};
@@ -22,6 +23,7 @@ use super::sections::{Lines, sort};
 use super::strip::{EVERYWHERE, Strip, on_part};
 use crate::closing;
 use crate::cusp::Point;
+use crate::order::in_order;
 use crate::touch::FirstTouch;
 
 /// Ends of arcs that are held against the closing in one batch.
@@ -73,17 +75,10 @@ impl Lines {
             let spans = spans(touch, scope, *angle, passes)?;
             strip.set_line_within(subject, *angle, passes, &spans);
             strip.look_up_heights(subject.surface.as_ref())?;
-            let mut found = LineExtremes::default();
-            strip
-                .samples()
-                .for_each(|sample| found.include_sample(&sample));
-            Ok(found)
+            Ok(in_widest(ErrorExtremes(strip)))
         };
         let lines = self.all();
-        let each: Vec<LineExtremes> = lines
-            .par_iter()
-            .map_init(Strip::default, of_line)
-            .collect::<Result<_>>()?;
+        let each = in_order(lines.par_iter().map_init(Strip::default, of_line))?;
         let angles = lines.iter().map(|line| line.0);
         Ok(SurfaceExtremes::over(angles.zip(&each)))
     }
@@ -96,8 +91,7 @@ impl Lines {
         let lines = self.all();
         let of_line =
             |(angle, passes): &(f64, &[Point])| ends_and_errors(touch, scope, *angle, passes);
-        let each: Vec<(Vec<ArcEnd>, LineExtremes)> =
-            lines.par_iter().map(of_line).collect::<Result<_>>()?;
+        let each = in_order(lines.par_iter().map(of_line))?;
         let angles = lines.iter().map(|line| line.0);
         let errors = each.iter().map(|(_, errors)| errors);
         let Some(form) = SurfaceExtremes::over(angles.zip(errors)) else {
@@ -106,6 +100,23 @@ impl Lines {
         let ends = each.into_iter().flat_map(|(ends, _)| ends).collect();
         let highest = highest_over_closing(touch, ends, form.highest)?;
         Ok(Some(SurfaceExtremes { highest, ..form }))
+    }
+}
+
+/// The loop that looks for the extremes of a line.
+struct ErrorExtremes<'a>(&'a Strip);
+
+impl Loop for ErrorExtremes<'_> {
+    type Output = LineExtremes;
+
+    #[inline(always)]
+    fn call(self) -> LineExtremes {
+        let Self(strip) = self;
+        let mut found = LineExtremes::default();
+        for group in strip.groups() {
+            found.include_samples(&group.samples());
+        }
+        found
     }
 }
 
@@ -184,14 +195,11 @@ fn highest_over_closing(
         if go.first().is_none_or(|first| first.above <= highest.error) {
             break;
         }
-        let heights: Vec<Vec<f64>> = go
-            .par_chunks(BATCH)
-            .map(|batch| {
-                let angles: Vec<f64> = batch.iter().map(|end| end.angle).collect();
-                let places: Vec<f64> = batch.iter().map(|end| end.s).collect();
-                closing::at(touch, &angles, &places)
-            })
-            .collect::<Result<_>>()?;
+        let heights = in_order(go.par_chunks(BATCH).map(|batch| {
+            let angles: Vec<f64> = batch.iter().map(|end| end.angle).collect();
+            let places: Vec<f64> = batch.iter().map(|end| end.s).collect();
+            closing::at(touch, &angles, &places)
+        }))?;
         for (end, closing) in go.iter().zip(heights.iter().flatten()) {
             // At the surface's end the closing may be unknown, and is no lower than the surface.
             let above = match closing.is_finite() {

@@ -17,6 +17,7 @@ use super::grid::{Grid, GridPoint};
 use super::sections::to_centres;
 use super::turns::Turns;
 use crate::cusp::Point;
+use crate::order::in_order;
 use crate::touch::FirstTouch;
 
 /// How far an error between the instants of the playback can exceed the largest error at them: as a
@@ -82,11 +83,11 @@ impl Map {
         let (grid, part) = (self.grid, self.part);
         for turns in Turns::of(block) {
             let rows = self.errors.par_chunks_mut(grid.columns().max(1));
-            rows.enumerate()
-                .try_for_each_init(RowBuffers::default, |buffers, (row, errors)| {
-                    let points = (0..errors.len()).map(|column| grid.point(row, column));
-                    buffers.cut(nose, &turns, &part, points, errors)
-                })?;
+            let cut = |buffers: &mut RowBuffers, (row, errors): (usize, &mut [f32])| {
+                let points = (0..errors.len()).map(|column| grid.point(row, column));
+                buffers.cut(nose, &turns, &part, points, errors)
+            };
+            in_order(rows.enumerate().map_init(RowBuffers::default, cut))?;
         }
         Ok(())
     }

@@ -17,6 +17,7 @@ mod map;
 mod no_height;
 mod profile;
 mod rings;
+mod samples;
 mod sections;
 mod spectrum;
 mod strip;

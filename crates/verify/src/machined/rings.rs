@@ -7,18 +7,21 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
+use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Result, Scalar};
 
 use super::grid::Grid;
+use super::samples::{NODES, Samples};
 use super::sections::Lines;
-use super::strip::{Sample, Strip};
+use super::strip::Strip;
+use crate::order::in_order;
 use crate::subject::Subject;
 use crate::touch::FirstTouch;
 
 /// Rings between the hole, or the axis, and the rim.
 const RINGS: usize = 192;
-/// The weights of the nodes of a sample, without their radii.
-const WEIGHTS: [f64; 4] = [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0];
+/// The weights of the nodes of a piece, without their radii.
+const WEIGHTS: [f64; NODES] = [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0];
 
 /// Mean errors on rings, mm: machined − wanted along z.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,17 +61,9 @@ impl Lines {
             strip.set_line(subject, *angle, passes);
             strip.look_up_heights(subject.surface.as_ref())?;
             let empty = RadialSums::new(subject);
-            let mut sides = [empty.clone(), empty];
-            for sample in strip.samples() {
-                let side = usize::from(sample.s[0] + sample.s[3] < 0.0);
-                sides[side].include(&sample);
-            }
-            Ok(sides)
+            Ok(in_widest(Sides(strip, [empty.clone(), empty])))
         };
-        let sides: Vec<[RadialSums; 2]> = lines
-            .par_iter()
-            .map_init(Strip::default, of_line)
-            .collect::<Result<_>>()?;
+        let sides = in_order(lines.par_iter().map_init(Strip::default, of_line))?;
         let columns = |side: usize| sides.iter().map(move |sides| &sides[side]);
         let columns: Vec<&RadialSums> = columns(0).chain(columns(1)).collect();
         let ring = |ring: usize| columns.iter().map(move |column| column.mean(ring));
@@ -86,6 +81,26 @@ impl Lines {
     }
 }
 
+/// The loop that adds up the two sides of a line.
+struct Sides<'a>(&'a Strip, [RadialSums; 2]);
+
+impl Loop for Sides<'_> {
+    type Output = [RadialSums; 2];
+
+    #[inline(always)]
+    fn call(self) -> [RadialSums; 2] {
+        let Self(strip, mut sides) = self;
+        for group in strip.groups() {
+            let samples = group.samples();
+            for piece in 0..samples.count {
+                let twice_middle = samples.s[0][piece] + samples.s[NODES - 1][piece];
+                sides[usize::from(twice_middle < 0.0)].include(&samples, piece);
+            }
+        }
+        sides
+    }
+}
+
 impl RadialSums {
     fn new(subject: &Subject) -> Self {
         let (inner, outer) = (subject.part.inner_radius, subject.part.aperture_radius);
@@ -97,11 +112,11 @@ impl RadialSums {
     }
 
     /// Adds a piece to the rings that it lies on, to each by its length there.
-    fn include(&mut self, sample: &Sample) {
-        let ends = [sample.s[0].abs(), sample.s[3].abs()];
+    fn include(&mut self, samples: &Samples, piece: usize) {
+        let ends = [0, NODES - 1].map(|k| samples.s[k][piece].abs());
         let (from, to) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-        let errors = sample.error.iter().zip(WEIGHTS);
-        let mean: f64 = errors.map(|(error, weight)| error * weight).sum();
+        let errors = samples.error.iter().zip(WEIGHTS);
+        let mean: f64 = errors.map(|(error, weight)| error[piece] * weight).sum();
         let ring = |radius: f64| ((radius - self.inner) / self.width).max(0.0) as usize;
         for index in ring(from)..=ring(to).min(RINGS - 1) {
             let begin = self.inner + index as f64 * self.width;

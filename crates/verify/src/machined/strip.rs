@@ -5,31 +5,15 @@ use turnpath_core::{Gradients, Part, Result, Scalar, SurfaceModel};
 
 use super::envelope::{Arc, lower_envelope};
 use super::no_height::no_height;
+use super::samples::{INNER, NODES, NodeColumns, Samples, WIDTH, ZEROS};
 use super::sections::sort;
 use crate::cusp::Point;
 use crate::subject::Subject;
 
 /// Longest piece, as a part of the nose radius. On steep flanks a cubic follows an arc no further.
 const LONGEST: f64 = 1.0 / 32.0;
-/// The inner of the four Gauss-Lobatto nodes ±1 and ±1/√5 on −1 … 1. The rule is exact to degree 5,
-/// and neighbouring pieces share their ends.
-const INNER: f64 = 0.447_213_595_499_957_9;
 /// The weights of the four nodes.
-const WEIGHTS: [f64; 4] = [1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0];
-/// Steps of a piece in the integral of the mean amount. Kinks between them cost 1e-3 of it.
-const AMOUNT_STEPS: usize = 32;
-/// The middles of these steps on −1 … 1.
-const MIDDLES: [f64; AMOUNT_STEPS] = {
-    let mut middles = [0.0; AMOUNT_STEPS];
-    let mut i = 0;
-    while i < AMOUNT_STEPS {
-        middles[i] = (2 * i + 1) as f64 / AMOUNT_STEPS as f64 - 1.0;
-        i += 1;
-    }
-    middles
-};
-/// Sums of the integral that grow side by side.
-const LANES: usize = 8;
+const WEIGHTS: [f64; NODES] = [1.0 / 6.0, 5.0 / 6.0, 5.0 / 6.0, 1.0 / 6.0];
 
 /// All signed positions on a line.
 pub(super) const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -38,21 +22,9 @@ pub(super) const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 #[derive(Debug, Clone, Copy)]
 struct ArcPiece {
     centre: Point,
-    /// Indices of its four nodes.
-    nodes: [usize; 4],
+    /// Index of its first node. The others follow.
+    first: usize,
     half: f64,
-}
-
-/// The values at the four nodes of a piece.
-pub(super) struct Sample {
-    /// Signed positions on the line, mm.
-    pub s: [f64; 4],
-    /// Surface error, mm.
-    pub error: [f64; 4],
-    /// Error of the radial slope; meaningless after [`Strip::look_up_heights`].
-    pub slope: [f64; 4],
-    /// Weights of area.
-    pub weight: [f64; 4],
 }
 
 /// The machined profile along one line. Its memory is used again for the next line.
@@ -116,7 +88,12 @@ impl Strip {
     }
 
     fn divide(&mut self, centre: Point, from: f64, to: f64) {
-        let count = ((to - from) / (LONGEST * self.radius)).ceil().max(1.0);
+        let longest = LONGEST * self.radius;
+        // Nearly all arcs are one piece, and rounding up takes a call on some CPUs.
+        let count = match to - from <= longest {
+            true => 1.0,
+            false => ((to - from) / longest).ceil(),
+        };
         let half = 0.5 * (to - from) / count;
         for i in 0..count as usize {
             let begin = from + 2.0 * half * i as f64;
@@ -130,7 +107,7 @@ impl Strip {
                 .extend([middle - INNER * half, middle + INNER * half, end]);
             self.pieces.push(ArcPiece {
                 centre,
-                nodes: [first, first + 1, first + 2, first + 3],
+                first,
                 half,
             });
         }
@@ -161,10 +138,6 @@ impl Strip {
     /// Looks up wanted heights alone.
     pub fn look_up_heights(&mut self, surface: &dyn SurfaceModel) -> Result<()> {
         self.z.resize(self.x.len(), 0.0);
-        for slopes in [&mut self.zx, &mut self.zy] {
-            slopes.clear();
-            slopes.resize(self.x.len(), 0.0);
-        }
         surface.heights(&self.x, &self.y, &mut self.z)?;
         self.check_heights()
     }
@@ -178,36 +151,119 @@ impl Strip {
         }
     }
 
-    /// The sample of each piece, from left to right.
-    pub fn samples(&self) -> impl Iterator<Item = Sample> + '_ {
-        self.pieces.iter().map(|piece| self.sample(piece))
+    /// All pieces in groups, from left to right.
+    pub fn groups(&self) -> impl Iterator<Item = Group<'_>> {
+        let groups = self.pieces.chunks(WIDTH);
+        groups.map(|pieces| Group {
+            strip: self,
+            pieces,
+        })
     }
 
     /// The integral of |error − mean| along the line, weighted by area.
     pub fn amount_about(&self, mean: f64) -> f64 {
         in_widest(Amounts(self, mean))
     }
+}
 
+/// Up to [`WIDTH`] pieces of a strip, and at least one. Its methods are for loops that go through
+/// [`in_widest`].
+pub(super) struct Group<'a> {
+    strip: &'a Strip,
+    pieces: &'a [ArcPiece],
+}
+
+/// Samples with what their sums over the part need.
+pub(super) struct WeightedSamples {
+    pub samples: Samples,
+    /// Error of the radial slope.
+    pub slope: NodeColumns,
+    /// Weights of area.
+    pub weight: NodeColumns,
+}
+
+/// The nose's edge at the nodes of pieces.
+struct NoseEdge {
+    /// How far each node lies to the right of the nose's centre, mm.
+    off: NodeColumns,
+    /// How far the centre lies above the edge there, mm.
+    lift: NodeColumns,
+}
+
+impl Group<'_> {
+    /// The errors at the nodes, once heights are looked up.
     #[inline(always)]
-    fn sample(&self, piece: &ArcPiece) -> Sample {
-        let (sin, cos) = self.turned;
-        let square = self.radius * self.radius;
-        let s = piece.nodes.map(|node| self.nodes[node]);
-        let [z, zx, zy] = [&self.z, &self.zx, &self.zy].map(|c| piece.nodes.map(|node| c[node]));
-        let (mut error, mut slope, mut weight) = ([0.0; 4], [0.0; 4], WEIGHTS);
-        for k in 0..4 {
-            let off = s[k] - piece.centre.x;
-            let lift = (square - off * off).max(0.0).sqrt();
-            error[k] = piece.centre.y - lift - z[k];
-            slope[k] = off / lift - zx[k] * cos - zy[k] * sin;
-            weight[k] = weight[k] * piece.half * s[k].abs();
+    pub fn samples(&self) -> Samples {
+        self.samples_and_edge().0
+    }
+
+    /// The errors at the nodes, those of slopes, and weights, once heights and slopes are looked up.
+    #[inline(always)]
+    pub fn weighted_samples(&self) -> WeightedSamples {
+        let (sin, cos) = self.strip.turned;
+        let (samples, edge) = self.samples_and_edge();
+        let [zx, zy] = [&self.strip.zx, &self.strip.zy].map(|of_nodes| self.at_nodes(of_nodes));
+        let mut half = [0.0; WIDTH];
+        for (half, piece) in half.iter_mut().zip(self.lanes()) {
+            *half = piece.half;
         }
-        Sample {
-            s,
-            error,
+        let (mut slope, mut weight) = (ZEROS, ZEROS);
+        for (k, of_node) in WEIGHTS.into_iter().enumerate() {
+            let (s, off, lift) = (&samples.s[k], &edge.off[k], &edge.lift[k]);
+            for i in 0..WIDTH {
+                slope[k][i] = off[i] / lift[i] - zx[k][i] * cos - zy[k][i] * sin;
+                weight[k][i] = of_node * half[i] * s[i].abs();
+            }
+        }
+        WeightedSamples {
+            samples,
             slope,
             weight,
         }
+    }
+
+    #[inline(always)]
+    fn samples_and_edge(&self) -> (Samples, NoseEdge) {
+        let square = self.strip.radius * self.strip.radius;
+        let [s, z] = [&self.strip.nodes, &self.strip.z].map(|of_nodes| self.at_nodes(of_nodes));
+        let (mut x, mut y) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for ((x, y), piece) in x.iter_mut().zip(&mut y).zip(self.lanes()) {
+            (*x, *y) = (piece.centre.x, piece.centre.y);
+        }
+        let (mut error, mut off, mut lift) = (ZEROS, ZEROS, ZEROS);
+        for k in 0..NODES {
+            for i in 0..WIDTH {
+                off[k][i] = s[k][i] - x[i];
+                lift[k][i] = (square - off[k][i] * off[k][i]).max(0.0).sqrt();
+                error[k][i] = y[i] - lift[k][i] - z[k][i];
+            }
+        }
+        let samples = Samples {
+            count: self.pieces.len(),
+            s,
+            error,
+        };
+        (samples, NoseEdge { off, lift })
+    }
+
+    /// What these numbers are at the nodes of the pieces.
+    #[inline(always)]
+    fn at_nodes(&self, of_nodes: &[f64]) -> NodeColumns {
+        let mut columns = ZEROS;
+        for (i, piece) in self.lanes().enumerate() {
+            let nodes = &of_nodes[piece.first..piece.first + NODES];
+            for (column, number) in columns.iter_mut().zip(nodes) {
+                column[i] = *number;
+            }
+        }
+        columns
+    }
+
+    /// The piece in each lane.
+    #[inline(always)]
+    fn lanes(&self) -> impl Iterator<Item = &ArcPiece> {
+        let last = self.pieces.len() - 1;
+        (0..WIDTH).map(move |i| &self.pieces[i.min(last)])
     }
 }
 
@@ -221,8 +277,12 @@ impl Loop for Amounts<'_> {
     fn call(self) -> f64 {
         let Self(strip, mean) = self;
         let mut sum = 0.0;
-        for piece in &strip.pieces {
-            sum += strip.sample(piece).amount_about(mean);
+        for group in strip.groups() {
+            let samples = group.samples();
+            let amounts = samples.amounts_about(mean);
+            for amount in amounts.iter().take(samples.count) {
+                sum += amount;
+            }
         }
         sum
     }
@@ -248,83 +308,81 @@ pub(super) fn on_part<'a>(
         .filter(|(from, to)| from < to)
 }
 
-impl Sample {
-    /// The coefficients of the cubic through the errors, on −1 … 1.
-    #[inline(always)]
-    fn cubic(&self) -> [f64; 4] {
-        let [e0, e1, e2, e3] = self.error;
-        let (outer, inner) = (0.5 * (e0 + e3), 0.5 * (e1 + e2));
-        let (outer_odd, inner_odd) = (0.5 * (e3 - e0), 0.5 * (e2 - e1) / INNER);
-        let share = 1.0 - INNER * INNER;
-        let (bend, twist) = ((outer - inner) / share, (outer_odd - inner_odd) / share);
-        [outer - bend, outer_odd - twist, bend, twist]
-    }
-
-    /// The integral of |error − mean| over the area, computed on the cubic. Four nodes are too few
-    /// for an absolute value, which may have a kink anywhere.
-    #[inline(always)]
-    fn amount_about(&self, mean: f64) -> f64 {
-        let [a, b, c, d] = self.cubic();
-        let half = 0.5 * (self.s[3] - self.s[0]);
-        let middle = 0.5 * (self.s[3] + self.s[0]);
-        let mut sums = [0.0; LANES];
-        for steps in MIDDLES.as_chunks::<LANES>().0 {
-            for (sum, t) in sums.iter_mut().zip(steps) {
-                let error = a + t * (b + t * (c + t * d));
-                *sum += (error - mean).abs() * (middle + t * half).abs();
-            }
-        }
-        sums.iter().sum::<f64>() * (self.s[3] - self.s[0]) / AMOUNT_STEPS as f64
-    }
-
-    /// Positions and errors that can be the largest or smallest of the piece: those at its ends,
-    /// and those where the slope of the cubic through the errors is zero.
-    pub fn extremes(&self) -> [(f64, f64); 4] {
-        let [a, b, c, d] = self.cubic();
-        let at = |t: f64| {
-            let middle = 0.5 * (self.s[0] + self.s[3]);
-            let half = 0.5 * (self.s[3] - self.s[0]);
-            (middle + t * half, a + t * (b + t * (c + t * d)))
-        };
-        let root = (c * c - 3.0 * b * d).sqrt();
-        // Both roots in the form that loses no digits.
-        let q = -(c + root.copysign(c));
-        let level = |t: f64| match t.abs() < 1.0 {
-            true => at(t),
-            false => (self.s[3], self.error[3]),
-        };
-        let ends = [(self.s[0], self.error[0]), (self.s[3], self.error[3])];
-        [ends[0], ends[1], level(b / q), level(q / (3.0 * d))]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn of(f: impl Fn(f64) -> f64) -> Sample {
-        let s = [-1.0, -INNER, INNER, 1.0].map(|t| 5.0 + 2.0 * t);
-        Sample {
-            s,
-            error: s.map(f),
-            slope: [0.0; 4],
-            weight: [0.0; 4],
+    /// A strip of so many pieces of a flat part's profile, in threes with gaps between them.
+    fn strip(pieces: usize) -> Strip {
+        let mut strip = Strip {
+            radius: 2.0,
+            turned: (0.6, 0.8),
+            ..Strip::default()
+        };
+        for i in 0..pieces {
+            let from = 0.05 * i as f64 + if i % 3 == 0 { 0.01 } else { 0.0 };
+            let centre = Point::new(from + 0.02, 2.0 + 1e-4 * (i % 5) as f64);
+            strip.divide(centre, from, 0.05 * (i + 1) as f64);
         }
+        let wave = |k: usize| (0..strip.nodes.len()).map(move |i| 1e-4 * ((i * i + k) % 17) as f64);
+        (strip.z, strip.zx, strip.zy) = (wave(0).collect(), wave(5).collect(), wave(9).collect());
+        strip
     }
 
-    fn range(sample: &Sample) -> (f64, f64) {
-        let errors = sample.extremes().map(|(_, error)| error);
-        let low = errors.into_iter().fold(f64::INFINITY, f64::min);
-        (low, errors.into_iter().fold(f64::NEG_INFINITY, f64::max))
+    /// The error, the error of the slope and the weight at a node of a piece.
+    fn at_node(strip: &Strip, piece: usize, k: usize) -> [f64; 3] {
+        let (sin, cos) = strip.turned;
+        let piece = strip.pieces[piece];
+        let node = piece.first + k;
+        let off = strip.nodes[node] - piece.centre.x;
+        let lift = (strip.radius * strip.radius - off * off).sqrt();
+        let error = piece.centre.y - lift - strip.z[node];
+        let slope = off / lift - strip.zx[node] * cos - strip.zy[node] * sin;
+        [
+            error,
+            slope,
+            WEIGHTS[k] * piece.half * strip.nodes[node].abs(),
+        ]
     }
 
     #[test]
-    fn extremes_of_a_parabola_a_cubic_and_a_line_are_exact() {
-        let (low, high) = range(&of(|s| (s - 4.5) * (s - 4.5) - 1.0));
-        assert!((low + 1.0).abs() < 1e-14 && (high - 5.25).abs() < 1e-14);
-        let (low, high) = range(&of(|s| (s - 5.0) * ((s - 5.0) * (s - 5.0) - 3.0)));
-        assert!((low + 2.0).abs() < 1e-13 && (high - 2.0).abs() < 1e-13);
-        assert_eq!(range(&of(|s| s)), (3.0, 7.0));
-        assert_eq!(range(&of(|_| 2.0)), (2.0, 2.0));
+    fn each_piece_has_the_samples_that_it_has_alone() {
+        for count in [0, 1, 7, 8, 9, 17] {
+            let strip = strip(count);
+            assert_eq!(strip.pieces.len(), count);
+            let mut seen = 0;
+            for group in strip.groups() {
+                let found = group.weighted_samples();
+                for i in 0..found.samples.count {
+                    for k in 0..NODES {
+                        let found = [
+                            found.samples.error[k][i],
+                            found.slope[k][i],
+                            found.weight[k][i],
+                        ];
+                        let expected = at_node(&strip, seen, k);
+                        assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
+                    }
+                    seen += 1;
+                }
+            }
+            assert_eq!(seen, count);
+        }
+    }
+
+    #[test]
+    fn an_amount_is_the_sum_of_those_of_all_pieces() {
+        for count in [0, 1, 7, 8, 9, 17] {
+            let whole = strip(count);
+            let mut sum = 0.0;
+            for piece in &whole.pieces {
+                let alone = Strip {
+                    pieces: vec![*piece],
+                    ..strip(count)
+                };
+                sum += alone.amount_about(2e-4);
+            }
+            assert_eq!(whole.amount_about(2e-4).to_bits(), f64::to_bits(sum));
+        }
     }
 }
