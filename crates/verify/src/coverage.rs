@@ -161,8 +161,7 @@ struct AxisLine {
     least: f64,
     /// The passes around the smallest sum, as soon as all of them have come.
     meeting: Vec<(bool, Pass)>,
-    /// Number of passes that are still to come after the smallest sum so far; before there is any sum,
-    /// of the first passes.
+    /// Number of passes still to come until `meeting` is taken. It begins anew at each smaller sum.
     missing: usize,
 }
 

@@ -222,6 +222,7 @@ impl Group<'_> {
         }
     }
 
+    /// The errors at the nodes, with the nose's edge that they come from.
     #[inline(always)]
     fn samples_and_edge(&self) -> (Samples, NoseEdge) {
         let square = self.strip.radius * self.strip.radius;
