@@ -2,6 +2,7 @@
 
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section, SectionBlock};
 
+use crate::digit_columns::{DigitColumns, MOST_POINTS};
 use crate::digits::{Digits, Place, steps_of, turn};
 use crate::program_error::ProgramError;
 use crate::program_format::ProgramFormat;
@@ -19,11 +20,20 @@ pub(crate) fn carry(
     // The section before a cut is the lead-in, and that before a lead-out is the cut.
     let before_in_lead = in_lead != stretch.opens_section;
     for point in stretch.before {
-        trail.go_to(format, point, before_in_lead, &mut |_| {})?;
+        trail.go_to(format, (point, before_in_lead), None, &mut |_| {})?;
     }
     let mut points = 0;
-    for point in stretch.points.points() {
-        trail.go_to(format, &point, in_lead, &mut |step| {
+    let mut columns = DigitColumns::new(format, stretch.points);
+    let mut known = None;
+    for (number, point) in stretch.points.points().enumerate() {
+        let index = number % MOST_POINTS;
+        if index == 0 {
+            let range = number..stretch.points.len().min(number + MOST_POINTS);
+            let columns = columns.as_mut();
+            known = columns.and_then(|columns| columns.find(format, stretch.points, range));
+        }
+        let digits = known.and_then(|columns| columns.at(index));
+        trail.go_to(format, (&point, in_lead), digits, &mut |step| {
             points += 1;
             write(step);
         })?;

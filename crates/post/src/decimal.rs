@@ -5,9 +5,9 @@ use std::io::Write;
 /// Digits of a half of a short number: of all before its point, or of all behind it.
 const HALF: usize = 16;
 /// Most digits that go through 64 bits; most halves have no more.
-const QUARTER: usize = 8;
+pub(crate) const QUARTER: usize = 8;
 /// The powers of ten that a half can hold.
-const POWERS: [u64; HALF + 1] = {
+pub(crate) const POWERS: [u64; HALF + 1] = {
     let mut powers = [1; HALF + 1];
     let mut k = 1;
     while k < powers.len() {
@@ -99,6 +99,8 @@ fn push_digits(text: &mut Vec<u8>, digits: u128, count: usize) {
     text.truncate(end);
 }
 
+/// Eight digits `0`.
+pub(crate) const ZEROS_OF_QUARTER: u64 = u64::from_ne_bytes([b'0'; QUARTER]);
 /// Sixteen digits `0`.
 const ZEROS: u128 = u128::from_ne_bytes([b'0'; HALF]);
 
@@ -111,7 +113,8 @@ fn sixteen_digits(number: u64) -> u128 {
 /// The digits of a number below 10⁸, the first one in the lowest byte. Groups of four, two and one
 /// digits are halved side by side: the quotients by 100 and by 10 are products with their reciprocals,
 /// exact for numbers so small.
-fn eight_digits(number: u64) -> u64 {
+#[inline(always)]
+pub(crate) fn eight_digits(number: u64) -> u64 {
     let fours = (number / 10_000) | ((number % 10_000) << 32);
     let hundreds = ((fours * 10_486) >> 20) & 0x0000_007f_0000_007f;
     let twos = hundreds | ((fours - 100 * hundreds) << 16);

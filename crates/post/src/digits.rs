@@ -183,7 +183,7 @@ fn held(value: f64, bits: u32) -> f64 {
 }
 
 /// One in last digits.
-fn one(decimals: u32) -> u64 {
+pub(crate) fn one(decimals: u32) -> u64 {
     match ONES.get(decimals as usize) {
         Some(one) => *one,
         None => 10u64.pow(decimals),

@@ -66,10 +66,47 @@ impl LeadingDecimal {
 /// Goes on over digits, and appends them to a sum. One of more than [`SHORT_DIGITS`] is of no use.
 #[inline]
 fn take_digits(text: &[u8], at: &mut usize, sum: &mut u64) {
+    while let Some(eight) = text.get(*at..).and_then(<[u8]>::first_chunk) {
+        let (count, number) = leading_digits(u64::from_le_bytes(*eight));
+        *sum = sum.wrapping_mul(POWERS[count]).wrapping_add(number);
+        *at += count;
+        if count < EIGHT {
+            return;
+        }
+    }
     while let Some(digit) = text.get(*at).filter(|byte| byte.is_ascii_digit()) {
         *sum = sum.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
         *at += 1;
     }
+}
+
+/// Characters that are read together.
+const EIGHT: usize = 8;
+/// The same byte in each of eight.
+const fn eight_times(byte: u8) -> u64 {
+    u64::from_ne_bytes([byte; EIGHT])
+}
+
+/// How many digits eight characters begin with, the first one in the lowest byte, and the number of these digits.
+#[inline(always)]
+fn leading_digits(characters: u64) -> (usize, u64) {
+    // A digit is now 0 to 9, and anything else is more. A sum beyond a byte changes only what is behind.
+    let values = characters ^ eight_times(b'0');
+    let others = (values.wrapping_add(eight_times(0x7f - 9)) | values) & eight_times(0x80);
+    let count = others.trailing_zeros() as usize / 8;
+    if count == 0 {
+        return (0, 0);
+    }
+    // The digits move up to the end, behind zeros. Then ones and tens become pairs, pairs become fours, and these
+    // become one number, in the upper half of a product.
+    let digits = values << (8 * (EIGHT - count));
+    let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
+    const EVEN_PAIRS: u64 = 0x0000_00ff_0000_00ff;
+    const UPPER: u64 = 100 + (1_000_000 << 32);
+    const LOWER: u64 = 1 + (10_000 << 32);
+    let upper = (pairs & EVEN_PAIRS).wrapping_mul(UPPER);
+    let lower = ((pairs >> 16) & EVEN_PAIRS).wrapping_mul(LOWER);
+    (count, upper.wrapping_add(lower) >> 32)
 }
 
 /// A number of any length with so many digits before the point. Apart, so that short numbers do not go
@@ -136,6 +173,26 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    /// All bytes behind all counts of digits.
+    #[test]
+    fn digits_end_at_the_first_byte_that_is_none() {
+        for count in 0..=EIGHT {
+            for byte in 0..=u8::MAX {
+                for behind in [0, b'0', b'9', u8::MAX] {
+                    let mut text = *b"98765432";
+                    text[count..].fill(behind);
+                    if let Some(first) = text.get_mut(count) {
+                        *first = byte;
+                    }
+                    let digits = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+                    let number = std::str::from_utf8(&text[..digits]).unwrap();
+                    let number = number.parse().unwrap_or(0);
+                    assert_eq!(leading_digits(u64::from_le_bytes(text)), (digits, number));
+                }
+            }
+        }
+    }
 
     proptest! {
         /// Short numbers and long ones, with zeros before them, are the same by both ways.

@@ -66,51 +66,32 @@ impl Trail {
         }
     }
 
-    /// Goes on to the next point, which may be of a lead.
+    /// Goes on to the next point, which may be of a lead, and whose digits may be known.
     pub(crate) fn go_to(
         &mut self,
         format: &ProgramFormat,
-        point: &ControlPoint,
-        in_lead: bool,
+        (point, in_lead): (&ControlPoint, bool),
+        known: Option<Digits>,
         write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
-        let segment = self.point.map(|before| self.segment(&before, point));
-        let place = Place {
-            arrival: self.arrival(point, segment.as_ref()),
-            segment: segment.as_ref(),
-            in_lead,
-            grid: [0; 3],
+        let end = match known {
+            Some(digits) => digits,
+            None => {
+                let segment = self.segment_to(point);
+                let place = self.place(point, segment.as_ref(), in_lead);
+                Digits::at(format, &place, steps_of(format, point))?
+            }
         };
-        let end = Digits::at(format, &place, steps_of(format, point))?;
-        match self.digits.zip(segment.as_ref()) {
+        match self.digits {
             None => write(Move::Start(&end)),
-            Some((from, segment)) => {
+            Some(from) => {
                 let steps = end.steps - from.steps;
-                let (t, c_deg) = (point.t, point.c / DEG);
                 if steps < 1 {
+                    let (t, c_deg) = (point.t, point.c / DEG);
                     return Err(ProgramError::Short { t, c_deg });
                 }
-                let of_lead = in_lead || self.in_lead;
-                let slowest = format.chords.and_then(|chords| chords.slowest);
-                let slowest = slowest.filter(|_| of_lead);
-                let parts = self.parts(format, segment, (steps, of_lead), point)?;
-                let parts = match slowest.is_some_and(|slowest| slowest.is_slow(&from, &end)) {
-                    // There must be a place between the ends that is far enough from both.
-                    true => parts.max(2).min(steps),
-                    false => parts,
-                };
-                let middle = Place {
-                    in_lead: of_lead,
-                    grid: end.position,
-                    ..place
-                };
-                for part in 1..parts {
-                    let at = from.steps + steps / parts * part + steps % parts * part / parts;
-                    let mut middle = Digits::at(format, &middle, at)?;
-                    if let Some((slowest, from)) = slowest.zip(self.digits) {
-                        slowest.lift(&from, &mut middle);
-                    }
-                    self.write_segment(format, point, (middle, false), write)?;
+                if format.chords.is_some() || steps > format.longest {
+                    self.write_middles(format, point, in_lead, &end, write)?;
                 }
                 self.write_segment(format, point, (end, true), write)?;
             }
@@ -121,11 +102,61 @@ impl Trail {
         Ok(())
     }
 
-    /// What the path plays from one point to the next.
-    fn segment(&self, before: &ControlPoint, point: &ControlPoint) -> Segment {
-        match self.shape {
-            SegmentShape::Cubic => Segment::between(before, point),
-            SegmentShape::Linear => Segment::straight(before, point),
+    /// Writes the lines up to places within the segment that ends at a point, where it is divided.
+    fn write_middles(
+        &mut self,
+        format: &ProgramFormat,
+        point: &ControlPoint,
+        in_lead: bool,
+        end: &Digits,
+        write: &mut dyn FnMut(Move<'_>),
+    ) -> Result<(), ProgramError> {
+        let Some((from, segment)) = self.digits.zip(self.segment_to(point)) else {
+            return Ok(());
+        };
+        let steps = end.steps - from.steps;
+        let of_lead = in_lead || self.in_lead;
+        let slowest = format.chords.and_then(|chords| chords.slowest);
+        let slowest = slowest.filter(|_| of_lead);
+        let parts = self.parts(format, &segment, (steps, of_lead), point)?;
+        let parts = match slowest.is_some_and(|slowest| slowest.is_slow(&from, end)) {
+            // There must be a place between the ends that is far enough from both.
+            true => parts.max(2).min(steps),
+            false => parts,
+        };
+        let middle = Place {
+            grid: end.position,
+            ..self.place(point, Some(&segment), of_lead)
+        };
+        for part in 1..parts {
+            let at = from.steps + steps / parts * part + steps % parts * part / parts;
+            let mut middle = Digits::at(format, &middle, at)?;
+            if let Some((slowest, from)) = slowest.zip(self.digits) {
+                slowest.lift(&from, &mut middle);
+            }
+            self.write_segment(format, point, (middle, false), write)?;
+        }
+        Ok(())
+    }
+
+    /// What the path plays up to the next point.
+    fn segment_to(&self, point: &ControlPoint) -> Option<Segment> {
+        let before = self.point.as_ref()?;
+        Some(Segment::of_shape(self.shape, before, point))
+    }
+
+    /// A place at the next point.
+    fn place<'a>(
+        &self,
+        point: &ControlPoint,
+        segment: Option<&'a Segment>,
+        in_lead: bool,
+    ) -> Place<'a> {
+        Place {
+            arrival: self.arrival(point, segment),
+            segment,
+            in_lead,
+            grid: [0; 3],
         }
     }
 

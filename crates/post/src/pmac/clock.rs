@@ -8,3 +8,10 @@ pub(crate) struct Clock {
     /// Decimals of milliseconds with which every step is exact.
     pub(crate) decimals: u32,
 }
+
+impl Clock {
+    /// A step in the last of these decimals.
+    pub(crate) fn step(self) -> i64 {
+        10i64.pow(self.decimals) / self.steps_per_ms
+    }
+}

@@ -5,6 +5,7 @@ use std::io::Write;
 use super::clock::Clock;
 use crate::decimal::push;
 use crate::digits::{AXES, DigitSegment, Digits, said_place, said_positions};
+use crate::line_room::push_line;
 use crate::program_format::ProgramFormat;
 
 /// Time of the move to the first control point, ms. It is not a part of the path.
@@ -36,19 +37,32 @@ pub(super) fn push_segment(
 ) {
     let entry = ENTRY_MS * clock.steps_per_ms;
     let steps = segment.steps();
-    if steps != segment.steps_before.unwrap_or(entry) {
+    let is_new = steps != segment.steps_before.unwrap_or(entry);
+    let time = is_new.then(|| i128::from(steps) * i128::from(clock.step()));
+    let (positions, velocities) = (said_positions(format, segment), segment.to.velocity);
+    let in_room = push_line(text, |line| {
+        if let Some(time) = time {
+            line.word(b"PVT")?;
+            line.number(time.try_into().ok()?, clock.decimals)?;
+            line.word(b"\n")?;
+        }
+        for (k, words) in [b" C", b" X", b" Z"].into_iter().enumerate() {
+            line.word(words.get(usize::from(k == 0)..)?)?;
+            line.number(positions[k], format.position_decimals)?;
+            line.word(b":")?;
+            line.number(velocities[k], format.velocity_decimals)?;
+        }
+        line.word(b"\n")
+    });
+    if in_room {
+        return;
+    }
+    if let Some(time) = time {
         text.extend_from_slice(b"PVT");
-        push_ms(text, clock, steps);
+        push(text, time, clock.decimals);
         text.push(b'\n');
     }
-    let positions = said_positions(format, segment);
-    push_axes(text, format, positions, segment.to.velocity);
-}
-
-/// Appends a time in milliseconds, exactly.
-fn push_ms(text: &mut Vec<u8>, clock: Clock, steps: i64) {
-    let step = 10i64.pow(clock.decimals) / clock.steps_per_ms;
-    push(text, i128::from(steps) * i128::from(step), clock.decimals);
+    push_axes(text, format, positions, velocities);
 }
 
 fn push_axes(
@@ -73,17 +87,57 @@ fn push_axes(
 mod tests {
     use super::super::TURBO_CLOCK;
     use super::*;
+    use crate::posts::post_named;
+
+    fn segment(steps: i64, position: [i64; 3], velocity: [i64; 3]) -> DigitSegment {
+        let from = Digits {
+            steps: 7,
+            position: [0; 3],
+            velocity: [0; 3],
+        };
+        DigitSegment {
+            from,
+            to: Digits {
+                steps: 7 + steps,
+                position,
+                velocity,
+            },
+            steps_before: None,
+        }
+    }
+
+    fn written(segment: &DigitSegment) -> String {
+        let post = post_named("pmac-pvt").unwrap();
+        let format = post.format(&turnpath_core::Params::new(), 0.0, 1e-4);
+        let mut text = Vec::new();
+        push_segment(&mut text, TURBO_CLOCK, &format, segment);
+        String::from_utf8(text).unwrap()
+    }
 
     #[test]
     fn every_step_of_time_is_exact() {
-        for (steps, text) in [
+        for (steps, time) in [
             (1, "0.000244140625"),
             (12_288, "3"),
             (6145, "1.500244140625"),
         ] {
-            let mut written = Vec::new();
-            push_ms(&mut written, TURBO_CLOCK, steps);
-            assert_eq!(String::from_utf8(written).unwrap(), text);
+            let text = written(&segment(steps, [0; 3], [0; 3]));
+            assert_eq!(text, format!("PVT{time}\nC0:0 X0:0 Z0:0\n"));
         }
+    }
+
+    /// Numbers with many digits go another way than short ones.
+    #[test]
+    fn lines_with_long_numbers_are_like_those_with_short_ones() {
+        let (short, long) = (12_345_678, 9_000_000_000_000_000_001);
+        let text = written(&segment(12_288, [short, -short, 5], [0, short, -1]));
+        assert_eq!(
+            text,
+            "PVT3\nC1.2345678:0 X-1.2345678:1.2345678 Z0.0000005:-0.0000001\n"
+        );
+        let text = written(&segment(12_288, [long, -short, 5], [0, short, -long]));
+        let said = "900000000000.0000001";
+        let others = "X-1.2345678:1.2345678 Z0.0000005";
+        assert_eq!(text, format!("PVT3\nC{said}:0 {others}:-{said}\n"));
     }
 }
