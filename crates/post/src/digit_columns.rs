@@ -27,6 +27,57 @@ pub(crate) struct DigitColumns {
     velocity: [Column; 3],
 }
 
+/// How a program says the positions or the velocities of an axis.
+#[derive(Clone, Copy)]
+struct Scale {
+    /// What is taken off a value, mm.
+    above: f64,
+    /// The unit of the program in that of the path. It is negative where the program's axis runs against the path's.
+    unit: f64,
+    /// The seconds that a velocity refers to; 1 for a position.
+    per: f64,
+    /// One in last digits.
+    one: f64,
+}
+
+impl Scale {
+    /// The scales of the positions of C, X and Z.
+    fn of_positions(format: &ProgramFormat) -> [Self; 3] {
+        let scale = |above: f64, unit: f64| Self {
+            above,
+            unit,
+            per: 1.0,
+            one: one(format.position_decimals) as f64,
+        };
+        let c = scale(0.0, format.c_sign() * DEG);
+        [c, scale(0.0, 1.0), scale(format.z_above, 1.0)]
+    }
+
+    /// The scales of their velocities.
+    fn of_velocities(format: &ProgramFormat) -> [Self; 3] {
+        Self::of_positions(format).map(|position| Self {
+            above: 0.0,
+            per: format.velocity_time(),
+            one: one(format.velocity_decimals) as f64,
+            ..position
+        })
+    }
+
+    /// A value of the path as the program would say it with all digits.
+    #[inline(always)]
+    fn said(&self, value: f64) -> f64 {
+        (value - self.above) / self.unit * self.per
+    }
+}
+
+/// The columns of the positions of C, X and Z, and of their velocities.
+fn columns_of(points: &PathBlock) -> [[&[f64]; 3]; 2] {
+    [
+        [&points.c, &points.x, &points.z],
+        [&points.vc, &points.vx, &points.vz],
+    ]
+}
+
 impl DigitColumns {
     /// Columns without a point; `None` where a program of this format does not say each point of the path with its
     /// velocities.
@@ -50,37 +101,23 @@ impl DigitColumns {
         points: &PathBlock,
         range: Range<usize>,
     ) -> Option<&Self> {
-        let steps = Steps {
+        let mut fits = in_widest(Steps {
             times: points.t.get(range.clone())?,
             steps_per_s: format.steps_per_s as f64,
             steps: &mut self.steps,
-        };
-        let mut fits = in_widest(steps);
-        let axes = [
-            (&points.c, &points.vc, 0.0),
-            (&points.x, &points.vx, 0.0),
-            (&points.z, &points.vz, format.z_above),
+        });
+        let [positions, velocities] = columns_of(points);
+        let quantities = [
+            (positions, Scale::of_positions(format), &mut self.position),
+            (velocities, Scale::of_velocities(format), &mut self.velocity),
         ];
-        for (axis, (positions, velocities, above)) in axes.into_iter().enumerate() {
-            let position = Units {
-                values: positions.get(range.clone())?,
-                above,
-                factor: 1.0,
-                one: one(format.position_decimals) as f64,
-                units: self.position.get_mut(axis)?,
-            };
-            let velocity = Units {
-                values: velocities.get(range.clone())?,
-                above: 0.0,
-                factor: format.velocity_time(),
-                one: one(format.velocity_decimals) as f64,
-                units: self.velocity.get_mut(axis)?,
-            };
-            for units in [position, velocity] {
-                fits &= match axis {
-                    0 => in_widest(Angles(units, format.c_sign())),
-                    _ => in_widest(units),
-                };
+        for (values, scales, found) in quantities {
+            for ((values, scale), units) in values.into_iter().zip(scales).zip(found) {
+                fits &= in_widest(Units {
+                    values: values.get(range.clone())?,
+                    scale,
+                    units,
+                });
             }
         }
         fits.then_some(self)
@@ -123,12 +160,7 @@ impl Loop for Steps<'_> {
 /// The loop over values in last digits; it says whether none of them is very large.
 struct Units<'a> {
     values: &'a [f64],
-    /// What is taken off each value.
-    above: f64,
-    /// What it is then multiplied by.
-    factor: f64,
-    /// One in last digits.
-    one: f64,
+    scale: Scale,
     units: &'a mut Column,
 }
 
@@ -139,26 +171,7 @@ impl Loop for Units<'_> {
     fn call(self) -> bool {
         let mut fits = true;
         for (units, value) in self.units.iter_mut().zip(self.values) {
-            let (whole, number) = nearest((value - self.above) * self.factor * self.one);
-            fits &= whole.abs() <= LARGEST;
-            *units = number;
-        }
-        fits
-    }
-}
-
-/// The same loop over angles in rad, which a program says in deg, with the sign of its C.
-struct Angles<'a>(Units<'a>, f64);
-
-impl Loop for Angles<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn call(self) -> bool {
-        let Self(all, sign) = self;
-        let mut fits = true;
-        for (units, value) in all.units.iter_mut().zip(all.values) {
-            let (whole, number) = nearest(sign * value / DEG * all.factor * all.one);
+            let (whole, number) = nearest(self.scale.said(*value) * self.scale.one);
             fits &= whole.abs() <= LARGEST;
             *units = number;
         }
@@ -179,4 +192,87 @@ fn nearest(value: f64) -> (f64, i64) {
         .to_bits()
         .wrapping_sub(TO_WHOLE.to_bits());
     (whole, number as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use turnpath_core::toolpath::ControlPoint;
+    use turnpath_core::{ParamValue, Params};
+
+    use super::*;
+    use crate::digits::{Place, steps_of};
+    use crate::posts::post_named;
+
+    /// Points on steps of time, with numbers at and beside halves of a last digit.
+    fn points(steps_per_s: i64) -> PathBlock {
+        let mut points = PathBlock::default();
+        for k in 0..1000_i64 {
+            let half = (k - 500) as f64 + [0.0, 0.5, 0.3, -0.5][k as usize % 4];
+            let near = [half, half.next_up(), half.next_down()][k as usize % 3] * 1e-7;
+            points.push(ControlPoint {
+                t: (k * k * 977) as f64 / steps_per_s as f64,
+                c: (near + 0.33 * k as f64) * DEG,
+                x: near,
+                z: -near - 1.0,
+                vc: near * DEG,
+                vx: 1e3 * near,
+                vz: -near,
+            });
+        }
+        points
+    }
+
+    #[test]
+    fn columns_have_the_digits_of_each_point_alone() {
+        for (name, per) in [
+            ("pmac-pvt", None),
+            ("power-pmac-pvt", None),
+            ("pmac-pvt", Some("min")),
+        ] {
+            let post = post_named(name).unwrap();
+            let mut params = Params::new();
+            if let Some(per) = per {
+                params.set("velocity_per", ParamValue::Text(per.to_owned()));
+            }
+            let format = post.format(&params, 1.04, 1e-4);
+            let points = points(format.steps_per_s);
+            let mut columns = DigitColumns::new(&format, &points).unwrap();
+            for first in (0..points.len()).step_by(MOST_POINTS) {
+                let range = first..points.len().min(first + MOST_POINTS);
+                let found = columns.find(&format, &points, range.clone()).unwrap();
+                for number in range {
+                    let arrival = points.get(number).unwrap();
+                    let place = Place {
+                        arrival,
+                        segment: None,
+                        in_lead: false,
+                        grid: [0; 3],
+                    };
+                    let alone = Digits::at(&format, &place, steps_of(&format, &arrival));
+                    assert_eq!(found.at(number - first), alone.ok(), "{name} {number}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn points_between_steps_and_very_large_numbers_are_left_to_others() {
+        let post = post_named("pmac-pvt").unwrap();
+        let format = post.format(&Params::new(), 0.0, 1e-4);
+        let mut good = points(format.steps_per_s);
+        good.truncate(10);
+        let mut columns = DigitColumns::new(&format, &good).unwrap();
+        assert!(columns.find(&format, &good, 0..10).is_some());
+        let changes: [fn(&mut PathBlock); 4] = [
+            |points| points.t[7] = points.t[7].next_up(),
+            |points| points.x[7] = 1.2e8,
+            |points| points.vz[7] = f64::INFINITY,
+            |points| points.c[7] = f64::NAN,
+        ];
+        for change in changes {
+            let mut points = good.clone();
+            change(&mut points);
+            assert!(columns.find(&format, &points, 0..10).is_none());
+        }
+    }
 }
