@@ -30,6 +30,7 @@ use turnpath::{Catalogue, LoadError};
 
 use args::{Command, Program};
 use failure::Failure;
+pub use memory::keep_memory;
 
 /// How a command ended that did what it was asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +65,7 @@ pub fn main_with(
     args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     catalogue: Result<Catalogue, LoadError>,
 ) -> ExitCode {
-    memory::keep();
+    keep_memory();
     if let Some(status) = trial::child() {
         return status;
     }

@@ -5,7 +5,7 @@
 /// the allocator gives large pieces to the system, which clears them before it lends them again: a twentieth of
 /// the processor time of a run.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
-pub fn keep() {
+pub fn keep_memory() {
     /// Largest piece of its own mapping, which the allocator permits: 32 MiB.
     const LARGEST: libc::c_int = 1 << 25;
     /// What the allocator takes from the system beyond what it needs: 16 MiB.
@@ -23,4 +23,4 @@ pub fn keep() {
 
 /// Other allocators keep what they like.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-pub fn keep() {}
+pub fn keep_memory() {}

@@ -54,7 +54,7 @@ fn bench(words: &[&str]) -> Result<Outcome, Outcome> {
         "--locked",
         "--release",
         "--package",
-        "turnpath",
+        "turnpath-cli",
         "--example",
         "chain",
     ]))?;

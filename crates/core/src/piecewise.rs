@@ -27,6 +27,9 @@ impl Piece {
     /// The slope at `n`: what [`Self::shifted`] gives for it, without the coefficients above.
     pub fn rate(&self, n: f64) -> f64 {
         let s = n - self.start;
+        if let Some([_, rate]) = self.line().filter(|_| s.is_finite()) {
+            return rate;
+        }
         let mut shifted = self.coefficients;
         for low in 0..2 {
             for i in (low..5).rev() {
@@ -34,6 +37,12 @@ impl Piece {
             }
         }
         shifted[1]
+    }
+
+    /// The first two coefficients, where all others are zero and change no bit of a sum with them.
+    fn line(&self) -> Option<[f64; 2]> {
+        let [value, rate, others @ ..] = self.coefficients;
+        (rate != 0.0 && others == [0.0; 4]).then_some([value, rate])
     }
 
     /// The value and the derivatives up to the 4th at `n`, each divided by its factorial.
@@ -45,6 +54,9 @@ impl Piece {
     /// The value at `n`.
     pub fn value(&self, n: f64) -> f64 {
         let s = n - self.start;
+        if let Some([value, rate]) = self.line().filter(|_| s.is_finite()) {
+            return s * rate + value;
+        }
         self.coefficients
             .iter()
             .rev()
@@ -206,6 +218,27 @@ mod tests {
     fn series_is_that_of_the_expanded_polynomial() {
         let s = two_pieces().series(1.0);
         assert_eq!(s, [2.5, 5.5, 10.0, 10.0, 5.0]);
+    }
+
+    /// Constant feeds and speeds are lines. The zeros behind change no bit, whatever their signs.
+    #[test]
+    fn a_line_has_the_bits_of_the_whole_polynomial() {
+        for (zero, value, rate) in [(0.0, 0.0, 0.12), (-0.0, 7.5, -9.1e-3), (0.0, -0.0, 3e-9)] {
+            let piece = Piece {
+                start: 0.375,
+                coefficients: [value, rate, zero, zero, zero, zero],
+            };
+            for n in [0.0, 0.375, -1.5, 17.37, 99_999.01, 1e-300, f64::MAX] {
+                let s = n - piece.start;
+                let terms = piece.coefficients.iter().rev();
+                let whole = terms.fold(0.0, |sum, c| sum * s + c);
+                assert_eq!(piece.value(n).to_bits(), f64::to_bits(whole));
+                assert_eq!(piece.rate(n).to_bits(), piece.shifted(n)[1].to_bits());
+            }
+            for n in [f64::NAN, f64::INFINITY] {
+                assert!(piece.value(n).is_nan() && piece.rate(n).is_nan());
+            }
+        }
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub(crate) struct LeadingDecimal {
 
 impl LeadingDecimal {
     /// The number; `None` if the text begins with another one or with none.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(text: &[u8]) -> Option<Self> {
         let (mut digits, mut at) = (0, 0);
         take_digits(text, &mut at, &mut digits);
@@ -53,7 +53,7 @@ impl LeadingDecimal {
 
     /// The number in 10⁻¹², rounded; `None` if it has too many digits before the point. `text` is the one that
     /// begins with it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn size(&self, text: &[u8]) -> Option<i128> {
         let is_short = self.whole <= MOST_DIGITS && self.whole + self.fraction <= SHORT_DIGITS;
         match POWERS.get((PLACES as usize).wrapping_sub(self.fraction)) {
@@ -64,7 +64,7 @@ impl LeadingDecimal {
 }
 
 /// Goes on over digits, and appends them to a sum. One of more than [`SHORT_DIGITS`] is of no use.
-#[inline]
+#[inline(always)]
 fn take_digits(text: &[u8], at: &mut usize, sum: &mut u64) {
     while let Some(eight) = text.get(*at..).and_then(<[u8]>::first_chunk) {
         let (count, number) = leading_digits(u64::from_le_bytes(*eight));

@@ -1,12 +1,24 @@
 //! Room for a line at the end of a text: numbers go into it without a look at the text's memory each time.
 
-use crate::decimal::{POWERS, QUARTER, ZEROS_OF_QUARTER, eight_digits};
-
 /// Bytes of the room: more than any line of a control point has.
-const ROOM: usize = 256;
-/// Most decimals of numbers whose fraction is written in one piece, and in two.
-const ONE_PIECE: u32 = QUARTER as u32;
+const ROOM: usize = 192;
+/// Digits that are made together: all before the point, or a piece of those behind it.
+const PIECE: usize = 8;
+/// A piece of zeros.
+const ZEROS: u64 = u64::from_ne_bytes([b'0'; PIECE]);
+/// Most decimals of numbers that have one piece behind the point, and of those that have two.
+const ONE_PIECE: u32 = PIECE as u32;
 const TWO_PIECES: u32 = 2 * ONE_PIECE;
+/// The powers of ten of 64 bits that numbers are divided by.
+const POWERS: [u64; 2 * PIECE + 1] = {
+    let mut powers = [1; 2 * PIECE + 1];
+    let mut k = 1;
+    while k < powers.len() {
+        powers[k] = 10 * powers[k - 1];
+        k += 1;
+    }
+    powers
+};
 
 /// A line in the making.
 pub(crate) struct LineRoom<'a> {
@@ -57,10 +69,10 @@ impl LineRoom<'_> {
         if decimals <= ONE_PIECE {
             // A division by a constant is a product.
             let [whole, fraction] = match decimals {
-                7 => parts_of::<7>(size),
-                6 => parts_of::<6>(size),
-                8 => parts_of::<8>(size),
-                5 => parts_of::<5>(size),
+                7 => parts_of::<7, PIECE>(size),
+                6 => parts_of::<6, PIECE>(size),
+                8 => parts_of::<8, PIECE>(size),
+                5 => parts_of::<5, PIECE>(size),
                 _ => {
                     let one = *POWERS.get(decimals as usize)?;
                     let scale = POWERS.get((ONE_PIECE - decimals) as usize)?;
@@ -70,15 +82,21 @@ impl LineRoom<'_> {
             self.whole(whole)?;
             self.fraction(fraction)
         } else {
-            let scale = *POWERS.get(TWO_PIECES.checked_sub(decimals)? as usize)?;
-            let one = *POWERS.get(decimals as usize)?;
-            let fraction = size % one * scale;
-            self.whole(size / one)?;
-            match (fraction / POWERS[QUARTER], fraction % POWERS[QUARTER]) {
+            let [whole, fraction] = match decimals {
+                12 => parts_of::<12, { 2 * PIECE }>(size),
+                9 => parts_of::<9, { 2 * PIECE }>(size),
+                _ => {
+                    let one = *POWERS.get(decimals as usize)?;
+                    let scale = POWERS.get(TWO_PIECES.checked_sub(decimals)? as usize)?;
+                    [size / one, size % one * scale]
+                }
+            };
+            self.whole(whole)?;
+            match (fraction / POWERS[PIECE], fraction % POWERS[PIECE]) {
                 (upper, 0) => self.fraction(upper),
                 (upper, lower) => {
                     self.byte(b'.')?;
-                    self.eight(eight_digits(upper), QUARTER)?;
+                    self.eight(eight_digits(upper), PIECE)?;
                     self.without_zeros_behind(lower)
                 }
             }
@@ -91,12 +109,12 @@ impl LineRoom<'_> {
         if number < 10 {
             return self.byte(b'0' + number as u8);
         }
-        if number >= POWERS[QUARTER] {
+        if number >= POWERS[PIECE] {
             return None;
         }
         let digits = eight_digits(number);
-        let zeros = (digits ^ ZEROS_OF_QUARTER).trailing_zeros() as usize / 8;
-        self.eight(digits >> (8 * zeros), QUARTER - zeros)
+        let zeros = (digits ^ ZEROS).trailing_zeros() as usize / 8;
+        self.eight(digits >> (8 * zeros), PIECE - zeros)
     }
 
     /// Appends a point and eight decimals, or nothing where they are zeros.
@@ -113,60 +131,53 @@ impl LineRoom<'_> {
     #[inline(always)]
     fn without_zeros_behind(&mut self, number: u64) -> Option<()> {
         let digits = eight_digits(number);
-        let zeros = (digits ^ ZEROS_OF_QUARTER).leading_zeros() as usize / 8;
-        self.eight(digits, QUARTER - zeros)
+        let zeros = (digits ^ ZEROS).leading_zeros() as usize / 8;
+        self.eight(digits, PIECE - zeros)
     }
 
     /// Appends the first of eight digits. All of them are copied, which is faster.
     #[inline(always)]
     fn eight(&mut self, digits: u64, count: usize) -> Option<()> {
-        let place = self.bytes.get_mut(self.end..self.end + QUARTER)?;
+        let place = self.bytes.get_mut(self.end..self.end + PIECE)?;
         place.copy_from_slice(&digits.to_le_bytes());
         self.end += count;
         Some(())
     }
 }
 
-/// What stands before the point, and behind it in eight places.
+/// What stands before the point, and behind it in so many places.
 #[inline(always)]
-fn parts_of<const DECIMALS: usize>(size: u64) -> [u64; 2] {
+fn parts_of<const DECIMALS: usize, const PLACES: usize>(size: u64) -> [u64; 2] {
     let one = const { POWERS[DECIMALS] };
-    let scale = const { POWERS[QUARTER - DECIMALS] };
+    let scale = const { POWERS[PLACES - DECIMALS] };
     [size / one, size % one * scale]
+}
+
+/// The digits of a number below 10⁸, the first one in the lowest byte. Groups of four, two and one
+/// digits are halved side by side: the quotients by 100 and by 10 are products with their reciprocals,
+/// exact for numbers so small.
+#[inline(always)]
+fn eight_digits(number: u64) -> u64 {
+    let fours = (number / 10_000) | ((number % 10_000) << 32);
+    let hundreds = ((fours * 10_486) >> 20) & 0x0000_007f_0000_007f;
+    let twos = hundreds | ((fours - 100 * hundreds) << 16);
+    let tens = ((twos * 103) >> 10) & 0x000f_000f_000f_000f;
+    let ones = tens | ((twos - 10 * tens) << 8);
+    ones | 0x3030_3030_3030_3030
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decimal::push;
 
-    /// Each number that goes into the room has the digits that any number is written with.
     #[test]
-    fn numbers_have_the_digits_of_the_plain_way() {
-        let mut state = 1_u64;
-        let mut next = || {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            state as i64
-        };
-        let mut short = 0;
-        for decimals in 0..=20 {
-            let ones = (0..19).map(|k| 10_i64.pow(k));
-            let near = ones.flat_map(|one| [one - 1, one, one + 1, 7 * (one / 10)]);
-            let others = (0..2000).map(|k| next() >> (k % 64));
-            for units in near.chain(others).chain([0, i64::MIN, i64::MAX]) {
-                for units in [units, units.wrapping_neg()] {
-                    let (mut room, mut plain) = (b"X".to_vec(), b"X".to_vec());
-                    if push_line(&mut room, |line| line.number(units, decimals)) {
-                        push(&mut plain, units, decimals);
-                        short += 1;
-                    }
-                    assert_eq!(room, plain, "{units} {decimals}");
-                }
-            }
+    fn eight_digits_are_those_of_every_group() {
+        let groups =
+            (0..10_000).flat_map(|four| [four, 10_000 * four, 10_000 * four + 9_999 - four]);
+        for number in groups {
+            let digits = eight_digits(number).to_le_bytes();
+            assert_eq!(format!("{number:08}").as_bytes(), digits);
         }
-        assert!(short > 20_000, "{short}");
     }
 
     #[test]

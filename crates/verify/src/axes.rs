@@ -116,13 +116,19 @@ impl AxisMotion {
         let (once, duration) = (segment.duration.recip(), segment.duration);
         let (twice, thrice) = (once * once, once * once * once);
         let (first, last) = (cubic.bend(0.0), cubic.bend(1.0));
-        let turning = first / (first - last);
-        for s in [0.0, turning, 1.0] {
-            if (0.0..=1.0).contains(&s) {
-                let velocity = cubic.slope(s) * once;
-                self.velocity.rise(segment, s, velocity.abs());
+        let mut rise_at = |s: f64| {
+            let velocity = cubic.slope(s) * once;
+            self.velocity.rise(segment, s, velocity.abs());
+        };
+        rise_at(0.0);
+        // Where the acceleration is zero at an end only, the velocity is extreme at that end.
+        if (first < 0.0) != (last < 0.0) {
+            let turning = first / (first - last);
+            if (0.0..=1.0).contains(&turning) {
+                rise_at(turning);
             }
         }
+        rise_at(1.0);
         for (s, bend) in [(0.0, first), (1.0, last)] {
             self.acceleration.rise(segment, s, (bend * twice).abs());
         }

@@ -42,7 +42,7 @@ impl BlockPlayback {
                     Some(error) => *error,
                     None => per_point[end],
                 }),
-                touches: &found.touches(),
+                feet: found.feet(),
             };
             spokes.add(&errors, &part);
         })?;

@@ -73,7 +73,17 @@ impl InstantBatch {
 
     /// Played − true Z at the instants of one segment of the batch, mm.
     pub fn errors(&self, segment: usize) -> [f64; INSTANTS] {
-        std::array::from_fn(|instant| self.errors[self.place(segment, instant)])
+        self.of_segment(&self.errors, segment)
+    }
+
+    /// The radii of the contacts at the instants of one segment of the batch, mm.
+    pub fn feet(&self, segment: usize) -> [f64; INSTANTS] {
+        self.of_segment(&self.buffers.touches.foot, segment)
+    }
+
+    /// The instants of one segment of a column.
+    fn of_segment(&self, column: &[f64], segment: usize) -> [f64; INSTANTS] {
+        std::array::from_fn(|instant| column[self.place(segment, instant)])
     }
 
     /// The errors at an instant and its neighbours; `None` at the last one and the first one.

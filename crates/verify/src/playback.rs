@@ -84,9 +84,9 @@ impl SegmentPlayback<'_> {
         self.instants.errors(self.index)
     }
 
-    /// The first touch at each instant.
-    pub fn touches(&self) -> [Touch; INSTANTS] {
-        self.instants.touches(self.index)
+    /// The radius of the contact at each instant, mm.
+    pub fn feet(&self) -> [f64; INSTANTS] {
+        self.instants.feet(self.index)
     }
 }
 

@@ -211,7 +211,7 @@ impl Searches {
 }
 
 /// The loop over the beginnings of all searches: their brackets, where these are the whole reach of the
-/// tool, their first place, and no touch yet.
+/// tool, and their first place.
 struct Beginning<'a>(&'a mut Searches, Option<f64>);
 
 impl Loop for Beginning<'_> {
@@ -230,7 +230,6 @@ impl Loop for Beginning<'_> {
             let at = all.start[i];
             all.at[i] = at;
             (all.place[0][i], all.place[1][i]) = (at * all.cosine[i], at * all.sine[i]);
-            (all.z[i], all.foot[i], all.slope[i]) = (f64::NAN, f64::NAN, f64::NAN);
         }
     }
 }
@@ -262,9 +261,11 @@ impl<const FIRST: bool> Loop for Step<'_, FIRST> {
             let offset = at - x;
             let lift = rule.lift(offset);
             let is_on_surface = all.height[i].abs() < f64::INFINITY;
-            all.z[i] = either(is_on_surface, all.height[i] + lift, all.z[i]);
-            all.foot[i] = either(is_on_surface, at, all.foot[i]);
-            all.slope[i] = either(is_on_surface, slope, all.slope[i]);
+            // Before the first step there is no touch.
+            let so_far = |column: &Column| if FIRST { f64::NAN } else { column[i] };
+            all.z[i] = either(is_on_surface, all.height[i] + lift, so_far(&all.z));
+            all.foot[i] = either(is_on_surface, at, so_far(&all.foot));
+            all.slope[i] = either(is_on_surface, slope, so_far(&all.slope));
 
             let fall = slope * lift - offset;
             let is_nowhere = fall.is_nan();

@@ -20,7 +20,7 @@ pub(super) struct PlainWords {
 
 impl PlainWords {
     /// The words with which a text begins; `None` if it begins otherwise, or ends within them.
-    #[inline]
+    #[inline(always)]
     pub(super) fn of(text: &[u8]) -> Option<Self> {
         let mut rest = text;
         let time = match take(&mut rest, b"PVT") {
@@ -48,20 +48,20 @@ impl PlainWords {
 }
 
 /// Takes these bytes, if they are the next.
-#[inline]
+#[inline(always)]
 fn take(rest: &mut &[u8], bytes: &[u8]) -> Option<()> {
     *rest = rest.strip_prefix(bytes)?;
     Some(())
 }
 
-#[inline]
+#[inline(always)]
 fn position_and_velocity(rest: &mut &[u8]) -> Option<(i128, Option<i128>)> {
     let position = number(rest)?;
     take(rest, b":")?;
     Some((position, Some(number(rest)?)))
 }
 
-#[inline]
+#[inline(always)]
 fn number(rest: &mut &[u8]) -> Option<i128> {
     let negative = take(rest, b"-").is_some();
     let decimal = LeadingDecimal::of(rest)?;

@@ -69,7 +69,16 @@ impl Strip {
         self.pieces.clear();
         self.nodes.clear();
         let arcs = std::mem::take(&mut self.arcs);
+        let (rim, hole) = (part.aperture_radius, part.inner_radius);
+        let counts_everywhere = *spans == [EVERYWHERE];
         for arc in &arcs {
+            let on_right = hole <= arc.from && arc.to <= rim;
+            let on_left = -rim <= arc.from && arc.to <= -hole;
+            // Nearly all arcs.
+            if counts_everywhere && (on_left || on_right) {
+                self.divide(arc.centre, arc.from, arc.to);
+                continue;
+            }
             for (from, to) in on_part(arc, part, spans) {
                 self.divide(arc.centre, from, to);
             }
@@ -90,10 +99,11 @@ impl Strip {
     fn divide(&mut self, centre: Point, from: f64, to: f64) {
         let longest = LONGEST * self.radius;
         // Nearly all arcs are one piece, and rounding up takes a call on some CPUs.
-        let count = match to - from <= longest {
-            true => 1.0,
-            false => ((to - from) / longest).ceil(),
-        };
+        if to - from <= longest {
+            self.add_piece(centre, from, to, 0.5 * (to - from));
+            return;
+        }
+        let count = ((to - from) / longest).ceil();
         let half = 0.5 * (to - from) / count;
         for i in 0..count as usize {
             let begin = from + 2.0 * half * i as f64;
@@ -101,24 +111,24 @@ impl Strip {
                 true => to,
                 false => from + 2.0 * half * (i + 1) as f64,
             };
-            let middle = 0.5 * (begin + end);
-            let first = self.node_at(begin);
-            self.nodes
-                .extend([middle - INNER * half, middle + INNER * half, end]);
-            self.pieces.push(ArcPiece {
-                centre,
-                first,
-                half,
-            });
+            self.add_piece(centre, begin, end, half);
         }
     }
 
-    /// The index of the node at `s`: the last node, or a new one.
-    fn node_at(&mut self, s: f64) -> usize {
-        if self.nodes.last() != Some(&s) {
-            self.nodes.push(s);
-        }
-        self.nodes.len() - 1
+    /// Adds a piece with its nodes. It begins with the last node so far, or with a new one.
+    fn add_piece(&mut self, centre: Point, begin: f64, end: f64, half: f64) {
+        let middle = 0.5 * (begin + end);
+        let nodes = [begin, middle - INNER * half, middle + INNER * half, end];
+        let own = match self.nodes.last() == Some(&begin) {
+            true => &nodes[1..],
+            false => &nodes[..],
+        };
+        self.nodes.extend_from_slice(own);
+        self.pieces.push(ArcPiece {
+            centre,
+            first: self.nodes.len() - NODES,
+            half,
+        });
     }
 
     /// Looks up wanted heights and slopes.

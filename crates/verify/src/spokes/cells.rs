@@ -8,7 +8,6 @@ use turnpath_core::toolpath::Segment;
 
 use super::turn::ANGLES;
 use crate::instants::INSTANTS;
-use crate::touch::Touch;
 
 /// C follows a straight line if it leaves it by less than this part of the segment.
 const STRAIGHT: f64 = 1e-9;
@@ -27,8 +26,8 @@ pub(crate) struct SegmentErrors<'a> {
     pub ends: [f64; 2],
     /// Machined − wanted at each instant and at the end, mm.
     pub errors: [f64; INSTANTS + 1],
-    /// The first touch at each instant.
-    pub touches: &'a [Touch],
+    /// The radius of the contact at each instant, mm.
+    pub feet: [f64; INSTANTS],
 }
 
 /// The cells of a segment.
@@ -43,14 +42,10 @@ impl<'a> Cells<'a> {
     /// The cells of a segment. Only contacts at these radii count, mm.
     pub fn new(found: &'a SegmentErrors<'a>, on_part: &RangeInclusive<f64>) -> Self {
         let [_, rise, square, cube] = found.segment.c.0;
-        let mut counts = [false; INSTANTS];
-        for (counts, touch) in counts.iter_mut().zip(found.touches) {
-            *counts = on_part.contains(&touch.foot);
-        }
         Self {
             found,
             is_straight: square.abs() + cube.abs() <= STRAIGHT * rise.abs(),
-            counts,
+            counts: found.feet.map(|foot| on_part.contains(&foot)),
         }
     }
 
@@ -60,8 +55,8 @@ impl<'a> Cells<'a> {
     pub fn errors(&self, first: i64, errors: &mut [f64]) -> Option<[f64; 2]> {
         let seen = in_widest(Errors(self, first, errors));
         let instants = (0..INSTANTS).filter(|instant| seen >> instant & 1 == 1);
-        let feet = instants.filter_map(|instant| self.found.touches.get(instant));
-        feet.map(|touch| [touch.foot, touch.foot])
+        let feet = instants.map(|instant| self.found.feet[instant]);
+        feet.map(|foot| [foot, foot])
             .reduce(|range, foot| [range[0].min(foot[0]), range[1].max(foot[1])])
     }
 
@@ -106,12 +101,13 @@ impl Loop for Errors<'_> {
     #[inline(always)]
     fn call(self) -> u32 {
         let Self(cells, first, errors) = self;
-        let mut places = [0.0; TOGETHER];
-        for (place, cell) in places.iter_mut().zip(first..).take(errors.len()) {
+        let places = &mut *errors;
+        for (place, cell) in places.iter_mut().zip(first..) {
             *place = cells.place(cell as f64 / PER_RADIAN);
         }
         let mut seen = 0;
-        for (error, place) in errors.iter_mut().zip(places) {
+        for error in errors {
+            let place = *error;
             let instant = (place as usize).min(INSTANTS - 1);
             let found = cells.error_at(place);
             let counts = cells.counts[instant] && found.is_finite();

@@ -251,7 +251,6 @@ mod tests {
 
     use super::*;
     use crate::instants::INSTANTS;
-    use crate::touch::Touch;
 
     const PART: Part = Part {
         aperture_radius: 1000.0,
@@ -275,10 +274,6 @@ mod tests {
             let segment = Segment::between(&point(i), &point(i + 1));
             let turn = i / STEPS;
             let foot = turn as f64;
-            let touches = [Touch {
-                foot,
-                ..Touch::default()
-            }; INSTANTS];
             spokes.add(
                 &SegmentErrors {
                     segment: &segment,
@@ -286,7 +281,7 @@ mod tests {
                     errors: std::array::from_fn(|k| {
                         error(turn, segment.c.value(k as f64 / INSTANTS as f64))
                     }),
-                    touches: &touches,
+                    feet: [foot; INSTANTS],
                 },
                 &PART,
             );

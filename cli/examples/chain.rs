@@ -1,5 +1,5 @@
 //! Makes a recipe's path in one thread and writes the lines of its programs, without measuring them:
-//! `cargo run --release --example chain RECIPE FILE`. `cargo xtask bench` times it.
+//! `cargo run --release -p turnpath-cli --example chain RECIPE FILE`. `cargo xtask bench` times it.
 
 use std::error::Error;
 use std::fs::File;
@@ -12,6 +12,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (Some(recipe), Some(file)) = (words.next(), words.next()) else {
         return Err("chain RECIPE FILE".into());
     };
+    turnpath_cli::keep_memory();
     rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build_global()?;
