@@ -39,7 +39,8 @@ impl Piece {
         shifted[1]
     }
 
-    /// The first two coefficients, where all others are zero and change no bit of a sum with them.
+    /// The first two coefficients, where all others are zero and change no bit: a sum with a rate of zero could
+    /// change its sign. Infinity times zero is no number, so a line holds for finite places alone.
     fn line(&self) -> Option<[f64; 2]> {
         let [value, rate, others @ ..] = self.coefficients;
         (rate != 0.0 && others == [0.0; 4]).then_some([value, rate])

@@ -106,6 +106,9 @@ impl DigitColumns {
             steps_per_s: format.steps_per_s as f64,
             steps: &mut self.steps,
         });
+        if !fits {
+            return None;
+        }
         let [positions, velocities] = columns_of(points);
         let quantities = [
             (positions, Scale::of_positions(format), &mut self.position),
@@ -233,6 +236,7 @@ mod tests {
             let mut params = Params::new();
             if let Some(per) = per {
                 params.set("velocity_per", ParamValue::Text(per.to_owned()));
+                params.set("c_sign", ParamValue::Number(-1.0));
             }
             let format = post.format(&params, 1.04, 1e-4);
             let points = points(format.steps_per_s);

@@ -6,8 +6,9 @@ const ROOM: usize = 192;
 const PIECE: usize = 8;
 /// A piece of zeros.
 const ZEROS: u64 = u64::from_ne_bytes([b'0'; PIECE]);
-/// Most decimals of numbers that have one piece behind the point, and of those that have two.
+/// Most decimals of numbers that have one piece behind the point.
 const ONE_PIECE: u32 = PIECE as u32;
+/// Most decimals of those that have two.
 const TWO_PIECES: u32 = 2 * ONE_PIECE;
 /// The powers of ten of 64 bits that numbers are divided by.
 const POWERS: [u64; 2 * PIECE + 1] = {

@@ -90,8 +90,9 @@ impl Trail {
                     let (t, c_deg) = (point.t, point.c / DEG);
                     return Err(ProgramError::Short { t, c_deg });
                 }
+                // A cubic that is not longer than the longest is one line.
                 if format.chords.is_some() || steps > format.longest {
-                    self.write_middles(format, point, in_lead, &end, write)?;
+                    self.write_inner_lines(format, point, in_lead, &end, write)?;
                 }
                 self.write_segment(format, point, (end, true), write)?;
             }
@@ -102,8 +103,8 @@ impl Trail {
         Ok(())
     }
 
-    /// Writes the lines up to places within the segment that ends at a point, where it is divided.
-    fn write_middles(
+    /// A segment may be divided. Writes all its lines but the last. `point` is where it ends.
+    fn write_inner_lines(
         &mut self,
         format: &ProgramFormat,
         point: &ControlPoint,

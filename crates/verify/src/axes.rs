@@ -121,7 +121,8 @@ impl AxisMotion {
             self.velocity.rise(segment, s, velocity.abs());
         };
         rise_at(0.0);
-        // Where the acceleration is zero at an end only, the velocity is extreme at that end.
+        // The velocity turns where the acceleration changes its sign. A zero at an end is that end, which
+        // counts anyway.
         if (first < 0.0) != (last < 0.0) {
             let turning = first / (first - last);
             if (0.0..=1.0).contains(&turning) {

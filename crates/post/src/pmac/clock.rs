@@ -10,7 +10,7 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// A step in the last of these decimals.
+    /// A step of time in units of the last decimal.
     pub(crate) fn step(self) -> i64 {
         10i64.pow(self.decimals) / self.steps_per_ms
     }

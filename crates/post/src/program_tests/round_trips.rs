@@ -121,6 +121,25 @@ proptest! {
         prop_assert_eq!(lines(&layout, &points, &cuts), lines(&layout, &points, &[]));
     }
 
+    /// Points on steps of time go through vector registers, unless one of those beside them lies between two steps.
+    #[test]
+    fn lines_of_points_on_steps_do_not_depend_on_the_way_of_their_digits(
+        layout in layout(),
+        steps in prop::collection::vec(step(), 2..40),
+    ) {
+        let steps_per_s = layout.format.steps_per_s as f64;
+        let mut points = path_of(&steps);
+        for point in &mut points {
+            point.t = (point.t * steps_per_s).round() / steps_per_s;
+        }
+        if let Some(last) = points.last_mut() {
+            last.t += 0.3 / steps_per_s;
+        }
+        let on_steps = lines(&layout, &points[..points.len() - 1], &[]);
+        let beside = lines(&layout, &points, &[]);
+        prop_assert!(beside.text.starts_with(&on_steps.text));
+    }
+
     #[test]
     fn leads_come_back_in_their_sections_whatever_the_settings(
         layout in layout(),

@@ -74,7 +74,7 @@ impl Strip {
         for arc in &arcs {
             let on_right = hole <= arc.from && arc.to <= rim;
             let on_left = -rim <= arc.from && arc.to <= -hole;
-            // Nearly all arcs.
+            // Nearly all arcs lie on one side of the part. An arc of the envelope is never empty.
             if counts_everywhere && (on_left || on_right) {
                 self.divide(arc.centre, arc.from, arc.to);
                 continue;

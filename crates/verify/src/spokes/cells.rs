@@ -101,6 +101,7 @@ impl Loop for Errors<'_> {
     #[inline(always)]
     fn call(self) -> u32 {
         let Self(cells, first, errors) = self;
+        // The places stand where the errors will.
         let places = &mut *errors;
         for (place, cell) in places.iter_mut().zip(first..) {
             *place = cells.place(cell as f64 / PER_RADIAN);
