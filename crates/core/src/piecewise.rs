@@ -224,7 +224,10 @@ mod tests {
     /// Constant feeds and speeds are lines. The zeros behind change no bit, whatever their signs.
     #[test]
     fn a_line_has_the_bits_of_the_whole_polynomial() {
-        for (zero, value, rate) in [(0.0, 0.0, 0.12), (-0.0, 7.5, -9.1e-3), (0.0, -0.0, 3e-9)] {
+        let lines = [(0.0, 0.0, 0.12), (-0.0, 7.5, -9.1e-3), (0.0, -0.0, 3e-9)];
+        // A rate of zero is no line: its sums keep the signs of their zeros.
+        let levels = [(0.0, 0.0, 0.0), (-0.0, -0.0, -0.0), (0.0, -0.0, -0.0)];
+        for (zero, value, rate) in lines.into_iter().chain(levels) {
             let piece = Piece {
                 start: 0.375,
                 coefficients: [value, rate, zero, zero, zero, zero],

@@ -2,13 +2,13 @@
 
 use std::io::Write;
 
-use crate::line_room::push_line;
+use crate::line_room::{OF_NUMBER, push_in_room};
 
 /// Appends `units` · 10^−`decimals` without trailing zeros.
 pub(crate) fn push(text: &mut Vec<u8>, units: impl Into<i128>, decimals: u32) {
     let units: i128 = units.into();
     let short = i64::try_from(units).ok();
-    if !push_line(text, |line| line.number(short?, decimals)) {
+    if !push_in_room::<OF_NUMBER>(text, |line| line.number(short?, decimals)) {
         push_long(text, units, decimals);
     }
 }
@@ -74,7 +74,7 @@ mod tests {
             for units in near.chain(others).chain([0, i64::MIN, i64::MAX]) {
                 for units in [units, units.wrapping_neg()] {
                     let (mut room, mut plain) = (b"X".to_vec(), b"X".to_vec());
-                    if push_line(&mut room, |line| line.number(units, decimals)) {
+                    if push_in_room::<OF_NUMBER>(&mut room, |line| line.number(units, decimals)) {
                         push_long(&mut plain, units.into(), decimals);
                         short += 1;
                     }

@@ -3,24 +3,12 @@
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Segment, SegmentShape};
 
+use crate::powers_of_ten::POWERS_OF_TEN;
 use crate::program_error::ProgramError;
 use crate::program_format::{ProgramFormat, TURN_DEG};
 
 /// Beyond this a double times a power of ten is not exact.
 const LARGEST_UNITS: f64 = 9e15;
-/// One in last digits, by the decimals of most programs.
-const ONES: [u64; 10] = [
-    1,
-    10,
-    100,
-    1_000,
-    10_000,
-    100_000,
-    1_000_000,
-    10_000_000,
-    100_000_000,
-    1_000_000_000,
-];
 /// The program's axes, in the order in which they are written.
 pub(crate) const AXES: [char; 3] = ['C', 'X', 'Z'];
 
@@ -184,7 +172,7 @@ fn held(value: f64, bits: u32) -> f64 {
 
 /// One in last digits.
 pub(crate) fn one(decimals: u32) -> u64 {
-    match ONES.get(decimals as usize) {
+    match POWERS_OF_TEN.get(decimals as usize) {
         Some(one) => *one,
         None => 10u64.pow(decimals),
     }

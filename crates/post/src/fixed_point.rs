@@ -1,5 +1,7 @@
 //! Decimal text as whole numbers, for the readers of programs.
 
+use crate::powers_of_ten::POWERS_OF_TEN;
+
 /// Decimals of the numbers here.
 pub(crate) const PLACES: u32 = 12;
 /// 10⁻¹² of a unit.
@@ -8,17 +10,6 @@ pub(crate) const ONE: i128 = 10i128.pow(PLACES);
 const MOST_DIGITS: usize = 15;
 /// Digits of any number that fits into 64 bits.
 const SHORT_DIGITS: usize = 19;
-/// The powers of ten up to that of [`PLACES`].
-const POWERS: [u64; PLACES as usize + 1] = {
-    let mut powers = [1; PLACES as usize + 1];
-    let mut k = 1;
-    while k < powers.len() {
-        powers[k] = 10 * powers[k - 1];
-        k += 1;
-    }
-    powers
-};
-
 /// The decimal number without a sign with which a text begins.
 pub(crate) struct LeadingDecimal {
     /// All digits as one number, if they are no more than [`SHORT_DIGITS`].
@@ -56,7 +47,8 @@ impl LeadingDecimal {
     #[inline(always)]
     pub(crate) fn size(&self, text: &[u8]) -> Option<i128> {
         let is_short = self.whole <= MOST_DIGITS && self.whole + self.fraction <= SHORT_DIGITS;
-        match POWERS.get((PLACES as usize).wrapping_sub(self.fraction)) {
+        let power = (PLACES as usize).checked_sub(self.fraction);
+        match power.and_then(|power| POWERS_OF_TEN.get(power)) {
             Some(power) if is_short => Some(i128::from(self.digits) * i128::from(*power)),
             _ => long_decimal(text.get(..self.length).unwrap_or_default(), self.whole),
         }
@@ -68,7 +60,7 @@ impl LeadingDecimal {
 fn take_digits(text: &[u8], at: &mut usize, sum: &mut u64) {
     while let Some(eight) = text.get(*at..).and_then(<[u8]>::first_chunk) {
         let (count, number) = leading_digits(u64::from_le_bytes(*eight));
-        *sum = sum.wrapping_mul(POWERS[count]).wrapping_add(number);
+        *sum = sum.wrapping_mul(POWERS_OF_TEN[count]).wrapping_add(number);
         *at += count;
         if count < EIGHT {
             return;
@@ -87,6 +79,12 @@ const fn eight_times(byte: u8) -> u64 {
     u64::from_ne_bytes([byte; EIGHT])
 }
 
+/// Every second pair of eight digits.
+const EVEN_PAIRS: u64 = 0x0000_00ff_0000_00ff;
+/// What the first and the third pair count for in the upper half of a sum, and what the others do.
+const FIRST_PAIRS: u64 = 100 + (1_000_000 << 32);
+const OTHER_PAIRS: u64 = 1 + (10_000 << 32);
+
 /// How many digits eight characters begin with, the first one in the lowest byte, and the number of these digits.
 #[inline(always)]
 fn leading_digits(characters: u64) -> (usize, u64) {
@@ -101,12 +99,9 @@ fn leading_digits(characters: u64) -> (usize, u64) {
     // become one number, in the upper half of a product.
     let digits = values << (8 * (EIGHT - count));
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
-    const EVEN_PAIRS: u64 = 0x0000_00ff_0000_00ff;
-    const UPPER: u64 = 100 + (1_000_000 << 32);
-    const LOWER: u64 = 1 + (10_000 << 32);
-    let upper = (pairs & EVEN_PAIRS).wrapping_mul(UPPER);
-    let lower = ((pairs >> 16) & EVEN_PAIRS).wrapping_mul(LOWER);
-    (count, upper.wrapping_add(lower) >> 32)
+    let first = (pairs & EVEN_PAIRS).wrapping_mul(FIRST_PAIRS);
+    let others = ((pairs >> 16) & EVEN_PAIRS).wrapping_mul(OTHER_PAIRS);
+    (count, first.wrapping_add(others) >> 32)
 }
 
 /// A number of any length with so many digits before the point. Apart, so that short numbers do not go
@@ -128,7 +123,7 @@ fn fixed(whole: &[u8], fraction: &[u8]) -> Option<i128> {
     }
     let count = fraction.len().min(PLACES as usize);
     let (kept, cut) = fraction.split_at(count);
-    let scaled = digits_of(kept) * POWERS[PLACES as usize - count];
+    let scaled = digits_of(kept) * POWERS_OF_TEN[PLACES as usize - count];
     let up = cut.first().is_some_and(|digit| *digit >= b'5');
     let part = scaled + u64::from(up);
     Some(i128::from(digits_of(whole)) * ONE + i128::from(part))

@@ -40,6 +40,7 @@ mod polynomial;
 mod post;
 mod posts;
 mod power_pmac;
+mod powers_of_ten;
 mod program_error;
 mod program_format;
 mod program_reader;

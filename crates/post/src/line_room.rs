@@ -1,7 +1,11 @@
-//! Room for a line at the end of a text: numbers go into it without a look at the text's memory each time.
+//! Room at the end of a text: numbers go into it without a look at the text's memory each time.
 
-/// Bytes of the room: more than any line of a control point has.
-const ROOM: usize = 192;
+use crate::powers_of_ten::POWERS_OF_TEN;
+
+/// Room for the lines of a control point, bytes: more than any of them needs. More room takes time to clear.
+pub(crate) const OF_POINT: usize = 192;
+/// Room for one number, bytes.
+pub(crate) const OF_NUMBER: usize = 40;
 /// Digits that are made together: all before the point, or a piece of those behind it.
 const PIECE: usize = 8;
 /// A piece of zeros.
@@ -10,33 +14,22 @@ const ZEROS: u64 = u64::from_ne_bytes([b'0'; PIECE]);
 const ONE_PIECE: u32 = PIECE as u32;
 /// Most decimals of those that have two.
 const TWO_PIECES: u32 = 2 * ONE_PIECE;
-/// The powers of ten of 64 bits that numbers are divided by.
-const POWERS: [u64; 2 * PIECE + 1] = {
-    let mut powers = [1; 2 * PIECE + 1];
-    let mut k = 1;
-    while k < powers.len() {
-        powers[k] = 10 * powers[k - 1];
-        k += 1;
-    }
-    powers
-};
-
-/// A line in the making.
+/// A line in the making, or a number.
 pub(crate) struct LineRoom<'a> {
-    bytes: &'a mut [u8; ROOM],
+    bytes: &'a mut [u8],
     end: usize,
 }
 
-/// Appends a line. Where `write` gives up, the text is as it was, and the answer is no: the line then has to be
-/// written in another way.
+/// Appends what `write` writes into so many bytes. Where it gives up, the text is as it was, and the answer is no:
+/// it then has to be written in another way.
 #[inline]
-pub(crate) fn push_line(
+pub(crate) fn push_in_room<const ROOM: usize>(
     text: &mut Vec<u8>,
     write: impl FnOnce(&mut LineRoom<'_>) -> Option<()>,
 ) -> bool {
     let start = text.len();
     text.extend_from_slice(&[0; ROOM]);
-    let end = text.last_chunk_mut().and_then(|bytes| {
+    let end = text.last_chunk_mut::<ROOM>().and_then(|bytes| {
         let mut room = LineRoom { bytes, end: 0 };
         write(&mut room)?;
         Some(room.end)
@@ -75,8 +68,8 @@ impl LineRoom<'_> {
                 8 => parts_of::<8, PIECE>(size),
                 5 => parts_of::<5, PIECE>(size),
                 _ => {
-                    let one = *POWERS.get(decimals as usize)?;
-                    let scale = POWERS.get((ONE_PIECE - decimals) as usize)?;
+                    let one = *POWERS_OF_TEN.get(decimals as usize)?;
+                    let scale = POWERS_OF_TEN.get((ONE_PIECE - decimals) as usize)?;
                     [size / one, size % one * scale]
                 }
             };
@@ -87,13 +80,16 @@ impl LineRoom<'_> {
                 12 => parts_of::<12, { 2 * PIECE }>(size),
                 9 => parts_of::<9, { 2 * PIECE }>(size),
                 _ => {
-                    let one = *POWERS.get(decimals as usize)?;
-                    let scale = POWERS.get(TWO_PIECES.checked_sub(decimals)? as usize)?;
+                    let one = *POWERS_OF_TEN.get(decimals as usize)?;
+                    let scale = POWERS_OF_TEN.get(TWO_PIECES.checked_sub(decimals)? as usize)?;
                     [size / one, size % one * scale]
                 }
             };
             self.whole(whole)?;
-            match (fraction / POWERS[PIECE], fraction % POWERS[PIECE]) {
+            match (
+                fraction / POWERS_OF_TEN[PIECE],
+                fraction % POWERS_OF_TEN[PIECE],
+            ) {
                 (upper, 0) => self.fraction(upper),
                 (upper, lower) => {
                     self.byte(b'.')?;
@@ -110,7 +106,7 @@ impl LineRoom<'_> {
         if number < 10 {
             return self.byte(b'0' + number as u8);
         }
-        if number >= POWERS[PIECE] {
+        if number >= POWERS_OF_TEN[PIECE] {
             return None;
         }
         let digits = eight_digits(number);
@@ -149,8 +145,8 @@ impl LineRoom<'_> {
 /// What stands before the point, and behind it in so many places.
 #[inline(always)]
 fn parts_of<const DECIMALS: usize, const PLACES: usize>(size: u64) -> [u64; 2] {
-    let one = const { POWERS[DECIMALS] };
-    let scale = const { POWERS[PLACES - DECIMALS] };
+    let one = const { POWERS_OF_TEN[DECIMALS] };
+    let scale = const { POWERS_OF_TEN[PLACES - DECIMALS] };
     [size / one, size % one * scale]
 }
 
@@ -187,9 +183,11 @@ mod tests {
         let numbers = |line: &mut LineRoom<'_>, count: usize| {
             (0..count).try_for_each(|_| line.number(-1_234_567_891, 7))
         };
-        assert!(!push_line(&mut text, |line| numbers(line, 30)));
+        assert!(!push_in_room::<OF_POINT>(&mut text, |line| numbers(
+            line, 30
+        )));
         assert_eq!(text, b"before");
-        assert!(push_line(&mut text, |line| numbers(line, 2)));
+        assert!(push_in_room::<OF_POINT>(&mut text, |line| numbers(line, 2)));
         assert_eq!(text, b"before-123.4567891-123.4567891");
     }
 }

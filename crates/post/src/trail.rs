@@ -74,10 +74,11 @@ impl Trail {
         known: Option<Digits>,
         write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
+        // Known digits need no segment, and most segments are not divided.
+        let segment = known.map_or_else(|| self.segment_to(point), |_| None);
         let end = match known {
             Some(digits) => digits,
             None => {
-                let segment = self.segment_to(point);
                 let place = self.place(point, segment.as_ref(), in_lead);
                 Digits::at(format, &place, steps_of(format, point))?
             }
@@ -92,7 +93,9 @@ impl Trail {
                 }
                 // A cubic that is not longer than the longest is one line.
                 if format.chords.is_some() || steps > format.longest {
-                    self.write_inner_lines(format, point, in_lead, &end, write)?;
+                    let segment = segment.or_else(|| self.segment_to(point));
+                    let divided = (point, segment.as_ref());
+                    self.write_inner_lines(format, divided, in_lead, &end, write)?;
                 }
                 self.write_segment(format, point, (end, true), write)?;
             }
@@ -103,23 +106,23 @@ impl Trail {
         Ok(())
     }
 
-    /// A segment may be divided. Writes all its lines but the last. `point` is where it ends.
+    /// Writes all lines of a segment but the last: there are some where it is divided. It ends at a point.
     fn write_inner_lines(
         &mut self,
         format: &ProgramFormat,
-        point: &ControlPoint,
+        (point, segment): (&ControlPoint, Option<&Segment>),
         in_lead: bool,
         end: &Digits,
         write: &mut dyn FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
-        let Some((from, segment)) = self.digits.zip(self.segment_to(point)) else {
+        let Some((from, segment)) = self.digits.zip(segment) else {
             return Ok(());
         };
         let steps = end.steps - from.steps;
         let of_lead = in_lead || self.in_lead;
         let slowest = format.chords.and_then(|chords| chords.slowest);
         let slowest = slowest.filter(|_| of_lead);
-        let parts = self.parts(format, &segment, (steps, of_lead), point)?;
+        let parts = self.parts(format, segment, (steps, of_lead), point)?;
         let parts = match slowest.is_some_and(|slowest| slowest.is_slow(&from, end)) {
             // There must be a place between the ends that is far enough from both.
             true => parts.max(2).min(steps),
@@ -127,7 +130,7 @@ impl Trail {
         };
         let middle = Place {
             grid: end.position,
-            ..self.place(point, Some(&segment), of_lead)
+            ..self.place(point, Some(segment), of_lead)
         };
         for part in 1..parts {
             let at = from.steps + steps / parts * part + steps % parts * part / parts;

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::clock::Clock;
 use crate::decimal::push;
 use crate::digits::{AXES, DigitSegment, Digits, said_place, said_positions};
-use crate::line_room::push_line;
+use crate::line_room::{OF_POINT, push_in_room};
 use crate::program_format::ProgramFormat;
 
 /// Time of the move to the first control point, ms. It is not a part of the path.
@@ -40,14 +40,18 @@ pub(super) fn push_segment(
     let is_new = steps != segment.steps_before.unwrap_or(entry);
     let time = is_new.then(|| i128::from(steps) * i128::from(clock.step()));
     let (positions, velocities) = (said_positions(format, segment), segment.to.velocity);
-    let in_room = push_line(text, |line| {
+    // The same lines as below.
+    let in_room = push_in_room::<OF_POINT>(text, |line| {
         if let Some(time) = time {
             line.word(b"PVT")?;
             line.number(time.try_into().ok()?, clock.decimals)?;
             line.word(b"\n")?;
         }
-        for (k, words) in [b" C", b" X", b" Z"].into_iter().enumerate() {
-            line.word(words.get(usize::from(k == 0)..)?)?;
+        for (k, axis) in AXES.into_iter().enumerate() {
+            if k > 0 {
+                line.word(b" ")?;
+            }
+            line.word(&[axis as u8])?;
             line.number(positions[k], format.position_decimals)?;
             line.word(b":")?;
             line.number(velocities[k], format.velocity_decimals)?;

@@ -321,7 +321,19 @@ pub(super) fn on_part<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::sync::Arc;
+
+    use turnpath_core::{Misfit, Surface, Tool};
+
+    use super::{ArcPiece, EVERYWHERE, NODES, Part, Point, Scalar, Strip, Subject, WEIGHTS};
+
+    struct Flat;
+
+    impl Surface for Flat {
+        fn sag<S: Scalar>(&self, x: S, _: S) -> S {
+            x * 0.0
+        }
+    }
 
     /// A strip of so many pieces of a flat part's profile, in threes with gaps between them.
     fn strip(pieces: usize) -> Strip {
@@ -354,6 +366,48 @@ mod tests {
             slope,
             WEIGHTS[k] * piece.half * strip.nodes[node].abs(),
         ]
+    }
+
+    /// An arc on one side of the part goes a shorter way, if all of the line counts.
+    #[test]
+    fn a_line_has_the_same_pieces_whether_or_not_its_arcs_are_cut_at_borders() {
+        let tool = Tool {
+            nose_radius: 2.0,
+            included_angle: None,
+            clearance_angle: None,
+            misfit: Misfit::Refuse,
+        };
+        // Passes on both sides, from beyond the rim to the axis, some of them without a neighbour.
+        let passes = |step: f64| -> Vec<Point> {
+            let places = (-80..=80).filter(|k| k % 13 != 0);
+            let pass = |k: i32| Point::new(step * f64::from(k), 2.0 + 1e-4 * f64::from(k % 5));
+            places.map(pass).collect()
+        };
+        for (inner_radius, step) in [(0.0, 0.1), (0.0, 0.0625), (1.5, 0.1), (0.31, 0.07)] {
+            let subject = Subject {
+                surface: Arc::new(Flat),
+                part: Part {
+                    aperture_radius: 5.0,
+                    inner_radius,
+                },
+                tool,
+                compensates_nose: true,
+            };
+            let of_line = |span: (f64, f64)| {
+                let mut strip = Strip::default();
+                strip.set_line_within(&subject, 0.7, &passes(step), &[span]);
+                let piece = |piece: &ArcPiece| {
+                    let ArcPiece { centre, half, .. } = piece;
+                    ([centre.x, centre.y, *half].map(f64::to_bits), piece.first)
+                };
+                let nodes: Vec<u64> = strip.nodes.iter().map(|node| node.to_bits()).collect();
+                let pieces: Vec<_> = strip.pieces.iter().map(piece).collect();
+                (pieces, nodes)
+            };
+            let whole = of_line(EVERYWHERE);
+            assert!(whole.0.len() > 100);
+            assert_eq!(whole, of_line((-1e300, 1e300)), "{inner_radius} {step}");
+        }
     }
 
     #[test]
