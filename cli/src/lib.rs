@@ -30,6 +30,7 @@ use turnpath::{Catalogue, LoadError};
 
 use args::{Command, Program};
 use failure::Failure;
+
 pub use memory::keep_memory;
 
 /// How a command ended that did what it was asked.
