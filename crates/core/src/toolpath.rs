@@ -76,6 +76,21 @@ pub struct PathBlock {
 }
 
 impl PathBlock {
+    /// A block without points that has room for so many.
+    pub fn with_capacity(points: usize) -> Self {
+        let room = || Vec::with_capacity(points);
+        Self {
+            t: room(),
+            c: room(),
+            x: room(),
+            z: room(),
+            vc: room(),
+            vx: room(),
+            vz: room(),
+            shape: SegmentShape::default(),
+        }
+    }
+
     /// The number of control points.
     pub fn len(&self) -> usize {
         self.t.len()
@@ -121,6 +136,7 @@ impl PathBlock {
     }
 
     /// The control point at `index`, if there is one.
+    #[inline]
     pub fn get(&self, index: usize) -> Option<ControlPoint> {
         Some(ControlPoint {
             t: *self.t.get(index)?,
@@ -151,6 +167,7 @@ impl PathBlock {
     }
 
     /// The segment from the point at `index` to the next one, in the block's shape.
+    #[inline]
     pub fn segment(&self, index: usize) -> Option<Segment> {
         let (from, to) = (self.get(index)?, self.get(index + 1)?);
         Some(Segment::of_shape(self.shape, &from, &to))

@@ -67,9 +67,14 @@ impl Axes {
     fn point(&self) -> ControlPoint {
         let format = &self.format;
         let (sign, per) = (format.c_sign(), format.velocity_time());
-        let unit = |value: i128| to_f64(value) / ONE as f64;
-        let [c, x, z] = self.position.unwrap_or_default().map(unit);
-        let [vc, vx, vz] = self.velocity.map(|v| unit(v) / per);
+        let ([c, x, z], [vc, vx, vz]) = (self.position.unwrap_or_default(), self.velocity);
+        // Divisions of one loop go side by side.
+        let mut values = [c, x, z, vc, vx, vz].map(to_f64);
+        values.iter_mut().for_each(|value| *value /= ONE as f64);
+        let [c, x, z, mut vc, mut vx, mut vz] = values;
+        if per != 1.0 {
+            [vc, vx, vz] = [vc / per, vx / per, vz / per];
+        }
         ControlPoint {
             t: self.elapsed as f64 / format.steps_per_s as f64,
             c: sign * c * DEG,

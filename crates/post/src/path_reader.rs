@@ -38,6 +38,9 @@ impl ReadCount {
     }
 }
 
+/// Most points for which a block has room from the beginning: a caller may ask for more than there are.
+const MOST_ROOM: usize = 1 << 15;
+
 /// The segment between two neighbouring points, and its section.
 #[derive(Debug, Clone, Copy)]
 struct ReadSegment {
@@ -87,21 +90,22 @@ pub trait ReadPath {
             return Ok(None);
         };
         let section = first.section;
-        let mut block = PathBlock::default();
+        let mut block = PathBlock::with_capacity(most.saturating_add(1).min(MOST_ROOM));
         block.push(first.from);
         block.push(first.to);
-        let mut last = self.read_count().last().copied();
         while block.len() <= most {
+            let last = self.read_count().last().copied();
             let Some(next) = self.next_point()? else {
                 break;
             };
-            let segment = last.map(|last| ReadSegment::new(last, next));
+            // Nearly all points are within the section, and need no segment.
+            let across = last.filter(|last| [last.1, next.1] != [section; 2]);
+            let segment = across.map(|last| ReadSegment::new(last, next));
             if let Some(segment) = segment.filter(|segment| segment.section != section) {
                 self.read_count_mut().pending = Some(segment);
                 break;
             }
             block.push(next.0);
-            last = Some(next);
         }
         Ok(Some((section, block)))
     }

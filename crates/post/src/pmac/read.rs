@@ -10,8 +10,11 @@ use crate::fixed_point::{ONE, PLACES};
 use crate::post::{Grammar, PlainLines};
 use crate::program_format::ProgramFormat;
 
-/// The fives of [`ONE`].
+/// [`ONE`] in 64 bits, and its fives.
+const SHORT_ONE: u64 = 10u64.pow(PLACES);
 const FIVES: u64 = 5u64.pow(PLACES);
+/// Most bits that the controller may hold where 64 suffice: the fives have 28.
+const MOST_SHORT_BITS: u32 = 35;
 
 /// The lines of a PVT program, in their order.
 pub(super) struct PvtGrammar {
@@ -126,13 +129,50 @@ impl Grammar for PvtGrammar {
 
 /// A number of 10⁻¹² as the controller holds it: its size is a whole number of less than `bits` bits
 /// times a power of two.
+#[inline(always)]
 fn held(value: i128, bits: u32) -> i128 {
+    let short = u64::try_from(value.unsigned_abs()).ok();
+    match short.and_then(|size| held_short(size, bits)) {
+        Some(size) if value < 0 => -i128::from(size),
+        Some(size) => i128::from(size),
+        None => held_long(value, bits),
+    }
+}
+
+/// The size of a number as the controller holds it, in 64 bits; `None` where they may be too few.
+#[inline(always)]
+fn held_short(size: u64, bits: u32) -> Option<u64> {
+    if size == 0 {
+        return Some(0);
+    }
+    if bits > MOST_SHORT_BITS {
+        return None;
+    }
+    // The quantum is 2^−fraction: as many of them as the bits can count. A one is 2¹² · 5¹².
+    let (log, log_of_one) = (size.ilog2(), SHORT_ONE.ilog2());
+    let fits = match log.checked_sub(log_of_one) {
+        Some(more) => size < SHORT_ONE << more,
+        None => size << (log_of_one - log) < SHORT_ONE,
+    };
+    let fraction = (bits + log_of_one + u32::from(fits)).checked_sub(log + 1)?;
+    let shift = fraction.checked_sub(PLACES)?;
+    let fives = ((size << shift) + FIVES / 2) / FIVES * FIVES;
+    Some(match shift {
+        0 => fives,
+        _ => ((fives >> (shift - 1)) + 1) >> 1,
+    })
+}
+
+/// A number of any length as the controller holds it. It is a function of its own, so that short numbers do not pay
+/// for it.
+#[cold]
+#[inline(never)]
+fn held_long(value: i128, bits: u32) -> i128 {
     let size = value.unsigned_abs();
     if size == 0 {
         return 0;
     }
     let one = ONE.unsigned_abs();
-    // The quantum is 2^−fraction: as many of them as the bits can count.
     let about = (bits + one.ilog2()).saturating_sub(size.ilog2());
     let fits = size << about < one << bits;
     let fraction = if fits { about } else { about.saturating_sub(1) };
@@ -141,14 +181,9 @@ fn held(value: i128, bits: u32) -> i128 {
     i128::try_from(size).map_or(value, |size| value.signum() * size)
 }
 
-/// `size` · 2^`fraction` in ones, rounded. A one is 2¹² · 5¹²: without its twos most numbers are short.
+/// `size` · 2^`fraction` in ones, rounded.
 fn count_of_ones(size: u128, fraction: u32) -> u128 {
-    let without_twos = fraction.checked_sub(PLACES).map(|shift| size << shift);
-    let short = without_twos.and_then(|size| u64::try_from(size).ok());
-    match short.and_then(|short| short.checked_add(FIVES / 2)) {
-        Some(raised) => u128::from(raised / FIVES),
-        None => ((size << fraction) + ONE.unsigned_abs() / 2) / ONE.unsigned_abs(),
-    }
+    ((size << fraction) + ONE.unsigned_abs() / 2) / ONE.unsigned_abs()
 }
 
 fn add_move(
@@ -171,7 +206,9 @@ fn add_move(
 
 #[cfg(test)]
 mod tests {
-    use super::{ONE, held};
+    use proptest::prelude::*;
+
+    use super::{ONE, held, held_long};
 
     /// 35 bits count to 3.4e10: a number from 2^15 to 2^16 has steps of 2^-19.
     #[test]
@@ -190,5 +227,23 @@ mod tests {
             }
         }
         assert_eq!((held(0, 35), held(1, 35)), (0, 1));
+    }
+
+    proptest! {
+        /// Numbers of all lengths, those beside powers of two and of ten among them.
+        #[test]
+        fn short_numbers_are_held_as_long_ones_are(
+            size in prop_oneof![
+                any::<u64>(),
+                (0_u32..64, any::<u64>()).prop_map(|(shift, size)| size >> shift),
+                (0_u32..64, 0_u64..5).prop_map(|(shift, off)| (1 << shift) + off - 2.min(1 << shift)),
+                (0_u32..20, 0_u64..5).prop_map(|(power, off)| 10_u64.pow(power) + off - 1),
+            ],
+            bits in 1_u32..=36,
+        ) {
+            for value in [i128::from(size), -i128::from(size)] {
+                prop_assert_eq!(held(value, bits), held_long(value, bits));
+            }
+        }
     }
 }
