@@ -183,6 +183,15 @@ impl PiecewisePolynomial {
         }
     }
 
+    /// The value at N = 0 and the rate, where the function is a line with a rate other than zero from `from`
+    /// to `to`. The first and the last piece continue beyond the ends.
+    pub fn line_over(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+        let piece = self.piece_after(from)?;
+        let is_one = self.piece_after(to).is_some_and(|last| last == piece);
+        let [value, rate] = piece.line().filter(|_| is_one)?;
+        Some([value - rate * piece.start, rate])
+    }
+
     fn piece_after(&self, n: f64) -> Option<&Piece> {
         let next = self.pieces.partition_point(|piece| piece.start <= n);
         self.pieces.get(next.saturating_sub(1))
@@ -243,6 +252,21 @@ mod tests {
                 assert!(piece.value(n).is_nan() && piece.rate(n).is_nan());
             }
         }
+    }
+
+    #[test]
+    fn a_line_is_one_where_no_other_piece_comes() {
+        let mut law = PiecewisePolynomial::new();
+        law.push(2.0, [7.0, -0.5, 0.0, 0.0, 0.0, 0.0]);
+        law.push(3.0, [6.0, -0.25, 0.0, 0.0, 0.0, 0.0]);
+        law.push(1.0, [5.25, -0.25, 0.125, 0.0, 0.0, 0.0]);
+        law.push(1.0, [5.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(law.line_over(-1.0, 1.5), Some([7.0, -0.5]));
+        assert_eq!(law.line_over(2.0, 4.5), Some([6.5, -0.25]));
+        for (from, to) in [(1.5, 2.0), (4.0, 5.5), (5.25, 5.5), (6.25, 6.5)] {
+            assert_eq!(law.line_over(from, to), None);
+        }
+        assert_eq!(PiecewisePolynomial::new().line_over(0.0, 1.0), None);
     }
 
     #[test]

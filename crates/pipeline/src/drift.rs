@@ -15,7 +15,7 @@ use turnpath_verify::cusp_heights;
 use crate::aim::NEAR;
 use crate::make::BlockPoints;
 use crate::plan::Plan;
-use crate::{PipelineError, Result};
+use crate::{PipelineError, Result, drift_bound};
 
 /// Instants of every segment that show whether its error matters. The error of a cubic with true
 /// velocities is largest in the middle. That of velocities with the same error at both ends is zero
@@ -72,8 +72,8 @@ pub fn loads(plan: &Plan<'_>, block: &BlockPoints) -> Result<Vec<f64>> {
 
 /// The segments whose error is near what is always allowed, or beyond it.
 fn near_the_limit(plan: &Plan<'_>, points: &PathBlock) -> Result<Vec<usize>> {
-    let all = 0..points.len().saturating_sub(1);
-    let drifts = drifts(plan, points, all.clone(), &FIRST_INSTANTS)?;
+    let undecided = drift_bound::undecided_segments(plan, points, NEAR * ALWAYS);
+    let drifts = drifts(plan, points, undecided.iter().copied(), &FIRST_INSTANTS)?;
     let middles = |column: &[f64]| -> Vec<f64> {
         let each = column.iter().skip(MIDDLE).step_by(FIRST_INSTANTS.len());
         each.copied().collect()
@@ -88,7 +88,9 @@ fn near_the_limit(plan: &Plan<'_>, points: &PathBlock) -> Result<Vec<usize>> {
         let to = |other: Option<f64>| other.map_or(f64::INFINITY, |other| (other - x[*i]).abs());
         largest[*i] > NEAR * ALWAYS * to(before[*i]).min(to(after[*i]))
     };
-    Ok(all.filter(matters).collect())
+    let numbers = undecided.iter().enumerate();
+    let near = numbers.filter(|(i, _)| matters(i));
+    Ok(near.map(|(_, number)| *number).collect())
 }
 
 /// X's error at these instants of the chosen segments.

@@ -16,6 +16,7 @@ mod composite;
 mod contact;
 mod data_reach;
 mod drift;
+mod drift_bound;
 mod error;
 mod estimate;
 mod feed_cap;

@@ -28,6 +28,8 @@ const BLOCKS_A_THREAD: usize = 8;
 const LARGE_BATCH: usize = 64;
 /// Control points that a batch should not exceed much.
 const BATCH_POINTS: f64 = 5e5;
+/// Control points of a batch for each thread. More of them take fresh memory, whose first use costs time.
+const POINTS_A_THREAD: f64 = 1.5e5;
 
 /// Makes the path, measures it, and gives it to the sink.
 ///
@@ -348,7 +350,9 @@ impl<'a> PathRun<'a> {
 /// How many blocks are made at a time. It changes memory and speed, never the path.
 fn batch_size(plan: &Plan<'_>, nodes_per_revolution: f64) -> usize {
     let per_block = nodes_per_revolution * plan.block();
-    let fitting = (BATCH_POINTS / per_block.max(1.0)) as usize;
-    let wanted = BLOCKS_A_THREAD * rayon::current_num_threads();
+    let threads = rayon::current_num_threads();
+    let points = BATCH_POINTS.min(POINTS_A_THREAD * threads as f64);
+    let fitting = (points / per_block.max(1.0)) as usize;
+    let wanted = BLOCKS_A_THREAD * threads;
     fitting.clamp(1, wanted.min(LARGE_BATCH))
 }

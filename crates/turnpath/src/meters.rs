@@ -22,6 +22,8 @@ use crate::speed_steps::SpeedSteps;
 pub const BLOCK_ROWS: usize = 20_000;
 /// Blocks that are read at a time, at the most, while those before are measured.
 const BLOCKS: usize = 16;
+/// Blocks of these for each thread. Fewer take less memory, and are measured while they are in the cache.
+const BLOCKS_A_THREAD: usize = 4;
 
 /// What measures a path that is read in blocks.
 pub trait Meters: Sync {
@@ -263,6 +265,7 @@ pub fn measure<M: Meters>(
     let failed = |error: StrategyError| of_measure(recipe, error);
     // Nothing is measured while the first block is read, and each time there are twice as many.
     let mut most = 1;
+    let limit = BLOCKS.min(BLOCKS_A_THREAD * rayon::current_num_threads());
     let mut blocks = next_blocks(reader, shape, most)?;
     loop {
         if observer.is_cancelled() {
@@ -272,7 +275,7 @@ pub fn measure<M: Meters>(
             return Ok(meters);
         }
         let count = blocks.len() as u64;
-        most = (2 * most).min(BLOCKS);
+        most = (2 * most).min(limit);
         let starts: Vec<M::Start> = blocks
             .iter()
             .map(|(_, block)| meters.advance(block))
