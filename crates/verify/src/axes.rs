@@ -5,7 +5,10 @@
 //! by the mean duration of the two segments. A blend from the middle of one segment to the middle
 //! of the next needs at least this acceleration.
 
+use turnpath_core::registers::in_widest;
 use turnpath_core::toolpath::{Cubic, PathBlock, Segment, SegmentShape};
+
+use crate::axis_terms::{AxisTerm, AxisTerms, GROUP, SegmentTerms, turning_place};
 
 /// A largest amount and its position on the path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -113,34 +116,41 @@ impl AxisMotion {
     }
 
     fn include_cubic(&mut self, cubic: &Cubic, segment: &Segment) {
-        let (once, duration) = (segment.duration.recip(), segment.duration);
+        self.rise(cubic, segment);
+        let term = AxisTerm::of(cubic, segment.duration);
+        self.add(term.squares, term.travel, segment.duration);
+    }
+
+    /// Rises to the largest amounts of a segment.
+    fn rise(&mut self, cubic: &Cubic, segment: &Segment) {
+        let once = segment.duration.recip();
         let (twice, thrice) = (once * once, once * once * once);
         let (first, last) = (cubic.bend(0.0), cubic.bend(1.0));
-        let mut rise_at = |s: f64| {
-            let velocity = cubic.slope(s) * once;
-            self.velocity.rise(segment, s, velocity.abs());
-        };
-        rise_at(0.0);
-        // The velocity turns where the acceleration changes its sign. A zero at an end is that end, which
-        // counts anyway.
-        if (first < 0.0) != (last < 0.0) {
-            let turning = first / (first - last);
-            if (0.0..=1.0).contains(&turning) {
-                rise_at(turning);
+        for s in [0.0, turning_place(first, last), 1.0] {
+            if (0.0..=1.0).contains(&s) {
+                let velocity = cubic.slope(s) * once;
+                self.velocity.rise(segment, s, velocity.abs());
             }
         }
-        rise_at(1.0);
         for (s, bend) in [(0.0, first), (1.0, last)] {
             self.acceleration.rise(segment, s, (bend * twice).abs());
         }
         let jerk = cubic.jerk() * thrice;
         self.jerk.rise(segment, 0.5, jerk.abs());
-        let bends = (first * first + first * last + last * last) / 3.0;
-        self.squares[0] += mean_square_slope(cubic) * twice * duration;
-        self.squares[1] += bends * twice * twice * duration;
-        self.squares[2] += cubic.jerk() * cubic.jerk() * thrice * thrice * duration;
-        self.travel += cubic.value(1.0) - cubic.value(0.0);
+    }
+
+    /// Adds what a segment adds to the sums.
+    fn add(&mut self, squares: [f64; 3], travel: f64, duration: f64) {
+        for (sum, square) in self.squares.iter_mut().zip(squares) {
+            *sum += square;
+        }
+        self.travel += travel;
         self.time += duration;
+    }
+
+    /// The amounts of the peaks of velocity, acceleration and jerk.
+    fn amounts(&self) -> [f64; 3] {
+        [&self.velocity, &self.acceleration, &self.jerk].map(|peak| peak.amount)
     }
 
     fn include_straight(&mut self, line: &Cubic, segment: &Segment) {
@@ -189,11 +199,8 @@ impl AxisMotion {
     }
 }
 
-/// ∫ (dp/ds)² over s = 0 … 1.
-fn mean_square_slope(cubic: &Cubic) -> f64 {
-    let [_, b, c, d] = cubic.0;
-    b * b + 2.0 * b * c + (4.0 * c * c + 6.0 * b * d) / 3.0 + 3.0 * c * d + 1.8 * d * d
-}
+/// The cubic of one axis.
+type AxisOf = fn(&Segment) -> &Cubic;
 
 /// The motion of all three axes over a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -209,7 +216,49 @@ pub struct AxesMotion {
 impl AxesMotion {
     /// The motion between neighbouring control points.
     pub fn of(points: &PathBlock) -> Self {
-        Self::between(points, [f64::NEG_INFINITY, f64::INFINITY])
+        let is_finite = |column: &[f64]| column.iter().fold(true, |all, v| all & v.is_finite());
+        let has_angles = is_finite(&points.t) && is_finite(&points.c) && is_finite(&points.vc);
+        match points.shape {
+            SegmentShape::Cubic if has_angles => Self::of_cubics(points),
+            // A segment whose C is no number lies between no two angles.
+            _ => Self::between(points, [f64::NEG_INFINITY, f64::INFINITY]),
+        }
+    }
+
+    /// The motion between neighbouring control points that cubics join. Only where an amount exceeds those so far,
+    /// segments are looked at one by one.
+    fn of_cubics(points: &PathBlock) -> Self {
+        let mut motion = Self::default();
+        let mut terms = AxisTerms::default();
+        let count = points.len().saturating_sub(1);
+        for first in (0..count).step_by(GROUP) {
+            let group = first..count.min(first + GROUP);
+            let ends = group.start..group.end + 1;
+            let axes: [(&mut AxisMotion, AxisOf, [&[f64]; 2]); 3] = [
+                (&mut motion.c, |segment| &segment.c, [&points.c, &points.vc]),
+                (&mut motion.x, |segment| &segment.x, [&points.x, &points.vx]),
+                (&mut motion.z, |segment| &segment.z, [&points.z, &points.vz]),
+            ];
+            let times = &points.t[ends.clone()];
+            for (axis, of, columns) in axes {
+                let [positions, velocities] = columns.map(|column| &column[ends.clone()]);
+                in_widest(SegmentTerms {
+                    times,
+                    positions,
+                    velocities,
+                    terms: &mut terms,
+                });
+                if terms.exceed(group.len(), axis.amounts()) {
+                    let segments = group.clone().filter_map(|number| points.segment(number));
+                    segments.for_each(|segment| axis.rise(of(&segment), &segment));
+                }
+                let durations = times.windows(2).map(|ends| ends[1] - ends[0]);
+                for ((squares, travel), duration) in terms.sums(group.len()).zip(durations) {
+                    axis.add(squares, travel, duration);
+                }
+            }
+        }
+        motion
     }
 
     /// The motion over those segments that lie between two angles of C, rad.
@@ -279,6 +328,43 @@ mod tests {
         assert!((z.rms_acceleration() - 48f64.sqrt()).abs() < 1e-12);
         assert!((z.rms_jerk() - 6.0).abs() < 1e-12);
         assert!((z.mean_velocity() - 3.0).abs() < 1e-12);
+    }
+
+    /// Blocks of more than a group, whose amounts rise and fall.
+    #[test]
+    fn segments_side_by_side_move_as_each_alone_does() {
+        let mut points = PathBlock::default();
+        for i in 0..200 {
+            let t = f64::from(i);
+            let wave = |pace: f64| turnpath_core::Scalar::sin(pace * t * (1.0 + 0.01 * t));
+            points.push(ControlPoint {
+                t: 0.1 * t + 0.02 * wave(0.7),
+                c: 0.3 * t,
+                x: 20.0 - 0.01 * t,
+                z: wave(0.9),
+                vc: 3.0 + 0.1 * wave(1.3),
+                vx: -0.1,
+                vz: 9.0 * wave(2.1),
+            });
+        }
+        points.z[150] = f64::NAN;
+        // A segment that takes no time has speeds that are none or infinite.
+        (points.t[170], points.z[170], points.z[171]) = (points.t[171], 1.0, 2.0);
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        for (count, lost) in [0, 1, 2, 64, 65, 66, 140, 160, 200]
+            .map(|count| (count, None))
+            .into_iter()
+            .chain([(200, Some(100))])
+        {
+            let mut points = points.clone();
+            points.truncate(count);
+            if let Some(lost) = lost {
+                points.c[lost] = f64::NAN;
+            }
+            let (one, other) = (AxesMotion::of(&points), AxesMotion::between(&points, all));
+            // Numbers that are none are not equal, but are written alike.
+            assert_eq!(format!("{one:?}"), format!("{other:?}"));
+        }
     }
 
     #[test]

@@ -4,8 +4,8 @@ use turnpath_core::Result;
 use turnpath_core::toolpath::PathBlock;
 
 use crate::playback::{PlaybackFigures, play_back};
-use crate::points::point_errors;
-use crate::spokes::{BlockSpokes, SegmentErrors};
+use crate::points::errors_without_segments;
+use crate::spokes::BlockSpokes;
 use crate::touch::FirstTouch;
 
 /// What the playback of a block shows: its interpolation error, from which follows whether a segment
@@ -27,24 +27,20 @@ impl BlockPlayback {
     /// # Errors
     /// When the surface fails.
     pub fn of(touch: &FirstTouch, points: &PathBlock) -> Result<Self> {
-        let per_point = point_errors(touch, points)?;
+        let mut per_point = errors_without_segments(touch, points)?;
+        per_point.reserve(points.len());
         let (mut per_segment, mut spokes) = (Vec::new(), BlockSpokes::default());
         let part = touch.subject().part;
         let figures = play_back(touch, points, &mut per_segment, |found| {
-            let Some(segment) = points.segment(found.number) else {
-                return;
-            };
-            let (end, errors) = (found.number + 1, found.errors());
-            let errors = SegmentErrors {
-                segment: &segment,
-                ends: [points.c[end - 1], points.c[end]],
-                errors: std::array::from_fn(|k| match errors.get(k) {
-                    Some(error) => *error,
-                    None => per_point[end],
-                }),
-                feet: found.feet(),
-            };
-            spokes.add(&errors, &part);
+            let [first_error, end_error] = found.end_errors();
+            if per_point.is_empty() {
+                per_point.push(first_error);
+            }
+            per_point.push(end_error);
+            let ends = [points.c[found.number], points.c[found.number + 1]];
+            if let Some(segment) = points.segment(found.number) {
+                spokes.add(segment.c, ends, found, &part);
+            }
         })?;
         Ok(Self {
             figures,

@@ -13,8 +13,17 @@ use crate::touch::{FirstTouch, Touch, TouchBuffers};
 /// samples misses the top of a maximum by up to 1 %, the parabola through that sample and its
 /// neighbours by 0.1 %.
 pub const INSTANTS: usize = 16;
-/// Segments that are played back in one batch.
-pub(crate) const BATCH: usize = 64;
+/// Segments that are played back in one batch, at most.
+pub(crate) const BATCH: usize = 128;
+/// Segments whose cubics are played side by side.
+const TOGETHER: usize = 8;
+
+/// The batches of so many segments, of nearly one size: a short one at the end would fill no register.
+pub(crate) fn batches(segments: usize) -> impl Iterator<Item = Range<usize>> {
+    let size = segments.div_ceil(segments.div_ceil(BATCH).max(1)).max(1);
+    let firsts = (0..segments).step_by(size);
+    firsts.map(move |first| first..segments.min(first + size))
+}
 
 /// The instants of a batch of segments: the first instant of all segments, the second one of all
 /// segments, and so on, so that neighbouring segments are side by side in vector registers. Its memory
@@ -26,6 +35,10 @@ pub(crate) struct InstantBatch {
     x: Vec<f64>,
     z: Vec<f64>,
     errors: Vec<f64>,
+    /// Played − true Z at the ends of all segments, mm: at the first control point, the second, and so on.
+    end_errors: Vec<f64>,
+    end_theta: Vec<f64>,
+    end_buffers: TouchBuffers,
     buffers: TouchBuffers,
 }
 
@@ -56,7 +69,7 @@ impl InstantBatch {
         }
         within_turns(&mut self.theta);
         tally::INSTANTS.add(self.theta.len());
-        touch.find_in(&self.theta, &self.x, &mut self.buffers)?;
+        self.find_touches(points, ends, touch)?;
         self.errors.resize(self.z.len(), 0.0);
         in_widest(Differences(
             &self.z,
@@ -66,32 +79,54 @@ impl InstantBatch {
         Ok(())
     }
 
+    /// Finds the touches at the ends of all segments, and from them those at all instants.
+    fn find_touches(
+        &mut self,
+        points: &PathBlock,
+        ends: Range<usize>,
+        touch: &FirstTouch,
+    ) -> Result<()> {
+        self.end_theta.clear();
+        self.end_theta.extend_from_slice(&points.c[ends.clone()]);
+        within_turns(&mut self.end_theta);
+        let end_x = &points.x[ends.clone()];
+        touch.find_in(&self.end_theta, end_x, &mut self.end_buffers)?;
+        let touches = &self.end_buffers.touches;
+        self.end_errors.resize(end_x.len(), 0.0);
+        in_widest(Differences(
+            &points.z[ends],
+            &touches.z,
+            &mut self.end_errors,
+        ));
+        // Each segment begins at the first of its ends.
+        let known = (touches, self.segments);
+        touch.find_along(&self.theta, &self.x, known, &mut self.buffers)
+    }
+
     /// Played − true Z of all segments, mm: a chunk for each instant.
     pub fn each_instant(&self) -> impl Iterator<Item = &[f64]> {
         self.errors.chunks_exact(self.segments.max(1))
     }
 
-    /// Played − true Z at the instants of one segment of the batch, mm.
-    pub fn errors(&self, segment: usize) -> [f64; INSTANTS] {
-        self.of_segment(&self.errors, segment)
+    /// Played − true Z at both ends of one segment of the batch, mm.
+    pub fn end_errors(&self, segment: usize) -> [f64; 2] {
+        [self.end_errors[segment], self.end_errors[segment + 1]]
     }
 
-    /// The radii of the contacts at the instants of one segment of the batch, mm.
-    pub fn feet(&self, segment: usize) -> [f64; INSTANTS] {
-        self.of_segment(&self.buffers.touches.foot, segment)
+    /// Played − true Z at one instant of one segment of the batch, mm.
+    pub fn error(&self, segment: usize, instant: usize) -> f64 {
+        self.errors[self.place(segment, instant)]
     }
 
-    /// The instants of one segment of a column.
-    fn of_segment(&self, column: &[f64], segment: usize) -> [f64; INSTANTS] {
-        std::array::from_fn(|instant| column[self.place(segment, instant)])
+    /// The radius of the contact at one instant of one segment of the batch, mm.
+    pub fn foot(&self, segment: usize, instant: usize) -> f64 {
+        self.buffers.touches.foot[self.place(segment, instant)]
     }
 
     /// The errors at an instant and its neighbours; `None` at the last one and the first one.
     pub fn around(&self, segment: usize, instant: usize) -> Option<[f64; 3]> {
         let is_inside = (1..INSTANTS - 1).contains(&instant);
-        is_inside.then(|| {
-            [instant - 1, instant, instant + 1].map(|k| self.errors[self.place(segment, k)])
-        })
+        is_inside.then(|| [instant - 1, instant, instant + 1].map(|k| self.error(segment, k)))
     }
 
     /// Played X at one instant of one segment of the batch, mm.
@@ -124,12 +159,28 @@ impl Loop for AxisPlayback<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
-        let count = self.times.len().saturating_sub(1).min(BATCH);
-        let firsts = [self.times, self.positions, self.velocities].map(|column| &column[..count]);
-        let lasts = [self.times, self.positions, self.velocities].map(|column| &column[1..=count]);
-        let [mut a, mut b, mut c, mut d] = [[0.0; BATCH]; 4];
-        for i in 0..count {
+    fn call(mut self) {
+        let count = self.times.len().saturating_sub(1);
+        let rest = count - count % TOGETHER;
+        for first in (0..rest).step_by(TOGETHER) {
+            self.play::<TOGETHER>(count, first);
+        }
+        for first in rest..count {
+            self.play::<1>(count, first);
+        }
+    }
+}
+
+impl AxisPlayback<'_> {
+    /// Plays `N` of `count` segments side by side: their cubics stay in registers for all instants.
+    #[inline(always)]
+    fn play<const N: usize>(&mut self, count: usize, first: usize) {
+        let firsts =
+            [self.times, self.positions, self.velocities].map(|column| &column[first..first + N]);
+        let lasts = [self.times, self.positions, self.velocities]
+            .map(|column| &column[first + 1..first + 1 + N]);
+        let [mut a, mut b, mut c, mut d] = [[0.0; N]; 4];
+        for i in 0..N {
             let ([t0, p0, v0], [t1, p1, v1]) = (firsts.map(|f| f[i]), lasts.map(|l| l[i]));
             let cubic = match self.shape {
                 SegmentShape::Cubic => Cubic::hermite(p0, v0, p1, v1, t1 - t0),
@@ -137,10 +188,11 @@ impl Loop for AxisPlayback<'_> {
             };
             [a[i], b[i], c[i], d[i]] = cubic.0;
         }
-        for (instant, played) in self.played.chunks_exact_mut(count.max(1)).enumerate() {
+        for (instant, played) in self.played.chunks_exact_mut(count).enumerate() {
             let s = instant as f64 / INSTANTS as f64;
-            for (i, played) in played.iter_mut().enumerate().take(BATCH) {
-                *played = Cubic([a[i], b[i], c[i], d[i]]).value(s);
+            let played = &mut played[first..first + N];
+            for i in 0..N {
+                played[i] = Cubic([a[i], b[i], c[i], d[i]]).value(s);
             }
         }
     }
@@ -160,3 +212,6 @@ impl Loop for Differences<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

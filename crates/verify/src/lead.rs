@@ -9,7 +9,7 @@ use turnpath_core::toolpath::{Cubic, PathBlock, Segment, SegmentShape};
 
 use crate::axes::AxesMotion;
 use crate::coverage::lowest;
-use crate::instants::{BATCH, INSTANTS, InstantBatch};
+use crate::instants::{INSTANTS, InstantBatch, batches};
 use crate::touch::FirstTouch;
 
 /// Largest steps of the acceleration from one segment to the next.
@@ -131,10 +131,9 @@ impl LeadMeter {
         };
         block.figures.axes = AxesMotion::of(points);
         let mut instants = InstantBatch::default();
-        for (number, batch) in segments.chunks(BATCH).enumerate() {
-            let first = number * BATCH;
-            instants.play(points, first..first + batch.len(), touch)?;
-            for (i, segment) in batch.iter().enumerate() {
+        for batch in batches(segments.len()) {
+            instants.play(points, batch.clone(), touch)?;
+            for (i, segment) in segments[batch].iter().enumerate() {
                 let smallest = block.figures.include_segment(touch, &instants, i, segment);
                 block.per_segment.push(smallest);
                 block.per_start.push(at_start(touch, &instants, i));
@@ -191,8 +190,8 @@ impl LeadFigures {
     ) -> f64 {
         let part_ends = part_ends(touch);
         let mut smallest = f64::INFINITY;
-        for (k, clearance) in instants.errors(index).into_iter().enumerate() {
-            let x = instants.x(index, k);
+        for k in 0..INSTANTS {
+            let (clearance, x) = (instants.error(index, k), instants.x(index, k));
             if x.abs() > part_ends {
                 continue;
             }
@@ -218,7 +217,7 @@ fn part_ends(touch: &FirstTouch) -> f64 {
 fn at_start(touch: &FirstTouch, instants: &InstantBatch, index: usize) -> f64 {
     match instants.x(index, 0).abs() > part_ends(touch) {
         true => f64::INFINITY,
-        false => instants.errors(index)[0],
+        false => instants.error(index, 0),
     }
 }
 

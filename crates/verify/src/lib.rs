@@ -7,7 +7,7 @@
 
 mod anomalies;
 mod axes;
-mod batches;
+mod axis_terms;
 mod best_sphere;
 mod block_playback;
 mod bracket;
@@ -25,6 +25,7 @@ mod lead;
 mod limits;
 pub mod machined;
 mod meter;
+mod next_contacts;
 mod order;
 mod part_edge;
 mod periodogram;
@@ -37,6 +38,7 @@ mod scan;
 mod searches;
 mod servo;
 mod sketch;
+mod small_turns;
 mod spectrum;
 mod spokes;
 mod subject;

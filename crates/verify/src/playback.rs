@@ -7,7 +7,8 @@ use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::toolpath::{PathBlock, Segment};
 
 use crate::corners::at_corners;
-use crate::instants::{BATCH, INSTANTS, InstantBatch};
+use crate::instants::{BATCH, INSTANTS, InstantBatch, batches};
+use crate::spokes::SegmentErrors;
 use crate::touch::{FirstTouch, Touch};
 use crate::worst::Worst;
 
@@ -79,14 +80,22 @@ pub(crate) struct SegmentPlayback<'a> {
 }
 
 impl SegmentPlayback<'_> {
-    /// Played − true Z at each instant, mm.
-    pub fn errors(&self) -> [f64; INSTANTS] {
-        self.instants.errors(self.index)
+    /// Played − true Z at both of its control points, mm.
+    pub fn end_errors(&self) -> [f64; 2] {
+        self.instants.end_errors(self.index)
+    }
+}
+
+impl SegmentErrors for SegmentPlayback<'_> {
+    fn error(&self, instant: usize) -> f64 {
+        match instant {
+            INSTANTS => self.end_errors()[1],
+            _ => self.instants.error(self.index, instant),
+        }
     }
 
-    /// The radius of the contact at each instant, mm.
-    pub fn feet(&self) -> [f64; INSTANTS] {
-        self.instants.feet(self.index)
+    fn foot(&self, instant: usize) -> f64 {
+        self.instants.foot(self.index, instant)
     }
 }
 
@@ -102,8 +111,7 @@ pub(crate) fn play_back(
     let mut figures = PlaybackFigures::default();
     let mut instants = InstantBatch::default();
     per_segment.clear();
-    for first in (0..count).step_by(BATCH) {
-        let batch = first..count.min(first + BATCH);
+    for batch in batches(count) {
         instants.play(points, batch.clone(), touch)?;
         let corners = match touch.leaves_seams() {
             true => corners(touch, points, batch.clone(), &instants)?,

@@ -7,7 +7,6 @@
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Result, within_turns};
 
-use crate::batches::touches_at;
 use crate::touch::FirstTouch;
 
 /// The error of the control points.
@@ -63,11 +62,15 @@ impl PointFigures {
     }
 }
 
-/// Z − first touch at each control point, mm.
-pub(crate) fn point_errors(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
+/// Z − first touch at the control points of a block that has no segments, mm; empty for others.
+pub(crate) fn errors_without_segments(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
+    if points.len() != 1 {
+        return Ok(Vec::new());
+    }
     let mut theta = points.c.clone();
     within_turns(&mut theta);
-    let touches = touches_at(touch, &theta, &points.x)?;
+    let mut touches = Vec::new();
+    touch.find(&theta, &points.x, &mut touches)?;
     let pairs = points.z.iter().zip(&touches);
     Ok(pairs.map(|(z, touch)| z - touch.z).collect())
 }

@@ -12,6 +12,8 @@ use turnpath_core::{Gradients, Result, SurfaceModel, sines_and_cosines};
 
 use crate::bracket::Bracket;
 use crate::profiles::Profiles;
+use crate::small_turns::TurnStarts;
+use crate::touch::LARGEST_FIT;
 use crate::touches::{Touch, Touches};
 
 /// Searches side by side. Their columns take 18 kB, which stays in the nearest cache.
@@ -19,6 +21,9 @@ pub(crate) const WIDTH: usize = 128;
 /// The secant stops when it moves less than this part of the nose radius. The error of the height
 /// is the square of this: 1e-16 of the radius.
 const FOOT_TOLERANCE: f64 = 1e-8;
+/// The first step along the normal must be shorter by this factor for a search to end with it: in a hollow nearly
+/// as tight as the nose it is that much shorter than the way to the contact.
+const FIRST_STEP: f64 = 1.0 - LARGEST_FIT;
 /// Largest number of steps of a search.
 const MOST_STEPS: usize = 80;
 /// After this many steps every second one halves the bracket. Halving alone reaches
@@ -98,6 +103,30 @@ impl Searches {
         sines_and_cosines(theta, &mut self.sine[..count], &mut self.cosine[..count]);
         self.x[..count].copy_from_slice(x);
         self.start[..count].copy_from_slice(x);
+        self.at[..count].copy_from_slice(x);
+        self.begin(count, Some(reach));
+    }
+
+    /// Like [`Self::begin_in_reach`], with the first step from where each contact is expected. A search
+    /// whose contact is expected nowhere, or out of reach, begins at its X. C of each search is near its
+    /// start. Where the surface has no height at X but has one where the contact is expected, a touch is
+    /// found that a search from X would not find.
+    pub fn begin_near(
+        &mut self,
+        starts: &TurnStarts,
+        expected: &[f64],
+        (theta, x): (&[f64], &[f64]),
+        reach: f64,
+    ) {
+        let count = x.len();
+        let (sine, cosine) = (&mut self.sine[..count], &mut self.cosine[..count]);
+        starts.turn(theta, sine, cosine);
+        self.x[..count].copy_from_slice(x);
+        self.start[..count].copy_from_slice(x);
+        for ((at, x), expected) in self.at.iter_mut().zip(x).zip(expected) {
+            let is_in_reach = (expected - x).abs() <= reach;
+            *at = either(is_in_reach, *expected, *x);
+        }
         self.begin(count, Some(reach));
     }
 
@@ -108,6 +137,7 @@ impl Searches {
             (self.sine[i], self.cosine[i]) = profiles.turned(bracket.point);
             (self.low[i], self.high[i]) = (bracket.low, bracket.high);
             self.start[i] = bracket.start;
+            self.at[i] = bracket.start;
         }
         self.begin(brackets.len(), None);
     }
@@ -211,7 +241,7 @@ impl Searches {
 }
 
 /// The loop over the beginnings of all searches: their brackets, where these are the whole reach of the
-/// tool, and their first place.
+/// tool, and the place of their first s.
 struct Beginning<'a>(&'a mut Searches, Option<f64>);
 
 impl Loop for Beginning<'_> {
@@ -227,8 +257,7 @@ impl Loop for Beginning<'_> {
             }
         }
         for i in 0..count {
-            let at = all.start[i];
-            all.at[i] = at;
+            let at = all.at[i];
             (all.place[0][i], all.place[1][i]) = (at * all.cosine[i], at * all.sine[i]);
         }
     }
@@ -261,11 +290,12 @@ impl<const FIRST: bool> Loop for Step<'_, FIRST> {
             let offset = at - x;
             let lift = rule.lift(offset);
             let is_on_surface = all.height[i].abs() < f64::INFINITY;
+            // A search that has ended keeps what it found.
+            let is_found = is_on_surface & (FIRST | (all.low[i] < all.high[i]));
             // Before the first step there is no touch.
             let so_far = |column: &Column| if FIRST { f64::NAN } else { column[i] };
-            all.z[i] = either(is_on_surface, all.height[i] + lift, so_far(&all.z));
-            all.foot[i] = either(is_on_surface, at, so_far(&all.foot));
-            all.slope[i] = either(is_on_surface, slope, so_far(&all.slope));
+            all.z[i] = either(is_found, all.height[i] + lift, so_far(&all.z));
+            all.slope[i] = either(is_found, slope, so_far(&all.slope));
 
             let fall = slope * lift - offset;
             let is_nowhere = fall.is_nan();
@@ -284,10 +314,14 @@ impl<const FIRST: bool> Loop for Step<'_, FIRST> {
             let is_within = !rule.halve & (low <= proposed) & (proposed <= high);
             let next = either(is_within, proposed, 0.5 * (low + high));
             let step = next - at;
-            let is_closed = step.abs() <= rule.tolerance;
+            let is_closed = step.abs() <= if FIRST { FIRST_STEP } else { 1.0 } * rule.tolerance;
             (all.before[i], all.fall_before[i], all.step[i]) = (at, fall, step);
             all.low[i] = either(is_closed, at, low);
             all.high[i] = either(is_closed, at, high);
+            // The first step leads along the normal to the contact. Where the nose is much smaller than the
+            // surface's curvature, nothing is left of the way.
+            let foot = either(FIRST & is_closed, next, at);
+            all.foot[i] = either(is_found, foot, so_far(&all.foot));
             let at = either(is_closed, at, next);
             all.at[i] = at;
             (all.place[0][i], all.place[1][i]) = (at * all.cosine[i], at * all.sine[i]);

@@ -5,13 +5,16 @@
 //! the tool's reach, H has a single maximum, which a bracketed secant finds. Elsewhere a scan of the
 //! whole reach ([`crate::scan`]) brackets every maximum that can be the highest.
 
+use turnpath_core::registers::in_widest;
 use turnpath_core::tally::FIRST_TOUCHES;
 use turnpath_core::{Misfit, Result, SurfaceModel};
 
 use crate::contact_bounds;
+use crate::next_contacts::NextContacts;
 use crate::profiles::Profiles;
 use crate::scan;
 use crate::searches::{Searches, WIDTH};
+use crate::small_turns::TurnStarts;
 use crate::subject::Subject;
 pub use crate::touches::Touch;
 use crate::touches::Touches;
@@ -21,7 +24,7 @@ use crate::touches::Touches;
 const CURVATURE_GRID: (usize, usize) = (90, 400);
 /// Rκ up to which the height is taken to have a single maximum. It is a little below 1, since the
 /// curvature may be larger between the points of the grid.
-const LARGEST_FIT: f64 = 0.95;
+pub(crate) const LARGEST_FIT: f64 = 0.95;
 
 /// Finds first touches of one tool on one surface.
 #[derive(Clone)]
@@ -109,7 +112,8 @@ impl FirstTouch {
         out: &mut Vec<Touch>,
     ) -> Result<()> {
         let mut buffers = TouchBuffers::default();
-        self.search(theta, x, within, &mut buffers)?;
+        buffers.touches.resize(x.len());
+        self.search(theta, x, within, &mut buffers, 0)?;
         out.clear();
         out.extend(buffers.touches.iter());
         Ok(())
@@ -122,24 +126,63 @@ impl FirstTouch {
         x: &[f64],
         buffers: &mut TouchBuffers,
     ) -> Result<()> {
-        self.search(theta, x, |_| ANYWHERE, buffers)
+        buffers.touches.resize(x.len());
+        self.search(theta, x, |_| ANYWHERE, buffers, 0)
     }
 
+    /// Finds the first touch along curves side by side, at most [`WIDTH`] of them. `theta` and `x` have
+    /// the position of each at one time, then at the next one, and so on, evenly spaced. The touches at
+    /// the first time are known: they are the first ones of `known`. Where the height has a single
+    /// maximum, each search begins where the touches before lead.
+    pub(crate) fn find_along(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        (known, curves): (&Touches, usize),
+        buffers: &mut TouchBuffers,
+    ) -> Result<()> {
+        buffers.touches.resize(x.len());
+        buffers.touches.begin_with(known, curves);
+        if !self.subject.compensates_nose || !self.has_single_maxima(x) {
+            let (theta, x) = (&theta[curves..], &x[curves..]);
+            return self.search(theta, x, |_| ANYWHERE, buffers, curves);
+        }
+        FIRST_TOUCHES.add(x.len() - curves);
+        let Subject { surface, tool, .. } = &self.subject;
+        let TouchBuffers { searches, touches } = buffers;
+        let starts = TurnStarts::at(&theta[..curves]);
+        let mut expected = [0.0; WIDTH];
+        for first in (curves..x.len()).step_by(curves.max(1)) {
+            let here = first..first + curves;
+            let expected = &mut expected[..curves];
+            in_widest(NextContacts::after(
+                &touches.foot[..first],
+                &x[..here.end],
+                expected,
+            ));
+            let places = (&theta[here.clone()], &x[here]);
+            searches.begin_near(&starts, expected, places, tool.reach());
+            searches.close_in(surface.as_ref(), tool.nose_radius, touches, first)?;
+        }
+        Ok(())
+    }
+
+    /// Searches for touches and writes them from number `first` on.
     fn search(
         &self,
         theta: &[f64],
         x: &[f64],
         within: impl Fn(usize) -> (f64, f64),
         buffers: &mut TouchBuffers,
+        first: usize,
     ) -> Result<()> {
         FIRST_TOUCHES.add(x.len());
-        buffers.touches.resize(x.len());
         if !self.subject.compensates_nose {
-            self.on_surface(theta, x, &mut buffers.touches)
+            self.on_surface(theta, x, &mut buffers.touches, first)
         } else if self.has_single_maxima(x) {
-            self.only_maxima(theta, x, buffers)
+            self.only_maxima(theta, x, buffers, first)
         } else {
-            self.highest_maxima(theta, x, within, buffers)
+            self.highest_maxima(theta, x, within, buffers, first)
         }
     }
 
@@ -151,23 +194,36 @@ impl FirstTouch {
     }
 
     /// The touches on the path of the contact: points of the surface itself.
-    fn on_surface(&self, theta: &[f64], x: &[f64], found: &mut Touches) -> Result<()> {
+    fn on_surface(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        found: &mut Touches,
+        first: usize,
+    ) -> Result<()> {
         let mut profiles = Profiles::new(self.subject.surface.as_ref(), theta);
         profiles.at_all(x)?;
-        found.z.copy_from_slice(&profiles.height);
-        found.foot.copy_from_slice(x);
-        found.slope.copy_from_slice(&profiles.slope);
+        found.z[first..].copy_from_slice(&profiles.height);
+        found.foot[first..].copy_from_slice(x);
+        found.slope[first..].copy_from_slice(&profiles.slope);
         Ok(())
     }
 
     /// The touches where the height has a single maximum.
-    fn only_maxima(&self, theta: &[f64], x: &[f64], buffers: &mut TouchBuffers) -> Result<()> {
+    fn only_maxima(
+        &self,
+        theta: &[f64],
+        x: &[f64],
+        buffers: &mut TouchBuffers,
+        first: usize,
+    ) -> Result<()> {
         let Subject { surface, tool, .. } = &self.subject;
         let TouchBuffers { searches, touches } = buffers;
         let batches = theta.chunks(WIDTH).zip(x.chunks(WIDTH));
         for (batch, (theta, x)) in batches.enumerate() {
+            let first = first + batch * WIDTH;
             searches.begin_in_reach(theta, x, tool.reach());
-            searches.close_in(surface.as_ref(), tool.nose_radius, touches, batch * WIDTH)?;
+            searches.close_in(surface.as_ref(), tool.nose_radius, touches, first)?;
         }
         Ok(())
     }
@@ -179,6 +235,7 @@ impl FirstTouch {
         x: &[f64],
         within: impl Fn(usize) -> (f64, f64),
         buffers: &mut TouchBuffers,
+        first: usize,
     ) -> Result<()> {
         let Subject { surface, tool, .. } = &self.subject;
         let mut profiles = Profiles::new(surface.as_ref(), theta);
@@ -191,11 +248,12 @@ impl FirstTouch {
             searches.begin_in_brackets(maxima, &profiles, x);
             searches.close_in(surface.as_ref(), tool.nose_radius, &mut tops, batch * WIDTH)?;
         }
-        buffers.touches.clear();
+        buffers.touches.clear_from(first);
         for (maximum, top) in maxima.iter().zip(tops.iter()) {
-            let highest = buffers.touches.z[maximum.point];
+            let owner = first + maximum.point;
+            let highest = buffers.touches.z[owner];
             if highest.is_nan() || top.z > highest {
-                buffers.touches.set(maximum.point, top);
+                buffers.touches.set(owner, top);
             }
         }
         Ok(())

@@ -35,10 +35,22 @@ impl Touches {
         }
     }
 
-    /// Forgets all touches.
-    pub fn clear(&mut self) {
+    /// Sets the first `count` touches to those of others.
+    pub fn begin_with(&mut self, others: &Self, count: usize) {
+        let pairs = [
+            (&mut self.z, &others.z),
+            (&mut self.foot, &others.foot),
+            (&mut self.slope, &others.slope),
+        ];
+        for (own, others) in pairs {
+            own[..count].copy_from_slice(&others[..count]);
+        }
+    }
+
+    /// Forgets all touches from number `first` on.
+    pub fn clear_from(&mut self, first: usize) {
         for column in [&mut self.z, &mut self.foot, &mut self.slope] {
-            column.fill(f64::NAN);
+            column[first..].fill(f64::NAN);
         }
     }
 

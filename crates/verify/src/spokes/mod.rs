@@ -19,20 +19,24 @@ mod real_transform;
 mod turn;
 
 use std::collections::VecDeque;
+use std::ops::Range;
 use std::sync::Arc;
 
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 use turnpath_core::Part;
+use turnpath_core::toolpath::Cubic;
 
 use arms::Arms;
 pub use arms::SpiralArms;
 pub(crate) use cells::SegmentErrors;
-use cells::{Cells, PER_RADIAN, TOGETHER};
+use cells::{Cells, ManyCells, PER_RADIAN, TOGETHER};
 use turn::{ANGLES, HIGHEST, LOWEST, Turn, WINDOW};
 
 /// Turns from one window to the next: a pattern that stays for as many fills half of a window.
 const ADVANCE: usize = 32;
+/// Cells that are found one by one: for so few the instants of the segment need not be brought together.
+const FEW: i64 = 8;
 /// Cells of a turn.
 const TURN: i64 = ANGLES as i64;
 
@@ -57,18 +61,40 @@ pub(crate) struct BlockSpokes {
 }
 
 impl BlockSpokes {
-    /// Adds the block's next segment. Only contacts on the part count.
-    pub fn add(&mut self, found: &SegmentErrors<'_>, part: &Part) {
-        let [from, to] = found.ends.map(|c| (c * PER_RADIAN).ceil());
+    /// Adds the block's next segment, which plays `c` between these ends, rad. Only contacts on the part
+    /// count.
+    pub fn add<S: SegmentErrors>(&mut self, c: Cubic, ends: [f64; 2], found: &S, part: &Part) {
+        let [from, to] = ends.map(|c| (c * PER_RADIAN).ceil());
         if !from.is_finite() || !to.is_finite() {
             return;
         }
-        let cells = Cells::new(found, &(part.inner_radius..=part.aperture_radius));
-        let (mut cell, end) = (from as i64, to as i64);
+        let (from, to) = (from as i64, to as i64);
+        let cells = Cells::new(c, ends, found, part.inner_radius..=part.aperture_radius);
+        match to.saturating_sub(from) <= FEW {
+            true => self.add_few(&cells, from..to),
+            false => self.add_many(&cells.many(), from..to),
+        }
+    }
+
+    /// Adds cells one by one.
+    fn add_few<S: SegmentErrors>(&mut self, cells: &Cells<'_, S>, numbers: Range<i64>) {
+        for cell in numbers {
+            if let Some((error, foot)) = cells.error(cell) {
+                let (number, angle) = (cell.div_euclid(TURN), cell.rem_euclid(TURN));
+                self.turn(number)
+                    .include(angle as usize, &[error], [foot; 2]);
+            }
+        }
+    }
+
+    /// Adds cells that are found side by side.
+    fn add_many(&mut self, cells: &ManyCells<'_>, numbers: Range<i64>) {
         let mut errors = [f64::NAN; TOGETHER];
-        while cell < end {
+        let mut cell = numbers.start;
+        while cell < numbers.end {
             let (number, angle) = (cell.div_euclid(TURN), cell.rem_euclid(TURN));
-            let count = (end - cell).min(TURN - angle).min(TOGETHER as i64);
+            let left = numbers.end - cell;
+            let count = left.min(TURN - angle).min(TOGETHER as i64);
             let errors = &mut errors[..count as usize];
             if let Some(feet) = cells.errors(cell, errors) {
                 self.turn(number).include(angle as usize, errors, feet);
@@ -244,7 +270,6 @@ fn larger(one: Option<Spoke>, other: Option<Spoke>) -> Option<Spoke> {
 #[cfg(test)]
 mod tests {
     use std::f64::consts::{PI, TAU};
-    use std::ops::Range;
 
     use turnpath_core::Scalar;
     use turnpath_core::toolpath::{ControlPoint, Segment};
@@ -258,6 +283,22 @@ mod tests {
     };
     /// Steps on a turn.
     const STEPS: usize = 20;
+
+    /// The errors at the instants of a segment, and the radius of all its contacts.
+    struct Found {
+        errors: [f64; INSTANTS + 1],
+        foot: f64,
+    }
+
+    impl SegmentErrors for Found {
+        fn error(&self, instant: usize) -> f64 {
+            self.errors[instant]
+        }
+
+        fn foot(&self, _: usize) -> f64 {
+            self.foot
+        }
+    }
 
     /// The block of turns whose error is `error(turn, θ)`, at the radius of the turn's number. The
     /// speed swings within a step by `swing`.
@@ -274,17 +315,13 @@ mod tests {
             let segment = Segment::between(&point(i), &point(i + 1));
             let turn = i / STEPS;
             let foot = turn as f64;
-            spokes.add(
-                &SegmentErrors {
-                    segment: &segment,
-                    ends: [point(i).c, point(i + 1).c],
-                    errors: std::array::from_fn(|k| {
-                        error(turn, segment.c.value(k as f64 / INSTANTS as f64))
-                    }),
-                    feet: [foot; INSTANTS],
-                },
-                &PART,
-            );
+            let found = Found {
+                errors: std::array::from_fn(|k| {
+                    error(turn, segment.c.value(k as f64 / INSTANTS as f64))
+                }),
+                foot,
+            };
+            spokes.add(segment.c, [point(i).c, point(i + 1).c], &found, &PART);
         }
         spokes
     }
