@@ -35,6 +35,7 @@ mod profiles;
 mod program_meter;
 mod residual;
 mod scan;
+mod search_limits;
 mod searches;
 mod servo;
 mod sketch;

@@ -5,7 +5,7 @@
 
 use turnpath_core::registers::Loop;
 
-use crate::searches::WIDTH;
+use crate::search_limits::WIDTH;
 
 /// Values before that count at the most. The polynomial through one more would be nearer to a curve, but
 /// would follow the rounding of these values twice as far.

@@ -12,12 +12,10 @@ use turnpath_core::{Gradients, Result, SurfaceModel, sines_and_cosines};
 
 use crate::bracket::Bracket;
 use crate::profiles::Profiles;
+use crate::search_limits::{LARGEST_FIT, WIDTH};
 use crate::small_turns::TurnStarts;
-use crate::touch::LARGEST_FIT;
 use crate::touches::{Touch, Touches};
 
-/// Searches side by side. Their columns take 18 kB, which stays in the nearest cache.
-pub(crate) const WIDTH: usize = 128;
 /// The secant stops when it moves less than this part of the nose radius. The error of the height
 /// is the square of this: 1e-16 of the radius.
 const FOOT_TOLERANCE: f64 = 1e-8;

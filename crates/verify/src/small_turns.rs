@@ -3,7 +3,7 @@
 use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::sines_and_cosines;
 
-use crate::searches::WIDTH;
+use crate::search_limits::WIDTH;
 
 /// Turns up to here have series with these terms, rad: what is left out is below 3e-17.
 const LARGEST: f64 = 0.06;

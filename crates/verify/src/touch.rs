@@ -13,7 +13,8 @@ use crate::contact_bounds;
 use crate::next_contacts::NextContacts;
 use crate::profiles::Profiles;
 use crate::scan;
-use crate::searches::{Searches, WIDTH};
+use crate::search_limits::{LARGEST_FIT, WIDTH};
+use crate::searches::Searches;
 use crate::small_turns::TurnStarts;
 use crate::subject::Subject;
 pub use crate::touches::Touch;
@@ -22,9 +23,6 @@ use crate::touches::Touches;
 /// Angles and radii at which the profile's curvature is computed, to find out whether the height
 /// has a single maximum.
 const CURVATURE_GRID: (usize, usize) = (90, 400);
-/// Rκ up to which the height is taken to have a single maximum. It is a little below 1, since the
-/// curvature may be larger between the points of the grid.
-pub(crate) const LARGEST_FIT: f64 = 0.95;
 
 /// Finds first touches of one tool on one surface.
 #[derive(Clone)]
