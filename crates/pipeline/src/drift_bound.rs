@@ -10,8 +10,8 @@ use turnpath_core::{Locus, Radial, SpiralLaw};
 
 use crate::plan::Plan;
 
-/// The largest value of s (1 − s)²: this part of the duration times an error of the rate at one end comes to stand
-/// within a segment.
+/// The largest value of s (1 − s)². An error of the rate at one end, times the duration, gives an error of at most
+/// this part within the segment.
 const RATE_SHARE: f64 = 4.0 / 27.0;
 /// The part of what is allowed up to which the bound decides. Rounding is far below the rest.
 const DECIDED_PART: f64 = 0.9;

@@ -10,7 +10,8 @@ use crate::search_limits::WIDTH;
 /// Values before that count at the most. The polynomial through one more would be nearer to a curve, but
 /// would follow the rounding of these values twice as far.
 const MOST_BEFORE: usize = 4;
-/// What the last value, the one before, and so on count for the next one, by how many of them are known.
+/// The weights of the values before in the next value, the last one first. The first list is for one known value,
+/// the second for two, and so on.
 const WEIGHTS: [&[f64]; MOST_BEFORE] = [
     &[1.0],
     &[2.0, -1.0],

@@ -19,8 +19,8 @@ use crate::touches::{Touch, Touches};
 /// The secant stops when it moves less than this part of the nose radius. The error of the height
 /// is the square of this: 1e-16 of the radius.
 const FOOT_TOLERANCE: f64 = 1e-8;
-/// The first step along the normal must be shorter by this factor for a search to end with it: in a hollow nearly
-/// as tight as the nose it is that much shorter than the way to the contact.
+/// A search ends with its first step only if that step is shorter than this part of the tolerance. In a hollow
+/// nearly as tight as the nose, a step along the normal is this part of the way to the contact.
 const FIRST_STEP: f64 = 1.0 - LARGEST_FIT;
 /// Largest number of steps of a search.
 const MOST_STEPS: usize = 80;
@@ -316,8 +316,8 @@ impl<const FIRST: bool> Loop for Step<'_, FIRST> {
             (all.before[i], all.fall_before[i], all.step[i]) = (at, fall, step);
             all.low[i] = either(is_closed, at, low);
             all.high[i] = either(is_closed, at, high);
-            // The first step leads along the normal to the contact. Where the nose is much smaller than the
-            // surface's curvature, nothing is left of the way.
+            // The first step leads along the normal. It ends nearly at the contact where the nose is much
+            // smaller than the surface's radius of curvature.
             let foot = either(FIRST & is_closed, next, at);
             all.foot[i] = either(is_found, foot, so_far(&all.foot));
             let at = either(is_closed, at, next);
