@@ -8,11 +8,14 @@
 
 mod bound;
 mod clock;
+mod estimate;
+mod knots;
+mod phi;
 mod samples;
 mod steps;
 mod swing;
 
 pub use bound::{Bound, Jumps};
-pub use samples::pitch;
+pub use phi::pitch;
 pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER, largest_step};
 pub use swing::x_swings;

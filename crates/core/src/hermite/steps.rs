@@ -1,9 +1,11 @@
 //! Steps along one block. Each step is as long as the bound allows.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use super::bound::Bound;
-use super::samples::{Knot, Samples};
+use super::knots::Knot;
+use super::samples::Samples;
 use crate::kind::{Angle, Flag};
 use crate::{DEG, NodeList, Param, Params, Path, Result, Revolutions, SamplerPlan, StrategyError};
 
@@ -26,6 +28,8 @@ const KNOTS_SHARE: f64 = 0.1;
 const SAME_POSITION: f64 = 1e-9;
 /// A node that lies closer to the block's end than this part of its step is left out.
 const SLACK: f64 = 1e-3;
+/// Steps whose largest samples are evaluated together.
+const AHEAD: usize = 32;
 
 /// Steps that are as long as the interpolation tolerance allows on the played path. This is the
 /// core of the samplers that use the error of a cubic Hermite segment.
@@ -121,6 +125,8 @@ struct Walk<'a> {
     end: f64,
     max_step: f64,
     allowed: f64,
+    /// Room for numbers of samples.
+    rivals: Vec<usize>,
 }
 
 /// One step.
@@ -143,6 +149,7 @@ impl<'a> Walk<'a> {
             end: block.end,
             max_step: steps.max_step,
             allowed,
+            rivals: Vec::new(),
         })
     }
 
@@ -175,27 +182,38 @@ impl<'a> Walk<'a> {
     }
 
     /// The longest step from `n` on the present grid. The walk goes from mark to mark, where a mark
-    /// is a sample or a knot, until the error reaches the bound.
+    /// is a sample or a knot, until the error reaches the bound. Samples count with their upper limits, until these
+    /// decide.
     fn longest(&mut self, n: f64) -> Result<Step> {
         let limit = (n + self.max_step / TAU).min(self.end);
         let clock = self.samples.clock();
         let length = |to: f64| clock.length(n, to);
-        let (mut sample, mut knot) = (self.samples.begin(n), self.next_knot);
+        let (first, mut knot) = (self.samples.begin(n), self.next_knot);
+        let mut sample = first;
+        let mut at_knots: f64 = 0.0;
         let mut bound = Bound {
-            fourth: self.samples.fourth(sample)?,
+            fourth: self.samples.estimate(sample)?.upper,
             ..Bound::default()
         };
         let mut reached = n;
         sample += 1;
         loop {
             let place = self.samples.position(sample);
-            let crossed = self.knots.get(knot).filter(|knot| knot.n <= place);
-            let (mark, fourth) = match crossed {
-                Some(knot) => (knot.n, knot.before),
-                None => (place, self.samples.fourth(sample)?),
+            let crossed = self.knots.get(knot).copied().filter(|knot| knot.n <= place);
+            let (mark, fourth, seen) = match crossed {
+                Some(knot) => (knot.n, knot.before, first..sample),
+                None => (
+                    place,
+                    self.samples.estimate(sample)?.upper,
+                    first..sample + 1,
+                ),
             };
+            at_knots = crossed.map_or(at_knots, |knot| at_knots.max(knot.before));
             bound.fourth = bound.fourth.max(fourth);
             let to = mark.min(limit);
+            if bound.error(length(to)) > self.allowed {
+                bound.fourth = self.largest(n, seen.clone(), at_knots)?;
+            }
             if bound.error(length(to)) > self.allowed {
                 let shorter = length(reached);
                 let length = bound.length_between(self.allowed, shorter, length(to));
@@ -207,21 +225,81 @@ impl<'a> Walk<'a> {
                 return Ok(Step { end, bound });
             }
             if to >= limit {
+                if !self.is_coarse_enough(&bound, clock.speed(n)) {
+                    bound.fourth = self.largest(n, seen, at_knots)?;
+                }
                 return Ok(Step { end: limit, bound });
             }
-            if crossed.is_some_and(|knot| self.is_hard(knot, &bound, length(limit))) {
+            reached = to;
+            let Some(crossed) = crossed else {
+                sample += 1;
+                continue;
+            };
+            bound.fourth = self.largest(n, seen, at_knots)?;
+            if self.is_hard(&crossed, &bound, length(limit)) {
                 return Ok(Step { end: to, bound });
             }
-            reached = to;
-            match crossed {
-                Some(crossed) => {
-                    bound.fourth = bound.fourth.max(crossed.after);
-                    bound.jumps = bound.jumps.and(crossed.jumps);
-                    knot += 1;
-                }
-                None => sample += 1,
+            at_knots = at_knots.max(crossed.after);
+            bound.fourth = bound.fourth.max(crossed.after);
+            bound.jumps = bound.jumps.and(crossed.jumps);
+            knot += 1;
+        }
+    }
+
+    /// Whether the coarsest grid is fine enough, also for a bound of upper limits.
+    fn is_coarse_enough(&self, bound: &Bound, speed: f64) -> bool {
+        let natural = bound.natural_length(self.allowed) * speed;
+        self.samples.is_coarsest() && natural >= LEAST_SAMPLES * self.samples.spacing()
+    }
+
+    /// The largest of these samples and `floor`, exactly. The step begins at `n`.
+    fn largest(&mut self, n: f64, samples: Range<usize>, floor: f64) -> Result<f64> {
+        let mut rivals = std::mem::take(&mut self.rivals);
+        rivals.clear();
+        self.samples.add_rivals(samples.clone(), floor, &mut rivals);
+        if !rivals.is_empty() {
+            self.foresee(n, &mut rivals);
+            rivals.sort_unstable();
+            rivals.dedup();
+            self.samples.make_exact(&rivals)?;
+        }
+        self.rivals = rivals;
+        Ok(self.samples.exact(samples).fold(floor, f64::max))
+    }
+
+    /// Adds what the next steps will ask for, as far as estimates can tell.
+    fn foresee(&self, n: f64, rivals: &mut Vec<usize>) {
+        let mut from = n;
+        for _ in 0..AHEAD {
+            let Some((end, samples)) = self.likely_step(from) else {
+                return;
+            };
+            self.samples.add_rivals(samples, 0.0, rivals);
+            from = end;
+        }
+    }
+
+    /// The end of the step from `n` and the samples that decide about it, if nothing but samples that are known does.
+    fn likely_step(&self, n: f64) -> Option<(f64, Range<usize>)> {
+        let first = self.samples.at_or_before(n);
+        let clock = self.samples.clock();
+        let mut bound = Bound::default();
+        for sample in first.. {
+            bound.fourth = bound.fourth.max(self.samples.known(sample)?.middle());
+            let to = self.samples.position(sample);
+            let length = clock.length(n, to);
+            if to >= self.end {
+                return None;
+            }
+            if length > self.max_step {
+                return Some((n + self.max_step / TAU, first..first));
+            }
+            if sample > first && bound.error(length) > self.allowed {
+                let natural = bound.natural_length(self.allowed);
+                return Some((clock.end(n, natural.min(length)), first..sample + 1));
             }
         }
+        None
     }
 }
 

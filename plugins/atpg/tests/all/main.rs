@@ -5,5 +5,6 @@ mod common;
 mod random;
 
 mod changing_speed;
+mod estimates;
 mod laws;
 mod sampler;

@@ -1,0 +1,138 @@
+//! Nodes from estimates of |φ⁗|, held against nodes from all samples, and how many samples they take.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::common::{AtpgCase, Case, ast_5, ast_50, oap_213};
+use turnpath_atpg::AtpgSampler;
+use turnpath_core::{
+    CentreSeries, Centres, DEG, Locus, Misfit, NodeList, ParamValue, Params, Path, Radial, Rates,
+    Result, Revolutions, Sampler, Series, Strategy, SurfaceModel, ToolLocus,
+};
+use turnpath_nose_radius::ZDirection;
+use turnpath_surfaces::{LensletArray, SinusoidalArray};
+
+/// A tool locus that counts its series, and may say that ρ is the contact's radius: then the sampler evaluates every
+/// sample.
+struct Count<'a> {
+    locus: &'a ToolLocus,
+    radial: Radial,
+    series: AtomicUsize,
+}
+
+impl Locus for Count<'_> {
+    fn surface(&self) -> &dyn SurfaceModel {
+        self.locus.surface()
+    }
+
+    fn radial(&self) -> Radial {
+        self.radial
+    }
+
+    fn centre(&self, theta: &[f64], rho: &[f64], out: Centres<'_>) -> Result<()> {
+        self.locus.centre(theta, rho, out)
+    }
+
+    fn series(&self, theta: &[Series], rho: &[Series], out: CentreSeries<'_>) -> Result<()> {
+        self.series.fetch_add(theta.len(), Ordering::Relaxed);
+        self.locus.series(theta, rho, out)
+    }
+
+    fn rates(&self, theta: &[f64], rho: &[f64], out: Rates<'_>) -> Result<()> {
+        self.locus.rates(theta, rho, out)
+    }
+
+    fn residual_feed(
+        &self,
+        residual: f64,
+        radial: Radial,
+        theta: &[f64],
+        rho: &[f64],
+        feed: &mut [f64],
+    ) -> Result<()> {
+        self.locus.residual_feed(residual, radial, theta, rho, feed)
+    }
+}
+
+/// The nodes of blocks of `turns` revolutions, one of `one_of`, and the number of series that they took.
+fn place(case: &Case, radial: Radial, turns: f64, one_of: usize) -> (Vec<f64>, usize) {
+    let law = case.plan_law("held", "smooth").unwrap();
+    let locus = Count {
+        locus: &case.locus,
+        radial,
+        series: AtomicUsize::new(0),
+    };
+    let path = Path {
+        task: &case.task,
+        locus: &locus,
+        law: &law,
+        spindle: &case.spindle,
+    };
+    let mut params = Params::new().with("max_step", 45.0 * DEG);
+    params.set("wander", ParamValue::Flag(false));
+    let plan = AtpgSampler::new(&params).unwrap().plan(&path).unwrap();
+    locus.series.store(0, Ordering::Relaxed);
+    let blocks = (law.end() / turns).ceil() as usize;
+    let mut nodes = NodeList::default();
+    for block in (0..blocks).step_by(one_of) {
+        let start = block as f64 * turns;
+        let end = (start + turns).min(law.end());
+        plan.place(&path, Revolutions { start, end }, &mut nodes)
+            .unwrap();
+    }
+    (nodes.revolutions().to_vec(), locus.series.into_inner())
+}
+
+/// Compares blocks of several lengths, and gives the number of nodes for each series of the longest blocks.
+fn compare(case: &Case, one_of: usize) -> (f64, f64) {
+    for (turns, one_of) in [(0.3, 97 * one_of), (5.7, 11 * one_of)] {
+        let (nodes, _) = place(case, Radial::Centre, turns, one_of);
+        assert_eq!(nodes, place(case, Radial::Contact, turns, one_of).0);
+    }
+    let (nodes, estimated) = place(case, Radial::Centre, 64.0, one_of);
+    let (all, every) = place(case, Radial::Contact, 64.0, one_of);
+    assert_eq!(nodes, all);
+    let a_node = |series: usize| series as f64 / nodes.len() as f64;
+    (a_node(estimated), a_node(every))
+}
+
+#[test]
+fn nodes_of_the_papers_parts_are_those_of_all_samples_from_a_quarter_of_the_series() {
+    for (case, one_of) in [
+        (ast_5(ZDirection), 1),
+        (ast_50(ZDirection), 4),
+        (oap_213(ZDirection), 40),
+    ] {
+        let (estimated, every) = compare(&case, one_of);
+        assert!(
+            4.0 * estimated < every,
+            "{estimated} and {every} series a node"
+        );
+    }
+}
+
+#[test]
+fn nodes_of_waves_are_those_of_all_samples() {
+    let mut waves = Params::new()
+        .with("amplitude_x", 5e-3)
+        .with("amplitude_y", 3e-3)
+        .with("frequency_x", 0.4)
+        .with("frequency_y", 0.7);
+    waves.set("form", ParamValue::Text("sum".to_owned()));
+    let surface = Arc::new(SinusoidalArray::new(&waves).unwrap());
+    let case = Case::new(surface, Arc::new(ZDirection), 10.0, 0.5, 50.0);
+    compare(&case, 1);
+}
+
+#[test]
+fn nodes_across_the_seams_of_a_lens_array_are_those_of_all_samples() {
+    let mut lenses = Params::new()
+        .with("pitch", 1.5)
+        .with("radius", 8.0)
+        .with("conic", 0.0);
+    lenses.set("layout", ParamValue::Text("square".to_owned()));
+    let surface = Arc::new(LensletArray::new(&lenses).unwrap());
+    let mut case = Case::new(surface, Arc::new(ZDirection), 8.0, 0.5, 200.0);
+    case.task.tool.misfit = Misfit::CutWhatFits;
+    compare(&case, 5);
+}
