@@ -1,6 +1,6 @@
 //! Times of formulas beside those of the native models that say the same: ns a point.
 //!
-//! Run: `cargo run --release -p turnpath-formula --example times`
+//! Run: `cargo bench -p turnpath-formula`
 
 use std::hint::black_box;
 use std::time::Instant;
