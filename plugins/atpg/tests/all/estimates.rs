@@ -1,4 +1,5 @@
 //! Nodes from estimates of |φ⁗|, held against nodes from all samples, and how many samples they take.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
