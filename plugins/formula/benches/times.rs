@@ -1,6 +1,6 @@
 //! Times of formulas beside those of the native models that say the same: ns a point.
 //!
-//! Run: `cargo bench -p turnpath-formula`
+//! Run: `cargo bench -p turnpath-formula --bench times`
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -2,12 +2,13 @@
 //!
 //! A sample is estimated by the polynomial through the eight nearest exact ones. Each exact sample is also estimated
 //! from its neighbours, at twice their distance: what that misses is 256 times the error within, where the curve is
-//! smooth, and it shows where it is not. A wave of less than two exact samples a period could pass unseen. A step has 16
-//! samples at least, so such a wave is shorter than the step. It would be less than a third of the tolerance high.
+//! smooth, and it shows where it is not. A wave of less than two exact samples a period can pass unseen, until a sample
+//! between them is evaluated.
 
 /// One sample of so many is exact.
 pub(super) const STRIDE: usize = 8;
-/// The exact samples on each side of a cell that its estimates and their margin are made from, beside the cell's ends.
+/// The exact samples beyond each end of a cell that its estimates and their margin use: the margin asks for samples up
+/// to 7 beyond those at the second ends of the neighbouring cells.
 pub(super) const REACH: usize = 8;
 /// The weights of the exact samples at a distance of 1, 3, 5 and 7 on both sides for the one between them.
 const BETWEEN: [f64; 4] = [
@@ -17,9 +18,9 @@ const BETWEEN: [f64; 4] = [
     -5.0 / 2048.0,
 ];
 /// The margin over what the estimates of the exact samples around miss. A jump within the cell may move an estimate
-/// by twice of what it moves them.
+/// by twice as much as it moves those.
 const SAFETY: f64 = 4.0;
-/// The least margin, as a part of the sample: far above rounding.
+/// The least margin, as a part of the largest exact sample around: far above rounding.
 const ROUNDING: f64 = 1e-9;
 /// [`weights`] of all samples within a cell.
 const WITHIN: [[f64; 8]; STRIDE - 1] = weights();
@@ -32,6 +33,12 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
+    /// Nothing is known.
+    pub(super) const UNKNOWN: Self = Self {
+        lower: 0.0,
+        upper: f64::INFINITY,
+    };
+
     /// A sample that is known.
     pub(super) fn exact(value: f64) -> Self {
         Self {
@@ -49,9 +56,14 @@ impl Estimate {
         }
     }
 
-    /// The sample if it is exact, or what it is most likely near.
+    /// The sample if it is exact, else the middle of its limits.
     pub(super) fn middle(&self) -> f64 {
         0.5 * (self.lower + self.upper)
+    }
+
+    /// Whether the sample may have this value.
+    pub(super) fn allows(&self, value: f64) -> bool {
+        (self.lower..=self.upper).contains(&value)
     }
 
     /// Whether the sample is known.
@@ -93,13 +105,16 @@ fn interpolate(around: &[f64; AROUND]) -> [Interpolation; STRIDE - 1] {
     let missed = (REACH - 1..=REACH + 2).map(|at| (around[at] - between(around, at)).abs());
     let missed = missed.fold(0.0, f64::max);
     let near: [f64; 8] = std::array::from_fn(|i| around[REACH - 3 + i]);
+    let largest = near
+        .iter()
+        .fold(0.0, |largest: f64, near| largest.max(near.abs()));
+    let margin = SAFETY * missed + ROUNDING * largest + f64::MIN_POSITIVE;
     WITHIN.map(|weights| {
         let value = weights
             .iter()
             .zip(near)
             .map(|(weight, near)| weight * near)
             .sum::<f64>();
-        let margin = SAFETY * missed + ROUNDING * value.abs() + f64::MIN_POSITIVE;
         Interpolation { value, margin }
     })
 }

@@ -23,6 +23,8 @@ pub(super) struct PhiEvaluator<'a> {
     pub(super) path: Path<'a>,
     /// A 4th derivative of X below this does not matter, mm/rad⁴.
     negligible_fourth: f64,
+    /// Whether X's own interpolation mattered in any evaluation.
+    pub(super) x_has_mattered: bool,
     /// Largest error of φ, mm.
     allowed: f64,
     /// Part of the distance between passes that X's own error may take.
@@ -56,6 +58,7 @@ impl<'a> PhiEvaluator<'a> {
         Self {
             path: *path,
             negligible_fourth: NEGLIGIBLE * allowed * 384.0 / (STEEPEST * squared * squared),
+            x_has_mattered: false,
             allowed,
             feed_part,
             sharpest: sharpest(path.task.tool.misfit, allowed),
@@ -71,10 +74,10 @@ impl<'a> PhiEvaluator<'a> {
         }
     }
 
-    /// Whether each value of `block` is the same, whatever places it is evaluated with. It is where C runs evenly and
-    /// X is the law's own, whose own interpolation matters nowhere: the 4th derivative of each piece is a line, so
-    /// its ends decide.
-    pub(super) fn stands_alone(&self, block: Revolutions) -> bool {
+    /// Whether values in `block` do not depend on the places that are evaluated with them. So it is where C runs evenly,
+    /// and X is ρ and so smooth that its own interpolation matters nowhere. The 4th derivative of each piece is a line,
+    /// so its ends decide.
+    pub(super) fn is_pointwise(&self, block: Revolutions) -> bool {
         let (law, Revolutions { start, end }) = (self.path.law, block);
         let is_still =
             |series: Series| 24.0 * per_radian(series)[4].abs() <= self.negligible_fourth;
@@ -82,6 +85,7 @@ impl<'a> PhiEvaluator<'a> {
             && self.path.locus.radial() == Radial::Centre
             && is_still(law.series(start))
             && is_still(law.series_before(end))
+            && is_still(law.series(end))
             && law
                 .knots(start, end)
                 .all(|n| is_still(law.series_before(n)) && is_still(law.series(n)))
@@ -97,6 +101,7 @@ impl PhiEvaluator<'_> {
         self.find_paces(n, Pace::after);
         let moves = (0..n.len())
             .any(|i| 24.0 * self.in_time(i, self.x[i])[4].abs() > self.negligible_fourth);
+        self.x_has_mattered |= moves;
         if moves {
             self.find_slopes(n)?;
         }
@@ -177,19 +182,13 @@ impl PhiEvaluator<'_> {
     /// |φ⁗| at element `i` of the last evaluation, where N = `n`; or |X⁗| in the measure of
     /// [`x_weight`](Self::x_weight), if that is larger.
     pub(super) fn fourth(&self, i: usize, n: f64) -> f64 {
-        let of_x = self.in_time(i, self.x[i])[4].abs();
-        let (phi, x) = (self.phi(i)[4].abs(), of_x);
-        let of_c = self.of_c(i, 24.0 * phi);
-        if x == 0.0 {
-            return (24.0 * phi + of_c).min(self.sharpest);
-        }
-        (24.0 * phi.max(x * self.x_weight(n)) + of_c).min(self.sharpest)
+        let [phi, x] = self.signed_fourths(i, n).map(f64::abs);
+        (phi.max(x) + self.of_c(i, phi)).min(self.sharpest)
     }
 
-    /// φ⁗ and X⁗ in its measure, with their signs, at element `i` of the last evaluation, where N = `n` and C runs
-    /// evenly.
+    /// φ⁗ and X⁗ in its measure, with their signs, at element `i` of the last evaluation, where N = `n`.
     pub(super) fn signed_fourths(&self, i: usize, n: f64) -> [f64; 2] {
-        let x = self.x[i][4];
+        let x = self.in_time(i, self.x[i])[4];
         let of_x = if x == 0.0 { 0.0 } else { x * self.x_weight(n) };
         [24.0 * self.phi(i)[4], 24.0 * of_x]
     }

@@ -1,7 +1,8 @@
 //! |φ⁗| along the path on an even grid of angles, in batches as the steps advance.
 //!
-//! Where a sample [stands alone](PhiEvaluator::stands_alone), one of [`STRIDE`] is evaluated at first, and the others
-//! are estimated. Only those that may be the largest of their step are evaluated then.
+//! Where values are [pointwise](PhiEvaluator::is_pointwise), one of [`STRIDE`] samples is evaluated at first: the corner of a
+//! cell. The others are estimated. Only those that may be the largest of their step are evaluated then, and some
+//! more, to see whether the estimates hold.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -19,6 +20,8 @@ const COARSEST: f64 = 367.0;
 const BATCH: usize = 256;
 /// Number of cells that are estimated together.
 const CELLS: usize = 96;
+/// In one of so many cells a sample is evaluated to see whether its estimate holds.
+const CHECKED: usize = 8;
 /// Samples that are no longer needed are dropped, so many at a time.
 const DROPPED: usize = 4096;
 
@@ -30,6 +33,8 @@ pub(super) struct Samples<'a> {
     spacing: f64,
     /// Whether samples are estimated at first.
     estimates: bool,
+    /// Whether each sample that was evaluated lay within the limits of its estimate.
+    hold: bool,
     /// Number of the first sample in the buffer. Sample i lies at block.start + i·spacing. Where samples are
     /// estimated, it is the first of a cell.
     first: usize,
@@ -42,16 +47,19 @@ pub(super) struct Samples<'a> {
 
 impl<'a> Samples<'a> {
     /// Samples for steps of at most `max_step` rad, with errors of at most `allowed` mm. X's own
-    /// error may take `feed_part` of the distance between passes. No sample is evaluated yet.
+    /// error may take `feed_part` of the distance between passes. With `estimates` samples are estimated where that is
+    /// possible. No sample is evaluated yet.
     pub(super) fn new(
         path: &Path<'a>,
         block: Revolutions,
         (max_step, feed_part): (f64, f64),
         allowed: f64,
+        estimates: bool,
     ) -> Self {
         let phi = PhiEvaluator::new(path, block, (max_step, feed_part), allowed);
         Self {
-            estimates: phi.stands_alone(block),
+            estimates: estimates && phi.is_pointwise(block),
+            hold: true,
             phi,
             block,
             spacing: 1.0 / COARSEST,
@@ -61,6 +69,11 @@ impl<'a> Samples<'a> {
             first_corner: 0,
             n: Vec::new(),
         }
+    }
+
+    /// Whether steps are those of all samples, as far as the samples that were evaluated tell.
+    pub(super) fn hold(&self) -> bool {
+        self.hold && !(self.estimates && self.phi.x_has_mattered)
     }
 
     /// How the lengths of steps are measured.
@@ -151,7 +164,7 @@ impl<'a> Samples<'a> {
         );
     }
 
-    /// Those of the samples that are exact.
+    /// The values of those of the samples that are exact.
     pub(super) fn exact(&self, samples: Range<usize>) -> impl Iterator<Item = f64> {
         let known = samples.filter_map(|i| self.known(i));
         known.filter(Estimate::is_exact).map(|sample| sample.upper)
@@ -161,7 +174,9 @@ impl<'a> Samples<'a> {
     pub(super) fn make_exact(&mut self, samples: &[usize]) -> Result<()> {
         let fourth = self.fourths(samples.iter().copied())?;
         for (i, fourth) in samples.iter().zip(fourth) {
-            self.fourth[i - self.first] = Estimate::exact(fourth);
+            let known = &mut self.fourth[i - self.first];
+            self.hold &= known.allows(fourth);
+            *known = Estimate::exact(fourth);
         }
         Ok(())
     }
@@ -174,31 +189,28 @@ impl<'a> Samples<'a> {
         Ok(())
     }
 
-    /// The next cells. Samples whose cell has too few others around it within the block are exact.
+    /// The next cells. Samples of a cell with too few corners on one side within the block are exact.
     fn load_cells(&mut self) -> Result<()> {
         let first_cell = (self.first + self.fourth.len()) / STRIDE;
         let whole = self.at_or_before(self.block.end) / STRIDE;
         let end = (first_cell + CELLS).min(whole + 2).max(first_cell + 1);
-        let cells = first_cell..end;
-        self.load_corners(
-            first_cell.saturating_sub(REACH),
-            (cells.end + REACH).min(whole),
-        )?;
-        let mut missing = Vec::new();
-        for cell in cells {
+        self.load_corners(first_cell.saturating_sub(REACH), (end + REACH).min(whole))?;
+        let mut evaluated = Vec::new();
+        for cell in first_cell..end {
             let from = cell * STRIDE;
             match self.estimate_cell(cell) {
-                Some(cell) => self.fourth.extend(cell),
+                Some(estimates) => {
+                    self.fourth.extend(estimates);
+                    let checked = cell % CHECKED == 0;
+                    evaluated.extend(checked.then(|| from + 1 + cell / CHECKED % (STRIDE - 1)));
+                }
                 None => {
-                    missing.extend(from..from + STRIDE);
-                    self.fourth.extend([Estimate::exact(f64::NAN); STRIDE]);
+                    self.fourth.extend([Estimate::UNKNOWN; STRIDE]);
+                    evaluated.extend(from..from + STRIDE);
                 }
             }
         }
-        match missing.is_empty() {
-            true => Ok(()),
-            false => self.make_exact(&missing),
-        }
+        self.make_exact(&evaluated)
     }
 
     /// Evaluates the first samples of the cells from `from` to `to`, as far as they are not known yet.
@@ -237,6 +249,13 @@ impl<'a> Samples<'a> {
             phi.get(from..)?.first_chunk()?,
             x.get(from..)?.first_chunk()?,
         ];
+        if around
+            .into_iter()
+            .flatten()
+            .any(|fourth| !fourth.is_finite())
+        {
+            return None;
+        }
         let corner = around.map(|around| around[REACH].abs());
         let within = within(around, self.phi.sharpest);
         let corner = Estimate::exact(corner[0].max(corner[1]).min(self.phi.sharpest));
@@ -255,7 +274,7 @@ impl<'a> Samples<'a> {
         Ok(fourths)
     }
 
-    /// Evaluates φ at these samples, and gives their positions, which belong back into `n`.
+    /// Evaluates φ at these samples, and gives their positions. The caller gives the vector back to `n`.
     fn evaluate(&mut self, samples: impl Iterator<Item = usize>) -> Result<Vec<f64>> {
         let mut n = std::mem::take(&mut self.n);
         n.clear();

@@ -102,8 +102,27 @@ impl SamplerPlan for Steps {
     /// # Errors
     /// If the path has no 4th derivative, or needs steps below [`SHORTEST`].
     fn place(&self, path: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
-        let mut walk = Walk::new(path, block, self)?;
-        let mut n = block.start;
+        if let Ok(Some(placed)) = self.walk(path, block, true) {
+            placed.into_iter().for_each(|n| nodes.push(n));
+            return Ok(());
+        }
+        let placed = self.walk(path, block, false)?;
+        placed.into_iter().flatten().for_each(|n| nodes.push(n));
+        Ok(())
+    }
+}
+
+impl Steps {
+    /// The nodes of `block`. `None` if samples did not lie where their estimates let them, so that all samples have to
+    /// be evaluated.
+    fn walk(
+        &self,
+        path: &Path<'_>,
+        block: Revolutions,
+        estimates: bool,
+    ) -> Result<Option<Vec<f64>>> {
+        let mut walk = Walk::new(path, block, self, estimates)?;
+        let (mut n, mut nodes) = (block.start, Vec::new());
         while n < block.end {
             nodes.push(n);
             let next = walk.step_from(n)?;
@@ -113,7 +132,7 @@ impl SamplerPlan for Steps {
                 next
             };
         }
-        Ok(())
+        Ok(walk.samples.hold().then_some(nodes))
     }
 }
 
@@ -133,14 +152,21 @@ struct Walk<'a> {
 struct Step {
     /// End of the step, in revolutions.
     end: f64,
-    /// What the step's error bound is computed from.
+    /// What the step's error bound is computed from. For a step that the limit ends on the coarsest grid, it may be made
+    /// from upper limits of samples.
     bound: Bound,
 }
 
 impl<'a> Walk<'a> {
-    fn new(path: &Path<'a>, block: Revolutions, steps: &Steps) -> Result<Self> {
+    fn new(path: &Path<'a>, block: Revolutions, steps: &Steps, estimates: bool) -> Result<Self> {
         let allowed = AIM * path.task.tolerance.interpolation;
-        let mut samples = Samples::new(path, block, (steps.max_step, steps.feed_part), allowed);
+        let mut samples = Samples::new(
+            path,
+            block,
+            (steps.max_step, steps.feed_part),
+            allowed,
+            estimates,
+        );
         let knots = samples.knots()?;
         Ok(Self {
             samples,
@@ -182,8 +208,8 @@ impl<'a> Walk<'a> {
     }
 
     /// The longest step from `n` on the present grid. The walk goes from mark to mark, where a mark
-    /// is a sample or a knot, until the error reaches the bound. Samples count with their upper limits, until these
-    /// decide.
+    /// is a sample or a knot, until the error reaches the bound. Samples count with their upper limits. Where
+    /// the error reaches the bound with these, the samples that may be the largest are evaluated.
     fn longest(&mut self, n: f64) -> Result<Step> {
         let limit = (n + self.max_step / TAU).min(self.end);
         let clock = self.samples.clock();
@@ -200,15 +226,14 @@ impl<'a> Walk<'a> {
         loop {
             let place = self.samples.position(sample);
             let crossed = self.knots.get(knot).copied().filter(|knot| knot.n <= place);
-            let (mark, fourth, seen) = match crossed {
-                Some(knot) => (knot.n, knot.before, first..sample),
-                None => (
-                    place,
-                    self.samples.estimate(sample)?.upper,
-                    first..sample + 1,
-                ),
+            let seen = first..sample + usize::from(crossed.is_none());
+            let (mark, fourth) = match crossed {
+                Some(knot) => {
+                    at_knots = at_knots.max(knot.before);
+                    (knot.n, knot.before)
+                }
+                None => (place, self.samples.estimate(sample)?.upper),
             };
-            at_knots = crossed.map_or(at_knots, |knot| at_knots.max(knot.before));
             bound.fourth = bound.fourth.max(fourth);
             let to = mark.min(limit);
             if bound.error(length(to)) > self.allowed {
@@ -225,7 +250,7 @@ impl<'a> Walk<'a> {
                 return Ok(Step { end, bound });
             }
             if to >= limit {
-                if !self.is_coarse_enough(&bound, clock.speed(n)) {
+                if !self.suits_coarsest_grid(&bound, clock.speed(n)) {
                     bound.fourth = self.largest(n, seen, at_knots)?;
                 }
                 return Ok(Step { end: limit, bound });
@@ -246,8 +271,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether the coarsest grid is fine enough, also for a bound of upper limits.
-    fn is_coarse_enough(&self, bound: &Bound, speed: f64) -> bool {
+    /// Whether the step needs no finer grid than the coarsest, also with upper limits, and the grid is that one.
+    fn suits_coarsest_grid(&self, bound: &Bound, speed: f64) -> bool {
         let natural = bound.natural_length(self.allowed) * speed;
         self.samples.is_coarsest() && natural >= LEAST_SAMPLES * self.samples.spacing()
     }
@@ -279,7 +304,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The end of the step from `n` and the samples that decide about it, if nothing but samples that are known does.
+    /// The end of the step from `n` and the samples that decide about it, with knots left out. `None` if
+    /// they are samples of which nothing is known, or reach the block's end.
     fn likely_step(&self, n: f64) -> Option<(f64, Range<usize>)> {
         let first = self.samples.at_or_before(n);
         let clock = self.samples.clock();
