@@ -1,14 +1,14 @@
 //! Estimates of even samples from each eighth of them.
 //!
 //! A sample is estimated by the polynomial through the eight nearest exact ones. Each exact sample is also estimated
-//! from its neighbours, at twice their distance: what that misses is 256 times the error within, where the curve is
-//! smooth, and it shows where it is not. A wave of less than two exact samples a period can pass unseen, until a sample
+//! from exact ones on both sides, which lie twice as far apart. Where the curve is smooth, this estimate errs 256 times
+//! as much as those within a cell. Where it is not smooth, this estimate shows it. A wave of less than two exact samples a period can pass unseen, until a sample
 //! between them is evaluated.
 
 /// One sample of so many is exact.
 pub(super) const STRIDE: usize = 8;
-/// The exact samples beyond each end of a cell that its estimates and their margin use: the margin asks for samples up
-/// to 7 beyond those at the second ends of the neighbouring cells.
+/// The exact samples beyond each end of a cell that its margin uses. The margin looks at the exact samples up to one
+/// beyond the cell, and each of them is estimated from others up to 7 away.
 pub(super) const REACH: usize = 8;
 /// The weights of the exact samples at a distance of 1, 3, 5 and 7 on both sides for the one between them.
 const BETWEEN: [f64; 4] = [

@@ -34,7 +34,7 @@ pub(super) struct Samples<'a> {
     /// Whether samples are estimated at first.
     estimates: bool,
     /// Whether each sample that was evaluated lay within the limits of its estimate.
-    hold: bool,
+    estimates_hold: bool,
     /// Number of the first sample in the buffer. Sample i lies at block.start + i·spacing. Where samples are
     /// estimated, it is the first of a cell.
     first: usize,
@@ -59,7 +59,7 @@ impl<'a> Samples<'a> {
         let phi = PhiEvaluator::new(path, block, (max_step, feed_part), allowed);
         Self {
             estimates: estimates && phi.is_pointwise(block),
-            hold: true,
+            estimates_hold: true,
             phi,
             block,
             spacing: 1.0 / COARSEST,
@@ -72,8 +72,8 @@ impl<'a> Samples<'a> {
     }
 
     /// Whether steps are those of all samples, as far as the samples that were evaluated tell.
-    pub(super) fn hold(&self) -> bool {
-        self.hold && !(self.estimates && self.phi.x_has_mattered)
+    pub(super) fn estimates_hold(&self) -> bool {
+        self.estimates_hold && !(self.estimates && self.phi.x_has_mattered)
     }
 
     /// How the lengths of steps are measured.
@@ -175,7 +175,7 @@ impl<'a> Samples<'a> {
         let fourth = self.fourths(samples.iter().copied())?;
         for (i, fourth) in samples.iter().zip(fourth) {
             let known = &mut self.fourth[i - self.first];
-            self.hold &= known.allows(fourth);
+            self.estimates_hold &= known.allows(fourth);
             *known = Estimate::exact(fourth);
         }
         Ok(())

@@ -113,8 +113,7 @@ impl SamplerPlan for Steps {
 }
 
 impl Steps {
-    /// The nodes of `block`. `None` if samples did not lie where their estimates let them, so that all samples have to
-    /// be evaluated.
+    /// The nodes of `block`. `None` if an estimate does not hold, so that all samples have to be evaluated.
     fn walk(
         &self,
         path: &Path<'_>,
@@ -132,7 +131,7 @@ impl Steps {
                 next
             };
         }
-        Ok(walk.samples.hold().then_some(nodes))
+        Ok(walk.samples.estimates_hold().then_some(nodes))
     }
 }
 
