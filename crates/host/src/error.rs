@@ -67,7 +67,9 @@ pub enum LoadError {
         paths: Vec<PathBuf>,
     },
     /// Two strategies have one name in one slot.
-    #[error("two {}s are named `{name}`: one of {first}, one of {second}", slot.noun())]
+    #[error(
+        "two strategies of the slot `{slot}` are named `{name}`: one of {first}, one of {second}"
+    )]
     TwoOfOneName {
         /// The slot of both strategies.
         slot: Slot,
@@ -298,9 +300,7 @@ impl LoadError {
     /// What the user may do about it, where the message itself does not say.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            Self::TwoOfOneName { .. } => {
-                Some("leave one of the two plugins out, or rename its strategy")
-            }
+            Self::TwoOfOneName { .. } => Some("leave one of the two out, or rename it"),
             Self::NotTogether { .. } => Some("leave one of them out"),
             Self::Refused {
                 refusal: Refusal::OtherThanLocked { .. } | Refusal::NotInLock { .. },

@@ -89,10 +89,10 @@ fn its_panics_are_errors_when_it_is_made_and_when_it_is_asked() {
 fn a_name_twice_and_a_key_of_the_host_are_refused_and_leave_nothing() {
     let mut catalogue = Catalogue::new();
     let twice = catalogue.add_own(lab().with(plane(0.5)).with(plane(0.6)));
-    assert!(
-        matches!(twice, Err(LoadError::TwoOfOneName { .. })),
-        "{twice:?}"
-    );
+    let twice = twice.unwrap_err();
+    assert!(matches!(twice, LoadError::TwoOfOneName { .. }), "{twice:?}");
+    let said = "two strategies of the slot `surface` are named `plane`: one of ";
+    assert!(twice.to_string().starts_with(said), "{twice}");
     let host_key = catalogue.add_own(lab().with(plane(0.5).with_params(PISTON)));
     assert!(
         matches!(host_key, Err(LoadError::HostKey { .. })),

@@ -111,10 +111,10 @@ fn two_with_one_name() {
             .to_string()
             .replace(&format!("{}/", folder.display()), ""),
         format!(
-            "two samplers are named `twin`: one of twins-a 0.1.0 ({a}), one of twins-b 0.1.0 ({b})"
+            "two strategies of the slot `sampler` are named `twin`: one of twins-a 0.1.0 ({a}), one of twins-b 0.1.0 ({b})"
         )
     );
-    let help = "leave one of the two plugins out, or rename its strategy";
+    let help = "leave one of the two out, or rename it";
     assert_eq!(error.help(), Some(help));
     assert!(!error.is_io());
 }

@@ -184,7 +184,10 @@ fn two_plugins_with_one_name_are_a_fault_of_their_declaration() {
     };
     assert_eq!(fault.kind.check(), Declaration);
     let text = fault.to_string();
-    assert!(text.contains("two samplers are named `twin`"), "{text}");
+    assert!(
+        text.contains("two strategies of the slot `sampler` are named `twin`"),
+        "{text}"
+    );
 }
 
 #[test]
