@@ -75,21 +75,48 @@ impl SpindleLaw {
         TAU / self.time.rate(n)
     }
 
+    /// The times at which the spindle has made so many revolutions, s. `times` has the length of `n`.
+    pub fn times_at(&self, n: &[f64], times: &mut [f64]) {
+        self.time.values(n, times);
+    }
+
+    /// The speeds of the spindle after so many revolutions, rad/s. `speeds` has the length of `n`.
+    pub fn speeds_at(&self, n: &[f64], speeds: &mut [f64]) {
+        self.time.rates(n, speeds);
+        speeds.iter_mut().for_each(|speed| *speed = TAU / *speed);
+    }
+
     /// The revolutions after the time `time`, s, to rounding. `near` is a guess, in revolutions.
     ///
     /// NaN if the law has no value there.
     pub fn revolutions_at(&self, time: f64, near: f64) -> f64 {
-        let step_from = |n: f64| (time - self.time_at(n)) * self.speed_at(n) / TAU;
-        let mut n = near + step_from(near);
-        for _ in 0..MOST_NEWTON_STEPS {
-            let step = step_from(n);
-            if step.abs() <= ROUNDING * n.abs() || step.is_nan() {
-                break;
+        match self.time.only_line() {
+            Some(line) => {
+                let speed = TAU / line.rate();
+                newton(time, near, |n| (line.value(n), speed))
             }
-            n += step;
+            None => newton(time, near, |n| (self.time_at(n), self.speed_at(n))),
         }
-        n
     }
+}
+
+/// Newton's iteration for the revolutions after the time `time`, s, from the guess `near`. `time_and_speed`
+/// gives the time that some revolutions take, s, and the speed at their end, rad/s.
+#[inline(always)]
+fn newton(time: f64, near: f64, time_and_speed: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let step_from = |n: f64| {
+        let (here, speed) = time_and_speed(n);
+        (time - here) * speed / TAU
+    };
+    let mut n = near + step_from(near);
+    for _ in 0..MOST_NEWTON_STEPS {
+        let step = step_from(n);
+        if step.abs() <= ROUNDING * n.abs() || step.is_nan() {
+            break;
+        }
+        n += step;
+    }
+    n
 }
 
 /// Most steps of Newton's iteration. From a guess within a turn it takes four.
@@ -131,6 +158,33 @@ mod tests {
                 assert!((found - n).abs() <= 1e-14 * n.max(1.0), "{found} for {n}");
             }
         }
+    }
+
+    /// One line goes a shorter way. A second line far away takes the usual one.
+    #[test]
+    fn a_line_gives_the_revolutions_that_any_law_gives() {
+        let mut time = PiecewisePolynomial::new();
+        time.push(1.375, [0.0, 0.1, 0.0, 0.0, 0.0, 0.0]);
+        time.push(1e9, [0.1375, 0.1192, 0.0, 0.0, 0.0, 0.0]);
+        let [one, both] = [&time.pieces()[1..], time.pieces()].map(|pieces| {
+            SpindleLaw::from_time(PiecewisePolynomial::from_pieces(
+                pieces.to_vec(),
+                time.end(),
+            ))
+        });
+        for n in [1.5, 17.37, 4321.987, 99_999.01] {
+            let guess = n + 0.3;
+            let found =
+                [&one, &both].map(|law| law.revolutions_at(law.time_at(n), guess).to_bits());
+            assert_eq!(found[0], found[1], "{n}");
+        }
+        assert!(one.revolutions_at(1.0, f64::INFINITY).is_nan());
+        let n = [0.3, 1.9, 2.7];
+        let (mut times, mut speeds) = ([0.0; 3], [0.0; 3]);
+        both.times_at(&n, &mut times);
+        both.speeds_at(&n, &mut speeds);
+        assert_eq!(times, n.map(|n| both.time_at(n)));
+        assert_eq!(speeds, n.map(|n| both.speed_at(n)));
     }
 
     /// A node on a step of time keeps the bytes that a single step of Newton's iteration gives.

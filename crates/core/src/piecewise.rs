@@ -1,6 +1,7 @@
 //! Piecewise polynomials of degree 5 against the number of revolutions, and their knots.
 
 use crate::Series;
+use crate::registers::{Loop, in_widest};
 
 /// One polynomial Σ c_i (n − start)^i, from `start` to the start of the next piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +63,60 @@ impl Piece {
             .iter()
             .rev()
             .fold(0.0, |sum, c| sum * s + c)
+    }
+}
+
+/// A piece whose rate is the same all over, and not zero. It has the bits of the whole polynomial at finite
+/// places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LinearPiece {
+    start: f64,
+    value: f64,
+    rate: f64,
+}
+
+impl LinearPiece {
+    fn of(piece: &Piece) -> Option<Self> {
+        let [value, rate] = piece.line()?;
+        Some(Self {
+            start: piece.start,
+            value,
+            rate,
+        })
+    }
+
+    /// The value at a place `n`; NaN where that is not finite.
+    #[inline(always)]
+    pub fn value(&self, n: f64) -> f64 {
+        let s = n - self.start;
+        if s.is_finite() {
+            s * self.rate + self.value
+        } else {
+            f64::NAN
+        }
+    }
+
+    /// The rate.
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+}
+
+/// The loop that finds the values of a line.
+struct LineValues<'a> {
+    line: LinearPiece,
+    n: &'a [f64],
+    values: &'a mut [f64],
+}
+
+impl Loop for LineValues<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (value, n) in self.values.iter_mut().zip(self.n) {
+            *value = self.line.value(*n);
+        }
     }
 }
 
@@ -183,6 +238,62 @@ impl PiecewisePolynomial {
         }
     }
 
+    /// The values at all these places: those that [`value`](Self::value) gives one by one. `values` has the
+    /// length of `n`.
+    pub fn values(&self, n: &[f64], values: &mut [f64]) {
+        match self.line_around(n) {
+            Some(line) => in_widest(LineValues { line, n, values }),
+            None => {
+                let each = values.iter_mut().zip(n);
+                each.for_each(|(value, n)| *value = self.value(*n));
+            }
+        }
+    }
+
+    /// The rates at all these places: those that [`rate`](Self::rate) gives one by one. `rates` has the
+    /// length of `n`.
+    pub fn rates(&self, n: &[f64], rates: &mut [f64]) {
+        match self.line_around(n) {
+            Some(line) => rates.fill(line.rate),
+            None => {
+                let each = rates.iter_mut().zip(n);
+                each.for_each(|(rate, n)| *rate = self.rate(*n));
+            }
+        }
+    }
+
+    /// The line that the function is all over, if it has a single piece with a rate other than zero.
+    pub(crate) fn only_line(&self) -> Option<LinearPiece> {
+        match self.pieces.as_slice() {
+            [piece] => LinearPiece::of(piece),
+            _ => None,
+        }
+    }
+
+    /// The line that the function is at all these places, if they lie within one piece and on none of its
+    /// ends.
+    fn line_around(&self, n: &[f64]) -> Option<LinearPiece> {
+        let after = self
+            .pieces
+            .partition_point(|piece| piece.start <= *n.first().unwrap_or(&0.0));
+        let index = after.saturating_sub(1);
+        // The first and the last piece go on without an end.
+        let from = match index {
+            0 => f64::NEG_INFINITY,
+            _ => self.pieces.get(index)?.start,
+        };
+        let to = self
+            .pieces
+            .get(index + 1)
+            .map_or(f64::INFINITY, |next| next.start);
+        // Without a way out of the loop it goes through vector registers.
+        let is_one = n.iter().fold(true, |all, n| all & (from < *n) & (*n < to));
+        self.pieces
+            .get(index)
+            .filter(|_| is_one)
+            .and_then(LinearPiece::of)
+    }
+
     /// The value at N = 0 and the rate, where the function is a line with a rate other than zero from `from`
     /// to `to`. The first and the last piece continue beyond the ends.
     pub fn line_over(&self, from: f64, to: f64) -> Option<[f64; 2]> {
@@ -267,6 +378,45 @@ mod tests {
             assert_eq!(law.line_over(from, to), None);
         }
         assert_eq!(PiecewisePolynomial::new().line_over(0.0, 1.0), None);
+    }
+
+    /// Batches within one piece and over several, with ends of pieces among them, and places that are none.
+    #[test]
+    fn a_batch_has_the_bits_that_its_places_have_alone() {
+        let mut lines = PiecewisePolynomial::new();
+        lines.push(2.0, [7.0, -0.5, 0.0, 0.0, 0.0, 0.0]);
+        lines.push(3.0, [6.0, -0.25, 0.0, 0.0, 0.0, 0.0]);
+        let only = PiecewisePolynomial::from_pieces(lines.pieces()[..1].to_vec(), 2.0);
+        let laws = [lines, only, two_pieces(), PiecewisePolynomial::new()];
+        let within = [0.1, 0.7, 1.3, 0.2, 1.9];
+        let batches = [
+            within.to_vec(),
+            within.map(|n| n + 2.0).to_vec(),
+            within.map(|n| 3.0 * n - 1.0).to_vec(),
+            vec![2.0, 3.0, 4.0],
+            vec![3.0, 2.0],
+            vec![0.0, 1.0],
+            vec![0.5, f64::NAN],
+            vec![-f64::INFINITY, 0.5, f64::INFINITY],
+            vec![],
+        ];
+        for (law, batch) in laws
+            .iter()
+            .flat_map(|law| batches.iter().map(move |b| (law, b)))
+        {
+            let bits = |numbers: &[f64]| -> Vec<Option<u64>> {
+                let known = numbers.iter().map(|x| (!x.is_nan()).then_some(x.to_bits()));
+                known.collect()
+            };
+            let (mut values, mut rates) = (vec![0.0; batch.len()], vec![0.0; batch.len()]);
+            law.values(batch, &mut values);
+            law.rates(batch, &mut rates);
+            let alone: [Vec<f64>; 2] = [
+                batch.iter().map(|n| law.value(*n)).collect(),
+                batch.iter().map(|n| law.rate(*n)).collect(),
+            ];
+            assert_eq!([bits(&values), bits(&rates)], alone.map(|of| bits(&of)));
+        }
     }
 
     #[test]

@@ -8,8 +8,29 @@ use crate::registers::{Loop, in_widest};
 
 /// θ after `n` revolutions. The function reduces `n` to one turn before it scales, so that large N
 /// keep their digits.
+#[inline(always)]
 pub fn angle(n: f64) -> f64 {
     TAU * (n - n.floor())
+}
+
+/// The angle θ after each of these numbers of revolutions, rad, as [`angle`] gives it. `theta` has the length
+/// of `n`.
+pub fn angles(n: &[f64], theta: &mut [f64]) {
+    in_widest(Angles(n, theta));
+}
+
+/// The loop of [`angles`].
+struct Angles<'a>(&'a [f64], &'a mut [f64]);
+
+impl Loop for Angles<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (theta, n) in self.1.iter_mut().zip(self.0) {
+            *theta = angle(*n);
+        }
+    }
 }
 
 /// An angle without its whole turns, in 0 to 2π: the same double as `c.rem_euclid(TAU)`, without the
@@ -139,6 +160,15 @@ const NODE_SLACK: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn angles_of_many_are_those_of_each() {
+        let n: Vec<f64> = (0..37).map(|k| 0.37 * f64::from(k * k) - 2.0).collect();
+        let mut theta = vec![0.0; n.len()];
+        angles(&n, &mut theta);
+        let each: Vec<f64> = n.iter().map(|n| angle(*n)).collect();
+        assert_eq!(theta, each);
+    }
 
     /// Angles at and beside whole turns, and in between, up to beyond the largest.
     #[test]

@@ -88,9 +88,19 @@ impl Columns {
         self.t.len()
     }
 
-    /// Whether every quantity of a node is a number.
-    pub fn is_finite(&self, node: usize) -> bool {
-        self.each().iter().all(|column| column[node].is_finite())
+    /// The first node of which a quantity is no number.
+    pub fn first_unknown(&self) -> Option<usize> {
+        // Without a way out of the loop it goes through vector registers.
+        let is_known = |column: &&Vec<f64>| {
+            column
+                .iter()
+                .fold(true, |all, value| all & value.is_finite())
+        };
+        if self.each().iter().all(is_known) {
+            return None;
+        }
+        let is_unknown = |node: &usize| self.each().iter().any(|column| !column[*node].is_finite());
+        (0..self.len()).find(is_unknown)
     }
 
     /// A further column without values.

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{CentreBuffers, Dependence, NodeList, Rates, Velocities, angle};
+use turnpath_core::{CentreBuffers, Dependence, NodeList, Rates, Velocities, angles};
 
 use crate::Result;
 use crate::columns::Columns;
@@ -182,13 +182,12 @@ fn locate_block(
 
 /// Nodes and their times. Where the controller has steps of time, the nodes are moved onto them.
 fn on_time(plan: &Plan<'_>, nodes: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
-    let mut t = Vec::with_capacity(nodes.len() + 1);
-    let on_time = nodes.iter().map(|node| {
-        let (n, time) = plan.on_time(*node);
-        t.push(time);
-        n
-    });
-    let n: Vec<f64> = on_time.collect();
+    let mut t = column(nodes.iter().map(|_| f64::NAN));
+    plan.spindle.times_at(nodes, &mut t);
+    let mut n = nodes.to_vec();
+    for (n, t) in n.iter_mut().zip(&mut t) {
+        (*n, *t) = plan.moved_on_time(*n, *t);
+    }
     match t.windows(2).position(|pair| pair[1] <= pair[0]) {
         None => Ok((n, t)),
         Some(i) => Err(plan.chain.sampler.bad_answer(format!(
@@ -214,9 +213,10 @@ fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
         (Some(first), Some(last)) => format!("in revolutions {first:.3} to {last:.3}"),
         _ => String::new(),
     };
-    let theta: Vec<f64> = n.iter().map(|n| angle(*n)).collect();
-    let rho: Vec<f64> = n.iter().map(|n| plan.law.value(*n)).collect();
     let unset = || column((0..n.len()).map(|_| f64::NAN));
+    let (mut theta, mut rho) = (vec![f64::NAN; n.len()], vec![f64::NAN; n.len()]);
+    angles(&n, &mut theta);
+    plan.law.values(&n, &mut rho);
     let mut centres = CentreBuffers {
         x: unset(),
         z: unset(),
@@ -234,10 +234,11 @@ fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
     locus
         .centre_and_rates(&theta, &rho, centres.as_centres(), rates)
         .map_err(|error| compensator.failed(context(), error))?;
-    let c_rate = column(n.iter().map(|n| plan.spindle.speed_at(*n)));
-    let x_rate = column(
-        (0..n.len()).map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * plan.law.rate(n[i]) / TAU)),
-    );
+    let (mut c_rate, mut law_rate) = (unset(), unset());
+    plan.spindle.speeds_at(&n, &mut c_rate);
+    plan.law.rates(&n, &mut law_rate);
+    let x_rate =
+        column((0..n.len()).map(|i| c_rate[i] * (x_theta[i] + x_rho[i] * law_rate[i] / TAU)));
     let mut columns = Columns {
         dz: column(n.iter().map(|_| 0.0)),
         t,
@@ -250,7 +251,7 @@ fn locate(plan: &Plan<'_>, nodes: &NodeList) -> Result<Columns> {
         z_x,
     };
     columns.shift(nodes);
-    match (0..n.len()).find(|i| !columns.is_finite(*i)) {
+    match columns.first_unknown() {
         None => Ok(columns),
         Some(i) => Err(compensator.bad_answer(format!(
             "no number for the tool centre at C = {:.3} deg, ρ = {} mm",

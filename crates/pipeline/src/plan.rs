@@ -233,7 +233,11 @@ impl<'a> Plan<'a> {
     /// to the nearest step. The path's end is moved to the step before it, so that the path does
     /// not run beyond its end.
     pub fn on_time(&self, n: f64) -> (f64, f64) {
-        let t = self.spindle.time_at(n);
+        self.moved_on_time(n, self.spindle.time_at(n))
+    }
+
+    /// What [`on_time`](Self::on_time) gives for a node `n` whose time since the cut's start is `t`, s.
+    pub fn moved_on_time(&self, n: f64, t: f64) -> (f64, f64) {
         let Some(steps) = self.time_steps else {
             return (n, self.start.time + t);
         };

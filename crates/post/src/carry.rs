@@ -13,7 +13,7 @@ use crate::trail::{Move, Trail};
 pub(crate) fn carry(
     format: &ProgramFormat,
     stretch: &SectionBlock<'_>,
-    write: &mut dyn FnMut(Move<'_>),
+    write: &mut impl FnMut(Move<'_>),
 ) -> Result<usize, ProgramError> {
     let mut trail = Trail::new(stretch.points.shape);
     let in_lead = stretch.section != Section::Cutting;

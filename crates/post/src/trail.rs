@@ -72,7 +72,7 @@ impl Trail {
         format: &ProgramFormat,
         (point, in_lead): (&ControlPoint, bool),
         known: Option<Digits>,
-        write: &mut dyn FnMut(Move<'_>),
+        write: &mut impl FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
         // Known digits need no segment, and most segments are not divided.
         let segment = known.map_or_else(|| self.segment_to(point), |_| None);
@@ -113,7 +113,7 @@ impl Trail {
         (point, segment): (&ControlPoint, Option<&Segment>),
         in_lead: bool,
         end: &Digits,
-        write: &mut dyn FnMut(Move<'_>),
+        write: &mut impl FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
         let Some((from, segment)) = self.digits.zip(segment) else {
             return Ok(());
@@ -212,7 +212,7 @@ impl Trail {
         format: &ProgramFormat,
         point: &ControlPoint,
         (to, reaches_point): (Digits, bool),
-        write: &mut dyn FnMut(Move<'_>),
+        write: &mut impl FnMut(Move<'_>),
     ) -> Result<(), ProgramError> {
         let Some(from) = self.digits else {
             return Ok(());

@@ -4,7 +4,7 @@ use super::bound::Bound;
 use super::clock::Clock;
 use crate::{
     DEG, Misfit, Pace, Path, Radial, Rates, Result, Revolutions, Series, SpindleLaw, StrategyError,
-    angle, per_radian,
+    angles, per_radian,
 };
 
 /// The largest slope that is assumed in the test whether X's own interpolation matters.
@@ -165,10 +165,10 @@ impl PhiEvaluator<'_> {
     }
 
     fn find_slopes(&mut self, n: &[f64]) -> Result<()> {
-        self.theta.clear();
-        self.theta.extend(n.iter().map(|n| angle(*n)));
-        self.rho.clear();
-        self.rho.extend(n.iter().map(|n| self.path.law.value(*n)));
+        self.theta.resize(n.len(), f64::NAN);
+        angles(n, &mut self.theta);
+        self.rho.resize(n.len(), f64::NAN);
+        self.path.law.values(n, &mut self.rho);
         let [x_theta, x_rho, z_theta] = &mut self.spare;
         let rates = Rates {
             x_theta,
