@@ -7,15 +7,20 @@ pub type Point = Vector2<f64>;
 
 /// The lower intersection of two circles of radius `radius`; `None` where they do not meet.
 pub fn between(first: Point, second: Point, radius: f64) -> Option<Point> {
+    let tip = crossing(first, second, radius);
+    let is_known = !tip.x.is_nan() && !tip.y.is_nan();
+    is_known.then_some(tip)
+}
+
+/// The lower intersection of two circles of radius `radius`; not a number where they do not meet.
+#[inline(always)]
+pub(crate) fn crossing(first: Point, second: Point, radius: f64) -> Point {
     let apart = second - first;
-    let half = 0.5 * apart.norm();
-    if half == 0.0 || half > radius {
-        return None;
-    }
+    let half = 0.5 * (apart.x * apart.x + apart.y * apart.y).sqrt();
     let across = Vector2::new(-apart.y, apart.x) / (2.0 * half);
     let down = if across.y > 0.0 { -across } else { across };
     let depth = (radius * radius - half * half).sqrt();
-    Some(0.5 * (first + second) + depth * down)
+    0.5 * (first + second) + depth * down
 }
 
 /// The tip of the cusp that two neighbouring passes leave when the tool's edge reaches no further

@@ -8,8 +8,9 @@
 
 use std::f64::consts::TAU;
 
+use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{Gradients, Result, Scalar, SurfaceModel, Tool};
+use turnpath_core::{Gradients, Result, SurfaceModel, Tool, sines_and_cosines};
 
 use crate::closing::{self, SectionCusp};
 use crate::crossings::Sections;
@@ -336,37 +337,95 @@ pub(crate) fn heights(
     theta: &[f64],
     cusps: &[Point],
 ) -> Result<(Vec<f64>, Vec<f64>)> {
-    let turned: Vec<(f64, f64)> = theta.iter().map(|theta| Scalar::sin_cos(*theta)).collect();
-    let mut feet: Vec<f64> = cusps.iter().map(|cusp| cusp.x).collect();
-    let mut distances = vec![0.0; cusps.len()];
     let blank = vec![0.0; cusps.len()];
+    let (mut sine, mut cosine) = (blank.clone(), blank.clone());
+    sines_and_cosines(theta, &mut sine, &mut cosine);
+    let mut feet: Vec<f64> = cusps.iter().map(|cusp| cusp.x).collect();
+    let mut distances = blank.clone();
     let [mut x, mut y] = [blank.clone(), blank.clone()];
     let (mut z, mut zx, mut zy) = (blank.clone(), blank.clone(), blank);
     for _ in 0..FOOT_STEPS {
-        for (i, (foot, (s, c))) in feet.iter().zip(&turned).enumerate() {
-            (x[i], y[i]) = (foot * c, foot * s);
-        }
+        in_widest(PlacesOnPart {
+            radii: &feet,
+            sine: &sine,
+            cosine: &cosine,
+            x: &mut x,
+            y: &mut y,
+        });
         let out = Gradients {
             z: &mut z,
             zx: &mut zx,
             zy: &mut zy,
         };
         surface.gradient(&x, &y, out)?;
-        let mut moved = false;
-        for i in 0..cusps.len() {
-            let (s, c) = turned[i];
-            let slope = zx[i] * c + zy[i] * s;
-            let off = cusps[i] - Point::new(feet[i], z[i]);
-            let w = (1.0 + slope * slope).sqrt();
-            distances[i] = (off.y - slope * off.x) / w;
-            let next = feet[i] + (off.x + slope * off.y) / (w * w);
-            moved |= next != feet[i];
-            feet[i] = next;
-        }
+        let moved = in_widest(FootStep {
+            cusps,
+            turned: [&sine, &cosine],
+            wanted: [&z, &zx, &zy],
+            feet: &mut feet,
+            distances: &mut distances,
+        });
         // Further steps would find the same again.
         if !moved {
             break;
         }
     }
     Ok((distances, feet))
+}
+
+/// The loop that places radii on the part.
+struct PlacesOnPart<'a> {
+    radii: &'a [f64],
+    sine: &'a [f64],
+    cosine: &'a [f64],
+    x: &'a mut [f64],
+    y: &'a mut [f64],
+}
+
+impl Loop for PlacesOnPart<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let turned = self.radii.iter().zip(self.sine.iter().zip(self.cosine));
+        for ((x, y), (radius, (s, c))) in self.x.iter_mut().zip(self.y).zip(turned) {
+            (*x, *y) = (radius * c, radius * s);
+        }
+    }
+}
+
+/// The loop that steps from each foot to the next one, and says whether any of them moved.
+struct FootStep<'a> {
+    cusps: &'a [Point],
+    /// Sine and cosine of each angle.
+    turned: [&'a [f64]; 2],
+    /// Height and slopes at each foot.
+    wanted: [&'a [f64]; 3],
+    feet: &'a mut [f64],
+    /// How far each cusp lies above the tangent at its foot, mm.
+    distances: &'a mut [f64],
+}
+
+impl Loop for FootStep<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        let ([sine, cosine], [z, zx, zy]) = (self.turned, self.wanted);
+        let slopes = zx.iter().zip(cosine).zip(zy.iter().zip(sine));
+        let given = self.cusps.iter().zip(z).zip(slopes);
+        let mut moved = false;
+        for ((foot, distance), ((cusp, z), ((zx, c), (zy, s)))) in
+            self.feet.iter_mut().zip(self.distances).zip(given)
+        {
+            let slope = zx * c + zy * s;
+            let (off_x, off_y) = (cusp.x - *foot, cusp.y - z);
+            let w = (1.0 + slope * slope).sqrt();
+            *distance = (off_y - slope * off_x) / w;
+            let next = *foot + (off_x + slope * off_y) / (w * w);
+            moved |= next != *foot;
+            *foot = next;
+        }
+        moved
+    }
 }

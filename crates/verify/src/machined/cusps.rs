@@ -4,12 +4,13 @@
 //! played. A pass that is played too high may cut nothing, so the tips are those of the envelope of
 //! all passes of a line.
 
-use turnpath_core::{Result, Scalar, Tool};
+use turnpath_core::Result;
+use turnpath_core::registers::{Loop, in_widest};
 
-use super::envelope::{Arc, lower_arc};
+use super::envelope::lower_arc;
+use super::pieces::Pieces;
 use crate::closing::{self, SectionCusp};
 use crate::cusp::Point;
-use crate::profiles::Profiles;
 use crate::residual;
 use crate::touch::FirstTouch;
 
@@ -29,14 +30,8 @@ pub struct HighestCusp {
     pub at_rho: f64,
 }
 
-/// A tip of the machined profile, and the two centres of the nose that leave it.
-#[derive(Debug, Clone, Copy)]
-struct Tip {
-    at: Point,
-    centres: [Point; 2],
-}
-
-/// The tips that the arcs of lines leave between passes that meet on the part.
+/// The tips that the arcs of lines leave between passes that meet within the part. A tip that lies exactly on
+/// its rim or on its hole is none.
 pub(super) struct Tips<'a> {
     pub touch: &'a FirstTouch,
     /// Whether those between the passes of the two sides of the axis count.
@@ -44,113 +39,155 @@ pub(super) struct Tips<'a> {
 }
 
 impl Tips<'_> {
-    /// The highest cusp of a line by its number, with its arcs from left to right; `None` without
-    /// one.
+    /// The highest cusp of a line by its number, once heights and slopes are looked up; `None` if there is
+    /// no cusp.
     ///
     /// # Errors
     /// When the surface fails.
-    pub fn highest(&self, number: usize, angle: f64, arcs: &[Arc]) -> Result<Option<HighestCusp>> {
-        let touch = self.touch;
-        match touch.leaves_seams() {
-            false => highest_over_surface(touch, angle, &self.on_line(angle, arcs)?),
-            true if number.is_multiple_of(SEAM_STRIDE) => {
-                highest_over_closing(touch, angle, &self.on_line(angle, arcs)?)
-            }
+    pub fn highest(
+        &self,
+        number: usize,
+        angle: f64,
+        pieces: &Pieces,
+    ) -> Result<Option<HighestCusp>> {
+        match self.touch.leaves_seams() {
+            false => self.highest_over_surface(angle, pieces),
+            true if number.is_multiple_of(SEAM_STRIDE) => self.highest_over_closing(angle, pieces),
             true => Ok(None),
         }
     }
 
-    /// The tips of one line on the part, each with the profile's height and slope there.
-    fn on_line(&self, angle: f64, arcs: &[Arc]) -> Result<Vec<(Tip, [f64; 2])>> {
-        let subject = self.touch.subject();
-        let (tool, part) = (&subject.tool, &subject.part);
-        let on_part = part.inner_radius..=part.aperture_radius;
-        let pairs = arcs.windows(2).filter(|pair| {
-            let meet = pair[0].to == pair[1].from;
-            meet && on_part.contains(&pair[0].to.abs())
-        });
-        let tips: Vec<Tip> = pairs
-            .map(|pair| tip([pair[0].centre, pair[1].centre], pair[0].to, tool))
-            .collect();
-        let mut profile = Profiles::new(subject.surface.as_ref(), &[angle]);
-        profile.at(tips.iter().map(|tip| (0, tip.at.x)))?;
-        let wanted = profile.height.iter().zip(&profile.slope);
-        let wanted = wanted.map(|(height, slope)| [*height, *slope]);
-        let all = tips.into_iter().zip(wanted);
-        let contact_leads = !subject.compensates_nose;
-        let counts = |(tip, [_, slope]): &(Tip, [f64; 2])| {
-            let offset = match contact_leads {
-                true => tool.nose_radius * slope / Scalar::sqrt(1.0 + slope * slope),
-                false => 0.0,
-            };
-            self.counts_centre || !tip.spans_axis(offset)
+    /// The highest tip above the wanted surface. The height above the tangent at the tip's own radius
+    /// picks it; its distance from the profile is the figure.
+    fn highest_over_surface(&self, angle: f64, pieces: &Pieces) -> Result<Option<HighestCusp>> {
+        let heights = self.heights_above_tangents(pieces);
+        let counted = heights.iter().enumerate().filter(counts);
+        let Some((piece, above_tangent)) = counted.max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
+            return Ok(None);
         };
-        Ok(all.filter(counts).collect())
+        let (tip, _) = tip(pieces, piece);
+        let surface = self.touch.subject().surface.as_ref();
+        let (heights, feet) = residual::heights(surface, &[angle], &[tip])?;
+        let exact = heights.into_iter().zip(feet).next();
+        // Beyond the surface's end there is no foot.
+        let (height, foot) = exact
+            .filter(|(height, _)| height.is_finite())
+            .unwrap_or((*above_tangent, tip.x));
+        Ok(Some(HighestCusp::new(height, angle, foot)))
+    }
+
+    /// The highest tip above the closing.
+    fn highest_over_closing(&self, angle: f64, pieces: &Pieces) -> Result<Option<HighestCusp>> {
+        let cusp = |(piece, _): (usize, &f64)| {
+            let (tip, [left, right]) = tip(pieces, piece);
+            SectionCusp {
+                theta: angle,
+                tip,
+                lower: left.x,
+                upper: right.x,
+                counts: true,
+            }
+        };
+        let heights = self.heights_above_tangents(pieces);
+        let counted = heights.iter().enumerate().filter(counts);
+        let cusps: Vec<SectionCusp> = counted.map(cusp).collect();
+        let heights = closing::heights(self.touch, &cusps)?;
+        let measured = heights.into_iter().zip(&cusps);
+        let highest = measured
+            .filter(|(height, _)| height.is_finite())
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(highest.map(|(height, cusp)| HighestCusp::new(height, angle, cusp.tip.x)))
+    }
+
+    /// The height above its tangent of the tip at the left end of each piece, mm: [`NO_TIP`] where there
+    /// is none, and where it does not count.
+    fn heights_above_tangents(&self, pieces: &Pieces) -> Vec<f64> {
+        let mut heights = vec![NO_TIP; pieces.centre_x.len()];
+        in_widest(TipHeights {
+            pieces,
+            contact_leads: !self.touch.subject().compensates_nose,
+            counts_centre: self.counts_centre,
+            heights: &mut heights,
+        });
+        heights
     }
 }
 
-/// The tip at `s` between two passes. Where the edge of one ends before their circles cross, it is
-/// on the higher of both.
-fn tip(centres: [Point; 2], s: f64, tool: &Tool) -> Tip {
-    let [left, right] = centres.map(|centre| lower_arc(centre, tool.nose_radius, s));
-    Tip {
-        at: Point::new(s, left.max(right)),
-        centres,
+/// The height of what is no tip.
+const NO_TIP: f64 = f64::NEG_INFINITY;
+
+/// Whether a piece has a tip that counts at its left end. A height that is no number is that of a tip.
+fn counts((_, height): &(usize, &f64)) -> bool {
+    **height != NO_TIP
+}
+
+/// The loop that finds the heights of tips above tangents.
+struct TipHeights<'a> {
+    pieces: &'a Pieces,
+    contact_leads: bool,
+    counts_centre: bool,
+    heights: &'a mut [f64],
+}
+
+impl Loop for TipHeights<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Pieces {
+            radius,
+            turned: (sin, cos),
+            ..
+        } = *self.pieces;
+        for run in &self.pieces.runs {
+            let joints = run.joints();
+            let [s, z, zx, zy] = [
+                &self.pieces.s[joints.clone()],
+                &self.pieces.z[joints.clone()],
+                &self.pieces.zx[joints.clone()],
+                &self.pieces.zy[joints.clone()],
+            ];
+            let [x, y] = [
+                &self.pieces.centre_x[run.first..run.first + run.pieces],
+                &self.pieces.centre_y[run.first..run.first + run.pieces],
+            ];
+            let (next_x, next_y) = (&x[1..], &y[1..]);
+            let heights = &mut self.heights[run.first + 1..run.first + run.pieces];
+            for i in 0..heights.len() {
+                let slope = zx[i] * cos + zy[i] * sin;
+                let stretch = (1.0 + slope * slope).sqrt();
+                let centres = [Point::new(x[i], y[i]), Point::new(next_x[i], next_y[i])];
+                let above = (tip_height(centres, radius, s[i]) - z[i]) / stretch;
+                // X of the path lies outward of the centre's, where it is that of the contact.
+                let offset = match self.contact_leads {
+                    true => radius * slope / stretch,
+                    false => 0.0,
+                };
+                let spans_axis = (x[i] + offset < 0.0) & (next_x[i] + offset > 0.0);
+                let is_tip = (x[i] != next_x[i]) | (y[i] != next_y[i]);
+                let counts = is_tip & (self.counts_centre | !spans_axis);
+                // What is no number comes last in the order of doubles, if its sign is positive.
+                let above = if above.is_nan() { f64::NAN } else { above };
+                heights[i] = if counts { above } else { NO_TIP };
+            }
+        }
     }
 }
 
-impl Tip {
-    /// Whether its two passes belong to the two sides of the axis: X of the path, which lies
-    /// `offset` outward of the centre's, changes its sign between them.
-    fn spans_axis(&self, offset: f64) -> bool {
-        let [left, right] = self.centres.map(|centre| centre.x + offset);
-        left < 0.0 && right > 0.0
-    }
+/// The height at `s` of the tip between two passes. Where the edge of one ends before their circles
+/// cross, it is on the higher of both.
+#[inline(always)]
+fn tip_height(centres: [Point; 2], radius: f64, s: f64) -> f64 {
+    let [left, right] = centres.map(|centre| lower_arc(centre, radius, s));
+    left.max(right)
 }
 
-/// The highest of these tips above the wanted surface. The height above the tangent at the tip's own
-/// radius picks it; its distance from the profile is the figure.
-fn highest_over_surface(
-    touch: &FirstTouch,
-    angle: f64,
-    tips: &[(Tip, [f64; 2])],
-) -> Result<Option<HighestCusp>> {
-    let height =
-        |(tip, [z, slope]): &(Tip, [f64; 2])| (tip.at.y - z) / Scalar::sqrt(1.0 + slope * slope);
-    let highest = tips.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
-    let Some(highest) = highest else {
-        return Ok(None);
-    };
-    let surface = touch.subject().surface.as_ref();
-    let (heights, feet) = residual::heights(surface, &[angle], &[highest.0.at])?;
-    let exact = heights.into_iter().zip(feet).next();
-    // Beyond the surface's end there is no foot.
-    let (height, foot) = exact
-        .filter(|(height, _)| height.is_finite())
-        .unwrap_or((height(highest), highest.0.at.x));
-    Ok(Some(HighestCusp::new(height, angle, foot)))
-}
-
-/// The highest of these tips above the closing.
-fn highest_over_closing(
-    touch: &FirstTouch,
-    angle: f64,
-    tips: &[(Tip, [f64; 2])],
-) -> Result<Option<HighestCusp>> {
-    let cusp = |(tip, _): &(Tip, [f64; 2])| SectionCusp {
-        theta: angle,
-        tip: tip.at,
-        lower: tip.centres[0].x,
-        upper: tip.centres[1].x,
-        counts: true,
-    };
-    let cusps: Vec<SectionCusp> = tips.iter().map(cusp).collect();
-    let heights = closing::heights(touch, &cusps)?;
-    let measured = heights.into_iter().zip(&cusps);
-    let highest = measured
-        .filter(|(height, _)| height.is_finite())
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(highest.map(|(height, cusp)| HighestCusp::new(height, angle, cusp.tip.x)))
+/// The tip at the left end of a piece, and the centres of the two passes that leave it.
+fn tip(pieces: &Pieces, piece: usize) -> (Point, [Point; 2]) {
+    let centres = [piece - 1, piece].map(|i| Point::new(pieces.centre_x[i], pieces.centre_y[i]));
+    let s = pieces.s[pieces.left_end(piece)];
+    let height = tip_height(centres, pieces.radius, s);
+    (Point::new(s, height), centres)
 }
 
 impl HighestCusp {
@@ -173,6 +210,97 @@ impl HighestCusp {
             height,
             at_theta: turned.rem_euclid(std::f64::consts::TAU),
             at_rho: s.abs(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Passes of a nose of 2 mm on a flat: from −1 on, with a gap before the last two. Their arcs are longer
+    /// than a piece.
+    fn pieces(slope: f64) -> Pieces {
+        let mut pieces = Pieces {
+            radius: 2.0,
+            turned: (0.0, 1.0),
+            ..Pieces::default()
+        };
+        for k in [-5, -4, -3, -2, -1, 0, 1, 2, 3, 4, 20, 21] {
+            let [from, to] = [k, k + 1].map(|k| 0.2 * f64::from(k));
+            pieces.divide(Point::new(0.5 * (from + to), 2.0), from, to);
+        }
+        pieces.place_nodes();
+        let of_nodes = |value: f64| vec![value; pieces.s.len()];
+        (pieces.z, pieces.zx, pieces.zy) = (of_nodes(0.0), of_nodes(slope), of_nodes(0.0));
+        pieces
+    }
+
+    /// Where tips are, with their heights.
+    fn tips(pieces: &Pieces, contact_leads: bool, counts_centre: bool) -> Vec<(f64, f64)> {
+        let mut heights = vec![NO_TIP; pieces.centre_x.len()];
+        in_widest(TipHeights {
+            pieces,
+            contact_leads,
+            counts_centre,
+            heights: &mut heights,
+        });
+        let counted = heights.iter().enumerate().filter(counts);
+        let tip_of = |(piece, height): (usize, &f64)| (tip(pieces, piece).0.x, *height);
+        counted.map(tip_of).collect()
+    }
+
+    /// Not where an arc is divided, nor beside a gap.
+    #[test]
+    fn tips_are_where_two_passes_meet() {
+        let pieces = pieces(0.0);
+        assert!(pieces.centre_x.len() > 40 && pieces.runs.len() == 2);
+        let found = tips(&pieces, false, true);
+        let places = [-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8, 4.2];
+        assert_eq!(found.len(), places.len());
+        let height = 2.0 - (4.0_f64 - 0.01).sqrt();
+        for ((s, found), place) in found.iter().zip(places) {
+            assert!(
+                (s - place).abs() < 1e-12 && (found - height).abs() < 1e-12,
+                "{s} {found}"
+            );
+        }
+    }
+
+    /// On a slope of 0.075 the path of the contact lies 0.15 mm outward of the centres, so that its two
+    /// sides meet at another tip.
+    #[test]
+    fn the_tip_between_the_two_sides_is_where_x_of_the_path_changes_its_sign() {
+        let missing = |slope: f64, contact_leads: bool| -> Vec<f64> {
+            let pieces = pieces(slope);
+            let (all, counted) = (
+                tips(&pieces, contact_leads, true),
+                tips(&pieces, contact_leads, false),
+            );
+            let left_out = all.iter().filter(|tip| !counted.contains(tip));
+            left_out
+                .map(|(s, _)| (s * 1e6).round() / 1e6 + 0.0)
+                .collect()
+        };
+        assert_eq!(missing(0.0, false), [0.0]);
+        assert_eq!(missing(0.075, false), [0.0]);
+        assert_eq!(missing(0.075, true), [-0.2]);
+        assert_eq!(missing(-0.075, true), [0.2]);
+    }
+
+    /// Nothing is known about such a cusp, whatever the sign of what is no number.
+    #[test]
+    fn a_tip_without_a_slope_counts_as_the_highest() {
+        for unknown in [f64::NAN, -f64::NAN] {
+            let mut pieces = pieces(0.0);
+            let joint = pieces.runs[0]
+                .joints()
+                .find(|end| (pieces.s[*end] - 0.4).abs() < 1e-9);
+            pieces.zx[joint.unwrap()] = unknown;
+            let found = tips(&pieces, false, false);
+            assert_eq!(found.len(), 9);
+            let highest = found.iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+            assert!(highest.1.is_nan() && (highest.0 - 0.4).abs() < 1e-12);
         }
     }
 }

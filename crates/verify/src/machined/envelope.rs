@@ -1,6 +1,8 @@
 //! The lower envelope of the lower arcs of equal circles: the profile that passes of a nose leave
 //! in a plane.
 
+use turnpath_core::registers::{Loop, in_widest};
+
 use crate::cusp::{self, Point};
 
 /// A part of the envelope: an interval of the lower arc of one circle.
@@ -16,6 +18,7 @@ pub struct Arc {
 
 /// The height at `s` of the lower arc of a circle of radius `radius` around `centre`. Beyond the
 /// circle, which only rounding can reach, it is the height of the centre.
+#[inline(always)]
 pub(super) fn lower_arc(centre: Point, radius: f64, s: f64) -> f64 {
     let off = s - centre.x;
     centre.y - (radius * radius - off * off).max(0.0).sqrt()
@@ -25,51 +28,105 @@ pub(super) fn lower_arc(centre: Point, radius: f64, s: f64) -> f64 {
 /// Their difference grows along the line, so there is one such border. If the circles do not
 /// overlap, the border is the end of the first, and nothing is cut between it and the start of the
 /// second.
+#[inline(always)]
 fn border(first: Point, second: Point, radius: f64, reach: f64) -> f64 {
     let (begin, end) = (second.x - reach, first.x + reach);
-    if begin >= end {
-        return end;
+    let tip = cusp::crossing(first, second, radius);
+    let begins_lower = lower_arc(second, radius, begin) <= lower_arc(first, radius, begin);
+    let edge = if begins_lower { begin } else { end };
+    let crosses = (tip.y < first.y.min(second.y)) & (begin <= tip.x) & (tip.x <= end);
+    let inner = if crosses { tip.x } else { edge };
+    if begin >= end { end } else { inner }
+}
+
+/// The loop that finds the border between each circle and the next one.
+struct Borders<'a> {
+    centres: &'a [Point],
+    radius: f64,
+    reach: f64,
+    borders: &'a mut [f64],
+}
+
+impl Loop for Borders<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let pairs = self.centres.iter().zip(self.centres.iter().skip(1));
+        for (place, (first, second)) in self.borders.iter_mut().zip(pairs) {
+            *place = border(*first, *second, self.radius, self.reach);
+        }
     }
-    match cusp::between(first, second, radius) {
-        Some(tip) if tip.y < first.y.min(second.y) && (begin..=end).contains(&tip.x) => tip.x,
-        _ if lower_arc(second, radius, begin) <= lower_arc(first, radius, begin) => begin,
-        _ => end,
+}
+
+/// The lower envelope of equal circles. Its memory is used again for the next one.
+#[derive(Debug, Default)]
+pub(super) struct Envelope {
+    arcs: Vec<Arc>,
+    /// From each circle to the next one.
+    borders: Vec<f64>,
+}
+
+impl Envelope {
+    /// The arcs of the envelope, from left to right.
+    pub fn arcs(&self) -> &[Arc] {
+        &self.arcs
+    }
+
+    /// Becomes the lower envelope of the circles around `centres`, which are sorted from left to
+    /// right, each limited to ±`reach`. Neighbouring arcs meet unless the line is uncut between them.
+    ///
+    /// Two lower arcs cross at most once, so one pass with a stack is enough. It mostly asks for borders
+    /// between neighbours, since nearly all circles leave an arc. These borders are found together.
+    pub fn set(&mut self, centres: &[Point], radius: f64, reach: f64) {
+        self.arcs.clear();
+        self.borders.clear();
+        self.borders.resize(centres.len().saturating_sub(1), 0.0);
+        in_widest(Borders {
+            centres,
+            radius,
+            reach,
+            borders: &mut self.borders,
+        });
+        let mut before: Option<&Point> = None;
+        let from_before = std::iter::once(&f64::NAN).chain(&self.borders);
+        for (centre, from_before) in centres.iter().zip(from_before) {
+            let mut from = centre.x - reach;
+            while let Some(last) = self.arcs.last_mut() {
+                if last.centre.x == centre.x && last.centre.y <= centre.y {
+                    from = f64::INFINITY;
+                    break;
+                }
+                let border = match last.centre.x == centre.x {
+                    true => last.from,
+                    false if before == Some(&last.centre) => *from_before,
+                    false => border(last.centre, *centre, radius, reach),
+                };
+                if border > last.from {
+                    last.to = border.min(last.to);
+                    from = from.max(border);
+                    break;
+                }
+                self.arcs.pop();
+            }
+            if from < centre.x + reach {
+                self.arcs.push(Arc {
+                    centre: *centre,
+                    from,
+                    to: centre.x + reach,
+                });
+            }
+            before = Some(centre);
+        }
     }
 }
 
 /// The lower envelope of the circles around `centres`, which are sorted from left to right, each
-/// limited to ±`reach`. Writes arcs from left to right. Neighbouring arcs meet unless the line is
-/// uncut between them.
-///
-/// Two lower arcs cross at most once, so one pass with a stack is enough.
-pub fn lower_envelope(centres: &[Point], radius: f64, reach: f64, arcs: &mut Vec<Arc>) {
-    arcs.clear();
-    for centre in centres {
-        let mut from = centre.x - reach;
-        while let Some(last) = arcs.last_mut() {
-            if last.centre.x == centre.x && last.centre.y <= centre.y {
-                from = f64::INFINITY;
-                break;
-            }
-            let border = match last.centre.x == centre.x {
-                true => last.from,
-                false => border(last.centre, *centre, radius, reach),
-            };
-            if border > last.from {
-                last.to = border.min(last.to);
-                from = from.max(border);
-                break;
-            }
-            arcs.pop();
-        }
-        if from < centre.x + reach {
-            arcs.push(Arc {
-                centre: *centre,
-                from,
-                to: centre.x + reach,
-            });
-        }
-    }
+/// limited to ±`reach`: its arcs from left to right.
+pub fn lower_envelope(centres: &[Point], radius: f64, reach: f64) -> Vec<Arc> {
+    let mut envelope = Envelope::default();
+    envelope.set(centres, radius, reach);
+    envelope.arcs
 }
 
 #[cfg(test)]
@@ -104,8 +161,7 @@ mod tests {
             reach in prop::sample::select(vec![1.0, 0.7, 0.2]),
         ) {
             let centres = sorted(points.iter().map(|(x, z)| Point::new(*x, z * flat)).collect());
-            let mut arcs = Vec::new();
-            lower_envelope(&centres, 1.0, reach, &mut arcs);
+            let arcs = lower_envelope(&centres, 1.0, reach);
             prop_assert!(arcs.windows(2).all(|pair| pair[0].to <= pair[1].from));
             prop_assert!(arcs.iter().all(|arc| arc.from < arc.to));
             for i in 0..=4000 {
@@ -128,8 +184,7 @@ mod tests {
             Point::new(0.0, 0.9),
             Point::new(0.0, 1.1),
         ];
-        let mut arcs = Vec::new();
-        lower_envelope(&centres, 1.0, 0.5, &mut arcs);
+        let arcs = lower_envelope(&centres, 1.0, 0.5);
         let lowest = Arc {
             centre: centres[1],
             from: -0.5,
@@ -141,8 +196,7 @@ mod tests {
     #[test]
     fn a_gap_that_no_circle_reaches_lies_between_two_arcs() {
         let centres = [Point::new(0.0, 1.0), Point::new(2.0, 1.0)];
-        let mut arcs = Vec::new();
-        lower_envelope(&centres, 1.0, 0.5, &mut arcs);
+        let arcs = lower_envelope(&centres, 1.0, 0.5);
         let ends: Vec<(f64, f64)> = arcs.iter().map(|arc| (arc.from, arc.to)).collect();
         assert_eq!(ends, [(-0.5, 0.5), (1.5, 2.5)]);
     }

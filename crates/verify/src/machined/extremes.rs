@@ -2,7 +2,7 @@
 
 use turnpath_core::Scalar;
 
-use super::samples::{Candidates, Samples};
+use super::samples::{Candidates, NODES, Samples};
 
 /// A point of the part and the surface error there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,9 +87,8 @@ impl LineExtremes {
     /// shows without looking at each piece.
     #[inline(always)]
     pub fn include_samples(&mut self, samples: &Samples) {
-        let candidates = samples.candidates();
-        if !self.contains(samples, &candidates) {
-            self.include_each(samples, &candidates);
+        if !self.contains(samples) {
+            self.include_each(samples, &samples.candidates());
         }
     }
 
@@ -107,16 +106,18 @@ impl LineExtremes {
         }
     }
 
-    /// Whether all errors of these pieces lie between the lowest and the highest that are known.
+    /// Whether bounds show that all errors of these pieces lie between the lowest and the highest that are
+    /// known: those at the ends exactly, others to rounding. Bounds that are no numbers show nothing.
     #[inline(always)]
-    fn contains(&self, samples: &Samples, candidates: &Candidates) -> bool {
+    fn contains(&self, samples: &Samples) -> bool {
         let Some([(highest, _), (lowest, _)]) = self.0 else {
             return false;
         };
+        let [low, high] = samples.bounds();
         let mut all_within = true;
-        for column in samples.error.iter().chain(&candidates.error) {
+        for column in [&samples.error[0], &samples.error[NODES - 1], &low, &high] {
             for error in column {
-                all_within &= (lowest..=highest).contains(error);
+                all_within &= (lowest <= *error) & (*error <= highest);
             }
         }
         all_within
@@ -128,7 +129,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use super::*;
-    use crate::machined::samples::INNER;
+    use crate::machined::samples::{INNER, WIDTH};
 
     fn line(errors: &[(f64, f64)]) -> LineExtremes {
         let mut line = LineExtremes::default();
@@ -167,15 +168,15 @@ mod tests {
         Samples {
             count,
             s: [0.0, 1.0, 2.0, 3.0].map(column),
-            error: errors.map(|error| [error; 8]),
+            error: errors.map(|error| [error; WIDTH]),
         }
     }
 
     /// An inner node does not reach the ends of a piece, nor the level places of its cubic.
     #[test]
     fn no_node_of_a_piece_is_left_out() {
-        for (node, piece) in (0..4).flat_map(|node| [0, 7].map(|piece| (node, piece))) {
-            let mut pieces = samples(8, [0.5; 4]);
+        for (node, piece) in (0..4).flat_map(|node| [0, WIDTH - 1].map(|piece| (node, piece))) {
+            let mut pieces = samples(WIDTH, [0.5; 4]);
             let mut line = line(&[(9.0, 0.0), (-9.0, 0.0)]);
             line.include_samples(&pieces);
             assert_eq!(over(&[line]).unwrap().pv(), 18.0);
@@ -189,9 +190,9 @@ mod tests {
     #[test]
     fn a_level_place_between_the_nodes_counts() {
         for sign in [1.0, -1.0] {
-            let mut pieces = samples(8, [0.0; 4]);
+            let mut pieces = samples(WIDTH, [0.0; 4]);
             for (k, t) in [-1.0, -INNER, INNER, 1.0].into_iter().enumerate() {
-                pieces.error[k][7] = sign * (1.0 - t * t);
+                pieces.error[k][WIDTH - 1] = sign * (1.0 - t * t);
             }
             let mut line = line(&[(0.9, 0.0), (-0.9, 0.0)]);
             line.include_samples(&pieces);
@@ -202,7 +203,7 @@ mod tests {
                 found.lowest
             };
             assert!((sign * farthest.error - 1.0).abs() < 1e-15);
-            assert!((farthest.x - 71.5).abs() < 1e-12);
+            assert!((farthest.x - 311.5).abs() < 1e-12);
             assert_eq!(found.pv().min(1.95), found.pv());
         }
     }
@@ -212,11 +213,12 @@ mod tests {
     fn pieces_are_included_one_after_the_other() {
         let mut pieces = samples(3, [0.0; 4]);
         for column in &mut pieces.error {
-            *column = [0.0, 1.0, 1.0, 1.0, 7.0, 7.0, 7.0, 7.0];
+            *column = [7.0; WIDTH];
+            column[..4].copy_from_slice(&[0.0, 1.0, 1.0, 1.0]);
         }
         let mut line = LineExtremes::default();
         line.include_samples(&pieces);
-        line.include_samples(&samples(8, [1.0, 0.0, 0.0, 1.0]));
+        line.include_samples(&samples(WIDTH, [1.0, 0.0, 0.0, 1.0]));
         let found = over(&[line]).unwrap();
         assert_eq!((found.highest.error, found.highest.x), (1.0, 10.0));
         assert_eq!((found.lowest.error < 0.0, found.lowest.x), (true, 1.5));

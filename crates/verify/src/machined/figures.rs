@@ -6,9 +6,11 @@ use turnpath_core::{Part, Result};
 
 use super::cusps::{HighestCusp, Tips};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
-use super::samples::NODES;
+use super::groups::WeightedSamples;
+use super::pieces::Pieces;
+use super::samples::{NODES, WIDTH};
 use super::sections::Lines;
-use super::strip::{Strip, WeightedSamples};
+use super::strip::Strip;
 use crate::cusp::Point;
 use crate::order::in_order;
 use crate::subject::Subject;
@@ -59,42 +61,45 @@ struct Sums {
 }
 
 impl Sums {
-    /// The integrals along the line of a strip.
-    fn of(subject: &Subject, strip: &mut Strip) -> Result<Self> {
-        strip.look_up(subject.surface.as_ref())?;
-        Ok(in_widest(LineSums(strip)))
-    }
-
-    #[inline(always)]
-    fn include(&mut self, pieces: &WeightedSamples) {
-        for i in 0..pieces.samples.count {
-            for k in 0..NODES {
-                let (weight, error) = (pieces.weight[k][i], pieces.samples.error[k][i]);
-                let slope = pieces.slope[k][i];
-                self.area += weight;
-                self.error += weight * error;
-                self.square += weight * error * error;
-                self.slope_square += weight * slope * slope;
-            }
-        }
-        self.extremes.include_samples(&pieces.samples);
+    /// The integrals along the line of a strip, once heights and slopes are looked up.
+    fn of(strip: &Strip) -> Self {
+        in_widest(LineSums(strip.pieces()))
     }
 }
 
-/// The loop that sums up the pieces of a line.
-struct LineSums<'a>(&'a Strip);
+/// The loop that sums up the pieces of a line: each lane for itself, and then all lanes.
+struct LineSums<'a>(&'a Pieces);
 
 impl Loop for LineSums<'_> {
     type Output = Sums;
 
     #[inline(always)]
     fn call(self) -> Sums {
-        let Self(strip) = self;
-        let mut sums = Sums::default();
-        for group in strip.groups() {
-            sums.include(&group.weighted_samples());
+        let Self(of_line) = self;
+        let mut extremes = LineExtremes::default();
+        let [mut area, mut error, mut square, mut slope_square] = [[0.0; WIDTH]; 4];
+        let mut pieces = WeightedSamples::blank();
+        for group in of_line.groups() {
+            group.sample_with_weights(&mut pieces);
+            for k in 0..NODES {
+                let (weights, errors) = (&pieces.weight[k], &pieces.samples.error[k]);
+                let slopes = &pieces.slope[k];
+                for i in 0..WIDTH {
+                    area[i] += weights[i];
+                    error[i] += weights[i] * errors[i];
+                    square[i] += weights[i] * errors[i] * errors[i];
+                    slope_square[i] += weights[i] * slopes[i] * slopes[i];
+                }
+            }
+            extremes.include_samples(&pieces.samples);
         }
-        sums
+        Sums {
+            area: area.iter().sum(),
+            error: error.iter().sum(),
+            square: square.iter().sum(),
+            slope_square: slope_square.iter().sum(),
+            extremes,
+        }
     }
 }
 
@@ -170,7 +175,8 @@ impl Lines {
 fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
     let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[Point])| {
         strip.set_line(subject, *angle, passes);
-        Sums::of(subject, strip)
+        strip.look_up(subject.surface.as_ref())?;
+        Ok(Sums::of(strip))
     };
     in_order(lines.par_iter().map_init(Strip::default, of_line))
 }
@@ -183,8 +189,11 @@ fn sums_and_cusps(
     let subject = tips.touch.subject();
     let of_line = |strip: &mut Strip, (number, (angle, passes)): (usize, &(f64, &[Point]))| {
         strip.set_line(subject, *angle, passes);
-        let cusp = tips.highest(number, *angle, strip.arcs())?;
-        Ok((Sums::of(subject, strip)?, cusp))
+        strip.look_up(subject.surface.as_ref())?;
+        Ok((
+            Sums::of(strip),
+            tips.highest(number, *angle, strip.pieces())?,
+        ))
     };
     let numbered = lines.par_iter().enumerate();
     let each = in_order(numbered.map_init(Strip::default, of_line))?;

@@ -19,7 +19,9 @@ use turnpath_core::{Result, Scalar};
 use super::envelope::{Arc, lower_arc, lower_envelope};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
 use super::no_height::no_height;
-use super::sections::{Lines, sort};
+use super::pieces::Pieces;
+use super::samples::Samples;
+use super::sections::{Lines, sort_into};
 use super::strip::{EVERYWHERE, Strip, on_part};
 use crate::closing;
 use crate::cusp::Point;
@@ -75,7 +77,7 @@ impl Lines {
             let spans = spans(touch, scope, *angle, passes)?;
             strip.set_line_within(subject, *angle, passes, &spans);
             strip.look_up_heights(subject.surface.as_ref())?;
-            Ok(in_widest(ErrorExtremes(strip)))
+            Ok(in_widest(ErrorExtremes(strip.pieces())))
         };
         let lines = self.all();
         let each = in_order(lines.par_iter().map_init(Strip::default, of_line))?;
@@ -104,17 +106,19 @@ impl Lines {
 }
 
 /// The loop that looks for the extremes of a line.
-struct ErrorExtremes<'a>(&'a Strip);
+struct ErrorExtremes<'a>(&'a Pieces);
 
 impl Loop for ErrorExtremes<'_> {
     type Output = LineExtremes;
 
     #[inline(always)]
     fn call(self) -> LineExtremes {
-        let Self(strip) = self;
+        let Self(pieces) = self;
         let mut found = LineExtremes::default();
-        for group in strip.groups() {
-            found.include_samples(&group.samples());
+        let mut samples = Samples::blank();
+        for group in pieces.groups() {
+            group.sample(&mut samples);
+            found.include_samples(&samples);
         }
         found
     }
@@ -130,9 +134,9 @@ fn ends_and_errors(
     let subject = touch.subject();
     let (tool, part) = (&subject.tool, &subject.part);
     let spans = spans(touch, scope, angle, passes)?;
-    let (mut sorted, mut arcs) = (passes.to_vec(), Vec::new());
-    sort(&mut sorted);
-    lower_envelope(&sorted, tool.nose_radius, tool.reach(), &mut arcs);
+    let mut sorted = Vec::new();
+    sort_into(passes, &mut sorted);
+    let arcs = lower_envelope(&sorted, tool.nose_radius, tool.reach());
     let counts = |s: f64| {
         let on_part = (part.inner_radius..=part.aperture_radius).contains(&s.abs());
         on_part && spans.iter().any(|(from, to)| (*from..=*to).contains(&s))

@@ -4,7 +4,7 @@ use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Result, Scalar};
 
 use super::envelope::{lower_arc, lower_envelope};
-use super::sections::{Fan, Lines, SectionPasses, sort};
+use super::sections::{Fan, Lines, SectionPasses, sort_into};
 use crate::touch::FirstTouch;
 
 /// Points per pass. They show the height of a cusp to within one percent.
@@ -54,11 +54,11 @@ impl ProfileLine {
     pub fn points(&self, touch: &FirstTouch) -> Result<Vec<ProfilePoint>> {
         let subject = touch.subject();
         let (tool, part) = (&subject.tool, &subject.part);
-        let mut passes: Vec<_> = self.lines.all().into_iter().flat_map(|(_, p)| p).collect();
-        let mut passes: Vec<_> = passes.drain(..).copied().collect();
-        sort(&mut passes);
-        let mut arcs = Vec::new();
-        lower_envelope(&passes, tool.nose_radius, tool.reach(), &mut arcs);
+        let lines = self.lines.all();
+        let of_line = lines.first().map_or(&[][..], |(_, passes)| passes);
+        let mut passes = Vec::new();
+        sort_into(of_line, &mut passes);
+        let arcs = lower_envelope(&passes, tool.nose_radius, tool.reach());
         let count = (POINTS_PER_PASS * passes.len()).clamp(POINTS.0, POINTS.1);
         let rim = part.aperture_radius;
         let signed_radius = |i: usize| rim * (2.0 * i as f64 / count as f64 - 1.0);

@@ -11,6 +11,7 @@ use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Result, Scalar};
 
 use super::grid::Grid;
+use super::pieces::Pieces;
 use super::samples::{NODES, Samples};
 use super::sections::Lines;
 use super::strip::Strip;
@@ -61,7 +62,7 @@ impl Lines {
             strip.set_line(subject, *angle, passes);
             strip.look_up_heights(subject.surface.as_ref())?;
             let empty = RadialSums::new(subject);
-            Ok(in_widest(Sides(strip, [empty.clone(), empty])))
+            Ok(in_widest(Sides(strip.pieces(), [empty.clone(), empty])))
         };
         let sides = in_order(lines.par_iter().map_init(Strip::default, of_line))?;
         let columns = |side: usize| sides.iter().map(move |sides| &sides[side]);
@@ -82,16 +83,17 @@ impl Lines {
 }
 
 /// The loop that adds up the two sides of a line.
-struct Sides<'a>(&'a Strip, [RadialSums; 2]);
+struct Sides<'a>(&'a Pieces, [RadialSums; 2]);
 
 impl Loop for Sides<'_> {
     type Output = [RadialSums; 2];
 
     #[inline(always)]
     fn call(self) -> [RadialSums; 2] {
-        let Self(strip, mut sides) = self;
-        for group in strip.groups() {
-            let samples = group.samples();
+        let Self(pieces, mut sides) = self;
+        let mut samples = Samples::blank();
+        for group in pieces.groups() {
+            group.sample(&mut samples);
             for piece in 0..samples.count {
                 let twice_middle = samples.s[0][piece] + samples.s[NODES - 1][piece];
                 sides[usize::from(twice_middle < 0.0)].include(&samples, piece);

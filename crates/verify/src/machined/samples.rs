@@ -2,27 +2,25 @@
 //! formulas fill the widest vector registers.
 
 /// Pieces side by side.
-pub(super) const WIDTH: usize = 8;
+pub(super) const WIDTH: usize = 32;
 /// The inner of the four Gauss-Lobatto nodes ±1 and ±1/√5 on −1 … 1. The rule is exact to degree 5,
 /// and neighbouring pieces share their ends.
 pub(super) const INNER: f64 = 0.447_213_595_499_957_9;
 /// Nodes of a piece.
 pub(super) const NODES: usize = 4;
-/// Steps of a piece in the integral of the mean amount. Kinks between them cost 1e-3 of it.
-const AMOUNT_STEPS: usize = 32;
-/// The middles of these steps on −1 … 1.
-const MIDDLES: [f64; AMOUNT_STEPS] = {
-    let mut middles = [0.0; AMOUNT_STEPS];
+/// Pairs of steps of a piece in the integral of the mean amount. The two steps of a pair lie equally far from
+/// the middle of the piece, one on each side. Kinks between steps cost 1e-3 of the integral.
+const STEP_PAIRS: usize = 16;
+/// The middles of the steps to the right, on 0 … 1.
+const MIDDLES: [f64; STEP_PAIRS] = {
+    let mut middles = [0.0; STEP_PAIRS];
     let mut i = 0;
-    while i < AMOUNT_STEPS {
-        middles[i] = (2 * i + 1) as f64 / AMOUNT_STEPS as f64 - 1.0;
+    while i < STEP_PAIRS {
+        middles[i] = (2 * i + 1) as f64 / (2 * STEP_PAIRS) as f64;
         i += 1;
     }
     middles
 };
-/// Partial sums of a piece's integral. Each takes every eighth step, so that no sum waits for the one
-/// before.
-const PARTIAL_SUMS: usize = 8;
 
 /// A number for each piece.
 pub(super) type Column = [f64; WIDTH];
@@ -52,6 +50,16 @@ pub(super) struct Candidates {
 }
 
 impl Samples {
+    /// Room for samples.
+    #[inline(always)]
+    pub fn blank() -> Self {
+        Self {
+            count: 0,
+            s: ZEROS,
+            error: ZEROS,
+        }
+    }
+
     /// The coefficients of the cubic through the errors of each piece, on −1 … 1.
     #[inline(always)]
     fn cubics(&self) -> [Column; 4] {
@@ -71,31 +79,43 @@ impl Samples {
     }
 
     /// The integral of |error − mean| over the area of each piece, computed on its cubic. Four nodes
-    /// are too few for an absolute value, which may have a kink anywhere.
+    /// are too few for an absolute value, which may have a kink anywhere. No piece lies on both sides of
+    /// the axis.
     #[inline(always)]
     pub fn amounts_about(&self, mean: f64) -> Column {
         let [a, b, c, d] = self.cubics();
+        // The integrals of |error − mean| and of |error − mean| times the place on −1 … 1.
+        let (mut even, mut odd) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for t in MIDDLES {
+            let square = t * t;
+            for i in 0..WIDTH {
+                let (of_both, apart) = (a[i] - mean + square * c[i], t * (b[i] + square * d[i]));
+                let (left, right) = ((of_both - apart).abs(), (of_both + apart).abs());
+                even[i] += right + left;
+                odd[i] += t * (right - left);
+            }
+        }
         let (middle, half) = self.middles_and_halves();
-        let mut sums = [[0.0; WIDTH]; PARTIAL_SUMS];
-        for steps in MIDDLES.as_chunks::<PARTIAL_SUMS>().0 {
-            for (sum, t) in sums.iter_mut().zip(steps) {
-                for i in 0..WIDTH {
-                    let error = a[i] + t * (b[i] + t * (c[i] + t * d[i]));
-                    sum[i] += (error - mean).abs() * (middle[i] + t * half[i]).abs();
-                }
-            }
-        }
         let mut amounts = [0.0; WIDTH];
-        for sum in &sums {
-            for (amount, part) in amounts.iter_mut().zip(sum) {
-                *amount += part;
-            }
-        }
-        let (from, to) = (&self.s[0], &self.s[NODES - 1]);
         for i in 0..WIDTH {
-            amounts[i] = amounts[i] * (to[i] - from[i]) / AMOUNT_STEPS as f64;
+            let by_place = (middle[i] * even[i] + half[i] * odd[i]).abs();
+            amounts[i] = by_place * half[i] / STEP_PAIRS as f64;
         }
         amounts
+    }
+
+    /// A lower and an upper bound of the cubic of each piece, to rounding. They are close where the cubic is
+    /// nearly a parabola around its middle, as between two cusps.
+    #[inline(always)]
+    pub fn bounds(&self) -> [Column; 2] {
+        let [a, b, c, d] = self.cubics();
+        let mut bounds = [[0.0; WIDTH]; 2];
+        for i in 0..WIDTH {
+            let odd = b[i].abs() + d[i].abs();
+            bounds[0][i] = a[i] + c[i].min(0.0) - odd;
+            bounds[1][i] = a[i] + c[i].max(0.0) + odd;
+        }
+        bounds
     }
 
     /// What can be the largest or smallest of each piece: the errors at its ends, and those where the
@@ -206,6 +226,49 @@ mod tests {
         for (i, amount) in amounts.into_iter().enumerate() {
             let expected = 4.0 * (5.0 + 0.1 * i as f64);
             assert!((amount / expected - 1.0).abs() < 1e-12, "{amount}");
+        }
+    }
+
+    /// The weight of a place is its distance from the axis, on either side of it.
+    #[test]
+    fn amounts_on_the_left_are_those_of_the_mirrored_pieces() {
+        let right = of(|s| (s - 4.0) * (s - 6.5));
+        let (mut left, last) = (of(|s| (s - 4.0) * (s - 6.5)), NODES - 1);
+        for k in 0..NODES {
+            left.s[k] = right.s[last - k].map(|s| -s);
+            left.error[k] = right.error[last - k];
+        }
+        let both = right
+            .amounts_about(0.3)
+            .into_iter()
+            .zip(left.amounts_about(0.3));
+        for (right, left) in both {
+            assert!(
+                (left / right - 1.0).abs() < 1e-14 && right > 1.0,
+                "{left} {right}"
+            );
+        }
+    }
+
+    #[test]
+    fn bounds_hold_all_of_a_cubic_and_are_close_to_a_parabola() {
+        for [a, b, c, d] in [
+            [0.3, 0.0, 1.0, 0.0],
+            [0.3, 0.0, -2.0, 0.0],
+            [-1.0, 0.2, 0.7, -0.1],
+            [0.0, 1.0, 0.0, -1.3],
+            [5.0, -3.0, -1.0, 2.0],
+        ] {
+            let cubic = |t: f64| a + t * (b + t * (c + t * d));
+            let [low, high] = of(|s| cubic(0.5 * (s - 5.0))).bounds();
+            let places = (0..=1000).map(|k| cubic(f64::from(k) / 500.0 - 1.0));
+            let range = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), error| {
+                (low.min(error), high.max(error))
+            });
+            let wide = b.abs() + d.abs();
+            assert!(low[3] <= range.0 + 1e-14 && high[3] >= range.1 - 1e-14);
+            assert!(low[3] >= range.0 - 2.0 * wide - 1e-14);
+            assert!(high[3] <= range.1 + 2.0 * wide + 1e-14);
         }
     }
 }

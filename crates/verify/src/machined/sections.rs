@@ -225,11 +225,36 @@ fn following(number: i64, count: i64) -> i64 {
     }
 }
 
-/// Sorts passes from left to right, and those at the same position from the lowest up. On a line the
-/// passes of its two halves take turns, and each half is in order or nearly so: apart they are two runs.
-pub(super) fn sort(passes: &mut [Point]) {
-    passes.sort_by_key(|pass| pass.x >= 0.0);
-    passes.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+/// Sorts passes into `sorted` from left to right, and those at the same position from the lowest up. On
+/// a line the passes of its two halves take turns, and each half is in order or nearly so, forward or
+/// backward.
+pub(super) fn sort_into(passes: &[Point], sorted: &mut Vec<Point>) {
+    // As the order below has it, also for what is no number.
+    let is_left = |pass: &Point| pass.x.is_sign_negative();
+    let count = passes.iter().filter(|pass| is_left(pass)).count();
+    sorted.resize(passes.len(), Point::default());
+    let (left, right) = sorted.split_at_mut(count);
+    let (mut left_places, mut right_places) = (left.iter_mut(), right.iter_mut());
+    for pass in passes {
+        let places = match is_left(pass) {
+            true => &mut left_places,
+            false => &mut right_places,
+        };
+        if let Some(place) = places.next() {
+            *place = *pass;
+        }
+    }
+    let order = |a: &Point, b: &Point| a.x.total_cmp(&b.x).then_with(|| a.y.total_cmp(&b.y));
+    for half in [left, right] {
+        let runs_backward = matches!(&*half, [first, .., last] if first.x > last.x);
+        match runs_backward {
+            true => {
+                half.sort_by(|a, b| order(b, a));
+                half.reverse();
+            }
+            false => half.sort_by(order),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -251,5 +276,31 @@ mod tests {
         assert_eq!(late.lines, early.lines);
         assert_eq!((late.kept, late.stride), (early.kept, 2));
         assert_eq!(late.all()[3].0, Fan::WHOLE.angle(6));
+    }
+
+    /// Inward and outward, over the axis, with passes on each other: as one sort of all of them.
+    #[test]
+    fn passes_come_sort_into_and_from_the_lowest_up() {
+        let pass = |i: i32| Point::new(0.1 * f64::from(i), f64::from(i % 3));
+        let both_ways = |i: i32| [pass(i), Point::new(-0.1 * f64::from(i) - 0.05, 1.0)];
+        let inward: Vec<Point> = (-4..100).rev().flat_map(both_ways).collect();
+        let outward: Vec<Point> = (0..100).flat_map(both_ways).collect();
+        let twice = [inward.clone(), outward.clone()].concat();
+        let at_axis = [0.0, -0.0, 0.0].map(|x| Point::new(x, -x)).to_vec();
+        let no_number = [f64::NAN, -f64::NAN].map(|x| Point::new(x, 0.0));
+        let unknown = vec![pass(3), no_number[0], pass(-2), no_number[1], pass(1)];
+        for passes in [inward, outward, twice, at_axis, unknown, Vec::new()] {
+            let mut found = vec![pass(7)];
+            sort_into(&passes, &mut found);
+            let mut expected = passes;
+            expected.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+            let bits = |passes: &[Point]| -> Vec<[u64; 2]> {
+                passes
+                    .iter()
+                    .map(|pass| [pass.x, pass.y].map(f64::to_bits))
+                    .collect()
+            };
+            assert_eq!(bits(&found), bits(&expected));
+        }
     }
 }
