@@ -8,3 +8,4 @@ mod architecture;
 mod circles;
 mod pages;
 mod reference_files;
+mod unbuilt_tests;

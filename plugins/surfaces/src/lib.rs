@@ -30,8 +30,6 @@ pub use toric::Toric;
 pub use toroid_yz::ToroidYz;
 pub use xy_polynomial::XyPolynomial;
 
-// Tests of this crate's own parts need no strategies, which take most of its compile time.
-#[cfg(not(test))]
 turnpath_plugin::export!(surfaces: [
     Astigmatic,
     Biconic,
