@@ -1,7 +1,9 @@
 //! Which crate may depend on which: dependencies run one way.
 #![allow(clippy::expect_used, reason = "helpers of tests may panic too")]
 
-use cargo_metadata::{Dependency, DependencyKind, Metadata, MetadataCommand, Package};
+use cargo_metadata::{Dependency, DependencyKind, Metadata, Package};
+
+use crate::workspace::workspace;
 
 /// Which crates of the workspace a crate may use. A crate without a rule fails the test: decide first
 /// where it belongs.
@@ -103,15 +105,6 @@ const fn rule(
 
 /// The crate of the program, to which this test belongs. Only its tests look behind the library.
 const PROGRAM: &str = env!("CARGO_PKG_NAME");
-
-fn workspace() -> Metadata {
-    MetadataCommand::new()
-        .cargo_path(env!("CARGO"))
-        .manifest_path(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))
-        .no_deps()
-        .exec()
-        .expect("cargo metadata")
-}
 
 fn is_plugin(metadata: &Metadata, name: &str) -> bool {
     let plugins = metadata.workspace_root.join("plugins");

@@ -16,10 +16,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use cargo_metadata::{MetadataCommand, TargetKind};
+use cargo_metadata::TargetKind;
 use crate_files::CrateFiles;
 use graph::circles;
 use resolve::imports;
+
+use crate::workspace::workspace;
 
 /// The circles of a crate, each as a message; paths are shown from `base` on.
 fn circles_of(root: &Path, base: &Path, read: &dyn Fn(&Path) -> Option<String>) -> Vec<String> {
@@ -63,12 +65,7 @@ fn circles_in(files: &[(&str, &str)]) -> Vec<String> {
 
 #[test]
 fn no_files_of_a_crate_import_each_other() {
-    let metadata = MetadataCommand::new()
-        .cargo_path(env!("CARGO"))
-        .manifest_path(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))
-        .no_deps()
-        .exec()
-        .expect("cargo metadata");
+    let metadata = workspace();
     let base = fs::canonicalize(&metadata.workspace_root).expect("the workspace");
     let read = |path: &Path| fs::read_to_string(path).ok();
     let (mut crates, mut found) = (0, Vec::new());

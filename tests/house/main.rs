@@ -9,3 +9,4 @@ mod circles;
 mod pages;
 mod reference_files;
 mod unbuilt_tests;
+mod workspace;

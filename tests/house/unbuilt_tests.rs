@@ -4,7 +4,9 @@
 use std::fs;
 use std::path::Path;
 
-use cargo_metadata::{MetadataCommand, TargetKind};
+use cargo_metadata::TargetKind;
+
+use crate::workspace::workspace;
 
 /// What begins a test in a source file.
 const TESTS: [&str; 3] = ["#[test]", "#[cfg(test)]", "proptest!"];
@@ -26,12 +28,7 @@ fn files_with_tests(folder: &Path, found: &mut Vec<String>) {
 
 #[test]
 fn a_library_whose_tests_are_not_built_has_none() {
-    let metadata = MetadataCommand::new()
-        .cargo_path(env!("CARGO"))
-        .manifest_path(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))
-        .no_deps()
-        .exec()
-        .expect("cargo metadata");
+    let metadata = workspace();
     let (mut unbuilt, mut found) = (0, Vec::new());
     for target in metadata.packages.iter().flat_map(|one| &one.targets) {
         if target.kind.contains(&TargetKind::RLib) && !target.test {
