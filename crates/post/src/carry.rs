@@ -22,23 +22,29 @@ pub(crate) fn carry(
     for point in stretch.before {
         trail.go_to(format, (point, before_in_lead), None, &mut |_| {})?;
     }
-    let mut points = 0;
-    let mut columns = DigitColumns::new(format, stretch.points);
-    let mut known = None;
-    for (number, point) in stretch.points.points().enumerate() {
-        let index = number % MOST_POINTS;
-        if index == 0 {
-            let range = number..stretch.points.len().min(number + MOST_POINTS);
-            let columns = columns.as_mut();
-            known = columns.and_then(|columns| columns.find(format, stretch.points, range));
+    let mut count = 0;
+    let mut write = |step: Move<'_>| {
+        count += step.points();
+        write(step);
+    };
+    let points = stretch.points;
+    let mut columns = DigitColumns::new(format, points);
+    for first in (0..points.len()).step_by(MOST_POINTS) {
+        let range = first..points.len().min(first + MOST_POINTS);
+        let columns = columns.as_mut();
+        let known = columns.and_then(|columns| columns.find(format, points, range.clone()));
+        let block = known.and_then(|known| trail.block_to(format, (known, range.len())));
+        if let Some(block) = block {
+            write(Move::Block(&block));
+            trail.went_along(&block, points.get(range.end - 1), in_lead);
+            continue;
         }
-        let digits = known.and_then(|columns| columns.at(index));
-        trail.go_to(format, (&point, in_lead), digits, &mut |step| {
-            points += 1;
-            write(step);
-        })?;
+        for (index, point) in range.filter_map(|number| points.get(number)).enumerate() {
+            let digits = known.and_then(|columns| columns.at(index));
+            trail.go_to(format, (&point, in_lead), digits, &mut write)?;
+        }
     }
-    Ok(points)
+    Ok(count)
 }
 
 /// Points of a program.
@@ -66,16 +72,17 @@ pub(crate) fn carried(
     };
     let mut is_before = leads_into_cut(stretch);
     carry(format, stretch, &mut |step| {
-        let (digits, reaches_point) = match step {
-            Move::Start(digits) => (digits, true),
-            Move::Segment {
-                segment,
-                reaches_point,
-            } => (&segment.to, reaches_point),
-        };
-        is_before &= !reaches_point;
+        is_before &= !step.reaches_point();
         carried.of_section_before += usize::from(is_before);
-        carried.points.push(digits.point(format));
+        let points = &mut carried.points;
+        match step {
+            Move::Start(digits) => points.push(digits.point(format)),
+            Move::Segment { segment, .. } => points.push(segment.to.point(format)),
+            Move::Block(block) => {
+                let segments = block.segments();
+                segments.for_each(|segment| points.push(segment.to.point(format)));
+            }
+        }
     })?;
     Ok(carried)
 }

@@ -20,6 +20,7 @@ const LARGEST: f64 = 0.25 / f64::EPSILON;
 type Column = [i64; MOST_POINTS];
 
 /// The digits of control points that lie on the controller's steps of time: those of [`Digits::at`].
+#[derive(Debug)]
 pub(crate) struct DigitColumns {
     steps: Column,
     /// Of C, X and Z.
@@ -124,6 +125,21 @@ impl DigitColumns {
             }
         }
         fits.then_some(self)
+    }
+
+    /// The steps of time of the points.
+    pub(crate) fn steps(&self) -> &[i64] {
+        &self.steps
+    }
+
+    /// Their C, X and Z in last digits.
+    pub(crate) fn positions(&self) -> [&[i64]; 3] {
+        self.position.each_ref().map(|column| column.as_slice())
+    }
+
+    /// The velocities of C, X and Z in last digits.
+    pub(crate) fn velocities(&self) -> [&[i64]; 3] {
+        self.velocity.each_ref().map(|column| column.as_slice())
     }
 
     /// The digits of one of the points that were found.

@@ -66,28 +66,32 @@ impl Layout {
         let mut in_time = Ok(());
         let mut extent: Option<Extent> = None;
         let points = carry(format, stretch, &mut |step| {
-            let reaches_point = match &step {
-                Move::Start(_) => true,
-                Move::Segment { reaches_point, .. } => *reaches_point,
-            };
-            if let Some(opening) = opening.take_if(|_| reaches_point) {
+            if let Some(opening) = opening.take_if(|_| step.reaches_point()) {
                 text.extend_from_slice(opening.as_bytes());
             }
-            let point = match step {
+            let here = match step {
                 Move::Start(digits) => {
                     post.dialect.write_first(&mut text, format, digits);
-                    digits
+                    Some(Extent::of(digits, stretch.section))
                 }
                 Move::Segment { segment, .. } => {
                     if in_time.is_ok() {
                         in_time = post.dialect.check_time(format, segment);
                     }
                     post.dialect.write_segment(&mut text, format, segment);
-                    &segment.to
+                    Some(Extent::of(&segment.to, stretch.section))
+                }
+                Move::Block(block) => {
+                    if in_time.is_ok() {
+                        in_time = post.dialect.write_block(&mut text, format, block);
+                    }
+                    Extent::of_block(block, stretch.section)
                 }
             };
-            let here = Extent::of(point, stretch.section);
-            extent = Some(extent.map_or(here, |before| before.and(here)));
+            extent = match (extent, here) {
+                (Some(before), Some(here)) => Some(before.and(here)),
+                (before, here) => before.or(here),
+            };
         })?;
         in_time.map(|()| Lines {
             text,

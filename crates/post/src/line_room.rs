@@ -1,19 +1,22 @@
 //! Room at the end of a text: numbers go into it without a look at the text's memory each time.
 
+use crate::eight_digits::{PIECE, ZEROS, eight_digits};
+use crate::number_columns::NumberDigits;
 use crate::powers_of_ten::POWERS_OF_TEN;
 
 /// Room for the lines of a control point, bytes: more than any of them needs. More room takes time to clear.
 pub(crate) const OF_POINT: usize = 192;
 /// Room for one number, bytes.
 pub(crate) const OF_NUMBER: usize = 40;
-/// Digits that are made together: all before the point, or a piece of those behind it.
-const PIECE: usize = 8;
-/// A piece of zeros.
-const ZEROS: u64 = u64::from_ne_bytes([b'0'; PIECE]);
 /// Most decimals of numbers that have one piece behind the point.
 const ONE_PIECE: u32 = PIECE as u32;
 /// Most decimals of those that have two.
 const TWO_PIECES: u32 = 2 * ONE_PIECE;
+/// Most bytes of a number with eight digits before the point and eight behind it, with its sign.
+const LONGEST_NUMBER: usize = 2 * PIECE + 2;
+/// The last byte of eight digits.
+const LAST_BYTE: u64 = 0xff << (8 * (PIECE - 1));
+
 /// A line in the making, or a number.
 pub(crate) struct LineRoom<'a> {
     bytes: &'a mut [u8],
@@ -41,8 +44,31 @@ pub(crate) fn push_in_room<const ROOM: usize>(
 impl LineRoom<'_> {
     /// Appends some bytes. `None` where the line is too long.
     #[inline(always)]
-    pub(crate) fn word(&mut self, bytes: &[u8]) -> Option<()> {
-        bytes.iter().try_for_each(|byte| self.byte(*byte))
+    pub(crate) fn word<const LENGTH: usize>(&mut self, bytes: &[u8; LENGTH]) -> Option<()> {
+        let end = self.end + LENGTH;
+        self.bytes.get_mut(self.end..end)?.copy_from_slice(bytes);
+        self.end = end;
+        Some(())
+    }
+
+    /// Appends a number without trailing zeros. `None` where the line may be too long. All digits are copied, without
+    /// a question, and then only those stay that the number has.
+    #[inline(always)]
+    pub(crate) fn digits(&mut self, number: NumberDigits) -> Option<()> {
+        let room: &mut [u8; LONGEST_NUMBER] = self.bytes.get_mut(self.end..)?.first_chunk_mut()?;
+        room[0] = b'-';
+        let begin = usize::from(number.is_negative);
+        // At least one digit stands before the point.
+        let unsaid = ((number.whole ^ ZEROS) | LAST_BYTE).trailing_zeros() as usize / 8;
+        let point = begin + PIECE - unsaid;
+        let behind = PIECE - (number.fraction ^ ZEROS).leading_zeros() as usize / 8;
+        let whole = (number.whole >> (8 * unsaid)).to_le_bytes();
+        room[begin..begin + PIECE].copy_from_slice(&whole);
+        *room.get_mut(point)? = b'.';
+        let fraction = room.get_mut(point + 1..point + 1 + PIECE)?;
+        fraction.copy_from_slice(&number.fraction.to_le_bytes());
+        self.end += point + behind + usize::from(behind > 0);
+        Some(())
     }
 
     #[inline(always)]
@@ -150,32 +176,9 @@ fn parts_of<const DECIMALS: usize, const PLACES: usize>(size: u64) -> [u64; 2] {
     [size / one, size % one * scale]
 }
 
-/// The digits of a number below 10⁸, the first one in the lowest byte. Groups of four, two and one
-/// digits are halved side by side: the quotients by 100 and by 10 are products with their reciprocals,
-/// exact for numbers so small.
-#[inline(always)]
-fn eight_digits(number: u64) -> u64 {
-    let fours = (number / 10_000) | ((number % 10_000) << 32);
-    let hundreds = ((fours * 10_486) >> 20) & 0x0000_007f_0000_007f;
-    let twos = hundreds | ((fours - 100 * hundreds) << 16);
-    let tens = ((twos * 103) >> 10) & 0x000f_000f_000f_000f;
-    let ones = tens | ((twos - 10 * tens) << 8);
-    ones | 0x3030_3030_3030_3030
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn eight_digits_are_those_of_every_group() {
-        let groups =
-            (0..10_000).flat_map(|four| [four, 10_000 * four, 10_000 * four + 9_999 - four]);
-        for number in groups {
-            let digits = eight_digits(number).to_le_bytes();
-            assert_eq!(format!("{number:08}").as_bytes(), digits);
-        }
-    }
 
     #[test]
     fn a_line_without_room_leaves_the_text_as_it_was() {

@@ -11,6 +11,7 @@ use crate::g_code;
 use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::program_error::ProgramError;
 use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
+use crate::segment_block::SegmentBlock;
 use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
@@ -69,6 +70,23 @@ pub trait Dialect: Debug + Send + Sync {
 
     /// Writes the lines of a segment.
     fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment);
+
+    /// Writes the lines of segments in a row, each of them in its time as [`Dialect::check_time`] proves.
+    ///
+    /// # Errors
+    /// When the controller takes another time for one of them. Some lines are then missing.
+    fn write_block(
+        &self,
+        text: &mut Vec<u8>,
+        format: &ProgramFormat,
+        block: &SegmentBlock<'_>,
+    ) -> Result<(), ProgramError> {
+        for segment in block.segments() {
+            self.check_time(format, &segment)?;
+            self.write_segment(text, format, &segment);
+        }
+        Ok(())
+    }
 
     /// Proves that the controller plays a segment in its time.
     ///

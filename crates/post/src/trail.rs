@@ -4,9 +4,11 @@ use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Segment, SegmentShape};
 
 use crate::chord::chords_within;
+use crate::digit_columns::DigitColumns;
 use crate::digits::{DigitSegment, Digits, Place, steps_of, turn};
 use crate::program_error::ProgramError;
 use crate::program_format::{ProgramFormat, Slowest};
+use crate::segment_block::SegmentBlock;
 
 /// Most chords of a segment: far more than any path needs that a machine can play.
 const MOST_CHORDS: i64 = 1_000_000;
@@ -22,6 +24,26 @@ pub(crate) enum Move<'a> {
         /// Whether it ends at a point of the path, and not at one between two of them.
         reaches_point: bool,
     },
+    /// Along segments of which none is divided.
+    Block(&'a SegmentBlock<'a>),
+}
+
+impl Move<'_> {
+    /// Whether it ends at a point of the path, and not at one between two of them.
+    pub(crate) fn reaches_point(&self) -> bool {
+        match self {
+            Self::Start(_) | Self::Block(_) => true,
+            Self::Segment { reaches_point, .. } => *reaches_point,
+        }
+    }
+
+    /// The points of the program that it reaches.
+    pub(crate) fn points(&self) -> usize {
+        match self {
+            Self::Start(_) | Self::Segment { .. } => 1,
+            Self::Block(block) => block.count(),
+        }
+    }
 }
 
 /// A line between a lead and the cut begins or ends on the finer steps of the cut. So X and Z may be left
@@ -104,6 +126,29 @@ impl Trail {
         self.in_lead = in_lead;
         self.digits = Some(end);
         Ok(())
+    }
+
+    /// The segments to the next points, whose digits are known, where each of them is one line.
+    pub(crate) fn block_to<'a>(
+        &self,
+        format: &ProgramFormat,
+        ends: (&'a DigitColumns, usize),
+    ) -> Option<SegmentBlock<'a>> {
+        SegmentBlock::new(format, (self.digits?, self.steps), ends)
+    }
+
+    /// Takes up the end of segments that were written: a point, which may be of a lead.
+    pub(crate) fn went_along(
+        &mut self,
+        block: &SegmentBlock<'_>,
+        point: Option<ControlPoint>,
+        in_lead: bool,
+    ) {
+        let last = block.count() - 1;
+        self.point = point;
+        self.in_lead = in_lead;
+        self.digits = block.ends().at(last);
+        self.steps = block.steps(last);
     }
 
     /// Writes all lines of a segment but the last: there are some where it is divided. It ends at a point.

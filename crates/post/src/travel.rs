@@ -13,6 +13,7 @@ use turnpath_core::toolpath::Section;
 
 use crate::digits::{Digits, said_place};
 use crate::program_format::ProgramFormat;
+use crate::segment_block::SegmentBlock;
 
 /// Index of an axis among C, X and Z.
 pub(crate) const C: usize = 0;
@@ -121,6 +122,15 @@ impl Extent {
             highest: point.position[Z],
             leads: [section == Section::LeadIn, section == Section::LeadOut],
         }
+    }
+
+    /// That of the ends of segments.
+    pub(crate) fn of_block(block: &SegmentBlock<'_>, section: Section) -> Option<Self> {
+        let first = Self::of(&block.ends().at(0)?, section);
+        Some(Self {
+            highest: block.highest()?,
+            ..first
+        })
     }
 
     /// That of these lines and those that follow.

@@ -29,6 +29,7 @@
 //!
 //! Facts on the language: Turbo PMAC Software Reference and User Manual, "PVT-Mode Moves".
 
+mod block;
 mod clock;
 mod commands;
 mod plain;
@@ -44,6 +45,7 @@ use turnpath_core::{ParamInfo, Params};
 
 pub(crate) use clock::Clock;
 
+use block::push_block;
 use commands::{commands, ends_program, leaves_program_open};
 use read::PvtGrammar;
 use travel_read::read_travel;
@@ -55,7 +57,9 @@ use turnpath_core::toolpath::SegmentShape;
 use crate::digits::{DigitSegment, Digits};
 use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post};
+use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
+use crate::segment_block::SegmentBlock;
 use crate::settings::{
     BUFFER, C_LIMIT, C_SIGN, C_WRAP, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, POSITIONING,
     ROTARY, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SPLIT, VELOCITY_DECIMALS, VELOCITY_PER,
@@ -178,6 +182,16 @@ impl Dialect for Pvt {
 
     fn write_segment(&self, text: &mut Vec<u8>, format: &ProgramFormat, segment: &DigitSegment) {
         push_segment(text, self.clock, format, segment);
+    }
+
+    fn write_block(
+        &self,
+        text: &mut Vec<u8>,
+        format: &ProgramFormat,
+        block: &SegmentBlock<'_>,
+    ) -> Result<(), ProgramError> {
+        push_block(text, self.clock, format, block);
+        Ok(())
     }
 
     fn write_last(&self, text: &mut Vec<u8>, format: &ProgramFormat) {
