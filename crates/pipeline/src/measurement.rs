@@ -89,8 +89,8 @@ impl Measurement {
     }
 
     /// Appends the path's next block.
-    pub fn append(&mut self, block: &BlockMeasurement) -> Result<()> {
-        let appended = self.meter.append(&block.figures);
+    pub fn append(&mut self, block: BlockMeasurement) -> Result<()> {
+        let appended = self.meter.append(block.figures);
         appended.map_err(PipelineError::Measure)?;
         if let (Some(meter), Some(block)) = (&mut self.servo, &block.servo) {
             meter.append(block);

@@ -165,7 +165,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         let (added, delivered) = rayon::join(
             || match &mut self.measurement {
                 Some(measurement) => measured
-                    .iter()
+                    .into_iter()
                     .try_for_each(|block| measurement.append(block)),
                 None => Ok(()),
             },

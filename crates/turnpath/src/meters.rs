@@ -44,7 +44,7 @@ pub trait Meters: Sync {
     ) -> Result<Self::Block, StrategyError>;
 
     /// Appends the figures of the next block.
-    fn append(&mut self, block: &Self::Block) -> Result<(), StrategyError>;
+    fn append(&mut self, block: Self::Block) -> Result<(), StrategyError>;
 }
 
 /// What measures a path.
@@ -111,25 +111,25 @@ impl Meters for PathMeters {
         MeasuredBlock::new(self.cut.touch(), section, points, start)
     }
 
-    fn append(&mut self, block: &MeasuredBlock) -> Result<(), StrategyError> {
+    fn append(&mut self, block: MeasuredBlock) -> Result<(), StrategyError> {
         match block {
             MeasuredBlock::Cut(cut) => {
                 let CutBlock {
                     figures,
                     servo,
                     points,
-                } = cut.as_ref();
-                self.lead.append_cut(points);
-                self.look_for_anomalies(points, &figures.per_point);
+                } = *cut;
+                self.lead.append_cut(&points);
+                self.look_for_anomalies(&points, &figures.per_point);
                 if let (Some(meter), Some(block)) = (&mut self.servo, servo) {
-                    meter.append(block);
+                    meter.append(&block);
                 }
                 self.cut.append(figures)
             }
             MeasuredBlock::Lead(lead) => {
-                let (figures, points) = lead.as_ref();
-                self.look_for_anomalies(points, &[]);
-                self.lead.append(figures);
+                let (figures, points) = *lead;
+                self.look_for_anomalies(&points, &[]);
+                self.lead.append(&figures);
                 Ok(())
             }
         }
@@ -207,10 +207,10 @@ impl Meters for ProgramMeters {
         })
     }
 
-    fn append(&mut self, block: &ProgramBlock) -> Result<(), StrategyError> {
+    fn append(&mut self, block: ProgramBlock) -> Result<(), StrategyError> {
         match block {
             ProgramBlock::Cut(figures) => self.cut.append(figures),
-            ProgramBlock::Lead(figures) => self.lead.append(figures),
+            ProgramBlock::Lead(figures) => self.lead.append(&figures),
         }
         Ok(())
     }
@@ -286,7 +286,7 @@ pub fn measure<M: Meters>(
             in_order(each.map(|((section, block), start)| of_block.measure(section, block, start)))
         };
         let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape, most));
-        for block in &measured.map_err(failed)? {
+        for block in measured.map_err(failed)? {
             meters.append(block).map_err(failed)?;
         }
         observer.advance(count);

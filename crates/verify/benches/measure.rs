@@ -119,7 +119,7 @@ fn surface_figures(bencher: Bencher<'_, '_>) {
     let (touch, path) = (touch(), path());
     let mut meter = Meter::new(touch.clone());
     let block = Meter::measure(&touch, &path);
-    let appended = block.and_then(|block| meter.append(&block));
+    let appended = block.and_then(|block| meter.append(block));
     assert!(appended.is_ok());
     let passes = TURNS * 736;
     bencher

@@ -192,7 +192,7 @@ impl Meter {
 
     /// Appends the path's next block. The block begins with the last control point of the block
     /// before it.
-    pub fn append(&mut self, next: &BlockFigures) -> Result<()> {
+    pub fn append(&mut self, next: BlockFigures) -> Result<()> {
         let joint = self.passes.follow(&self.touch, &next.passes)?;
         let Self {
             figures,
@@ -205,7 +205,7 @@ impl Meter {
         } = self;
         // The transforms of spokes take as long as all else.
         rayon::join(
-            || spokes.append(&next.spokes),
+            || spokes.append(next.spokes),
             || {
                 figures.playback.append(&next.playback);
                 figures.points.include(&next.points);
@@ -214,8 +214,8 @@ impl Meter {
                 figures.residual.append(&next.residual);
                 figures.residual.append(&ResidualFigures::of(&joint));
                 sketch.append(&next.sketch, &joint);
-                lines.append(&next.sections);
-                if let (Some(lines), Some(passes)) = (real_nose, &next.real_nose) {
+                lines.append(next.sections);
+                if let (Some(lines), Some(passes)) = (real_nose, next.real_nose) {
                     lines.append(passes);
                 }
                 coverage.append(&next.coverage, &next.passes);

@@ -65,9 +65,9 @@ impl ProgramMeter {
 
     /// Appends the program's next block. The block begins with the last control point of the block
     /// before it.
-    pub fn append(&mut self, next: &ProgramBlockFigures) {
+    pub fn append(&mut self, next: ProgramBlockFigures) {
         self.playback.append(&next.playback);
-        if let Some(sections) = &next.sections {
+        if let Some(sections) = next.sections {
             self.lines.append(sections);
         }
     }

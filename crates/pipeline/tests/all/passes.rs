@@ -178,7 +178,7 @@ fn figures(task: &Task, sink: &MemorySink) -> String {
             .for_each(|point| block.push(point));
         let offsets = vec![0.0; block.len()];
         let measured = Meter::measure_off(&touch, &block, &offsets).unwrap();
-        meter.append(&measured).unwrap();
+        meter.append(measured).unwrap();
         from = to;
     }
     format!("{:?}", meter.figures().unwrap())

@@ -88,37 +88,60 @@ impl Envelope {
             reach,
             borders: &mut self.borders,
         });
-        let mut before: Option<&Point> = None;
+        // Whether the last arc is that of the circle before.
+        let mut follows = false;
         let from_before = std::iter::once(&f64::NAN).chain(&self.borders);
         for (centre, from_before) in centres.iter().zip(from_before) {
-            let mut from = centre.x - reach;
-            while let Some(last) = self.arcs.last_mut() {
-                if last.centre.x == centre.x && last.centre.y <= centre.y {
-                    from = f64::INFINITY;
-                    break;
+            let end = centre.x + reach;
+            let from = match self.arcs.last_mut() {
+                // Nearly all circles go this way.
+                Some(last) if follows && last.centre.x != centre.x && *from_before > last.from => {
+                    last.to = from_before.min(last.to);
+                    (centre.x - reach).max(*from_before)
                 }
-                let border = match last.centre.x == centre.x {
-                    true => last.from,
-                    false if before == Some(&last.centre) => *from_before,
-                    false => border(last.centre, *centre, radius, reach),
-                };
-                if border > last.from {
-                    last.to = border.min(last.to);
-                    from = from.max(border);
-                    break;
+                _ => {
+                    let known = follows.then_some(*from_before);
+                    make_room(&mut self.arcs, known, *centre, (radius, reach))
                 }
-                self.arcs.pop();
-            }
-            if from < centre.x + reach {
+            };
+            follows = from < end;
+            if follows {
                 self.arcs.push(Arc {
                     centre: *centre,
                     from,
-                    to: centre.x + reach,
+                    to: end,
                 });
             }
-            before = Some(centre);
         }
     }
+}
+
+/// Shortens the last arcs, or takes them away, where the next circle is lower; gives where its arc begins,
+/// mm. Its border to the last arc may be known.
+fn make_room(
+    arcs: &mut Vec<Arc>,
+    mut known: Option<f64>,
+    centre: Point,
+    (radius, reach): (f64, f64),
+) -> f64 {
+    let from = centre.x - reach;
+    while let Some(last) = arcs.last_mut() {
+        let is_above = last.centre.x == centre.x;
+        if is_above && last.centre.y <= centre.y {
+            return f64::INFINITY;
+        }
+        let border = match known.take() {
+            _ if is_above => last.from,
+            Some(border) => border,
+            None => border(last.centre, centre, radius, reach),
+        };
+        if border > last.from {
+            last.to = border.min(last.to);
+            return from.max(border);
+        }
+        arcs.pop();
+    }
+    from
 }
 
 /// The lower envelope of the circles around `centres`, which are sorted from left to right, each

@@ -7,11 +7,10 @@ use turnpath_core::{Part, Result};
 use super::cusps::{HighestCusp, Tips};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
 use super::groups::WeightedSamples;
+use super::lines::{Line, Lines};
 use super::pieces::Pieces;
 use super::samples::{NODES, WIDTH};
-use super::sections::Lines;
 use super::strip::Strip;
-use crate::cusp::Point;
 use crate::order::in_order;
 use crate::subject::Subject;
 use crate::touch::FirstTouch;
@@ -160,8 +159,8 @@ impl Lines {
 
     /// The integral of |error − mean|.
     fn amount_about(&self, subject: &Subject, mean: f64) -> Result<f64> {
-        let of_line = |strip: &mut Strip, (angle, passes): (f64, &[_])| {
-            strip.set_line(subject, angle, passes);
+        let of_line = |strip: &mut Strip, line: Line<'_>| {
+            strip.set_line(subject, &line);
             strip.look_up_heights(subject.surface.as_ref())?;
             Ok(strip.amount_about(mean))
         };
@@ -172,9 +171,9 @@ impl Lines {
 }
 
 /// The integrals along each line.
-fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
-    let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[Point])| {
-        strip.set_line(subject, *angle, passes);
+fn sums(subject: &Subject, lines: &[Line<'_>]) -> Result<Vec<Sums>> {
+    let of_line = |strip: &mut Strip, line: &Line<'_>| {
+        strip.set_line(subject, line);
         strip.look_up(subject.surface.as_ref())?;
         Ok(Sums::of(strip))
     };
@@ -184,15 +183,15 @@ fn sums(subject: &Subject, lines: &[(f64, &[Point])]) -> Result<Vec<Sums>> {
 /// The integrals along each line, and its highest cusp.
 fn sums_and_cusps(
     tips: &Tips<'_>,
-    lines: &[(f64, &[Point])],
+    lines: &[Line<'_>],
 ) -> Result<(Vec<Sums>, Vec<Option<HighestCusp>>)> {
     let subject = tips.touch.subject();
-    let of_line = |strip: &mut Strip, (number, (angle, passes)): (usize, &(f64, &[Point]))| {
-        strip.set_line(subject, *angle, passes);
+    let of_line = |strip: &mut Strip, (number, line): (usize, &Line<'_>)| {
+        strip.set_line(subject, line);
         strip.look_up(subject.surface.as_ref())?;
         Ok((
             Sums::of(strip),
-            tips.highest(number, *angle, strip.pieces())?,
+            tips.highest(number, line.angle, strip.pieces())?,
         ))
     };
     let numbered = lines.par_iter().enumerate();
@@ -201,9 +200,9 @@ fn sums_and_cusps(
 }
 
 /// The highest and the lowest point over all lines.
-fn extremes(lines: &[(f64, &[Point])], sums: &[Sums]) -> Option<SurfaceExtremes> {
+fn extremes(lines: &[Line<'_>], sums: &[Sums]) -> Option<SurfaceExtremes> {
     let each = lines.iter().zip(sums);
-    SurfaceExtremes::over(each.map(|((angle, _), sums)| (*angle, &sums.extremes)))
+    SurfaceExtremes::over(each.map(|(line, sums)| (line.angle, &sums.extremes)))
 }
 
 /// An uncut part of the area below this comes from rounding of the sums.

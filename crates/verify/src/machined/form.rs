@@ -18,13 +18,12 @@ use turnpath_core::{Result, Scalar};
 
 use super::envelope::{Arc, lower_arc, lower_envelope};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
+use super::lines::{Line, Lines};
 use super::no_height::no_height;
 use super::pieces::Pieces;
 use super::samples::Samples;
-use super::sections::{Lines, sort_into};
 use super::strip::{EVERYWHERE, Strip, on_part};
 use crate::closing;
-use crate::cusp::Point;
 use crate::order::in_order;
 use crate::touch::FirstTouch;
 
@@ -73,15 +72,15 @@ impl Lines {
         scope: FormScope,
     ) -> Result<Option<SurfaceExtremes>> {
         let subject = touch.subject();
-        let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[Point])| {
-            let spans = spans(touch, scope, *angle, passes)?;
-            strip.set_line_within(subject, *angle, passes, &spans);
+        let of_line = |strip: &mut Strip, line: &Line<'_>| {
+            let spans = spans(touch, scope, line)?;
+            strip.set_line_within(subject, line, &spans);
             strip.look_up_heights(subject.surface.as_ref())?;
             Ok(in_widest(ErrorExtremes(strip.pieces())))
         };
         let lines = self.all();
         let each = in_order(lines.par_iter().map_init(Strip::default, of_line))?;
-        let angles = lines.iter().map(|line| line.0);
+        let angles = lines.iter().map(|line| line.angle);
         Ok(SurfaceExtremes::over(angles.zip(&each)))
     }
 
@@ -91,10 +90,9 @@ impl Lines {
         scope: FormScope,
     ) -> Result<Option<SurfaceExtremes>> {
         let lines = self.all();
-        let of_line =
-            |(angle, passes): &(f64, &[Point])| ends_and_errors(touch, scope, *angle, passes);
+        let of_line = |line: &Line<'_>| ends_and_errors(touch, scope, line);
         let each = in_order(lines.par_iter().map(of_line))?;
-        let angles = lines.iter().map(|line| line.0);
+        let angles = lines.iter().map(|line| line.angle);
         let errors = each.iter().map(|(_, errors)| errors);
         let Some(form) = SurfaceExtremes::over(angles.zip(errors)) else {
             return Ok(None);
@@ -128,14 +126,14 @@ impl Loop for ErrorExtremes<'_> {
 fn ends_and_errors(
     touch: &FirstTouch,
     scope: FormScope,
-    angle: f64,
-    passes: &[Point],
+    line: &Line<'_>,
 ) -> Result<(Vec<ArcEnd>, LineExtremes)> {
     let subject = touch.subject();
     let (tool, part) = (&subject.tool, &subject.part);
-    let spans = spans(touch, scope, angle, passes)?;
+    let angle = line.angle;
+    let spans = spans(touch, scope, line)?;
     let mut sorted = Vec::new();
-    sort_into(passes, &mut sorted);
+    line.sort_into(&mut sorted);
     let arcs = lower_envelope(&sorted, tool.nose_radius, tool.reach());
     let counts = |s: f64| {
         let on_part = (part.inner_radius..=part.aperture_radius).contains(&s.abs());
@@ -221,29 +219,23 @@ fn highest_over_closing(
 /// Between which signed positions a line counts, mm: everywhere if the path covers the part, else
 /// between the contacts of its outermost passes. If the path does not cover the axis, what lies
 /// between the innermost contacts of both sides does not count either.
-fn spans(
-    touch: &FirstTouch,
-    scope: FormScope,
-    angle: f64,
-    passes: &[Point],
-) -> Result<Vec<(f64, f64)>> {
+fn spans(touch: &FirstTouch, scope: FormScope, line: &Line<'_>) -> Result<Vec<(f64, f64)>> {
     if scope.covers_part {
         return Ok(vec![EVERYWHERE]);
     }
     let in_two = !scope.covers_centre || touch.subject().part.inner_radius > 0.0;
+    let mut sorted = Vec::new();
+    line.sort_into(&mut sorted);
     let is_left = |s: &f64| *s < 0.0;
-    let (mut left, mut right): (Vec<f64>, Vec<f64>) =
-        passes.iter().map(|pass| pass.x).partition(is_left);
-    left.sort_by(f64::total_cmp);
-    right.sort_by(f64::total_cmp);
+    let (left, right): (Vec<f64>, Vec<f64>) = sorted.iter().map(|pass| pass.x).partition(is_left);
     let sides = match in_two {
         true => vec![left, right],
         false => vec![[left, right].concat()],
     };
     let mut spans = Vec::new();
     for side in &sides {
-        let from = first_contact(touch, angle, side.iter())?;
-        let to = first_contact(touch, angle, side.iter().rev())?;
+        let from = first_contact(touch, line.angle, side.iter())?;
+        let to = first_contact(touch, line.angle, side.iter().rev())?;
         spans.extend(from.zip(to));
     }
     Ok(spans)

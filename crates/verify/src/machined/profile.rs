@@ -4,7 +4,8 @@ use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Result, Scalar};
 
 use super::envelope::{lower_arc, lower_envelope};
-use super::sections::{Fan, Lines, SectionPasses, sort_into};
+use super::lines::Lines;
+use super::sections::{Fan, SectionPasses};
 use crate::touch::FirstTouch;
 
 /// Points per pass. They show the height of a cusp to within one percent.
@@ -43,7 +44,7 @@ impl ProfileLine {
     /// When the surface fails.
     pub fn append(&mut self, touch: &FirstTouch, block: &PathBlock) -> Result<()> {
         let passes = SectionPasses::of(touch, self.lines.fan(), block)?;
-        self.lines.append(&passes);
+        self.lines.append(passes);
         Ok(())
     }
 
@@ -54,10 +55,10 @@ impl ProfileLine {
     pub fn points(&self, touch: &FirstTouch) -> Result<Vec<ProfilePoint>> {
         let subject = touch.subject();
         let (tool, part) = (&subject.tool, &subject.part);
-        let lines = self.lines.all();
-        let of_line = lines.first().map_or(&[][..], |(_, passes)| passes);
         let mut passes = Vec::new();
-        sort_into(of_line, &mut passes);
+        if let [line, ..] = self.lines.all()[..] {
+            line.sort_into(&mut passes);
+        }
         let arcs = lower_envelope(&passes, tool.nose_radius, tool.reach());
         let count = (POINTS_PER_PASS * passes.len()).clamp(POINTS.0, POINTS.1);
         let rim = part.aperture_radius;

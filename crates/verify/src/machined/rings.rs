@@ -11,9 +11,9 @@ use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Result, Scalar};
 
 use super::grid::Grid;
+use super::lines::{Line, Lines};
 use super::pieces::Pieces;
 use super::samples::{NODES, Samples};
-use super::sections::Lines;
 use super::strip::Strip;
 use crate::order::in_order;
 use crate::subject::Subject;
@@ -55,11 +55,11 @@ impl Lines {
     /// When the surface fails or has no height at a place that was cut.
     pub fn rings(&self, touch: &FirstTouch) -> Result<Option<ErrorRings>> {
         let (subject, lines) = (touch.subject(), self.all());
-        let Some((first, _)) = lines.first() else {
+        let Some(first) = lines.first() else {
             return Ok(None);
         };
-        let of_line = |strip: &mut Strip, (angle, passes): &(f64, &[_])| {
-            strip.set_line(subject, *angle, passes);
+        let of_line = |strip: &mut Strip, line: &Line<'_>| {
+            strip.set_line(subject, line);
             strip.look_up_heights(subject.surface.as_ref())?;
             let empty = RadialSums::new(subject);
             Ok(in_widest(Sides(strip.pieces(), [empty.clone(), empty])))
@@ -75,7 +75,7 @@ impl Lines {
         Ok(Some(ErrorRings {
             inner: subject.part.inner_radius,
             outer: subject.part.aperture_radius,
-            first: *first,
+            first: first.angle,
             angles: columns.len(),
             errors,
         }))

@@ -4,10 +4,10 @@ use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Gradients, Part, Result, Scalar, SurfaceModel};
 
 use super::envelope::{Arc, Envelope};
+use super::lines::Line;
 use super::no_height::no_height;
 use super::pieces::Pieces;
 use super::samples::Samples;
-use super::sections::sort_into;
 use crate::cusp::Point;
 use crate::subject::Subject;
 
@@ -23,22 +23,15 @@ pub(super) struct Strip {
 }
 
 impl Strip {
-    /// Sets the line at `angle`, rad, with its passes: divides its envelope over the part into
-    /// pieces.
-    pub fn set_line(&mut self, subject: &Subject, angle: f64, passes: &[Point]) {
-        self.set_line_within(subject, angle, passes, &[EVERYWHERE]);
+    /// Sets the line: divides its envelope over the part into pieces.
+    pub fn set_line(&mut self, subject: &Subject, line: &Line<'_>) {
+        self.set_line_within(subject, line, &[EVERYWHERE]);
     }
 
     /// The same where only some intervals of signed positions count, mm.
-    pub fn set_line_within(
-        &mut self,
-        subject: &Subject,
-        angle: f64,
-        passes: &[Point],
-        spans: &[(f64, f64)],
-    ) {
+    pub fn set_line_within(&mut self, subject: &Subject, line: &Line<'_>, spans: &[(f64, f64)]) {
         let tool = &subject.tool;
-        sort_into(passes, &mut self.passes);
+        line.sort_into(&mut self.passes);
         let Self {
             passes,
             envelope,
@@ -46,7 +39,7 @@ impl Strip {
         } = self;
         envelope.set(passes, tool.nose_radius, tool.reach());
         pieces.radius = tool.nose_radius;
-        pieces.turned = Scalar::sin_cos(angle);
+        pieces.turned = Scalar::sin_cos(line.angle);
         pieces.clear();
         divide_arcs(envelope.arcs(), &subject.part, spans, pieces);
         pieces.place_nodes();
@@ -184,6 +177,7 @@ mod tests {
     use turnpath_core::{Misfit, Surface, Tool};
 
     use super::*;
+    use crate::machined::lines::Lines;
 
     struct Flat;
 
@@ -220,7 +214,8 @@ mod tests {
             };
             let of_line = |span: (f64, f64)| {
                 let mut strip = Strip::default();
-                strip.set_line_within(&subject, 0.7, &passes(step), &[span]);
+                let lines = Lines::of_line(0.7, &passes(step));
+                strip.set_line_within(&subject, &lines.all()[0], &[span]);
                 let pieces = &strip.pieces;
                 let bits = |column: &[f64]| -> Vec<u64> {
                     column.iter().map(|number| number.to_bits()).collect()

@@ -61,8 +61,9 @@ impl<'a, S: SegmentErrors> Cells<'a, S> {
     /// The error in a cell, and the radius of its contact, mm; `None` where that lies beside the part.
     pub fn error(&self, cell: i64) -> Option<(f64, f64)> {
         let place = self.c.place(cell);
-        let foot = self.found.foot(instant_before(place));
-        let error = cubic_through(place, |instant| self.found.error(instant));
+        let instant = instant_before(place);
+        let foot = self.found.foot(instant);
+        let error = FourErrors::around(instant, |instant| self.found.error(instant)).at(place);
         (self.on_part.contains(&foot) && error.is_finite()).then_some((error, foot))
     }
 
@@ -122,20 +123,32 @@ fn instant_before(place: f64) -> usize {
     (place as usize).min(INSTANTS - 1)
 }
 
-/// The error at a place: the cubic through the four values around it.
-#[inline(always)]
-fn cubic_through(place: f64, error: impl Fn(usize) -> f64) -> f64 {
-    let first = (place as usize).saturating_sub(1).min(INSTANTS - 3);
-    let (a, b, c, d) = (
-        error(first),
-        error(first + 1),
-        error(first + 2),
-        error(first + 3),
-    );
-    let u = place - first as f64;
-    let third = d - 3.0 * (c - b) - a;
-    let bend = c - 2.0 * b + a + (u - 2.0) / 3.0 * third;
-    a + u * (b - a + 0.5 * (u - 1.0) * bend)
+/// The errors at four instants in a row.
+struct FourErrors {
+    first: usize,
+    errors: [f64; 4],
+}
+
+impl FourErrors {
+    /// Those around what lies between an instant and the next one.
+    #[inline(always)]
+    fn around(instant: usize, error: impl Fn(usize) -> f64) -> Self {
+        let first = instant.saturating_sub(1).min(INSTANTS - 3);
+        Self {
+            first,
+            errors: std::array::from_fn(|k| error(first + k)),
+        }
+    }
+
+    /// The error at a place: the cubic through the four.
+    #[inline(always)]
+    fn at(&self, place: f64) -> f64 {
+        let [a, b, c, d] = self.errors;
+        let u = place - self.first as f64;
+        let third = d - 3.0 * (c - b) - a;
+        let bend = c - 2.0 * b + a + (u - 2.0) / 3.0 * third;
+        a + u * (b - a + 0.5 * (u - 1.0) * bend)
+    }
 }
 
 /// The loop of [`ManyCells::errors`]. It gives a bit for each instant whose contact is that of a cell.
@@ -153,13 +166,20 @@ impl Loop for Errors<'_> {
             *place = cells.c.place(cell);
         }
         let mut seen = 0;
-        for error in errors {
-            let place = *error;
-            let instant = instant_before(place);
-            let found = cubic_through(place, |instant| cells.errors[instant]);
-            let counts = cells.counts[instant] && found.is_finite();
-            seen |= u32::from(counts) << instant;
-            *error = if counts { found } else { f64::NAN };
+        // All cells between two instants have the same four around them.
+        for places in errors.chunk_by_mut(|one, next| instant_before(*one) == instant_before(*next))
+        {
+            let instant = places.first().map_or(0, |place| instant_before(*place));
+            let known = FourErrors::around(instant, |instant| cells.errors[instant]);
+            let counts = cells.counts[instant];
+            let mut any_counts = false;
+            for place in places {
+                let found = known.at(*place);
+                let counts = counts & found.is_finite();
+                any_counts |= counts;
+                *place = if counts { found } else { f64::NAN };
+            }
+            seen |= u32::from(any_counts) << instant;
         }
         seen
     }

@@ -145,17 +145,17 @@ impl Default for Spokes {
 
 impl Spokes {
     /// Appends the path's next block.
-    pub fn append(&mut self, next: &BlockSpokes) {
-        for turn in &next.turns {
+    pub fn append(&mut self, next: BlockSpokes) {
+        for turn in next.turns {
             match self.window.back_mut() {
-                Some(last) if last.number == turn.number => last.join(turn),
+                Some(last) if last.number == turn.number => last.join(&turn),
                 _ => self.push(turn),
             }
         }
     }
 
     /// Begins the path's next turn: the one before is whole.
-    fn push(&mut self, turn: &Turn) {
+    fn push(&mut self, turn: Turn) {
         if let Some(last) = self.window.back() {
             self.arms.include(last);
         }
@@ -166,15 +166,10 @@ impl Spokes {
             self.harmonics = largest_of_each(&self.harmonics, &amplitudes);
             self.until_next = ADVANCE;
         }
-        let mut newest = match self.window.len() {
-            WINDOW => self.window.pop_front(),
-            _ => None,
-        };
-        match &mut newest {
-            Some(oldest) => oldest.clone_from(turn),
-            None => newest = Some(turn.clone()),
+        if self.window.len() == WINDOW {
+            self.window.pop_front();
         }
-        self.window.extend(newest);
+        self.window.push_back(turn);
         self.until_next -= 1;
     }
 
@@ -230,20 +225,18 @@ impl Spokes {
     }
 
     fn mean_turn(&self) -> Option<Vec<Complex<f64>>> {
-        let mut sums = vec![(0.0, 0_u32); ANGLES];
+        let (mut sums, mut counts) = (vec![0.0; ANGLES], vec![0.0; ANGLES]);
         for turn in &self.window {
-            let known = sums
-                .iter_mut()
-                .zip(&turn.errors)
-                .filter(|(_, e)| !e.is_nan());
-            known.for_each(|((sum, count), error)| {
-                *sum += error;
-                *count += 1;
-            });
+            let totals = sums.iter_mut().zip(&mut counts);
+            for ((sum, count), error) in totals.zip(&turn.errors) {
+                let is_known = !error.is_nan();
+                *sum += if is_known { *error } else { 0.0 };
+                *count += if is_known { 1.0 } else { 0.0 };
+            }
         }
-        let means = sums.iter().map(|(sum, count)| match count {
-            0 => None,
-            _ => Some(Complex::new(sum / f64::from(*count), 0.0)),
+        let means = sums.iter().zip(&counts).map(|(sum, count)| match *count {
+            0.0 => None,
+            count => Some(Complex::new(sum / count, 0.0)),
         });
         means.collect()
     }
@@ -328,7 +321,10 @@ mod tests {
 
     fn largest(blocks: &[BlockSpokes]) -> Option<Spoke> {
         let mut spokes = Spokes::default();
-        blocks.iter().for_each(|block| spokes.append(block));
+        blocks
+            .iter()
+            .cloned()
+            .for_each(|block| spokes.append(block));
         spokes.largest()
     }
 
@@ -388,7 +384,10 @@ mod tests {
 
     fn largest_arms(blocks: &[BlockSpokes]) -> Option<SpiralArms> {
         let mut spokes = Spokes::default();
-        blocks.iter().for_each(|block| spokes.append(block));
+        blocks
+            .iter()
+            .cloned()
+            .for_each(|block| spokes.append(block));
         spokes.largest_arms()
     }
 

@@ -9,7 +9,7 @@ pub(super) const HIGHEST: usize = 512;
 /// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
 pub(super) const WINDOW: usize = 64;
 /// The errors of one turn.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Turn {
     /// C in turns, rounded down.
     pub(super) number: i64,
@@ -44,20 +44,5 @@ impl Turn {
     /// Adds the part of this turn that lies in the next block.
     pub(super) fn join(&mut self, rest: &Self) {
         self.include(0, &rest.errors, [rest.from, rest.to]);
-    }
-}
-
-impl Clone for Turn {
-    fn clone(&self) -> Self {
-        Self {
-            errors: self.errors.clone(),
-            ..*self
-        }
-    }
-
-    /// Keeps the memory of the errors.
-    fn clone_from(&mut self, other: &Self) {
-        self.errors.clone_from(&other.errors);
-        (self.number, self.from, self.to) = (other.number, other.from, other.to);
     }
 }

@@ -20,7 +20,7 @@ fn measured(
 ) -> (PathFigures, MachinedFigures) {
     let mut meter = Meter::new(touch.clone()).counting_centre(counts_centre);
     let block = Meter::measure(touch, points).expect("figures");
-    meter.append(&block).expect("figures");
+    meter.append(block).expect("figures");
     let machined = meter.machined().expect("figures").expect("a cut");
     (meter.figures().expect("figures"), machined)
 }

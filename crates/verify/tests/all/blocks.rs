@@ -42,7 +42,7 @@ fn blocks_of_any_length_give_the_figures_of_the_whole() {
             let to = (from + next.next().copied().unwrap_or(1)).min(400);
             let figures = Meter::measure(&touch, &block(&path, from, to)).unwrap();
             assert_eq!(figures.per_segment.len(), to - from);
-            meter.append(&figures).unwrap();
+            meter.append(figures).unwrap();
             from = to;
         }
         let found = meter.figures().unwrap();

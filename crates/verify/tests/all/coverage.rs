@@ -20,7 +20,7 @@ fn coverage(touch: &FirstTouch, path: &PathBlock) -> CoverageFigures {
 fn with_centre(touch: &FirstTouch, path: &PathBlock) -> PathFigures {
     let mut meter = Meter::new(touch.clone()).counting_centre(true);
     let block = Meter::measure(touch, path).unwrap();
-    meter.append(&block).unwrap();
+    meter.append(block).unwrap();
     meter.figures().unwrap()
 }
 

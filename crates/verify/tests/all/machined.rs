@@ -16,7 +16,7 @@ use turnpath_verify::{FirstTouch, Meter};
 fn machined(touch: &FirstTouch, points: &PathBlock) -> MachinedFigures {
     let mut meter = Meter::new(touch.clone());
     let block = Meter::measure(touch, points).expect("figures");
-    meter.append(&block).expect("figures");
+    meter.append(block).expect("figures");
     meter.machined().expect("figures").expect("a cut")
 }
 
@@ -245,7 +245,7 @@ fn blocks_give_what_one_piece_gives() {
         let mut block = PathBlock::default();
         all[range].iter().for_each(|point| block.push(*point));
         let figures = Meter::measure(&touch, &block).expect("figures");
-        meter.append(&figures).expect("figures");
+        meter.append(figures).expect("figures");
     }
     assert_eq!(meter.machined().expect("figures"), Some(whole));
 }
@@ -410,7 +410,7 @@ fn a_place_of_the_part_without_a_height_is_an_error_that_names_it() {
             covers_centre: true,
         }));
         meter
-            .append(&Meter::measure(&touch, &path).expect("figures"))
+            .append(Meter::measure(&touch, &path).expect("figures"))
             .expect("figures");
         let pv = meter.form().map(|form| form.map(|form| form.pv()));
         [

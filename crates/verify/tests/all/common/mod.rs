@@ -161,7 +161,7 @@ pub fn touches(touch: &FirstTouch, theta: f64, x: &[f64]) -> Vec<Touch> {
 pub fn figures(touch: &FirstTouch, points: &PathBlock) -> PathFigures {
     let mut meter = Meter::new(touch.clone());
     let block = Meter::measure(touch, points).expect("figures");
-    meter.append(&block).expect("figures");
+    meter.append(block).expect("figures");
     meter.figures().expect("figures")
 }
 
