@@ -3,7 +3,8 @@
 //! It is the host's residual feed f with three differences. It keeps a margin. It takes (f⁻⁸ +
 //! cap⁻⁸)^(−1/8) in place of min(f, cap), so that it has derivatives wherever the surface has them.
 //! And a large feed is that of the circle of curvature, times one factor for the whole part: the
-//! least ratio of the host's feed, which knows how the curvature changes within a feed.
+//! least ratio of the host's feed, which knows how the curvature changes within a feed, at the
+//! places where a step may have its middle.
 
 use turnpath_plugin::locus::{CIRCLES_FROM, CuspFeed};
 use turnpath_plugin::prelude::*;
@@ -25,8 +26,7 @@ const PARABOLA_CAP: f64 = 0.1;
 /// question. The cusps on the way are too high, so the part is small.
 const CENTRES_FIT: f64 = 0.02;
 /// The same where ρ is the contact's radius. There the feed of the curvature grows beyond all bounds
-/// in such hollows, and no law follows it along the angle. This one is smaller, so it holds the
-/// residual and costs revolutions.
+/// in such hollows, and no law follows it along the angle. This one is smaller and costs revolutions.
 const CONTACTS_FIT: f64 = 0.2;
 
 /// The constants of the formula.
@@ -82,7 +82,13 @@ impl Law {
     /// Whether the feed is that of circles alone, where the nose fits.
     fn is_of_circles(&self, slope: f64, second: f64) -> bool {
         let gap = self.gap(slope, second);
-        gap >= self.fit() && self.circles.flat_spacing(gap) >= CIRCLES_FROM * self.nose_radius
+        let fits = match self.radial {
+            Radial::Centre => gap >= CENTRES_FIT,
+            // Where this feed is that of a smaller curvature, it may still be too large: the
+            // curvature may change within it.
+            Radial::Contact => gap > 0.0,
+        };
+        fits && self.circles.flat_spacing(gap) >= CIRCLES_FROM * self.nose_radius
     }
 
     /// The feed that passes from the parabola's to that of circles.
@@ -129,6 +135,8 @@ fn fitting<S: Scalar>(gap: S, fit: f64) -> S {
 pub struct ResidualFeed<'a> {
     setup: Setup<'a>,
     law: Law,
+    /// The circle at which the law begins, mm.
+    start: f64,
     factor: Option<f64>,
     centres: CentreBuffers,
     sections: Sections,
@@ -137,10 +145,10 @@ pub struct ResidualFeed<'a> {
 }
 
 impl<'a> ResidualFeed<'a> {
-    /// The residual feed of one task and locus.
+    /// The residual feed of one task and locus, for a law that begins at the circle `start`, mm.
     ///
     /// `factor` is that of the feed of circles; `None` until a feed has needed it.
-    pub fn new(setup: Setup<'a>, factor: Option<f64>) -> Self {
+    pub fn new(setup: Setup<'a>, start: f64, factor: Option<f64>) -> Self {
         let (radial, tool) = (setup.locus.radial(), &setup.task.tool);
         let residual = setup.task.tolerance.residual;
         Self {
@@ -152,6 +160,7 @@ impl<'a> ResidualFeed<'a> {
                 circles: CuspFeed::new(residual, radial, tool),
                 factor: factor.unwrap_or(1.0),
             },
+            start,
             factor,
             centres: CentreBuffers::default(),
             sections: Sections::default(),
@@ -208,22 +217,27 @@ impl<'a> ResidualFeed<'a> {
     }
 
     /// Finds the factor, from all places of the range whose feed is that of circles.
+    ///
+    /// No pass lies before the circle at which the law begins. So a step whose middle lies at a
+    /// distance d from the circle is at most 2d. Where the host's feed is larger than that, every
+    /// step holds the residual.
     fn find_factor(&mut self) -> Result<()> {
         let Setup { task, locus } = self.setup;
         let (residual, radial) = (task.tolerance.residual, locus.radial());
         // The factor of this one is known, so it does not look for it again.
-        let mut local = ResidualFeed::new(self.setup, Some(1.0));
-        let (mut host, mut own) = (Vec::new(), Vec::new());
+        let mut local = ResidualFeed::new(self.setup, self.start, Some(1.0));
+        let (start, mut host, mut own) = (self.start, Vec::new(), Vec::new());
         let [least] = extreme::largest(task.range, &mut |theta, rho, out| {
             host.resize(theta.len(), f64::NAN);
             locus.residual_feed(residual, radial, theta, rho, &mut host)?;
             local.values(theta, rho, &mut own)?;
-            let feeds = host.iter().zip(&own).zip(&local.pairs);
-            for (out, ((host, own), (slope, second))) in out.iter_mut().zip(feeds) {
-                *out = [if local.law.is_of_circles(*slope, *second) {
-                    -host * (1.0 - MARGIN) / own
-                } else {
-                    -1.0
+            let feeds = host.iter().zip(&own).zip(&local.pairs).zip(rho);
+            for (out, (((host, own), (slope, second)), rho)) in out.iter_mut().zip(feeds) {
+                let held = host * (1.0 - MARGIN);
+                let counts = local.law.is_of_circles(*slope, *second);
+                *out = [match counts && 2.0 * (rho - start).abs() > held {
+                    true => -held / own,
+                    false => -1.0,
                 }];
             }
             Ok(())

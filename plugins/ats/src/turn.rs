@@ -142,8 +142,13 @@ pub struct Turns<'a> {
 impl<'a> Turns<'a> {
     /// The turns of one task, with what the turns before have found.
     pub fn new(setup: Setup<'a>, orientation: Orientation, found: Findings) -> Self {
+        let range = setup.task.range;
+        let start = match orientation.outward > 0.0 {
+            true => range.inner,
+            false => range.outer,
+        };
         Self {
-            feed: ResidualFeed::new(setup, found.factor),
+            feed: ResidualFeed::new(setup, start, found.factor),
             orientation,
             count: found.count.unwrap_or(FEWEST),
             theta: Vec::new(),
