@@ -5,6 +5,8 @@
 
 use std::f64::consts::TAU;
 
+use rayon::prelude::*;
+
 use super::sections::{Fan, Runs, SectionPasses};
 use crate::cusp::Point;
 
@@ -67,7 +69,7 @@ impl Lines {
     /// Drops every other section.
     fn thin_out(&mut self) {
         let sections = self.fan.count / self.stride;
-        let blocks = self.blocks.iter_mut();
+        let blocks = self.blocks.par_iter_mut();
         blocks.for_each(|block| block.keep_every(2, sections));
         self.stride *= 2;
         self.kept = self.blocks.iter().map(|block| block.centres.len()).sum();
@@ -98,9 +100,15 @@ impl SectionPasses {
             passes: self.centres.len(),
         };
         let first_kept = (-self.first).rem_euclid(stride) as usize;
-        let kept = (first_kept..runs.sections).step_by(stride as usize);
-        let of_run = |run: usize| self.centres.get(runs.places(run)).unwrap_or_default();
-        self.centres = kept.flat_map(of_run).copied().collect();
+        let mut end = 0;
+        for run in (first_kept..runs.sections).step_by(stride as usize) {
+            let places = runs.places(run);
+            let count = places.len();
+            self.centres.copy_within(places, end);
+            end += count;
+        }
+        self.centres.truncate(end);
+        self.centres.shrink_to_fit();
         self.first = (self.first + first_kept as i64).div_euclid(stride);
     }
 }
