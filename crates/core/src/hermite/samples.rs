@@ -150,15 +150,23 @@ impl<'a> Samples<'a> {
         self.fourth.get(i.checked_sub(self.first)?).copied()
     }
 
+    /// Those of the samples of which something is known, and the number of the first one.
+    fn known_of(&self, samples: Range<usize>) -> (usize, &[Estimate]) {
+        let from = samples.start.max(self.first);
+        let index = |i: usize| i.saturating_sub(self.first).min(self.fourth.len());
+        let known = self.fourth.get(index(from)..index(samples.end));
+        (from, known.unwrap_or_default())
+    }
+
     /// Adds those of the samples that are not exact and may be the largest, and at least `floor`.
     pub(super) fn add_rivals(&self, samples: Range<usize>, floor: f64, rivals: &mut Vec<usize>) {
-        let known = || samples.clone().filter_map(|i| Some((i, self.known(i)?)));
-        let floor = known()
-            .map(|(_, sample)| sample.lower)
-            .fold(floor, f64::max);
+        let (first, known) = self.known_of(samples);
+        let lower = known.iter().map(|sample| sample.lower);
+        let floor = lower.fold(floor, f64::max);
         let may_be_largest = |sample: &Estimate| !sample.is_exact() && sample.upper >= floor;
+        let numbered = (first..).zip(known);
         rivals.extend(
-            known()
+            numbered
                 .filter(|(_, sample)| may_be_largest(sample))
                 .map(|(i, _)| i),
         );
@@ -166,8 +174,10 @@ impl<'a> Samples<'a> {
 
     /// The values of those of the samples that are exact.
     pub(super) fn exact(&self, samples: Range<usize>) -> impl Iterator<Item = f64> {
-        let known = samples.filter_map(|i| self.known(i));
-        known.filter(Estimate::is_exact).map(|sample| sample.upper)
+        let known = self.known_of(samples).1.iter();
+        known
+            .filter(|sample| sample.is_exact())
+            .map(|sample| sample.upper)
     }
 
     /// Evaluates these samples, of which something is known.

@@ -173,14 +173,14 @@ impl Line<'_> {
 
 /// Sorts passes that are in order or nearly so, forward or backward.
 fn sort(passes: &mut [Point]) {
-    let order = |a: &Point, b: &Point| a.x.total_cmp(&b.x).then_with(|| a.y.total_cmp(&b.y));
+    let in_order = |passes: &[Point]| passes.is_sorted_by(|one, next| one.x < next.x);
     let runs_backward = matches!(&*passes, [first, .., last] if first.x > last.x);
-    match runs_backward {
-        true => {
-            passes.sort_by(|a, b| order(b, a));
-            passes.reverse();
-        }
-        false => passes.sort_by(order),
+    if runs_backward {
+        passes.reverse();
+    }
+    // Nearly all are in order now.
+    if !in_order(passes) {
+        passes.sort_by(|a, b| a.x.total_cmp(&b.x).then_with(|| a.y.total_cmp(&b.y)));
     }
 }
 
