@@ -100,15 +100,15 @@ impl SectionPasses {
             passes: self.centres.len(),
         };
         let first_kept = (-self.first).rem_euclid(stride) as usize;
-        let mut end = 0;
-        for run in (first_kept..runs.sections).step_by(stride as usize) {
-            let places = runs.places(run);
-            let count = places.len();
-            self.centres.copy_within(places, end);
-            end += count;
+        let runs_kept = (first_kept..runs.sections).step_by(stride as usize);
+        // A new list of just this size: one that shrinks in its place would leave a hole that the next
+        // block does not fit into.
+        let count = runs_kept.clone().map(|run| runs.places(run).len()).sum();
+        let mut kept = Vec::with_capacity(count);
+        for run in runs_kept {
+            kept.extend_from_slice(self.centres.get(runs.places(run)).unwrap_or_default());
         }
-        self.centres.truncate(end);
-        self.centres.shrink_to_fit();
+        self.centres = kept;
         self.first = (self.first + first_kept as i64).div_euclid(stride);
     }
 }
