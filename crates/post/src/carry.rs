@@ -33,10 +33,10 @@ pub(crate) fn carry(
         let range = first..points.len().min(first + MOST_POINTS);
         let columns = columns.as_mut();
         let known = columns.and_then(|columns| columns.find(format, points, range.clone()));
-        let block = known.and_then(|known| trail.block_to(format, (known, range.len())));
-        if let Some(block) = block {
-            write(Move::Block(&block));
-            trail.went_along(&block, points.get(range.end - 1), in_lead);
+        let segments = known.and_then(|known| trail.segments_to(format, (known, range.len())));
+        if let Some(segments) = segments {
+            write(Move::Segments(&segments));
+            trail.went_along(&segments, points.get(range.end - 1), in_lead);
             continue;
         }
         for (index, point) in range.filter_map(|number| points.get(number)).enumerate() {
@@ -78,9 +78,9 @@ pub(crate) fn carried(
         match step {
             Move::Start(digits) => points.push(digits.point(format)),
             Move::Segment { segment, .. } => points.push(segment.to.point(format)),
-            Move::Block(block) => {
-                let segments = block.segments();
-                segments.for_each(|segment| points.push(segment.to.point(format)));
+            Move::Segments(segments) => {
+                let each = segments.segments();
+                each.for_each(|segment| points.push(segment.to.point(format)));
             }
         }
     })?;

@@ -81,11 +81,11 @@ impl Layout {
                     post.dialect.write_segment(&mut text, format, segment);
                     Some(Extent::of(&segment.to, stretch.section))
                 }
-                Move::Block(block) => {
+                Move::Segments(segments) => {
                     if in_time.is_ok() {
-                        in_time = post.dialect.write_block(&mut text, format, block);
+                        in_time = post.dialect.write_segments(&mut text, format, segments);
                     }
-                    Extent::of_block(block, stretch.section)
+                    Extent::of_segments(segments, stretch.section)
                 }
             };
             extent = match (extent, here) {

@@ -6,12 +6,12 @@ use turnpath_core::toolpath::{ControlPoint, SegmentShape};
 use turnpath_core::{ParamDefault, ParamInfo, Params};
 
 use crate::comment::code_before_comment;
+use crate::digit_segments::DigitSegments;
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code;
 use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::program_error::ProgramError;
 use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
-use crate::segment_block::SegmentBlock;
 use crate::travel::{Places, Travel, TravelModes};
 
 /// A dialect of motion programs.
@@ -75,13 +75,13 @@ pub trait Dialect: Debug + Send + Sync {
     ///
     /// # Errors
     /// When the controller takes another time for one of them. Some lines are then missing.
-    fn write_block(
+    fn write_segments(
         &self,
         text: &mut Vec<u8>,
         format: &ProgramFormat,
-        block: &SegmentBlock<'_>,
+        segments: &DigitSegments<'_>,
     ) -> Result<(), ProgramError> {
-        for segment in block.segments() {
+        for segment in segments.segments() {
             self.check_time(format, &segment)?;
             self.write_segment(text, format, &segment);
         }

@@ -5,10 +5,10 @@ use turnpath_core::toolpath::{ControlPoint, Segment, SegmentShape};
 
 use crate::chord::chords_within;
 use crate::digit_columns::DigitColumns;
+use crate::digit_segments::DigitSegments;
 use crate::digits::{DigitSegment, Digits, Place, steps_of, turn};
 use crate::program_error::ProgramError;
 use crate::program_format::{ProgramFormat, Slowest};
-use crate::segment_block::SegmentBlock;
 
 /// Most chords of a segment: far more than any path needs that a machine can play.
 const MOST_CHORDS: i64 = 1_000_000;
@@ -25,14 +25,14 @@ pub(crate) enum Move<'a> {
         reaches_point: bool,
     },
     /// Along segments of which none is divided.
-    Block(&'a SegmentBlock<'a>),
+    Segments(&'a DigitSegments<'a>),
 }
 
 impl Move<'_> {
     /// Whether it ends at a point of the path, and not at one between two of them.
     pub(crate) fn reaches_point(&self) -> bool {
         match self {
-            Self::Start(_) | Self::Block(_) => true,
+            Self::Start(_) | Self::Segments(_) => true,
             Self::Segment { reaches_point, .. } => *reaches_point,
         }
     }
@@ -41,7 +41,7 @@ impl Move<'_> {
     pub(crate) fn points(&self) -> usize {
         match self {
             Self::Start(_) | Self::Segment { .. } => 1,
-            Self::Block(block) => block.count(),
+            Self::Segments(segments) => segments.count(),
         }
     }
 }
@@ -129,26 +129,26 @@ impl Trail {
     }
 
     /// The segments to the next points, whose digits are known, where each of them is one line.
-    pub(crate) fn block_to<'a>(
+    pub(crate) fn segments_to<'a>(
         &self,
         format: &ProgramFormat,
         ends: (&'a DigitColumns, usize),
-    ) -> Option<SegmentBlock<'a>> {
-        SegmentBlock::new(format, (self.digits?, self.steps), ends)
+    ) -> Option<DigitSegments<'a>> {
+        DigitSegments::new(format, (self.digits?, self.steps), ends)
     }
 
     /// Takes up the end of segments that were written: a point, which may be of a lead.
     pub(crate) fn went_along(
         &mut self,
-        block: &SegmentBlock<'_>,
+        segments: &DigitSegments<'_>,
         point: Option<ControlPoint>,
         in_lead: bool,
     ) {
-        let last = block.count() - 1;
+        let last = segments.count() - 1;
         self.point = point;
         self.in_lead = in_lead;
-        self.digits = block.ends().at(last);
-        self.steps = block.steps(last);
+        self.digits = segments.ends().at(last);
+        self.steps = segments.steps(last);
     }
 
     /// Writes all lines of a segment but the last: there are some where it is divided. It ends at a point.

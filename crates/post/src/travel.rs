@@ -11,9 +11,9 @@
 
 use turnpath_core::toolpath::Section;
 
+use crate::digit_segments::DigitSegments;
 use crate::digits::{Digits, said_place};
 use crate::program_format::ProgramFormat;
-use crate::segment_block::SegmentBlock;
 
 /// Index of an axis among C, X and Z.
 pub(crate) const C: usize = 0;
@@ -125,10 +125,10 @@ impl Extent {
     }
 
     /// That of the ends of segments.
-    pub(crate) fn of_block(block: &SegmentBlock<'_>, section: Section) -> Option<Self> {
-        let first = Self::of(&block.ends().at(0)?, section);
+    pub(crate) fn of_segments(segments: &DigitSegments<'_>, section: Section) -> Option<Self> {
+        let first = Self::of(&segments.ends().at(0)?, section);
         Some(Self {
-            highest: block.highest()?,
+            highest: segments.highest()?,
             ..first
         })
     }

@@ -88,7 +88,8 @@ impl Law {
             // curvature may change within it.
             Radial::Contact => gap > 0.0,
         };
-        fits && self.circles.flat_spacing(gap) >= CIRCLES_FROM * self.nose_radius
+        let fitted = fitting(gap, self.fit());
+        fits && self.circles.flat_spacing(fitted) >= CIRCLES_FROM * self.nose_radius
     }
 
     /// The feed that passes from the parabola's to that of circles.

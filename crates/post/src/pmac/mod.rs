@@ -29,12 +29,12 @@
 //!
 //! Facts on the language: Turbo PMAC Software Reference and User Manual, "PVT-Mode Moves".
 
-mod block;
 mod clock;
 mod commands;
 mod plain;
 mod read;
 mod scan;
+mod segments;
 #[cfg(test)]
 mod tests;
 mod travel_read;
@@ -45,21 +45,21 @@ use turnpath_core::{ParamInfo, Params};
 
 pub(crate) use clock::Clock;
 
-use block::push_block;
 use commands::{commands, ends_program, leaves_program_open};
 use read::PvtGrammar;
+use segments::push_segments;
 use travel_read::read_travel;
 use travel_write::push_travel;
 use write::{push_first, push_last, push_segment};
 
 use turnpath_core::toolpath::SegmentShape;
 
+use crate::digit_segments::DigitSegments;
 use crate::digits::{DigitSegment, Digits};
 use crate::part_name::{PartLines, PartName, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
-use crate::segment_block::SegmentBlock;
 use crate::settings::{
     BUFFER, C_LIMIT, C_SIGN, C_WRAP, FOOTER, HEADER, MEMORY, POSITION_DECIMALS, POSITIONING,
     ROTARY, SEGMENTS_PER_SECOND, SHORTEST_SEGMENT, SPLIT, VELOCITY_DECIMALS, VELOCITY_PER,
@@ -184,13 +184,13 @@ impl Dialect for Pvt {
         push_segment(text, self.clock, format, segment);
     }
 
-    fn write_block(
+    fn write_segments(
         &self,
         text: &mut Vec<u8>,
         format: &ProgramFormat,
-        block: &SegmentBlock<'_>,
+        segments: &DigitSegments<'_>,
     ) -> Result<(), ProgramError> {
-        push_block(text, self.clock, format, block);
+        push_segments(text, self.clock, format, segments);
         Ok(())
     }
 

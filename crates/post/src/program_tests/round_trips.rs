@@ -140,6 +140,49 @@ proptest! {
         prop_assert!(beside.text.starts_with(&on_steps.text));
     }
 
+    /// Behind a point that is written, those on steps of time go together where each of them ends one line.
+    #[test]
+    fn lines_of_segments_together_are_those_of_each_alone(
+        layout in layout(),
+        decimals in 3..12u32,
+        steps in prop::collection::vec(step(), 2..70),
+        shortest in 1..2000i64,
+        c_limit in 0..4_000i64,
+    ) {
+        let format = ProgramFormat {
+            velocity_decimals: decimals,
+            shortest: layout.format.shortest.max(shortest),
+            // As many degrees are within the reach of about half of these paths.
+            c_limit: Some(c_limit * 10i64.pow(layout.format.position_decimals)),
+            ..layout.format
+        };
+        let layout = Layout { format, ..layout };
+        let steps_per_s = format.steps_per_s as f64;
+        let mut points = path_of(&steps);
+        for point in &mut points {
+            point.t = (point.t * steps_per_s).round() / steps_per_s;
+        }
+        let of = |before: usize, points: &[ControlPoint]| {
+            let (before, rest) = points.split_at(before);
+            let mut block = PathBlock::default();
+            rest.iter().for_each(|point| block.push(*point));
+            let section = Section::Cutting;
+            layout.lines(&SectionBlock { section, opens_section: false, before, points: &block })
+        };
+        let text = |lines: Lines| String::from_utf8(lines.text).unwrap();
+        match (of(0, &points), of(1, &points)) {
+            (Ok(alone), Ok(together)) => {
+                prop_assert_eq!((together.points + 1, together.extent.is_some()), (alone.points, true));
+                let (alone, together) = (text(alone), text(together));
+                prop_assert!(alone.ends_with(&together), "{} {}", alone, together);
+            }
+            (alone, together) => {
+                let message = |lines: Result<Lines, _>| lines.map(text).map_err(|error: crate::ProgramError| error.to_string());
+                prop_assert_eq!(message(together), message(alone));
+            }
+        }
+    }
+
     #[test]
     fn leads_come_back_in_their_sections_whatever_the_settings(
         layout in layout(),

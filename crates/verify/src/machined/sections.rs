@@ -17,7 +17,7 @@ const SECTIONS: i64 = 23 * 32;
 /// Angle of the first section, in widths of a section after C = 0. At 0, a path that begins there
 /// and has steps of whole degrees would have points on all sections.
 const FIRST: f64 = 0.37;
-/// Sections whose passes are put into their runs together: so many passes of a turn fill two lines of the
+/// Sections whose passes are put into their rows together: so many passes of a turn fill two lines of the
 /// cache.
 const SIDE_BY_SIDE: usize = 8;
 
@@ -84,17 +84,17 @@ impl SectionPasses {
 
     /// Passes in the order of the path, the first of them that of section `first`.
     pub(super) fn by_section(fan: &Fan, first: i64, in_order: &[Point]) -> Self {
-        let runs = Runs {
+        let rows = Rows {
             sections: fan.count as usize,
             passes: in_order.len(),
         };
         let mut centres = vec![Point::default(); in_order.len()];
-        for one in (0..runs.sections.min(runs.passes)).step_by(SIDE_BY_SIDE) {
-            let last = runs.sections.min(one + SIDE_BY_SIDE);
-            for (turn, of_turn) in in_order.chunks(runs.sections).enumerate() {
+        for one in (0..rows.sections.min(rows.passes)).step_by(SIDE_BY_SIDE) {
+            let last = rows.sections.min(one + SIDE_BY_SIDE);
+            for (turn, of_turn) in in_order.chunks(rows.sections).enumerate() {
                 let passes = of_turn.get(one..).unwrap_or_default();
-                for (run, pass) in (one..last).zip(passes) {
-                    centres[runs.begin(run) + turn] = *pass;
+                for (row, pass) in (one..last).zip(passes) {
+                    centres[rows.begin(row) + turn] = *pass;
                 }
             }
         }
@@ -102,25 +102,25 @@ impl SectionPasses {
     }
 }
 
-/// Passes of successive sections, those of each section in a run of their own.
+/// Passes of successive sections, those of each section in a row of their own.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Runs {
+pub(super) struct Rows {
     /// Sections of a turn.
     pub sections: usize,
     pub passes: usize,
 }
 
-impl Runs {
-    /// Where a run begins. Run 0 is that of the section of the first pass.
+impl Rows {
+    /// Where a row begins. Row 0 is that of the section of the first pass.
     #[inline(always)]
-    pub fn begin(&self, run: usize) -> usize {
+    pub fn begin(&self, row: usize) -> usize {
         let (each, with_one_more) = (self.passes / self.sections, self.passes % self.sections);
-        run * each + run.min(with_one_more)
+        row * each + row.min(with_one_more)
     }
 
-    /// The places of the passes of a run.
-    pub fn places(&self, run: usize) -> Range<usize> {
-        self.begin(run)..self.begin(run + 1)
+    /// The places of the passes of a row.
+    pub fn places(&self, row: usize) -> Range<usize> {
+        self.begin(row)..self.begin(row + 1)
     }
 }
 

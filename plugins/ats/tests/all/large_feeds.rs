@@ -48,10 +48,10 @@ const FEEDS: [(&str, Places, f64); 4] = [
 /// The part of the residual that all of them use on a bowl that the nose nearly fills. Its curvature is
 /// largest on the axis, and no middle of two passes lies there.
 const ON_A_BOWL: f64 = 0.9;
-/// The same of `ats`. One factor holds for its whole law. It is that of a whole feed whose middle
-/// lies half a feed from the axis, where the law has nine tenths of a feed so soon after its
-/// beginning. Inward it uses 0.896 at the least, with [`Normal`] and 31 um; nobody has looked for the
-/// reason of that.
+/// The same of `ats`, whose one factor holds for its whole law. Outward, the factor is that of a whole
+/// feed with its middle half a feed from the axis. There the law has just begun, and its feed is nine
+/// tenths of that. It uses 0.890 at the least; inward 0.896, with [`Normal`] and 31 um, for a reason that
+/// is not known.
 const OF_ATS_ON_A_BOWL: f64 = 0.88;
 /// The part of the residual that all of them use on a flat part.
 const ON_A_FLAT: f64 = 0.99;
@@ -328,7 +328,13 @@ fn standing_of_ats(shape: Shape, residual_um: f64, inward: bool) -> f64 {
 /// the ends of such a feed.
 #[test]
 fn ats_holds_the_residual_in_hollows_off_the_axis() {
-    for (residual_um, inward) in [(0.3, false), (2.0, true), (10.0, false), (31.0, true)] {
+    for (residual_um, inward) in [
+        (0.1, true),
+        (0.3, false),
+        (2.0, true),
+        (10.0, false),
+        (31.0, true),
+    ] {
         let largest = standing_of_ats(Shape::Waves(0.2, 0.34), residual_um, inward);
         assert!(largest <= WHOLE, "{residual_um} um: {largest}");
     }

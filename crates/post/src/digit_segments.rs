@@ -6,7 +6,7 @@ use crate::program_format::ProgramFormat;
 
 /// Segments from control point to control point, none of them divided.
 #[derive(Debug, Clone, Copy)]
-pub struct SegmentBlock<'a> {
+pub struct DigitSegments<'a> {
     /// Where the first one begins.
     before: Digits,
     /// The steps of the segment before it.
@@ -16,7 +16,7 @@ pub struct SegmentBlock<'a> {
     count: usize,
 }
 
-impl<'a> SegmentBlock<'a> {
+impl<'a> DigitSegments<'a> {
     /// The segments that end at the first `count` of these points. `None` where a program does not carry each of
     /// them as one line.
     pub(crate) fn new(
@@ -24,18 +24,18 @@ impl<'a> SegmentBlock<'a> {
         (before, steps_before): (Digits, Option<i64>),
         (ends, count): (&'a DigitColumns, usize),
     ) -> Option<Self> {
-        let block = Self {
+        let segments = Self {
             before,
             steps_before,
             ends,
             count,
         };
-        (count > 0 && block.has_good_steps(format)? && block.has_good_turns(format)?)
-            .then_some(block)
+        let are_good = segments.have_good_steps(format)? && segments.have_good_turns(format)?;
+        (count > 0 && are_good).then_some(segments)
     }
 
     /// Whether all of them take a time that a segment may take.
-    fn has_good_steps(&self, format: &ProgramFormat) -> Option<bool> {
+    fn have_good_steps(&self, format: &ProgramFormat) -> Option<bool> {
         let times = format.shortest.max(1)..=format.longest;
         let steps = self.ends.steps().get(..self.count)?;
         Some(all_pairs(self.before.steps, steps, |from, to| {
@@ -44,7 +44,7 @@ impl<'a> SegmentBlock<'a> {
     }
 
     /// Whether C reaches all of their ends, and a reader finds the turn of each.
-    fn has_good_turns(&self, format: &ProgramFormat) -> Option<bool> {
+    fn have_good_turns(&self, format: &ProgramFormat) -> Option<bool> {
         let [before, _, _] = self.before.position;
         let [c, _, _] = self.ends.positions();
         let c = c.get(..self.count)?;
@@ -108,33 +108,33 @@ impl<'a> SegmentBlock<'a> {
     }
 
     /// All of them in their order.
-    pub(crate) fn segments(&self) -> impl Iterator<Item = DigitSegment> + '_ {
+    pub fn segments(&self) -> impl Iterator<Item = DigitSegment> + '_ {
         (0..self.count).map_while(|index| self.segment(index))
     }
 
-    /// The positions that the lines of segments `first` and on say, as columns of C, X and Z.
+    /// The positions that the lines of segments `first` and on say, as columns of C, X and Z: zeros behind the last
+    /// segment.
     pub(crate) fn said_positions<const COUNT: usize>(
         &self,
         format: &ProgramFormat,
         first: usize,
-        said: &mut [[i64; COUNT]; 3],
-    ) {
-        let last = self.count.min(first + COUNT);
+    ) -> Option<[[i64; COUNT]; 3]> {
+        let mut said = [[0; COUNT]; 3];
+        let numbers = first..self.count.min(first + COUNT);
         if format.incremental || format.c_wrapped {
-            for (index, place) in (first..last).zip(0..) {
-                let Some(segment) = self.segment(index) else {
-                    return;
-                };
-                for (said, position) in said.iter_mut().zip(said_positions(format, &segment)) {
-                    said[place] = position;
+            for (place, index) in numbers.enumerate() {
+                let positions = said_positions(format, &self.segment(index)?);
+                for (said, position) in said.iter_mut().zip(positions) {
+                    *said.get_mut(place)? = position;
                 }
             }
         } else {
             for (said, positions) in said.iter_mut().zip(self.ends.positions()) {
-                let positions = positions.get(first..last).unwrap_or_default();
-                said[..positions.len()].copy_from_slice(positions);
+                let positions = positions.get(numbers.clone())?;
+                said.get_mut(..positions.len())?.copy_from_slice(positions);
             }
         }
+        Some(said)
     }
 }
 
