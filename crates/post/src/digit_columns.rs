@@ -12,7 +12,7 @@ use crate::program_format::ProgramFormat;
 /// Most points whose digits are found together: their columns stay in the nearest cache.
 pub(crate) const MOST_POINTS: usize = 256;
 /// The sum of this and a number of at most [`LARGEST`] has the nearest whole number in its lowest bits.
-const TO_WHOLE: f64 = 1.5 / f64::EPSILON;
+pub(crate) const TO_WHOLE: f64 = 1.5 / f64::EPSILON;
 /// Points with larger numbers, in last digits or in steps, are not found here.
 const LARGEST: f64 = 0.25 / f64::EPSILON;
 

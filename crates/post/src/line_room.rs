@@ -51,8 +51,8 @@ impl LineRoom<'_> {
         Some(())
     }
 
-    /// Appends a number without trailing zeros. `None` where the line may be too long. All digits are copied, without
-    /// a question, and then only those stay that the number has.
+    /// Appends a number without trailing zeros. `None` where the line may be too long. Eight digits are copied on
+    /// either side of the point. What comes next is written over those that the number does not have.
     #[inline(always)]
     pub(crate) fn digits(&mut self, number: NumberDigits) -> Option<()> {
         let room: &mut [u8; LONGEST_NUMBER] = self.bytes.get_mut(self.end..)?.first_chunk_mut()?;

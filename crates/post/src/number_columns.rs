@@ -2,13 +2,12 @@
 
 use turnpath_core::registers::{Loop, in_widest};
 
+use crate::digit_columns::TO_WHOLE;
 use crate::eight_digits::{PIECE, eight_digits};
 use crate::powers_of_ten::POWERS_OF_TEN;
 
 /// Numbers whose digits are found together: few, so that they stay in the nearest cache.
 pub(crate) const AT_ONCE: usize = 32;
-/// The sum of this and a whole number of at most [`LARGEST`] has the number in its lowest bits.
-const TO_WHOLE: f64 = 1.5 / f64::EPSILON;
 /// Numbers with more last digits are not found here.
 const LARGEST: u64 = 1 << 50;
 
